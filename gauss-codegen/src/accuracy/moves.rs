@@ -20,6 +20,12 @@ const SHORT: usize = 40;
 /// Sums in momenta that are brought near zero, and symbols by which a sum is.
 const RATES: usize = 32;
 const SYMBOLS: usize = 8;
+/// How near quarter turns the angle of a spin is, and how many of them it is: others give the same sums, but for signs.
+/// Sums are near zero by the square of that, of which double precision still has four digits.
+const LEANING: [f64; 2] = [-6.0, -3.0];
+const QUARTERS: [f64; 2] = [0.0, 1.0];
+/// By how many powers of ten all coordinates are smaller together.
+const SMALLER: [f64; 2] = [-8.0, -4.0];
 /// Steps of the secant method: one is enough for what is linear.
 const SECANTS: usize = 6;
 
@@ -47,6 +53,11 @@ pub enum Move {
     Body(usize, u64),
     /// All speeds are so many powers of ten larger.
     Faster(f64),
+    /// All coordinates are so many powers of ten smaller.
+    Smaller(f64),
+    /// An angle is near that many quarter turns, and a sum of fast rates that depends on it near zero: a wheel that spins
+    /// nearly flat has an energy that is small beside the terms of which it is the sum.
+    Spin(usize, f64, f64),
 }
 
 impl Move {
@@ -89,12 +100,22 @@ impl Sum<'_> {
     }
 }
 
+/// An angle, and a sum of rates that depends on it and is brought near zero by one of them.
+struct Spin {
+    angle: usize,
+    sum: usize,
+    by: usize,
+}
+
 /// Everything that can be moved in a scene.
 pub struct Moves<'s, 'a, 'g> {
     states: &'s States<'a, 'g>,
     free: Vec<Free<'g>>,
     angles: Vec<usize>,
+    scalars: Vec<usize>,
+    speeds: Vec<usize>,
     sums: Vec<Sum<'g>>,
+    spins: Vec<Spin>,
     bodies: usize,
 }
 
@@ -111,9 +132,17 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
             by.sort_unstable();
             Sum { terms: terms.clone(), by }
         });
-        let sums = sums.filter(|sum| !sum.by.is_empty()).collect();
-        let angles = (0..free.len()).filter(|&k| free[k].angle).collect();
-        Self { states, free, angles, sums, bodies: states.bodies().count() }
+        let sums: Vec<Sum<'g>> = sums.filter(|sum| !sum.by.is_empty()).collect();
+        let angles: Vec<usize> = (0..free.len()).filter(|&k| free[k].angle).collect();
+        let scene = &states.system.scene;
+        let speeds: Vec<usize> = scene.speeds.iter().map(|z| places[&z.key()]).collect();
+        let scalar = |coordinate: &Coordinate<'g>| match coordinate {
+            Coordinate::Scalar(q) => Some(places[&q.key()]),
+            _ => None,
+        };
+        let scalars = scene.coordinates.iter().filter_map(scalar).collect();
+        let spins = spins(&sums, &angles, &speeds);
+        Self { states, free, angles, scalars, speeds, sums, spins, bodies: states.bodies().count() }
     }
 
     #[cfg(test)]
@@ -149,6 +178,14 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
         }
     }
 
+    /// Changes of several numbers at once, each of which alone makes nothing cancel; the closest first.
+    pub fn of_many(&self) -> impl Iterator<Item = Move> {
+        let smaller = SMALLER.into_iter().filter(|_| !self.scalars.is_empty()).map(Move::Smaller);
+        let leaning = LEANING.into_iter().flat_map(|closeness| QUARTERS.map(|turns| (turns, closeness)));
+        let spin = |(turns, closeness)| (0..self.spins.len()).map(move |k| Move::Spin(k, turns, closeness));
+        smaller.chain(leaning.flat_map(spin))
+    }
+
     /// Whether they are changes of what moves alone: a run may come by such a state whatever its parameters are.
     pub fn are_of_motion(&self, moves: &[Move]) -> bool {
         let moving = |k: usize| !self.free[k].parameter;
@@ -156,7 +193,7 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
             Move::Scale(k, _) | Move::Quarter(k, ..) | Move::Near(_, k, _) => moving(k),
             Move::AllNear(sum, seed, _) => self.together(sum, seed).all(|(_, by)| moving(by)),
             Move::Body(..) => false,
-            Move::Faster(_) => true,
+            Move::Faster(_) | Move::Smaller(_) | Move::Spin(..) => true,
         })
     }
 
@@ -183,6 +220,12 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
                 Move::Body(..) => "unlike moments of inertia".to_owned(),
                 Move::Faster(decades) if decades > 0.0 => "high speeds".to_owned(),
                 Move::Faster(_) => "low speeds".to_owned(),
+                Move::Smaller(_) => "small coordinates".to_owned(),
+                Move::Spin(k, turns, _) => {
+                    let Spin { angle, sum, .. } = self.spins[k];
+                    let near = if turns == 0.0 { "0" } else { "quarter turns" };
+                    format!("{} near {near} with high rates in {} near 0", name(angle), self.sums[sum].printed())
+                }
             };
             if !words.contains(&word) {
                 words.push(word);
@@ -194,16 +237,8 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
     pub fn apply(&self, change: Move, draft: &mut Draft<'_>) {
         draft.moves.push(change);
         match change {
-            Move::Scale(k, decades) => {
-                let before = draft.values.map[&self.free[k].symbol.key()];
-                let sign = if before < 0.0 { -1.0 } else { 1.0 };
-                let [least, most] = self.free[k].range;
-                let size = (before.abs().max(1e-30).log10() + decades).clamp(least, most);
-                self.put(k, sign * 10.0_f64.powf(size), draft);
-            }
-            Move::Quarter(k, turns, closeness) => {
-                self.put(k, turns * std::f64::consts::FRAC_PI_2 + 10.0_f64.powf(closeness), draft);
-            }
+            Move::Scale(k, decades) => self.scale(k, decades, draft),
+            Move::Quarter(k, turns, closeness) => self.turn(k, turns, closeness, draft),
             Move::Near(sum, by, closeness) => self.bring_near(&self.sums[sum], by, closeness, draft),
             Move::AllNear(sum, seed, closeness) => {
                 for (sum, by) in self.together(sum, seed) {
@@ -221,7 +256,33 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
                     draft.values.put(*speed, faster.signum() * faster.abs().clamp(least, most));
                 }
             }
+            Move::Smaller(decades) => self.scalars.iter().for_each(|&k| self.scale(k, decades, draft)),
+            Move::Spin(k, turns, closeness) => {
+                let Spin { angle, sum, by } = self.spins[k];
+                let sum = &self.sums[sum];
+                self.turn(angle, turns, closeness, draft);
+                // What is left of the rates of the sum is as large as the other rates.
+                for &speed in &self.speeds {
+                    let apart = if sum.by.contains(&speed) { -0.5 } else { 0.5 };
+                    self.scale(speed, apart * closeness, draft);
+                }
+                self.bring_near(sum, by, 2.0 * closeness, draft);
+            }
         }
+    }
+
+    /// Makes a number so many powers of ten larger.
+    fn scale(&self, k: usize, decades: f64, draft: &mut Draft<'_>) {
+        let before = draft.values.map[&self.free[k].symbol.key()];
+        let sign = if before < 0.0 { -1.0 } else { 1.0 };
+        let [least, most] = self.free[k].range;
+        let size = (before.abs().max(1e-30).log10() + decades).clamp(least, most);
+        self.put(k, sign * 10.0_f64.powf(size), draft);
+    }
+
+    /// Brings an angle near so many quarter turns.
+    fn turn(&self, k: usize, turns: f64, closeness: f64, draft: &mut Draft<'_>) {
+        self.put(k, turns * std::f64::consts::FRAC_PI_2 + 10.0_f64.powf(closeness), draft);
     }
 
     fn put(&self, k: usize, value: f64, draft: &mut Draft<'_>) {
@@ -251,7 +312,7 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
             terms.fold((0.0, 0.0), |(sum, size): (f64, f64), term| (sum + term, size + term.abs()))
         };
         let (first, size) = at(begun);
-        let goal = first.signum() * size * 10.0_f64.powf(closeness.max(CLOSEST));
+        let goal = first.signum() * size * 10.0_f64.powf(closeness);
         let mut before = (begun, first);
         let mut x = begun * 1.001 + f64::MIN_POSITIVE;
         for _ in 0..SECANTS {
@@ -268,6 +329,19 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
         let allowed = (least..=most).contains(&x.abs()) && (x > 0.0 || !positive);
         self.put(by, if nearer && allowed { x } else { begun }, draft);
     }
+}
+
+/// Sums of two rates or more with the angles they depend on, the innermost first. The last rate is most likely the one
+/// whose axis does not depend on the angle.
+fn spins(sums: &[Sum<'_>], angles: &[usize], speeds: &[usize]) -> Vec<Spin> {
+    let mut spins = Vec::new();
+    for (k, sum) in sums.iter().enumerate() {
+        let mut rates = speeds.iter().filter(|speed| sum.by.contains(speed));
+        let (Some(_), Some(&by)) = (rates.next(), rates.next_back()) else { continue };
+        let own = angles.iter().filter(|angle| sum.by.contains(angle));
+        spins.extend(own.map(|&angle| Spin { angle, sum: k, by }));
+    }
+    spins
 }
 
 /// The numbers of a state that are given, but for time and for what follows from others.

@@ -46,6 +46,8 @@ pub(super) struct Best {
 const STEPS: usize = 100_000;
 const LEAST: usize = 24;
 const MOST: usize = 96;
+/// At most a third as many states again are those where several numbers change at once.
+const OF_MANY: usize = 3;
 /// The loss up to which no more is sought after half of the states: nothing cancels in these scenes.
 const ORDINARY: f64 = 10.0;
 /// The loss from which on other forms of a function are tried, six digits, and how many times less they have to lose:
@@ -95,7 +97,15 @@ impl<'s, 'g> Samples<'s, '_, 'g> {
                 losses.extend(loss.filter(|_| state < sampled));
                 best.loss = loss.filter(|_| state == best.state).map_or(best.loss, |loss| loss.min(NO_DIGIT));
             }
-            for (losses, loss) in besides.iter_mut().zip(of_besides) {
+            let mut exact = None;
+            for ((losses, outputs), loss) in besides.iter_mut().zip(&search.besides).zip(of_besides) {
+                // What has no value in double precision may have one.
+                let loss = loss.or_else(|| {
+                    let exact = exact.get_or_insert_with(|| {
+                        search.exact(&drafts[state], &trace, search.ends[2], |_| Doubled::number(1.0))
+                    });
+                    is_finite(exact, outputs).then_some(NO_DIGIT)
+                });
                 losses.extend(loss.map(|loss| Best { loss: loss.min(NO_DIGIT), state }));
             }
         }
@@ -124,6 +134,10 @@ impl<'s, 'g> Samples<'s, '_, 'g> {
         });
         (found, deciding.collect())
     }
+}
+
+fn is_finite(exact: &[Doubled], outputs: &[Slot]) -> bool {
+    outputs.iter().all(|&slot| exact[slot as usize].is_finite())
 }
 
 impl States<'_, '_> {
@@ -199,7 +213,13 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
             self.try_at(draft, trace);
             self.note(trace, draft, k, &mut best);
         }
-        self.climb(&mut drafts, &mut best, trace);
+        if !drafts.is_empty() && !self.moves.are_none() && self.outputs.iter().any(|outputs| !outputs.is_empty()) {
+            let tries = (STEPS / self.ends[1].max(1)).clamp(LEAST, MOST);
+            self.climb(tries, &mut drafts, &mut best, trace);
+            for change in self.moves.of_many().take(tries / OF_MANY) {
+                self.try_change(0, change, &mut drafts, &mut best, trace);
+            }
+        }
         (drafts, best)
     }
 
@@ -328,7 +348,7 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
             let loss = self.loss(trace, outputs).unwrap_or_else(|| {
                 let exact =
                     exact.get_or_insert_with(|| self.exact(draft, trace, self.ends[1], |_| Doubled::number(1.0)));
-                if outputs.iter().all(|&slot| exact[slot as usize].is_finite()) { NO_DIGIT } else { 0.0 }
+                if is_finite(exact, outputs) { NO_DIGIT } else { 0.0 }
             });
             if loss > best.loss {
                 much |= loss > 1.5 * best.loss;
@@ -349,14 +369,10 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         self.flat.run(|key, slot| Doubled::number(of(key, slot)) * factor(slot), to)
     }
 
-    fn climb<'n>(&self, drafts: &mut Vec<Draft<'n>>, best: &mut [Best], trace: &mut Trace) {
+    fn climb<'n>(&self, tries: usize, drafts: &mut Vec<Draft<'n>>, best: &mut [Best], trace: &mut Trace) {
         let sampled = drafts.len();
-        let tries = (STEPS / self.ends[1].max(1)).clamp(LEAST, MOST);
         let mut random = Random::new(26);
         let functions: Vec<usize> = (0..self.outputs.len()).filter(|&k| !self.outputs[k].is_empty()).collect();
-        if functions.is_empty() || sampled == 0 || self.moves.are_none() {
-            return;
-        }
         let mut again: Option<(usize, Move)> = None;
         for n in 0..tries {
             if n == tries / 2 && best.iter().all(|best| best.loss < ORDINARY) {
@@ -368,19 +384,34 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
                 let further = drafts[base].moves.last().filter(|_| random.below(3) == 0);
                 (base, further.map_or_else(|| self.moves.any(&mut random), |last| last.further()))
             });
-            let mut draft = drafts[base].clone();
-            self.moves.apply(change, &mut draft);
-            if !self.states.is_physical(&draft) {
-                continue;
-            }
-            self.try_at(&draft, trace);
             let state = drafts.len();
-            if self.note(trace, &draft, state, best) {
+            if self.try_change(base, change, drafts, best, trace) {
                 again = Some((state, change.further()));
             }
-            if best.iter().any(|best| best.state == state) {
-                drafts.push(draft);
-            }
         }
+    }
+
+    /// Tries all functions at a changed state, which is kept where one of them loses more than before; whether one loses
+    /// much more.
+    fn try_change<'n>(
+        &self,
+        base: usize,
+        change: Move,
+        drafts: &mut Vec<Draft<'n>>,
+        best: &mut [Best],
+        trace: &mut Trace,
+    ) -> bool {
+        let mut draft = drafts[base].clone();
+        self.moves.apply(change, &mut draft);
+        if !self.states.is_physical(&draft) {
+            return false;
+        }
+        self.try_at(&draft, trace);
+        let state = drafts.len();
+        let much = self.note(trace, &draft, state, best);
+        if best.iter().any(|best| best.state == state) {
+            drafts.push(draft);
+        }
+        much
     }
 }

@@ -221,7 +221,12 @@ impl Tried {
         let affordable: Vec<usize> = (0..costs.len()).filter(|&k| costs[k] <= DEAR * costs[ordinary]).collect();
         let losses: Vec<Loss> = affordable.iter().map(|&k| self.losses[k].clone()).collect();
         let costs: Vec<u32> = affordable.iter().map(|&k| costs[k]).collect();
-        affordable[taken(&losses, &costs)]
+        let best = taken(&losses, &costs);
+        // Of those that cost the same, what is lost least at the states that were sought.
+        let lost = |k: usize| losses[k].0[self.samples..].iter().copied().fold(0.0, f64::max);
+        let ties = usable(&losses).into_iter().enumerate().filter(|&(k, usable)| usable && costs[k] == costs[best]);
+        let least = ties.map(|(k, _)| k).min_by(|&a, &b| lost(a).total_cmp(&lost(b)));
+        affordable[least.filter(|&k| lost(k) < lost(best)).unwrap_or(best)]
     }
 }
 
