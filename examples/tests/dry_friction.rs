@@ -28,7 +28,10 @@ fn a_slider_moves_as_its_exact_solution_says() {
         assert!(n == 11 || (m.t - turns).abs() < 1e-9 && m.z[0] == 0.0, "{n}: {m:?}");
     }
     let [.., turned, last] = moments.as_slice() else { panic!("two moments at least") };
-    assert_eq!((turned.modes, last.z[0]), ([Mode::Sticks], 0.0));
+    assert_eq!(turned.modes, [Mode::Sticks]);
+    // The spring and the friction that holds it, each rounded a few times, are what is left of an acceleration.
+    let rounding = 4.0 * f64::EPSILON * f / slider.m * (last.t - turned.t);
+    assert!(last.z[0].abs() <= rounding, "{last:?}");
     assert!((last.q - turned.q).amax() < 1e-15, "it stays where it sticks");
 }
 

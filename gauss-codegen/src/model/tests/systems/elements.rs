@@ -97,7 +97,7 @@ fn friction_and_armatures() {
             ("v", "`v` varies, and the inertia of an armature is constant; write numbers and fields only"),
             (
                 "c",
-                "the extent of a friction law is a scalar, found a vector; write one number such as an angle, or \
+                "what friction acts along is a scalar, found a vector; write one number such as an angle, or \
                  `from = …` and `to = …` for the distance of two points",
             ),
             ("v", "`v` varies, and the viscous part of friction is constant; write numbers and fields only"),
