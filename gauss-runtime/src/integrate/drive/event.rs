@@ -1,7 +1,7 @@
 //! Events: where a function of the state passes through zero during a run, and jumps of the state there.
 //!
 //! **What is an event.** A function passes from one side of zero to zero or to the other side, in the chosen direction
-//! ([`Crossing`](crate::integrate::Crossing)), in the order of integration.
+//! ([`Crossing`]), in the order of integration.
 //!
 //! - *A zero at the start* is none: what starts on zero is on the side to which it leaves zero at first, and passes when it comes
 //!   back. So a run goes on from where another one ended.
