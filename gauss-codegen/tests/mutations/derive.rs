@@ -16,8 +16,8 @@ use super::files::Robot;
 
 /// Half of what the compiler has for a macro.
 const STACK: usize = 4 << 20;
-/// One derivation may take so long.
-const LONGEST: Duration = Duration::from_secs(10);
+/// One derivation may take so long in an optimised build; in one for tests, beside other programs, three times as long.
+const LONGEST: Duration = Duration::from_secs(if cfg!(debug_assertions) { 30 } else { 10 });
 
 /// Lines for the process that watches: the number that comes next, and what is wrong with it.
 pub const NEXT: &str = "mutation ";
