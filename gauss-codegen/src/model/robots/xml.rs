@@ -75,6 +75,7 @@ pub fn own_elements<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>
 }
 
 /// An element and the elements of the format in it, each before what is in it; of another language nothing.
+#[cfg(feature = "mjcf")]
 pub fn own_descendants<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
     let inside = move |inner: &Node<'a, 'a>| inner.ancestors().take_while(|around| *around != node).any(is_foreign);
     node.descendants().filter(move |inner| inner.is_element() && !inside(inner))
@@ -180,6 +181,7 @@ impl<'a> Reading<'a> {
     }
 
     /// The one element of that name; a second is a fault.
+    #[cfg(feature = "urdf")]
     pub fn child(&mut self, node: Node<'a, 'a>, name: &'static str) -> Option<Node<'a, 'a>> {
         let all = self.children(node, name);
         if let [_, second, ..] = all.as_slice() {
