@@ -150,6 +150,21 @@ fn constraints_on_ratios_of_speeds() {
     assert!(gauss_codegen::expand(&input).is_ok(), "{source}");
 }
 
+/// Terms that no number has, and terms of 1e120 that cancel: neither decides whether the equations are right.
+#[test]
+fn constraints_on_huge_numbers() {
+    let exp = |x: &str| (0..12).fold(x.to_owned(), |inner, _| format!("exp({inner})"));
+    for velocity in [
+        format!("rate(x) * m + {}", exp("rate(x)")),
+        "rate(x) * (h - powf(k, 1e3) + x) + sqrt(powf(rate(y) - y, 1.5) * (h + y / 100))".to_owned(),
+        "rate(x) * powf(k, 1e3) * (y + h) + rate(y) * powf(k, 1e3) - sin(x * y)".to_owned(),
+    ] {
+        let source = scene(&format!("constraint(velocity = {velocity})"));
+        let input: syn::DeriveInput = syn::parse_str(&source).expect("the source is a struct");
+        gauss_codegen::expand(&input).unwrap_or_else(|error| panic!("{velocity}: {error}"));
+    }
+}
+
 #[test]
 fn fields_of_one_name() {
     check(

@@ -55,16 +55,23 @@ pub fn dependencies<'a, 'g, N: Number + 'a>(
             && witness.partials(&constraints.on_velocities).into_iter().all(finite)
     };
     let mut usable = states.filter(usable);
-    let (Some(witness), other) = (usable.next(), usable.next()) else { return Vec::new() };
+    let Some(witness) = usable.next() else { return Vec::new() };
+    let mut dependent = dependent_rows(&witness, negligible);
+    if dependent.is_empty() {
+        return Vec::new();
+    }
+    // What depends on others does so everywhere; a row of powers such as k¹⁰⁰⁰ is small beside others at some states alone.
+    let elsewhere: Vec<_> = usable.take(3).map(|other| (dependent_rows(&other, negligible), other)).collect();
+    dependent.retain(|(k, _)| elsewhere.iter().all(|(rows, _)| rows.iter().any(|(row, _)| row == k)));
     // What constraints say of velocities, of a system at rest.
     let mut at_rest = Witness::new(system, witness.state.clone());
     let zero = N::number(0.0);
     at_rest.state.extend(system.scene.speeds.iter().map(|z| (z.key(), zero)));
     let moving = at_rest.values(&constraints.on_velocities);
-    let elsewhere = other.map(|other| (dependent_rows(&other, negligible), other.values(&positions)));
+    let elsewhere = elsewhere.into_iter().next().map(|(rows, other)| (rows, other.values(&positions)));
     let combined =
         |coefficients: &[N], values: &[N]| sum(coefficients.iter().zip(values).map(|(c, value)| *c * *value));
-    dependent_rows(&witness, negligible)
+    dependent
         .into_iter()
         .map(|(k, coefficients)| {
             // Positions can be compared where a combination with the same coefficients everywhere is constant.

@@ -9,7 +9,7 @@ use crate::mechanics::formula::{Formulas, Method};
 use crate::mechanics::system::System;
 
 use super::dependent::{Dependency, dependencies};
-use super::witness::{Witness, largest, sample_state, sum};
+use super::witness::{Witness, largest, sample_state};
 
 /// A formula does not satisfy the Gauss condition: an error of this crate, never of its user.
 #[derive(Debug)]
@@ -137,35 +137,68 @@ fn compare<'g, N: Number>(
     let system = witness.system;
     let unconstrained = witness.stationarity(arbitrary);
     let jacobian = witness.partials(&system.constraints.on_velocities);
-    let with_forces = |witness: &Witness<'_, 'g, N>, rows: Vec<N>| -> Vec<N> {
-        // Jᵀλ with the multipliers of the motion.
-        let Some(multipliers) = claims.multipliers else { return rows };
-        let multipliers = witness.values(multipliers);
-        let force = |row: &Vec<N>| sum(row.iter().zip(&multipliers).map(|(j, l)| *j * *l));
-        rows.iter().zip(&jacobian).map(|(r, j)| *r - force(j)).collect()
+    // λ of the motion.
+    let multipliers = claims.multipliers.map_or_else(Vec::new, |all| witness.values(all));
+    // Jᵀλ is taken from rows.
+    let with_forces = |rows: Vec<N>| -> Vec<Summed<N>> {
+        let force = |row: &[N]| row.iter().zip(&multipliers).map(|(j, l)| -(*j * *l)).collect::<Vec<N>>();
+        rows.into_iter().zip(&jacobian).map(|(r, j)| Summed::of(r, force(j))).collect()
     };
     witness.state.extend(system.scene.speed_rates.iter().zip(arbitrary).map(|(s, x)| (s.key(), *x)));
-    let expected = with_forces(&witness, unconstrained);
+    let expected = with_forces(unconstrained);
+    if !expected.iter().all(Summed::is_in_range) {
+        return Ok(Comparison::WithoutValue);
+    }
     let mut evaluation = Evaluation::new(&witness.state);
     let mut values = |outputs: &[Expr<'g>]| -> Vec<N> { outputs.iter().map(|e| evaluation.value(*e)).collect() };
     for arrangement in claims.residuals {
         agree(Method::GaussResidual, &values(arrangement), &expected)?;
     }
-    let scale = largest(expected.iter().copied()).max(1.0);
+    let scale = largest(expected.iter().map(|row| row.value)).max(1.0);
+    let still = witness.flow(&vec![N::number(0.0); arbitrary.len()]);
+    let bias = witness.along(&still, &system.constraints.on_velocities);
     for arrangement in claims.accelerations {
         let rates = values(arrangement);
-        let found = with_forces(&witness, witness.stationarity(&rates));
-        // J ż = γ: what the constraints say of velocities goes on to hold.
-        let flow = witness.flow(&rates);
-        let drift = witness.along(&flow, &system.constraints.on_velocities);
-        if !found.iter().chain(&drift).all(is_in_range) {
+        let found =
+            with_forces(witness.stationarity(&rates)).into_iter().map(|row| row.over(scale)).collect::<Vec<_>>();
+        // J ż = γ: what the constraints say of velocities goes on to hold. A small ż is what is left of large ones.
+        let most = largest(rates.iter().copied());
+        let drift: Vec<_> = (0..bias.len())
+            .map(|k| {
+                let sum = Summed::of(bias[k], rates.iter().zip(&jacobian).map(|(rate, row)| *rate * row[k]).collect());
+                let sizes: f64 = jacobian.iter().map(|row| row[k].to_f64().abs()).sum();
+                Summed { terms: sum.terms + most * sizes, ..sum }
+            })
+            .collect();
+        if !found.iter().chain(&drift).all(Summed::is_in_range) {
             return Ok(Comparison::WithoutValue);
         }
-        let relative: Vec<N> = found.iter().map(|x| *x / N::number(scale)).collect();
-        agree(Method::Acceleration, &relative, &vec![N::number(0.0); relative.len()])?;
-        agree(Method::Acceleration, &drift, &vec![N::number(0.0); drift.len()])?;
+        for sums in [found, drift] {
+            agree(Method::Acceleration, &vec![N::number(0.0); sums.len()], &sums)?;
+        }
     }
     Ok(Comparison::Agrees)
+}
+
+/// A sum, and the sizes of its terms together: what its roundings are relative to.
+struct Summed<N> {
+    value: N,
+    terms: f64,
+}
+
+impl<N: Number> Summed<N> {
+    fn of(first: N, terms: Vec<N>) -> Self {
+        let start = Self { value: first, terms: first.to_f64().abs() };
+        terms.into_iter().fold(start, |sum, x| Self { value: sum.value + x, terms: sum.terms + x.to_f64().abs() })
+    }
+
+    fn over(self, scale: f64) -> Self {
+        Self { value: self.value / N::number(scale), terms: self.terms / scale }
+    }
+
+    fn is_in_range(&self) -> bool {
+        is_in_range(&self.value) && self.terms.is_finite()
+    }
 }
 
 /// Whether double precision has the number: scales and residuals are taken there, and so are all results of kernels.
@@ -174,12 +207,14 @@ fn is_in_range<N: Number>(x: &N) -> bool {
 }
 
 /// Two evaluations of the same rows.
-fn agree<N: Number>(method: Method, found: &[N], expected: &[N]) -> Result<(), Disagreement> {
-    let scale = found.iter().chain(expected).fold(1.0_f64, |m, x| m.max(x.to_f64().abs()));
+fn agree<N: Number>(method: Method, found: &[N], expected: &[Summed<N>]) -> Result<(), Disagreement> {
+    let sizes = found.iter().chain(expected.iter().map(|row| &row.value));
+    let scale = sizes.fold(1.0_f64, |most, x| most.max(x.to_f64().abs()));
     for (row, (x, y)) in found.iter().zip(expected).enumerate() {
-        // Numbers of order one and some hundreds of roundings; NaN is no agreement either.
-        let residual = (*x - *y).to_f64();
-        let close = residual.abs() <= 1e-8 * scale;
+        // Numbers of order one and some hundreds of roundings; terms of 1e120 that cancel leave roundings of their own.
+        // NaN is no agreement either.
+        let residual = (*x - y.value).to_f64();
+        let close = residual.abs() <= 1e-8 * scale + N::NEGLIGIBLE * y.terms;
         if !close {
             return Err(Disagreement { method, row, residual });
         }
