@@ -20,6 +20,9 @@ pub struct Symbol {
     pub constant: bool,
 }
 
+/// Parts of a node that is found again, for each that counts as made: to find a short one costs nothing.
+const LONG: usize = 32;
+
 /// The numbers 0 and 1, which every graph begins with.
 pub(super) const ZERO: Id = 0;
 pub(super) const ONE: Id = 1;
@@ -158,7 +161,12 @@ impl Graph {
             self.index.borrow().find(word, |place| nodes[place] == node)
         };
         let id = match known {
-            Some(place) => place as Id,
+            Some(place) => {
+                // To find one of many parts again takes as long as to make it, and functions of functions, sixty deep, have
+                // derivatives of as many factors that are found a million times.
+                self.budget.count(node.edges() / LONG);
+                place as Id
+            }
             None if self.budget.is_exhausted() && !matches!(node, Node::Symbol(_)) => 0,
             None => {
                 self.budget.count(1 + node.edges());
