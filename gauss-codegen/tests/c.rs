@@ -86,7 +86,7 @@ fn functions_in_c_compute_what_the_programs_say() {
     for (name, _) in SCENES {
         let derivation = derivation(name);
         let (main, expected) = calls(&derivation);
-        let source = format!("{}\n{main}", targets::c::source(&derivation));
+        let source = format!("{}\n{main}", targets::c::source(derivation.functions()));
         let output = Command::new(compiled(compiler, &directory, name, &source)).output().expect("it runs");
         let found: Vec<f64> =
             String::from_utf8_lossy(&output.stdout).lines().map(|line| line.parse().expect("a number")).collect();
@@ -101,12 +101,12 @@ fn functions_in_c_compute_what_the_programs_say() {
 
 #[test]
 fn a_function_in_c() {
-    insta::assert_snapshot!(targets::c::source(&derivation("Top")));
+    insta::assert_snapshot!(targets::c::source(derivation("Top").functions()));
 }
 
 #[test]
 fn a_header_in_c() {
-    insta::assert_snapshot!(targets::c::declarations(&derivation("Rod")));
+    insta::assert_snapshot!(targets::c::declarations(derivation("Rod").functions()));
 }
 
 /// Functions of the user's own are declared, and whoever links the code provides them.
@@ -115,7 +115,7 @@ fn functions_to_be_provided() {
     let source = "#[gauss(coordinates(x), particle(mass = m, position = [x, 0, 0]), potential = liftCurve(x), \
                   function(liftCurve = aero::lift, derivative = aero::slope))] struct Wing { m: f64 }";
     let wing = Derivation::of_source(source, "Wing").expect("a scene");
-    let code = targets::c::source(&wing);
+    let code = targets::c::source(wing.functions());
     assert!(code.contains("double lift_curve(double x);\ndouble lift_curve_1(double x);\n"), "{code}");
     assert!(wing.program("acceleration").expect("it").to_string().contains("liftCurve'(x)"));
     // The interpreter does not know them.

@@ -72,7 +72,7 @@ fn functions_compute_what_the_programs_say() {
         let (main, expected) = calls(&derivation);
         let (file, binary) =
             (directory.join(format!("functions_of_{name}.rs")), directory.join(format!("rust_{name}")));
-        let module = pretty(targets::rust::source(&derivation));
+        let module = pretty(targets::rust::source(derivation.functions()));
         std::fs::write(directory.join(format!("scene_{name}.rs")), module).expect("a file of the test");
         let source = format!("#[path = \"scene_{name}.rs\"]\nmod scene;\n{main}");
         std::fs::write(&file, source).expect("a file of the test");
@@ -93,7 +93,7 @@ fn functions_compute_what_the_programs_say() {
 
 #[test]
 fn a_file_of_functions() {
-    insta::assert_snapshot!(pretty(targets::rust::source(&derivation("Top"))));
+    insta::assert_snapshot!(pretty(targets::rust::source(derivation("Top").functions())));
 }
 
 /// Functions of the user's own are looked for in the module above.
@@ -101,6 +101,6 @@ fn a_file_of_functions() {
 fn functions_to_be_provided() {
     let source = "#[gauss(coordinates(x), particle(mass = m, position = [x, 0, 0]), potential = liftCurve(x), \
                   function(liftCurve = aero::lift, derivative = aero::slope))] struct Wing { m: f64 }";
-    let code = pretty(targets::rust::source(&Derivation::of_source(source, "Wing").expect("a scene")));
+    let code = pretty(targets::rust::source(Derivation::of_source(source, "Wing").expect("a scene").functions()));
     assert!(code.contains("use super::{lift_curve, lift_curve_1};"), "{code}");
 }

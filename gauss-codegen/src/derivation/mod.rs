@@ -20,7 +20,7 @@ use crate::error::Result;
 use crate::expand::derive;
 use crate::mistakes::bug;
 use crate::model::struct_in;
-use crate::program::Program;
+use crate::program::{Functions, Program};
 use crate::scene::{Mistake, Scene};
 use crate::words::Unraw;
 
@@ -30,12 +30,10 @@ use signature::Signature;
 /// Everything that is derived from one struct. It stands alone: nothing in it refers to the scene or to expressions.
 #[derive(Clone, Debug)]
 pub struct Derivation {
-    name: String,
-    constants: Program,
-    programs: Vec<Program>,
+    functions: Functions,
     accuracy: Vec<(String, [f64; 2])>,
     remarks: Vec<String>,
-    equations: Equations,
+    latex: String,
     rust: TokenStream,
 }
 
@@ -75,29 +73,36 @@ impl Derivation {
         let accuracy = figures(derived).map(|(_, name, figure)| (name.to_owned(), figure.rounded())).collect();
         let described = derived.subject.model.described.iter();
         let remarks = described.flat_map(|file| &file.remarks).map(|remark| remark.text.clone()).collect();
-        Ok(Self { name: ident.unraw().to_string(), constants, programs, accuracy, remarks, equations, rust })
+        let Equations { text, latex } = equations;
+        let functions = Functions { name: ident.unraw().to_string(), equations: text, constants, methods: programs };
+        Ok(Self { functions, accuracy, remarks, latex, rust })
     }
 
     /// The name of the struct.
     pub fn name(&self) -> &str {
-        &self.name
+        &self.functions.name
+    }
+
+    /// What a target writes: the constants, the programs, and the equations as text.
+    pub fn functions(&self) -> &Functions {
+        &self.functions
     }
 
     /// What `kernel()` computes: the constants, from the numbers of the fields.
     pub fn constants(&self) -> &Program {
-        &self.constants
+        &self.functions.constants
     }
 
     /// One program for each method of the kernel, then `evaluate`, and `linearize`, `by_parameters`,
     /// `linearize_inverse`, `regressor` and `hessian` if the struct has their clauses. Arguments are those of the
     /// method: constants, time and configuration first.
     pub fn programs(&self) -> &[Program] {
-        &self.programs
+        &self.functions.methods
     }
 
     /// The program of one method.
     pub fn program(&self, method: &str) -> Option<&Program> {
-        self.programs.iter().find(|program| program.name == method)
+        self.programs().iter().find(|program| program.name == method)
     }
 
     /// The rounding error of each method at the worst state that a search finds, and the median at sample states, in
@@ -114,8 +119,8 @@ impl Derivation {
     /// The equations of motion: a page of plain text, or one LaTeX environment.
     pub fn equations(&self, notation: Notation) -> &str {
         match notation {
-            Notation::Text => &self.equations.text,
-            Notation::Latex => &self.equations.latex,
+            Notation::Text => &self.functions.equations,
+            Notation::Latex => &self.latex,
         }
     }
 

@@ -31,7 +31,7 @@
 //! it is made.
 //!
 //! # How to write a target
-//! A target is a function from programs to text. It declares arguments, writes each of the ten instructions and five
+//! A target is a function from [`Functions`] to text. It declares arguments, writes each of the ten instructions and five
 //! operands, and hands results back; [`targets::c`](crate::targets::c) is the shortest example.
 
 mod angles;
@@ -39,6 +39,7 @@ mod beginnings;
 mod code;
 mod cost;
 mod function;
+mod functions;
 mod fused;
 mod input;
 mod instruction;
@@ -55,6 +56,7 @@ pub use crate::algebra::{BinaryFunction, Function, OwnFunction, Rational, Scalar
 pub use code::Code;
 pub use cost::{Cost, Counts, Smoothness};
 pub use function::{Program, WrongArguments};
+pub use functions::Functions;
 pub use input::{Argument, ArgumentKind, Input, Results};
 pub use instruction::{Instruction, Operand};
 pub(crate) use packs::{LANES, Operation, Pack, Packed, Place, Step};

@@ -8,7 +8,7 @@
 //!
 //! ```
 //! let top = "#[gauss(motion = fixed_point)] struct Top { #[gauss(mass)] m: f64, #[gauss(inertia)] i: Vector3<f64> }";
-//! let code = gauss_codegen::targets::c::source(&gauss_codegen::Derivation::of_source(top, "Top")?);
+//! let code = gauss_codegen::targets::c::source(gauss_codegen::Derivation::of_source(top, "Top")?.functions());
 //! assert!(code.contains("void top_acceleration("));
 //! # Ok::<(), syn::Error>(())
 //! ```
@@ -16,9 +16,8 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use crate::algebra::{BinaryFunction, Function, Notation, OwnFunction, Rational};
-use crate::derivation::Derivation;
-use crate::program::{Argument, ArgumentKind, Input, Instruction, Operand, Program, Results};
+use crate::algebra::{BinaryFunction, Function, OwnFunction, Rational};
+use crate::program::{Argument, ArgumentKind, Functions, Input, Instruction, Operand, Program, Results};
 
 use super::{header, is_handed_over, only_scalar, snake};
 
@@ -28,31 +27,29 @@ const SIGNUM: &str = "static double gauss_signum(double x)\n{\n    return x > 0.
 /// Characters of arguments that still stand in one line.
 const LINE: usize = 88;
 
-/// A source file with all programs of a derivation: the constants, then every method. Functions are named after the struct and the
+/// A source file with all programs of a struct: the constants, then every method. Functions are named after the struct and the
 /// method, `heavy_top_acceleration`.
-pub fn source(derivation: &Derivation) -> String {
-    let prefix = snake(derivation.name());
-    let programs = || std::iter::once(derivation.constants()).chain(derivation.programs());
-    let mut out = comment(derivation.equations(Notation::Text));
+pub fn source(functions: &Functions) -> String {
+    let prefix = snake(&functions.name);
+    let mut out = comment(&functions.equations);
     out.push_str("#include <math.h>\n");
-    if programs().any(calls_signum) {
+    if functions.programs().any(calls_signum) {
         write!(out, "\n{SIGNUM}").ok();
     }
-    let own = own_functions(programs());
+    let own = own_functions(functions.programs());
     if !own.is_empty() {
         write!(out, "\n/* To be provided: functions of the scene, name_n their n-th derivatives. */\n{own}").ok();
     }
-    for program in programs() {
+    for program in functions.programs() {
         write!(out, "\n{}", function(program, &prefix)).ok();
     }
     out
 }
 
 /// The declarations of the same functions, for a header.
-pub fn declarations(derivation: &Derivation) -> String {
-    let prefix = snake(derivation.name());
-    let programs = std::iter::once(derivation.constants()).chain(derivation.programs());
-    programs.map(|program| format!("{};\n", signature(program, &prefix))).collect()
+pub fn declarations(functions: &Functions) -> String {
+    let prefix = snake(&functions.name);
+    functions.programs().map(|program| format!("{};\n", signature(program, &prefix))).collect()
 }
 
 /// One function, with what it takes, gives and costs in a comment.

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::New;
+use crate::arguments::New;
 
 const MAIN: &str = include_str!("template.rs.txt");
 

@@ -3,7 +3,7 @@
 use gauss_codegen::Notation;
 use gauss_codegen::mathml::{self, escaped};
 
-use crate::show::{Shown, loss, programs};
+use crate::shown::{Shown, loss};
 
 const STYLE: &str = include_str!("page.css");
 
@@ -24,7 +24,9 @@ pub fn html(file: &str, all: &[Shown]) -> String {
 fn section(shown: &Shown) -> String {
     let derivation = &shown.derivation;
     let lines: String = mathml::lines(derivation.equations(Notation::Latex)).map(line).collect();
-    let rows: String = programs(derivation)
+    let rows: String = derivation
+        .functions()
+        .programs()
         .map(|program| {
             let cost = program.code.cost();
             let loss = loss(derivation, &program.name);

@@ -3,20 +3,14 @@
 use std::fs;
 use std::path::Path;
 
-use gauss_codegen::program::Program;
 use gauss_codegen::{Derivation, Notation, targets};
 use proc_macro2::TokenStream;
 use syn::{DeriveInput, Error};
 
+use crate::arguments::{Form, Show};
 use crate::charts::in_chart;
-use crate::{Form, Show, page, robots, structs};
-
-/// A struct in a chart, and what is derived from it.
-pub struct Shown {
-    /// The name of the struct, and the chart if the user chose one.
-    pub title: String,
-    pub derivation: Derivation,
-}
+use crate::shown::{Shown, loss};
+use crate::{page, robots, structs};
 
 /// Prints it, or writes it to a file.
 ///
@@ -84,16 +78,23 @@ fn text(shown: &Shown, form: Form, method: Option<&str>) -> Result<String, Strin
         Form::Latex => Ok(derivation.equations(Notation::Latex).to_owned()),
         Form::Program => match method {
             Some(method) => {
-                let names = || programs(derivation).map(|program| program.name.as_str()).collect::<Vec<_>>().join(", ");
-                let found = programs(derivation).find(|program| program.name == method);
+                let names = || {
+                    derivation
+                        .functions()
+                        .programs()
+                        .map(|program| program.name.as_str())
+                        .collect::<Vec<_>>()
+                        .join(", ")
+                };
+                let found = derivation.functions().programs().find(|program| program.name == method);
                 let missing = || format!("{} has no method `{method}`; it has {}", derivation.name(), names());
                 found.map(ToString::to_string).ok_or_else(missing)
             }
-            None => Ok(programs(derivation).map(ToString::to_string).collect::<Vec<_>>().join("\n")),
+            None => Ok(derivation.functions().programs().map(ToString::to_string).collect::<Vec<_>>().join("\n")),
         },
-        Form::C => Ok(targets::c::source(derivation)),
+        Form::C => Ok(targets::c::source(derivation.functions())),
         Form::Rust => pretty(derivation.rust().clone()),
-        Form::Functions => pretty(targets::rust::source(derivation)),
+        Form::Functions => pretty(targets::rust::source(derivation.functions())),
         Form::Html => Ok(String::new()),
     }
 }
@@ -101,16 +102,6 @@ fn text(shown: &Shown, form: Form, method: Option<&str>) -> Result<String, Strin
 fn pretty(code: proc_macro2::TokenStream) -> Result<String, String> {
     let file = syn::parse2(code).map_err(|error| format!("what was written is no Rust: {error}"))?;
     Ok(prettyplease::unparse(&file))
-}
-
-/// The constants, and every method.
-pub fn programs(derivation: &Derivation) -> impl Iterator<Item = &Program> {
-    std::iter::once(derivation.constants()).chain(derivation.programs())
-}
-
-/// Digits that a method loses to rounding: at the worst state found, and in the middle; as words.
-pub fn loss(derivation: &Derivation, method: &str) -> Option<[f64; 2]> {
-    derivation.accuracy().iter().find(|(name, _)| name == method).map(|(_, loss)| *loss)
 }
 
 fn plain(shown: &Shown) -> String {
@@ -122,7 +113,7 @@ fn plain(shown: &Shown) -> String {
         derivation.equations(Notation::Text)
     );
     out.push_str(&format!("{:<22}{:<48}{:>6}{:>7}   rounding, at most and mostly\n", "method", "", "cost", "chain"));
-    for program in programs(derivation) {
+    for program in derivation.functions().programs() {
         let cost = program.code.cost();
         let loss = loss(derivation, &program.name);
         let loss = loss.map(|[most, middle]| format!("   {most} × and {middle} ×")).unwrap_or_default();

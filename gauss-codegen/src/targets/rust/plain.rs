@@ -5,14 +5,13 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::algebra::{Function, Notation, OwnFunction, Rational};
-use crate::derivation::Derivation;
-use crate::program::{Argument, ArgumentKind, Input, Instruction, Program, Results};
+use crate::algebra::{Function, OwnFunction, Rational};
+use crate::program::{Argument, ArgumentKind, Functions, Input, Instruction, Program, Results};
 
 use super::super::{header, is_handed_over, only_scalar, snake};
 use super::{Dialect, Kept, statements};
 
-/// A file with all programs of a derivation: the constants, then every method. Arguments are arrays, but for the time; those without
+/// A file with all programs of a struct: the constants, then every method. Arguments are arrays, but for the time; those without
 /// components are left out. Results are numbers, arrays, or arrays of rows; several are a tuple.
 ///
 /// What the equations call of the user's own is taken from the module above: `lift`, its derivatives `lift_1`, `lift_2`. Parameters
@@ -20,17 +19,16 @@ use super::{Dialect, Kept, statements};
 ///
 /// ```
 /// let top = "#[gauss(motion = fixed_point)] struct Top { #[gauss(mass)] m: f64, #[gauss(inertia)] i: Vector3<f64> }";
-/// let code = gauss_codegen::targets::rust::source(&gauss_codegen::Derivation::of_source(top, "Top")?);
+/// let code = gauss_codegen::targets::rust::source(gauss_codegen::Derivation::of_source(top, "Top")?.functions());
 /// assert!(code.to_string().contains("pub fn acceleration"));
 /// # Ok::<(), syn::Error>(())
 /// ```
-pub fn source(derivation: &Derivation) -> TokenStream {
-    let programs = || std::iter::once(derivation.constants()).chain(derivation.programs());
-    let functions = programs().map(function);
-    let own = own_functions(programs());
+pub fn source(all: &Functions) -> TokenStream {
+    let functions = all.programs().map(function);
+    let own = own_functions(all.programs());
     let own = (!own.is_empty()).then(|| quote!(use super::{#(#own),*};));
-    let (arithmetic, equations) = (arithmetic(), derivation.equations(Notation::Text));
-    let equations = equations.lines().map(|line| format!(" {line}"));
+    let arithmetic = arithmetic();
+    let equations = all.equations.lines().map(|line| format!(" {line}"));
     quote! {
         #(#![doc = #equations])*
         #own

@@ -1,0 +1,74 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// As Cargo calls it: `cargo-gauss gauss …`.
+#[derive(Parser)]
+#[command(name = "cargo", bin_name = "cargo")]
+pub enum Cargo {
+    /// Equations of motion of structs with `#[derive(GaussDynamics)]`.
+    #[command(version)]
+    Gauss {
+        #[command(subcommand)]
+        command: Command,
+    },
+}
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Prints the equations, what they cost, and how many digits they keep.
+    Show(Show),
+    /// Makes a package that runs: a body, its equations, a run, a table for plots.
+    New(New),
+}
+
+/// Which struct, and what of it.
+#[derive(Args)]
+pub struct Show {
+    /// A Rust file.
+    pub file: PathBuf,
+    /// Names of structs in it; without any, all structs with `#[derive(GaussDynamics)]`.
+    pub names: Vec<String>,
+    /// What is printed.
+    #[arg(long = "as", value_enum, default_value_t = Form::Text)]
+    pub form: Form,
+    /// In these charts in place of the chart of the struct, such as `left_invariant,jet(euler_zyx)`, side by side in a page.
+    #[arg(long, value_delimiter = ',')]
+    pub charts: Vec<String>,
+    /// With `--as program`: one method alone.
+    #[arg(long)]
+    pub method: Option<String>,
+    /// Writes to this file in place of the terminal.
+    #[arg(long, short)]
+    pub output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum Form {
+    /// The equations, the operations of every method, and what they lose to rounding.
+    Text,
+    /// The equations, a LaTeX environment for each struct.
+    Latex,
+    /// A typeset page without network or scripts.
+    Html,
+    /// The programs, one instruction a line.
+    Program,
+    /// A source file in C99.
+    C,
+    /// What the derive writes.
+    Rust,
+    /// Functions of `f64` in Rust that need nothing else.
+    Functions,
+}
+
+/// Where the package goes.
+#[derive(Args)]
+pub struct New {
+    /// A folder that is made; its last part is the name of the package.
+    pub folder: PathBuf,
+    /// A clone of Gauss, whose crates the package uses; without it the published ones.
+    #[arg(long)]
+    pub gauss: Option<PathBuf>,
+}
