@@ -2,7 +2,8 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`measure`] | [`Tune`], an extension of [`Simulation`](gauss_runtime::integrate::Simulation); what it found, [`Tuned`] |
+//! | [`measure`] | [`Tune`], an extension of [`Simulation`](gauss_runtime::integrate::Simulation) |
+//! | [`tuned`] | [`Tuned`], what it found; [`Candidate`], [`Measured`], [`TuneError`] |
 //! | [`method`] | [`Method`], [`EitherForm`]: methods and forms of the equations that are chosen at run time |
 
 #![forbid(unsafe_code)]
@@ -10,9 +11,11 @@
 
 pub mod measure;
 pub mod method;
+pub mod tuned;
 
-pub use measure::{Candidate, Measured, Tune, TuneError, Tuned};
+pub use measure::Tune;
 pub use method::{EitherForm, Method};
+pub use tuned::{Candidate, Measured, TuneError, Tuned};
 
 /// The example of the README is a test.
 #[cfg(doctest)]
