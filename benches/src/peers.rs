@@ -6,8 +6,7 @@ use std::error::Error;
 
 use gauss_runtime::prelude::*;
 
-use crate::cases::Case;
-use crate::measure::{Way, times};
+use crate::measure::Way;
 
 /// The numbers of a state, in the order in which peers read them.
 pub trait Flat {
@@ -117,22 +116,4 @@ impl Peers {
 /// The peer of a way named `PEER (COMPILER)`.
 pub fn peer(name: &str) -> &str {
     name.split_once(" (").map_or(name, |(peer, _)| peer)
-}
-
-/// Times all ways of peers for a moment, and moves those of the faster compiler of each to the ways of the case.
-pub fn choose(case: &mut Case, duration: f64) {
-    let (ways, differences): (Vec<Way>, Vec<f64>) = std::mem::take(&mut case.peers).into_iter().unzip();
-    if ways.is_empty() {
-        return;
-    }
-    // A moment is short, so what else the machine does may last all of it for one and not for the other: the least time tells.
-    let least: Vec<f64> = times(&ways, 200, duration).absolute.iter().map(|spread| spread.least).collect();
-    let names: Vec<String> = ways.iter().map(|way| peer(&way.name).to_owned()).collect();
-    for (k, (way, difference)) in ways.into_iter().zip(differences).enumerate() {
-        let slower = (0..names.len()).any(|j| names[j] == names[k] && (least[j], j) < (least[k], k));
-        if !slower {
-            case.ways.push(way);
-            case.differences.push(difference);
-        }
-    }
 }

@@ -7,7 +7,7 @@ use gauss_charts::drawing::INK;
 use gauss_examples::plots::{Cell, Line, Plot, mosaic};
 use plotters::style::RGBColor;
 
-use crate::{LONGEST, Map};
+use crate::map::{LONGEST, Map};
 
 /// Of those that never flip.
 const NEVER: RGBColor = RGBColor(250, 250, 250);

@@ -9,7 +9,7 @@ mod scene;
 use gauss_examples::plots::{write, write_page};
 use gauss_runtime::prelude::*;
 
-use scene::{Pendulum, PendulumKernel, PendulumState, Slider};
+use scene::{Pendulum, PendulumKernel, PendulumState, Slider, Sliding, slide};
 
 /// Length of the run of the pendulum, s.
 const DURATION: f64 = 12.0;
@@ -75,23 +75,6 @@ fn works(kernel: &PendulumKernel, path: &Trajectory<PendulumKernel>) -> Vec<f64>
 fn pull(kernel: &PendulumKernel, s: &Sample<PendulumKernel>) -> f64 {
     let forces = kernel.element_forces(s.t, &s.q, &s.z, &());
     PendulumKernel::ELEMENTS.iter().zip(forces.iter()).filter(|(e, _)| e.conservative).map(|(_, force)| force).sum()
-}
-
-/// A slider of either law.
-trait Sliding: GaussSystem<Scalar = f64, Configuration = SVector<f64, 1>, Speeds = SVector<f64, 1>, Input = ()> {}
-impl<K: GaussSystem<Scalar = f64, Configuration = SVector<f64, 1>, Speeds = SVector<f64, 1>, Input = ()>> Sliding
-    for K
-{
-}
-
-/// The slider from where it is let go until it rests.
-fn slide<'k, K: Sliding>(
-    kernel: &'k K,
-    slider: &Slider,
-    tolerance: f64,
-) -> Result<Trajectory<'k, K>, IntegrationError> {
-    let run = Simulation::new(kernel).adaptive(tolerance, tolerance);
-    run.run(SVector::from([slider.released()]), SVector::from([0.0]), 0.0..slider.rests())
 }
 
 /// Its steps, and its largest distance from the exact solution, m.

@@ -7,8 +7,7 @@ use gauss_examples::plots::{Line, Plot, sheet};
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
-use crate::scene::{LENGTH, Pendulum, PendulumFrame, PendulumKernel, Slider};
-use crate::{Sliding, slide};
+use crate::scene::{LENGTH, Pendulum, PendulumFrame, PendulumKernel, Slider, Sliding, slide};
 
 /// Lower end of the axis of powers, W: what the buffer takes is far below it.
 const LEAST_POWER: f64 = -0.2;

@@ -18,7 +18,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 mod report;
 
-use measure::scene::{Scene, scenes};
+use measure::catalogue::scenes;
+use measure::scene::Scene;
 use measure::study::{Effort, Study, study};
 use report::machine::Machine;
 use report::{overview, page, tables};

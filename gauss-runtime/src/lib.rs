@@ -95,7 +95,11 @@ pub mod simd;
 pub mod system;
 pub mod table;
 
+mod conversion;
+#[cfg(test)]
+mod conversion_tests;
 mod methods;
+mod projection_error;
 mod trigonometry;
 mod triple;
 mod vector_space;

@@ -2,7 +2,7 @@
 //! two parts by fused multiply-adds, minimax polynomials, selection by quadrant; errors up to 1.5 ulp, and none of this holds for
 //! angles beyond some thousand turns. C compilers and rustc pack two calls beside each other.
 
-use super::fma;
+use gauss_runtime::prelude::Real;
 
 /// 1.5·2⁵², which rounds what is added to it.
 const SHIFTER: f64 = 6_755_399_441_055_744.0;
@@ -28,10 +28,10 @@ const COSINE: [f64; 6] = [
 /// Sine and cosine of a moderate angle.
 #[inline(always)]
 pub fn sin_cos(x: f64) -> (f64, f64) {
-    let shifted = fma(x, std::f64::consts::FRAC_2_PI, SHIFTER);
+    let shifted = Real::fma(x, std::f64::consts::FRAC_2_PI, SHIFTER);
     let n = shifted - SHIFTER;
     let y = if cfg!(target_feature = "fma") {
-        fma(-n, 6.123_233_995_736_766e-17, fma(-n, std::f64::consts::FRAC_PI_2, x))
+        Real::fma(-n, 6.123_233_995_736_766e-17, Real::fma(-n, std::f64::consts::FRAC_PI_2, x))
     } else {
         // Parts of 33 binary digits, whose products with n are exact, and the rest.
         let parts = [0x3FF9_21FB_5440_0000, 0x3DD0_B461_1A60_0000, 0x3BA3_198A_2E03_7073].map(f64::from_bits);
@@ -39,8 +39,10 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
     };
     let (z, quadrant) = (y * y, shifted.to_bits());
     let z2 = z * z;
-    let series = |[a, b, c, d, e, f]: [f64; 6]| fma(fma(fma(f, z, e), z2, fma(d, z, c)), z2, fma(b, z, a));
-    let (sine, cosine) = (fma(y * z, series(SINE), y), fma(fma(series(COSINE), z, -0.5), z, 1.0));
+    let series = |[a, b, c, d, e, f]: [f64; 6]| {
+        Real::fma(Real::fma(Real::fma(f, z, e), z2, Real::fma(d, z, c)), z2, Real::fma(b, z, a))
+    };
+    let (sine, cosine) = (Real::fma(y * z, series(SINE), y), Real::fma(Real::fma(series(COSINE), z, -0.5), z, 1.0));
     let (sine, cosine) = if quadrant & 1 == 0 { (sine, cosine) } else { (cosine, sine) };
     let flipped = |value: f64, signs: u64| f64::from_bits(value.to_bits() ^ (signs & (1 << 63)));
     (flipped(sine, quadrant << 62), flipped(cosine, quadrant.wrapping_add(1) << 62))

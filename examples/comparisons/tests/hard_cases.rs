@@ -1,7 +1,7 @@
 //! The suite of hard cases in its quick form, and its source of truth against published numbers.
 
 use gauss_comparisons::suite::scenes::Scene;
-use gauss_comparisons::suite::truth::Body;
+use gauss_comparisons::suite::truth::{Body, MassData};
 use gauss_comparisons::suite::{CASES, Effort, Verdict};
 use gauss_runtime::prelude::*;
 
@@ -106,7 +106,7 @@ fn truth_is_that_of_the_references() {
         ("kirchhoff_nonintegrable", false),
     ] {
         let scene = if held { Scene::top(name) } else { Scene::load(name) }.expect("a scene of this name");
-        let body = if held { Body::held(&scene.data()) } else { Body::free(&scene.data()) };
+        let body = if held { Body::held(&MassData::from(&scene)) } else { Body::free(&MassData::from(&scene)) };
         let (pose, twist) = (scene.initial.pose(), scene.initial.twist());
         let found = body.after(scene.duration, &pose, &twist);
         // Parameters and initial values are rounded to doubles, some thirty numbers. Each changes the final state by

@@ -3,9 +3,10 @@
 
 use std::time::Duration;
 
+use gauss_comparisons::measure::catalogue::{entries, scenes};
 use gauss_comparisons::measure::comparison::{LEVELS, Total, Verdict};
 use gauss_comparisons::measure::entry::{Entry, Setting, Side};
-use gauss_comparisons::measure::scene::{Scene, Target, scenes};
+use gauss_comparisons::measure::scene::{Scene, Target};
 use gauss_comparisons::measure::study::{Effort, study};
 
 fn scene(name: &str) -> Scene {
@@ -20,7 +21,7 @@ fn named(scene: &Scene, entry: &Entry) -> String {
 /// evaluations.
 fn check_adaptive(scene: &Scene, tolerance: f64, allowed: impl Fn(&Entry, u64) -> f64) {
     let mut reached = 0;
-    for entry in scene.about.entries(scene).unwrap().iter().filter(|entry| entry.setting == Setting::Tolerance) {
+    for entry in entries(scene).unwrap().iter().filter(|entry| entry.setting == Setting::Tolerance) {
         // What is refused is refused: a singularity of the coordinates.
         let Ok((error, evaluations)) = entry.error(tolerance, scene.duration) else {
             assert!(entry.chart == "Euler angles" && entry.side == Side::Gauss, "{}", named(scene, entry));
@@ -76,7 +77,7 @@ fn near_the_separatrix_errors_grow_with_the_flip() {
 fn the_published_trajectories_are_reached() {
     for name in ["trajectory_a", "trajectory_b", "trajectory_c"] {
         let scene = scene(name);
-        let entries = scene.about.entries(&scene).unwrap();
+        let entries = entries(&scene).unwrap();
         let best = entries.iter().filter(|entry| entry.setting == Setting::Tolerance && entry.side == Side::Gauss);
         let best = best.filter_map(|entry| Some(entry.error(1e-13, scene.duration).ok()?.0)).fold(1.0, f64::min);
         // The last digits of nine entries or four components, and what 1e3 steps round off.
@@ -112,7 +113,7 @@ fn order(entry: &Entry, scene: &Scene) -> f64 {
 fn errors_fall_with_the_order() {
     for name in ["hlw_free_body", "hlw_heavy_top"] {
         let scene = scene(name);
-        for entry in scene.about.entries(&scene).unwrap() {
+        for entry in entries(&scene).unwrap() {
             let (Setting::Step(stated) | Setting::LongStep(stated)) = entry.setting else { continue };
             // Where its steps are short enough to be stable, its errors are below 1e-10: no slope is to be seen.
             if entry.method == "Adams 12" {
@@ -130,7 +131,7 @@ fn errors_fall_with_the_order() {
 fn evaluations_are_counted() {
     let count = |scene: &str, method: &str| {
         let scene = self::scene(scene);
-        let entries = scene.about.entries(&scene).unwrap();
+        let entries = entries(&scene).unwrap();
         entries.iter().find(|entry| entry.method == method).unwrap().error(0.1, 3.0).unwrap().1
     };
     let heavy = |method| count("hlw_heavy_top", method);
@@ -156,7 +157,7 @@ fn evaluations_are_counted() {
 fn the_exact_flow_is_exact() {
     for name in ["hlw_free_body", "free_asym_top", "free_near_separatrix"] {
         let scene = scene(name);
-        let entries = scene.about.entries(&scene).unwrap();
+        let entries = entries(&scene).unwrap();
         let entry = entries.iter().find(|entry| entry.setting == Setting::Once).unwrap();
         let (error, _) = entry.error(scene.duration, scene.duration).unwrap();
         // A rounding of each of the six numbers of the start, and a few of the angle.

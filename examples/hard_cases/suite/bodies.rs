@@ -32,7 +32,7 @@ pub fn far_away(effort: Effort) -> Measures {
         (state.b - last.b).amax().max(rest.distance(&last))
     };
     let h = if effort == Effort::Quick { 0.02 } else { 0.002 };
-    let typed = error(&naive::run_about_origin(&scene.data(), &start, duration, h));
+    let typed = error(&naive::run_about_origin(&MassData::from(&scene), &start, duration, h));
     let words = format!("6×6 solve about Ω, RK4, h = {h}");
 
     let left = Drifting { mass, center, inertia }.kernel()?;
@@ -151,7 +151,7 @@ pub fn needle(effort: Effort) -> Measures {
     let Scene { mass, center, inertia, gravity, .. } = scene;
     let (start, last, duration) = (scene.initial, scene.last, scene.duration);
     let h = if effort == Effort::Quick { 1e-3 } else { 2e-4 };
-    let typed = naive::run_body(&scene.data(), &start, duration, h).distance(&last);
+    let typed = naive::run_body(&MassData::from(&scene), &start, duration, h).distance(&last);
     let principal = Falling { mass, inertia: inertia.diagonal(), gravity }.kernel()?;
     let full = Projectile { mass, center, inertia, gravity }.kernel()?;
     Ok([

@@ -1,4 +1,12 @@
-//! One figure: what it is of, what it should be, what it is, and what a naive program gets.
+//! How much is measured, and one figure: what it is of, what it should be, what it is, and what a naive program gets.
+
+/// How much is run: for tests, on the command line, and with `--full`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Effort {
+    Quick,
+    Usual,
+    Full,
+}
 
 /// Whether a target is reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

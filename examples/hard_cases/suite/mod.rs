@@ -14,15 +14,7 @@ pub mod truth;
 
 use std::error::Error;
 
-pub use measure::{Measure, Verdict};
-
-/// How much is run: for tests, on the command line, and with `--full`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Effort {
-    Quick,
-    Usual,
-    Full,
-}
+pub use measure::{Effort, Measure, Verdict};
 
 type Run = fn(Effort) -> Result<Vec<Measure>, Box<dyn Error>>;
 

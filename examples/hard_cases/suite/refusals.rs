@@ -133,7 +133,7 @@ where
 
 pub fn units(_: Effort) -> Measures {
     let scene = Scene::top("heavy_asym_top")?;
-    let data = scene.data();
+    let data = MassData::from(&scene);
     let h = two(-6);
     let mut measures = Vec::new();
     for (name, unit) in [

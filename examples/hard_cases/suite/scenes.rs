@@ -6,8 +6,6 @@ use std::error::Error;
 use gauss_runtime::prelude::*;
 use serde::Deserialize;
 
-use super::truth::MassData;
-
 /// No forces, principal axes, turns about O.
 #[derive(GaussDynamics)]
 #[gauss(motion = fixed_point, taylor)]
@@ -186,12 +184,6 @@ impl Scene {
         let mut scene = Self::load(name)?;
         (scene.initial.b, scene.last.b) = (Vector3::zeros(), Vector3::zeros());
         Ok(scene)
-    }
-
-    /// Of the body.
-    pub fn data(&self) -> MassData {
-        let Self { mass, center, inertia, added_mass, gravity, .. } = *self;
-        MassData { mass, center, inertia, added: added_mass, gravity }
     }
 
     /// The top of the scene under its weight.

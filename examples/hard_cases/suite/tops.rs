@@ -9,7 +9,7 @@ use gauss_runtime::prelude::*;
 use super::measure::worse;
 use super::methods::{end, gauss_6, order_8, order_9, series, splitting, tight};
 use super::scenes::{FreeTop, FreeTopKernel, HeavyTop, Scene, State, TopByPrecession, TopByYaw};
-use super::truth::Body;
+use super::truth::{Body, MassData};
 use super::{Effort, Measure, naive};
 
 type Measures = Result<Vec<Measure>, Box<dyn Error>>;
@@ -20,7 +20,7 @@ const FAST: &str = "bruls_heavy_top";
 pub fn large_step(_: Effort) -> Measures {
     let scene = Scene::top(FAST)?;
     let kernel = scene.heavy_top().kernel()?;
-    let (start, data) = (scene.initial, scene.data());
+    let (start, data) = (scene.initial, MassData::from(&scene));
     // 3.3, 2π and 7.5 rad in a step.
     let steps = [0.022, 2.0 * PI / 150.0, 0.05];
     let taken = steps.iter().filter(|&&h| end(&kernel, VelocityForm, Fixed::new(h), &start, 1.0).is_ok()).count();
@@ -71,7 +71,7 @@ where
 pub fn separatrix(_: Effort) -> Measures {
     let scene = Scene::top("free_near_separatrix")?;
     let kernel = scene.free_top().kernel()?;
-    let typed = naive::run_top(&scene.data(), &scene.initial, scene.duration, 0.05);
+    let typed = naive::run_top(&MassData::from(&scene), &scene.initial, scene.duration, 0.05);
     let error = typed.distance(&scene.last);
     let twice = |s: &State| s.omega.dot(&(scene.inertia * s.omega));
     let lost = (twice(&typed) / twice(&scene.initial) - 1.0).abs();
@@ -170,14 +170,14 @@ pub fn gimbal_lock(effort: Effort) -> Measures {
 
     // A little more spin, and the axis passes the upright 4e-7 rad beside it: the angles turn by π in 1e-7 s.
     let near = State { omega: start.omega + Vector3::z() * 1e-5, ..start };
-    let truth = Body::held(&scene.data()).after(duration, &near.pose(), &near.twist());
+    let truth = Body::held(&MassData::from(&scene)).after(duration, &near.pose(), &near.twist());
     let r = near.rotation;
     let angles = [r[(0, 2)].atan2(-r[(1, 2)]), r[(2, 2)].acos(), r[(2, 0)].atan2(r[(2, 1)])];
     let w = near.omega;
     let y = SVector::from([angles[0], angles[1], angles[2], w.x, w.y, w.z]);
     let h = if effort == Effort::Quick { 1e-3 } else { 1e-4 };
     let steps = (duration / h).round() as u64;
-    let y = naive::runge_kutta(naive::top_by_angles(&scene.data()), y, h, steps, |_| ());
+    let y = naive::runge_kutta(naive::top_by_angles(&MassData::from(&scene)), y, h, steps, |_| ());
     let error = (naive::matrix_of_angles(y[0], y[1], y[2]) - truth.rotation).amax();
     let words = format!("Euler angles by hand, RK4, h = {h:e}");
 
@@ -278,7 +278,7 @@ pub fn fast_top(_: Effort) -> Measures {
         let scene = Scene::top(name)?;
         let kernel = scene.heavy_top().kernel()?;
         let (start, last, duration) = (scene.initial, scene.last, scene.duration);
-        let typed = naive::run_top(&scene.data(), &start, duration, step).distance(&last);
+        let typed = naive::run_top(&MassData::from(&scene), &start, duration, step).distance(&last);
         let typed_words = format!("RK4 on a quaternion, h = {step}");
         for (method, found) in [
             ("order 8, velocities", end(&kernel, VelocityForm, order_8(step), &start, duration)),
@@ -310,7 +310,7 @@ pub fn fast_top(_: Effort) -> Measures {
 pub fn chaos(effort: Effort) -> Measures {
     let scene = Scene::top("heavy_asym_top")?;
     let kernel = scene.heavy_top().kernel()?;
-    let (start, data) = (scene.initial, scene.data());
+    let (start, data) = (scene.initial, MassData::from(&scene));
     let body = Body::held(&data);
     let (pose, twist) = (start.pose(), start.twist());
     let (tolerance, count) = if effort == Effort::Quick { (1e-13, 60) } else { (1e-3, 150) };

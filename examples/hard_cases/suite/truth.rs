@@ -13,7 +13,7 @@
 use gauss_runtime::prelude::*;
 use gauss_tests::double_double::DoubleDouble;
 
-use super::scenes::State;
+use super::scenes::{Scene, State};
 
 type Triple = [DoubleDouble; 3];
 type Six = [DoubleDouble; 6];
@@ -43,6 +43,13 @@ pub struct MassData {
     pub added: Matrix6<f64>,
     /// Along −k₃.
     pub gravity: f64,
+}
+
+impl From<&Scene> for MassData {
+    fn from(scene: &Scene) -> Self {
+        let Scene { mass, center, inertia, added_mass, gravity, .. } = *scene;
+        Self { mass, center, inertia, added: added_mass, gravity }
+    }
 }
 
 fn triple(v: &Vector3<f64>) -> Triple {

@@ -4,77 +4,55 @@
 use std::error::Error;
 use std::rc::Rc;
 
+use super::about::{About, Kind};
 use super::entry::Entry;
-use super::scene::{Scene, Target};
+use super::scene::{Scene, Target, read};
 use super::{bodies, systems};
-
-/// What kind of motion it is: the targets differ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// A body that turns about a point without or with weight.
-    Top,
-    /// A free body in an ideal fluid, without or with weight.
-    Fluid,
-    /// Everything else.
-    Other,
-}
-
-impl Kind {
-    /// How many times as fast as the best baseline the best method is to be.
-    pub fn target(self) -> f64 {
-        if self == Self::Other { 3.0 } else { 5.0 }
-    }
-}
 
 /// Adds the methods of a scene.
 type Fill = fn(&mut Vec<Entry>, &Scene, &Rc<Target>) -> Result<(), Box<dyn Error>>;
 
-/// What is told of a scene beside its data.
-pub struct About {
-    /// Short, as on the command line and in the data.
-    pub name: &'static str,
-    /// For people.
-    pub title: &'static str,
-    /// What kind of motion.
-    pub kind: Kind,
-    /// The fastest rate, rad/s: the longest step is about one radian of it.
-    pub rate: f64,
-    /// What of the final state is compared, where the data have it.
+/// All scenes, in the order of the report.
+///
+/// # Errors
+/// When the data are not what they should be.
+pub fn scenes() -> Result<Vec<Scene>, Box<dyn Error>> {
+    read(SCENES.iter().map(|(about, _)| about))
+}
+
+/// All methods on a scene.
+///
+/// # Errors
+/// When its data are not what they should be.
+pub fn entries(scene: &Scene) -> Result<Vec<Entry>, Box<dyn Error>> {
+    let mut entries = Vec::new();
+    let named = SCENES.iter().filter(|(about, _)| about.name == scene.about.name);
+    for (about, fill) in named {
+        fill(&mut entries, scene, &Rc::new(Target::of(scene, about.seen)))?;
+    }
+    Ok(entries)
+}
+
+const fn top(name: &'static str, title: &'static str, rate: f64, fill: Fill) -> (About, Fill) {
+    (About { name, title, kind: Kind::Top, rate, seen: &["R"] }, fill)
+}
+
+const fn fluid(name: &'static str, title: &'static str, rate: f64, fill: Fill) -> (About, Fill) {
+    (About { name, title, kind: Kind::Fluid, rate, seen: &["R", "b"] }, fill)
+}
+
+const fn other(
+    name: &'static str,
+    title: &'static str,
+    rate: f64,
     seen: &'static [&'static str],
     fill: Fill,
-}
-
-impl About {
-    /// Whether the energy is constant.
-    pub fn conservative(&self) -> bool {
-        self.name != "drag_body"
-    }
-
-    /// All methods on a scene.
-    ///
-    /// # Errors
-    /// When its data are not what they should be.
-    pub fn entries(&self, scene: &Scene) -> Result<Vec<Entry>, Box<dyn Error>> {
-        let mut entries = Vec::new();
-        (self.fill)(&mut entries, scene, &Rc::new(Target::of(scene, self.seen)))?;
-        Ok(entries)
-    }
-}
-
-const fn top(name: &'static str, title: &'static str, rate: f64, fill: Fill) -> About {
-    About { name, title, kind: Kind::Top, rate, seen: &["R"], fill }
-}
-
-const fn fluid(name: &'static str, title: &'static str, rate: f64, fill: Fill) -> About {
-    About { name, title, kind: Kind::Fluid, rate, seen: &["R", "b"], fill }
-}
-
-const fn other(name: &'static str, title: &'static str, rate: f64, seen: &'static [&'static str], fill: Fill) -> About {
-    About { name, title, kind: Kind::Other, rate, seen, fill }
+) -> (About, Fill) {
+    (About { name, title, kind: Kind::Other, rate, seen }, fill)
 }
 
 /// The scenes.
-pub static SCENES: [About; 20] = [
+static SCENES: [(About, Fill); 20] = [
     top("hlw_free_body", "Free body", 1.3, bodies::free_top),
     top("free_asym_top", "Free asymmetric top", 2.0, bodies::free_top),
     top("free_near_separatrix", "Free body near its separatrix", 1.0, bodies::free_top),

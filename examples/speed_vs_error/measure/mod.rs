@@ -2,7 +2,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`catalogue`] | all scenes: one entry each |
+//! | [`catalogue`] | all scenes: one entry each, what is told [`about`] it and its methods |
 //! | [`scene`] | data of a scene, and the error against its end |
 //! | [`bodies`], [`systems`] | the scenes as structs for the derive, in every chart |
 //! | [`methods`] | the methods of Gauss: one line each |
@@ -13,6 +13,7 @@
 //! | [`study`] | errors, times, energies |
 //! | [`comparison`] | fronts, and who is faster at which error |
 
+pub mod about;
 pub mod baselines;
 pub mod bodies;
 pub mod by_hand;

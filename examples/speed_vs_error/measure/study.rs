@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use gauss_charts::statistics::quartiles;
 
+use super::catalogue::entries;
 use super::entry::{Ask, Entry, Setting, Side};
 use super::scene::Scene;
 
@@ -104,7 +105,7 @@ pub struct Study {
 /// # Errors
 /// When its data are not what they should be.
 pub fn study(scene: &Scene, effort: &Effort, progress: &mut dyn FnMut(f64)) -> Result<Study, Box<dyn Error>> {
-    let entries = scene.about.entries(scene)?;
+    let entries = entries(scene)?;
     let (mut points, mut refused) = (Vec::new(), 0);
     for (number, entry) in entries.iter().enumerate() {
         let (found, without) = ladder(number, entry, scene, effort);

@@ -1,6 +1,6 @@
 //! One page of HTML with everything in it: no script, no file beside it.
 
-use crate::measure::catalogue::Kind;
+use crate::measure::about::Kind;
 use crate::measure::comparison::{Fastest, LEVELS, Total, Verdict};
 use crate::measure::entry::{Entry, Setting, Side};
 use crate::measure::scene::{Figure, Published};

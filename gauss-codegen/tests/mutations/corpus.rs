@@ -2,6 +2,7 @@
 //! expressions.
 
 #[allow(dead_code)]
+#[allow(dead_code, reason = "names of scenes are for tables")]
 #[path = "../operations/sources.rs"]
 mod sources;
 

@@ -17,7 +17,6 @@ mod mutate;
 #[allow(dead_code, reason = "the choices of samples are not made here")]
 #[path = "../../src/accuracy/random.rs"]
 mod random;
-mod scenes;
 mod watch;
 
 use std::sync::Mutex;

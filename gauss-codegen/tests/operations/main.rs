@@ -21,7 +21,7 @@ use std::thread;
 use counts::Row;
 use gauss_codegen::mathml;
 use proc_macro2::{TokenStream, TokenTree};
-use scenes::Scene;
+use sources::Scene;
 use table::Table;
 
 /// Expands every scene, on all threads: what it costs, and its equations in LaTeX; or says which ones are refused.

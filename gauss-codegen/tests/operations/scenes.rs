@@ -3,13 +3,7 @@
 #[path = "../../examples/structures/mod.rs"]
 mod structures;
 
-use crate::sources;
-
-/// A struct and its attribute, as the derive reads them.
-pub struct Scene {
-    pub name: String,
-    pub source: String,
-}
+use crate::sources::{self, Scene};
 
 pub fn all() -> Vec<Scene> {
     [bodies(), loads(), one_link(), chains(), written_out(), in_macros()].into_iter().flatten().collect()

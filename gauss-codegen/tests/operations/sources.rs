@@ -7,7 +7,11 @@ use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{Item, ItemStruct};
 
-use crate::scenes::Scene;
+/// A struct and its attribute, as the derive reads them.
+pub struct Scene {
+    pub name: String,
+    pub source: String,
+}
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")

@@ -103,10 +103,12 @@ pub fn leaves(tree: &UseTree, before: &[String], found: &mut Vec<(Vec<String>, S
 }
 
 impl Modules {
-    /// All modules of the crate in this folder but those of tests.
-    pub fn of(source: &Path) -> Self {
+    /// All modules of the crate with this root (`lib.rs`, `main.rs`), but those of tests.
+    pub fn of(root: &Path) -> Self {
         let mut modules = Self(BTreeMap::new());
-        modules.read(source, Path::new("lib.rs"), &[]);
+        let parts = root.parent().zip(root.file_name());
+        let (folder, name) = parts.unwrap_or_else(|| panic!("{} is no file", root.display()));
+        modules.read(folder, Path::new(name), &[]);
         modules
     }
 
@@ -115,7 +117,7 @@ impl Modules {
         let text = fs::read_to_string(source.join(file)).unwrap_or_else(|error| panic!("{name}: {error}"));
         let parsed = syn::parse_file(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
         // Where its modules are.
-        let own = ["lib.rs", "mod.rs"].iter().any(|own| file.ends_with(own));
+        let own = ["lib.rs", "main.rs", "mod.rs"].iter().any(|own| file.ends_with(own));
         let folder = if own { file.with_file_name("") } else { file.with_extension("") };
         self.add(source, &name, path, &folder, parsed.items);
     }

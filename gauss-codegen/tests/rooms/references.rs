@@ -26,6 +26,36 @@ pub fn imports(modules: &Modules) -> Imports {
     imports
 }
 
+/// For each folder, what its parts take from each other: files, and folders with all that is in them. The file of a folder's own
+/// module puts its parts together, so that it is none of them.
+pub fn between_parts(imports: &Imports) -> Vec<Imports> {
+    let mut folders = BTreeSet::from([""]);
+    for (file, _) in imports.keys() {
+        folders.extend(file.match_indices('/').map(|(end, _)| &file[..=end]));
+    }
+    let within = |folder: &str| {
+        let mut found = Imports::new();
+        for ((from, to), names) in imports {
+            if let (Some(from), Some(to)) = (part(folder, from), part(folder, to))
+                && from != to
+            {
+                found.entry((from.to_owned(), to.to_owned())).or_default().extend(names.iter().cloned());
+            }
+        }
+        found
+    };
+    folders.into_iter().map(within).collect()
+}
+
+/// The part of a folder that a file belongs to.
+fn part<'a>(folder: &str, file: &'a str) -> Option<&'a str> {
+    let inside = file.strip_prefix(folder)?;
+    match inside.split_once('/') {
+        Some((inner, _)) => Some(&file[..folder.len() + inner.len()]),
+        None => (!["lib.rs", "mod.rs"].contains(&inside)).then_some(file),
+    }
+}
+
 /// Every path that a module names, in declarations and in code.
 pub fn paths(module: &Module) -> Vec<Vec<String>> {
     let mut paths: Vec<Vec<String>> = module.imports().into_iter().map(|import| import.path).collect();

@@ -4,13 +4,12 @@
 //! coordinates of the rotation group, converted in [`rotation`]; [`convert`] carries a state (q, z) from one generated
 //! kernel to another through what does not depend on the chart: the pose of the body and its twist.
 
-mod conversion;
 mod error;
 pub mod rotation;
 
 use core::fmt;
 
-pub use conversion::{convert, convert_at};
+pub use crate::conversion::{convert, convert_at};
 pub use error::{ChartError, MotionRule};
 
 /// The kind of quasi-velocities z (or coordinate velocities) of a system.
@@ -131,6 +130,3 @@ impl fmt::Display for EulerSequence {
 
 #[cfg(test)]
 mod tests;
-
-#[cfg(test)]
-mod conversion_tests;

@@ -7,9 +7,7 @@
 //! moves it by no more than about the step's own error and leaves exact solutions where they are: the order of the method stays
 //! (Hairer, Lubich & Wanner, *Geometric Numerical Integration*, IV.4; Ascher, Chin, Petzold & Reich 1995).
 
-mod error;
-
-pub use error::{ConstraintLevel, ProjectionError, ProjectionFailure};
+pub use crate::projection_error::{ConstraintLevel, ProjectionError, ProjectionFailure};
 
 use core::marker::PhantomData;
 

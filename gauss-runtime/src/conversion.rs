@@ -2,8 +2,8 @@
 
 use nalgebra::Isometry3;
 
-use super::rotation::coordinates_of_rotation;
-use super::{Chart, ChartError, MotionRule, RotationChart};
+use crate::chart::rotation::coordinates_of_rotation;
+use crate::chart::{Chart, ChartError, MotionRule, RotationChart};
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
 use crate::system::RigidBodySystem;

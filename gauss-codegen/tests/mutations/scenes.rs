@@ -1,7 +1,0 @@
-//! What is gathered from the sources.
-
-pub struct Scene {
-    #[allow(dead_code)]
-    pub name: String,
-    pub source: String,
-}
