@@ -22,4 +22,4 @@ mod trial;
 pub use figure::Figure;
 pub use seek::{Found, Sought};
 pub use states::{Names, Samples, States};
-pub use trial::{Deciding, Loss, Trial, Tried, taken, usable};
+pub use trial::{Deciding, Loss, Trial, Tried};

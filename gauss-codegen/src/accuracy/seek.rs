@@ -1,6 +1,8 @@
 //! A search for the states at which programs lose most: from sample states on, by moves that make digits cancel. It is
 //! the same in every run, and bounded in the number of states.
 
+use std::ops::Range;
+
 use crate::algebra::{Doubled, Expr, Map, Number, Scalar};
 use crate::mechanics::Matter;
 use crate::program::Code;
@@ -76,15 +78,14 @@ impl<'s, 'g> Samples<'s, '_, 'g> {
     pub fn seek(&self, sought: &Sought<'_, 'g>, forms: &dyn Fn(usize) -> Vec<Vec<Expr<'g>>>) -> (Found, Vec<Deciding>) {
         let mut search = Search::new(self, sought);
         let mut trace = search.flat.room(0);
-        let (drafts, mut best) = search.searched(self, &mut trace);
+        let (mut drafts, mut best) = search.searched(self, &mut trace);
         // Of many results at many states one is hardly changed by chance, and said to lose much: changed in other ways
         // as well, it is not.
         let mut again = search.flat.room(1);
         let sampled = drafts.iter().filter(|draft| draft.moves.is_empty()).count();
-        let at = |state: usize| drafts.get(state).map_or(Vec::new(), |draft| search.moves.described(&draft.moves));
         let mut ordinary: Vec<Vec<f64>> = vec![Vec::new(); search.outputs.len()];
         let mut besides: Vec<Vec<Best>> = vec![Vec::new(); search.besides.len()];
-        for state in search.states_for_others(drafts.len(), sampled, &best) {
+        for state in search.states_for_others(&mut drafts, sampled, &best) {
             search.try_all_at(&drafts[state], &mut trace);
             let lists = || search.outputs.iter().chain(&search.besides);
             let mut losses: Vec<Option<f64>> = lists().map(|outputs| search.loss(&trace, outputs)).collect();
@@ -109,6 +110,7 @@ impl<'s, 'g> Samples<'s, '_, 'g> {
                 losses.extend(loss.map(|loss| Best { loss: loss.min(NO_DIGIT), state }));
             }
         }
+        let at = |state: usize| drafts.get(state).map_or(Vec::new(), |draft| search.moves.described(&draft.moves));
         let functions = best.iter().zip(ordinary).zip(&sought.measured).map(|((best, ordinary), measured)| {
             match (ordinary.is_empty(), measured.0.is_empty()) {
                 (_, true) => None,
@@ -230,12 +232,31 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
     }
 
     /// Sample states and the worst ones of functions; of the others that were found, which are worse than those before
-    /// them, the latest, as many as are worth their time.
-    fn states_for_others(&self, drafts: usize, sampled: usize, best: &[Best]) -> Vec<usize> {
-        let latest = (STEPS / self.ends[2].max(1)).min(LEAST);
+    /// them, the latest, as many as are worth their time; those where several numbers change.
+    fn states_for_others<'n>(&self, drafts: &mut Vec<Draft<'n>>, sampled: usize, best: &[Best]) -> Vec<usize> {
+        let (end, latest) = (drafts.len(), self.latest());
         let is_worth =
-            |state: usize| state < sampled || state + latest >= drafts || best.iter().any(|best| best.state == state);
-        (0..drafts).filter(|&state| is_worth(state)).collect()
+            |state: usize| state < sampled || state + latest >= end || best.iter().any(|best| best.state == state);
+        (0..end).filter(|&state| is_worth(state)).chain(self.states_of_many(drafts)).collect()
+    }
+
+    /// States where several numbers of a sample state change at once, which are added to the others: derivatives may lose
+    /// digits there that functions keep.
+    fn states_of_many<'n>(&self, drafts: &mut Vec<Draft<'n>>) -> Range<usize> {
+        let end = drafts.len();
+        let Some(sample) = drafts.first().filter(|_| self.besides.len() > 1).cloned() else { return end..end };
+        let changed = self.moves.of_many().take(self.latest() / OF_MANY).map(|change| {
+            let mut draft = sample.clone();
+            self.moves.apply(change, &mut draft);
+            draft
+        });
+        drafts.extend(changed.filter(|draft| self.states.is_physical(draft)));
+        end..drafts.len()
+    }
+
+    /// How many of the states that were found are worth their time for what is written besides.
+    fn latest(&self) -> usize {
+        (STEPS / self.ends[2].max(1)).min(LEAST)
     }
 
     /// Runs all functions at a state.

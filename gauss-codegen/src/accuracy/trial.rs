@@ -7,7 +7,7 @@ use crate::program::Code;
 use super::random::Random;
 use super::tape::Tape;
 
-/// A state where a function loses much that another form of it keeps.
+/// A state where a function loses much that another form of it keeps. Derivatives are tried there as well.
 pub struct Deciding {
     pub function: usize,
     pub point: Point,
@@ -105,7 +105,8 @@ impl Loss {
 #[derive(Default)]
 pub struct Trial {
     points: Vec<Point>,
-    /// The only functions that are tried at the last of them, one each, and which of the functions is tried.
+    /// The only functions that are tried at the last of them, one each, and which of the functions is tried; `None` of
+    /// derivatives, which are tried at all of them.
     deciding: Vec<usize>,
     function: Option<usize>,
     /// How many constants have their values.
@@ -124,7 +125,7 @@ impl Trial {
         self
     }
 
-    /// From here on programs of that function are tried, or of none of them.
+    /// From here on programs of that function are tried, or those of derivatives.
     pub fn begin(&mut self, function: Option<usize>) {
         self.function = function;
     }
@@ -153,11 +154,6 @@ impl Trial {
         }
     }
 
-    /// The losses of programs that should compute the same.
-    pub fn losses(&self, programs: &[&Code<Expr<'_>>]) -> Vec<Loss> {
-        self.tried(programs).losses
-    }
-
     /// Compares programs that should compute the same functions with a reference: the best of these programs, run in
     /// 106 binary digits. The reference has 53 digits more than the programs, so it may lose nearly 53 before its error
     /// counts; where it loses more, another program becomes the reference.
@@ -180,7 +176,8 @@ impl Trial {
         let mut tried = Tried { losses: vec![Loss::default(); tapes.len()], there: Vec::new(), samples: 0 };
         let samples = self.points.len() - self.deciding.len();
         for (k, point) in self.points.iter().enumerate() {
-            if k >= samples && self.function != Some(self.deciding[k - samples]) {
+            let is_of_another = |function| k >= samples && function != self.deciding[k - samples];
+            if self.function.is_some_and(is_of_another) {
                 continue;
             }
             let found: Vec<Vec<f64>> = tapes.iter().map(|tape| tape.run(&point.given, |_| None)).collect();
@@ -210,11 +207,31 @@ pub struct Tried {
 }
 
 impl Tried {
+    /// Which programs may be taken by the sample states, and which by all.
+    pub fn usable(&self) -> [Vec<bool>; 2] {
+        [usable(&self.sampled()), usable(&self.losses)]
+    }
+
+    /// Without the programs that are not among those.
+    pub fn only(mut self, those: &[bool]) -> Self {
+        let mut those = those.iter();
+        self.losses.retain(|_| those.next().is_some_and(|&is| is));
+        self
+    }
+
+    /// Of programs with their costs the one that is taken by sample states alone.
+    pub fn taken_by_samples(&self, costs: &[u32]) -> usize {
+        taken(&self.sampled(), costs)
+    }
+
+    fn sampled(&self) -> Vec<Loss> {
+        self.losses.iter().map(|loss| Loss(loss.0[..self.samples].to_vec())).collect()
+    }
+
     /// Of programs with their costs the one that is taken: by all states, unless that costs more than [`DEAR`] times
     /// what is taken by the sample states.
     pub fn taken(&self, costs: &[u32]) -> usize {
-        let samples: Vec<Loss> = self.losses.iter().map(|loss| Loss(loss.0[..self.samples].to_vec())).collect();
-        let ordinary = taken(&samples, costs);
+        let ordinary = self.taken_by_samples(costs);
         if self.samples == self.there.len() {
             return ordinary;
         }
@@ -251,7 +268,7 @@ const DEAR: u32 = 2;
 
 /// Of programs with their costs the one that is taken: the cheapest that keeps the digits; or, where that is dear, the
 /// cheapest whose loss is tolerable.
-pub fn taken(losses: &[Loss], costs: &[u32]) -> usize {
+fn taken(losses: &[Loss], costs: &[u32]) -> usize {
     let cheapest = |flags: Vec<bool>| {
         let allowed = costs.iter().zip(flags).enumerate().filter(|(_, (_, allowed))| *allowed);
         allowed.map(|(k, (cost, _))| (k, *cost)).min_by_key(|(_, cost)| *cost)
@@ -264,7 +281,7 @@ pub fn taken(losses: &[Loss], costs: &[u32]) -> usize {
 }
 
 /// Which programs may be taken.
-pub fn usable(losses: &[Loss]) -> Vec<bool> {
+fn usable(losses: &[Loss]) -> Vec<bool> {
     accurate(losses).into_iter().zip(losses).map(|(accurate, loss)| accurate || loss.is_tolerable()).collect()
 }
 

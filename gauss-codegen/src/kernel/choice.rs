@@ -1,6 +1,6 @@
 //! The arrangements of one function, and which of them is taken.
 
-use crate::accuracy::{Loss, Trial, Tried, usable};
+use crate::accuracy::{Loss, Trial, Tried};
 use crate::algebra::{Expr, without_differences};
 
 use super::hoist::Hoister;
@@ -72,7 +72,7 @@ impl<'g> Candidates<'g> {
     /// The arrangement that is taken.
     pub(super) fn taken(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Taken<'g> {
         let Pool { mut lowered, tried, best } = Pool::of(&self.arrangements, self.aim, hoister, Hoister::hoist, trial);
-        let first = Some(lowered[0].outputs.clone()).filter(|_| usable(&tried.losses)[0]);
+        let first = Some(lowered[0].outputs.clone()).filter(|_| tried.usable()[1][0]);
         let Lowered { outputs, program, .. } = lowered.swap_remove(best);
         let loss = tried.losses[best].clone();
         // A power series has a recurrence for every product, and takes a negation of an addend for an instruction like any other.

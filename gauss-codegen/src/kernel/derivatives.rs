@@ -1,6 +1,6 @@
 //! Derivatives of functions along what moves.
 
-use crate::accuracy::{Loss, Trial, taken, usable};
+use crate::accuracy::Trial;
 use crate::algebra::Expr;
 
 use super::choice::{Aim, Lowered as Arranged, Pool};
@@ -45,23 +45,37 @@ impl<'g> Differentiated<'g> {
         let differentiate = if kept == Kept::ValuesToo { with_tangents } else { tangents_alone };
         let Pool { lowered, tried, .. } =
             Pool::of(&self.arrangements, Aim::Values, hoister, Hoister::hoist_undefined, trial);
-        // What loses digits loses them in its derivatives, too.
-        let usable = usable(&tried.losses);
-        let of_usable = lowered.into_iter().zip(tried.losses).zip(usable).filter(|(_, usable)| *usable);
-        let of_usable = of_usable.map(|((Arranged { outputs, program, .. }, loss), _)| {
-            let program = differentiate(&program, (&self.defined, &definitions), &self.directions);
-            (program, loss, outputs)
+        // What loses digits at sample states loses them in its derivatives, too.
+        let [by_samples, by_all] = tried.usable();
+        let usable: Vec<bool> = by_samples.into_iter().zip(by_all).map(|(sampled, all)| sampled || all).collect();
+        let tried = tried.only(&usable);
+        let of_usable = lowered.into_iter().zip(usable).filter(|(_, usable)| *usable);
+        let of_usable = of_usable.map(|(Arranged { outputs, program, .. }, _)| {
+            (differentiate(&program, (&self.defined, &definitions), &self.directions), outputs)
         });
         let mut of_usable: Vec<_> = of_usable.collect();
-        let losses: Vec<Loss> = of_usable.iter().map(|(_, loss, _)| loss.clone()).collect();
-        let costs: Vec<u32> = of_usable.iter().map(|(program, ..)| program.cost().total()).collect();
-        let (program, _, outputs) = of_usable.swap_remove(taken(&losses, &costs));
+        let costs: Vec<u32> = of_usable.iter().map(|(program, _)| program.cost().total()).collect();
+        let [sampled, all] = [tried.taken_by_samples(&costs), tried.taken(&costs)];
+        // Where a state that was sought decides otherwise, derivatives may keep digits that their functions lose; of the
+        // functions themselves there are programs of their own.
+        let best = if sampled == all {
+            all
+        } else {
+            let values = if kept == Kept::ValuesToo { self.arrangements[0].len() } else { 0 };
+            let alone = |k: usize| {
+                let Program { instructions, outputs } = &of_usable[k].0;
+                Program { instructions: instructions.clone(), outputs: outputs[values..].to_vec() }
+            };
+            let tried = trial.tried(&[&alone(sampled), &alone(all)]);
+            [sampled, all][tried.taken(&[costs[sampled], costs[all]])]
+        };
+        let (program, outputs) = of_usable.swap_remove(best);
         let (program, columns) = self.cheaper(program, hoister, trial);
         ((program.carried_out(), columns), Expected::along(outputs, &self.directions, kept))
     }
 
-    /// A program of derivatives, or what has a form of its own and costs less. Of roots, whose slope may be infinite, only programs know what
-    /// their derivatives are where nothing changes.
+    /// A program of derivatives, or what has a form of its own and costs less. Of roots, whose slope may be infinite, only
+    /// programs know what their derivatives are where nothing changes.
     fn cheaper(&self, program: Program<'g>, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> WithColumns<'g> {
         let most = program.cost().total();
         if program.counts().roots > 0 {
@@ -77,9 +91,9 @@ impl<'g> Differentiated<'g> {
         }
         ways.push((program, None));
         trial.define(hoister.constants());
-        let losses = trial.losses(&ways.iter().map(|(program, _)| program).collect::<Vec<_>>());
+        let tried = trial.tried(&ways.iter().map(|(program, _)| program).collect::<Vec<_>>());
         let costs: Vec<u32> = ways.iter().map(|(program, _)| program.cost().total()).collect();
-        let (program, columns) = ways.swap_remove(taken(&losses, &costs));
+        let (program, columns) = ways.swap_remove(tried.taken(&costs));
         (program, columns.and_then(|columns| columns.lower(hoister)))
     }
 }

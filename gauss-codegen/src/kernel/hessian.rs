@@ -1,6 +1,6 @@
 //! Second derivatives of one number along many directions.
 
-use crate::accuracy::{Trial, taken, usable};
+use crate::accuracy::Trial;
 use crate::algebra::{Dual, Evaluation, Expr, Map, Number, Rational, Tangents};
 
 use super::adjoint::gradient;
@@ -40,16 +40,17 @@ impl<'g> Curved<'g> {
         let arrangements: Vec<Vec<Expr<'g>>> = self.arrangements.iter().map(|e| vec![*e]).collect();
         let Pool { lowered, tried, .. } =
             Pool::of(&arrangements, Aim::Values, hoister, Hoister::hoist_undefined, trial);
-        let of_usable = lowered.into_iter().zip(usable(&tried.losses)).filter(|(_, usable)| *usable);
-        let programs = of_usable.map(|(lowered, _)| lowered.program);
-        let program = programs.min_by_key(|program| program.cost().total()).expect("one of them keeps the digits best");
+        let cost = |k: &usize| lowered[*k].program.cost().total();
+        let cheapest = |usable: Vec<bool>| (0..usable.len()).filter(|&k| usable[k]).min_by_key(cost);
+        let mut cheapest = tried.usable().map(cheapest).to_vec();
+        cheapest.dedup();
         let mut ways: Vec<Program<'g>> =
             self.derived.iter().map(|e| Program::lower(&hoister.hoist(e)).with_signs_led_back()).collect();
-        ways.push(self.of_program(&program, &definitions));
+        ways.extend(cheapest.into_iter().flatten().map(|k| self.of_program(&lowered[k].program, &definitions)));
         trial.define(hoister.constants());
-        let losses = trial.losses(&ways.iter().collect::<Vec<_>>());
+        let tried = trial.tried(&ways.iter().collect::<Vec<_>>());
         let costs: Vec<u32> = ways.iter().map(|program| program.cost().total()).collect();
-        ways.swap_remove(taken(&losses, &costs)).carried_out()
+        ways.swap_remove(tried.taken(&costs)).carried_out()
     }
 
     /// The gradient by backward differentiation, and its tangents.

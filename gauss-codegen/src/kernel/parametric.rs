@@ -1,6 +1,6 @@
 //! Derivatives by parameters, through the constants that are made of them or in forms of their own.
 
-use crate::accuracy::{Trial, taken};
+use crate::accuracy::Trial;
 use crate::algebra::{Expr, Graph, Map};
 use crate::methods::Methods;
 
@@ -120,9 +120,9 @@ impl<'g> ByParameters<'g> {
         trial.define(hoister.constants());
         trial.compute(&way.hoisted.constants.symbols, &way.hoisted.constants.program);
         ways.push(way);
-        let losses = trial.losses(&ways.iter().map(|way| &way.program).collect::<Vec<_>>());
+        let tried = trial.tried(&ways.iter().map(|way| &way.program).collect::<Vec<_>>());
         let costs: Vec<u32> = ways.iter().map(Way::cost).collect();
-        ways.swap_remove(taken(&losses, &costs))
+        ways.swap_remove(tried.taken(&costs))
     }
 }
 

@@ -4,6 +4,7 @@
 //! `SCENES=2000 cargo test --release -p gauss-codegen accuracy` tries more of them than every run does; `FIRST=1000`
 //! others.
 
+mod derivatives;
 mod figures;
 mod formulas;
 mod hostile;
