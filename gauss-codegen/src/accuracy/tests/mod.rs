@@ -8,6 +8,7 @@ mod derivatives;
 mod figures;
 mod formulas;
 mod hostile;
+mod lost;
 mod relative;
 mod scenes;
 
@@ -28,11 +29,14 @@ const SCENES: u64 = 208;
 const CHANGES: u64 = 2;
 const CHANGE: f64 = 1.0 / (1_u64 << 44) as f64;
 
-/// What no scene may lose unless its kernel says so within a factor; what one in a hundred may, and what half of a kind may: the roundings of some ten operations
-/// that do not amplify each other, in units of one rounding of every number, are of the order of one.
+/// What scenes are counted by that lose more, and what no scene may lose unless its kernel says so.
 const MOST: f64 = 1e3;
-const WITHIN: f64 = 10.0;
 const SELDOM: f64 = 30.0;
+/// A loss is at most so many times what the kernel says, whose search tries some hundred states of all that there are: at
+/// two neighbouring states the roundings of one program amount to losses that differ by as much.
+const WITHIN: f64 = 10.0;
+/// What half of a kind may lose: the roundings of some ten operations that do not amplify each other, in units of one
+/// rounding of every number, are of the order of one.
 const ORDINARY: f64 = 2.0;
 /// Results below this share of the largest vanish identically; the largest is not below this.
 const VANISHING: f64 = 1.0 / (1_u64 << 60) as f64;
@@ -221,16 +225,14 @@ fn kernels_of_random_scenes_lose_what_their_conditioning_excuses() {
             above(own, MOST)
         );
     }
+    let all: Vec<f64> = losses.iter().map(|lost| lost.loss).collect();
+    println!("{} scenes, above 30: {}, above 1e3: {}", all.len(), above(&all, SELDOM), above(&all, MOST));
     losses.iter().take(8).for_each(|lost| println!("{:9.3e} said {:e}  {}", lost.loss, lost.said, lost.text));
-    for Lost { loss, said, text } in losses.iter().filter(|lost| lost.loss > MOST) {
+    // Three digits are the rule; a kernel that is right about them is right about fewer.
+    for Lost { loss, said, text } in losses.iter().filter(|lost| lost.loss > SELDOM) {
         assert!(*loss <= WITHIN * said, "{text} loses {loss:e}, and its kernel says {said:e}");
     }
     for (kind, own) in &kinds {
         assert!(own[own.len() / 2] <= ORDINARY, "{kind}: half of the scenes lose {}", own[own.len() / 2]);
     }
-    let all: Vec<f64> = losses.iter().map(|lost| lost.loss).collect();
-    // Twice the square root by which such a count differs from one list of scenes to the next.
-    let expected = all.len() as f64 / 100.0;
-    let many = above(&all, SELDOM) as f64 > expected + 2.0 * expected.sqrt();
-    assert!(!many, "{} of {} scenes lose more than 30 units", above(&all, SELDOM), all.len());
 }
