@@ -5,8 +5,8 @@ use quote::quote;
 
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::Program;
-use crate::model::{Role, Shape};
-use crate::translate::{Law, LawKind};
+use crate::model::{LawKind, Role, Shape};
+use crate::translate::Law;
 use crate::words::Unraw;
 
 use super::derived::Derived;

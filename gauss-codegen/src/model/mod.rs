@@ -32,10 +32,12 @@ pub use parse::{item, parse, struct_in};
 pub use robots::exact;
 pub use scene::charts::{Chart, InChart, Motion, RotationChart};
 pub use scene::clauses::{
-    BodyClause, Coefficients, ConstraintKind, Coordinate, CoordinateKind, Extent, ForceAxes, ForceClause, ForceKind,
-    FunctionClause, FunctionKind, InputKind, InputName, RoleClause, RoleValue, SpeedKind, SpeedPart,
+    BodyClause, Coefficients, ConstraintKind, Coordinate, CoordinateKind, FunctionClause, FunctionKind, InputKind,
+    InputName, RoleClause, RoleValue, SpeedKind, SpeedPart,
 };
 pub use scene::described::{BodyOfFile, Described, Remark, StateOfFile, ValueOfState};
+pub use scene::elements::{ElementKind, LawKind, Takes, argument};
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
+pub use scene::forces::{ForceAxes, ForceClause};
 pub use scene::model::{Field, GenericsOfImpl, Model, Scalar, Wanted, WantedMethod};
 pub use scene::roles::{Role, Shape};

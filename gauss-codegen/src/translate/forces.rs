@@ -8,14 +8,18 @@ use proc_macro2::{Ident, Span};
 use crate::algebra::Expr;
 use crate::error::Result;
 use crate::mechanics::{Action, Axes, CentralField, Element, Force, Matter, Rotor, Tree, common, entrained};
+use crate::model::argument::{
+    ALONG, AT, CENTER, DAMPING, DRY, FORCE, FROM, LEAST, LENGTH, LINEAR, MOST, MU, QUADRATIC, STIFFNESS, TO, TORQUE,
+    VALUE, VISCOUS, WIDTH,
+};
 use crate::model::{
-    BinaryOperator, Coefficients, CoordinateKind, Expression, ExpressionKind, Extent, ForceAxes, ForceClause,
-    ForceKind, Property,
+    BinaryOperator, Coefficients, CoordinateKind, ElementKind, Expression, ExpressionKind, ForceAxes, ForceClause,
+    LawKind, Property, Takes,
 };
 use crate::words::Unraw;
 
 use super::drag::DragMatrix;
-use super::laws::{Law, LawKind};
+use super::laws::Law;
 use super::translator::{Translator, bug};
 use super::value::Value;
 
@@ -25,6 +29,10 @@ type Triple<'g> = [Expr<'g>; 3];
 struct Names(HashSet<String>);
 
 impl Names {
+    fn of_clause(&mut self, clause: &ForceClause) -> String {
+        self.of(clause.name.as_ref(), &clause.row.word.replace('_', " "))
+    }
+
     fn of(&mut self, given: Option<&Ident>, noun: &str) -> String {
         if let Some(name) = given {
             return name.unraw().to_string();
@@ -50,13 +58,14 @@ impl<'g> Translator<'_, 'g> {
             elements.push((potential.span, Element::new(name, Action::Potential(self.scalar(potential, tree)?))));
         }
         for clause in &model.attractions {
-            let mu = self.scalar(&clause.mu, tree)?;
-            let center = clause.center.as_ref().map(|e| self.vector(e, tree)).transpose()?;
-            let name = names.of(clause.name.as_ref(), "central gravity");
-            self.note(LawKind::Attraction, (&name, "mu"), &clause.mu, vec![mu]);
-            let field = CentralField { mu, center: center.unwrap_or([self.graph.zero(); 3]) };
-            if !self.is_infinite(&field, clause.mu.span, tree) {
-                elements.push((clause.mu.span, Element::new(name, field.action(tree))));
+            let span = needed(clause, MU)?.span;
+            let name = names.of_clause(clause);
+            let field = CentralField {
+                mu: self.constant(&name, clause, MU, tree)?,
+                center: self.vector_or_zero(clause, CENTER, tree)?,
+            };
+            if !self.is_infinite(&field, span, tree) {
+                elements.push((span, Element::new(name, field.action(tree))));
             }
         }
         let entrained = self.medium(tree)?;
@@ -65,7 +74,7 @@ impl<'g> Translator<'_, 'g> {
             elements.push((span, Element::new(names.of(None, "medium"), Action::Forces(entrained))));
         }
         for clause in &model.forces {
-            let name = names.of(clause.name.as_ref(), noun(clause));
+            let name = names.of_clause(clause);
             let Some(actions) = self.graph.defined(|| self.actions(clause, &name, tree)) else {
                 self.divides_by_zero(clause.span, &name);
                 continue;
@@ -77,57 +86,57 @@ impl<'g> Translator<'_, 'g> {
 
     /// How a clause acts: a spring with a damper is one element that acts in two ways.
     fn actions(&self, clause: &ForceClause, name: &str, tree: &Tree<'g>) -> Result<Vec<Action<'g>>> {
-        let none = [self.graph.zero(); 3];
-        let vector = |e: &Option<Expression>| e.as_ref().map_or(Ok(none), |e| self.vector(e, tree));
-        let forces = match &clause.kind {
-            ForceKind::AtPoint { at, value } => {
-                vec![self.force_at(at, value, tree)?]
-            }
-            ForceKind::OnBody { body, at, value, axes } => {
-                let link = self.link(body)?;
-                let (axes, [force, torque]) = self.parts(link, [Some(value), None], *axes, tree)?;
-                vec![Force::OnLink { link, at: vector(at)?, force, torque, axes }]
-            }
-            ForceKind::Wrench { body, at, force, torque, axes } => {
-                let link = self.link(body)?;
-                let (axes, [force, torque]) = self.parts(link, [force.as_ref(), torque.as_ref()], *axes, tree)?;
-                vec![Force::OnLink { link, at: vector(at)?, force, torque, axes }]
-            }
-            ForceKind::Torque { body, value, axes, reaction } => {
-                let link = self.link(body)?;
-                let (axes, [force, torque]) = self.parts(link, [None, Some(value)], *axes, tree)?;
-                match reaction {
-                    Some(other) => self.with_reaction([link, self.link(other)?], torque, axes, tree),
-                    None => vec![Force::OnLink { link, at: none, force, torque, axes }],
-                }
-            }
-            ForceKind::Drive { rates } => {
-                let drive = |(coordinate, force): &(Ident, Expression)| -> Result<Force<'g>> {
+        let forces = match clause.row.kind {
+            ElementKind::Force => match clause.body() {
+                Some(body) => vec![self.on_body(clause, body, [Some(VALUE), None], tree)?],
+                None => vec![self.force_at(needed(clause, AT)?, needed(clause, VALUE)?, tree)?],
+            },
+            ElementKind::Wrench => vec![self.on_body(clause, on(clause)?, [Some(FORCE), Some(TORQUE)], tree)?],
+            ElementKind::Torque => self.torque(clause, tree)?,
+            ElementKind::Drive => {
+                let drive = |(coordinate, force): (&Ident, &Expression)| -> Result<Force<'g>> {
                     let rate = self.rate_of_coordinate(coordinate)?;
                     Ok(Force::OnRate { rate, force: self.scalar(force, tree)? })
                 };
-                rates.iter().map(drive).collect::<Result<_>>()?
+                clause.rates().map(drive).collect::<Result<_>>()?
             }
-            ForceKind::Drag { body, linear, quadratic } => {
-                vec![self.drag(name, body, [linear.as_ref(), quadratic.as_ref()], tree)?]
-            }
-            ForceKind::Dissipation(function) => {
+            ElementKind::Drag => vec![self.drag(name, clause, tree)?],
+            ElementKind::Dissipation => {
+                let function = needed(clause, VALUE)?;
                 let value = self.scalar(function, tree)?;
                 self.note(LawKind::Dissipation, (name, ""), function, vec![value]);
                 vec![Force::Dissipation(value)]
             }
-            ForceKind::Friction { extent, viscous, dry, width } => {
-                vec![self.friction(name, extent, [viscous.as_ref(), dry.as_ref(), width.as_ref()], tree)?]
-            }
-            ForceKind::Spring { extent, stiffness, length, damping } => {
-                return self.spring(name, extent, stiffness, [length.as_ref(), damping.as_ref()], tree);
-            }
-            ForceKind::Stop { extent, least, most, stiffness, width, damping } => {
-                let limits = [least.as_ref(), most.as_ref()];
-                return self.stop(name, extent, limits, [stiffness, width], damping.as_ref(), tree);
-            }
+            ElementKind::Friction => vec![self.friction(name, clause, tree)?],
+            ElementKind::Spring => return self.spring(name, clause, self.extent(clause, tree)?, tree),
+            ElementKind::Stop => return self.stop(name, clause, tree),
+            ElementKind::Attraction => return Err(bug(clause.span)),
         };
         Ok(vec![Action::Forces(forces)])
+    }
+
+    /// A force at a point of a body and a torque on it, by the words of their arguments.
+    fn on_body(
+        &self,
+        clause: &ForceClause,
+        body: &Ident,
+        words: [Option<&str>; 2],
+        tree: &Tree<'g>,
+    ) -> Result<Force<'g>> {
+        let link = self.link(body)?;
+        let written = words.map(|word| word.and_then(|word| clause.expression(word)));
+        let (axes, [force, torque]) = self.parts(link, written, clause.axes(), tree)?;
+        Ok(Force::OnLink { link, at: self.vector_or_zero(clause, AT, tree)?, force, torque, axes })
+    }
+
+    fn torque(&self, clause: &ForceClause, tree: &Tree<'g>) -> Result<Vec<Force<'g>>> {
+        let link = self.link(on(clause)?)?;
+        let value = needed(clause, VALUE)?;
+        let (axes, [force, torque]) = self.parts(link, [None, Some(value)], clause.axes(), tree)?;
+        Ok(match clause.other() {
+            Some((other, _)) => self.with_reaction([link, self.link(other)?], torque, axes, tree),
+            None => vec![Force::OnLink { link, at: [self.graph.zero(); 3], force, torque, axes }],
+        })
     }
 
     /// A force and a torque on a link with their axes: its own where links of its tree know them, whatever the axes in
@@ -203,54 +212,55 @@ impl<'g> Translator<'_, 'g> {
         self.notes.add().laws.push(Law { label, kind, values });
     }
 
-    /// A constant of the element `name`, of which note is taken.
-    fn constant(&self, kind: LawKind, of: (&str, &str), e: &Expression, tree: &Tree<'g>) -> Result<Expr<'g>> {
+    /// The constant `word` of the element `name`, of which note is taken as its row says.
+    fn constant(&self, name: &str, clause: &ForceClause, word: &str, tree: &Tree<'g>) -> Result<Expr<'g>> {
+        let e = needed(clause, word)?;
         let value = self.scalar(e, tree)?;
-        self.note(kind, of, e, vec![value]);
+        if let Some(Takes::Constant { law: Some(law), .. }) = clause.find(word).map(|given| given.argument.takes) {
+            self.note(law, (name, word), e, vec![value]);
+        }
         Ok(value)
     }
 
-    fn damping(&self, name: &str, e: Option<&Expression>, tree: &Tree<'g>) -> Result<Option<Expr<'g>>> {
-        e.map(|e| self.constant(LawKind::Damping, (name, "damping"), e, tree)).transpose()
+    /// The same of what may be left out.
+    fn optional(&self, name: &str, clause: &ForceClause, word: &str, tree: &Tree<'g>) -> Result<Option<Expr<'g>>> {
+        clause.find(word).map(|_| self.constant(name, clause, word, tree)).transpose()
     }
 
-    fn optional(&self, e: Option<&Expression>, tree: &Tree<'g>) -> Result<Option<Expr<'g>>> {
-        e.map(|e| self.scalar(e, tree)).transpose()
+    fn vector_or_zero(&self, clause: &ForceClause, word: &str, tree: &Tree<'g>) -> Result<Triple<'g>> {
+        clause.expression(word).map_or(Ok([self.graph.zero(); 3]), |e| self.vector(e, tree))
     }
 
     /// The length of what is extended, and its square where no root is needed for that.
-    fn extent(&self, extent: &Extent, tree: &Tree<'g>) -> Result<(Expr<'g>, Expr<'g>)> {
-        Ok(match extent {
-            Extent::Along(e) => {
-                let length = self.scalar(e, tree)?;
-                (length, length.powi(2))
-            }
-            Extent::Between { from, to } => {
-                let (start, end) = (self.value(from, tree)?, self.value(to, tree)?);
-                let arm = match self.binary(BinaryOperator::Subtract, end, start, tree) {
-                    Some(Value::Local(arm)) => arm.components,
-                    Some(Value::Vector(arm)) => arm,
-                    _ => return Err(bug(from.span)),
-                };
-                let square = arm.iter().map(|e| e.powi(2)).sum::<Expr<'g>>().group();
-                (square.sqrt(), square)
-            }
-        })
+    fn extent(&self, clause: &ForceClause, tree: &Tree<'g>) -> Result<[Expr<'g>; 2]> {
+        if let Some(along) = clause.expression(ALONG) {
+            let length = self.scalar(along, tree)?;
+            return Ok([length, length.powi(2)]);
+        }
+        let (from, to) = (needed(clause, FROM)?, needed(clause, TO)?);
+        let (start, end) = (self.value(from, tree)?, self.value(to, tree)?);
+        let arm = match self.binary(BinaryOperator::Subtract, end, start, tree) {
+            Some(Value::Local(arm)) => arm.components,
+            Some(Value::Vector(arm)) => arm,
+            _ => return Err(bug(from.span)),
+        };
+        let square = arm.iter().map(|e| e.powi(2)).sum::<Expr<'g>>().group();
+        Ok([square.sqrt(), square])
     }
 
+    /// Along a length of which the square is known, too.
     fn spring(
         &self,
         name: &str,
-        extent: &Extent,
-        stiffness: &Expression,
-        [rest, damping]: [Option<&Expression>; 2],
+        clause: &ForceClause,
+        [length, square]: [Expr<'g>; 2],
         tree: &Tree<'g>,
     ) -> Result<Vec<Action<'g>>> {
-        let (length, square) = self.extent(extent, tree)?;
-        let stretched = self.optional(rest, tree)?.map_or(square, |rest| (length - rest).powi(2));
-        let stiffness = self.constant(LawKind::Stiffness, (name, "stiffness"), stiffness, tree)?;
+        let rest = self.optional(name, clause, LENGTH, tree)?;
+        let stretched = rest.map_or(square, |rest| (length - rest).powi(2));
+        let stiffness = self.constant(name, clause, STIFFNESS, tree)?;
         let mut actions = vec![Action::Potential((stiffness * stretched).half())];
-        if let Some(damping) = self.damping(name, damping, tree)? {
+        if let Some(damping) = self.optional(name, clause, DAMPING, tree)? {
             let rate = length.derivative(&self.rates).group();
             let function = (damping * rate.powi(2)).half();
             actions.push(Action::Forces(vec![Force::Dissipation(function)]));
@@ -263,22 +273,14 @@ impl<'g> Translator<'_, 'g> {
     ///
     /// The force is k s² /√(x² + w²): ¼ k w at the limit, 0.03 k w a width before it, and k w⁴/16|x|³ far before. A force of no extent
     /// before the limit would have a kink or a power series that ends there.
-    fn stop(
-        &self,
-        name: &str,
-        extent: &Extent,
-        [least, most]: [Option<&Expression>; 2],
-        [stiffness, width]: [&Expression; 2],
-        damping: Option<&Expression>,
-        tree: &Tree<'g>,
-    ) -> Result<Vec<Action<'g>>> {
-        let (length, _) = self.extent(extent, tree)?;
-        let stiffness = self.constant(LawKind::Stiffness, (name, "stiffness"), stiffness, tree)?;
-        let width = self.constant(LawKind::Width, (name, "width"), width, tree)?;
-        let lower = least;
-        let (least, most) = (self.optional(least, tree)?, self.optional(most, tree)?);
-        if let (Some(lower), Some(least), Some(most)) = (lower, least, most) {
-            self.note(LawKind::Limits, (name, "least"), lower, vec![least, most]);
+    fn stop(&self, name: &str, clause: &ForceClause, tree: &Tree<'g>) -> Result<Vec<Action<'g>>> {
+        let [length, _] = self.extent(clause, tree)?;
+        let stiffness = self.constant(name, clause, STIFFNESS, tree)?;
+        let width = self.constant(name, clause, WIDTH, tree)?;
+        let least = self.optional(name, clause, LEAST, tree)?;
+        let most = self.optional(name, clause, MOST, tree)?;
+        if let (Some(lower), Some(least), Some(most)) = (clause.expression(LEAST), least, most) {
+            self.note(LawKind::Limits, (name, LEAST), lower, vec![least, most]);
         }
         let beyond = [least.map(|least| least - length), most.map(|most| length - most)];
         let pressed = beyond.into_iter().flatten().map(|x| {
@@ -292,7 +294,7 @@ impl<'g> Translator<'_, 'g> {
             (factor * squares).half()
         };
         let mut actions = vec![Action::Potential(half_squares(stiffness, &pressed))];
-        if let Some(damping) = self.damping(name, damping, tree)? {
+        if let Some(damping) = self.optional(name, clause, DAMPING, tree)? {
             let rates: Vec<Expr<'g>> = pressed.iter().map(|s| s.derivative(&self.rates).group()).collect();
             actions.push(Action::Forces(vec![Force::Dissipation(half_squares(damping, &rates))]));
         }
@@ -300,14 +302,9 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// `−D (u − c, ω)` and `−D |(u − c, ω)| (u − c, ω)`, component by component.
-    fn drag(
-        &self,
-        name: &str,
-        body: &Ident,
-        [linear, quadratic]: [Option<&Coefficients>; 2],
-        tree: &Tree<'g>,
-    ) -> Result<Force<'g>> {
-        let link = self.link(body)?;
+    fn drag(&self, name: &str, clause: &ForceClause, tree: &Tree<'g>) -> Result<Force<'g>> {
+        let link = self.link(on(clause)?)?;
+        let [linear, quadratic] = [LINEAR, QUADRATIC].map(|word| clause.coefficients(word));
         let twist = self.velocity_of(link, Property::RelativeVelocity, tree).into_iter();
         let twist: Vec<Expr<'g>> =
             twist.chain(self.velocity_of(link, Property::BodyAngularVelocity, tree)).map(Expr::group).collect();
@@ -390,7 +387,8 @@ impl<'g> Translator<'_, 'g> {
         let mut rotors = Vec::new();
         for (coordinate, inertia) in &self.model.armatures {
             let label = coordinate.unraw().to_string();
-            let inertia = self.constant(LawKind::NonNegative, ("armature", &label), inertia, tree)?;
+            let value = self.scalar(inertia, tree)?;
+            self.note(LawKind::NonNegative, ("armature", &label), inertia, vec![value]);
             let rates = match self.coordinate(coordinate)?.1 {
                 CoordinateKind::Scalar => vec![self.rate_of_coordinate(coordinate)?],
                 CoordinateKind::Rotation => self.turning(&label, coordinate)?.to_vec(),
@@ -400,7 +398,7 @@ impl<'g> Translator<'_, 'g> {
                     moving.into_iter().chain(self.turning(&label, coordinate)?).collect()
                 }
             };
-            rotors.extend(rates.into_iter().map(|rate| Rotor { rate, inertia }));
+            rotors.extend(rates.into_iter().map(|rate| Rotor { rate, inertia: value }));
         }
         Ok(rotors)
     }
@@ -411,21 +409,15 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// `−(d ẋ + f ẋ/√(ẋ² + w²))` along ẋ, of which the part with f is dry friction.
-    fn friction(
-        &self,
-        name: &str,
-        extent: &Extent,
-        [viscous, dry, width]: [Option<&Expression>; 3],
-        tree: &Tree<'g>,
-    ) -> Result<Force<'g>> {
-        let rate = self.extent(extent, tree)?.0.derivative(&self.rates).group();
+    fn friction(&self, name: &str, clause: &ForceClause, tree: &Tree<'g>) -> Result<Force<'g>> {
+        let rate = self.extent(clause, tree)?[0].derivative(&self.rates).group();
         let mut force = self.graph.zero();
-        if let Some(viscous) = viscous {
-            force = force - self.constant(LawKind::Damping, (name, "viscous"), viscous, tree)? * rate;
+        if let Some(viscous) = self.optional(name, clause, VISCOUS, tree)? {
+            force = force - viscous * rate;
         }
-        if let (Some(dry), Some(width)) = (dry, width) {
-            let dry = self.constant(LawKind::NonNegative, (name, "dry"), dry, tree)?;
-            let width = self.constant(LawKind::Width, (name, "width"), width, tree)?;
+        if clause.find(DRY).is_some() {
+            let dry = self.constant(name, clause, DRY, tree)?;
+            let width = self.constant(name, clause, WIDTH, tree)?;
             let length = (rate.powi(2) + width.powi(2)).group().sqrt();
             force = force - dry * rate * length.recip();
         }
@@ -444,10 +436,12 @@ impl<'g> Translator<'_, 'g> {
     }
 }
 
-/// What an element without a name is called: by its clause.
-fn noun(clause: &ForceClause) -> &'static str {
-    match clause.kind {
-        ForceKind::Dissipation(_) => "damping",
-        _ => clause.noun(),
-    }
+/// An argument that no clause of this kind lacks.
+fn needed<'c>(clause: &'c ForceClause, word: &str) -> Result<&'c Expression> {
+    clause.expression(word).ok_or_else(|| bug(clause.span))
+}
+
+/// The body that it acts on, which no clause of this kind lacks.
+fn on(clause: &ForceClause) -> Result<&Ident> {
+    clause.body().ok_or_else(|| bug(clause.span))
 }

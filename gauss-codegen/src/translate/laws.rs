@@ -1,6 +1,7 @@
 //! Constants of springs, stops and other elements, and masses of particles, for what `kernel()` checks and `warnings()` finds.
 
 use crate::algebra::Expr;
+use crate::model::LawKind;
 
 /// Constants of an element, and what they are.
 #[derive(Clone)]
@@ -10,25 +11,4 @@ pub struct Law<'g> {
     pub kind: LawKind,
     /// One; of limits the lower and the upper.
     pub values: Vec<Expr<'g>>,
-}
-
-/// What constants of an element are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LawKind {
-    /// Of a spring or a stop.
-    Stiffness,
-    /// Of a stop.
-    Width,
-    /// Of a stop, both of them.
-    Limits,
-    /// A coefficient of a spring or a stop.
-    Damping,
-    /// An armature, or the level of dry friction.
-    NonNegative,
-    /// The mass of a particle.
-    MassInSum,
-    /// A whole dissipation function, of the state too.
-    Dissipation,
-    /// A gravitational parameter.
-    Attraction,
 }

@@ -32,7 +32,7 @@ mod value;
 mod values;
 
 pub use drag::DragMatrix;
-pub use laws::{Law, LawKind};
+pub use laws::Law;
 pub use parameters::Parameter;
 pub use state::{Quantity, QuantityKind};
 pub use symbols::{Part, Source};

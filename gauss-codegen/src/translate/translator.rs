@@ -11,10 +11,10 @@ use crate::mechanics::{
     Charted, ChartedBody, Constraint, ConstraintKind, Coordinate, Element, Matter, Observed, Placement, SystemScene,
     Tree, Turn,
 };
-use crate::model::{self, ExpressionKind, FunctionClause, InChart, Model, SpeedPart};
+use crate::model::{self, ExpressionKind, FunctionClause, InChart, LawKind, Model, SpeedPart};
 use crate::words::Unraw;
 
-use super::laws::{Law, LawKind};
+use super::laws::Law;
 use super::notes::Notes;
 use super::parameters::parameters;
 use super::state::quantities;

@@ -5,7 +5,8 @@ use crate::model::language::context::Context;
 use crate::model::language::fields::{ReadField, Reader};
 use crate::model::language::statements::{Statement, Statements};
 use crate::model::language::words::{self, UNNAMED, same, word};
-use crate::model::scene::clauses::{BodyClause, ForceKind};
+use crate::model::scene::clauses::BodyClause;
+use crate::model::scene::elements::Argument;
 use crate::model::scene::roles::Role;
 use proc_macro2::Ident;
 use std::collections::{HashMap, HashSet};
@@ -161,10 +162,10 @@ fn check_references(statements: &Statements, frames: &[Ident], context: &mut Con
     references.extend(statements.formal.iter().flatten().map(|body| (body, None, None)));
     references.extend(frames.iter().map(|frame| (frame, None, None)));
     for clause in &statements.forces {
-        references.extend(clause.kind.body().map(|body| (body, None, None)));
-        if let ForceKind::Torque { body, reaction: Some(reaction), .. } = &clause.kind {
-            references.push((reaction, Some(body), Some("reaction")));
-        }
+        let body = clause.body();
+        references.extend(body.map(|body| (body, None, None)));
+        let left_out = |argument: &Argument| argument.required.is_none().then_some(argument.word);
+        references.extend(clause.other().map(|(other, argument)| (other, body, left_out(argument))));
     }
     let known = places(&statements.bodies);
     for (written, other, optional) in references {

@@ -6,23 +6,27 @@ use crate::model::language::shapes::TypeKind;
 use crate::model::language::statements::Statements;
 use crate::model::language::words::{self, same, word};
 use crate::model::names::scope::Scope;
-use crate::model::scene::clauses::{Coefficients, ForceKind, RoleValue};
+use crate::model::scene::clauses::{Coefficients, RoleValue};
+use crate::model::scene::forces::Value;
 use crate::model::scene::roles::Shape;
 use proc_macro2::Ident;
 
 /// The fields that are six by six or the diagonal of that, with what they are: the coefficients of drags, and added masses.
-pub fn fields<'a>(statements: &'a Statements) -> Vec<(&'a Ident, &'static str)> {
-    let mut all: Vec<(&Coefficients, &str)> = Vec::new();
+pub fn fields<'a>(statements: &'a Statements) -> Vec<(&'a Ident, String)> {
+    let mut all: Vec<(&Coefficients, String)> = Vec::new();
     for clause in &statements.forces {
-        let ForceKind::Drag { linear, quadratic, .. } = &clause.kind else { continue };
-        all.extend(linear.iter().chain(quadratic).map(|coefficients| (coefficients, "the coefficients of a drag are")));
+        let what = format!("the coefficients of {} are", words::a(clause.noun()));
+        all.extend(clause.given.iter().filter_map(|given| match &given.value {
+            Value::Coefficients(coefficients) => Some((coefficients, what.clone())),
+            Value::Expression(_) | Value::Reference(_) | Value::Axes(_) => None,
+        }));
     }
     for clause in statements.all_role_clauses() {
         if let RoleValue::Coefficients(coefficients) = &clause.value {
-            all.push((coefficients, "an added mass is"));
+            all.push((coefficients, "an added mass is".into()));
         }
     }
-    let field = |(coefficients, what): (&'a Coefficients, &'static str)| match coefficients {
+    let field = |(coefficients, what): (&'a Coefficients, String)| match coefficients {
         Coefficients::Field(name) => Some((name, what)),
         Coefficients::Diagonal(_) => None,
     };

@@ -4,8 +4,10 @@ use crate::model::language::context::Context;
 use crate::model::language::statements::Statements;
 use crate::model::language::words::{self, same, word};
 use crate::model::names::moving::Moving;
-use crate::model::scene::clauses::{CoordinateKind, Extent, ForceKind};
+use crate::model::scene::clauses::CoordinateKind;
+use crate::model::scene::elements::{ElementKind, Takes, argument};
 use crate::model::scene::expression::{Expression, ExpressionKind, Property};
+use crate::model::scene::forces::ForceClause;
 use proc_macro2::Ident;
 use std::collections::{HashMap, HashSet};
 
@@ -14,33 +16,39 @@ pub fn check(statements: &Statements, context: &mut Context) {
     let coordinates = statements.coordinates.iter().flat_map(|names| &names.names);
     let mut kinds = HashMap::new();
     coordinates.for_each(|q| _ = kinds.entry(word(&q.ident)).or_insert(q.kind));
-    check_drive(&statements.armatures, ["given an armature twice", ARMATURE], (statements, &kinds), context);
+    let armatures: Vec<&Ident> = statements.armatures.iter().map(|(name, _)| name).collect();
+    check_drive(&armatures, ["given an armature twice", ARMATURE], (statements, &kinds), context);
     for clause in &statements.forces {
-        match &clause.kind {
-            ForceKind::Drive { rates } => {
-                let words = ["driven twice in one clause", "a drive acts on rates"];
-                check_drive(rates, words, (statements, &kinds), context)
-            }
-            ForceKind::Torque { body, reaction: Some(reaction), .. } if same(body, reaction) => context.error(
-                reaction.span(),
-                format!("the torque on `{body}` and its reaction on `{body}` cancel; name another body"),
-            ),
-            ForceKind::Stop { least, most, width, .. } => {
-                let literal = |limit: &Option<Expression>| limit.as_ref().and_then(Expression::literal);
-                if let (Some(first), Some((a, b))) = (least, literal(least).zip(literal(most)))
-                    && a >= b
-                {
-                    context.error(first.span, "the lower limit of a stop is below its upper limit; exchange the two");
-                }
-                if width.literal().is_some_and(|width| width <= 0.0) {
-                    context.error(
-                        width.span,
-                        "the width of a stop is the distance over which it sets in; write a positive number",
-                    );
-                }
-            }
-            _ => {}
+        let driven: Vec<&Ident> = clause.rates().map(|(name, _)| name).collect();
+        let words = ["driven twice in one clause", "a drive acts on rates"];
+        check_drive(&driven, words, (statements, &kinds), context);
+        if let (Some(body), Some((other, _))) = (clause.body(), clause.other())
+            && same(body, other)
+        {
+            let noun = clause.noun();
+            let message = format!("the {noun} on `{body}` and its reaction on `{body}` cancel; name another body");
+            context.error(other.span(), message);
         }
+        if clause.row.kind == ElementKind::Stop {
+            check_limits(clause, context);
+        }
+    }
+}
+
+/// The limits of a stop in their order, its width positive, where they are numbers.
+fn check_limits(clause: &ForceClause, context: &mut Context) {
+    let literal = |word: &str| clause.expression(word).and_then(Expression::literal);
+    if let Some(least) = clause.expression(argument::LEAST)
+        && let Some((a, b)) = least.literal().zip(literal(argument::MOST))
+        && a >= b
+    {
+        context.error(least.span, "the lower limit of a stop is below its upper limit; exchange the two");
+    }
+    if let Some(width) = clause.expression(argument::WIDTH)
+        && width.literal().is_some_and(|width| width <= 0.0)
+    {
+        let message = "the width of a stop is the distance over which it sets in; write a positive number";
+        context.error(width.span, message);
     }
 }
 
@@ -49,14 +57,14 @@ const ARMATURE: &str = "an armature turns with the rates";
 
 /// Scalar coordinates, of armatures all, each of them once; what is done to them, and what does it, in words.
 fn check_drive(
-    rates: &[(Ident, Expression)],
+    rates: &[&Ident],
     [done, doing]: [&str; 2],
     (statements, kinds): (&Statements, &HashMap<String, CoordinateKind>),
     context: &mut Context,
 ) {
     let (any, noun) = (doing == ARMATURE, if doing == ARMATURE { "coordinates" } else { "scalar coordinates" });
     let mut earlier = HashSet::new();
-    for (name, _) in rates {
+    for &name in rates {
         if !earlier.insert(word(name)) {
             context.error(name.span(), format!("`{name}` is {done}; write the sum of the two"));
             continue;
@@ -106,45 +114,12 @@ fn check_drive(
 pub fn check_effect(statements: &Statements, context: &mut Context) {
     let moving = Moving::new(statements);
     for clause in &statements.forces {
-        let message = match &clause.kind {
-            ForceKind::AtPoint { at, .. } if !moving.in_place(at) => {
-                "the point of the force is at rest, where it does nothing: it names no coordinate, and no body or point \
-                 that moves; add `body = …` if it is meant in the axes of a body"
-                    .into()
-            }
-            ForceKind::Torque { body, reaction: Some(reaction), .. } => {
-                if moving.moves(body) || moving.moves(reaction) {
-                    continue;
-                }
-                format!("neither `{body}` nor `{reaction}` moves, so the torque does nothing; remove it")
-            }
-            ForceKind::Spring { extent, .. } | ForceKind::Stop { extent, .. } | ForceKind::Friction { extent, .. } if !extent.varies(&moving) => {
-                let noun = clause.noun();
-                match extent {
-                    Extent::Between { .. } => {
-                        format!("neither end of the {noun} moves; name a coordinate, or a body or point that moves")
-                    }
-                    Extent::Along(_) => format!(
-                        "what the {noun} acts along does not change: it names no coordinate, and no body or point that moves"
-                    ),
-                }
-            }
-            ForceKind::Dissipation(function) if !moving.in_velocity(function) => {
-                "the dissipation function contains no velocity of anything that moves, so it brakes nothing; name a \
-                 speed, or a velocity such as `rate(…)`"
-                    .into()
-            }
-            kind => match kind.body() {
-                Some(body) if !moving.moves(body) => {
-                    format!("`{body}` does not move, so the {} does nothing; name a body that moves", clause.noun())
-                }
-                _ => continue,
-            },
-        };
-        context.error(clause.span, message);
+        if let Some(message) = without_effect(clause, &moving) {
+            context.error(clause.span, message);
+        }
     }
     let mut used = HashSet::new();
-    for (_, expression) in statements.forces.iter().flat_map(|clause| clause.expressions()) {
+    for (_, _, expression) in statements.forces.iter().flat_map(|clause| clause.expressions()) {
         expression.put_names(&mut used);
     }
     for input in statements.inputs.iter().flat_map(|names| &names.names) {
@@ -158,13 +133,52 @@ pub fn check_effect(statements: &Statements, context: &mut Context) {
     }
 }
 
+/// Why a force element does nothing, if that is so.
+fn without_effect(clause: &ForceClause, moving: &Moving) -> Option<String> {
+    let noun = clause.noun();
+    let all_rest = |takes: Takes| {
+        let mut all = clause.expressions().into_iter().filter(|(argument, ..)| argument.takes == takes).peekable();
+        all.peek().is_some() && all.all(|(_, _, e)| !moving.in_place(e))
+    };
+    match (clause.body(), clause.other()) {
+        (Some(body), Some((other, _))) if !moving.moves(body) && !moving.moves(other) => {
+            return Some(format!("neither `{body}` nor `{other}` moves, so the {noun} does nothing; remove it"));
+        }
+        (Some(body), None) if !moving.moves(body) => {
+            return Some(format!("`{body}` does not move, so the {noun} does nothing; name a body that moves"));
+        }
+        (None, _) if all_rest(Takes::Point) => {
+            let message = format!(
+                "the point of the {noun} is at rest, where it does nothing: it names no coordinate, and no body or point \
+                 that moves; add `body = …` if it is meant in the axes of a body"
+            );
+            return Some(message);
+        }
+        _ => {}
+    }
+    if all_rest(Takes::End) {
+        return Some(format!("neither end of the {noun} moves; name a coordinate, or a body or point that moves"));
+    }
+    if all_rest(Takes::Along) {
+        return Some(format!(
+            "the extent of the {noun} does not change: it names no coordinate, and no body or point that moves"
+        ));
+    }
+    let function = clause.expressions().into_iter().find(|(argument, ..)| argument.takes == Takes::Dissipation);
+    function.filter(|(_, _, function)| !moving.in_velocity(function)).map(|_| {
+        "the dissipation function contains no velocity of anything that moves, so it brakes nothing; name a speed, or a \
+         velocity such as `rate(…)`"
+            .into()
+    })
+}
+
 /// Something depends on the velocity of the medium. `fluid`: some body has added mass, or displaces some of it.
 pub fn check_medium(statements: &Statements, fluid: bool, context: &mut Context) {
     let Some((name, _)) = &statements.medium else { return };
     let relative = |part: &Expression| matches!(part.kind, ExpressionKind::Property(_, Property::RelativeVelocity));
     let felt = statements.forces.iter().any(|clause| {
-        let mut found = matches!(clause.kind, ForceKind::Drag { .. });
-        clause.expressions().iter().for_each(|(_, e)| e.walk(&mut |part| found |= relative(part)));
+        let mut found = clause.row.kind == ElementKind::Drag;
+        clause.expressions().iter().for_each(|(_, _, e)| e.walk(&mut |part| found |= relative(part)));
         found
     });
     if !felt && !fluid {
@@ -173,14 +187,5 @@ pub fn check_medium(statements: &Statements, fluid: bool, context: &mut Context)
             "nothing in the scene feels the medium; add `drag(…)`, name `.relative_velocity` of a body in a force, give \
              the body a field with the role `added_mass`, or remove `medium`",
         );
-    }
-}
-
-impl Extent {
-    fn varies(&self, moving: &Moving) -> bool {
-        match self {
-            Extent::Between { from, to } => moving.in_place(from) || moving.in_place(to),
-            Extent::Along(along) => moving.in_place(along),
-        }
     }
 }

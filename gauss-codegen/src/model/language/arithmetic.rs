@@ -59,14 +59,10 @@ pub fn is_list_of_six(tokens: &[TokenTree]) -> bool {
     }
 }
 
-/// Reads the tokens of the coefficients of a drag: a list of six, or the name of a field.
-pub fn read_coefficients(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Coefficients> {
+/// Reads the tokens of six coefficients, called `what` in messages: a list of six, or the name of a field.
+pub fn read_coefficients(owner: &str, what: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Coefficients> {
     const REMEDY: &str = "write six scalars `[a, b, c, d, e, f]` in the order (u, ω), or the name of a field that is a \
          `Vector6` or a `Matrix6`";
-    let what = match owner {
-        "added_mass" => "an added mass is".to_owned(),
-        _ => format!("the `{owner}` coefficients of a drag are"),
-    };
     let parsed = parse(owner, tokens, context)?;
     let mut bare = &parsed;
     while let Expr::Group(ExprGroup { expr, .. }) | Expr::Paren(ExprParen { expr, .. }) = bare {

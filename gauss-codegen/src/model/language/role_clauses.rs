@@ -24,9 +24,11 @@ pub fn read(role: Role, clause: &Clause, list: &mut Vec<RoleClause>, context: &m
     };
     let Some(tokens) = arguments::equals(clause, example, context) else { return };
     let value = match role {
-        Role::AddedMass => arithmetic::read_coefficients(word, tokens, context).map(RoleValue::Coefficients),
+        Role::AddedMass => {
+            arithmetic::read_coefficients(word, "an added mass is", tokens, context).map(RoleValue::Coefficients)
+        }
         Role::Inertia | Role::CentralInertia if arithmetic::is_list_of_six(tokens) => {
-            arithmetic::read_coefficients(word, tokens, context).map(RoleValue::Coefficients)
+            arithmetic::read_coefficients(word, "an inertia is", tokens, context).map(RoleValue::Coefficients)
         }
         _ => arithmetic::read(word, tokens, context).map(RoleValue::Expression),
     };

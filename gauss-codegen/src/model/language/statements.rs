@@ -8,10 +8,12 @@ use super::declarations::{self, Definition, Kinematics, Names};
 use super::words::{self, Table, same};
 use super::{actions, own_functions, placements, role_clauses};
 use crate::model::scene::clauses::{
-    Attraction, BodyClause, ConstraintClause, ConstraintKind, Coordinate, ForceClause, ForceKind, FunctionClause,
-    InputName, ParticleClause, PointClause, RoleClause, Speed, SpeedPart,
+    BodyClause, ConstraintClause, ConstraintKind, Coordinate, FunctionClause, InputName, ParticleClause, PointClause,
+    RoleClause, Speed, SpeedPart,
 };
+use crate::model::scene::elements::{ATTRACTION, ELEMENTS, Form, Row};
 use crate::model::scene::expression::{Expression, ExpressionKind};
+use crate::model::scene::forces::ForceClause;
 use proc_macro2::{Group, Ident, TokenTree};
 use syn::LitInt;
 
@@ -45,7 +47,7 @@ pub struct Statements {
     /// Coordinates with the inertia of their rates.
     pub armatures: Vec<(Ident, Expression)>,
     pub definitions: Vec<Definition>,
-    pub attractions: Vec<Attraction>,
+    pub attractions: Vec<ForceClause>,
     pub medium: Option<(Ident, Option<Expression>)>,
     /// Mass data of the body without a name, and gravity.
     pub role_clauses: Vec<RoleClause>,
@@ -73,16 +75,9 @@ pub enum Statement {
     Independent,
     Potential,
     Input,
-    Force,
-    Torque,
-    Drive,
-    Spring,
-    Damping,
+    /// A force element.
+    Element(&'static Row),
     Limit,
-    Wrench,
-    Stop,
-    Drag,
-    Friction,
     Armature,
     Define,
     Medium,
@@ -92,8 +87,8 @@ pub enum Statement {
     Table,
 }
 
-/// The clauses of systems.
-pub const STATEMENTS: &Table<Statement> = &[
+/// The clauses of systems, but for those of force elements: these stand between the two.
+const DECLARED: [(&str, Statement); 11] = [
     ("coordinates", Statement::Coordinates),
     ("speeds", Statement::Speeds),
     ("kinematics", Statement::Kinematics),
@@ -105,24 +100,38 @@ pub const STATEMENTS: &Table<Statement> = &[
     ("independent", Statement::Independent),
     ("potential", Statement::Potential),
     ("input", Statement::Input),
-    ("force", Statement::Force),
-    ("torque", Statement::Torque),
-    ("wrench", Statement::Wrench),
-    ("drive", Statement::Drive),
-    ("spring", Statement::Spring),
-    ("stop", Statement::Stop),
-    ("drag", Statement::Drag),
-    ("friction", Statement::Friction),
+];
+const OTHERS: [(&str, Statement); 8] = [
     ("armature", Statement::Armature),
-    ("damping", Statement::Damping),
     ("medium", Statement::Medium),
-    ("central_gravity", Statement::CentralGravity),
+    (ATTRACTION.word, Statement::CentralGravity),
     ("define", Statement::Define),
     ("function", Statement::Function),
     ("table", Statement::Table),
     ("waive", Statement::Waive),
     ("limit", Statement::Limit),
 ];
+const COUNT: usize = DECLARED.len() + ELEMENTS.len() + OTHERS.len();
+
+/// The clauses of systems.
+pub static STATEMENTS: &Table<Statement> = &statements();
+
+const fn statements() -> [(&'static str, Statement); COUNT] {
+    let mut all = [("", Statement::Limit); COUNT];
+    let mut k = 0;
+    while k < COUNT {
+        let of_element = k.wrapping_sub(DECLARED.len());
+        all[k] = if k < DECLARED.len() {
+            DECLARED[k]
+        } else if of_element < ELEMENTS.len() {
+            (ELEMENTS[of_element].word, Statement::Element(ELEMENTS[of_element]))
+        } else {
+            OTHERS[of_element - ELEMENTS.len()]
+        };
+        k += 1;
+    }
+    all
+}
 
 const CONSTRAINT: &Table<ConstraintKind> =
     &[("position", ConstraintKind::Position), ("velocity", ConstraintKind::Velocity)];
@@ -135,7 +144,8 @@ pub fn meant(word: &str) -> Option<Statement> {
 /// How the clause `word` is written, if it is one of these.
 pub fn form(word: &str) -> Option<String> {
     STATEMENTS.iter().find(|(name, _)| *name == word).map(|(_, statement)| match statement {
-        Statement::Potential | Statement::Damping | Statement::Limit => format!("{word} = …"),
+        Statement::Potential | Statement::Limit => format!("{word} = …"),
+        Statement::Element(row) if row.form == Form::Value => format!("{word} = …"),
         _ => format!("{word}(…)"),
     })
 }
@@ -188,7 +198,19 @@ impl Statements {
             Statement::Body | Statement::Frame | Statement::Particle | Statement::Point | Statement::Constraint => {
                 self.read_placement(statement, clause, context)
             }
-            _ => self.read_action(statement, clause, context),
+            Statement::Element(row) => self.read_element(row, clause, context),
+            Statement::Armature => self.read_armature(clause, context),
+            Statement::Potential => {
+                let value = value(clause, "k * x * x / 2", context);
+                self.potential = self.potential.take().or(Some((clause.name.clone(), value)));
+            }
+            Statement::Medium => {
+                let velocity = actions::read_medium(clause, context);
+                self.medium = self.medium.take().or(Some((clause.name.clone(), velocity)));
+            }
+            Statement::CentralGravity => {
+                self.attractions.extend(actions::read(&ATTRACTION, clause, self.in_chart, context));
+            }
         }
     }
 
@@ -202,14 +224,14 @@ impl Statements {
             Statement::Potential => self.potential.is_some(),
             Statement::Limit => self.limit.is_some(),
             Statement::Input => self.inputs.is_some(),
-            Statement::Damping => self.damped,
+            Statement::Element(row) => row.form == Form::Value && self.damped,
             Statement::Medium => self.medium.is_some(),
             _ => false,
         };
         if written {
             let name = &clause.name;
             let remedy = match statement {
-                Statement::Potential | Statement::Damping => "write the sum of the two in one",
+                Statement::Potential | Statement::Element(_) => "write the sum of the two in one",
                 Statement::Limit | Statement::Medium => "keep one of the two",
                 _ => "write all of it in one",
             };
@@ -297,44 +319,35 @@ impl Statements {
         self.bodies.push(body);
     }
 
-    /// What acts.
-    fn read_action(&mut self, statement: Statement, clause: &Clause, context: &mut Context) {
-        let in_chart = self.in_chart;
-        match statement {
-            Statement::Potential => {
-                let value = value(clause, "k * x * x / 2", context);
-                self.potential = self.potential.take().or(Some((clause.name.clone(), value)));
-            }
-            Statement::Force => self.forces.extend(actions::read_force(clause, in_chart, context)),
-            Statement::Torque => self.forces.extend(actions::read_torque(clause, in_chart, context)),
-            Statement::Wrench => self.forces.extend(actions::read_wrench(clause, in_chart, context)),
-            Statement::Drive if in_chart && !self.has_coordinates => context.error(
+    /// A force element.
+    fn read_element(&mut self, row: &'static Row, clause: &Clause, context: &mut Context) {
+        if row.form == Form::Rates && self.has_no_names() {
+            context.error(
                 clause.name.span(),
                 "`drive` acts on rates of named coordinates, and those of a chart have no names; write `force(…)` or \
                  `torque(…)`, or `coordinates(…)` of what else moves",
-            ),
-            Statement::Drive => self.forces.extend(actions::read_drive(clause, context)),
-            Statement::Spring => self.forces.extend(actions::read_spring(clause, context)),
-            Statement::Stop => self.forces.extend(actions::read_stop(clause, context)),
-            Statement::Friction => self.forces.extend(actions::read_friction(clause, context)),
-            Statement::Armature if in_chart && !self.has_coordinates => context.error(
+            );
+            return;
+        }
+        self.damped |= row.form == Form::Value;
+        self.forces.extend(actions::read(row, clause, self.in_chart, context));
+    }
+
+    fn read_armature(&mut self, clause: &Clause, context: &mut Context) {
+        if self.has_no_names() {
+            context.error(
                 clause.name.span(),
                 "an armature turns with a named coordinate, and those of a chart have no names; write \
                  `coordinates(…)` of what else moves",
-            ),
-            Statement::Armature => self.armatures.extend(actions::read_armature(clause, context)),
-            Statement::Drag => self.forces.extend(actions::read_drag(clause, in_chart, context)),
-            Statement::Medium => {
-                let velocity = actions::read_medium(clause, context);
-                self.medium = self.medium.take().or(Some((clause.name.clone(), velocity)));
-            }
-            Statement::CentralGravity => self.attractions.extend(actions::read_attraction(clause, context)),
-            _ => {
-                self.damped = true;
-                let kind = value(clause, "c * v * v / 2", context).map(ForceKind::Dissipation);
-                self.forces.extend(kind.map(|kind| ForceClause { name: None, kind, span: clause.name.span() }));
-            }
+            );
+            return;
         }
+        self.armatures.extend(actions::read_armature(clause, context));
+    }
+
+    /// All coordinates are those of a chart.
+    fn has_no_names(&self) -> bool {
+        self.in_chart && !self.has_coordinates
     }
 
     /// Takes note of a clause that could not be read.

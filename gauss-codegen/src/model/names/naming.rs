@@ -40,9 +40,8 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
 
 /// What acts, where it has a name.
 fn acting(statements: &Statements) -> Vec<Named<'_>> {
-    let forces = statements.forces.iter().filter_map(|clause| Some((clause.name.as_ref()?, clause.noun())));
-    let attractions = statements.attractions.iter().filter_map(|clause| Some((clause.name.as_ref()?, "attraction")));
-    forces.chain(attractions).collect()
+    let clauses = statements.forces.iter().chain(&statements.attractions);
+    clauses.filter_map(|clause| Some((clause.name.as_ref()?, clause.noun()))).collect()
 }
 
 /// What expressions can name.

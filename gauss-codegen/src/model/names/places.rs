@@ -2,10 +2,41 @@
 
 use super::scope::Meaning;
 use crate::model::language::kind::Kind;
+use crate::model::language::words;
 use crate::model::scene::clauses::{ConstraintKind, CoordinateKind};
+use crate::model::scene::elements::Row;
 use crate::model::scene::expression::FunctionName;
 use crate::model::scene::roles::{Role, Shape};
 use proc_macro2::Ident;
+
+/// What has ends, an extent, constants or coefficients.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Holder {
+    Element(&'static Row),
+    Armature,
+    AddedMass,
+    Inertia,
+}
+
+impl Holder {
+    /// What it is called in messages, with its article.
+    fn noun(self) -> String {
+        match self {
+            Holder::Element(row) => words::a(row.noun),
+            Holder::Armature => "an armature".into(),
+            Holder::AddedMass => "an added mass".into(),
+            Holder::Inertia => "an inertia".into(),
+        }
+    }
+
+    /// What its constants are called.
+    fn constant(self) -> String {
+        match self {
+            Holder::Element(_) => format!("a constant of {}", self.noun()),
+            Holder::Armature | Holder::AddedMass | Holder::Inertia => self.noun(),
+        }
+    }
+}
 
 /// Where an expression stands.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -39,19 +70,19 @@ pub enum Place {
     Torque,
     /// The generalised force on the rate of a coordinate.
     Drive,
-    /// Where a spring or a stop begins or ends, with its noun.
-    End(&'static str),
-    /// What a spring or a stop acts along, with its noun.
-    Along(&'static str),
-    /// A constant `word` of `noun`, such as the stiffness of a spring.
+    /// Where the extent of a spring or a stop begins or ends.
+    End(Holder),
+    /// The extent of a spring or a stop.
+    Along(Holder),
+    /// A constant, such as the stiffness of a spring.
     Constant {
         word: &'static str,
-        noun: &'static str,
+        of: Holder,
     },
     /// Rayleigh's.
     Dissipation,
-    /// One of the coefficients of a drag.
-    Coefficient,
+    /// One of the six coefficients of a drag.
+    Coefficient(Holder),
     /// The velocity of the medium.
     Medium,
     /// What central gravity attracts to.
@@ -66,7 +97,7 @@ impl Place {
         match self {
             Place::Kinematics(None) => true,
             Place::Kinematics(Some(CoordinateKind::Scalar)) | Place::Mass | Place::Potential => kind == Kind::Scalar,
-            Place::Drive | Place::Along(_) | Place::Constant { .. } | Place::Dissipation | Place::Coefficient => {
+            Place::Drive | Place::Along(_) | Place::Constant { .. } | Place::Dissipation | Place::Coefficient(_) => {
                 kind == Kind::Scalar
             }
             Place::Kinematics(Some(CoordinateKind::Pose)) => kind == Kind::Twist,
@@ -129,26 +160,35 @@ impl Place {
             Place::Drive => {
                 ("the generalised force on the rate of a scalar coordinate is a scalar", "write one number")
             }
-            Place::End(noun) => {
+            Place::End(holder) => {
                 return format!(
-                    "the end of {noun} is a vector, found {}; write the name of a point, `arm.position` or `[x, y, z]`",
+                    "the end of {} is a vector, found {}; write the name of a point, `arm.position` or `[x, y, z]`",
+                    holder.noun(),
                     found.noun()
                 );
             }
-            Place::Along(noun) => {
+            Place::Along(holder) => {
                 return format!(
-                    "what {noun} acts along is a scalar, found {}; write one number such as an angle, or `from = …` and \
+                    "the extent of {} is a scalar, found {}; write one number such as an angle, or `from = …` and \
                      `to = …` for the distance of two points",
+                    holder.noun(),
                     found.noun()
                 );
             }
-            Place::Constant { word, noun } => {
+            Place::Constant { word, of } => {
                 return format!(
-                    "the {word} of {noun} is a scalar, found {}; write one number or the name of a field",
+                    "the {word} of {} is a scalar, found {}; write one number or the name of a field",
+                    of.noun(),
                     found.noun()
                 );
             }
-            Place::Coefficient => ("a coefficient of a drag is a scalar", "write one number"),
+            Place::Coefficient(holder) => {
+                return format!(
+                    "a coefficient of {} is a scalar, found {}; write one number",
+                    holder.noun(),
+                    found.noun()
+                );
+            }
             Place::Medium => ("the velocity of the medium is a vector", "write `[cx, cy, cz]`"),
             Place::Center => ("the center of gravity is a vector", "write `[x, y, z]`"),
             Place::Definition => ("a definition is a scalar, a vector or a rotation", "write one of them"),
@@ -185,7 +225,12 @@ impl Place {
     fn is_action(self) -> bool {
         matches!(
             self,
-            Place::Force | Place::Torque | Place::Drive | Place::Dissipation | Place::Coefficient | Place::Definition
+            Place::Force
+                | Place::Torque
+                | Place::Drive
+                | Place::Dissipation
+                | Place::Coefficient(_)
+                | Place::Definition
         )
     }
 
@@ -205,8 +250,8 @@ impl Place {
     }
 
     /// What stands here, for messages.
-    pub fn subject(self) -> &'static str {
-        match self {
+    pub fn subject(self) -> String {
+        let subject = match self {
             Place::Kinematics(_) => "the rate of a coordinate",
             Place::Position | Place::Particle { .. } => "a position",
             Place::Rotation => "a rotation",
@@ -220,24 +265,16 @@ impl Place {
             Place::Force => "a force",
             Place::Torque => "a torque",
             Place::Drive => "a generalised force",
-            Place::End("a stop") => "the end of a stop",
-            Place::End("friction") => "the end of a friction law",
-            Place::End(_) => "the end of a spring",
-            Place::Along("a stop") => "the extent of a stop",
-            Place::Along("friction") => "the extent of a friction law",
-            Place::Along(_) => "the extent of a spring",
-            Place::Constant { noun: "a stop", .. } => "a constant of a stop",
-            Place::Constant { noun: "friction", .. } => "a constant of friction",
-            Place::Constant { noun: "an armature", .. } => "an armature",
-            Place::Constant { noun: "a spring", .. } => "a constant of a spring",
-            Place::Constant { noun: "an added mass", .. } => "an added mass",
-            Place::Constant { .. } => "a gravitational parameter",
+            Place::End(holder) => return format!("the end of {}", holder.noun()),
+            Place::Along(holder) => return format!("the extent of {}", holder.noun()),
+            Place::Constant { of, .. } => return of.constant(),
             Place::Dissipation => "a dissipation function",
-            Place::Coefficient => "a coefficient of a drag",
+            Place::Coefficient(holder) => return format!("a coefficient of {}", holder.noun()),
             Place::Medium => "the velocity of the medium",
             Place::Center => "a center of gravity",
             Place::Definition => "a definition",
-        }
+        };
+        subject.into()
     }
 
     /// What to say of a name that may not stand here.
@@ -270,8 +307,9 @@ impl Place {
             (Place::Role(role), _) => {
                 format!("`{name}` varies, and `{}` of a body is constant; write numbers and fields only", role.word())
             }
-            (Place::Constant { word, noun }, _) => {
-                format!("`{name}` varies, and the {word} of {noun} is constant; write numbers and fields only")
+            (Place::Constant { word, of }, _) => {
+                let of = of.noun();
+                format!("`{name}` varies, and the {word} of {of} is constant; write numbers and fields only")
             }
             (Place::At, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
                 "`{name}` is {what}, and a point is given in the axes of its own body; write numbers and fields only"
@@ -337,7 +375,7 @@ impl Place {
     /// Why nothing that is not smooth may stand here.
     pub fn refuses_kinks(self) -> Option<String> {
         match self {
-            Place::Force | Place::Torque | Place::Drive | Place::Coefficient | Place::Definition => None,
+            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) | Place::Definition => None,
             Place::Dissipation => Some("forces are derivatives of a dissipation function".into()),
             place if place.is_constant() => None,
             place => Some(format!("{} is differentiated", place.subject())),
@@ -347,7 +385,7 @@ impl Place {
     /// What to say of a function that is not smooth, where derivatives are taken.
     pub fn refuses_kink(self, function: FunctionName) -> Option<String> {
         match self {
-            Place::Force | Place::Torque | Place::Drive | Place::Coefficient | Place::Definition => None,
+            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) | Place::Definition => None,
             place if place.is_constant() => Some(format!(
                 "`{}` stands in values of forces only; make the number a field of the struct",
                 function.word()

@@ -8,8 +8,10 @@ use super::clauses::Robot;
 use super::description::Drive;
 use super::drives::{Driven, Input};
 use super::rotation::Triple;
-use crate::model::scene::clauses::{ForceAxes, ForceClause, ForceKind};
+use crate::model::scene::elements::WRENCH;
+use crate::model::scene::elements::argument::{BODY, FORCE, TORQUE};
 use crate::model::scene::expression::{Expression, FunctionName, Property};
+use crate::model::scene::forces::ForceClause;
 
 impl Robot<'_> {
     /// Generalised forces on coordinates.
@@ -127,8 +129,8 @@ impl Robot<'_> {
             let control = writer.name(&input.name.ident);
             let value = self.law(drive, control, &rate.collect::<Vec<_>>());
             let [force, torque] = wrench.map(|gear| Some(writer.times(value.clone(), writer.triple(&gear)?)));
-            let kind = ForceKind::Wrench { body: link.clone(), at: None, force, torque, axes: ForceAxes::Body };
-            Some(ForceClause { name: Some(input.name.ident.clone()), kind, span: writer.span })
+            let clause = ForceClause::new(&WRENCH, Some(input.name.ident.clone()), writer.span);
+            Some(clause.with(BODY, Some(link.clone())).with(FORCE, force).with(TORQUE, torque))
         };
         self.inputs.iter().filter_map(thrust).collect()
     }

@@ -7,25 +7,25 @@ use syn::ext::IdentExt;
 use super::clauses::Robot;
 use super::description::{Joint, JointKind, Note};
 use crate::model::language::robots::{Friction, Limits};
-use crate::model::scene::clauses::{Extent, ForceAxes, ForceClause, ForceKind, RoleClause, RoleValue};
+use crate::model::scene::clauses::{RoleClause, RoleValue};
+use crate::model::scene::elements::argument::{ALONG, AT, AXES, BODY, DAMPING, LEAST, MOST, STIFFNESS, VALUE, WIDTH};
+use crate::model::scene::elements::{FORCE, STOP};
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
+use crate::model::scene::forces::{ForceAxes, ForceClause};
 
 impl Robot<'_> {
     /// What acts in the joints.
     pub fn forces(&mut self, gravity: Option<&RoleClause>) -> Vec<ForceClause> {
-        let named = |name: &str, kind: ForceKind| ForceClause {
-            name: Some(Ident::new(name, self.writer.span)),
-            kind,
-            span: self.writer.span,
-        };
+        let span = self.writer.span;
+        let name = |name: &str| Some(Ident::new(name, span));
         let mut forces = Vec::new();
         let efforts = self.efforts();
         if !efforts.is_empty() {
-            forces.push(named("efforts", ForceKind::Drive { rates: efforts }));
+            forces.push(ForceClause::drive(name("efforts"), efforts, span));
         }
         forces.extend(self.thrusts());
-        let damping = self.damping().map(|function| named("joint_damping", ForceKind::Dissipation(function)));
-        forces.extend(damping);
+        let damping = self.damping();
+        forces.extend(damping.map(|function| ForceClause::dissipation(name("joint_damping"), function, span)));
         forces.extend(self.springs());
         let (turns, mut of_turns) = self.springs_of_turns();
         forces.extend(turns);
@@ -39,7 +39,7 @@ impl Robot<'_> {
         self.notes.append(&mut of_weights);
         let (friction, mut notes) = self.friction();
         if !friction.is_empty() {
-            forces.push(named("joint_friction", ForceKind::Drive { rates: friction }));
+            forces.push(ForceClause::drive(name("joint_friction"), friction, span));
         }
         let (stops, limits) = self.stops();
         forces.extend(stops);
@@ -141,8 +141,8 @@ impl Robot<'_> {
                     let value = writer.times(writer.number(-data.mass * own.held), gravity.clone());
                     let body = self.links[link].clone();
                     let at = writer.triple(&data.center);
-                    let kind = ForceKind::OnBody { body, at, value, axes: ForceAxes::Observer };
-                    ForceClause { name: None, kind, span: writer.span }
+                    let force = ForceClause::new(&FORCE, None, writer.span).with(AT, at).with(VALUE, Some(value));
+                    force.with(BODY, Some(body)).with(AXES, Some(ForceAxes::Observer))
                 })),
                 _ => {
                     let text = format!(
@@ -205,11 +205,12 @@ impl Robot<'_> {
             let along = self.values(*index, 0.0).into_iter().next()?;
             let [least, most] = joint.limits.map(|limit| limit.map(|limit| writer.number(limit)));
             let (stiffness, width, damping) = (stiffness.clone(), width.clone(), damping.clone());
-            let kind = ForceKind::Stop { extent: Extent::Along(along), least, most, stiffness, width, damping };
             let name =
                 format_ident!("{}_limits", self.coordinates[self.structure.coupling_of[*index].joint][0].ident.unraw());
             let name = (self.structure.coupling_of[*index].joint == *index).then_some(name);
-            Some(ForceClause { name, kind, span: writer.span })
+            let stop = ForceClause::new(&STOP, name, writer.span).with(ALONG, Some(along));
+            let stop = stop.with(LEAST, least).with(MOST, most).with(STIFFNESS, Some(stiffness));
+            Some(stop.with(WIDTH, Some(width)).with(DAMPING, damping))
         };
         (limited.iter().filter_map(stop).collect(), None)
     }

@@ -7,8 +7,12 @@ use syn::ext::IdentExt;
 use super::clauses::Robot;
 use super::description::{Cable, Joint, JointKind, Note, Tendon};
 use super::rotation::{Rotation, Triple};
-use crate::model::scene::clauses::{Extent, ForceAxes, ForceClause, ForceKind};
+use crate::model::scene::elements::argument::{
+    ALONG, AXES, BODY, DAMPING, FROM, LENGTH, REACTION, STIFFNESS, TO, VALUE,
+};
+use crate::model::scene::elements::{FORCE, SPRING, TORQUE};
 use crate::model::scene::expression::{BinaryOperator, Expression, FunctionName, Property};
+use crate::model::scene::forces::{ForceAxes, ForceClause};
 
 /// The square of the sine of an angle below which the angle is its sine, in double precision.
 const SMALL: f64 = 1e-32;
@@ -22,10 +26,10 @@ impl Robot<'_> {
             let along = self.values(index, 0.0).into_iter().next()?;
             let stiffness = writer.number(joint.stiffness);
             let length = (joint.rest != 0.0).then(|| writer.number(joint.rest));
-            let kind = ForceKind::Spring { extent: Extent::Along(along), stiffness, length, damping: None };
             let own = self.structure.coupling_of[index].joint == index;
             let name = own.then(|| format_ident!("{}_spring", q.unraw(), span = writer.span));
-            Some(ForceClause { name, kind, span: writer.span })
+            let spring = ForceClause::new(&SPRING, name, writer.span).with(ALONG, Some(along));
+            Some(spring.with(STIFFNESS, Some(stiffness)).with(LENGTH, length))
         };
         springs.filter_map(spring).collect()
     }
@@ -35,32 +39,28 @@ impl Robot<'_> {
     pub fn springs_of_turns(&self) -> (Vec<ForceClause>, Vec<Note>) {
         let writer = self.writer;
         let (mut forces, mut notes) = (Vec::new(), Vec::new());
-        let clause = |q: &Ident, end: &str, kind: ForceKind| {
-            let name = format_ident!("{}_{}", q.unraw(), end, span = writer.span);
-            ForceClause { name: Some(name), kind, span: writer.span }
-        };
+        let name = |q: &Ident, end: &str| Some(format_ident!("{}_{}", q.unraw(), end, span = writer.span));
         for (joint, q) in self.groups().filter(|(joint, _)| joint.stiffness > 0.0) {
             let index = |name: &String| self.description.links.iter().position(|link| link.name == *name);
             let (Some(child), Some(parent)) = (index(&joint.child), index(&joint.parent)) else { continue };
             let is_free = joint.kind == JointKind::Floating;
             let (place, turn) = joint.start;
             if is_free {
-                let extent = Extent::Between {
-                    from: writer.vector(place.map(|c| writer.number(c))),
-                    to: writer.property(q, Property::Position),
-                };
-                let stiffness = writer.number(joint.stiffness);
-                forces.push(clause(
-                    q,
-                    "way_spring",
-                    ForceKind::Spring { extent, stiffness, length: None, damping: None },
-                ));
+                let start = writer.vector(place.map(|c| writer.number(c)));
+                let way = ForceClause::new(&SPRING, name(q, "way_spring"), writer.span)
+                    .with(FROM, Some(start))
+                    .with(TO, Some(writer.property(q, Property::Position)));
+                forces.push(way.with(STIFFNESS, Some(writer.number(joint.stiffness))));
             }
             let rotation = if is_free { writer.property(q, Property::Rotation) } else { writer.name(q) };
             let value = writer.times(writer.number(-joint.stiffness), self.rotation_vector(&rotation, &turn));
             let reaction = Some(parent).filter(|&parent| self.moves(parent)).map(|parent| self.links[parent].clone());
             let body = self.links[child].clone();
-            forces.push(clause(q, "spring", ForceKind::Torque { body, value, axes: ForceAxes::Body, reaction }));
+            let torque = ForceClause::new(&TORQUE, name(q, "spring"), writer.span)
+                .with(BODY, Some(body))
+                .with(VALUE, Some(value))
+                .with(REACTION, reaction);
+            forces.push(torque);
             let text = format!(
                 "the spring of `{}` turns as a torque: its energy is not in the potential energy; where the turn is half \
                  a revolution the torque jumps",
@@ -110,17 +110,15 @@ impl Robot<'_> {
                 continue;
             };
             let number = |value: f64| (value != 0.0).then(|| writer.number(value));
-            let kind = if tendon.rest[0] == tendon.rest[1] {
-                ForceKind::Spring {
-                    extent: Extent::Along(along),
-                    stiffness: writer.number(tendon.stiffness),
-                    length: number(tendon.rest[0]),
-                    damping: number(tendon.damping),
-                }
+            forces.push(if tendon.rest[0] == tendon.rest[1] {
+                ForceClause::new(&SPRING, None, writer.span)
+                    .with(ALONG, Some(along))
+                    .with(STIFFNESS, Some(writer.number(tendon.stiffness)))
+                    .with(LENGTH, number(tendon.rest[0]))
+                    .with(DAMPING, number(tendon.damping))
             } else {
-                ForceKind::Drive { rates: self.over_a_range(tendon, along) }
-            };
-            forces.push(ForceClause { name: None, kind, span: writer.span });
+                ForceClause::drive(None, self.over_a_range(tendon, along), writer.span)
+            });
         }
         (forces, notes)
     }
@@ -175,14 +173,14 @@ impl Robot<'_> {
                 forces.extend(self.pulls(cable, &parts, rest));
                 continue;
             }
-            let extent = match parts.as_slice() {
-                [([a, b], 1.0)] => Extent::Between { from: self.point(*a), to: self.point(*b) },
-                parts => Extent::Along(self.length_of(parts)),
+            let spring = ForceClause::new(&SPRING, None, writer.span);
+            let spring = match parts.as_slice() {
+                [([a, b], 1.0)] => spring.with(FROM, Some(self.point(*a))).with(TO, Some(self.point(*b))),
+                parts => spring.with(ALONG, Some(self.length_of(parts))),
             };
             let number = |value: f64| (value != 0.0).then(|| writer.number(value));
-            let (length, damping) = (number(rest[0]), number(cable.damping));
-            let kind = ForceKind::Spring { extent, stiffness: writer.number(cable.stiffness), length, damping };
-            forces.push(ForceClause { name: None, kind, span: writer.span });
+            let spring = spring.with(STIFFNESS, Some(writer.number(cable.stiffness)));
+            forces.push(spring.with(LENGTH, number(rest[0])).with(DAMPING, number(cable.damping)));
         }
         forces
     }
@@ -218,8 +216,8 @@ impl Robot<'_> {
             for (link, sign) in ends.iter().zip([-1.0, 1.0]).filter(|(link, _)| self.moves(**link)) {
                 let value = writer.times(writer.times(writer.number(sign), tension.clone()), direction.clone());
                 let body = self.links[*link].clone();
-                let kind = ForceKind::OnBody { body, at: None, value, axes: ForceAxes::Observer };
-                forces.push(ForceClause { name: None, kind, span: writer.span });
+                let force = ForceClause::new(&FORCE, None, writer.span).with(VALUE, Some(value));
+                forces.push(force.with(BODY, Some(body)).with(AXES, Some(ForceAxes::Observer)));
             }
         }
         forces

@@ -1,4 +1,4 @@
-//! The clauses of a scene, checked: coordinates and speeds, bodies and particles, and forces.
+//! The clauses of a scene, checked: coordinates and speeds, bodies and particles, constraints, functions and inputs.
 
 use super::expression::Expression;
 use super::roles::{Role, Shape};
@@ -220,146 +220,6 @@ pub enum InputKind {
     Wrench,
 }
 
-/// `central_gravity(mu = …, center = …)`: the acceleration `−mu d/|d|³` of everything with mass, d from the center.
-#[derive(Clone)]
-pub struct Attraction {
-    /// What its generalised force is called, different from those of the other elements; `None` if it has no name.
-    pub name: Option<Ident>,
-    /// The gravitational parameter: a scalar of fields and numbers.
-    pub mu: Expression,
-    /// Where it attracts to: a vector of t, fields and numbers, observer axes from Ω; `None`: Ω.
-    pub center: Option<Expression>,
-}
-
-/// `force(…)`, `torque(…)`, `wrench(…)`, `drive(…)`, `spring(…)`, `stop(…)`, `drag(…)` or `damping = …`: a force
-/// element.
-#[derive(Clone)]
-pub struct ForceClause {
-    /// What its generalised force is called, different from those of the other elements; `None` if it has no name.
-    pub name: Option<Ident>,
-    /// What acts, and where.
-    pub kind: ForceKind,
-    /// The word that the clause begins with.
-    pub span: Span,
-}
-
-/// What acts. A value may depend on t, q, z and the inputs; a place on t and q only.
-#[derive(Clone)]
-pub enum ForceKind {
-    /// `force(at = …, value = …)`: at the point that has this position.
-    AtPoint {
-        /// A vector of t and q: observer axes from Ω.
-        at: Expression,
-        /// A vector: observer axes.
-        value: Expression,
-    },
-    /// `force(body = …, at = …, value = …, axes = …)`: at a point fixed in a body or a frame.
-    OnBody {
-        /// The body or frame.
-        body: Ident,
-        /// A vector of fields and numbers: body axes from O; `None`: at O.
-        at: Option<Expression>,
-        /// A vector.
-        value: Expression,
-        /// Those of the value.
-        axes: ForceAxes,
-    },
-    /// `torque(body = …, value = …, axes = …, reaction = …)`.
-    Torque {
-        /// The body or frame that it acts on.
-        body: Ident,
-        /// A vector.
-        value: Expression,
-        /// Those of the value: the observer's, or those of `body`, never of `reaction`.
-        axes: ForceAxes,
-        /// The body or frame that the opposite torque acts on, another one than `body`.
-        reaction: Option<Ident>,
-    },
-    /// `wrench(body = …, at = …, force = …, torque = …, axes = …)`: a force, a torque or both.
-    Wrench {
-        /// The body or frame that it acts on.
-        body: Ident,
-        /// Where the force acts: a vector of fields and numbers, body axes from O; `None`: at O.
-        at: Option<Expression>,
-        /// A vector; `None` only if there is a torque.
-        force: Option<Expression>,
-        /// A vector; `None` only if there is a force.
-        torque: Option<Expression>,
-        /// Those of both.
-        axes: ForceAxes,
-    },
-    /// `drive(theta = …)`: generalised forces; each one delivers the power of its value times the rate of its coordinate.
-    Drive {
-        /// Scalar coordinates, each once, with scalars.
-        rates: Vec<(Ident, Expression)>,
-    },
-    /// `spring(from = …, to = …, stiffness = …, length = …, damping = …)` or `spring(along = …, …)`.
-    Spring {
-        /// What it is the elongation of.
-        extent: Extent,
-        /// Force by elongation: a scalar of fields and numbers.
-        stiffness: Expression,
-        /// The extent without force: a scalar of fields and numbers; `None`: zero.
-        length: Option<Expression>,
-        /// Force by rate of elongation: a scalar of fields and numbers; `None`: zero.
-        damping: Option<Expression>,
-    },
-    /// `stop(along = …, least = …, most = …, stiffness = …, width = …, damping = …)` or `stop(from = …, to = …, …)`:
-    /// pushes the extent back between two limits. Every constant is a scalar of fields and numbers.
-    Stop {
-        /// What is kept within limits.
-        extent: Extent,
-        /// The lower limit; `None` only if there is an upper one.
-        least: Option<Expression>,
-        /// The upper limit; `None` only if there is a lower one.
-        most: Option<Expression>,
-        /// Force by extent beyond a limit.
-        stiffness: Expression,
-        /// The distance, or angle, over which the stop sets in.
-        width: Expression,
-        /// Force by rate of the extent while beyond a limit; `None`: zero.
-        damping: Option<Expression>,
-    },
-    /// `friction(along = …, viscous = …, dry = …, width = …)` or `friction(from = …, to = …, …)`. Every constant is a scalar of
-    /// fields and numbers.
-    Friction {
-        /// What moves.
-        extent: Extent,
-        /// Force by rate of the extent; `None` only if there is a dry part.
-        viscous: Option<Expression>,
-        /// The force far beyond the width; `None` only if there is a viscous part.
-        dry: Option<Expression>,
-        /// The rate of the extent at which the dry part is 0.7 of its force; with that part alone.
-        width: Option<Expression>,
-    },
-    /// `drag(body = …, linear = …, quadratic = …)`: against the velocity relative to the medium, pole O, body axes.
-    Drag {
-        /// The body or frame that it acts on.
-        body: Ident,
-        /// Force by velocity; `None` only if there is a quadratic part.
-        linear: Option<Coefficients>,
-        /// Force by velocity times its magnitude, component by component; `None` only if there is a linear part.
-        quadratic: Option<Coefficients>,
-    },
-    /// `damping = …`: Rayleigh's dissipation function, a scalar whose negative partial derivatives by z are the
-    /// generalised forces.
-    Dissipation(Expression),
-}
-
-/// What a spring or a stop acts along.
-#[derive(Clone)]
-pub enum Extent {
-    /// The distance between two points, each a vector of t and q: observer axes from Ω.
-    Between {
-        /// Where it begins.
-        from: Expression,
-        /// Where it ends.
-        to: Expression,
-    },
-    /// A scalar of t and q, such as the angle of a joint.
-    Along(Expression),
-}
-
 /// Coefficients of a drag, or an added mass, in body axes, pole O, order (u, ω).
 #[derive(Clone)]
 pub enum Coefficients {
@@ -369,13 +229,20 @@ pub enum Coefficients {
     Field(Ident),
 }
 
-/// The axes that the components of a force or a torque are taken in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ForceAxes {
-    /// e, of the body that it acts on.
-    Body,
-    /// k.
-    Observer,
+impl Coefficients {
+    pub fn each_expression(&mut self, change: &mut dyn FnMut(&mut Expression)) {
+        if let Coefficients::Diagonal(entries) = self {
+            entries.iter_mut().for_each(|entry| change(entry));
+        }
+    }
+
+    pub fn entries(&self) -> impl Iterator<Item = &Expression> {
+        let entries = match self {
+            Coefficients::Diagonal(entries) => Some(entries),
+            Coefficients::Field(_) => None,
+        };
+        entries.into_iter().flatten().map(|entry| &**entry)
+    }
 }
 
 /// `role = value`, of the body that has it.
@@ -404,22 +271,5 @@ impl RoleClause {
     /// It is of the body itself, not of the fluid about it.
     pub fn is_of_matter(&self) -> bool {
         matches!(self.role, Role::Mass | Role::CenterOfMass | Role::Inertia | Role::CentralInertia)
-    }
-}
-
-impl ForceClause {
-    /// What it is called in messages.
-    pub fn noun(&self) -> &'static str {
-        match self.kind {
-            ForceKind::AtPoint { .. } | ForceKind::OnBody { .. } => "force",
-            ForceKind::Torque { .. } => "torque",
-            ForceKind::Wrench { .. } => "wrench",
-            ForceKind::Drive { .. } => "drive",
-            ForceKind::Spring { .. } => "spring",
-            ForceKind::Stop { .. } => "stop",
-            ForceKind::Friction { .. } => "friction",
-            ForceKind::Drag { .. } => "drag",
-            ForceKind::Dissipation(_) => "dissipation function",
-        }
     }
 }

@@ -3,6 +3,8 @@
 pub mod charts;
 pub mod clauses;
 pub mod described;
+pub mod elements;
 pub mod expression;
+pub mod forces;
 pub mod model;
 pub mod roles;

@@ -3,11 +3,12 @@
 
 use super::charts::InChart;
 use super::clauses::{
-    Attraction, BodyClause, Coefficients, ConstraintClause, Coordinate, ForceClause, FunctionClause, InputName,
-    ParticleClause, PointClause, RoleClause, RoleValue, Speed, SpeedPart,
+    BodyClause, Coefficients, ConstraintClause, Coordinate, FunctionClause, InputName, ParticleClause, PointClause,
+    RoleClause, RoleValue, Speed, SpeedPart,
 };
 use super::described::Described;
 use super::expression::Expression;
+use super::forces::ForceClause;
 use super::roles::{Role, Shape};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -63,7 +64,7 @@ pub struct Model {
     /// The velocity of the medium: a vector of t, fields and numbers, observer axes; `None`: at rest.
     pub medium: Option<Expression>,
     /// Central gravity: each acts on every body and every particle.
-    pub attractions: Vec<Attraction>,
+    pub attractions: Vec<ForceClause>,
     /// What acts besides gravity and the potential, in the order in which it is written.
     pub forces: Vec<ForceClause>,
     /// Inertia of the rates of scalar coordinates: a scalar of fields and numbers for each.

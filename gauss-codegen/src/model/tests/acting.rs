@@ -38,16 +38,16 @@ fn the_same_body_as_a_system() {
     assert_eq!(
         model.forces.iter().map(shown).collect::<Vec<_>>(),
         [
-            "force lift: on body at [(-l) 0 0]: [0 0 (Multiply (Multiply body.RelativeVelocity[0] \
-             body.RelativeVelocity[0]) fin)] in body",
-            "force -: on body at c: c in observer",
-            "force -: on body at -: (Multiply (-k) body.Velocity) in body",
-            "torque -: on body and -: gust.Torque in body",
-            "wrench -: on body at [l 0 0]: c c in body",
-            "drag -: on body: d -",
-            "spring -: body.Position to tail: k - -",
-            "stop -: along body.Position[2] from 0 to -: k l -",
-            "dissipation function -: (Multiply k (dot body.AngularVelocity body.AngularVelocity))",
+            "force lift: at [(-l) 0 0], value [0 0 (Multiply (Multiply body.RelativeVelocity[0] \
+             body.RelativeVelocity[0]) fin)], body body",
+            "force -: at c, value c, body body, axes observer",
+            "force -: value (Multiply (-k) body.Velocity), body body",
+            "torque -: body body, value gust.Torque",
+            "wrench -: body body, at [l 0 0], force c, torque c",
+            "drag -: body body, linear d",
+            "spring -: from body.Position, to tail, stiffness k",
+            "stop -: along body.Position[2], least 0, stiffness k, width l",
+            "damping -: value (Multiply k (dot body.AngularVelocity body.AngularVelocity))",
         ]
     );
     assert_eq!(model.points[0].body, "body");

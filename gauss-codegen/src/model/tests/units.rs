@@ -206,7 +206,11 @@ fn energies_streams_and_drags() {
         &[
             ("*", "this product is in N, and a potential is in J; multiply it by a coefficient in m"),
             ("t", "`t` is in s, and the velocity of the medium is in m/s; multiply it by a coefficient in m/s^2"),
-            ("g", "`g` is in m/s^2, and a gravitational parameter is in m^3/s^2; multiply it by a coefficient in m^2"),
+            (
+                "g",
+                "`g` is in m/s^2, and the gravitational parameter of an attraction is in m^3/s^2; multiply it by a \
+             coefficient in m^2",
+            ),
             ("*", "this product is in N m, and a dissipation function is in W; multiply it by a coefficient in 1/s"),
             (
                 "c",

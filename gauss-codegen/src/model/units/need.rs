@@ -26,11 +26,5 @@ pub const FORCE: (&str, Dimension) = ("N", Dimension::new(1, 1, -2));
 pub const TORQUE: (&str, Dimension) = ("N m", Dimension::new(1, 2, -2));
 pub const ENERGY: (&str, Dimension) = ("J", Dimension::new(1, 2, -2));
 pub const POWER: (&str, Dimension) = ("W", Dimension::new(1, 2, -3));
-pub const GRAVITATION: (&str, Dimension) = ("m^3/s^2", Dimension::new(0, 3, -2));
 /// The diagonal of an added mass.
 pub const ADDED_MASS: [(&str, Dimension); 2] = [MASS, ("kg m^2", Dimension::new(1, 2, 0))];
-/// Of drag: linear and quadratic, each of a force and of a torque.
-pub const COEFFICIENTS: [[(&str, Dimension); 2]; 2] = [
-    [("N s/m", Dimension::new(1, 0, -1)), ("N m s", Dimension::new(1, 2, -1))],
-    [("N s^2/m^2", Dimension::new(1, -1, 0)), ("N m s^2", Dimension::new(1, 2, 0))],
-];

@@ -3,16 +3,16 @@
 use std::collections::HashMap;
 
 use super::dimensions::{Checker, Dimensions, Found};
-use super::need::{
-    ADDED_MASS, ANGULAR_VELOCITY, COEFFICIENTS, ENERGY, FORCE, GRAVITATION, LENGTH, MASS, Need, POWER, TORQUE, VELOCITY,
-};
+use super::need::{ADDED_MASS, ANGULAR_VELOCITY, ENERGY, FORCE, LENGTH, MASS, Need, POWER, TORQUE, VELOCITY};
 use crate::model::language::context::Context;
 use crate::model::language::fields::ReadField;
 use crate::model::language::statements::Statements;
 use crate::model::language::units::{self, Dimension};
-use crate::model::language::words::{PI, TIME, same};
-use crate::model::scene::clauses::{Coefficients, CoordinateKind, Extent, ForceKind};
+use crate::model::language::words::{self, PI, TIME, same};
+use crate::model::scene::clauses::CoordinateKind;
+use crate::model::scene::elements::{Argument, ElementKind, Takes, Unit};
 use crate::model::scene::expression::{Expression, ExpressionKind, FunctionName};
+use crate::model::scene::forces::ForceClause;
 use crate::model::scene::roles::Role;
 use proc_macro2::Ident;
 
@@ -53,11 +53,11 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
     checker.places(statements);
     for (index, clause) in statements.forces.iter().enumerate() {
         // Numbers of a file are in units of the SI: they need not say so.
-        let has_numbers = matches!(clause.kind, ForceKind::Dissipation(_) | ForceKind::Wrench { .. });
+        let has_numbers = matches!(clause.row.kind, ElementKind::Dissipation | ElementKind::Wrench);
         if index < statements.forces_of_file && has_numbers {
             continue;
         }
-        checker.force(&clause.kind);
+        checker.element(clause);
     }
     for constraint in &statements.constraints {
         checker.value(&constraint.expression);
@@ -123,130 +123,59 @@ impl Checker<'_> {
         for (_, inertia) in &statements.armatures {
             self.value(inertia);
         }
-        for clause in &statements.attractions {
-            self.require(&clause.mu, &Need::new("a gravitational parameter is", GRAVITATION));
-            self.optional(&clause.center, &Need::new("a center of gravity is", LENGTH));
-        }
+        statements.attractions.iter().for_each(|clause| self.element(clause));
     }
 
-    /// What acts.
-    pub fn force(&mut self, kind: &ForceKind) {
-        let at_need = Need::new("the place where a force acts is", LENGTH);
-        let force_need = Need::new("the components of a force are", FORCE);
-        let torque_need = Need::new("the components of a torque are", TORQUE);
-        match kind {
-            ForceKind::AtPoint { at, value } => {
-                self.require(at, &at_need);
-                self.require(value, &force_need);
-            }
-            ForceKind::OnBody { at, value, .. } => {
-                self.optional(at, &at_need);
-                self.require(value, &force_need);
-            }
-            ForceKind::Torque { value, .. } => self.require(value, &torque_need),
-            ForceKind::Wrench { at, force, torque, .. } => {
-                self.optional(at, &at_need);
-                self.optional(force, &force_need);
-                self.optional(torque, &torque_need);
-            }
-            ForceKind::Drive { rates } => rates.iter().for_each(|(_, value)| {
-                self.value(value);
-            }),
-            ForceKind::Spring { extent, stiffness, length, damping } => {
-                let constants = self.extent("a spring", extent);
-                self.constant(Some(stiffness), "stiffness", constants.as_ref(), 0);
-                self.constant(length.as_ref(), "length", constants.as_ref(), 1);
-                self.constant(damping.as_ref(), "damping", constants.as_ref(), 2);
-            }
-            ForceKind::Stop { extent, least, most, stiffness, width, damping } => {
-                let constants = self.extent("a stop", extent);
-                self.constant(least.as_ref(), "lower limit", constants.as_ref(), 1);
-                self.constant(most.as_ref(), "upper limit", constants.as_ref(), 1);
-                self.constant(Some(stiffness), "stiffness", constants.as_ref(), 0);
-                self.constant(Some(width), "width", constants.as_ref(), 1);
-                self.constant(damping.as_ref(), "damping", constants.as_ref(), 2);
-            }
-            ForceKind::Friction { extent, viscous, dry, width } => self.friction(extent, viscous, dry, width),
-            ForceKind::Drag { linear, quadratic, .. } => {
-                let both = [("linear", linear), ("quadratic", quadratic)];
-                for ((word, coefficients), units) in both.into_iter().zip(COEFFICIENTS) {
-                    let Some(Coefficients::Diagonal(entries)) = coefficients else { continue };
-                    for (index, entry) in entries.iter().enumerate() {
-                        let part = usize::from(index >= 3);
-                        let what = format!("the {} three {word} coefficients of a drag are", ["first", "last"][part]);
-                        self.require(entry, &Need::new(what, units[part]));
+    /// The arguments of a force element.
+    fn element(&mut self, clause: &ForceClause) {
+        let mut extent = None;
+        for (argument, index, expression) in clause.expressions() {
+            match self.need(clause, (argument, index), extent.as_ref()) {
+                Some(need) => self.require(expression, &need),
+                None => {
+                    let found = self.value(expression);
+                    if let (Takes::Along, Found::Known(dimension)) = (argument.takes, found.parts()[0]) {
+                        extent = Some(Extent { dimension, named: named(dimension) });
                     }
                 }
             }
-            ForceKind::Dissipation(function) => self.require(function, &Need::new("a dissipation function is", POWER)),
-        }
-    }
-
-    /// Viscous: force over rate; dry: force; its width: a rate.
-    fn friction(
-        &mut self,
-        extent: &Extent,
-        viscous: &Option<Expression>,
-        dry: &Option<Expression>,
-        width: &Option<Expression>,
-    ) {
-        let constants = self.extent("friction", extent);
-        self.constant(viscous.as_ref(), "viscous part", constants.as_ref(), 2);
-        // Units of the force, and of the rate.
-        let derived = |pair: [usize; 2], combine: fn(Dimension, Dimension) -> Option<Dimension>| {
-            let (noun, units) = constants.as_ref()?;
-            let dimension = combine(units[pair[0]].1, units[pair[1]].1)?;
-            let unit = (dimension.to_string(), dimension);
-            Some((noun.clone(), [unit.clone(), unit.clone(), unit]))
-        };
-        self.constant(dry.as_ref(), "dry part", derived([0, 1], Dimension::times).as_ref(), 0);
-        let rate = |extent: Dimension, _| extent.over(Dimension::TIME);
-        self.constant(width.as_ref(), "width", derived([1, 1], rate).as_ref(), 0);
-    }
-
-    /// What the constants of `noun` are needed in, if that is known: stiffness, the extent itself, damping.
-    fn extent(&mut self, noun: &str, extent: &Extent) -> Option<(String, [(String, Dimension); 3])> {
-        match extent {
-            Extent::Between { from, to } => {
-                let need = Need::new(format!("the ends of {noun} are"), LENGTH);
-                self.require(from, &need);
-                self.require(to, &need);
-                let units = [("N/m", Dimension::new(1, 0, -2)), LENGTH, ("N s/m", Dimension::new(1, 0, -1))];
-                Some((noun.into(), units.map(|(unit, dimension)| (unit.into(), dimension))))
-            }
-            Extent::Along(along) => {
-                let Found::Known(dimension) = self.value(along).parts()[0] else { return None };
-                let named = if dimension == Dimension::NONE {
-                    "an angle".into()
-                } else if dimension == LENGTH.1 {
-                    "a length".into()
-                } else {
-                    format!("a coordinate in {dimension}")
-                };
-                let own = if dimension == Dimension::NONE { "rad".into() } else { dimension.to_string() };
-                let stiffness = ENERGY.1.over(dimension)?.over(dimension)?;
-                let damping = stiffness.times(Dimension::TIME)?;
-                let units = [(stiffness.to_string(), stiffness), (own, dimension), (damping.to_string(), damping)];
-                Some((format!("{noun} along {named}"), units))
+            if argument.takes == Takes::End {
+                extent = Some(Extent { dimension: LENGTH.1, named: String::new() });
             }
         }
     }
 
-    /// A constant of a spring or a stop, whose unit is the one at `index` of the list that [`Self::extent`] gives.
-    fn constant(
-        &mut self,
-        value: Option<&Expression>,
-        word: &str,
-        needs: Option<&(String, [(String, Dimension); 3])>,
-        index: usize,
-    ) {
-        let Some(value) = value else { return };
-        let Some((noun, units)) = needs else {
-            self.value(value);
-            return;
-        };
-        let (unit, dimension) = &units[index];
-        self.require(value, &Need::new(format!("the {word} of {noun} is"), (unit, *dimension)));
+    /// What an argument is needed in, if that is known: of six coefficients the one at `index`.
+    fn need(
+        &self,
+        clause: &ForceClause,
+        (argument, index): (&Argument, usize),
+        extent: Option<&Extent>,
+    ) -> Option<Need> {
+        let noun = words::a(clause.noun());
+        Some(match argument.takes {
+            Takes::Point => Need::new("the place where a force acts is", LENGTH),
+            Takes::Force => Need::new("the components of a force are", FORCE),
+            Takes::Torque => Need::new("the components of a torque are", TORQUE),
+            Takes::Dissipation => Need::new("a dissipation function is", POWER),
+            Takes::End => Need::new(format!("the ends of {noun} are"), LENGTH),
+            Takes::Center => Need::new("a center of gravity is", LENGTH),
+            Takes::Constant { called, unit: Unit::Is(unit), .. } => {
+                Need::new(format!("the {called} of {noun} is"), (unit, units::read(unit).ok()?))
+            }
+            Takes::Constant { called, unit, .. } => {
+                let (text, dimension) = extent?.unit(unit)?;
+                let named = &extent?.named;
+                Need::new(format!("the {called} of {noun}{named} is"), (&text, dimension))
+            }
+            Takes::Coefficients(needed) => {
+                let part = usize::from(index >= 3);
+                let (which, word) = (["first", "last"][part], argument.word);
+                let what = format!("the {which} three {word} coefficients of {noun} are");
+                Need::new(what, (needed[part], units::read(needed[part]).ok()?))
+            }
+            Takes::Body | Takes::Other | Takes::Axes | Takes::Drive | Takes::Along => return None,
+        })
     }
 
     fn optional(&mut self, expression: &Option<Expression>, need: &Need) {
@@ -268,5 +197,41 @@ impl Checker<'_> {
                 self.compare(expression, value, need);
             }
         }
+    }
+}
+
+/// What an element acts along.
+struct Extent {
+    dimension: Dimension,
+    /// `along an angle`, where it is a scalar.
+    named: String,
+}
+
+impl Extent {
+    /// The unit of a constant, where one is known.
+    fn unit(&self, unit: Unit) -> Option<(String, Dimension)> {
+        let force = ENERGY.1.over(self.dimension)?;
+        let stiffness = force.over(self.dimension)?;
+        let dimension = match unit {
+            Unit::Is(text) => units::read(text).ok()?,
+            Unit::Extent => self.dimension,
+            Unit::ForceByExtent => stiffness,
+            Unit::ForceByRate => stiffness.times(Dimension::TIME)?,
+            Unit::Force => force,
+            Unit::Rate => self.dimension.over(Dimension::TIME)?,
+        };
+        let angle = unit == Unit::Extent && dimension == Dimension::NONE;
+        Some((if angle { "rad".into() } else { dimension.to_string() }, dimension))
+    }
+}
+
+/// What a scalar extent is, for messages.
+fn named(dimension: Dimension) -> String {
+    if dimension == Dimension::NONE {
+        " along an angle".into()
+    } else if dimension == LENGTH.1 {
+        " along a length".into()
+    } else {
+        format!(" along a coordinate in {dimension}")
     }
 }

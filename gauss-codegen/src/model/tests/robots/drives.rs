@@ -1,7 +1,6 @@
 //! Inputs by transmissions: gears, rotors, interfaces.
 
 use super::{arm, joint, link, mistakes, model, remarks, robot};
-use crate::model::ForceKind;
 
 fn geared(inside: &str) -> String {
     robot(&(joint("elbow", "revolute", "base", "arm", "") + &link("arm") + inside))
@@ -16,7 +15,7 @@ fn motors_behind_gears() {
     let read = model(&text, ", inputs = actuators", "");
     let inputs: Vec<_> = read.inputs.iter().map(|input| (input.ident.to_string(), input.field.clone())).collect();
     assert_eq!(inputs, [("motor_1".to_owned(), Some("motor 1".to_owned()))]);
-    let ForceKind::Drive { rates } = &read.forces[0].kind else { panic!("no drive") };
+    let rates: Vec<_> = read.forces[0].rates().collect();
     assert_eq!(rates[0].0, "elbow");
     // 50² · 1e-4.
     assert_eq!(read.armatures.len(), 1);

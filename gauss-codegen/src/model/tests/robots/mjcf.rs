@@ -1,9 +1,10 @@
 //! MJCF: what is read, what is told, what is refused.
 
 use super::{Scratch, read};
+use crate::model::argument::{AT, FORCE, TORQUE, VALUE};
 use crate::model::scene::clauses::{RoleClause, RoleValue};
 use crate::model::tests::systems::show;
-use crate::model::{ConstraintKind, ForceKind, Model, Role, ValueOfState};
+use crate::model::{ConstraintKind, ElementKind, ForceClause, Model, Role, ValueOfState};
 
 const INERTIAL: &str = "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>";
 
@@ -143,9 +144,8 @@ fn tendons_and_actuators() {
     let read = model(&rest, ", inputs = actuators");
     let inputs: Vec<String> = read.inputs.iter().map(|input| input.ident.to_string()).collect();
     assert_eq!(inputs, ["p", "b_control"]);
-    let ForceKind::Drive { rates } = &read.forces[0].kind else { panic!("no drive") };
-    assert_eq!(rates.iter().map(|(q, _)| q.to_string()).collect::<Vec<_>>(), ["a", "b"]);
-    assert!(read.forces.iter().any(|force| matches!(force.kind, ForceKind::Spring { .. })));
+    assert_eq!(read.forces[0].rates().map(|(q, _)| q.to_string()).collect::<Vec<_>>(), ["a", "b"]);
+    assert!(read.forces.iter().any(|force| force.row.kind == ElementKind::Spring));
     let ignored: Vec<String> =
         read.described.unwrap().remarks.into_iter().filter(|remark| remark.ignored).map(|remark| remark.text).collect();
     assert!(ignored[0].ends_with("it is not linear in its control, or has a state of its own"), "{ignored:?}");
@@ -259,11 +259,12 @@ fn actuators_at_sites() {
     let read = model(inside, "");
     let inputs: Vec<String> = read.inputs.iter().map(|input| input.ident.to_string()).collect();
     assert_eq!(inputs, ["a_effort", "lift", "arm_site_control"]);
-    let wrench = |force: &ForceKind| match force {
-        ForceKind::Wrench { body, force, torque, .. } => Some((body.to_string(), force.is_some(), torque.is_some())),
-        _ => None,
+    let wrench = |clause: &ForceClause| {
+        let has = |word| clause.expression(word).is_some();
+        (clause.body().unwrap().to_string(), has(FORCE), has(TORQUE))
     };
-    let wrenches: Vec<_> = read.forces.iter().filter_map(|force| wrench(&force.kind)).collect();
+    let wrenches = read.forces.iter().filter(|clause| clause.row.kind == ElementKind::Wrench).map(wrench);
+    let wrenches: Vec<_> = wrenches.collect();
     assert_eq!(wrenches, [("s".to_owned(), true, true), ("arm_site".to_owned(), true, false)]);
     let controls = |read: Model| -> Vec<(String, f64)> {
         let up = read.described.unwrap().states.remove(0);
@@ -309,8 +310,7 @@ fn ranges_of_inputs() {
     }
     let drives = |clauses: &str| {
         let read = model(inside, clauses);
-        let ForceKind::Drive { rates } = &read.forces[0].kind else { panic!("no drive") };
-        rates.iter().map(|(q, force)| format!("{q}: {}", show(force))).collect::<Vec<_>>()
+        read.forces[0].rates().map(|(q, force)| format!("{q}: {}", show(force))).collect::<Vec<_>>()
     };
     assert_eq!(
         drives(", inputs = actuators, saturation = clamp"),
@@ -331,13 +331,12 @@ fn held_weights_and_springs_over_ranges() {
     let held = "<joint name=\"a\"/><body name=\"load\" gravcomp=\"0.5\"><geom size=\"1\" mass=\"4\" pos=\"0 0 2\"/></body>\
                 </body></worldbody>";
     let forces = |clauses: &str| -> Vec<String> {
-        let shown = |force: &ForceKind| match force {
-            ForceKind::OnBody { body, at, value, .. } => {
-                Some(format!("{body} at {}: {}", at.as_ref().map(show).unwrap_or_default(), show(value)))
-            }
-            _ => None,
+        let shown = |clause: &ForceClause| {
+            let [at, value] = [AT, VALUE].map(|word| clause.expression(word).map(show).unwrap_or_default());
+            format!("{} at {at}: {value}", clause.body().unwrap())
         };
-        model(held, clauses).forces.iter().filter_map(|force| shown(&force.kind)).collect()
+        let forces = model(held, clauses).forces;
+        forces.iter().filter(|clause| clause.row.kind == ElementKind::Force).map(shown).collect()
     };
     assert_eq!(forces(""), ["load at [0 0 2]: (Multiply (-2) [0 0 (-981/100)])"]);
     assert_eq!(forces(", gravity = 1.5"), ["load at [0 0 2]: (Multiply (-2) [0 0 (-3/2)])"]);
@@ -346,14 +345,11 @@ fn held_weights_and_springs_over_ranges() {
         "{TWO}<tendon><fixed stiffness=\"2\" damping=\"3\" springlength=\"-1 1\"><joint joint=\"a\" coef=\"4\"/></fixed></tendon>"
     );
     let read = model(&tendon, "");
-    let drive = read.forces.iter().find_map(|force| match &force.kind {
-        ForceKind::Drive { rates } => Some(rates),
-        _ => None,
-    });
+    let drive = read.forces.iter().find_map(|clause| clause.rates().next());
     let along = "(Multiply 4 a)";
     let force =
         format!("(Add (Multiply (-2) (Subtract {along} (clamp {along} (-1) 1))) (Multiply (-3) (rate {along})))");
-    assert_eq!(show(&drive.unwrap()[0].1), format!("(Multiply 4 {force})"));
+    assert_eq!(show(drive.unwrap().1), format!("(Multiply 4 {force})"));
     assert!(read.described.unwrap().remarks.iter().all(|remark| !remark.ignored));
 }
 
@@ -365,7 +361,7 @@ fn laws_of_balls_and_free_joints() {
                   <geom size=\"1\"/></body></worldbody>";
     let read = model(inside, "");
     assert_eq!(read.armatures.iter().map(|(q, _)| q.to_string()).collect::<Vec<_>>(), ["a", "f"]);
-    assert!(read.forces.iter().any(|force| matches!(force.kind, ForceKind::Dissipation(_))));
+    assert!(read.forces.iter().any(|force| force.row.kind == ElementKind::Dissipation));
     assert!(read.described.unwrap().remarks.iter().all(|remark| !remark.ignored));
 }
 

@@ -37,8 +37,8 @@ fn accepted() {
     assert_eq!(
         model.forces.iter().map(shown).collect::<Vec<_>>(),
         [
-            format!("force -: at {tip}: (Multiply (-thrust) (rate {tip}))"),
-            "drag -: on cart: [v 0 0 0 0 0] -".to_owned()
+            format!("force -: at {tip}, value (Multiply (-thrust) (rate {tip}))"),
+            "drag -: body cart, linear [v 0 0 0 0 0]".to_owned()
         ]
     );
     // A vector constraint by definition is three.

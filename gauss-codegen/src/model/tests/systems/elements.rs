@@ -3,6 +3,7 @@
 use super::super::{Mistake, check};
 use super::{show, shown, system};
 use crate::model::InputKind;
+use crate::model::argument::{CENTER, MU};
 
 /// A boat with a mast that is hinged on it, with more `clauses`.
 fn boat(clauses: &str) -> String {
@@ -39,28 +40,28 @@ fn accepted() {
     assert_eq!(model.medium.as_ref().map(show), Some("(Multiply (Multiply k (sin t)) c)".into()));
     let attractions = model.attractions.iter().map(|a| {
         let name = a.name.as_ref().map(ToString::to_string);
-        (name, show(&a.mu), a.center.as_ref().map(show))
+        (name, a.expression(MU).map(show), a.expression(CENTER).map(show))
     });
     assert_eq!(
         attractions.collect::<Vec<_>>(),
         [
-            (None, "k".into(), None),
-            (Some("sun".into()), "(Multiply 2 k)".into(), Some("[(Multiply l (cos t)) 0 0]".into())),
+            (None, Some("k".into()), None),
+            (Some("sun".into()), Some("(Multiply 2 k)".into()), Some("[(Multiply l (cos t)) 0 0]".into())),
         ]
     );
     assert_eq!(
         model.forces.iter().map(shown).collect::<Vec<_>>(),
         [
-            "wrench sail: on mast at [0 0 l]: gust.Force gust.Torque in observer",
-            "wrench -: on hull at -: - (cross hull.BodyVelocity hull.BodyAngularVelocity) in body",
-            "wrench -: on hull at c: [(Multiply rudder hull.RelativeVelocity[0]) 0 (signum mast.RelativeVelocity[1])] - \
-             in body",
-            "drag water: on hull: d [(abs u[0]) 2 3 (clamp k 0 1) 5 (smooth_step k 0 1)]",
-            "drag -: on mast: - e",
-            "spring hinge: along theta: k - 1",
-            "spring -: along top[2]: k l -",
-            "stop -: along theta from (-1) to 1: k 1/10 l",
-            "stop shroud: top to quay.Position from - to l: 1 l -",
+            "wrench sail: body mast, at [0 0 l], force gust.Force, torque gust.Torque, axes observer",
+            "wrench -: body hull, torque (cross hull.BodyVelocity hull.BodyAngularVelocity)",
+            "wrench -: body hull, at c, force [(Multiply rudder hull.RelativeVelocity[0]) 0 (signum \
+             mast.RelativeVelocity[1])]",
+            "drag water: body hull, linear d, quadratic [(abs u[0]) 2 3 (clamp k 0 1) 5 (smooth_step k 0 1)]",
+            "drag -: body mast, quadratic e",
+            "spring hinge: along theta, stiffness k, damping 1",
+            "spring -: along top[2], stiffness k, length l",
+            "stop -: along theta, least (-1), most 1, stiffness k, width 1/10, damping l",
+            "stop shroud: from top, to quay.Position, most l, stiffness 1, width l",
         ]
     );
 }
@@ -75,9 +76,9 @@ fn friction_and_armatures() {
     assert_eq!(
         model.forces.iter().map(shown).collect::<Vec<_>>(),
         [
-            "friction hinge: along theta: k (Multiply 2 l) 1/10",
-            "friction -: top to quay.Position: - 1 k",
-            "friction -: along theta: 1 - -"
+            "friction hinge: along theta, viscous k, dry (Multiply 2 l), width 1/10",
+            "friction -: from top, to quay.Position, dry 1, width k",
+            "friction -: along theta, viscous 1"
         ]
     );
     let armatures: Vec<_> = model.armatures.iter().map(|(q, a)| (q.to_string(), show(a))).collect();
@@ -90,18 +91,18 @@ fn friction_and_armatures() {
             ("friction", "a friction law needs a coefficient; add `viscous = …`, `dry = …` with `width = …` or both"),
             (
                 "friction",
-                "a friction law needs what it acts along; add `from = …` and `to = …`, two points, or `along = …`, a scalar",
+                "a friction law needs its extent; add `from = …` and `to = …`, two points, or `along = …`, a scalar",
             ),
             ("friction", "a friction law needs the speed over which the dry part sets in smoothly; add `width = w`"),
             ("width", "the width is that of dry friction; add `dry = …`, or remove `width`"),
             ("v", "`v` varies, and the inertia of an armature is constant; write numbers and fields only"),
             (
                 "c",
-                "what friction acts along is a scalar, found a vector; write one number such as an angle, or \
+                "the extent of a friction law is a scalar, found a vector; write one number such as an angle, or \
                  `from = …` and `to = …` for the distance of two points",
             ),
-            ("v", "`v` varies, and the viscous part of friction is constant; write numbers and fields only"),
-            ("top", "`top` varies, and the dry part of friction is constant; write numbers and fields only"),
+            ("v", "`v` varies, and the viscous part of a friction law is constant; write numbers and fields only"),
+            ("top", "`top` varies, and the dry part of a friction law is constant; write numbers and fields only"),
             ("theta", "`theta` is given an armature twice; write the sum of the two"),
             (
                 "thta",
@@ -255,15 +256,12 @@ fn stops_and_springs() {
             ("stop", "a stop needs the distance over which it sets in smoothly; add `width = e`"),
             ("from", "`along` already gives the coordinate of the stop; remove it, or remove `from`"),
             ("stop", "a stop needs its force by distance beyond the limit; add `stiffness = k`"),
-            (
-                "stop",
-                "a stop needs what it acts along; add `from = …` and `to = …`, two points, or `along = …`, a scalar",
-            ),
+            ("stop", "a stop needs its extent; add `from = …` and `to = …`, two points, or `along = …`, a scalar"),
             ("alon", "unknown argument of `stop`: `alon`; did you mean `along`?"),
             ("spring", "a spring needs the point where it begins; add `from = …`"),
             (
                 "c",
-                "what a stop acts along is a scalar, found a vector; write one number such as an angle, or `from = \
+                "the extent of a stop is a scalar, found a vector; write one number such as an angle, or `from = \
                  …` and `to = …` for the distance of two points",
             ),
             ("theta", "`theta` varies, and the lower limit of a stop is constant; write numbers and fields only"),
@@ -293,12 +291,9 @@ fn stops_and_springs() {
         &[
             (
                 "spring",
-                "what the spring acts along does not change: it names no coordinate, and no body or point that moves",
+                "the extent of the spring does not change: it names no coordinate, and no body or point that moves",
             ),
-            (
-                "stop",
-                "what the stop acts along does not change: it names no coordinate, and no body or point that moves",
-            ),
+            ("stop", "the extent of the stop does not change: it names no coordinate, and no body or point that moves"),
         ],
     );
 }
@@ -396,7 +391,7 @@ fn central_gravity() {
             ("sun", "`sun` names a force and an attraction; rename one of the two"),
             (
                 "theta",
-                "`theta` varies, and the gravitational parameter of central gravity is constant; write numbers and \
+                "`theta` varies, and the gravitational parameter of an attraction is constant; write numbers and \
                  fields only",
             ),
             (
@@ -406,7 +401,7 @@ fn central_gravity() {
             ),
             (
                 "c",
-                "the gravitational parameter of central gravity is a scalar, found a vector; write one number or \
+                "the gravitational parameter of an attraction is a scalar, found a vector; write one number or \
                  the name of a field",
             ),
             ("k", "the center of gravity is a vector, found a scalar; write `[x, y, z]`"),

@@ -48,16 +48,16 @@ fn accepted() {
     assert_eq!(
         forces,
         [
-            "force pull: at tip: [thrust 0 0]",
-            "force -: at (Add arm.Position [0 0 l]): (Multiply (Multiply (-k) (abs v)) wind)",
-            "force jet: on arm at [l 0 0]: (Multiply (min thrust k) c) in body",
-            "force -: on ship at -: (Subtract ship.Velocity wind) in observer",
-            "torque -: on gyro and arm: (Add (rate tip) arm.AngularVelocity) in body",
-            "torque motor: on arm and -: [0 0 (max w (hypot w 1))] in observer",
-            "drive servo: theta: (Subtract thrust (Multiply k w)), x: (-x)",
-            "spring -: tip to nail: k - -",
-            "spring damper: [0 0 0] to tip: (Multiply 2 k) l 1",
-            "dissipation function -: (Add (Divide (Multiply (Multiply k v) v) 2) (Multiply (rate theta) w))",
+            "force pull: at tip, value [thrust 0 0]",
+            "force -: at (Add arm.Position [0 0 l]), value (Multiply (Multiply (-k) (abs v)) wind)",
+            "force jet: at [l 0 0], value (Multiply (min thrust k) c), body arm",
+            "force -: value (Subtract ship.Velocity wind), body ship, axes observer",
+            "torque -: body gyro, value (Add (rate tip) arm.AngularVelocity), reaction arm",
+            "torque motor: body arm, value [0 0 (max w (hypot w 1))], axes observer",
+            "drive servo: theta (Subtract thrust (Multiply k w)), x (-x)",
+            "spring -: from tip, to nail, stiffness k",
+            "spring damper: from [0 0 0], to tip, stiffness (Multiply 2 k), length l, damping 1",
+            "damping -: value (Add (Divide (Multiply (Multiply k v) v) 2) (Multiply (rate theta) w))",
         ]
     );
     // A field that only forces name is computed with.
@@ -155,7 +155,7 @@ fn torques() {
     );
     assert_eq!(
         model.forces.iter().map(shown).collect::<Vec<_>>(),
-        ["torque -: on body and -: (-body.AngularVelocity) in body"]
+        ["torque -: body body, value (-body.AngularVelocity)"]
     );
 }
 
@@ -197,10 +197,7 @@ fn springs() {
         "spring(long), spring(from = tip, too = nail, stiffness = k), \
          spring(from = tip, to = nail, stiffness = x, length = tip, damping = c)",
         &[
-            (
-                "spring",
-                "a spring needs what it acts along; add `from = …` and `to = …`, two points, or `along = …`, a scalar",
-            ),
+            ("spring", "a spring needs its extent; add `from = …` and `to = …`, two points, or `along = …`, a scalar"),
             ("spring", "a spring needs its force by elongation; add `stiffness = k`"),
             ("too", "unknown argument of `spring`: `too`; did you mean `to`?"),
             ("x", "`x` varies, and the stiffness of a spring is constant; write numbers and fields only"),

@@ -12,7 +12,8 @@ mod groups;
 mod names;
 
 use super::{Mistake, check};
-use crate::model::{Coefficients, Expression, ExpressionKind, Extent, ForceAxes, ForceClause, ForceKind, Model, parse};
+use crate::model::scene::forces::{Given, Value};
+use crate::model::{Coefficients, Expression, ExpressionKind, ForceAxes, ForceClause, Model, parse};
 use syn::DeriveInput;
 
 pub(super) fn system(source: &str) -> Model {
@@ -63,69 +64,25 @@ pub(super) fn show(expression: &Expression) -> String {
     }
 }
 
-/// A clause with all brackets of its expressions.
+/// A clause with its arguments, with all brackets of their expressions.
 pub(super) fn shown(clause: &ForceClause) -> String {
-    let axes = |axes: ForceAxes| match axes {
-        ForceAxes::Body => "body",
-        ForceAxes::Observer => "observer",
+    let argument = |given: &Given| {
+        let word = given.coordinate.as_ref().map_or(given.argument.word.into(), ToString::to_string);
+        let value = match &given.value {
+            Value::Expression(value) => show(value),
+            Value::Reference(name) | Value::Coefficients(Coefficients::Field(name)) => name.to_string(),
+            Value::Axes(ForceAxes::Body) => "body".into(),
+            Value::Axes(ForceAxes::Observer) => "observer".into(),
+            Value::Coefficients(Coefficients::Diagonal(entries)) => {
+                let entries: Vec<String> = entries.iter().map(|entry| show(entry)).collect();
+                format!("[{}]", entries.join(" "))
+            }
+        };
+        format!("{word} {value}")
     };
-    let optional = |e: &Option<Expression>| e.as_ref().map_or("-".into(), show);
     let name = clause.name.as_ref().map_or("-".into(), ToString::to_string);
-    let what = match &clause.kind {
-        ForceKind::AtPoint { at, value } => format!("at {}: {}", show(at), show(value)),
-        ForceKind::OnBody { body, at, value, axes: in_axes } => {
-            format!("on {body} at {}: {} in {}", optional(at), show(value), axes(*in_axes))
-        }
-        ForceKind::Torque { body, value, axes: in_axes, reaction } => {
-            let reaction = reaction.as_ref().map_or("-".into(), ToString::to_string);
-            format!("on {body} and {reaction}: {} in {}", show(value), axes(*in_axes))
-        }
-        ForceKind::Drive { rates } => {
-            let rates: Vec<String> = rates.iter().map(|(name, value)| format!("{name}: {}", show(value))).collect();
-            rates.join(", ")
-        }
-        ForceKind::Spring { extent, stiffness, length, damping } => {
-            format!("{}: {} {} {}", extended(extent), show(stiffness), optional(length), optional(damping))
-        }
-        ForceKind::Stop { extent, least, most, stiffness, width, damping } => format!(
-            "{} from {} to {}: {} {} {}",
-            extended(extent),
-            optional(least),
-            optional(most),
-            show(stiffness),
-            show(width),
-            optional(damping)
-        ),
-        ForceKind::Friction { extent, viscous, dry, width } => {
-            format!("{}: {} {} {}", extended(extent), optional(viscous), optional(dry), optional(width))
-        }
-        ForceKind::Wrench { body, at, force, torque, axes: in_axes } => {
-            format!("on {body} at {}: {} {} in {}", optional(at), optional(force), optional(torque), axes(*in_axes))
-        }
-        ForceKind::Drag { body, linear, quadratic } => {
-            format!("on {body}: {} {}", coefficients(linear), coefficients(quadratic))
-        }
-        ForceKind::Dissipation(function) => show(function),
-    };
-    format!("{} {name}: {what}", clause.noun())
-}
-
-fn extended(extent: &Extent) -> String {
-    match extent {
-        Extent::Between { from, to } => format!("{} to {}", show(from), show(to)),
-        Extent::Along(along) => format!("along {}", show(along)),
-    }
-}
-
-fn coefficients(coefficients: &Option<Coefficients>) -> String {
-    match coefficients {
-        None => "-".into(),
-        Some(Coefficients::Field(name)) => name.to_string(),
-        Some(Coefficients::Diagonal(entries)) => {
-            let entries: Vec<String> = entries.iter().map(|entry| show(entry)).collect();
-            format!("[{}]", entries.join(" "))
-        }
-    }
+    let arguments: Vec<String> = clause.given.iter().map(argument).collect();
+    format!("{} {name}: {}", clause.row.word, arguments.join(", "))
 }
 
 /// Whatever stands in the clauses of a system, the answer is a model or a message.

@@ -1,0 +1,430 @@
+//! The table of force elements: of each its words, and of each argument what stands there, in which unit, and whether
+//! it is required. Clauses are read, checked and listed by this table; `translate` makes forces of them.
+
+/// What an element is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ElementKind {
+    Force,
+    Torque,
+    Wrench,
+    Drive,
+    Spring,
+    Stop,
+    Drag,
+    Friction,
+    Dissipation,
+    Attraction,
+}
+
+/// One element.
+pub struct Row {
+    pub kind: ElementKind,
+    /// What its clause begins with. Elements without a name are called so, too.
+    pub word: &'static str,
+    /// What it is called in messages.
+    pub noun: &'static str,
+    pub form: Form,
+    /// In the order in which messages list them.
+    pub arguments: &'static [Argument],
+    /// What must hold among arguments.
+    pub rules: &'static [Rule],
+    /// Words that are refused in a way of their own.
+    pub refused: &'static [(&'static str, &'static str)],
+    /// All that stands in its brackets.
+    pub example: &'static str,
+    /// One argument, for messages.
+    pub argument: &'static str,
+}
+
+impl PartialEq for Row {
+    fn eq(&self, other: &Row) -> bool {
+        self.kind == other.kind
+    }
+}
+
+impl Eq for Row {}
+
+impl Row {
+    /// The argument with this word.
+    pub fn find(&self, word: &str) -> Option<&'static Argument> {
+        self.arguments.iter().find(|argument| argument.word == word)
+    }
+
+    /// The words of its arguments.
+    pub fn words(&self) -> Vec<(&'static str, ())> {
+        self.arguments.iter().map(|argument| (argument.word, ())).collect()
+    }
+}
+
+/// How a clause is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// `spring(name, along = …, stiffness = …)`.
+    Arguments,
+    /// `drive(name, theta = …)`: the words are coordinates.
+    Rates,
+    /// `damping = …`.
+    Value,
+}
+
+/// One argument.
+#[derive(Clone, Copy)]
+pub struct Argument {
+    pub word: &'static str,
+    pub takes: Takes,
+    /// What may stand there, for messages.
+    pub example: &'static str,
+    /// What the element lacks without it, for messages; `None`: it may be left out.
+    pub required: Option<&'static str>,
+}
+
+impl Argument {
+    const fn optional(word: &'static str, takes: Takes, example: &'static str) -> Argument {
+        Argument { word, takes, example, required: None }
+    }
+
+    const fn required(word: &'static str, takes: Takes, example: &'static str, what: &'static str) -> Argument {
+        Argument { word, takes, example, required: Some(what) }
+    }
+
+    const fn constant(word: &'static str, called: &'static str, unit: Unit, example: &'static str) -> Argument {
+        Argument::optional(word, Takes::Constant { called, unit, law: None }, example)
+    }
+
+    /// What `kernel()` checks of it.
+    const fn law(self, law: LawKind) -> Argument {
+        match self.takes {
+            Takes::Constant { called, unit, .. } => {
+                Argument { takes: Takes::Constant { called, unit, law: Some(law) }, ..self }
+            }
+            _ => self,
+        }
+    }
+
+    /// It may not be left out.
+    const fn needed(self, what: &'static str) -> Argument {
+        Argument { required: Some(what), ..self }
+    }
+}
+
+/// What stands in the place of an argument.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Takes {
+    /// The name of the body or frame that it acts on. In a chart it may be left out.
+    Body,
+    /// The name of another body or frame, on which the reaction acts.
+    Other,
+    /// `body` or `observer`: the axes of the components.
+    Axes,
+    /// Where a force acts: with `body` a vector of fields and numbers, body axes from O, or the name of a point of the
+    /// body; else a vector of t and q, observer axes from Ω.
+    Point,
+    /// A vector.
+    Force,
+    /// A vector.
+    Torque,
+    /// The generalised force on the rate of a scalar coordinate: a scalar.
+    Drive,
+    /// Rayleigh's dissipation function: a scalar whose negative partial derivatives by z are the generalised forces.
+    Dissipation,
+    /// One of two points whose distance is the extent: a vector of t and q, observer axes from Ω.
+    End,
+    /// The extent: a scalar of t and q, such as the angle of a joint.
+    Along,
+    /// A scalar of fields and numbers, called so in messages.
+    Constant { called: &'static str, unit: Unit, law: Option<LawKind> },
+    /// Coefficients in body axes, pole O, order (u, ω), in these units for forces and for torques: six scalars that may
+    /// depend on all that forces do, or a field that is a `Vector6` (diagonal) or a `Matrix6`.
+    Coefficients([&'static str; 2]),
+    /// The centre of a field: a vector of t, fields and numbers, observer axes from Ω.
+    Center,
+}
+
+/// The unit of a constant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// This one.
+    Is(&'static str),
+    /// That of the extent.
+    Extent,
+    /// Generalised force by extent.
+    ForceByExtent,
+    /// Generalised force by rate of the extent.
+    ForceByRate,
+    /// Generalised force: energy by extent.
+    Force,
+    /// That of the rate of the extent.
+    Rate,
+}
+
+/// What `kernel()` checks of constants, and `warnings()` finds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LawKind {
+    /// Of a spring or a stop.
+    Stiffness,
+    /// Of a stop.
+    Width,
+    /// Of a stop, both of them.
+    Limits,
+    /// A coefficient of a spring or a stop.
+    Damping,
+    /// An armature, or the level of dry friction.
+    NonNegative,
+    /// The mass of a particle.
+    MassInSum,
+    /// A whole dissipation function, of the state too.
+    Dissipation,
+    /// A gravitational parameter.
+    Attraction,
+}
+
+/// What must hold among the arguments of an element.
+#[derive(Clone, Copy)]
+pub enum Rule {
+    /// `along`, or `from` with `to`.
+    Extent,
+    /// `at` or `body`; `axes` only with `body`.
+    Somewhere,
+    /// One of the two, or both; the message ends with both of them.
+    OneOf([&'static str; 2], &'static str),
+    /// Where there is the first, there is the second, which it is told to need.
+    With([&'static str; 2], &'static str),
+    /// The first only with the second; the message.
+    OnlyWith([&'static str; 2], &'static str),
+}
+
+/// Words of arguments.
+pub mod argument {
+    pub const BODY: &str = "body";
+    pub const AT: &str = "at";
+    pub const VALUE: &str = "value";
+    pub const AXES: &str = "axes";
+    pub const REACTION: &str = "reaction";
+    pub const FORCE: &str = "force";
+    pub const TORQUE: &str = "torque";
+    pub const LINEAR: &str = "linear";
+    pub const QUADRATIC: &str = "quadratic";
+    pub const FROM: &str = "from";
+    pub const TO: &str = "to";
+    pub const ALONG: &str = "along";
+    pub const STIFFNESS: &str = "stiffness";
+    pub const LENGTH: &str = "length";
+    pub const DAMPING: &str = "damping";
+    pub const VISCOUS: &str = "viscous";
+    pub const DRY: &str = "dry";
+    pub const WIDTH: &str = "width";
+    pub const LEAST: &str = "least";
+    pub const MOST: &str = "most";
+    pub const MU: &str = "mu";
+    pub const CENTER: &str = "center";
+}
+
+use argument::{
+    ALONG, AT, AXES, BODY, CENTER, DAMPING, DRY, FORCE as OF_FORCE, FROM, LEAST, LENGTH, LINEAR, MOST, MU, QUADRATIC,
+    REACTION, STIFFNESS, TO, TORQUE as OF_TORQUE, VALUE, VISCOUS, WIDTH,
+};
+
+const ON_BODY: Argument = Argument::required(BODY, Takes::Body, "…", "the body that it acts on");
+const IN_AXES: Argument = Argument::optional(AXES, Takes::Axes, "body");
+const FROM_POINT: Argument = Argument::optional(FROM, Takes::End, "arm.position");
+const TO_POINT: Argument = Argument::optional(TO, Takes::End, "[0, 0, h]");
+const ALONG_SCALAR: Argument = Argument::optional(ALONG, Takes::Along, "theta");
+const STIFF: Argument = Argument::constant(STIFFNESS, "stiffness", Unit::ForceByExtent, "k").law(LawKind::Stiffness);
+const DAMPED: Argument = Argument::constant(DAMPING, "damping", Unit::ForceByRate, "c").law(LawKind::Damping);
+
+/// All elements that are force clauses, in the order in which messages list them.
+pub static ELEMENTS: [&Row; 9] = [&FORCE, &TORQUE, &WRENCH, &DRIVE, &SPRING, &STOP, &DRAG, &FRICTION, &DISSIPATION];
+
+/// At the point that has the position `at`, or at a point of `body`.
+pub static FORCE: Row = Row {
+    kind: ElementKind::Force,
+    word: "force",
+    noun: "force",
+    form: Form::Arguments,
+    arguments: &[
+        Argument::optional(AT, Takes::Point, "[l, 0, 0]"),
+        Argument::required(VALUE, Takes::Force, "[fx, fy, fz]", "its components"),
+        Argument::optional(BODY, Takes::Body, "…"),
+        IN_AXES,
+    ],
+    rules: &[Rule::Somewhere],
+    refused: &[],
+    example: "at = …, value = [fx, fy, fz]",
+    argument: "an argument such as `value = [0, 0, f]`",
+};
+
+/// On a body, and the opposite one on another; `axes` are those of `body`, never of `reaction`.
+pub static TORQUE: Row = Row {
+    kind: ElementKind::Torque,
+    word: "torque",
+    noun: "torque",
+    form: Form::Arguments,
+    arguments: &[
+        ON_BODY,
+        Argument::required(VALUE, Takes::Torque, "[mx, my, mz]", "its components"),
+        IN_AXES,
+        Argument::optional(REACTION, Takes::Other, "…"),
+    ],
+    rules: &[],
+    refused: &[("at", "a torque has no point: it does the same wherever it acts on its body; remove `at`")],
+    example: "body = …, value = [mx, my, mz]",
+    argument: "an argument such as `value = [0, 0, f]`",
+};
+
+/// A force at a point of a body, a torque on it, or both.
+pub static WRENCH: Row = Row {
+    kind: ElementKind::Wrench,
+    word: "wrench",
+    noun: "wrench",
+    form: Form::Arguments,
+    arguments: &[
+        ON_BODY,
+        Argument::optional(AT, Takes::Point, "[l, 0, 0]"),
+        Argument::optional(OF_FORCE, Takes::Force, "[fx, fy, fz]"),
+        Argument::optional(OF_TORQUE, Takes::Torque, "[mx, my, mz]"),
+        IN_AXES,
+    ],
+    rules: &[
+        Rule::OneOf([OF_FORCE, OF_TORQUE], "its components; add `force = [fx, fy, fz]`, `torque = [mx, my, mz]`"),
+        Rule::OnlyWith(
+            [AT, OF_FORCE],
+            "a torque has no point: it does the same wherever it acts on its body; add `force = …`, or remove `at`",
+        ),
+    ],
+    refused: &[],
+    example: "body = …, force = [fx, fy, fz], torque = [mx, my, mz]",
+    argument: "an argument such as `force = [0, 0, f]`",
+};
+
+/// Generalised forces; each one delivers the power of its value times the rate of its coordinate.
+pub static DRIVE: Row = Row {
+    kind: ElementKind::Drive,
+    word: "drive",
+    noun: "drive",
+    form: Form::Rates,
+    arguments: &[Argument::optional(VALUE, Takes::Drive, "k * theta")],
+    rules: &[],
+    refused: &[],
+    example: "theta = …",
+    argument: "a generalised force such as `theta = -k * theta`",
+};
+
+/// Against elongation, and its rate.
+pub static SPRING: Row = Row {
+    kind: ElementKind::Spring,
+    word: "spring",
+    noun: "spring",
+    form: Form::Arguments,
+    arguments: &[
+        FROM_POINT,
+        TO_POINT,
+        ALONG_SCALAR,
+        STIFF.needed("its force by elongation"),
+        Argument::constant(LENGTH, "length", Unit::Extent, "l"),
+        DAMPED,
+    ],
+    rules: &[Rule::Extent],
+    refused: &[],
+    example: "from = …, to = …, stiffness = k",
+    argument: "an argument such as `stiffness = k`",
+};
+
+/// Pushes the extent back between two limits; `width` is the distance over which it sets in.
+pub static STOP: Row = Row {
+    kind: ElementKind::Stop,
+    word: "stop",
+    noun: "stop",
+    form: Form::Arguments,
+    arguments: &[
+        FROM_POINT,
+        TO_POINT,
+        ALONG_SCALAR,
+        Argument::constant(LEAST, "lower limit", Unit::Extent, "a"),
+        Argument::constant(MOST, "upper limit", Unit::Extent, "b"),
+        STIFF.needed("its force by distance beyond the limit"),
+        Argument::constant(WIDTH, "width", Unit::Extent, "e")
+            .law(LawKind::Width)
+            .needed("the distance over which it sets in smoothly"),
+        DAMPED,
+    ],
+    rules: &[Rule::Extent, Rule::OneOf([LEAST, MOST], "a limit; add `least = …`, `most = …`")],
+    refused: &[],
+    example: "along = …, least = a, most = b, stiffness = k, width = e",
+    argument: "an argument such as `stiffness = k`",
+};
+
+/// Against the velocity relative to the medium; `quadratic` by velocity times its magnitude, component by component.
+pub static DRAG: Row = Row {
+    kind: ElementKind::Drag,
+    word: "drag",
+    noun: "drag",
+    form: Form::Arguments,
+    arguments: &[
+        ON_BODY,
+        Argument::optional(LINEAR, Takes::Coefficients(["N s/m", "N m s"]), SIX),
+        Argument::optional(QUADRATIC, Takes::Coefficients(["N s^2/m^2", "N m s^2"]), SIX),
+    ],
+    rules: &[Rule::OneOf([LINEAR, QUADRATIC], "its coefficients; add `linear = …`, `quadratic = …`")],
+    refused: &[],
+    example: "body = …, linear = …, quadratic = …",
+    argument: "an argument such as `linear = d`",
+};
+
+/// Against the rate of the extent; `width` is the rate at which the dry part is 0.7 of its force.
+pub static FRICTION: Row = Row {
+    kind: ElementKind::Friction,
+    word: "friction",
+    noun: "friction law",
+    form: Form::Arguments,
+    arguments: &[
+        FROM_POINT,
+        TO_POINT,
+        ALONG_SCALAR,
+        Argument::constant(VISCOUS, "viscous part", Unit::ForceByRate, "d").law(LawKind::Damping),
+        Argument::constant(DRY, "dry part", Unit::Force, "f").law(LawKind::NonNegative),
+        Argument::constant(WIDTH, "width", Unit::Rate, "w").law(LawKind::Width),
+    ],
+    rules: &[
+        Rule::Extent,
+        Rule::OneOf([VISCOUS, DRY], "a coefficient; add `viscous = …`, `dry = …` with `width = …`"),
+        Rule::With([DRY, WIDTH], "the speed over which the dry part sets in smoothly"),
+        Rule::OnlyWith([WIDTH, DRY], "the width is that of dry friction; add `dry = …`, or remove `width`"),
+    ],
+    refused: &[],
+    example: "along = …, viscous = d",
+    argument: "an argument such as `viscous = d`",
+};
+
+/// Rayleigh's.
+pub static DISSIPATION: Row = Row {
+    kind: ElementKind::Dissipation,
+    word: "damping",
+    noun: "dissipation function",
+    form: Form::Value,
+    arguments: &[Argument::optional(VALUE, Takes::Dissipation, "c * v * v / 2")],
+    rules: &[],
+    refused: &[],
+    example: "c * v * v / 2",
+    argument: "a dissipation function",
+};
+
+/// The acceleration `−mu d/|d|³` of everything with mass, d from the centre. It is no force clause: it acts on all.
+pub static ATTRACTION: Row = Row {
+    kind: ElementKind::Attraction,
+    word: "central_gravity",
+    noun: "attraction",
+    form: Form::Arguments,
+    arguments: &[
+        Argument::constant(MU, "gravitational parameter", Unit::Is("m^3/s^2"), "gm")
+            .law(LawKind::Attraction)
+            .needed("its gravitational parameter"),
+        Argument::optional(CENTER, Takes::Center, "[x, y, z]"),
+    ],
+    rules: &[],
+    refused: &[],
+    example: "mu = gm",
+    argument: "an argument such as `mu = gm`",
+};
+
+/// How six coefficients are written.
+const SIX: &str = "[a, b, c, d, e, f]";

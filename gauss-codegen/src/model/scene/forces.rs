@@ -1,0 +1,181 @@
+//! Clauses of force elements, checked: a row of the table of elements with what its arguments are.
+
+use super::clauses::Coefficients;
+use super::elements::{Argument, DISSIPATION, DRIVE, Row, Takes, argument};
+use super::expression::Expression;
+use proc_macro2::{Ident, Span};
+
+/// `force(…)`, `spring(…)`, `damping = …`, `central_gravity(…)` and the like: a force element.
+#[derive(Clone)]
+pub struct ForceClause {
+    /// What its generalised force is called, different from those of the other elements; `None` if it has no name.
+    pub name: Option<Ident>,
+    pub row: &'static Row,
+    /// In the order of the row.
+    pub given: Vec<Given>,
+    /// The word that the clause begins with.
+    pub span: Span,
+}
+
+/// An argument with its value.
+#[derive(Clone)]
+pub struct Given {
+    pub argument: &'static Argument,
+    /// The coordinate on whose rate it acts, of a drive.
+    pub coordinate: Option<Ident>,
+    pub value: Value,
+}
+
+/// What an argument is said to be.
+#[derive(Clone)]
+pub enum Value {
+    Expression(Expression),
+    /// A body or a frame.
+    Reference(Ident),
+    Axes(ForceAxes),
+    Coefficients(Coefficients),
+}
+
+/// The axes that the components of a force or a torque are taken in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceAxes {
+    /// e, of the body that it acts on.
+    Body,
+    /// k.
+    Observer,
+}
+
+impl From<Expression> for Value {
+    fn from(value: Expression) -> Value {
+        Value::Expression(value)
+    }
+}
+
+impl From<Ident> for Value {
+    fn from(name: Ident) -> Value {
+        Value::Reference(name)
+    }
+}
+
+impl From<ForceAxes> for Value {
+    fn from(axes: ForceAxes) -> Value {
+        Value::Axes(axes)
+    }
+}
+
+impl ForceClause {
+    /// Without arguments.
+    pub fn new(row: &'static Row, name: Option<Ident>, span: Span) -> ForceClause {
+        ForceClause { name, row, given: Vec::new(), span }
+    }
+
+    /// `drive(…)`.
+    pub fn drive(name: Option<Ident>, rates: Vec<(Ident, Expression)>, span: Span) -> ForceClause {
+        let mut clause = ForceClause::new(&DRIVE, name, span);
+        let given = |(coordinate, value): (Ident, Expression)| Given {
+            argument: &DRIVE.arguments[0],
+            coordinate: Some(coordinate),
+            value: value.into(),
+        };
+        clause.given = rates.into_iter().map(given).collect();
+        clause
+    }
+
+    /// `damping = …`.
+    pub fn dissipation(name: Option<Ident>, function: Expression, span: Span) -> ForceClause {
+        ForceClause::new(&DISSIPATION, name, span).with(argument::VALUE, Some(function))
+    }
+
+    /// With the argument `word` of its row, if there is a value.
+    pub fn with(mut self, word: &str, value: Option<impl Into<Value>>) -> ForceClause {
+        let argument = self.row.find(word);
+        debug_assert!(argument.is_some(), "`{}` has no argument `{word}`", self.row.word);
+        let given = argument.zip(value);
+        self.given.extend(given.map(|(argument, value)| Given { argument, coordinate: None, value: value.into() }));
+        self
+    }
+
+    /// What it is called in messages.
+    pub fn noun(&self) -> &'static str {
+        self.row.noun
+    }
+
+    /// The argument `word` of its row, if it is given.
+    pub fn find(&self, word: &str) -> Option<&Given> {
+        debug_assert!(self.row.find(word).is_some(), "`{}` has no argument `{word}`", self.row.word);
+        self.given.iter().find(|given| given.argument.word == word)
+    }
+
+    /// The argument `word`, where that is an expression.
+    pub fn expression(&self, word: &str) -> Option<&Expression> {
+        match &self.find(word)?.value {
+            Value::Expression(value) => Some(value),
+            Value::Reference(_) | Value::Axes(_) | Value::Coefficients(_) => None,
+        }
+    }
+
+    /// The argument `word`, where that is six coefficients or a matrix.
+    pub fn coefficients(&self, word: &str) -> Option<&Coefficients> {
+        match &self.find(word)?.value {
+            Value::Coefficients(value) => Some(value),
+            Value::Reference(_) | Value::Axes(_) | Value::Expression(_) => None,
+        }
+    }
+
+    /// The body or frame that it acts on, if it names one.
+    pub fn body(&self) -> Option<&Ident> {
+        self.reference(Takes::Body).map(|(name, _)| name)
+    }
+
+    /// The body or frame on which the reaction acts, if it names one, and the argument that names it.
+    pub fn other(&self) -> Option<(&Ident, &'static Argument)> {
+        self.reference(Takes::Other)
+    }
+
+    fn reference(&self, takes: Takes) -> Option<(&Ident, &'static Argument)> {
+        self.given.iter().find(|given| given.argument.takes == takes).and_then(|given| match &given.value {
+            Value::Reference(name) => Some((name, given.argument)),
+            Value::Expression(_) | Value::Axes(_) | Value::Coefficients(_) => None,
+        })
+    }
+
+    /// Those of the body, where none are given.
+    pub fn axes(&self) -> ForceAxes {
+        let axes = |given: &Given| if let Value::Axes(axes) = given.value { Some(axes) } else { None };
+        self.given.iter().find_map(axes).unwrap_or(ForceAxes::Body)
+    }
+
+    /// What is on the rates of coordinates, of a drive.
+    pub fn rates(&self) -> impl Iterator<Item = (&Ident, &Expression)> {
+        self.given.iter().filter_map(|given| match &given.value {
+            Value::Expression(value) => Some((given.coordinate.as_ref()?, value)),
+            Value::Reference(_) | Value::Axes(_) | Value::Coefficients(_) => None,
+        })
+    }
+
+    /// Its expressions with their arguments, and which of six it is.
+    pub fn expressions(&self) -> Vec<(&'static Argument, usize, &Expression)> {
+        let mut all = Vec::new();
+        for Given { argument, value, .. } in &self.given {
+            match value {
+                Value::Expression(value) => all.push((*argument, 0, value)),
+                Value::Coefficients(value) => {
+                    all.extend(value.entries().enumerate().map(|(k, entry)| (*argument, k, entry)));
+                }
+                Value::Reference(_) | Value::Axes(_) => {}
+            }
+        }
+        all
+    }
+
+    /// Calls `change` with each of its expressions.
+    pub fn each_expression(&mut self, change: &mut dyn FnMut(&mut Expression)) {
+        for given in &mut self.given {
+            match &mut given.value {
+                Value::Expression(value) => change(value),
+                Value::Coefficients(value) => value.each_expression(change),
+                Value::Reference(_) | Value::Axes(_) => {}
+            }
+        }
+    }
+}
