@@ -144,6 +144,12 @@ fn without_effect(clause: &ForceClause, moving: &Moving) -> Option<String> {
         (Some(body), Some((other, _))) if !moving.moves(body) && !moving.moves(other) => {
             return Some(format!("neither `{body}` nor `{other}` moves, so the {noun} does nothing; remove it"));
         }
+        (Some(body), Some((other, _))) if moving.are_joined(body, other) => {
+            let message = format!(
+                "`{body}` and `{other}` never move relative to each other, so the {noun} does nothing; name another body"
+            );
+            return Some(message);
+        }
         (Some(body), None) if !moving.moves(body) => {
             return Some(format!("`{body}` does not move, so the {noun} does nothing; name a body that moves"));
         }

@@ -1,16 +1,19 @@
 //! What changes when coordinates or speeds do.
 
 use crate::model::language::statements::Statements;
-use crate::model::language::words::{UNNAMED, word};
+use crate::model::language::words::{TIME, UNNAMED, word};
+use crate::model::scene::clauses::BodyClause;
 use crate::model::scene::expression::{Expression, ExpressionKind, FunctionName};
 use proc_macro2::Ident;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// What moves, by name.
 pub struct Moving {
     /// Coordinates; bodies, frames and points that are placed by them.
     places: HashSet<String>,
     speeds: HashSet<String>,
+    /// Bodies and frames that are fixed in others, with these; `None`: in the observer's frame.
+    fixed: HashMap<String, Option<String>>,
 }
 
 impl Moving {
@@ -39,7 +42,33 @@ impl Moving {
                 places.insert(word(&point.name));
             }
         }
-        Moving { places, speeds }
+        let mut varying = places.clone();
+        varying.insert(TIME.to_owned());
+        let is_fixed = |body: &&BodyClause| {
+            let placed = body.parent.is_some() || !places.contains(&body.word());
+            placed && !body.position.iter().chain(&body.rotation).any(|e| names_any(e, &varying))
+        };
+        let bodies = statements.bodies.iter().filter(is_fixed);
+        let fixed = bodies.map(|body| (body.word(), body.parent.as_ref().map(word))).collect();
+        Moving { places, speeds, fixed }
+    }
+
+    /// Whether two bodies or frames never move relative to each other.
+    pub fn are_joined(&self, a: &Ident, b: &Ident) -> bool {
+        self.carrier(word(a)) == self.carrier(word(b))
+    }
+
+    /// What a body or a frame is fixed in; `None`: the observer's frame.
+    fn carrier(&self, name: String) -> Option<String> {
+        let mut carrier = Some(name);
+        // As often as there are bodies: parents that go round in a circle are refused elsewhere.
+        for _ in 0..self.fixed.len() {
+            match carrier.as_ref().and_then(|name| self.fixed.get(name)) {
+                Some(parent) => carrier = parent.clone(),
+                None => break,
+            }
+        }
+        carrier
     }
 
     /// Whether a coordinate, a body, a frame or a point moves.

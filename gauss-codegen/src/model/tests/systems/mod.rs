@@ -10,6 +10,7 @@ mod forces;
 mod frames;
 mod groups;
 mod names;
+mod two_bodies;
 
 use super::{Mistake, check};
 use crate::model::scene::forces::{Given, Value};

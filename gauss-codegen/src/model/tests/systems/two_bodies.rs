@@ -1,0 +1,82 @@
+//! Elements between two bodies: what must hold of the second one, of every element that has one.
+
+use super::super::check;
+use super::system;
+use crate::model::scene::elements::{Argument, ELEMENTS, Row, Takes};
+
+/// A hull with a mast that is hinged on it and a foot that is fixed in it, a quay and a pier at rest.
+fn boat(clause: &str) -> String {
+    format!(
+        "#[gauss(coordinates(pose: Pose, theta), speeds(u: Vector3, w: Vector3, v), kinematics(pose = twist(u, w), theta = v), \
+         body(hull, position = pose.position, rotation = pose.rotation), body(mast, parent = hull, rotation = rotation_x(theta)), \
+         frame(foot, parent = hull, position = [0, 0, 1]), frame(shoe, parent = foot, rotation = rotation_z(k)), \
+         frame(quay), frame(pier, parent = quay, position = [1, 0, 0]), frame(clock, rotation = rotation_z(t)), {clause})] \
+         struct Scene {{ #[gauss(body)] hull: RigidBody<f64>, #[gauss(body)] mast: RigidBody<f64>, k: f64, c: Vector3<f64> }}"
+    )
+}
+
+/// Every element with a second body, all its arguments but the bodies written.
+fn each(test: impl Fn(&Row, &str, &dyn Fn(&str, &str) -> String)) {
+    let mut count = 0;
+    for row in ELEMENTS {
+        let Some(other) = row.arguments.iter().find(|argument| argument.takes == Takes::Other) else { continue };
+        let rest: Vec<String> = row.arguments.iter().filter_map(written).collect();
+        let clause = |body: &str, second: &str| {
+            format!("{}(body = {body}, {} = {second}, {})", row.word, other.word, rest.join(", "))
+        };
+        test(row, other.word, &clause);
+        count += 1;
+    }
+    assert!(count > 0);
+}
+
+fn written(argument: &Argument) -> Option<String> {
+    let value = match argument.takes {
+        Takes::Body | Takes::Other | Takes::Axes => return None,
+        Takes::Force | Takes::Torque | Takes::Point | Takes::End | Takes::Center => "c",
+        Takes::Constant { .. } | Takes::Drive | Takes::Dissipation | Takes::Along => "k",
+        Takes::Coefficients(_) => "[1, 2, 3, 4, 5, k]",
+    };
+    Some(format!("{} = {value}", argument.word))
+}
+
+#[test]
+fn either_body_may_be_at_rest() {
+    each(|row, _, clause| {
+        for [body, other] in [["hull", "mast"], ["mast", "quay"], ["quay", "hull"], ["mast", "foot"], ["foot", "clock"]]
+        {
+            let model = system(&boat(&clause(body, other)));
+            assert_eq!(model.forces[0].row.kind, row.kind);
+            assert_eq!(model.forces[0].other().unwrap().0, other);
+        }
+    });
+}
+
+#[test]
+fn the_second_body_is_another_one() {
+    each(|row, _, clause| {
+        let noun = row.noun;
+        let cancel = format!("the {noun} on `hull` and its reaction on `hull` cancel; name another body");
+        check(&boat(&clause("hull", "hull")), &[("hull", cancel.as_str())]);
+        for [body, other] in [["hull", "shoe"], ["foot", "hull"], ["shoe", "foot"]] {
+            let joined = format!(
+                "`{body}` and `{other}` never move relative to each other, so the {noun} does nothing; name another body"
+            );
+            check(&boat(&clause(body, other)), &[(row.word, joined.as_str())]);
+        }
+        let idle = format!("neither `quay` nor `pier` moves, so the {noun} does nothing; remove it");
+        check(&boat(&clause("quay", "pier")), &[(row.word, idle.as_str())]);
+    });
+}
+
+#[test]
+fn bodies_are_known() {
+    each(|row, word, clause| {
+        let near = "no body or frame is called `masst`; did you mean `mast`?";
+        check(&boat(&clause("hull", "masst")), &[("masst", near)]);
+        check(&boat(&clause("masst", "hull")), &[("masst", near)]);
+        let misspelt = format!("unknown argument of `{}`: `{word}_`; did you mean `{word}`?", row.word);
+        let written = clause("hull", "mast").replace(&format!("{word} ="), &format!("{word}_ ="));
+        check(&boat(&written), &[(&format!("{word}_"), misspelt.as_str())]);
+    });
+}
