@@ -229,6 +229,7 @@
 /// | `force(name, at = …, value = […])` | without a chart: a force at a point, both in observer's axes, the point from Ω |
 /// | `force(name, body = other, at = […], value = […], axes = body)` | a force at a point fixed in a body or a frame, at numbers and fields in its axes from O or at a `point` of that body by its name, by default at O; the value in `axes = body`, which is the default, or `axes = observer` |
 /// | `torque(name, body = other, value = […], axes = body, reaction = another)` | a torque, and the opposite one on another body or frame; axes as above |
+/// | `coupling(name, body = other, other = another, viscous = c)` | a viscous coupling: the torque −c (ω − ω′) on `body`, with the angular velocities of the two bodies or frames, and its reaction on `other` |
 /// | `wrench(name, body = other, at = […], force = […], torque = […], axes = body)` | a force, a torque or both; place and axes as above |
 /// | `drag(name, body = other, linear = d, quadratic = e)` | −D V − Q (\|V\| V), with V = (u, ω) relative to the medium, body axes, pole O, \|V\| V component by component: coefficients are a list of six scalars, which can depend on what forces depend on, or a field `Vector6` (diagonal) or `Matrix6`. One of the two or both |
 /// | `drive(name, theta = expr, x = expr)` | generalised forces on scalar coordinates, each of the power `expr` · dθ/dt |

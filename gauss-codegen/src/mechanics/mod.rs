@@ -61,7 +61,7 @@ pub use kinematics::rotation::{about_axis, poisson, rotation_of_quaternion};
 pub use kinematics::turn::Turn;
 pub use kinematics::vector::{Axes, Vector, add, cross, dot, subtract};
 pub use links::link::{Matter, Placement, identity};
-pub use links::path::{common, point_seen_from, turned};
+pub use links::path::{common, point_seen_from, relative_angular_velocity, turned};
 pub use links::tree::Tree;
 pub use loads::account::Account;
 pub use loads::central::CentralField;

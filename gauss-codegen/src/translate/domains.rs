@@ -150,7 +150,7 @@ impl<'g> Translator<'_, 'g> {
         mistakes.finish()
     }
 
-    fn mistake(&self, span: Span, message: String) -> Expr<'g> {
+    pub(super) fn mistake(&self, span: Span, message: String) -> Expr<'g> {
         let mut notes = self.notes.add();
         // Expressions with a name are translated where the name stands.
         let place = |span: Span| format!("{span:?}");

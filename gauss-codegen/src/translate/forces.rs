@@ -7,7 +7,10 @@ use proc_macro2::{Ident, Span};
 
 use crate::algebra::Expr;
 use crate::error::Result;
-use crate::mechanics::{Action, Axes, CentralField, Element, Force, Matter, Rotor, Tree, common, entrained};
+use crate::mechanics::{
+    Action, Axes, CentralField, Element, Force, Matter, Rotor, Tree, common, entrained, relative_angular_velocity,
+    subtract,
+};
 use crate::model::argument::{
     ALONG, AT, CENTER, DAMPING, DRY, FORCE, FROM, LEAST, LENGTH, LINEAR, MOST, MU, QUADRATIC, STIFFNESS, TO, TORQUE,
     VALUE, VISCOUS, WIDTH,
@@ -107,6 +110,7 @@ impl<'g> Translator<'_, 'g> {
                 self.note(LawKind::Dissipation, (name, ""), function, vec![value]);
                 vec![Force::Dissipation(value)]
             }
+            ElementKind::Coupling => self.coupling(name, clause, tree)?,
             ElementKind::Friction => vec![self.friction(name, clause, tree)?],
             ElementKind::Spring => return self.spring(name, clause, self.extent(clause, tree)?, tree),
             ElementKind::Stop => return self.stop(name, clause, tree),
@@ -127,6 +131,29 @@ impl<'g> Translator<'_, 'g> {
         let written = words.map(|word| word.and_then(|word| clause.expression(word)));
         let (axes, [force, torque]) = self.parts(link, written, clause.axes(), tree)?;
         Ok(Force::OnLink { link, at: self.vector_or_zero(clause, AT, tree)?, force, torque, axes })
+    }
+
+    fn coupling(&self, name: &str, clause: &ForceClause, tree: &Tree<'g>) -> Result<Vec<Force<'g>>> {
+        let links = self.both(clause)?;
+        let viscous = self.constant(name, clause, VISCOUS, tree)?;
+        let (axes, omega) = match relative_angular_velocity(&tree.links, links) {
+            Some(omega) => (Axes::Body, omega),
+            None => {
+                let [own, other] = links.map(|link| self.velocity_of(link, Property::AngularVelocity, tree));
+                (Axes::Space, subtract(&own, &other))
+            }
+        };
+        if omega.iter().all(|e| e.is_zero()) {
+            let message = "the two bodies never turn relative to each other, so the coupling does nothing; remove it";
+            self.mistake(clause.span, message.to_owned());
+        }
+        Ok(self.with_reaction(links, omega.map(|e| -(viscous * e.group())), axes, tree))
+    }
+
+    /// The links that it acts on.
+    fn both(&self, clause: &ForceClause) -> Result<[usize; 2]> {
+        let (other, _) = clause.other().ok_or_else(|| bug(clause.span))?;
+        Ok([self.link(on(clause)?)?, self.link(other)?])
     }
 
     fn torque(&self, clause: &ForceClause, tree: &Tree<'g>) -> Result<Vec<Force<'g>>> {

@@ -4,7 +4,7 @@
 use crate::algebra::Expr;
 
 use crate::mechanics::kinematics::turn::{inward, outward};
-use crate::mechanics::kinematics::vector::{Triple, add, dot};
+use crate::mechanics::kinematics::vector::{Triple, add, dot, subtract};
 use crate::mechanics::links::link::Link;
 
 /// A link and those that it hangs on, up to the root.
@@ -35,6 +35,19 @@ pub fn point_seen_from<'g>(links: &[Link<'g>], [k, above]: [usize; 2], at: &Trip
         let joint = &links[k].own_joint;
         add(&joint.offset, &outward(&joint.turns, &at)).map(Expr::group)
     })
+}
+
+/// The angular velocity of the first link relative to the second, in the axes of the first; `None` in two trees.
+pub fn relative_angular_velocity<'g>(links: &[Link<'g>], [on, other]: [usize; 2]) -> Option<Triple<'g>> {
+    let top = common(links, [on, other])?;
+    let from_top = |k: usize| {
+        let still = links[k].spin.map(|e| e.graph().zero());
+        below(links, k, top)
+            .into_iter()
+            .rev()
+            .fold(still, |omega, k| add(&inward(&links[k].own_joint.turns, &omega), &links[k].spin).map(Expr::group))
+    };
+    Some(subtract(&from_top(on), &turned(links, [other, on], &from_top(other))?))
 }
 
 /// The torques on the joints between two links, each on the link below the joint and in its axes, of a torque on the

@@ -45,6 +45,7 @@ const RESISTANCE: &str = "resistance is `drag(linear = [six numbers], quadratic 
 const LIFT: &str = "lift is `force(body = hull, at = […], value = […])`, with `body.relative_velocity` and a `function(…)` or a \
                     `table(…)` in its value";
 const DAMPER: &str = "a damper is `friction(along = x, viscous = c)`, or `damping = c` of a `spring(…)`";
+const COUPLING: &str = "a viscous coupling of two bodies is `coupling(body = wheel, other = hull, viscous = c)`";
 const ROLLING: &str = "what rolls or does not slip is `constraint(velocity = …)`; a loop is `constraint(position = …)`";
 const CONTACT: &str =
     "a contact is `stop(along = height, least = 0, stiffness = k, width = e)`; friction is `force(…)`";
@@ -130,6 +131,9 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("damper", DAMPER),
     ("dashpot", DAMPER),
     ("viscous", DAMPER),
+    ("viscous_coupling", COUPLING),
+    ("rotational_damper", COUPLING),
+    ("torsional_damper", COUPLING),
     ("joint_damping", DAMPED),
     ("rolling", ROLLING),
     ("no_slip", ROLLING),
@@ -248,7 +252,10 @@ pub const FOR_ARGUMENTS: &Table<&[&str]> = &[
     ("on", &["body"]),
     ("acts_on", &["body"]),
     ("child", &["body"]),
-    ("against", &["reaction"]),
+    ("against", &["reaction", "other"]),
+    ("reaction", &["other"]),
+    ("other", &["reaction"]),
+    ("second", &["other", "reaction"]),
     ("vector", &["value"]),
     ("magnitude", &["value"]),
     ("moment", &["torque"]),
@@ -265,6 +272,8 @@ pub const FOR_ARGUMENTS: &Table<&[&str]> = &[
     ("c", &["damping", "viscous"]),
     ("d", &["damping", "viscous"]),
     ("viscosity", &["viscous"]),
+    ("damping", &["viscous"]),
+    ("viscous", &["damping"]),
     ("coulomb", &["dry"]),
     ("min", &["least"]),
     ("lower", &["least"]),

@@ -12,6 +12,7 @@ pub enum ElementKind {
     Stop,
     Drag,
     Friction,
+    Coupling,
     Dissipation,
     Attraction,
 }
@@ -200,6 +201,7 @@ pub mod argument {
     pub const VALUE: &str = "value";
     pub const AXES: &str = "axes";
     pub const REACTION: &str = "reaction";
+    pub const OTHER: &str = "other";
     pub const FORCE: &str = "force";
     pub const TORQUE: &str = "torque";
     pub const LINEAR: &str = "linear";
@@ -220,11 +222,12 @@ pub mod argument {
 }
 
 use argument::{
-    ALONG, AT, AXES, BODY, CENTER, DAMPING, DRY, FORCE as OF_FORCE, FROM, LEAST, LENGTH, LINEAR, MOST, MU, QUADRATIC,
-    REACTION, STIFFNESS, TO, TORQUE as OF_TORQUE, VALUE, VISCOUS, WIDTH,
+    ALONG, AT, AXES, BODY, CENTER, DAMPING, DRY, FORCE as OF_FORCE, FROM, LEAST, LENGTH, LINEAR, MOST, MU, OTHER,
+    QUADRATIC, REACTION, STIFFNESS, TO, TORQUE as OF_TORQUE, VALUE, VISCOUS, WIDTH,
 };
 
 const ON_BODY: Argument = Argument::required(BODY, Takes::Body, "…", "the body that it acts on");
+const ON_OTHER: Argument = Argument::required(OTHER, Takes::Other, "…", "the body on which its reaction acts");
 const IN_AXES: Argument = Argument::optional(AXES, Takes::Axes, "body");
 const FROM_POINT: Argument = Argument::optional(FROM, Takes::End, "arm.position");
 const TO_POINT: Argument = Argument::optional(TO, Takes::End, "[0, 0, h]");
@@ -233,7 +236,8 @@ const STIFF: Argument = Argument::constant(STIFFNESS, "stiffness", Unit::ForceBy
 const DAMPED: Argument = Argument::constant(DAMPING, "damping", Unit::ForceByRate, "c").law(LawKind::Damping);
 
 /// All elements that are force clauses, in the order in which messages list them.
-pub static ELEMENTS: [&Row; 9] = [&FORCE, &TORQUE, &WRENCH, &DRIVE, &SPRING, &STOP, &DRAG, &FRICTION, &DISSIPATION];
+pub static ELEMENTS: [&Row; 10] =
+    [&FORCE, &TORQUE, &WRENCH, &DRIVE, &SPRING, &STOP, &DRAG, &FRICTION, &COUPLING, &DISSIPATION];
 
 /// At the point that has the position `at`, or at a point of `body`.
 pub static FORCE: Row = Row {
@@ -393,6 +397,25 @@ pub static FRICTION: Row = Row {
     refused: &[],
     example: "along = …, viscous = d",
     argument: "an argument such as `viscous = d`",
+};
+
+/// The torque −c (ω − ω′) on `body`, with the angular velocities of `body` and `other`, and its reaction on `other`.
+pub static COUPLING: Row = Row {
+    kind: ElementKind::Coupling,
+    word: "coupling",
+    noun: "coupling",
+    form: Form::Arguments,
+    arguments: &[
+        ON_BODY,
+        ON_OTHER,
+        Argument::constant(VISCOUS, "coefficient", Unit::Is("N m s"), "c")
+            .law(LawKind::Damping)
+            .needed("its torque by relative angular velocity"),
+    ],
+    rules: &[],
+    refused: &[],
+    example: "body = …, other = …, viscous = c",
+    argument: "an argument such as `viscous = c`",
 };
 
 /// Rayleigh's.

@@ -142,6 +142,7 @@ fn remedies_are_read() {
                   body(arm, parent = hull, rotation = rotation_z(angle), mass = m, inertia = [a, a, c]), \
                   body(cart, parent = hull, position = [x, 0, 0], mass = 1, inertia = 1), \
                   body(ball, parent = hull, rotation = turn, mass = 1, inertia = 1), \
+                  coupling(body = arm, other = hull, viscous = c), \
                   input(motor), torque(body = arm, value = [0, 0, motor], reaction = hull), drive(angle = motor))] \
                   struct Scene { m: f64, a: f64, c: f64 }";
     if let Err(error) = read(joints) {

@@ -80,3 +80,30 @@ fn bodies_are_known() {
         check(&boat(&written), &[(&format!("{word}_"), misspelt.as_str())]);
     });
 }
+
+#[test]
+fn couplings() {
+    check(
+        &boat(
+            "coupling(drag, body = hull, viscous = k), coupling(other = mast, viscous = k), coupling(body = hull, other = mast), \
+             coupling(body = hull, reaction = mast, viscous = k), coupling(body = hull, other = mast, viscous = theta), \
+             coupling(body = hull, other = mast, viscous = c), coupling(body = hull, other = mast, damping = k), \
+             torque(body = hull, value = c, other = mast), viscous_coupling(body = hull)",
+        ),
+        &[
+            ("coupling", "a coupling needs the body on which its reaction acts; add `other = …`"),
+            ("coupling", "a coupling needs the body that it acts on; add `body = …`"),
+            ("coupling", "a coupling needs its torque by relative angular velocity; add `viscous = c`"),
+            ("reaction", "unknown argument of `coupling`: `reaction`; write `other`"),
+            ("damping", "unknown argument of `coupling`: `damping`; write `viscous`"),
+            ("other", "unknown argument of `torque`: `other`; write `reaction`"),
+            (
+                "viscous_coupling",
+                "unknown clause `viscous_coupling`; a viscous coupling of two bodies is `coupling(body = wheel, other = \
+                 hull, viscous = c)`",
+            ),
+            ("theta", "`theta` varies, and the coefficient of a coupling is constant; write numbers and fields only"),
+            ("c", "the coefficient of a coupling is a scalar, found a vector; write one number or the name of a field"),
+        ],
+    );
+}
