@@ -160,7 +160,7 @@ impl<'g> Translator<'_, 'g> {
         self.graph.one()
     }
 
-    fn vanishes(&self, value: Expr<'g>) -> bool {
+    pub(super) fn vanishes(&self, value: Expr<'g>) -> bool {
         let multiplied_out = || value.expand(LIMIT).is_some_and(|sum| sum.len() == 0);
         let of_literals = || self.known(value).is_some_and(|value| value == Precise::number(0.0));
         value.is_zero() || (!self.is_clear_of_zero(value) && (of_literals() || multiplied_out()))

@@ -5,15 +5,15 @@ use std::collections::HashSet;
 
 use proc_macro2::{Ident, Span};
 
-use crate::algebra::Expr;
+use crate::algebra::{BinaryFunction, Expr};
 use crate::error::Result;
 use crate::mechanics::{
-    Action, Axes, CentralField, Element, Force, Matter, Rotor, Tree, common, entrained, relative_angular_velocity,
-    subtract,
+    Action, Axes, CentralField, Element, Force, Matter, Rotor, Tree, common, entrained, identity,
+    relative_angular_velocity, subtract, turned,
 };
 use crate::model::argument::{
-    ALONG, AT, CENTER, DAMPING, DRY, FORCE, FROM, LEAST, LENGTH, LINEAR, MOST, MU, QUADRATIC, STIFFNESS, TO, TORQUE,
-    VALUE, VISCOUS, WIDTH,
+    ALONG, ANGLE, AT, CENTER, DAMPING, DRY, FORCE, FROM, LEAST, LENGTH, LINEAR, MOST, MU, QUADRATIC, STIFFNESS, TO,
+    TORQUE, VALUE, VISCOUS, WIDTH,
 };
 use crate::model::{
     BinaryOperator, Coefficients, CoordinateKind, ElementKind, Expression, ExpressionKind, ForceAxes, ForceClause,
@@ -112,7 +112,8 @@ impl<'g> Translator<'_, 'g> {
             }
             ElementKind::Coupling => self.coupling(name, clause, tree)?,
             ElementKind::Friction => vec![self.friction(name, clause, tree)?],
-            ElementKind::Spring => return self.spring(name, clause, self.extent(clause, tree)?, tree),
+            ElementKind::Spring => return self.spring(name, clause, tree),
+            ElementKind::TorsionalSpring => return self.torsional_spring(name, clause, tree),
             ElementKind::Stop => return self.stop(name, clause, tree),
             ElementKind::Attraction => return Err(bug(clause.span)),
         };
@@ -275,24 +276,60 @@ impl<'g> Translator<'_, 'g> {
         Ok([square.sqrt(), square])
     }
 
-    /// Along a length of which the square is known, too.
-    fn spring(
+    fn spring(&self, name: &str, clause: &ForceClause, tree: &Tree<'g>) -> Result<Vec<Action<'g>>> {
+        let [length, square] = self.extent(clause, tree)?;
+        let rest = self.optional(name, clause, LENGTH, tree)?;
+        self.sprung(name, clause, [length, rest.map_or(square, |rest| (length - rest).powi(2))], tree)
+    }
+
+    /// With `stiffness`, by the square of what is stretched, and `damping`, by its rate.
+    fn sprung(
         &self,
         name: &str,
         clause: &ForceClause,
-        [length, square]: [Expr<'g>; 2],
+        [stretched, square]: [Expr<'g>; 2],
         tree: &Tree<'g>,
     ) -> Result<Vec<Action<'g>>> {
-        let rest = self.optional(name, clause, LENGTH, tree)?;
-        let stretched = rest.map_or(square, |rest| (length - rest).powi(2));
         let stiffness = self.constant(name, clause, STIFFNESS, tree)?;
-        let mut actions = vec![Action::Potential((stiffness * stretched).half())];
+        let mut actions = vec![Action::Potential((stiffness * square).half())];
         if let Some(damping) = self.optional(name, clause, DAMPING, tree)? {
-            let rate = length.derivative(&self.rates).group();
+            let rate = stretched.derivative(&self.rates).group();
             let function = (damping * rate.powi(2)).half();
             actions.push(Action::Forces(vec![Force::Dissipation(function)]));
         }
         Ok(actions)
+    }
+
+    /// By the twist θ about e₃ of the relative rotation R, at which the turn Q about e₃ is nearest to R: tr(QᵀR) =
+    /// (R₁₁ + R₂₂) cos θ + (R₂₁ − R₁₂) sin θ + R₃₃ is largest. Less the angle without torque it is between −π and π.
+    fn torsional_spring(&self, name: &str, clause: &ForceClause, tree: &Tree<'g>) -> Result<Vec<Action<'g>>> {
+        let r = self.rotation_between(self.both(clause)?, tree);
+        let (sine, cosine) = ((r[1][0] - r[0][1]).group(), (r[0][0] + r[1][1]).group());
+        let [sine, cosine] = match self.optional(name, clause, ANGLE, tree)? {
+            Some(free) => {
+                let (s, c) = (free.sin(), free.cos());
+                [(sine * c - cosine * s).group(), (cosine * c + sine * s).group()]
+            }
+            None => [sine, cosine],
+        };
+        let twist = sine.binary(BinaryFunction::Atan2, cosine);
+        let stands = || twist.derivative(&self.rates).is_zero();
+        if [sine, cosine].iter().all(|e| self.vanishes(*e)) || stands() {
+            let message = "the two bodies never turn relative to each other about their third axes, so the torsional \
+                           spring does nothing; name frames whose third axes lie along the axis of the twist";
+            self.mistake(clause.span, message.to_owned());
+        }
+        self.sprung(name, clause, [twist, twist.powi(2)], tree)
+    }
+
+    /// The rotation of the first link relative to the second: from the axes of the first to those of the second.
+    fn rotation_between(&self, [own, other]: [usize; 2], tree: &Tree<'g>) -> [Triple<'g>; 3] {
+        let columns = identity(self.graph).map(|axis| {
+            let observed = || tree.links[own].axes().to_space(&axis);
+            let across = || tree.links[other].axes().to_body(&observed()).map(Expr::group);
+            turned(&tree.links, [own, other], &axis).unwrap_or_else(across)
+        });
+        std::array::from_fn(|i| columns.map(|column| column[i]))
     }
 
     /// Beyond a limit a spring sets in over the given width: `½ k s²` with `s = (x + √(x² + w²))/2`, which is x far beyond

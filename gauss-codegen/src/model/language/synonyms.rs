@@ -45,6 +45,8 @@ const RESISTANCE: &str = "resistance is `drag(linear = [six numbers], quadratic 
 const LIFT: &str = "lift is `force(body = hull, at = […], value = […])`, with `body.relative_velocity` and a `function(…)` or a \
                     `table(…)` in its value";
 const DAMPER: &str = "a damper is `friction(along = x, viscous = c)`, or `damping = c` of a `spring(…)`";
+const TORSION: &str = "a torsional spring between two bodies is `torsional_spring(body = arm, other = hull, stiffness = k)`, \
+                       about their third axes; along a coordinate `spring(along = angle, stiffness = k)`";
 const COUPLING: &str = "a viscous coupling of two bodies is `coupling(body = wheel, other = hull, viscous = c)`";
 const ROLLING: &str = "what rolls or does not slip is `constraint(velocity = …)`; a loop is `constraint(position = …)`";
 const CONTACT: &str =
@@ -131,6 +133,10 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("damper", DAMPER),
     ("dashpot", DAMPER),
     ("viscous", DAMPER),
+    ("torsion", TORSION),
+    ("torsion_spring", TORSION),
+    ("rotational_spring", TORSION),
+    ("rotary_spring", TORSION),
     ("viscous_coupling", COUPLING),
     ("rotational_damper", COUPLING),
     ("torsional_damper", COUPLING),
@@ -242,6 +248,8 @@ pub const FOR_ARGUMENTS: &Table<&[&str]> = &[
     ("quaternion", &["rotation"]),
     ("rpy", &["rotation"]),
     ("angle", &["rotation", "along"]),
+    ("rest_angle", &["angle", "length"]),
+    ("free_angle", &["angle", "length"]),
     ("axis", &["along", "rotation"]),
     ("joint", &["along"]),
     ("coordinate", &["along"]),

@@ -13,6 +13,7 @@ pub enum ElementKind {
     Drag,
     Friction,
     Coupling,
+    TorsionalSpring,
     Dissipation,
     Attraction,
 }
@@ -202,6 +203,7 @@ pub mod argument {
     pub const AXES: &str = "axes";
     pub const REACTION: &str = "reaction";
     pub const OTHER: &str = "other";
+    pub const ANGLE: &str = "angle";
     pub const FORCE: &str = "force";
     pub const TORQUE: &str = "torque";
     pub const LINEAR: &str = "linear";
@@ -222,8 +224,8 @@ pub mod argument {
 }
 
 use argument::{
-    ALONG, AT, AXES, BODY, CENTER, DAMPING, DRY, FORCE as OF_FORCE, FROM, LEAST, LENGTH, LINEAR, MOST, MU, OTHER,
-    QUADRATIC, REACTION, STIFFNESS, TO, TORQUE as OF_TORQUE, VALUE, VISCOUS, WIDTH,
+    ALONG, ANGLE, AT, AXES, BODY, CENTER, DAMPING, DRY, FORCE as OF_FORCE, FROM, LEAST, LENGTH, LINEAR, MOST, MU,
+    OTHER, QUADRATIC, REACTION, STIFFNESS, TO, TORQUE as OF_TORQUE, VALUE, VISCOUS, WIDTH,
 };
 
 const ON_BODY: Argument = Argument::required(BODY, Takes::Body, "…", "the body that it acts on");
@@ -236,8 +238,8 @@ const STIFF: Argument = Argument::constant(STIFFNESS, "stiffness", Unit::ForceBy
 const DAMPED: Argument = Argument::constant(DAMPING, "damping", Unit::ForceByRate, "c").law(LawKind::Damping);
 
 /// All elements that are force clauses, in the order in which messages list them.
-pub static ELEMENTS: [&Row; 10] =
-    [&FORCE, &TORQUE, &WRENCH, &DRIVE, &SPRING, &STOP, &DRAG, &FRICTION, &COUPLING, &DISSIPATION];
+pub static ELEMENTS: [&Row; 11] =
+    [&FORCE, &TORQUE, &WRENCH, &DRIVE, &SPRING, &STOP, &DRAG, &FRICTION, &COUPLING, &TORSIONAL_SPRING, &DISSIPATION];
 
 /// At the point that has the position `at`, or at a point of `body`.
 pub static FORCE: Row = Row {
@@ -416,6 +418,28 @@ pub static COUPLING: Row = Row {
     refused: &[],
     example: "body = …, other = …, viscous = c",
     argument: "an argument such as `viscous = c`",
+};
+
+/// Against the twist θ of `body` relative to `other` about their third axes, and its rate: the potential ½ k (θ − θ₀)², with
+/// θ − θ₀ between −π and π. The twist is the angle of the turn about e₃ that is nearest to the relative rotation.
+pub static TORSIONAL_SPRING: Row = Row {
+    kind: ElementKind::TorsionalSpring,
+    word: "torsional_spring",
+    noun: "torsional spring",
+    form: Form::Arguments,
+    arguments: &[
+        ON_BODY,
+        ON_OTHER,
+        Argument::constant(STIFFNESS, "stiffness", Unit::Is("N m"), "k")
+            .law(LawKind::Stiffness)
+            .needed("its torque by twist"),
+        Argument::constant(ANGLE, "angle", Unit::Is("rad"), "a"),
+        Argument::constant(DAMPING, "damping", Unit::Is("N m s"), "c").law(LawKind::Damping),
+    ],
+    rules: &[],
+    refused: &[],
+    example: "body = …, other = …, stiffness = k",
+    argument: "an argument such as `stiffness = k`",
 };
 
 /// Rayleigh's.

@@ -107,3 +107,35 @@ fn couplings() {
         ],
     );
 }
+
+#[test]
+fn torsional_springs() {
+    check(
+        &boat(
+            "torsional_spring(body = hull, other = mast), torsional_spring(body = hull, other = mast, k = k), \
+             torsional_spring(body = hull, other = mast, stiffness = k, rest_angle = k), \
+             torsional_spring(body = hull, other = mast, stiffness = theta, angle = c, damping = t), \
+             torsion_spring(along = theta)",
+        ),
+        &[
+            ("torsional_spring", "a torsional spring needs its torque by twist; add `stiffness = k`"),
+            ("k", "unknown argument of `torsional_spring`: `k`; write `stiffness`"),
+            ("rest_angle", "unknown argument of `torsional_spring`: `rest_angle`; write `angle`"),
+            (
+                "torsion_spring",
+                "unknown clause `torsion_spring`; a torsional spring between two bodies is `torsional_spring(body = arm, \
+                 other = hull, stiffness = k)`, about their third axes; along a coordinate `spring(along = angle, \
+                 stiffness = k)`",
+            ),
+            (
+                "theta",
+                "`theta` varies, and the stiffness of a torsional spring is constant; write numbers and fields only",
+            ),
+            (
+                "c",
+                "the angle of a torsional spring is a scalar, found a vector; write one number or the name of a field",
+            ),
+            ("t", "`t` varies, and the damping of a torsional spring is constant; write numbers and fields only"),
+        ],
+    );
+}
