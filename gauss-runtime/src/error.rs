@@ -61,6 +61,14 @@ pub enum Rule {
         /// Column of the entry, from 0.
         col: usize,
     },
+    /// The stiffness and the damping of a bushing are symmetric. The value is the difference of entries (row, col) and
+    /// (col, row).
+    SymmetricCoefficients {
+        /// Row of the entry, from 0, displacements first.
+        row: usize,
+        /// Column of the entry, from 0.
+        col: usize,
+    },
     /// The kinetic energy of body and fluid is positive for every motion. The value is the smallest eigenvalue of the
     /// mass matrix scaled to a unit diagonal, or the diagonal entry that is not positive.
     PositiveDefiniteKineticMatrix,
@@ -163,6 +171,11 @@ impl fmt::Display for Violation {
                 f,
                 "`{field}`: entries ({row}, {col}) and ({col}, {row}) differ by {value}: added mass is symmetric in an \
                  ideal fluid; use the symmetric part, and check the order (u, ω)"
+            ),
+            Rule::SymmetricCoefficients { row, col } => write!(
+                f,
+                "`{field}`: entries ({row}, {col}) and ({col}, {row}) differ by {value}: a stiffness has a potential energy, \
+                 and a damping a dissipation function, where it is symmetric; use the symmetric part"
             ),
             Rule::PositiveDefiniteKineticMatrix => write!(
                 f,

@@ -315,3 +315,143 @@ fn scenes_say_how_smooth_they_are() {
     assert_eq!(smoothness(&Resisted::new().kernel().unwrap()), Smoothness::Kinks);
     assert_eq!(smoothness(&Rubbed::new().kernel().unwrap()), Smoothness::Jumps);
 }
+
+/// Two bodies on a hinge and a third one that moves by itself, with elements between them, some beside the same load written
+/// otherwise. The seat is where the hinge is.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(a, b, theta, x, y, z, d, e),
+    body(one, rotation = rotation_z(a) * rotation_x(b)),
+    body(two, parent = one, position = [0, 0, 0.5], rotation = rotation_z(theta)),
+    body(three, position = [x, y, z], rotation = rotation_y(d) * rotation_z(e)),
+    frame(seat, parent = one, position = [0, 0, 0.5]),
+    coupling(joined, body = two, other = one, viscous = c),
+    drive(joined_by_rate, theta = -c * rate(theta)),
+    coupling(apart, body = three, other = two, viscous = c),
+    torque(
+        apart_by_hand,
+        body = three,
+        value = -c * (three.angular_velocity - two.angular_velocity),
+        axes = observer,
+        reaction = two
+    ),
+    torsional_spring(twisted, body = two, other = seat, stiffness = k, angle = rest, damping = c),
+    spring(twisted_by_angle, along = theta, stiffness = k, length = rest, damping = c),
+    torsional_spring(skew, body = three, other = two, stiffness = k, angle = rest, damping = c),
+    bushing(mounted, body = two, other = seat, stiffness = [3, 4, 5, 6, 7, k], damping = [1, 1, 1, 1, 1, c]),
+    spring(mounted_by_angle, along = theta, stiffness = k, damping = c),
+    bushing(loose, body = three, other = two, stiffness = stiffness, damping = damping)
+)]
+struct Joined {
+    #[gauss(body)]
+    one: RigidBody<f64>,
+    #[gauss(body)]
+    two: RigidBody<f64>,
+    #[gauss(body)]
+    three: RigidBody<f64>,
+    k: f64,
+    c: f64,
+    rest: f64,
+    stiffness: Matrix6<f64>,
+    damping: Matrix6<f64>,
+}
+
+type Eight = SVector<f64, 8>;
+
+fn joined() -> Joined {
+    let (center_of_mass, inertia) = (Vector3::new(0.1, 0.0, -0.1), Matrix3::identity());
+    let body = || RigidBody { mass: 2.0, center_of_mass, inertia };
+    // Diagonally dominant, with every coefficient.
+    let full =
+        |diagonal: f64| Matrix6::from_fn(|i, j| if i == j { diagonal + i as f64 } else { 0.1 * (i + j) as f64 - 0.3 });
+    let (k, c, rest) = (2.5, 0.7, 0.4);
+    Joined { one: body(), two: body(), three: body(), k, c, rest, stiffness: full(8.0), damping: full(5.0) }
+}
+
+/// The place of the third body relative to the second: displacement and Cardan angles in the axes of the second; and the
+/// twist about their third axes, of the quaternion. By nalgebra alone.
+fn relative_place(q: &Eight) -> (Vector6<f64>, f64) {
+    let about = |axis: Unit<Vector3<f64>>, angle: f64| UnitQuaternion::from_axis_angle(&axis, angle);
+    let (x, y, z) = (Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis());
+    let one = about(z, q[0]) * about(x, q[1]);
+    let two = one * about(z, q[2]);
+    let place = two.inverse() * (Vector3::new(q[3], q[4], q[5]) - one * Vector3::new(0.0, 0.0, 0.5));
+    let relative = two.inverse() * about(y, q[6]) * about(z, q[7]);
+    // nalgebra's angles are those of rotation_z(yaw) rotation_y(pitch) rotation_x(roll): of the inverse.
+    let (roll, pitch, yaw) = relative.inverse().euler_angles();
+    let twist = 2.0 * relative.k.atan2(relative.w);
+    (Vector6::new(place.x, place.y, place.z, -roll, -pitch, -yaw), twist)
+}
+
+/// States with all angles of the bushings below a quarter turn.
+fn states_of_joined() -> [(Eight, Eight); 2] {
+    [
+        (
+            Eight::from([0.3, -0.2, 0.9, 0.4, -0.3, 0.8, 0.5, 0.2]),
+            Eight::from([0.5, -0.4, 0.3, 0.2, 0.6, -0.7, 0.8, -0.9]),
+        ),
+        (
+            Eight::from([-0.7, 0.4, -1.2, -0.2, 0.5, 0.1, -0.3, -0.9]),
+            Eight::from([-0.3, 0.9, 1.5, -0.6, 0.1, 0.4, -0.2, 0.7]),
+        ),
+    ]
+}
+
+#[test]
+fn elements_between_bodies_are_the_same_loads_written_otherwise() {
+    let kernel = joined().kernel().unwrap();
+    for (q, z) in states_of_joined() {
+        let force = |name: &str| kernel.generalised_force(name, 0.0, &q, &z, &()).unwrap();
+        for (name, other) in [
+            ("joined", "joined_by_rate"),
+            ("apart", "apart_by_hand"),
+            ("twisted", "twisted_by_angle"),
+            ("mounted", "mounted_by_angle"),
+        ] {
+            // Coefficients and rates are of order 1, and each component is a sum of less than fifty products of them and of
+            // entries of rotations.
+            let difference = (force(name) - force(other)).amax();
+            assert!(difference <= 64.0 * f64::EPSILON * 8.0, "{name}: {difference:e}");
+            let [power, same] = [name, other].map(|name| kernel.power(name, 0.0, &q, &z, &()).unwrap());
+            assert!((power - same).abs() <= 64.0 * f64::EPSILON * 8.0, "{name}: {power} {same}");
+        }
+        assert!(kernel.power("apart", 0.0, &q, &z, &()).unwrap() < -0.1);
+    }
+}
+
+#[test]
+fn torsional_springs_and_bushings_act_by_the_relative_place() {
+    let scene = joined();
+    let kernel = scene.kernel().unwrap();
+    for (q, z) in states_of_joined() {
+        let (x, twist) = relative_place(&q);
+        let (sine, cosine) = (twist - scene.rest).sin_cos();
+        let turned = sine.atan2(cosine);
+        // Central differences along the rates: h² times a third derivative and ε/h, both below 1e-9 for numbers of order 1.
+        let h = 1e-5;
+        let [(ahead, twist_ahead), (behind, twist_behind)] = [h, -h].map(|h| relative_place(&(q + h * z)));
+        let (rate, twisting) = ((ahead - behind) / (2.0 * h), (twist_ahead - twist_behind) / (2.0 * h));
+        let power = |name: &str| kernel.power(name, 0.0, &q, &z, &()).unwrap();
+        let expected = -twisting * (scene.k * turned + scene.c * twisting);
+        assert!((power("skew") - expected).abs() <= 1e-7, "{} {expected}", power("skew"));
+        let expected = -rate.dot(&(scene.stiffness * x + scene.damping * rate));
+        assert!((power("loose") - expected).abs() <= 1e-7, "{} {expected}", power("loose"));
+        // The energy of all that has one.
+        let hinge = 0.5 * scene.k * ((q[2] - scene.rest).powi(2) * 2.0 + q[2].powi(2) * 2.0);
+        let energy = hinge + 0.5 * scene.k * turned * turned + 0.5 * x.dot(&(scene.stiffness * x));
+        let found = kernel.potential_energy(0.0, &q);
+        assert!((found - energy).abs() <= 256.0 * f64::EPSILON * energy, "{found} {energy}");
+    }
+}
+
+#[test]
+fn bushings_are_symmetric() {
+    let mut scene = joined();
+    scene.stiffness[(1, 4)] += 0.5;
+    let error = scene.kernel().err().unwrap().to_string();
+    assert!(error.contains("`stiffness`: entries (1, 4) and (4, 1) differ by 0.4999"), "{error}");
+    scene = joined();
+    scene.damping[(2, 2)] = -1.0;
+    assert!(scene.kernel().is_ok());
+    assert!(scene.warnings().to_string().contains("damping feeds energy: `damping` is -1"), "{}", scene.warnings());
+}

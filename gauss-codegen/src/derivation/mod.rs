@@ -1,5 +1,7 @@
 //! The public face of the pipeline: a struct in; programs, equations and Rust out.
 
+#[cfg(test)]
+mod elements_tests;
 mod methods;
 #[cfg(test)]
 mod pass_tests;

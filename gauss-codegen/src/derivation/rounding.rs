@@ -53,7 +53,8 @@ impl State {
     }
 }
 
-fn outputs<T: Scalar>(
+/// The outputs of a method at a state, in any arithmetic.
+pub fn outputs<T: Scalar>(
     derivation: &Derivation,
     method: &str,
     state: &State,

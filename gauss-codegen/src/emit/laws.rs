@@ -39,6 +39,7 @@ fn written(
             LawKind::Limits => quote!(limits),
             LawKind::NonNegative => quote!(non_negative),
             LawKind::MassInSum => quote!(mass_in_sum),
+            LawKind::Symmetric => quote!(symmetric_coefficients),
             LawKind::Damping | LawKind::Attraction => quote!(finite),
             LawKind::Dissipation => return None,
         };
@@ -48,6 +49,10 @@ fn written(
                 quote!({ #compute __check.#check(#label, #(#values)*); })
             }
             LawKind::Limits => quote!({ #compute __check.#check(#label, [#(#values),*]); }),
+            LawKind::Symmetric => {
+                let rows = values.chunks(6).map(|row| quote!([#(#row),*]));
+                quote!({ #compute __check.#check(#label, &[#(#rows),*]); })
+            }
             _ => quote!({ #compute __check.#check(#label, &[#(#values),*]); }),
         })
     };
@@ -98,7 +103,12 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
             LawKind::Damping => (quote!(damping), law.values.clone()),
             LawKind::Attraction => (quote!(center), law.values.clone()),
             LawKind::Dissipation => (quote!(dissipation), in_states(law.values[0], symbols)),
-            LawKind::Stiffness | LawKind::Width | LawKind::Limits | LawKind::NonNegative | LawKind::MassInSum => {
+            LawKind::Stiffness
+            | LawKind::Width
+            | LawKind::Limits
+            | LawKind::NonNegative
+            | LawKind::Symmetric
+            | LawKind::MassInSum => {
                 return None;
             }
         };

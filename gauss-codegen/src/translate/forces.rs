@@ -24,7 +24,7 @@ use crate::words::Unraw;
 use super::drag::DragMatrix;
 use super::laws::Law;
 use super::translator::{Translator, bug};
-use super::value::Value;
+use super::value::{Local, Value};
 
 type Triple<'g> = [Expr<'g>; 3];
 
@@ -114,6 +114,7 @@ impl<'g> Translator<'_, 'g> {
             ElementKind::Friction => vec![self.friction(name, clause, tree)?],
             ElementKind::Spring => return self.spring(name, clause, tree),
             ElementKind::TorsionalSpring => return self.torsional_spring(name, clause, tree),
+            ElementKind::Bushing => return self.bushing(name, clause, tree),
             ElementKind::Stop => return self.stop(name, clause, tree),
             ElementKind::Attraction => return Err(bug(clause.span)),
         };
@@ -320,6 +321,69 @@ impl<'g> Translator<'_, 'g> {
             self.mistake(clause.span, message.to_owned());
         }
         self.sprung(name, clause, [twist, twist.powi(2)], tree)
+    }
+
+    /// By the place of one body relative to the other.
+    fn bushing(&self, name: &str, clause: &ForceClause, tree: &Tree<'g>) -> Result<Vec<Action<'g>>> {
+        let links = self.both(clause)?;
+        let r = self.rotation_between(links, tree);
+        let angle = |sine: Expr<'g>, cosine: Expr<'g>| sine.group().binary(BinaryFunction::Atan2, cosine.group());
+        let [x, y, z] = self.place_between(links, tree);
+        let turn = [angle(-r[1][2], r[2][2]), angle(r[0][2], r[0][2].leg()), angle(-r[0][1], r[0][0])];
+        let place = [x, y, z, turn[0], turn[1], turn[2]];
+        let mut actions = Vec::new();
+        if let Some(stiffness) = self.symmetric(name, clause, STIFFNESS, tree)? {
+            actions.push(Action::Potential(self.half_form(&stiffness, &place)));
+        }
+        if let Some(damping) = self.symmetric(name, clause, DAMPING, tree)? {
+            let rates = place.map(|e| e.derivative(&self.rates).group());
+            actions.push(Action::Forces(vec![Force::Dissipation(self.half_form(&damping, &rates))]));
+        }
+        Ok(actions)
+    }
+
+    /// ½ xᵀKx of a symmetric K.
+    fn half_form(&self, matrix: &[Vec<Expr<'g>>], x: &[Expr<'g>; 6]) -> Expr<'g> {
+        let mut form = self.graph.zero();
+        for (i, row) in matrix.iter().enumerate() {
+            form = form + (row[i] * x[i].powi(2)).half();
+            form = (i + 1..6).fold(form, |form, j| form + row[j] * x[i] * x[j]);
+        }
+        form
+    }
+
+    /// The symmetric matrix `word` of the element `name`, of which note is taken: of its diagonal as its row says.
+    fn symmetric(
+        &self,
+        name: &str,
+        clause: &ForceClause,
+        word: &str,
+        tree: &Tree<'g>,
+    ) -> Result<Option<Vec<Vec<Expr<'g>>>>> {
+        let Some(coefficients) = clause.coefficients(word) else { return Ok(None) };
+        let rows = self.coefficients(coefficients, tree)?;
+        let label = match coefficients {
+            Coefficients::Field(field) => field.unraw().to_string(),
+            Coefficients::Diagonal(_) => format!("{name}.{word}"),
+        };
+        let mut notes = self.notes.add();
+        if let Some(Takes::Matrix { law, .. }) = clause.find(word).map(|given| given.argument.takes) {
+            let diagonal = (0..6).map(|i| Law { label: label.clone(), kind: law, values: vec![rows[i][i]] });
+            notes.laws.extend(diagonal);
+        }
+        notes.laws.push(Law { label, kind: LawKind::Symmetric, values: rows.concat() });
+        Ok(Some(rows))
+    }
+
+    /// From O of the second link to O of the first, in the axes of the second.
+    fn place_between(&self, [own, other]: [usize; 2], tree: &Tree<'g>) -> Triple<'g> {
+        let point = |k: usize| Local::point(k, [self.graph.zero(); 3], tree.links[k].position);
+        let across = || {
+            let arm = subtract(&tree.links[own].position, &tree.links[other].position).map(Expr::group);
+            tree.links[other].axes().to_body(&arm)
+        };
+        let arm = point(own).minus(&point(other), tree).and_then(|arm| arm.seen_by(other, tree));
+        arm.unwrap_or_else(across).map(Expr::group)
     }
 
     /// The rotation of the first link relative to the second: from the axes of the first to those of the second.

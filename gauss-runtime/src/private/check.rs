@@ -210,6 +210,11 @@ impl<T: Real> ParameterCheck<T> {
         self.symmetric_so_far(field, matrix, |row, col| Rule::SymmetricAddedMass { row, col });
     }
 
+    /// The stiffness or the damping of a bushing: finite and symmetric up to rounding.
+    pub fn symmetric_coefficients(&mut self, field: &'static str, matrix: &[[T; 6]; 6]) {
+        self.symmetric_so_far(field, matrix, |row, col| Rule::SymmetricCoefficients { row, col });
+    }
+
     /// The mass matrix A of body and fluid: positive definite, and invertible in the precision of the scalar.
     ///
     /// Its rows carry different units, so it is scaled to a unit diagonal first; then eigenvalues mean something. Silent

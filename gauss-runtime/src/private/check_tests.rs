@@ -112,6 +112,8 @@ fn added_mass_and_the_matrix_of_body_and_fluid() {
     added[1][4] = 0.25;
     let violation = only(|check| check.symmetric("added", &added));
     assert_eq!(violation.rule, Rule::SymmetricAddedMass { row: 1, col: 4 });
+    let violation = only(|check| check.symmetric_coefficients("added", &added));
+    assert_eq!(violation.rule, Rule::SymmetricCoefficients { row: 1, col: 4 });
 
     let mut matrix = identity::<6>();
     matrix[2][2] = -0.5;
@@ -183,6 +185,7 @@ fn messages_say_value_rule_and_remedy() {
         Rule::InertiaAboutCenterOfMass,
         Rule::TriangleInequality { axis: 0, sum: 1.0, excess: 1.0, about_center_of_mass: true },
         Rule::SymmetricAddedMass { row: 0, col: 1 },
+        Rule::SymmetricCoefficients { row: 0, col: 1 },
         Rule::PositiveDefiniteKineticMatrix,
         Rule::ConditionedKineticMatrix { limit: 1.0 },
     ];

@@ -63,7 +63,7 @@ fn read_value(row: &Row, argument: &Argument, clause: &Clause, context: &mut Con
     Some(match argument.takes {
         Takes::Body | Takes::Other => Value::Reference(read_reference(clause, "a body or a frame", context)?),
         Takes::Axes => Value::Axes(read_axes(clause, context)?),
-        Takes::Coefficients(_) => {
+        Takes::Coefficients(_) | Takes::Matrix { .. } => {
             let what = format!("the `{}` coefficients of {} are", argument.word, words::a(row.noun));
             let tokens = equals(clause, argument.example, context)?;
             Value::Coefficients(arithmetic::read_coefficients(argument.word, &what, tokens, context)?)

@@ -45,6 +45,8 @@ const RESISTANCE: &str = "resistance is `drag(linear = [six numbers], quadratic 
 const LIFT: &str = "lift is `force(body = hull, at = […], value = […])`, with `body.relative_velocity` and a `function(…)` or a \
                     `table(…)` in its value";
 const DAMPER: &str = "a damper is `friction(along = x, viscous = c)`, or `damping = c` of a `spring(…)`";
+const BUSHING: &str = "a bushing between two bodies is `bushing(body = arm, other = hull, stiffness = [six numbers], \
+                       damping = [six numbers])`";
 const TORSION: &str = "a torsional spring between two bodies is `torsional_spring(body = arm, other = hull, stiffness = k)`, \
                        about their third axes; along a coordinate `spring(along = angle, stiffness = k)`";
 const COUPLING: &str = "a viscous coupling of two bodies is `coupling(body = wheel, other = hull, viscous = c)`";
@@ -133,6 +135,9 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("damper", DAMPER),
     ("dashpot", DAMPER),
     ("viscous", DAMPER),
+    ("mount", BUSHING),
+    ("rubber_mount", BUSHING),
+    ("compliance", BUSHING),
     ("torsion", TORSION),
     ("torsion_spring", TORSION),
     ("rotational_spring", TORSION),

@@ -145,7 +145,9 @@ impl ForceClause {
             Takes::Dissipation => Place::Dissipation,
             Takes::End => Place::End(holder),
             Takes::Along => Place::Along(holder),
-            Takes::Constant { called, .. } => Place::Constant { word: called, of: holder },
+            Takes::Constant { called, .. } | Takes::Matrix { called, .. } => {
+                Place::Constant { word: called, of: holder }
+            }
             Takes::Coefficients(_) => Place::Coefficient(holder),
             Takes::Center => Place::Center,
         })

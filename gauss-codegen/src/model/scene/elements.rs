@@ -14,6 +14,7 @@ pub enum ElementKind {
     Friction,
     Coupling,
     TorsionalSpring,
+    Bushing,
     Dissipation,
     Attraction,
 }
@@ -138,6 +139,9 @@ pub enum Takes {
     /// Coefficients in body axes, pole O, order (u, ω), in these units for forces and for torques: six scalars that may
     /// depend on all that forces do, or a field that is a `Vector6` (diagonal) or a `Matrix6`.
     Coefficients([&'static str; 2]),
+    /// Constant coefficients, in these units for forces and for torques: six scalars of fields and numbers, or a field that
+    /// is a `Vector6` (diagonal) or a symmetric `Matrix6`; called so in messages.
+    Matrix { called: &'static str, units: [&'static str; 2], law: LawKind },
     /// The centre of a field: a vector of t, fields and numbers, observer axes from Ω.
     Center,
 }
@@ -174,6 +178,8 @@ pub enum LawKind {
     NonNegative,
     /// The mass of a particle.
     MassInSum,
+    /// A symmetric matrix, row by row.
+    Symmetric,
     /// A whole dissipation function, of the state too.
     Dissipation,
     /// A gravitational parameter.
@@ -238,8 +244,20 @@ const STIFF: Argument = Argument::constant(STIFFNESS, "stiffness", Unit::ForceBy
 const DAMPED: Argument = Argument::constant(DAMPING, "damping", Unit::ForceByRate, "c").law(LawKind::Damping);
 
 /// All elements that are force clauses, in the order in which messages list them.
-pub static ELEMENTS: [&Row; 11] =
-    [&FORCE, &TORQUE, &WRENCH, &DRIVE, &SPRING, &STOP, &DRAG, &FRICTION, &COUPLING, &TORSIONAL_SPRING, &DISSIPATION];
+pub static ELEMENTS: [&Row; 12] = [
+    &FORCE,
+    &TORQUE,
+    &WRENCH,
+    &DRIVE,
+    &SPRING,
+    &STOP,
+    &DRAG,
+    &FRICTION,
+    &COUPLING,
+    &TORSIONAL_SPRING,
+    &BUSHING,
+    &DISSIPATION,
+];
 
 /// At the point that has the position `at`, or at a point of `body`.
 pub static FORCE: Row = Row {
@@ -439,6 +457,34 @@ pub static TORSIONAL_SPRING: Row = Row {
     rules: &[],
     refused: &[],
     example: "body = …, other = …, stiffness = k",
+    argument: "an argument such as `stiffness = k`",
+};
+
+/// By the place x of `body` relative to `other`, in the axes of `other`: the displacement from O′ to O and the Cardan angles
+/// (α, β, γ) of the rotation `rotation_x(α) * rotation_y(β) * rotation_z(γ)`. The potential is ½ xᵀKx, the dissipation
+/// function ½ ẋᵀCẋ. The same coordinates as those of `Force::LinearBushing` of Simbody, displacement first.
+pub static BUSHING: Row = Row {
+    kind: ElementKind::Bushing,
+    word: "bushing",
+    noun: "bushing",
+    form: Form::Arguments,
+    arguments: &[
+        ON_BODY,
+        ON_OTHER,
+        Argument::optional(
+            STIFFNESS,
+            Takes::Matrix { called: "stiffness", units: ["N/m", "N m"], law: LawKind::Stiffness },
+            SIX,
+        ),
+        Argument::optional(
+            DAMPING,
+            Takes::Matrix { called: "damping", units: ["N s/m", "N m s"], law: LawKind::Damping },
+            SIX,
+        ),
+    ],
+    rules: &[Rule::OneOf([STIFFNESS, DAMPING], "its coefficients; add `stiffness = …`, `damping = …`")],
+    refused: &[],
+    example: "body = …, other = …, stiffness = …, damping = …",
     argument: "an argument such as `stiffness = k`",
 };
 

@@ -144,6 +144,7 @@ fn remedies_are_read() {
                   body(ball, parent = hull, rotation = turn, mass = 1, inertia = 1), \
                   coupling(body = arm, other = hull, viscous = c), \
                   torsional_spring(body = arm, other = hull, stiffness = c), \
+                  bushing(body = arm, other = hull, stiffness = [a, a, a, c, c, c], damping = [1, 1, 1, 1, 1, 1]), \
                   input(motor), torque(body = arm, value = [0, 0, motor], reaction = hull), drive(angle = motor))] \
                   struct Scene { m: f64, a: f64, c: f64 }";
     if let Err(error) = read(joints) {

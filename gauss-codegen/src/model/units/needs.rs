@@ -7,7 +7,7 @@ use super::need::{ADDED_MASS, ANGULAR_VELOCITY, ENERGY, FORCE, LENGTH, MASS, Nee
 use crate::model::language::context::Context;
 use crate::model::language::fields::ReadField;
 use crate::model::language::statements::Statements;
-use crate::model::language::units::{self, Dimension};
+use crate::model::language::units::{self, Dimension, read};
 use crate::model::language::words::{self, PI, TIME, same};
 use crate::model::scene::clauses::CoordinateKind;
 use crate::model::scene::elements::{Argument, ElementKind, Takes, Unit};
@@ -168,11 +168,11 @@ impl Checker<'_> {
                 let named = &extent?.named;
                 Need::new(format!("the {called} of {noun}{named} is"), (&text, dimension))
             }
-            Takes::Coefficients(needed) => {
+            Takes::Coefficients(units) | Takes::Matrix { units, .. } => {
                 let part = usize::from(index >= 3);
                 let (which, word) = (["first", "last"][part], argument.word);
                 let what = format!("the {which} three {word} coefficients of {noun} are");
-                Need::new(what, (needed[part], units::read(needed[part]).ok()?))
+                Need::new(what, (units[part], read(units[part]).ok()?))
             }
             Takes::Body | Takes::Other | Takes::Axes | Takes::Drive | Takes::Along => return None,
         })

@@ -35,7 +35,7 @@ fn written(argument: &Argument) -> Option<String> {
         Takes::Body | Takes::Other | Takes::Axes => return None,
         Takes::Force | Takes::Torque | Takes::Point | Takes::End | Takes::Center => "c",
         Takes::Constant { .. } | Takes::Drive | Takes::Dissipation | Takes::Along => "k",
-        Takes::Coefficients(_) => "[1, 2, 3, 4, 5, k]",
+        Takes::Coefficients(_) | Takes::Matrix { .. } => "[1, 2, 3, 4, 5, k]",
     };
     Some(format!("{} = {value}", argument.word))
 }
@@ -136,6 +136,64 @@ fn torsional_springs() {
                 "the angle of a torsional spring is a scalar, found a vector; write one number or the name of a field",
             ),
             ("t", "`t` varies, and the damping of a torsional spring is constant; write numbers and fields only"),
+        ],
+    );
+}
+
+#[test]
+fn bushings() {
+    check(
+        &boat(
+            "bushing(body = hull, other = mast), bushing(body = hull, other = mast, stiffness = [1, 2, 3]), \
+             bushing(body = hull, other = mast, stiffness = k, damping = kk), bushing(body = hull, stifness = k), \
+             bushing(body = hull, other = mast, stiffness = [1, 2, theta, c, 5, v], k = k), bushing(rubber, other = mast, c = k)",
+        ),
+        &[
+            ("bushing", "a bushing needs its coefficients; add `stiffness = …`, `damping = …` or both"),
+            (
+                "[",
+                "the `stiffness` coefficients of a bushing are six, found 3; write six scalars `[a, b, c, d, e, f]` in the \
+                 order (u, ω), or the name of a field that is a `Vector6` or a `Matrix6`",
+            ),
+            ("stifness", "unknown argument of `bushing`: `stifness`; did you mean `stiffness`?"),
+            ("bushing", "a bushing needs the body on which its reaction acts; add `other = …`"),
+            ("k", "unknown argument of `bushing`: `k`; expected `body`, `other`, `stiffness` or `damping`"),
+            ("c", "unknown argument of `bushing`: `c`; write `damping`"),
+            ("bushing", "a bushing needs the body that it acts on; add `body = …`"),
+            ("theta", "`theta` varies, and the stiffness of a bushing is constant; write numbers and fields only"),
+            ("c", "the stiffness of a bushing is a scalar, found a vector; write one number or the name of a field"),
+            ("v", "`v` varies, and the stiffness of a bushing is constant; write numbers and fields only"),
+            (
+                "k",
+                "the type of the field `k` is `f64`, and the coefficients of a bushing are six scalars in a list `[a, b, \
+                 c, d, e, f]`, a `Vector6<f64>` (diagonal) or a `Matrix6<f64>` (full)",
+            ),
+            ("kk", "no field is called `kk`; add `kk: Matrix6<f64>`, or write a list of six scalars"),
+        ],
+    );
+}
+
+#[test]
+fn units() {
+    let source = "#[gauss(coordinates(a, b), body(one, rotation = rotation_z(a), mass = 1, inertia = 1), \
+                  body(two, parent = one, rotation = rotation_z(b), mass = 1, inertia = 1), \
+                  coupling(body = two, other = one, viscous = k), \
+                  torsional_spring(body = two, other = one, stiffness = c, angle = k, damping = k), \
+                  bushing(body = two, other = one, stiffness = [k, k, k, 1, 1, k], damping = [c, k, 1, c, 1, 1]))] \
+                  struct Scene { #[gauss(unit = \"N/m\")] k: f64, #[gauss(unit = \"N s/m\")] c: f64 }";
+    let remedy = |factor: &str| format!("multiply it by a coefficient in {factor}, or correct its unit");
+    let k = |what: &str, factor: &str| format!("`k` is in N/m, and the {what}; {}", remedy(factor));
+    let c = |what: &str, factor: &str| format!("`c` is in N s/m, and the {what}; {}", remedy(factor));
+    check(
+        source,
+        &[
+            ("k", &k("coefficient of a coupling is in N m s", "m^2 s")),
+            ("c", &c("stiffness of a torsional spring is in N m", "m^2/s")),
+            ("k", &k("angle of a torsional spring is in rad", "s^2/kg")),
+            ("k", &k("damping of a torsional spring is in N m s", "m^2 s")),
+            ("k", &k("last three stiffness coefficients of a bushing are in N m", "m^2")),
+            ("k", &k("first three damping coefficients of a bushing are in N s/m", "s")),
+            ("c", &c("last three damping coefficients of a bushing are in N m s", "m^2")),
         ],
     );
 }
