@@ -7,7 +7,7 @@
 //! | room | what it holds |
 //! |---|---|
 //! | `parse` | the whole way |
-//! | `scene` | what comes out: [`Model`], its clauses, expressions with spans, charts, roles |
+//! | `scene` | what comes out: [`Model`], its clauses, the table of force elements, expressions with spans, charts, roles |
 //! | `language` | tokens → clauses: `attributes` cuts them, `struct_clauses` and `statements` read those of the struct, `fields` those of the fields, `arithmetic` expressions |
 //! | `names` | `declared` names and their meanings, the `places` of expressions and the `kinds` of their values, definitions written out |
 //! | `units` | dimensions of expressions, and which are needed where |
