@@ -117,6 +117,7 @@ use __private_0_1_0 as private;
 /// Items for the other crates of Gauss alone: no promise of stability is made here.
 #[doc(hidden)]
 pub mod __crates_0_1_0 {
+    pub use crate::__packs_of_one_0_1_0 as packs_of_one;
     pub use crate::integrate::drive::control::prepare;
     pub use crate::integrate::drive::fixed::{further, steps_within};
     pub use crate::integrate::drive::projection::accept;

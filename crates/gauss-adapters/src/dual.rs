@@ -25,8 +25,8 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Deref, DerefMut, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use gauss_runtime::__crates_0_1_0::packs_of_one;
 use gauss_runtime::real::Real;
-use gauss_runtime::simd::Packed;
 use num_dual::{Dual, Dual2, DualNum, DualSVec, HyperDual};
 
 mod sealed {
@@ -192,23 +192,6 @@ impl<D: Parts> Real for DualNumber<D> {
     }
 }
 
-/// One state of a batch is one number.
-impl<D: Parts> Packed for DualNumber<D> {
-    type Single = Self;
-    const WIDTH: usize = 1;
-
-    #[inline(always)]
-    fn repeat(single: &Self) -> Self {
-        *single
-    }
-
-    #[inline(always)]
-    fn extract(&self, lane: usize) -> Self {
-        [*self][lane]
-    }
-
-    #[inline(always)]
-    fn replace(&mut self, lane: usize, single: &Self) {
-        [self][lane].clone_from(single);
-    }
+packs_of_one! {
+    [D: Parts] DualNumber<D>;
 }

@@ -1,9 +1,9 @@
 //! States, parameters and inputs as bounded numbers.
 
+use gauss_runtime::__crates_0_1_0::packs_of_one;
 use gauss_runtime::nalgebra::{
     Isometry2, Isometry3, Quaternion, SMatrix, Translation, Unit, UnitComplex, UnitQuaternion,
 };
-use gauss_runtime::simd::Packed;
 use gauss_runtime::system::{AboutCenterOfMass, RigidBody};
 
 use crate::{Bounded, Float};
@@ -154,23 +154,6 @@ impl<A: Lift, B: Lift<Number = A::Number>> Lift for (A, B) {
     }
 }
 
-/// One state of a batch is one number.
-impl<T: Float> Packed for Bounded<T> {
-    type Single = Self;
-    const WIDTH: usize = 1;
-
-    #[inline(always)]
-    fn repeat(single: &Self) -> Self {
-        *single
-    }
-
-    #[inline(always)]
-    fn extract(&self, lane: usize) -> Self {
-        [*self][lane]
-    }
-
-    #[inline(always)]
-    fn replace(&mut self, lane: usize, single: &Self) {
-        [self][lane].clone_from(single);
-    }
+packs_of_one! {
+    [T: Float] Bounded<T>;
 }

@@ -18,7 +18,7 @@ mod poses;
 mod samples;
 mod warnings;
 
-pub use crate::__with_vectors as with_vectors;
+pub use crate::__with_vectors_0_1_0 as with_vectors;
 pub use crate::accuracy::{Accuracy, Loss};
 pub use crate::centroidal::{CentroidalSystem, GravityTorques};
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart};
@@ -82,5 +82,15 @@ mod tests {
             env!("CARGO_PKG_VERSION_PATCH")
         );
         assert_eq!(module_path!(), std::format!("gauss_runtime::__private_{version}::tests"));
+        let root = include_str!("../lib.rs");
+        assert!(root.contains(&std::format!("pub mod __crates_{version} {{")));
+        // Macros are exported from the root of the crate, beside what users see.
+        for (name, file) in [
+            ("with_vectors", include_str!("packs.rs")),
+            ("with_vectors", include_str!("without_packs.rs")),
+            ("packs_of_one", include_str!("../simd/packed.rs")),
+        ] {
+            assert!(file.contains(&std::format!("macro_rules! __{name}_{version} {{")), "{name}");
+        }
     }
 }

@@ -7,7 +7,7 @@ use ::wide::f64x4;
 /// The first of two blocks, which has vectors; the second does the same number by number.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! __with_vectors {
+macro_rules! __with_vectors_0_1_0 {
     ({ $($with:tt)* } { $($without:tt)* }) => {{ $($with)* }};
 }
 

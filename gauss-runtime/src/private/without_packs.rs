@@ -3,7 +3,7 @@
 /// The second of two blocks: the first has vectors.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! __with_vectors {
+macro_rules! __with_vectors_0_1_0 {
     ({ $($with:tt)* } { $($without:tt)* }) => {{ $($without)* }};
 }
 

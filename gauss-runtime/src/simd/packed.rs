@@ -32,10 +32,12 @@ pub trait Packed: Copy {
     fn replace(&mut self, lane: usize, single: &Self::Single);
 }
 
-/// A scalar that is one number.
-macro_rules! packs_of_one {
-    ($($(#[$attribute:meta])* [$($generics:tt)*] $scalar:ty;)+) => {$(
-        $(#[$attribute])*
+/// [`Packed`] of scalars that are one number: one state of a batch is one number. For crates with
+/// scalars of their own, by `__crates_0_1_0`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __packs_of_one_0_1_0 {
+    ($([$($generics:tt)*] $scalar:ty;)+) => {$(
         impl<$($generics)*> $crate::simd::Packed for $scalar {
             type Single = Self;
             const WIDTH: usize = 1;
@@ -58,7 +60,7 @@ macro_rules! packs_of_one {
     )+};
 }
 
-packs_of_one! {
+__packs_of_one_0_1_0! {
     [] f32;
     [] f64;
 }
