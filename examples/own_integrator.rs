@@ -53,7 +53,7 @@ impl<S: GaussSystem> OneStep<S> for Heun {
             return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
         }
         let unknown = Rates { configuration: VectorSpace::zero(), variables: VectorSpace::zero() };
-        Ok(Step { state: end, error: unknown, rates: None })
+        Ok(Step::new(end, unknown))
     }
 }
 

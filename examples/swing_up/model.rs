@@ -51,7 +51,7 @@ pub trait Plant<const D: usize, const U: usize> {
 
 /// No curvature.
 pub fn flat<const D: usize, const U: usize>() -> Hessian<f64, D, U> {
-    Hessian { by_state: Matrix::zeros(), by_input_and_state: Matrix::zeros(), by_input: Matrix::zeros() }
+    Hessian::new(Matrix::zeros(), Matrix::zeros(), Matrix::zeros())
 }
 
 /// The derivatives of a step.

@@ -233,6 +233,7 @@ impl core::error::Error for ParameterError {}
 
 /// How a matrix of drag acts on the velocity V = (u, ω) of a body relative to the medium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum DragKind {
     /// `F_i = −Σ_j D_ij V_j`.
     Linear,

@@ -75,6 +75,7 @@ pub trait HessianSystem: LinearizedSystem {
 
 /// The second derivatives of a weighted sum of the rates. D counts the components of (σ, δz), U those of the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Hessian<T, const D: usize, const U: usize> {
     /// By (σ, δz) twice; symmetric.
     pub by_state: SMatrix<T, D, D>,
@@ -82,4 +83,12 @@ pub struct Hessian<T, const D: usize, const U: usize> {
     pub by_input_and_state: SMatrix<T, U, D>,
     /// By the input twice; symmetric. Zero where inputs enter linearly.
     pub by_input: SMatrix<T, U, U>,
+}
+
+impl<T, const D: usize, const U: usize> Hessian<T, D, U> {
+    /// From its parts, in the order of the fields.
+    #[inline(always)]
+    pub fn new(by_state: SMatrix<T, D, D>, by_input_and_state: SMatrix<T, U, D>, by_input: SMatrix<T, U, U>) -> Self {
+        Self { by_state, by_input_and_state, by_input }
+    }
 }

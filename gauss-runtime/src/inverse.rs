@@ -69,6 +69,7 @@ pub trait InverseLinearizedSystem: GaussSystem<Input: VectorSpace<<Self as Gauss
 /// The generalised force τ that must act besides for ż to be what it is, in components dual to z, and its derivatives. C counts the
 /// components of an increment σ of the configuration, N the speeds, U the components of the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct InverseLinearization<T, const C: usize, const N: usize, const U: usize> {
     /// τ.
     pub force: SVector<T, N>,
@@ -82,4 +83,19 @@ pub struct InverseLinearization<T, const C: usize, const N: usize, const U: usiz
     pub by_time: SVector<T, N>,
     /// ∂τ/∂input.
     pub by_input: SMatrix<T, N, U>,
+}
+
+impl<T, const C: usize, const N: usize, const U: usize> InverseLinearization<T, C, N, U> {
+    /// From its parts, in the order of the fields.
+    #[inline(always)]
+    pub fn new(
+        force: SVector<T, N>,
+        by_configuration: SMatrix<T, N, C>,
+        by_speeds: SMatrix<T, N, N>,
+        by_acceleration: SMatrix<T, N, N>,
+        by_time: SVector<T, N>,
+        by_input: SMatrix<T, N, U>,
+    ) -> Self {
+        Self { force, by_configuration, by_speeds, by_acceleration, by_time, by_input }
+    }
 }

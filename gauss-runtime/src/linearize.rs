@@ -89,6 +89,7 @@ pub trait LinearizedSystem: GaussSystem<Input: VectorSpace<<Self as GaussSystem>
 ///
 /// [`Configuration::Tangent`]: crate::configuration::Configuration::Tangent
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Linearization<T, const D: usize, const U: usize> {
     /// V, then ż.
     pub rate: SVector<T, D>,
@@ -98,6 +99,19 @@ pub struct Linearization<T, const D: usize, const U: usize> {
     pub by_time: SVector<T, D>,
     /// ∂(V, ż)/∂input.
     pub by_input: SMatrix<T, D, U>,
+}
+
+impl<T, const D: usize, const U: usize> Linearization<T, D, U> {
+    /// From its parts, in the order of the fields.
+    #[inline(always)]
+    pub fn new(
+        rate: SVector<T, D>,
+        by_state: SMatrix<T, D, D>,
+        by_time: SVector<T, D>,
+        by_input: SMatrix<T, D, U>,
+    ) -> Self {
+        Self { rate, by_state, by_time, by_input }
+    }
 }
 
 /// A [`Linearization`] without its sizes, for code over every system. Implemented by that type alone.

@@ -193,6 +193,7 @@ impl<'de, S: GaussSystem<Scalar: Deserialize<'de>> + Described> Deserialize<'de>
         deserialize = "S: GaussSystem<Scalar: Deserialize<'de>> + Described"
     )
 )]
+#[non_exhaustive]
 pub struct Record<S: GaussSystem> {
     /// In the order of integration.
     pub samples: Vec<Sample<S>>,

@@ -7,6 +7,7 @@ use gauss_runtime::integrate::lanes::StateError;
 
 /// Some states of a batch did not reach the end; all others did.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct BatchError {
     /// Which, by their numbers; at least one.
     pub failures: Vec<StateError>,

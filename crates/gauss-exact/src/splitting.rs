@@ -196,6 +196,6 @@ where
         let y = problem.of_momentum(t, &q, &p);
         let error =
             Rates { configuration: <S::Configuration as Configuration>::Tangent::zero(), variables: S::Speeds::zero() };
-        Ok(Step { state: State { t, q, y }, error, rates: None })
+        Ok(Step::new(State { t, q, y }, error))
     }
 }

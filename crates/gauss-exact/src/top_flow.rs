@@ -207,6 +207,6 @@ where
         let (t, q) = (state.t + h, so3::renormalise(&unit_quaternion(q)));
         let y = problem.of_momentum(t, &q, &SVector::from(momentum));
         let error = Rates { configuration: SVector::zeros(), variables: SVector::zeros() };
-        Ok(Step { state: State { t, q, y }, error, rates: None })
+        Ok(Step::new(State { t, q, y }, error))
     }
 }

@@ -114,6 +114,7 @@ impl fmt::Display for Column<'_> {
 
 /// Units for names that no column has: all of these.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct UnknownColumns(pub Vec<String>);
 
 impl fmt::Display for UnknownColumns {

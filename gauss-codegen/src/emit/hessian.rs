@@ -24,11 +24,11 @@ pub fn hessian_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     });
     let body = quote! {
         #instructions
-        #private::Hessian {
-            by_state: #private::matrix([#(#by_state),*]),
-            by_input_and_state: #private::matrix([#(#by_input_and_state),*]),
-            by_input: #private::matrix([#(#by_input),*]),
-        }
+        #private::Hessian::new(
+            #private::matrix([#(#by_state),*]),
+            #private::matrix([#(#by_input_and_state),*]),
+            #private::matrix([#(#by_input),*]),
+        )
     };
     let function = derived.function_of("hessian", OF_HESSIAN, quote!(Self::Hessian), body);
     let items = quote! {

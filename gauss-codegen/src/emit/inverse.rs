@@ -28,14 +28,14 @@ pub fn inverse_linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStrea
     let (by_time, by_input) = (next(1), next(inputs));
     let body = quote! {
         #instructions
-        #private::InverseLinearization {
-            force: #private::vector([#(#force),*]),
-            by_configuration: #private::columns([#(#by_configuration),*]),
-            by_speeds: #private::columns([#(#by_speeds),*]),
-            by_acceleration: #private::columns([#(#by_acceleration),*]),
-            by_time: #private::columns([#(#by_time),*]),
-            by_input: #private::columns([#(#by_input),*]),
-        }
+        #private::InverseLinearization::new(
+            #private::vector([#(#force),*]),
+            #private::columns([#(#by_configuration),*]),
+            #private::columns([#(#by_speeds),*]),
+            #private::columns([#(#by_acceleration),*]),
+            #private::columns([#(#by_time),*]),
+            #private::columns([#(#by_input),*]),
+        )
     };
     let function = derived.function_of("linearize_inverse", OF_RESIDUAL, quote!(Self::InverseLinearization), body);
     let items = quote! {

@@ -29,12 +29,12 @@ pub fn linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
             let (rate, by_time) = (&outputs[..states], &outputs[states * of_time..states * (of_time + 1)]);
             quote! {
                 #instructions
-                #private::Linearization {
-                    rate: #private::vector([#(#rate),*]),
-                    by_state: #private::columns([#(#by_state),*]),
-                    by_time: #private::vector([#(#by_time),*]),
-                    by_input: #private::columns([#(#by_input),*]),
-                }
+                #private::Linearization::new(
+                    #private::vector([#(#rate),*]),
+                    #private::columns([#(#by_state),*]),
+                    #private::vector([#(#by_time),*]),
+                    #private::columns([#(#by_input),*]),
+                )
             }
         }
     };

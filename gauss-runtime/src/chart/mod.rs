@@ -14,6 +14,7 @@ pub use error::{ChartError, MotionRule};
 
 /// The kind of quasi-velocities z (or coordinate velocities) of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Chart {
     /// Body components u, ω of the velocity of O and of the angular velocity (2.3): Kirchhoff's equations.
     LeftInvariant,
@@ -53,6 +54,7 @@ impl fmt::Display for Chart {
 
 /// Coordinates of a rotation R, body to observer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum RotationChart {
     /// Three angles about axes of the body, in sequence. Singular where the middle angle aligns the outer axes.
     Euler(EulerSequence),

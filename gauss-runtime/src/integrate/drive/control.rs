@@ -18,6 +18,7 @@ pub const DEFAULT_LIMIT: u64 = 100_000_000;
 /// Rejected trials and rounding of the step to a state; a run sums them up in its
 /// [`Summary`](crate::integrate::Summary).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Taken {
     /// Trials of that step that were rejected.
     pub rejected: u32,

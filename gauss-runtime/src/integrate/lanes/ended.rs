@@ -24,6 +24,7 @@ pub struct Ended<Q, Z> {
 
 /// An event in a run of an ensemble.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct EventState<Q, Z> {
     /// The number of the event.
     pub event: usize,

@@ -33,6 +33,7 @@ impl Properties {
 
 /// The outcome of one step.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Step<S: GaussSystem> {
     /// The state at its end.
     pub state: State<S>,
@@ -40,6 +41,15 @@ pub struct Step<S: GaussSystem> {
     pub error: Rates<S>,
     /// The derivatives at the end, when the method has them for nothing.
     pub rates: Option<Rates<S>>,
+}
+
+impl<S: GaussSystem> Step<S> {
+    /// A step to a state, with its estimated error; the derivatives at the end are unknown.
+    #[inline]
+    #[must_use]
+    pub fn new(state: State<S>, error: Rates<S>) -> Self {
+        Self { state, error, rates: None }
+    }
 }
 
 /// A method that makes one step of a given length: with [`Fixed`](crate::integrate::Fixed) an integrator.
