@@ -3,7 +3,8 @@
 //! Time first, then what a method depends on: `t, &q, &z, &input`. q is the configuration, z the quasi-velocities,
 //! `p = ∂T/∂z` the momenta.
 
-use core::fmt;
+use core::fmt::{self, Debug};
+use core::ops::Index;
 
 use nalgebra::{Isometry3, Matrix3, SVector, Vector3};
 
@@ -30,11 +31,11 @@ pub trait GaussSystem {
     /// `SVector<Scalar, DOF>`: quasi-velocities, momenta and generalised forces alike.
     type Speeds: VectorSpace<Self::Scalar>;
 
-    /// `SMatrix<Scalar, DOF, DOF>`.
-    type MassMatrix;
+    /// `SMatrix<Scalar, DOF, DOF>`, with entries by `(row, column)`.
+    type MassMatrix: Copy + Debug + Index<(usize, usize), Output = Self::Scalar>;
 
     /// Values that arrive at run time; `()` when the scene has none.
-    type Input;
+    type Input: Copy + Debug;
 
     /// The number of quasi-velocities.
     const DOF: usize = <Self::Speeds as VectorSpace<Self::Scalar>>::DIM;
@@ -402,5 +403,37 @@ pub trait RigidBodySystem: GaussSystem {
         let linear = rotate(rotation, linear);
         let lever = cross(triple(&pose.translation.vector), linear);
         join(linear, add(rotate(rotation, angular), lever))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::FreeTop;
+
+    /// A z by the entries of A.
+    fn momentum<S: GaussSystem>(system: &S, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Speeds {
+        let (matrix, mut product) = (system.mass_matrix(t, q), S::Speeds::zero());
+        for i in 0..S::DOF {
+            let row = (0..S::DOF).map(|j| matrix[(i, j)] * z.component(j));
+            product.set_component(i, row.fold(S::Scalar::zero(), |sum, term| sum + term));
+        }
+        product
+    }
+
+    /// ż under an input that is kept.
+    fn twice<S: GaussSystem>(system: &S, q: &S::Configuration, z: &S::Speeds, input: &S::Input) -> [S::Speeds; 2] {
+        let (t, kept) = (S::Scalar::zero(), *input);
+        [*input, kept].map(|input| system.acceleration(t, q, z, &input))
+    }
+
+    #[test]
+    fn code_over_all_systems_uses_mass_matrices_and_inputs() {
+        let top = FreeTop { inertia: [2.0, 3.0, 5.0] };
+        let (q, z) = (nalgebra::UnitQuaternion::identity(), SVector::from([1.0, -2.0, 0.5]));
+        assert_eq!(momentum(&top, 0.0, &q, &z), SVector::from([2.0, -6.0, 2.5]));
+        // I ω̇ = Iω × ω + M: Iω × ω = (−6·0.5 + 2.5·2, 2.5 − 2·0.5, −4 + 6).
+        let expected = SVector::from([(2.0 + 8.0) / 2.0, (1.5 + 3.0) / 3.0, (2.0 - 2.0) / 5.0]);
+        assert_eq!(twice(&top, &q, &z, &[8.0, 3.0, -2.0]), [expected; 2]);
     }
 }

@@ -7,22 +7,14 @@
 //! either direction, of terms as large as [`Sizes`] says; and in differences, which divide it by the step, a truncation of
 //! 1e-12.
 
-use std::ops::Index;
-
 use gauss_runtime::constraint::project;
 use gauss_runtime::forces::Columns;
 use gauss_runtime::prelude::*;
 
 /// A kernel, whatever its inputs.
-pub trait Driven:
-    GaussSystem<Scalar = f64, MassMatrix: Index<(usize, usize), Output = f64>, Speeds: PartialEq> + Described
-{
-}
+pub trait Driven: GaussSystem<Scalar = f64, Speeds: PartialEq> + Described {}
 
-impl<S> Driven for S where
-    S: GaussSystem<Scalar = f64, MassMatrix: Index<(usize, usize), Output = f64>, Speeds: PartialEq> + Described
-{
-}
+impl<S> Driven for S where S: GaussSystem<Scalar = f64, Speeds: PartialEq> + Described {}
 
 /// A kernel that runs by itself.
 pub trait System: Driven + GaussSystem<Input = ()> {}

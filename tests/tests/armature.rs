@@ -13,7 +13,6 @@ fn same<C, A, B>(origin: &C, a: &A, b: &B)
 where
     C: Configuration<Scalar = f64> + Parts<f64>,
     A: GaussSystem<Scalar = Bounded, Configuration: Parts<Bounded>, Input = ()>,
-    A::MassMatrix: std::ops::Index<(usize, usize), Output = Bounded>,
     B: GaussSystem<
             Scalar = Bounded,
             Configuration = A::Configuration,

@@ -85,7 +85,7 @@ fn everything<K>(
     other: &K::Speeds,
 ) -> Vec<(&'static str, Vec<Bounded>)>
 where
-    K: GaussSystem<Scalar = Bounded, Input = (), MassMatrix: std::ops::Index<(usize, usize), Output = Bounded>>,
+    K: GaussSystem<Scalar = Bounded, Input = ()>,
 {
     let t = Bounded::zero();
     let p = kernel.momentum(t, q, z);
@@ -113,13 +113,7 @@ fn same<A: Body<Bounded>, B>(
     direction: &[f64; 6],
 ) -> Result<Vec<Bounded>, TestCaseError>
 where
-    B: GaussSystem<
-            Scalar = Bounded,
-            Configuration = A::Configuration,
-            Speeds = A::Speeds,
-            Input = (),
-            MassMatrix: std::ops::Index<(usize, usize), Output = Bounded>,
-        >,
+    B: GaussSystem<Scalar = Bounded, Configuration = A::Configuration, Speeds = A::Speeds, Input = ()>,
 {
     let other: A::Speeds = speeds(&direction.map(Bounded::from_f64));
     let expected = everything(chart, q, z, &other);

@@ -15,7 +15,7 @@ use gauss_tests::random::Random;
 type Increment<S> = <<S as GaussSystem>::Configuration as Configuration>::Tangent;
 
 /// The end of a step of the method itself, the input being held.
-fn step<S: GaussSystem<Input: Copy>>(
+fn step<S: GaussSystem>(
     system: &S,
     t: S::Scalar,
     q: &S::Configuration,

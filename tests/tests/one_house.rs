@@ -4,8 +4,6 @@
 #[macro_use]
 mod common;
 
-use std::ops::Index;
-
 use common::Bounded;
 use common::agreement::{equal, explore, largest};
 use common::body::{Parts, list, speeds};
@@ -72,7 +70,7 @@ fn everything<K>(
     other: &K::Speeds,
 ) -> Vec<(&'static str, Vec<Bounded>)>
 where
-    K: GaussSystem<Scalar = Bounded, Input = (), MassMatrix: Index<(usize, usize), Output = Bounded>>,
+    K: GaussSystem<Scalar = Bounded, Input = ()>,
 {
     let t = Bounded::from_f64(0.3);
     let p = kernel.momentum(t, q, z);

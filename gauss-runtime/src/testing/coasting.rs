@@ -1,9 +1,26 @@
 //! A system on any configuration: what groups do with velocities that change, and nothing else.
 
+use core::ops::Index;
+
 use crate::chart::Chart;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
 use crate::system::GaussSystem;
+
+/// The matrix of an inertia that is 1 for every speed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Identity<T> {
+    zero: T,
+    one: T,
+}
+
+impl<T> Index<(usize, usize)> for Identity<T> {
+    type Output = T;
+
+    fn index(&self, (row, column): (usize, usize)) -> &T {
+        if row == column { &self.one } else { &self.zero }
+    }
+}
 
 /// Speeds that push and drag alone change, each by itself, on any configuration: `V = z`, `ż = push − drag z`.
 #[derive(Clone, Copy)]
@@ -16,7 +33,7 @@ impl<C: Configuration> GaussSystem for Coasting<C> {
     type Scalar = C::Scalar;
     type Configuration = C;
     type Speeds = C::Tangent;
-    type MassMatrix = ();
+    type MassMatrix = Identity<C::Scalar>;
     type Input = ();
     const DOF: usize = <C::Tangent as VectorSpace<C::Scalar>>::DIM;
     const CHART: Chart = Chart::Own;
@@ -36,7 +53,9 @@ impl<C: Configuration> GaussSystem for Coasting<C> {
     fn momentum_rate(&self, t: C::Scalar, q: &C, p: &C::Tangent, (): &()) -> C::Tangent {
         self.acceleration(t, q, p, &())
     }
-    fn mass_matrix(&self, _: C::Scalar, _: &C) {}
+    fn mass_matrix(&self, _: C::Scalar, _: &C) -> Identity<C::Scalar> {
+        Identity { zero: Real::zero(), one: Real::one() }
+    }
     fn kinetic_energy(&self, _: C::Scalar, _: &C, z: &C::Tangent) -> C::Scalar {
         let squares = (0..Self::DOF).map(|i| z.component(i) * z.component(i));
         C::Scalar::ratio(1, 2) * squares.fold(C::Scalar::zero(), |sum, square| sum + square)

@@ -6,8 +6,6 @@
 //! | `all_on!` | a body on which everything acts that the language has a clause for |
 //! | `the_four_charts!` | a scene in the charts that are compared |
 
-use std::ops::Index;
-
 use gauss_runtime::prelude::*;
 
 use crate::common::body::Parts;
@@ -30,20 +28,9 @@ impl<T: Real, const N: usize> Inputs<T> for SVector<T, N> {
 }
 
 /// A kernel of one body, whatever acts on it.
-pub trait Body<T: Real>:
-    RigidBodySystem<Scalar = T, Configuration: Parts<T>, MassMatrix: Index<(usize, usize), Output = T>, Input: Inputs<T>>
-{
-}
+pub trait Body<T: Real>: RigidBodySystem<Scalar = T, Configuration: Parts<T>, Input: Inputs<T>> {}
 
-impl<T: Real, K> Body<T> for K where
-    K: RigidBodySystem<
-            Scalar = T,
-            Configuration: Parts<T>,
-            MassMatrix: Index<(usize, usize), Output = T>,
-            Input: Inputs<T>,
-        >
-{
-}
+impl<T: Real, K> Body<T> for K where K: RigidBodySystem<Scalar = T, Configuration: Parts<T>, Input: Inputs<T>> {}
 
 /// A derived struct, generic over the scalar, on which something acts.
 pub trait Scene {

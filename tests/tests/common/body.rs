@@ -1,7 +1,5 @@
 //! One rigid body as the checks see it: any chart, any motion, any scalar.
 
-use std::ops::Index;
-
 use gauss_runtime::lie::{se2, so3};
 use gauss_runtime::prelude::*;
 
@@ -118,24 +116,12 @@ impl<T: Real, const N: usize> Parts<T> for SVector<T, N> {
 
 /// What a derived kernel without inputs is.
 pub trait Body<T: Real>:
-    RigidBodySystem<
-        Scalar = T,
-        Input = (),
-        Configuration: Parts<T>,
-        Speeds: VectorSpace<T>,
-        MassMatrix: Index<(usize, usize), Output = T>,
-    > + Described
+    RigidBodySystem<Scalar = T, Input = (), Configuration: Parts<T>, Speeds: VectorSpace<T>> + Described
 {
 }
 
 impl<T: Real, K> Body<T> for K where
-    K: RigidBodySystem<
-            Scalar = T,
-            Input = (),
-            Configuration: Parts<T>,
-            Speeds: VectorSpace<T>,
-            MassMatrix: Index<(usize, usize), Output = T>,
-        > + Described
+    K: RigidBodySystem<Scalar = T, Input = (), Configuration: Parts<T>, Speeds: VectorSpace<T>> + Described
 {
 }
 
