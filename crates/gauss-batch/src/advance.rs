@@ -5,7 +5,7 @@ use core::ops::Range;
 
 use gauss_runtime::__crates_0_1_0::{accept, further, prepare, steps_within};
 use gauss_runtime::configuration::Configuration;
-use gauss_runtime::integrate::lanes::{BatchSystem, SingleConfiguration, SingleSpeeds, StateError};
+use gauss_runtime::integrate::lanes::{BatchSystem, RunError, SingleConfiguration, SingleSpeeds};
 use gauss_runtime::integrate::{DEFAULT_LIMIT, IntegrationErrorKind, OneStep, Problem, Rates, State};
 use gauss_runtime::real::Real;
 use gauss_runtime::simd::Packed;
@@ -49,7 +49,7 @@ struct Block<'a, S: BatchSystem, P, M> {
     method: &'a M,
     states: usize,
     held: Vec<Held<S>>,
-    failures: Vec<StateError>,
+    failures: Vec<RunError>,
 }
 
 /// Carries a block, of which the first `states` lanes count, over the interval. What stopped is returned, by lane; (q, z) then holds
@@ -60,7 +60,7 @@ pub(crate) fn advance<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>>(
     interval: &Interval,
     states: usize,
     (q, z): (&mut S::Configuration, &mut S::Speeds),
-) -> Vec<StateError> {
+) -> Vec<RunError> {
     let mut block = Block { problem, method, states, held: Vec::new(), failures: Vec::new() };
     let Some((span, mut reached)) = block.start(interval, q, z) else { return block.failures };
     // Lanes that cannot even start get their states back at the end.
@@ -127,7 +127,7 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
                     let single = (q.extract(state), z.extract(state));
                     match self.check(interval, &S::Configuration::repeat(&single.0), &S::Speeds::repeat(&single.1)) {
                         Ok(_) => good = Some(single),
-                        Err(kind) => self.failures.push(StateError::new(state, interval.start, kind)),
+                        Err(kind) => self.failures.push(RunError::new(state, interval.start, kind)),
                     }
                 }
                 let (mut q, mut z) = (*q, *z);
@@ -185,7 +185,7 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
             (Trial::OfTheAble(_), None) => return Some(trial),
             (Trial::Alone(state, first), failed) => {
                 if let Some(kind) = failed {
-                    self.failures.push(StateError::new(state, from.t.extract(state).lane(0), kind));
+                    self.failures.push(RunError::new(state, from.t.extract(state).lane(0), kind));
                     self.held.extend(self.lanes_of(state).map(|lane| Held::at(from, lane)));
                 }
                 Trial::Alone(state + 1, first)
@@ -207,7 +207,7 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
     fn fail_the_rest(&mut self, time: f64, kind: IntegrationErrorKind) {
         for state in 0..self.states {
             if self.failures.iter().all(|failure| failure.state != state) {
-                self.failures.push(StateError::new(state, time, kind));
+                self.failures.push(RunError::new(state, time, kind));
             }
         }
     }

@@ -3,14 +3,14 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use gauss_runtime::integrate::lanes::StateError;
+use gauss_runtime::integrate::lanes::RunError;
 
 /// Some states of a batch did not reach the end; all others did.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BatchError {
     /// Which, by their numbers; at least one.
-    pub failures: Vec<StateError>,
+    pub failures: Vec<RunError>,
 }
 
 impl fmt::Display for BatchError {

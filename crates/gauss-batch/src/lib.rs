@@ -91,7 +91,7 @@ use advance::Interval;
 pub use ensemble::Ensemble;
 pub use error::BatchError;
 pub use gauss_runtime::integrate::lanes::{
-    BatchSystem, Ended, EventState, HowItEnded, SingleConfiguration, SingleSpeeds, StateError,
+    BatchSystem, Ended, EventState, HowItEnded, RunError, SingleConfiguration, SingleSpeeds,
 };
 pub use packs::{Packs, States};
 
@@ -243,7 +243,7 @@ impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
         count: usize,
         block: usize,
         state: (&mut S::Configuration, &mut S::Speeds),
-    ) -> Vec<StateError>
+    ) -> Vec<RunError>
     where
         S: BatchSystem,
         K: Kernels<S>,
@@ -319,7 +319,7 @@ impl<K: ?Sized + Sync, F, I: Sync> Batch<'_, K, F, I> {
     }
 }
 
-fn collect(failures: Vec<StateError>) -> Result<(), BatchError> {
+fn collect(failures: Vec<RunError>) -> Result<(), BatchError> {
     if failures.is_empty() { Ok(()) } else { Err(BatchError { failures }) }
 }
 

@@ -37,12 +37,12 @@ pub struct EventState<Q, Z> {
 }
 
 /// How one run of an ensemble ended.
-pub type HowItEnded<S> = Result<Ended<SingleConfiguration<S>, SingleSpeeds<S>>, StateError>;
+pub type HowItEnded<S> = Result<Ended<SingleConfiguration<S>, SingleSpeeds<S>>, RunError>;
 
 /// A state that did not reach the end: the batch holds the last good one, at `time`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct StateError {
+pub struct RunError {
     /// The number of the state.
     pub state: usize,
     /// The last time that it reached.
@@ -51,7 +51,7 @@ pub struct StateError {
     pub kind: IntegrationErrorKind,
 }
 
-impl StateError {
+impl RunError {
     /// The state of this number stopped at `time`.
     #[must_use]
     pub const fn new(state: usize, time: f64, kind: IntegrationErrorKind) -> Self {
@@ -59,10 +59,10 @@ impl StateError {
     }
 }
 
-impl fmt::Display for StateError {
+impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "state {} stopped at t = {}: {}", self.state, self.time, self.kind)
     }
 }
 
-impl core::error::Error for StateError {}
+impl core::error::Error for RunError {}

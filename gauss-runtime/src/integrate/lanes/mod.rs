@@ -13,7 +13,7 @@ pub(crate) mod run;
 mod system;
 mod taylor;
 
-pub use ended::{Ended, EventState, HowItEnded, StateError};
+pub use ended::{Ended, EventState, HowItEnded, RunError};
 pub use system::{BatchSystem, SingleConfiguration, SingleSpeeds};
 
 use alloc::vec::Vec;

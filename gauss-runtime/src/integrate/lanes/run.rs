@@ -3,7 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::ended::{Ended, EventState, HowItEnded, StateError};
+use super::ended::{Ended, EventState, HowItEnded, RunError};
 use super::system::{BatchSystem, SingleConfiguration, SingleSpeeds};
 use super::{Group, LaneControl, Verdict, chosen_rates, number, numbers_of, ones_in};
 use crate::configuration::Configuration;
@@ -104,7 +104,7 @@ where
     }
 
     fn not_started(&self, state: usize, kind: IntegrationErrorKind) -> HowItEnded<S> {
-        Err(StateError { state, time: self.times.0, kind })
+        Err(RunError { state, time: self.times.0, kind })
     }
 
     /// The start of some runs in a lane each; lanes without one repeat the last.
@@ -254,7 +254,7 @@ where
             Ok(stopped_by) => Ok(Ended { time, stopped_by, summary: running.summary, events: running.found }),
             Err(kind) => {
                 let kind = running.jumps.told(kind, &running.summary);
-                Err(StateError { state: running.number, time, kind })
+                Err(RunError { state: running.number, time, kind })
             }
         };
         runs.end(running.number, last, outcome);
