@@ -10,7 +10,7 @@
 //! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
 //! | [`adams`] | multistep methods: from the derivatives of earlier steps |
 //! | [`taylor`] | power series of the solution, where the derive gives them |
-//! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with `step_length`: how steps grow and shrink, and `tolerance`: errors, and what rounding does to them; `pace`, `cause`: when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; `projection`: constraints; [`event`](drive::event), [`search`](drive::search), `zero`: zeros of functions, jumps; `run`: from jump to jump; [`trajectory`](drive::trajectory), [`summary`](drive::summary): what is kept; [`simulation`](drive::simulation): [`Simulation`], the front |
+//! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with `step_length`: how steps grow and shrink, and `tolerance`: errors, and what rounding does to them; `pace`, `cause`: when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; `projection`: constraints; [`event`](drive::event), [`search`](drive::search), `zero`: zeros of functions, jumps; `run`: from jump to jump; [`trajectory`](drive::trajectory), [`summary`](drive::summary): what is kept; [`simulation`](drive::simulation): [`Simulation`], the front; `boxed`: in a type for fields of structs |
 //! | `lanes` | many runs in lockstep, each with steps of its own |
 
 pub mod adams;
@@ -27,6 +27,8 @@ pub mod taylor;
 
 pub use adams::Adams;
 pub use drive::adaptive::Adaptive;
+#[cfg(feature = "alloc")]
+pub use drive::boxed::BoxedSimulation;
 pub use drive::compensated::Compensated;
 pub use drive::control::{Control, DEFAULT_LIMIT, Emit, Taken};
 pub use drive::fixed::Fixed;

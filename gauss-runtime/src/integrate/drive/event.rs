@@ -115,6 +115,18 @@ impl<S: GaussSystem> Events<S> for NoEvents {
     }
 }
 
+impl<S: GaussSystem, E: Events<S>> Events<S> for &mut E {
+    const COUNT: usize = E::COUNT;
+
+    fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {
+        (**self).each(visit);
+    }
+
+    fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {
+        (**self).jump(number, state)
+    }
+}
+
 /// One event after others, with what becomes of the state there.
 #[derive(Clone, Copy, Debug)]
 pub struct Watched<E, G, J = Stay> {
@@ -128,20 +140,7 @@ impl<E, G> Watched<E, G> {
     /// One more event after others.
     #[doc(hidden)]
     pub fn after(others: E, crossing: Crossing, terminal: bool, function: G) -> Self {
-        let mark = Mark {
-            crossing,
-            terminal,
-            through: false,
-            value: 0.0,
-            next: None,
-            last: None,
-            here: false,
-            jumped: false,
-            passed: false,
-            cut: None,
-            resting: None,
-        };
-        Self { others, function, jump: Stay, mark }
+        Self { others, function, jump: Stay, mark: Mark::new(crossing, terminal, false) }
     }
 
     /// With a jump, after which the function may go on through zero or has to be led back.
@@ -219,6 +218,29 @@ pub(in crate::integrate) enum Outcome<S: GaussSystem> {
 type Here<S> = (State<S>, Option<State<S>>, usize, Option<usize>);
 
 impl Mark {
+    /// Before a run.
+    const fn new(crossing: Crossing, terminal: bool, through: bool) -> Self {
+        Self {
+            crossing,
+            terminal,
+            through,
+            value: 0.0,
+            next: None,
+            last: None,
+            here: false,
+            jumped: false,
+            passed: false,
+            cut: None,
+            resting: None,
+        }
+    }
+
+    /// Before another run.
+    #[cfg(feature = "alloc")]
+    pub(in crate::integrate) fn renew(&mut self) {
+        *self = Self::new(self.crossing, self.terminal, self.through);
+    }
+
     /// The first event of the step.
     fn first<S: GaussSystem, P: Problem<System = S>, C: Control<S>>(
         &mut self,

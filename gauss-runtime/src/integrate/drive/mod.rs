@@ -1,6 +1,8 @@
 //! What drives a method over an interval: the choice of steps, events, constraints, and what is kept of a run.
 
 pub mod adaptive;
+#[cfg(feature = "alloc")]
+pub mod boxed;
 pub(in crate::integrate) mod cause;
 pub mod compensated;
 pub mod control;

@@ -14,6 +14,16 @@ pub trait Observer<S: GaussSystem> {
     }
 }
 
+impl<S: GaussSystem, O: Observer<S> + ?Sized> Observer<S> for &mut O {
+    fn see(&mut self, sample: &Sample<S>) {
+        (**self).see(sample);
+    }
+
+    fn event(&mut self, number: usize, sample: &Sample<S>) {
+        (**self).event(number, sample);
+    }
+}
+
 /// Nobody looks.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Unobserved;

@@ -2,13 +2,14 @@
 
 use core::ops::ControlFlow;
 
+#[cfg(feature = "alloc")]
+use crate::integrate::drive::control::DEFAULT_LIMIT;
 use crate::integrate::drive::control::{Control, Taken};
 use crate::integrate::drive::event::{Events, Outcome, Watch};
-#[cfg(feature = "alloc")]
 use crate::integrate::drive::observer::Observer;
 use crate::integrate::drive::pace::Pace;
 use crate::integrate::drive::search::Made;
-use crate::integrate::drive::summary::Summary;
+use crate::integrate::drive::summary::{End, Summary};
 #[cfg(feature = "alloc")]
 use crate::integrate::drive::trajectory::{EventSample, Kept};
 use crate::integrate::problem::equations::Problem;
@@ -29,6 +30,12 @@ pub(in crate::integrate) struct Run<'a, P, C> {
     pub(in crate::integrate) problem: &'a P,
     pub(in crate::integrate) every: u64,
     pub(in crate::integrate) limit: u64,
+}
+
+/// The most steps of a run whose every n-th sample is kept, unless another limit is given.
+#[cfg(feature = "alloc")]
+pub(in crate::integrate) fn limit_of_kept(limit: Option<u64>, every: u64) -> u64 {
+    limit.unwrap_or((DEFAULT_LIMIT / 10).saturating_mul(every).min(DEFAULT_LIMIT))
 }
 
 /// How far a run came.
@@ -136,6 +143,23 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         }
         let Reached { summary, stopped_by } = reached;
         (Kept { samples, events: found, stopped_by, summary }, outcome.err())
+    }
+
+    /// Keeps nothing but the end.
+    pub(in crate::integrate) fn to_end<O: Observer<S>, E: Events<S>>(
+        &self,
+        events: E,
+        mut observer: O,
+        start: State<S>,
+        end: S::Scalar,
+    ) -> Result<End<S>, IntegrationError> {
+        let problem = self.problem;
+        let (reached, outcome) = self.drive(events, start, end, &mut |seen| match seen {
+            Seen::Sample(state) => observer.see(&problem.sample(state)),
+            Seen::Event(number, state) => observer.event(number, &problem.sample(state)),
+        });
+        let state = outcome?;
+        Ok(End { sample: problem.sample(&state), stopped_by: reached.stopped_by, summary: reached.summary })
     }
 
     /// Runs the method and passes on the first, every n-th and the last state reached, both sides of jumps, and the events between

@@ -4,11 +4,15 @@ use core::ops::Range;
 
 use crate::configuration::Configuration;
 use crate::integrate::drive::adaptive::Adaptive;
+#[cfg(feature = "alloc")]
+use crate::integrate::drive::boxed::BoxedSimulation;
 use crate::integrate::drive::control::{Control, DEFAULT_LIMIT};
 use crate::integrate::drive::event::{Events, NoEvents, Then, Watched};
 use crate::integrate::drive::fixed::Fixed;
 use crate::integrate::drive::observer::{Callback, Observer, Unobserved};
-use crate::integrate::drive::run::{Run, Seen};
+use crate::integrate::drive::run::Run;
+#[cfg(feature = "alloc")]
+use crate::integrate::drive::run::limit_of_kept;
 use crate::integrate::drive::search::Crossing;
 use crate::integrate::drive::summary::End;
 #[cfg(feature = "alloc")]
@@ -392,8 +396,7 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
     {
         let start = self.start(q0, &z0, interval.start);
         let Self { problem, control, observer, events, every, limit } = self;
-        let limit = limit.unwrap_or((DEFAULT_LIMIT / 10).saturating_mul(every).min(DEFAULT_LIMIT));
-        let run = Run { control: &control, problem: &problem, every, limit };
+        let run = Run { control: &control, problem: &problem, every, limit: limit_of_kept(limit, every) };
         let (kept, error) = run.keep(events, observer, start, interval.end);
         (Trajectory::new(kept, problem, control, every == 1), error)
     }
@@ -416,14 +419,22 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
         E: Events<S>,
     {
         let start = self.start(q0, &z0, interval.start);
-        let Self { problem, control, mut observer, events, every, limit } = self;
+        let Self { problem, control, observer, events, every, limit } = self;
         let run = Run { control: &control, problem: &problem, every, limit: limit.unwrap_or(DEFAULT_LIMIT) };
-        let (reached, outcome) = run.drive(events, start, interval.end, &mut |seen| match seen {
-            Seen::Sample(state) => observer.see(&problem.sample(state)),
-            Seen::Event(number, state) => observer.event(number, &problem.sample(state)),
-        });
-        let state = outcome?;
-        Ok(End { sample: problem.sample(&state), stopped_by: reached.stopped_by, summary: reached.summary })
+        run.to_end(events, observer, start, interval.end)
+    }
+
+    /// The same simulation in a type that can be written, for a field of a struct. It can be run many times.
+    #[cfg(feature = "alloc")]
+    pub fn boxed<'k, S: GaussSystem>(self) -> BoxedSimulation<'k, S>
+    where
+        P: Problem<System = S> + 'k,
+        C: Control<S> + 'k,
+        O: Observer<S> + 'k,
+        E: Events<S> + 'k,
+    {
+        let Self { problem, control, observer, events, every, limit } = self;
+        BoxedSimulation::new((problem, control), (observer, events), every, limit)
     }
 
     fn start<S: GaussSystem>(&self, q0: S::Configuration, z0: &S::Speeds, t: S::Scalar) -> State<S>

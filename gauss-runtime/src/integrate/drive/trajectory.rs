@@ -82,8 +82,13 @@ impl<'k, S: GaussSystem> Trajectory<'k, S> {
         P: Problem<System = S> + 'k,
         C: Control<S> + 'k,
     {
+        Self::made_by(kept, Rc::new(Maker { problem, control, every_step }))
+    }
+
+    /// The samples of a run, with what makes states between them.
+    pub(in crate::integrate) fn made_by(kept: Kept<S>, between: Rc<dyn Between<S> + 'k>) -> Self {
         let Kept { samples, events, stopped_by, summary } = kept;
-        Self { samples, events, stopped_by, summary, between: Rc::new(Maker { problem, control, every_step }) }
+        Self { samples, events, stopped_by, summary, between }
     }
 
     /// The events in the order in which they happened. They are states of the run by themselves; only where the state jumps, or the
@@ -199,7 +204,7 @@ impl<'a, S: GaussSystem> IntoIterator for &'a Trajectory<'_, S> {
 }
 
 /// The computation of states between samples.
-trait Between<S: GaussSystem> {
+pub(in crate::integrate) trait Between<S: GaussSystem> {
     /// The state at a time, from the sample before it.
     fn reach(&self, from: &Sample<S>, t: S::Scalar) -> Result<Sample<S>, IntegrationError>;
 
@@ -208,11 +213,11 @@ trait Between<S: GaussSystem> {
 }
 
 /// What made a run.
-struct Maker<P, C> {
-    problem: P,
-    control: C,
+pub(in crate::integrate) struct Maker<P, C> {
+    pub(in crate::integrate) problem: P,
+    pub(in crate::integrate) control: C,
     /// Whether neighbouring samples are one step apart.
-    every_step: bool,
+    pub(in crate::integrate) every_step: bool,
 }
 
 impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Between<S> for Maker<P, C> {
