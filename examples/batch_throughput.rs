@@ -15,7 +15,7 @@ use std::time::Instant;
 
 use gauss_batch::{Batch, BatchSystem, States};
 use gauss_charts::statistics::quartiles;
-use gauss_runtime::integrate::OneStep;
+use gauss_runtime::integrate::{Fixed, OneStep};
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 

@@ -2,6 +2,7 @@
 
 use gauss_examples::plots::write_page;
 use gauss_playback::{Playback, Shape};
+use gauss_runtime::monitor::monitor;
 use gauss_runtime::prelude::*;
 
 /// A symmetric top on a fixed tip.

@@ -5,6 +5,7 @@
 use gauss_examples::plots;
 use gauss_examples::rolling::{Floor, Hoop, draw};
 use gauss_playback::{Playback, Shape};
+use gauss_runtime::monitor::monitor;
 use gauss_runtime::prelude::*;
 
 /// A thin hoop on the floor z = 0. Its axis leans by `lean` from the vertical: at a right angle the hoop stands upright, at zero

@@ -2,6 +2,7 @@
 
 use std::error::Error;
 
+use gauss_runtime::description::OperationCount;
 use gauss_runtime::prelude::*;
 
 use crate::measure::Way;

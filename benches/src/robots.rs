@@ -5,6 +5,9 @@
 
 use std::error::Error;
 
+use gauss_runtime::description::{OperationCount, Operations};
+use gauss_runtime::inverse::InverseLinearization;
+use gauss_runtime::linearize::Linearization;
 use gauss_runtime::prelude::*;
 
 use crate::cases::Case;

@@ -9,6 +9,7 @@ mod scene;
 use std::f64::consts::PI;
 
 use gauss_examples::plots::{write, write_page};
+use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 
 use scene::{FLUTTERING, IdealPlate, IdealPlateKernel, Plate, PlateKernel, THICKNESS, TUMBLING, places, released};

@@ -7,6 +7,7 @@ mod picture;
 mod scene;
 
 use gauss_examples::plots::{write, write_page};
+use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 
 use scene::{Pendulum, PendulumKernel, PendulumState, Slider, Sliding, slide};

@@ -5,6 +5,7 @@ use std::error::Error;
 use gauss_charts::drawing::{COLOURS, INK};
 use gauss_examples::plots::{Line, Plot, sheet};
 use gauss_playback::{Playback, Shape};
+use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 
 use crate::scene::{LENGTH, Pendulum, PendulumFrame, PendulumKernel, Slider, Sliding, slide};

@@ -15,6 +15,7 @@ use gauss_charts::drawing::{COLOURS, INK};
 use gauss_charts::statistics::Random;
 use gauss_examples::plots::{Line, Plot, mosaic, write, write_page};
 use gauss_playback::{Playback, Shape};
+use gauss_runtime::integrate::Fixed;
 use gauss_runtime::prelude::*;
 use indicatif::{ProgressBar, ProgressStyle};
 use num_dual::{Derivative, DualSVec64};

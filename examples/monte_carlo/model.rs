@@ -1,5 +1,6 @@
 //! A thrown body of uncertain inertia and spin.
 
+use gauss_runtime::nalgebra::Unit;
 use gauss_runtime::prelude::*;
 
 /// An oval ball: weight, and drag that is larger across its long axis e₁ than along it.

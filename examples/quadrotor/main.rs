@@ -7,6 +7,7 @@ mod newton_euler;
 mod picture;
 
 use gauss_examples::plots;
+use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 
 use model::{Quadrotor, QuadrotorKernel, Seen, pilot, wanted};

@@ -3,6 +3,7 @@
 
 use gauss_examples::plots::write_page;
 use gauss_playback::{Playback, Shape};
+use gauss_runtime::monitor::monitor;
 use gauss_runtime::prelude::*;
 
 mod stone;

@@ -13,6 +13,7 @@ use gauss_charts::drawing::COLOURS;
 use gauss_charts::figure::torpedo;
 use gauss_examples::plots::{self, Line, Plot, mosaic};
 use gauss_playback::Playback;
+use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 
 mod craft;

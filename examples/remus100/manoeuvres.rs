@@ -2,6 +2,7 @@
 
 use std::error::Error;
 
+use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 
 use crate::vehicle::Table;

@@ -9,6 +9,7 @@ use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use gauss_examples::plots;
+use gauss_runtime::monitor::{monitor_body, power_balance};
 use gauss_runtime::prelude::*;
 
 use model::{

@@ -1,6 +1,8 @@
 //! What is to be moved, step by step: a pole on a cart, and an arm from its file.
 
+use gauss_runtime::hessian::Hessian;
 use gauss_runtime::integrate::{Feedback, OneStep, Problem, State, SystemProblem};
+use gauss_runtime::linearize::Linearization;
 use gauss_runtime::prelude::*;
 
 /// A cart on a rail, and a pole on its hinge; the angle is from upright.

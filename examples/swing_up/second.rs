@@ -1,6 +1,6 @@
 //! Steps with their second derivatives, of `linearize` and `hessian` at their stages.
 
-use gauss_runtime::prelude::*;
+use gauss_runtime::hessian::Hessian;
 
 use crate::model::{Exact, Expansion, Matrix, Plant, Scalar, Vector, flat, parts};
 

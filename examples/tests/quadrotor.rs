@@ -5,6 +5,7 @@ mod model;
 #[path = "../quadrotor/newton_euler.rs"]
 mod newton_euler;
 
+use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 use model::{Quadrotor, QuadrotorKernel, Seen, pilot, wanted};
 

@@ -3,6 +3,7 @@
 #[path = "../thrown_robot/model.rs"]
 mod model;
 
+use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 
 use model::{G, Quadruped, Whole, thrown};

@@ -7,6 +7,7 @@ use std::error::Error;
 use gauss_charts::drawing::COLOURS;
 use gauss_examples::plots::{Line, Plot, sheet, write, write_page};
 use gauss_playback::{Playback, Shape};
+use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 
 mod model;

@@ -1,37 +1,35 @@
 //! The items that most simulations need: `use gauss_runtime::prelude::*;`. The other methods are in
 //! [`integrate`](crate::integrate), many states at once in the crate `gauss-batch`, reports on energy and momenta in
-//! [`monitor`](mod@crate::monitor).
+//! [`monitor`](mod@crate::monitor). Names that other preludes have as well, and those that few programs write, are taken
+//! from their modules.
 
 #[cfg(feature = "derive")]
 pub use gauss_derive::GaussDynamics;
 
-pub use crate::accuracy::Accuracy;
 pub use crate::centroidal::{CentroidalSystem, GravityTorques};
-pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart, convert};
+pub use crate::chart::Chart;
 pub use crate::configuration::{Configuration, VectorSpace};
-pub use crate::constraint::{ConstrainedSystem, ProjectionError};
-pub use crate::description::{Described, Equations, OperationCount, Operations};
-pub use crate::error::{ParameterError, ParameterWarning, ParameterWarnings};
-pub use crate::forces::{Element, ForcedSystem};
+pub use crate::constraint::ConstrainedSystem;
+pub use crate::description::Described;
+pub use crate::error::ParameterError;
+pub use crate::forces::ForcedSystem;
 pub use crate::frames::{FrameName, FramedSystem, JacobianRates};
-pub use crate::hessian::{Hessian, HessianSystem};
+pub use crate::hessian::HessianSystem;
 pub use crate::identification::{InertialRegressor, ParametricSystem};
 #[cfg(feature = "alloc")]
 pub use crate::integrate::Trajectory;
 pub use crate::integrate::{
-    Adaptive, Classical4, Collocation, CommutatorFree4, Crossing, DormandPrince5, DormandPrince8, End, Fixed,
-    InputSource, IntegrationError, IntegrationErrorKind, MomentumForm, Rosenbrock, RungeKutta, Sample, Simulation,
-    Tableau, Taylor, VelocityForm, Verner9,
+    Adaptive, Classical4, Collocation, CommutatorFree4, Crossing, DormandPrince5, DormandPrince8, InputSource,
+    IntegrationError, IntegrationErrorKind, MomentumForm, Rosenbrock, RungeKutta, Sample, Simulation, Tableau, Taylor,
+    VelocityForm, Verner9,
 };
-pub use crate::inverse::{InverseLinearization, InverseLinearizedSystem};
-pub use crate::linearize::{Linearization, LinearizedSystem};
-#[cfg(feature = "alloc")]
-pub use crate::monitor::{monitor, monitor_body, power_balance};
+pub use crate::inverse::InverseLinearizedSystem;
+pub use crate::linearize::LinearizedSystem;
 pub use crate::real::Real;
 pub use crate::series::TaylorSystem;
 pub use crate::simd::Lanes;
 pub use crate::system::{AboutCenterOfMass, GaussSystem, RigidBody, RigidBodySystem, Smoothness};
 pub use nalgebra::{
-    Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, Unit, UnitComplex,
-    UnitQuaternion, Vector2, Vector3, Vector6,
+    Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, UnitComplex, UnitQuaternion,
+    Vector2, Vector3, Vector6,
 };

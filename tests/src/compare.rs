@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use gauss_runtime::chart::{ChartError, EulerSequence, RotationChart, convert};
 use gauss_runtime::integrate::{Form, IntegrationError};
 use gauss_runtime::prelude::*;
 

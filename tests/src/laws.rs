@@ -8,6 +8,7 @@
 //! 1e-12.
 
 use gauss_runtime::constraint::project;
+use gauss_runtime::description::OperationCount;
 use gauss_runtime::forces::Columns;
 use gauss_runtime::prelude::*;
 

@@ -1,7 +1,7 @@
 //! States between samples are as accurate as the samples, by every method, and tables of them.
 
 use gauss_exact::{Scheme, Splitting};
-use gauss_runtime::integrate::{Compensated, Composed, Composition, Control, Rkmk};
+use gauss_runtime::integrate::{Compensated, Composed, Composition, Control, Fixed, Rkmk};
 use gauss_runtime::prelude::*;
 use gauss_tables::Tabulate;
 use gauss_tests::top::{Top, TopKernel};

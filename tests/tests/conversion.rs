@@ -8,7 +8,7 @@ use common::agreement::{Tally, equal, explore, largest};
 use common::body::{Body, Parts, Scene, list};
 use common::parameters::Parameters;
 use common::states::{Motion, State};
-use gauss_runtime::chart::MotionRule;
+use gauss_runtime::chart::{ChartError, MotionRule, convert};
 use gauss_runtime::prelude::*;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;

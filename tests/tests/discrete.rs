@@ -8,7 +8,7 @@ use common::agreement::equal;
 use common::body::{list, speeds};
 use common::dual::Dual;
 use gauss_runtime::integrate::{Feedback, OneStep, Part, Problem, State, SystemProblem};
-use gauss_runtime::linearize::error_matrix;
+use gauss_runtime::linearize::{Linearization, error_matrix};
 use gauss_runtime::prelude::*;
 use gauss_tests::random::Random;
 

@@ -1,7 +1,9 @@
 //! Dual numbers of `num-dual` in kernels and integrators: derivatives of whole simulations by parameters, against differences.
 
 use gauss_adapters::DualNumber;
+use gauss_runtime::integrate::Fixed;
 use gauss_runtime::linearize::{Factored, Lu};
+use gauss_runtime::nalgebra::Unit;
 use gauss_runtime::prelude::*;
 use gauss_tests::top::Top;
 use num_dual::{Dual2_64, Dual64, DualSVec64, HyperDual64};

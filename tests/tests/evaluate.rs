@@ -1,5 +1,6 @@
 //! `evaluate`: what the methods give one by one, for less.
 
+use gauss_runtime::description::Operations;
 use gauss_runtime::prelude::*;
 use proptest::prelude::*;
 

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use gauss_batch::{Batch, States};
+use gauss_runtime::integrate::Fixed;
 use gauss_runtime::prelude::*;
 use gauss_tests::watchdog::within;
 

@@ -1,5 +1,6 @@
 //! Free bodies with something on them: a flywheel on an axle, a load on a cable. Configurations mix poses and angles.
 
+use gauss_runtime::nalgebra::Unit;
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Time, constrained_laws, corresponds, laws, least, position_rates};
 use gauss_tests::trajectory::{Run, Seen, number, numbers, reference, rotation, rows, triple};

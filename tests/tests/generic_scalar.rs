@@ -10,6 +10,7 @@ use common::body::{Body, Parts, Scene, duals, flow, list, rates, speeds};
 use common::dual::Dual;
 use common::parameters::{Parameters, parameters};
 use common::states::{Motion, State, state};
+use gauss_runtime::chart::ChartError;
 use gauss_runtime::prelude::*;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;

@@ -8,6 +8,7 @@ use common::agreement::equal;
 use common::body::{Parts, speeds};
 use common::dual::Dual;
 use common::groups::{Random, random_configuration};
+use gauss_runtime::hessian::Hessian;
 use gauss_runtime::linearize::LinearModel;
 use gauss_runtime::prelude::*;
 

@@ -1,6 +1,6 @@
 //! Methods of one step on derived kernels: orders against reference solutions, and what they keep over long runs.
 
-use gauss_runtime::integrate::{Composed, Composition, OneStep, Properties, Rkmk, Variational};
+use gauss_runtime::integrate::{Composed, Composition, Fixed, OneStep, Properties, Rkmk, Variational};
 use gauss_runtime::prelude::*;
 use gauss_tests::integrals::Moment;
 use gauss_tests::scene::{Scene, quaternion_of};

@@ -8,6 +8,7 @@ use common::agreement::equal;
 use common::body::{Parts, list, speeds};
 use common::dual::Dual;
 use common::groups::{Random, random_configuration};
+use gauss_runtime::inverse::InverseLinearization;
 use gauss_runtime::linearize::{LinearModel, error_matrix};
 use gauss_runtime::prelude::*;
 

@@ -7,6 +7,8 @@ mod common;
 use std::fmt::Write as _;
 
 use common::body::Scene;
+use gauss_runtime::accuracy::Accuracy;
+use gauss_runtime::description::{OperationCount, Operations};
 use gauss_runtime::prelude::*;
 use gauss_tests::pages::keep;
 

@@ -3,7 +3,7 @@
 
 use std::fmt::Debug;
 
-use gauss_runtime::chart::{MotionRule, convert_at};
+use gauss_runtime::chart::{ChartError, MotionRule, convert, convert_at};
 use gauss_runtime::prelude::*;
 
 /// The same body in every scene.

@@ -1,5 +1,6 @@
 //! Bad input and hard places: a clear answer or a right one, never a wrong one in silence.
 
+use gauss_runtime::chart::{ChartError, convert};
 use gauss_runtime::error::Rule;
 use gauss_runtime::prelude::*;
 

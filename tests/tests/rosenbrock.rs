@@ -3,7 +3,9 @@
 
 use std::f64::consts::PI;
 
-use gauss_runtime::integrate::{Collocation, Form, InputSource, NoInput, OneStep, Part, Problem, State, SystemProblem};
+use gauss_runtime::integrate::{
+    Collocation, Fixed, Form, InputSource, NoInput, OneStep, Part, Problem, State, SystemProblem,
+};
 use gauss_runtime::prelude::*;
 
 /// So many steps of one length.

@@ -4,13 +4,14 @@
 
 use std::fmt::Write as _;
 
-use gauss_runtime::prelude::{OperationCount, Operations};
+use gauss_runtime::description::{OperationCount, Operations};
 use gauss_tests::pages::keep;
 
 /// The same body with the same clauses in four charts.
 macro_rules! in_charts {
     ($($module:ident: [$($clause:tt)*] { $($field:tt)* })+) => {$(
         mod $module {
+            use gauss_runtime::description::Operations;
             use gauss_runtime::prelude::*;
 
             in_charts!(@one Left, [left_invariant], [$($clause)*], $($field)*);

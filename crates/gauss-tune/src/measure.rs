@@ -387,6 +387,7 @@ pub trait Tune<S: GaussSystem>: Sized {
     ///
     /// ```
     /// use gauss_exact::{Scheme, Splitting};
+    /// use gauss_runtime::integrate::Fixed;
     /// use gauss_runtime::prelude::*;
     /// use gauss_tune::Tune;
     ///

@@ -12,7 +12,7 @@ mod testing;
 #[allow(dead_code, reason = "the runtime needs more")]
 mod triple;
 
-use gauss_runtime::integrate::Collocation;
+use gauss_runtime::integrate::{Collocation, Fixed};
 use gauss_runtime::prelude::*;
 use gauss_tune::{Candidate, EitherForm, Method, Tune, TuneError};
 

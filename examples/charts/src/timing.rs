@@ -6,7 +6,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use gauss_runtime::prelude::*;
+use gauss_runtime::chart::ChartError;
+use gauss_runtime::description::OperationCount;
 
 use crate::measure::Fleet;
 use crate::simulate::{Moment, Run, Vessel};

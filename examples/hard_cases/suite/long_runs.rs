@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use gauss_runtime::integrate::{Control, Form};
+use gauss_runtime::integrate::{Control, Fixed, Form};
 use gauss_runtime::prelude::*;
 use gauss_tests::double_double::DoubleDouble;
 

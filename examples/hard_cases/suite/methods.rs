@@ -1,6 +1,6 @@
 //! The methods that cases choose from. A new one is one line where it belongs: its name, its form, and itself.
 
-use gauss_runtime::integrate::{Collocation, Compensated, Control, Form, Rkmk};
+use gauss_runtime::integrate::{Collocation, Compensated, Control, Fixed, Form, Rkmk};
 use gauss_runtime::prelude::*;
 
 use super::scenes::State;

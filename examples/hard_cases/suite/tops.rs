@@ -3,7 +3,8 @@
 use std::error::Error;
 use std::f64::consts::PI;
 
-use gauss_runtime::integrate::{Control, Form};
+use gauss_runtime::chart::convert;
+use gauss_runtime::integrate::{Control, Fixed, Form};
 use gauss_runtime::prelude::*;
 
 use super::measure::worse;

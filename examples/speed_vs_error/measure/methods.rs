@@ -3,8 +3,7 @@
 use gauss_exact::BodyConfiguration;
 use gauss_exact::{Scheme, Splitting, SplittingError};
 use gauss_exact::{TopError, TopFlow};
-use gauss_runtime::integrate::Variational;
-use gauss_runtime::integrate::{Adams, Composed, Composition, Form};
+use gauss_runtime::integrate::{Adams, Composed, Composition, Fixed, Form, Variational};
 use gauss_runtime::prelude::*;
 
 use super::counted::Counted;

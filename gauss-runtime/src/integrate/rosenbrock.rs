@@ -74,6 +74,7 @@ const TIME_SLOPES: [f64; STAGES] = [0.25, -0.1043, 0.1035, -0.0362, 0.0, 0.0];
     feature = "derive",
     doc = r##"
 ```
+use gauss_runtime::integrate::Fixed;
 use gauss_runtime::prelude::*;
 
 /// A plate on a film of oil that brakes it within a millisecond, pulled by a soft spring.

@@ -2,7 +2,7 @@
 //! plane, a top on a spring. Energy and momenta over up to 10⁵ steps; the order against reference solutions.
 
 use gauss_long_runs::steps;
-use gauss_runtime::integrate::{Composed, Composition, EnergyMomentum, OneStep};
+use gauss_runtime::integrate::{Composed, Composition, EnergyMomentum, Fixed, OneStep};
 use gauss_runtime::prelude::*;
 use gauss_tests::scene::{Scene, quaternion_of};
 use gauss_tests::top::{Top, TopKernel};

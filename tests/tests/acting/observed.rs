@@ -1,5 +1,6 @@
 //! What acts, as a chart sees it, in terms that do not depend on the chart; and what must hold within one chart.
 
+use gauss_runtime::forces::Element;
 use gauss_runtime::prelude::*;
 use proptest::test_runner::TestCaseError;
 

@@ -6,7 +6,7 @@ mod one_length;
 use std::ops::Range;
 
 use gauss_batch::{Batch, BatchSystem, Packs, SingleConfiguration, SingleSpeeds, States};
-use gauss_runtime::integrate::{IntegrationErrorKind, OneStep, Part, Rkmk};
+use gauss_runtime::integrate::{Fixed, IntegrationErrorKind, OneStep, Part, Rkmk};
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 

@@ -1,6 +1,6 @@
 //! Bounds against errors.
 
-use gauss_runtime::integrate::Control;
+use gauss_runtime::integrate::{Control, Fixed};
 use gauss_runtime::prelude::*;
 use gauss_tests::double_double::DoubleDouble;
 

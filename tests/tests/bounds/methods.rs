@@ -3,7 +3,9 @@
 
 use gauss_bounded::exact;
 use gauss_exact::{MoserVeselov, Scheme, Splitting};
-use gauss_runtime::integrate::{CommutatorFree4, Compensated, IncrementStep, Problem, Rkmk, State, SystemProblem};
+use gauss_runtime::integrate::{
+    CommutatorFree4, Compensated, Fixed, IncrementStep, Problem, Rkmk, State, SystemProblem,
+};
 use gauss_runtime::prelude::*;
 use gauss_tests::double_double::DoubleDouble;
 

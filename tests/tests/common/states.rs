@@ -1,5 +1,6 @@
 //! Random states, chart-free: a pose and a body twist.
 
+use gauss_runtime::chart::ChartError;
 use gauss_runtime::prelude::*;
 use proptest::prelude::*;
 

@@ -6,7 +6,7 @@ mod scenes;
 use std::f64::consts::FRAC_PI_2;
 
 use gauss_batch::{Batch, States};
-use gauss_runtime::integrate::{Adams, Collocation, DEFAULT_LIMIT, Part, Summary};
+use gauss_runtime::integrate::{Adams, Collocation, DEFAULT_LIMIT, Fixed, Part, Summary};
 use gauss_runtime::prelude::*;
 use gauss_tests::watchdog::within;
 

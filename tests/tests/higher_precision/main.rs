@@ -1,5 +1,6 @@
 //! The same derive in double-double numbers: runs that agree with the reference solutions to 25 digits.
 
+use gauss_runtime::nalgebra::Unit;
 use gauss_runtime::prelude::*;
 use gauss_tests::double_double::DoubleDouble;
 use gauss_tests::top::Top;

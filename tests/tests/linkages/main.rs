@@ -4,6 +4,7 @@
 mod rows;
 
 use gauss_runtime::monitor::EnergyMonitor;
+use gauss_runtime::nalgebra::Unit;
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Time, constrained_laws, corresponds, laws, least, position_rates};
 use gauss_tests::trajectory::{Run, number, reference, rows, triple};

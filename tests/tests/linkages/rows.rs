@@ -1,7 +1,7 @@
 //! Four-bar linkages in a row, which pass positions where their constraints depend on one another.
 
 use gauss_batch::{Batch, HowItEnded, States};
-use gauss_runtime::integrate::Control;
+use gauss_runtime::integrate::{Control, Fixed};
 use gauss_runtime::prelude::*;
 
 /// Two four-bar linkages in a row (IFToMM benchmark A02, with N = 2): every rod has a length of 1 m and a mass of 1 kg, and when all lie on

@@ -5,7 +5,7 @@ mod bodies;
 
 use bodies::{Afloat, Dragged, Observed, OffCentre, Skewed, attitude_error, flying, top};
 use gauss_exact::{Scheme, Splitting, SplittingError, TopError, TopFlow};
-use gauss_runtime::integrate::OneStep;
+use gauss_runtime::integrate::{Fixed, OneStep};
 use gauss_runtime::prelude::*;
 use gauss_tests::scene::Scene;
 use gauss_tests::top::TopKernel;

@@ -39,7 +39,7 @@ use crate::system::GaussSystem;
     feature = "derive",
     doc = r##"
 ```
-use gauss_runtime::integrate::{Composed, Composition};
+use gauss_runtime::integrate::{Composed, Composition, Fixed};
 use gauss_runtime::prelude::*;
 
 /// A body that turns freely about its centre of mass.

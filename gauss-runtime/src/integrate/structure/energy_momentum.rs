@@ -141,7 +141,7 @@ impl<T: Real> CoadjointAction for Isometry2<T> {
     feature = "derive",
     doc = r##"
 ```
-use gauss_runtime::integrate::EnergyMomentum;
+use gauss_runtime::integrate::{EnergyMomentum, Fixed};
 use gauss_runtime::prelude::*;
 
 /// A heavy top that turns about O.

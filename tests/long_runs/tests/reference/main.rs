@@ -10,6 +10,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use bodies::Row;
+use gauss_runtime::chart::{ChartError, RotationChart};
 use gauss_runtime::integrate::IntegrationErrorKind;
 use gauss_runtime::prelude::*;
 use gauss_tests::compare::{Outcome, Refusal};
