@@ -224,7 +224,7 @@ const BYTES_OF_A_STEP: usize = 2 * (7 + 6) * 8;
 /// One line: what a batch reaches of the limits, among states that a cache holds and among `many`.
 fn limits<S>(name: &str, kernel: &S, many: usize, [peak, bandwidth]: [f64; 2])
 where
-    S: BatchSystem<Input = ()> + Described,
+    S: BatchSystem<Input = ()> + DescribedSystem,
     S::Configuration: Packed<Single = Isometry3<f64>>,
     S::Speeds: Packed<Single = SVector<f64, 6>>,
 {

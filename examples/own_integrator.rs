@@ -4,7 +4,9 @@
 //! nothing of bodies, charts or forces: any kernel runs with it, in velocity and in momentum form.
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::integrate::{Fixed, IntegrationErrorKind, OneStep, Part, Problem, Properties, Rates, State, Step};
+use gauss_runtime::integrate::{
+    Fixed, IntegrationErrorKind, OneStep, Problem, Properties, Rates, RunPart, State, Step,
+};
 use gauss_runtime::prelude::*;
 
 /// A heavy top about its fixed point.
@@ -50,7 +52,7 @@ impl<S: GaussSystem> OneStep<S> for Heun {
         };
         let end = moved(&mean);
         if !(Configuration::is_finite(&end.q) && VectorSpace::is_finite(&end.y)) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
         }
         let unknown = Rates { configuration: VectorSpace::zero(), variables: VectorSpace::zero() };
         Ok(Step::new(end, unknown))

@@ -69,7 +69,7 @@ macro_rules! case {
     }};
 }
 
-fn operations<S: Described>(_: &Generated<S>) -> OperationCount {
+fn operations<S: DescribedSystem>(_: &Generated<S>) -> OperationCount {
     S::OPERATIONS.acceleration
 }
 

@@ -198,7 +198,7 @@ macro_rules! robot {
     }};
 }
 
-fn count<S: Described>(_: &S, of: impl Fn(&Operations) -> OperationCount) -> OperationCount {
+fn count<S: DescribedSystem>(_: &S, of: impl Fn(&Operations) -> OperationCount) -> OperationCount {
     of(&S::OPERATIONS)
 }
 

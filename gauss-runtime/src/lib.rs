@@ -4,7 +4,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`system`] | [`GaussSystem`](system::GaussSystem), [`RigidBodySystem`](system::RigidBodySystem): the methods of a kernel |
-//! | [`description`] | [`Described`](description::Described): a kernel's equations as text, and the costs of its methods |
+//! | [`description`] | [`DescribedSystem`](description::DescribedSystem): a kernel's equations as text, and the costs of its methods |
 //! | [`condition`](mod@condition) | how well a mass matrix can be inverted |
 //! | [`constraint`] | [`ConstrainedSystem`](constraint::ConstrainedSystem): multipliers, projection on constraints |
 //! | [`forces`] | [`ForcedSystem`](forces::ForcedSystem): forces, element by element; powers and the balance of energy |

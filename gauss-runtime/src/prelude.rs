@@ -10,7 +10,7 @@ pub use crate::centroidal::{CentroidalSystem, GravityTorques};
 pub use crate::chart::Chart;
 pub use crate::configuration::{Configuration, VectorSpace};
 pub use crate::constraint::ConstrainedSystem;
-pub use crate::description::Described;
+pub use crate::description::DescribedSystem;
 pub use crate::error::ParameterError;
 pub use crate::forces::ForcedSystem;
 pub use crate::frames::{FrameName, FramedSystem, JacobianRates};

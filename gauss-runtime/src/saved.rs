@@ -3,7 +3,7 @@
 //! | type | is written as |
 //! |---|---|
 //! | the struct of parameters | by `#[derive(Serialize, Deserialize)]`, which the user adds to `GaussDynamics` |
-//! | [`Coordinates`], [`Speeds`] | numbers by the [names](Described::COORDINATE_NAMES) of the scene, `{"turn_i": 0.1, …}`; a list where it has none |
+//! | [`Coordinates`], [`Speeds`] | numbers by the [names](DescribedSystem::COORDINATE_NAMES) of the scene, `{"turn_i": 0.1, …}`; a list where it has none |
 //! | [`Sample`] | `t`, `q`, `z`, `p` |
 //! | [`Trajectory`], [`Record`] | `samples`, `events`, `stopped_by` |
 //!
@@ -65,7 +65,7 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use crate::configuration::{Configuration, StateError, VectorSpace, all_finite, check};
-use crate::description::Described;
+use crate::description::DescribedSystem;
 use crate::integrate::Sample;
 #[cfg(feature = "alloc")]
 use crate::integrate::{EventSample, Trajectory};
@@ -100,13 +100,13 @@ copy_and_debug!(Coordinates, Speeds);
 
 type ComponentsOf<S> = <<S as GaussSystem>::Configuration as Configuration>::Components;
 
-impl<S: GaussSystem<Scalar: Serialize> + Described> Serialize for Coordinates<S> {
+impl<S: GaussSystem<Scalar: Serialize> + DescribedSystem> Serialize for Coordinates<S> {
     fn serialize<W: Serializer>(&self, serializer: W) -> Result<W::Ok, W::Error> {
         Numbers::new(self.0.components()).serialize(coordinate_names::<S>(), serializer)
     }
 }
 
-impl<'de, S: GaussSystem<Scalar: Deserialize<'de>> + Described> Deserialize<'de> for Coordinates<S> {
+impl<'de, S: GaussSystem<Scalar: Deserialize<'de>> + DescribedSystem> Deserialize<'de> for Coordinates<S> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let names = coordinate_names::<S>();
         let q = S::Configuration::from_components(&Numbers::read(names, deserializer)?);
@@ -115,13 +115,13 @@ impl<'de, S: GaussSystem<Scalar: Deserialize<'de>> + Described> Deserialize<'de>
     }
 }
 
-impl<S: GaussSystem<Scalar: Serialize> + Described> Serialize for Speeds<S> {
+impl<S: GaussSystem<Scalar: Serialize> + DescribedSystem> Serialize for Speeds<S> {
     fn serialize<W: Serializer>(&self, serializer: W) -> Result<W::Ok, W::Error> {
         Numbers::new(self.0).serialize(speed_names::<S>(), serializer)
     }
 }
 
-impl<'de, S: GaussSystem<Scalar: Deserialize<'de>> + Described> Deserialize<'de> for Speeds<S> {
+impl<'de, S: GaussSystem<Scalar: Deserialize<'de>> + DescribedSystem> Deserialize<'de> for Speeds<S> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let names = speed_names::<S>();
         let z: S::Speeds = Numbers::read(names, deserializer)?;
@@ -130,11 +130,11 @@ impl<'de, S: GaussSystem<Scalar: Deserialize<'de>> + Described> Deserialize<'de>
     }
 }
 
-fn coordinate_names<S: GaussSystem + Described>() -> Names {
+fn coordinate_names<S: GaussSystem + DescribedSystem>() -> Names {
     Names::of(S::COORDINATE_NAMES, <ComponentsOf<S> as VectorSpace<S::Scalar>>::DIM)
 }
 
-fn speed_names<S: GaussSystem + Described>() -> Names {
+fn speed_names<S: GaussSystem + DescribedSystem>() -> Names {
     Names::of(S::SPEED_NAMES, S::Speeds::DIM)
 }
 
@@ -154,8 +154,8 @@ fn refused<E: Error>(names: Names, error: StateError) -> E {
     rename = "Sample",
     deny_unknown_fields,
     bound(
-        serialize = "S: GaussSystem<Scalar: Serialize> + Described",
-        deserialize = "S: GaussSystem<Scalar: Deserialize<'de>> + Described"
+        serialize = "S: GaussSystem<Scalar: Serialize> + DescribedSystem",
+        deserialize = "S: GaussSystem<Scalar: Deserialize<'de>> + DescribedSystem"
     )
 )]
 struct Written<S: GaussSystem> {
@@ -165,14 +165,14 @@ struct Written<S: GaussSystem> {
     p: Speeds<S>,
 }
 
-impl<S: GaussSystem<Scalar: Serialize> + Described> Serialize for Sample<S> {
+impl<S: GaussSystem<Scalar: Serialize> + DescribedSystem> Serialize for Sample<S> {
     fn serialize<W: Serializer>(&self, serializer: W) -> Result<W::Ok, W::Error> {
         let Self { t, q, z, p } = *self;
         Written::<S> { t, q: Coordinates(q), z: Speeds(z), p: Speeds(p) }.serialize(serializer)
     }
 }
 
-impl<'de, S: GaussSystem<Scalar: Deserialize<'de>> + Described> Deserialize<'de> for Sample<S> {
+impl<'de, S: GaussSystem<Scalar: Deserialize<'de>> + DescribedSystem> Deserialize<'de> for Sample<S> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let Written { t, q, z, p } = Written::<S>::deserialize(deserializer)?;
         if !Real::is_finite(t) {
@@ -189,8 +189,8 @@ impl<'de, S: GaussSystem<Scalar: Deserialize<'de>> + Described> Deserialize<'de>
 #[serde(
     deny_unknown_fields,
     bound(
-        serialize = "S: GaussSystem<Scalar: Serialize> + Described",
-        deserialize = "S: GaussSystem<Scalar: Deserialize<'de>> + Described"
+        serialize = "S: GaussSystem<Scalar: Serialize> + DescribedSystem",
+        deserialize = "S: GaussSystem<Scalar: Deserialize<'de>> + DescribedSystem"
     )
 )]
 #[non_exhaustive]
@@ -227,7 +227,7 @@ impl<S: GaussSystem> From<&Trajectory<'_, S>> for Record<S> {
 }
 
 #[cfg(feature = "alloc")]
-impl<S: GaussSystem<Scalar: Serialize> + Described> Serialize for Trajectory<'_, S> {
+impl<S: GaussSystem<Scalar: Serialize> + DescribedSystem> Serialize for Trajectory<'_, S> {
     fn serialize<W: Serializer>(&self, serializer: W) -> Result<W::Ok, W::Error> {
         Record::from(self).serialize(serializer)
     }

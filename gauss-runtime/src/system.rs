@@ -18,7 +18,7 @@ use crate::triple::{add, cross, quaternion, rotate, triple};
 /// A mechanical system whose equations of motion come from the Gauss condition (3.4).
 ///
 /// Implemented by the kernels that `#[derive(GaussDynamics)]` generates, and by systems whose equations are written by
-/// hand. The equations and costs of a kernel are in [`Described`](crate::description::Described). Units are the user's,
+/// hand. The equations and costs of a kernel are in [`DescribedSystem`](crate::description::DescribedSystem). Units are the user's,
 /// consistent ones; angles are in radians. No method panics, and non-finite input gives non-finite output, which the
 /// integrators look for.
 pub trait GaussSystem {

@@ -13,9 +13,9 @@ use gauss_runtime::forces::Columns;
 use gauss_runtime::prelude::*;
 
 /// A kernel, whatever its inputs.
-pub trait Driven: GaussSystem<Scalar = f64, Speeds: PartialEq> + Described {}
+pub trait Driven: GaussSystem<Scalar = f64, Speeds: PartialEq> + DescribedSystem {}
 
-impl<S> Driven for S where S: GaussSystem<Scalar = f64, Speeds: PartialEq> + Described {}
+impl<S> Driven for S where S: GaussSystem<Scalar = f64, Speeds: PartialEq> + DescribedSystem {}
 
 /// A kernel that runs by itself.
 pub trait System: Driven + GaussSystem<Input = ()> {}

@@ -2,7 +2,8 @@
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::integrate::{
-    Control, Emit, IntegrationError, IntegrationErrorKind, OneStep, Part, Problem, Rates, Rkmk, State, Tableau, Taken,
+    Control, IntegrationError, IntegrationErrorKind, OneStep, Problem, Rates, Rkmk, RunPart, State, StepCallback,
+    StepStatistics, Tableau,
 };
 use gauss_runtime::system::GaussSystem;
 
@@ -78,15 +79,15 @@ impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
         start: State<S>,
         end: f64,
         limit: u64,
-        emit: &mut Emit<'_, S>,
+        emit: &mut StepCallback<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
         let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
         let mut state = start;
         let mut rates = problem.rates(&state);
         if !rates.is_finite() {
-            return Err(stopped(&state, IntegrationErrorKind::NonFinite { part: Part::Derivative }));
+            return Err(stopped(&state, IntegrationErrorKind::NonFinite { part: RunPart::Derivative }));
         }
-        if emit(&state, &rates, Taken::default()).is_break() {
+        if emit(&state, &rates, StepStatistics::default()).is_break() {
             return Ok(state);
         }
         // A first step far too short costs a few steps: it grows tenfold each time.
@@ -127,9 +128,9 @@ impl<S: GaussSystem<Scalar = f64>> Control<S> for Order8 {
             state = projected(problem, state).map_err(|kind| stopped(&before, kind))?;
             rates = problem.rates(&state);
             if !rates.is_finite() {
-                return Err(stopped(&before, IntegrationErrorKind::NonFinite { part: Part::Step }));
+                return Err(stopped(&before, IntegrationErrorKind::NonFinite { part: RunPart::Step }));
             }
-            if emit(&state, &rates, Taken::default()).is_break() || last {
+            if emit(&state, &rates, StepStatistics::default()).is_break() || last {
                 return Ok(state);
             }
         }

@@ -7,7 +7,7 @@ use common::Bounded;
 use common::agreement::equal;
 use common::body::{list, speeds};
 use common::dual::Dual;
-use gauss_runtime::integrate::{Feedback, OneStep, Part, Problem, State, SystemProblem};
+use gauss_runtime::integrate::{Feedback, OneStep, Problem, RunPart, State, SystemProblem};
 use gauss_runtime::linearize::{Linearization, error_matrix};
 use gauss_runtime::prelude::*;
 use gauss_tests::random::Random;
@@ -472,7 +472,7 @@ fn what_cannot_be_stepped_is_refused() {
     let error = CommutatorFree4.step_linearized(&kernel, 0.0, &q, &z, &(), 0.2).unwrap_err();
     assert!(matches!(error, IntegrationErrorKind::IncrementTooLarge { angle } if (angle - 4.0).abs() < 1e-12));
     let error = CommutatorFree4.step_linearized(&kernel, 0.0, &q, &(z * f64::NAN), &(), 0.2).unwrap_err();
-    assert_eq!(error, IntegrationErrorKind::NonFinite { part: Part::Step });
+    assert_eq!(error, IntegrationErrorKind::NonFinite { part: RunPart::Step });
     let angles = FreeEuler::<f64>::sample().kernel().unwrap();
     let locked = SVector::from([0.0, 0.0, 0.0, 0.0, std::f64::consts::FRAC_PI_2, 0.0]);
     let (still, no_input) = (SVector::zeros(), SVector::zeros());

@@ -53,7 +53,12 @@ struct Rolling {
 }
 
 /// Everything agrees up to the rounding of some hundred operations on numbers of order hundred, and costs less than its parts.
-fn check<K: GaussSystem<Scalar = f64> + Described>(kernel: &K, q: &K::Configuration, z: &K::Speeds, input: &K::Input) {
+fn check<K: GaussSystem<Scalar = f64> + DescribedSystem>(
+    kernel: &K,
+    q: &K::Configuration,
+    z: &K::Speeds,
+    input: &K::Input,
+) {
     let all = kernel.evaluate(0.3, q, z, input);
     let parts = [
         (list(&all.velocity), list(&kernel.kinematics(0.3, q, z))),

@@ -241,7 +241,7 @@ mod right_invariant_without_forces {
     }
 
     fn constant<S: Scene>(parameters: &Parameters, state: &State) -> Result<(), TestCaseError> {
-        prop_assert_eq!(<S::Kernel<f64> as Described>::OPERATIONS.momentum_rate.total(), 0);
+        prop_assert_eq!(<S::Kernel<f64> as DescribedSystem>::OPERATIONS.momentum_rate.total(), 0);
         let kernel = S::kernel::<Bounded>(parameters);
         let (q, z) = state.of(&kernel).expect("regular everywhere");
         let p = kernel.momentum(Bounded::zero(), &q, &z);

@@ -53,11 +53,11 @@ struct Costs {
 const CHARTS: [&str; 4] = ["left_invariant", "right_invariant", "hybrid", "jet(euler_zyx)"];
 
 fn operations<S: Scene>() -> Operations {
-    <S::Kernel<f64> as Described>::OPERATIONS
+    <S::Kernel<f64> as DescribedSystem>::OPERATIONS
 }
 
 fn accuracy<S: Scene>() -> Accuracy {
-    <S::Kernel<f64> as Described>::ACCURACY
+    <S::Kernel<f64> as DescribedSystem>::ACCURACY
 }
 
 macro_rules! costs {

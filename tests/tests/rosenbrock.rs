@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use gauss_runtime::integrate::{
-    Collocation, Fixed, Form, InputSource, NoInput, OneStep, Part, Problem, State, SystemProblem,
+    Collocation, Fixed, Form, InputSource, NoInput, OneStep, Problem, RunPart, State, SystemProblem,
 };
 use gauss_runtime::prelude::*;
 
@@ -225,7 +225,7 @@ fn refusals_say_what_is_wrong() {
     let falling = Falling { m: 1.0 }.kernel().unwrap();
     let run = Simulation::new(&falling).control(Fixed::by(Rosenbrock, 4.0));
     let error = run.run_to_end(SVector::from([1.0]), SVector::from([0.0]), 0.0..4.0).unwrap_err();
-    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Step });
+    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: RunPart::Step });
     // More than half a turn in a stage.
     let kernel = Sinking { mass: 1.0, inertia: 1.0, g: 0.0, drag: Vector6::zeros() }.kernel().unwrap();
     let spin = Vector6::from([0.0, 0.0, 0.0, 0.0, 0.0, 10.0]);

@@ -2,7 +2,7 @@
 
 use alloc::{vec, vec::Vec};
 
-use crate::ways::{Differences, Given};
+use crate::ways::{Differences, JacobianFunction};
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::integrate::{
     Feedback, Form, InputSource, MomentumForm, Problem, Rates, Sample, State, SystemProblem,
@@ -99,11 +99,11 @@ impl<'k, S: GaussSystem, F, I, J> FlatSystem<SystemProblem<'k, S, F, I>, J> {
 
     /// Takes `∂f/∂x · v` from `product(t, x, v, result)`, where it is known better than by [`Differences`].
     #[must_use]
-    pub fn jacobian<G>(self, product: G) -> FlatSystem<SystemProblem<'k, S, F, I>, Given<G>>
+    pub fn jacobian<G>(self, product: G) -> FlatSystem<SystemProblem<'k, S, F, I>, JacobianFunction<G>>
     where
         G: Fn(S::Scalar, &[S::Scalar], &[S::Scalar], &mut [S::Scalar]),
     {
-        FlatSystem { problem: self.problem, jacobian: Given(product) }
+        FlatSystem { problem: self.problem, jacobian: JacobianFunction(product) }
     }
 
     /// The kernel.

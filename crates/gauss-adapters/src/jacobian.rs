@@ -1,7 +1,7 @@
 //! ∂f/∂x times a vector, for implicit methods.
 
 use crate::flat::FlatSystem;
-use crate::ways::{Differences, Given};
+use crate::ways::{Differences, JacobianFunction};
 use gauss_runtime::integrate::Problem;
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
@@ -48,7 +48,7 @@ where
     }
 }
 
-impl<S, P, G> JacobianProduct<P> for Given<G>
+impl<S, P, G> JacobianProduct<P> for JacobianFunction<G>
 where
     S: GaussSystem,
     P: Problem<System = S>,

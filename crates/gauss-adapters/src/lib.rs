@@ -42,7 +42,7 @@ pub mod ode_solvers;
 pub use dual::DualNumber;
 pub use flat::FlatSystem;
 pub use jacobian::JacobianProduct;
-pub use ways::{Differences, Given};
+pub use ways::{Differences, JacobianFunction};
 
 /// The example of the README is a test.
 #[cfg(doctest)]

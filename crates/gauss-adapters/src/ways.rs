@@ -10,4 +10,4 @@ pub struct Differences;
 
 /// By a function `(t, x, v, result)`: exact derivatives of your own.
 #[derive(Clone, Copy, Debug)]
-pub struct Given<G>(pub G);
+pub struct JacobianFunction<G>(pub G);

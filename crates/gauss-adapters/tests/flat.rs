@@ -10,7 +10,7 @@ mod testing;
 #[allow(dead_code, reason = "the runtime needs more")]
 mod triple;
 
-use gauss_adapters::{Differences, FlatSystem, Given, JacobianProduct};
+use gauss_adapters::{Differences, FlatSystem, JacobianFunction, JacobianProduct};
 
 use crate::testing::FreeTop;
 use crate::testing::dual::{Dual, dual};
@@ -63,7 +63,7 @@ fn differences_are_right_to_their_step() {
 
     let copy = |_: f64, _: &[f64], v: &[f64], product: &mut [f64]| product.copy_from_slice(v);
     let given = system.jacobian(copy);
-    Given(copy).product(&given, 0.0, &x, &directions[1], &mut nothing);
+    JacobianFunction(copy).product(&given, 0.0, &x, &directions[1], &mut nothing);
     assert_eq!(nothing, directions[1]);
 }
 

@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use gauss_runtime::__crates_0_1_0::{InLanes, Runs};
-use gauss_runtime::integrate::drive::event::{Events, NoEvents, Then, Watched};
-use gauss_runtime::integrate::lanes::{BatchSystem, HowItEnded, SingleConfiguration, SingleSpeeds};
+use gauss_runtime::integrate::drive::event::{Events, JumpFunction, NoEvents, Watched};
+use gauss_runtime::integrate::lanes::{BatchSystem, RunOutcome, SingleConfiguration, SingleSpeeds};
 use gauss_runtime::integrate::{
     Adaptive, Crossing, DEFAULT_LIMIT, Form, InputSource, LaneControl, Sample, SystemProblem, Taylor,
 };
@@ -146,7 +146,7 @@ impl<'k, K: ?Sized, F, I, C, E, G> Ensemble<'k, K, F, I, C, Watched<E, G>> {
     /// Changes the state at the event that was added last, as
     /// [`Simulation::then`](gauss_runtime::integrate::Simulation::then) does. The function sees a whole pack; what it makes of the lanes of
     /// other runs is dropped.
-    pub fn then<S, J>(self, jump: J) -> Ensemble<'k, K, F, I, C, Watched<E, G, Then<J>>>
+    pub fn then<S, J>(self, jump: J) -> Ensemble<'k, K, F, I, C, Watched<E, G, JumpFunction<J>>>
     where
         S: GaussSystem,
         K: Kernels<S>,
@@ -157,7 +157,7 @@ impl<'k, K: ?Sized, F, I, C, E, G> Ensemble<'k, K, F, I, C, Watched<E, G>> {
 
     /// Changes the state where the function may go on through zero, as
     /// [`Simulation::then_through`](gauss_runtime::integrate::Simulation::then_through) does.
-    pub fn then_through<S, J>(self, jump: J) -> Ensemble<'k, K, F, I, C, Watched<E, G, Then<J>>>
+    pub fn then_through<S, J>(self, jump: J) -> Ensemble<'k, K, F, I, C, Watched<E, G, JumpFunction<J>>>
     where
         S: GaussSystem,
         K: Kernels<S>,
@@ -174,7 +174,7 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
     /// # Panics
     /// When there are fewer kernels than blocks.
     #[must_use = "runs may have failed"]
-    pub fn run<S>(&self, interval: Range<f64>, states: &mut States<S>) -> Vec<HowItEnded<S>>
+    pub fn run<S>(&self, interval: Range<f64>, states: &mut States<S>) -> Vec<RunOutcome<S>>
     where
         S: BatchSystem,
         K: Kernels<S>,
@@ -196,7 +196,7 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
     /// When there are fewer kernels than blocks.
     #[cfg(feature = "rayon")]
     #[must_use = "runs may have failed"]
-    pub fn run_on_all_threads<S>(&self, interval: Range<f64>, states: &mut States<S>) -> Vec<HowItEnded<S>>
+    pub fn run_on_all_threads<S>(&self, interval: Range<f64>, states: &mut States<S>) -> Vec<RunOutcome<S>>
     where
         S: BatchSystem<Configuration: Packed<Single: Send> + Send, Speeds: Packed<Single: Send> + Send>,
         K: Kernels<S> + Sync,
@@ -225,7 +225,7 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
         interval: &Range<f64>,
         (count, block): (usize, usize),
         (q, z): (&mut [S::Configuration], &mut [S::Speeds]),
-    ) -> Vec<HowItEnded<S>>
+    ) -> Vec<RunOutcome<S>>
     where
         S: BatchSystem,
         K: Kernels<S>,
@@ -263,7 +263,7 @@ struct Part<'a, S: BatchSystem> {
     next: usize,
     /// Whether the last state of all is here, which the rest of its block repeats.
     last: bool,
-    ends: Vec<Option<HowItEnded<S>>>,
+    ends: Vec<Option<RunOutcome<S>>>,
     progress: Option<&'a (dyn Fn(usize) + Sync)>,
 }
 
@@ -275,7 +275,7 @@ impl<S: BatchSystem> Runs<S> for Part<'_, S> {
         (n < self.ends.len()).then(|| (self.first + n, self.q[block].extract(lane), self.z[block].extract(lane)))
     }
 
-    fn end(&mut self, run: usize, (q, z): (SingleConfiguration<S>, SingleSpeeds<S>), how: HowItEnded<S>) {
+    fn end(&mut self, run: usize, (q, z): (SingleConfiguration<S>, SingleSpeeds<S>), how: RunOutcome<S>) {
         let n = run - self.first;
         let (block, lane) = (n / S::Scalar::WIDTH, n % S::Scalar::WIDTH);
         let lanes = if self.last && n + 1 == self.ends.len() { lane..S::Scalar::WIDTH } else { lane..lane + 1 };

@@ -91,7 +91,7 @@ use advance::Interval;
 pub use ensemble::Ensemble;
 pub use error::BatchError;
 pub use gauss_runtime::integrate::lanes::{
-    BatchSystem, Ended, EventState, HowItEnded, RunError, SingleConfiguration, SingleSpeeds,
+    BatchSystem, Ended, EventState, RunError, RunOutcome, SingleConfiguration, SingleSpeeds,
 };
 pub use packs::{Packs, States};
 

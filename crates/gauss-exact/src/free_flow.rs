@@ -15,7 +15,7 @@
 //! Carlson (Numer. Algorithms 10, 1995); the arrangement is ours.
 
 use gauss_runtime::__crates_0_1_0::{Triple, add, dot, quaternion, sub, triple, two_sum, unit_quaternion};
-use gauss_runtime::integrate::{IntegrationErrorKind, Part};
+use gauss_runtime::integrate::{IntegrationErrorKind, RunPart};
 use gauss_runtime::lie::coefficients::sinc_cos;
 use gauss_runtime::lie::so3;
 use gauss_runtime::real::Real;
@@ -253,7 +253,7 @@ impl FreeMotion<f64> for FreeFlow {
 #[inline(always)]
 fn finite(rotation: [f64; 4], change: Triple<f64>) -> Result<(), IntegrationErrorKind> {
     let all = rotation.iter().chain(&change).fold(true, |all, c| all & Real::is_finite(*c));
-    if all { Ok(()) } else { Err(IntegrationErrorKind::NonFinite { part: Part::Step }) }
+    if all { Ok(()) } else { Err(IntegrationErrorKind::NonFinite { part: RunPart::Step }) }
 }
 
 /// (sin θ/θ, cos θ) from s = θ². In long thin tops, which turn slowly about their momentum, a drift waits for these: up to θ = 1 their

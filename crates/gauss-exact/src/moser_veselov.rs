@@ -7,7 +7,7 @@
 //! rate right (Hairer & Vilmart, J. Phys. A 39, 2006).
 
 use gauss_runtime::__crates_0_1_0::{add, cross, dot, scaled, triple, unit_quaternion};
-use gauss_runtime::integrate::{IntegrationErrorKind, Part};
+use gauss_runtime::integrate::{IntegrationErrorKind, RunPart};
 use gauss_runtime::lie::so3;
 use gauss_runtime::real::Real;
 use nalgebra::{SVector, Vector3};
@@ -104,7 +104,7 @@ impl<T: Real> FreeMotion<T> for MoserVeselov<T> {
         let scale = (one + dot(c, c)).sqrt().recip();
         let rotation = [c[0] * scale, c[1] * scale, c[2] * scale, scale];
         if !rotation.iter().chain(&change).all(|v| v.is_finite()) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
         }
         Ok(Turn { rotation: so3::renormalise(&unit_quaternion(rotation)), change: SVector::from(change) })
     }
@@ -153,7 +153,7 @@ fn solve<T: Real>(k: [T; 3], m: [T; 3]) -> Result<[T; 3], IntegrationErrorKind> 
     if k.iter().chain(&m).all(|v| v.is_finite()) {
         Err(IntegrationErrorKind::NotConverged { iterations: MOST_ITERATIONS, residual: last })
     } else {
-        Err(IntegrationErrorKind::NonFinite { part: Part::Step })
+        Err(IntegrationErrorKind::NonFinite { part: RunPart::Step })
     }
 }
 

@@ -5,7 +5,7 @@
 //! (McLachlan 1993; Celledoni, Fassò, Säfström & Zanna 2008).
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::integrate::{IntegrationErrorKind, OneStep, Part, Problem, Properties, Rates, State, Step};
+use gauss_runtime::integrate::{IntegrationErrorKind, OneStep, Problem, Properties, Rates, RunPart, State, Step};
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
 use nalgebra::Matrix3;
@@ -179,7 +179,7 @@ where
         for (&push, &length) in self.scheme.kicks().iter().zip(self.scheme.drifts()) {
             p = kick(S::Scalar::from_f64(passed).fma(h, state.t), &q, &p, push);
             if !p.is_finite() {
-                return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+                return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
             }
             (q, p) = q.drift(&p, &self.body, h * S::Scalar::from_f64(length))?;
             passed += length;
@@ -191,7 +191,7 @@ where
             p = kick(t, &q, &p, push);
         }
         if !(q.is_finite() && p.is_finite()) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
         }
         let y = problem.of_momentum(t, &q, &p);
         let error =

@@ -5,7 +5,7 @@ use core::fmt;
 use gauss_runtime::__crates_0_1_0::{
     Triple, add, axpy, compose, conjugate, cross, dot, quaternion, rotate, rotate_back, scaled, triple, unit_quaternion,
 };
-use gauss_runtime::integrate::{IntegrationErrorKind, OneStep, Part, Problem, Properties, Rates, State, Step};
+use gauss_runtime::integrate::{IntegrationErrorKind, OneStep, Problem, Properties, Rates, RunPart, State, Step};
 use gauss_runtime::lie::so3;
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
@@ -203,7 +203,7 @@ where
         let momentum = problem.momentum(state.t, &state.q, &state.y);
         let (q, momentum) = self
             .after(quaternion(&state.q), triple(&momentum), h)
-            .ok_or(IntegrationErrorKind::NonFinite { part: Part::Step })?;
+            .ok_or(IntegrationErrorKind::NonFinite { part: RunPart::Step })?;
         let (t, q) = (state.t + h, so3::renormalise(&unit_quaternion(q)));
         let y = problem.of_momentum(t, &q, &SVector::from(momentum));
         let error = Rates { configuration: SVector::zeros(), variables: SVector::zeros() };

@@ -4,7 +4,7 @@ use std::fmt;
 
 use gauss_runtime::chart::Chart;
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::description::Described;
+use gauss_runtime::description::DescribedSystem;
 use gauss_runtime::forces::ForcedSystem;
 use gauss_runtime::integrate::{IntegrationError, Sample, Trajectory};
 use gauss_runtime::real::Real;
@@ -159,12 +159,12 @@ impl<S: GaussSystem> Table<S> {
 
     /// The numbers that the state consists of, under the names of coordinates and speeds. Of a rotation they are those of its
     /// quaternion (`turn_i`, `turn_j`, `turn_k`, `turn_w`), of a pose also the place (`craft_x`, `craft_y`, `craft_z`), in the
-    /// plane `pose_cos`, `pose_sin`, `pose_x`, `pose_y`. A system that has [no names](Described::COORDINATE_NAMES), as one written
+    /// plane `pose_cos`, `pose_sin`, `pose_x`, `pose_y`. A system that has [no names](DescribedSystem::COORDINATE_NAMES), as one written
     /// by hand, has `q1`, `q2`, … and `z1`, `z2`, ….
     #[must_use]
     pub fn state(self) -> Self
     where
-        S: Described,
+        S: DescribedSystem,
     {
         let of_q = <<S::Configuration as Configuration>::Components as VectorSpace<S::Scalar>>::DIM;
         let named = |known: &'static [&'static str], letter: &'static str, count: usize| {

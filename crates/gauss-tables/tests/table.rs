@@ -17,7 +17,7 @@ use crate::testing::oscillator::{Oscillator, Viscous};
 
 type One = SVector<f64, 1>;
 
-impl Described for Oscillator<Viscous> {}
+impl DescribedSystem for Oscillator<Viscous> {}
 
 #[test]
 fn columns_have_names_and_csv_reads_back() {

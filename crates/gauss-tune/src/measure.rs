@@ -11,7 +11,7 @@ use core::cell::Cell;
 use core::ops::{ControlFlow, Range};
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::description::Described;
+use gauss_runtime::description::DescribedSystem;
 use gauss_runtime::integrate::{
     Control, Form, InputSource, IntegrationError, IntegrationErrorKind, Rates, Simulation, State, SystemProblem,
 };
@@ -24,7 +24,7 @@ use crate::tuned::{Candidate, Measured, TuneError, Tuned};
 /// An increment of the configuration of S.
 type TangentOf<S> = <<S as GaussSystem>::Configuration as Configuration>::Tangent;
 
-fn candidate<S: GaussSystem + Described>(
+fn candidate<S: GaussSystem + DescribedSystem>(
     measured: Measured<Method<S::Scalar>>,
     form: EitherForm,
 ) -> Candidate<S::Scalar> {
@@ -310,7 +310,7 @@ impl<'a, S: GaussSystem, I: InputSource<S>> Bench<'a, S, I> {
 }
 
 /// Operations of the kernel in an evaluation.
-fn operations<S: Described>(form: EitherForm) -> u64 {
+fn operations<S: DescribedSystem>(form: EitherForm) -> u64 {
     let counts = S::OPERATIONS;
     let dynamics = match form {
         EitherForm::Velocity => counts.acceleration.total(),
@@ -377,7 +377,7 @@ pub trait Tune<S: GaussSystem>: Sized {
         absolute: f64,
     ) -> Result<Tuned<S::Scalar>, TuneError>
     where
-        S: Described;
+        S: DescribedSystem;
 
     /// Measures a method of your own that has a step, in the form that was set and against the same reference as
     /// [`tune`](Self::tune): the longest step that meets the relative and absolute tolerance, and its cost. `make`
@@ -448,7 +448,7 @@ where
         absolute: f64,
     ) -> Result<Tuned<S::Scalar>, TuneError>
     where
-        S: Described,
+        S: DescribedSystem,
     {
         let bench = Bench::of(self, (q0, z0), interval, relative, absolute)?;
         let (reference, disagreement) = bench.reference()?;

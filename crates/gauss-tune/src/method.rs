@@ -4,8 +4,8 @@ use core::fmt;
 
 use gauss_runtime::integrate::{
     Adaptive, Classical4, Collocation, CommutatorFree4, Composed, Composition, Control, DormandPrince5, DormandPrince8,
-    Emit, Fixed, Form, InputSource, IntegrationError, IntegrationErrorKind, MomentumForm, Problem, Rates, RungeKutta,
-    State, VelocityForm, Verner9,
+    Fixed, Form, InputSource, IntegrationError, IntegrationErrorKind, MomentumForm, Problem, Rates, RungeKutta, State,
+    StepCallback, VelocityForm, Verner9,
 };
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
@@ -132,7 +132,7 @@ impl<S: GaussSystem> Control<S> for Method<S::Scalar> {
         start: State<S>,
         end: S::Scalar,
         limit: u64,
-        emit: &mut Emit<'_, S>,
+        emit: &mut StepCallback<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
         dispatch!(self, control => control.drive(problem, start, end, limit, emit))
     }

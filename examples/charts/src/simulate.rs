@@ -46,9 +46,9 @@ pub struct Plan {
 }
 
 /// A rigid body with six speeds and no input: any of the vehicles.
-pub trait Vessel: RigidBodySystem<Scalar = f64, Speeds = Vector6<f64>, Input = ()> + Described {}
+pub trait Vessel: RigidBodySystem<Scalar = f64, Speeds = Vector6<f64>, Input = ()> + DescribedSystem {}
 
-impl<K: RigidBodySystem<Scalar = f64, Speeds = Vector6<f64>, Input = ()> + Described> Vessel for K {}
+impl<K: RigidBodySystem<Scalar = f64, Speeds = Vector6<f64>, Input = ()> + DescribedSystem> Vessel for K {}
 
 /// Integrates the state of [`initial_state`](crate::vehicle::initial_state) with a form of the equations and a method.
 ///

@@ -1,4 +1,4 @@
-//! `Described`: equations as text and LaTeX, the operations of the methods, what they lose.
+//! `DescribedSystem`: equations as text and LaTeX, the operations of the methods, what they lose.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
@@ -31,7 +31,7 @@ pub fn described(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStrea
         const COORDINATE_NAMES: &'static [&'static ::core::primitive::str] = &[#(#coordinates),*];
         const SPEED_NAMES: &'static [&'static ::core::primitive::str] = &[#(#speeds),*];
     };
-    derived.implementation(quote!(Described), items)
+    derived.implementation(quote!(DescribedSystem), items)
 }
 
 /// `method = loss`, for every method.

@@ -30,7 +30,7 @@ pub use drive::adaptive::Adaptive;
 #[cfg(feature = "alloc")]
 pub use drive::boxed::BoxedSimulation;
 pub use drive::compensated::Compensated;
-pub use drive::control::{Control, DEFAULT_LIMIT, Emit, Taken};
+pub use drive::control::{Control, DEFAULT_LIMIT, StepCallback, StepStatistics};
 pub use drive::fixed::Fixed;
 pub use drive::observer::Observer;
 pub use drive::search::Crossing;
@@ -44,7 +44,7 @@ pub use lie_group::commutator_free::CommutatorFree4;
 pub use lie_group::discrete::DiscreteLinearization;
 pub use lie_group::rkmk::Rkmk;
 pub use problem::equations::{Problem, SystemProblem};
-pub use problem::error::{IntegrationError, IntegrationErrorKind, JumpMistake, Part};
+pub use problem::error::{IntegrationError, IntegrationErrorKind, JumpMistake, RunPart};
 pub use problem::form::{Form, MomentumForm, VelocityForm};
 pub use problem::input::{Feedback, InputSource, NoInput};
 pub use problem::state::{Rates, Sample, State};

@@ -13,7 +13,7 @@
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::step_length::power;
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::step::checks::{check_chart, check_increment};
 use crate::integrate::step::one_step::{EstimatingStep, OneStep, Properties, Step};
@@ -169,7 +169,7 @@ impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
         let end = State { t, q, y };
         check_chart(problem.system(), state, &end)?;
         if !(end.q.is_finite() && end.y.is_finite() && error.is_finite()) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
         }
         Ok(Step { state: end, error, rates: None })
     }

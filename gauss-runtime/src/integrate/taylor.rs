@@ -11,7 +11,7 @@ use core::ops::Range;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::cause::{Gave, Place, cause};
 use crate::integrate::drive::control::{
-    Control, Emit, Taken, check_tolerances, longest, prepare, smallest, to_a_number, unresolved,
+    Control, StepCallback, StepStatistics, check_tolerances, longest, prepare, smallest, to_a_number, unresolved,
 };
 use crate::integrate::drive::pace::Pace;
 use crate::integrate::drive::projection::{accept, check_move, is_hopeless, onto_constraints};
@@ -19,7 +19,7 @@ use crate::integrate::drive::simulation::Simulation;
 use crate::integrate::drive::step_length::StepLength;
 use crate::integrate::drive::tolerance::{Tolerance, Trial};
 use crate::integrate::problem::equations::{Problem, SystemProblem};
-use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::step::checks::check_chart;
 use crate::real::Real;
@@ -205,8 +205,8 @@ impl Shortened {
     }
 
     /// How the step was taken at last.
-    pub(in crate::integrate) fn taken(&mut self, excess: f64) -> Taken {
-        Taken { rejected: core::mem::take(self).rejected, excess }
+    pub(in crate::integrate) fn taken(&mut self, excess: f64) -> StepStatistics {
+        StepStatistics { rejected: core::mem::take(self).rejected, excess }
     }
 
     /// After a step from a state that failed in some lanes: whether a shorter one may do.
@@ -262,7 +262,7 @@ impl Taylor {
         reached: &mut State<S>,
     ) -> Result<Rates<S>, IntegrationErrorKind> {
         if !(reached.q.is_finite() && reached.y.is_finite()) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
         }
         check_chart(problem.system(), from.0, reached)?;
         let computed = *reached;
@@ -321,12 +321,12 @@ impl<S: TaylorSystem> Control<S> for Taylor {
         start: State<S>,
         end: S::Scalar,
         limit: u64,
-        emit: &mut Emit<'_, S>,
+        emit: &mut StepCallback<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
         let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
         check_tolerances(self.relative, self.absolute).map_err(|kind| stopped(&start, kind))?;
         let (span, start, rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
-        if emit(&start, &rates, Taken::default()).is_break() || span == 0.0 {
+        if emit(&start, &rates, StepStatistics::default()).is_break() || span == 0.0 {
             return Ok(start);
         }
         let longest = longest(self.largest_step, span, limit).map_err(|kind| stopped(&start, kind))?;
@@ -349,7 +349,7 @@ impl<S: TaylorSystem> Control<S> for Taylor {
             let length = Real::exp(lengths[1]);
             // A NaN among the coefficients makes no length; where they are all zero the system is at rest.
             if length.is_nan() {
-                return Err(gave(Gave::AnyStep(IntegrationErrorKind::NonFinite { part: Part::Derivative })));
+                return Err(gave(Gave::AnyStep(IntegrationErrorKind::NonFinite { part: RunPart::Derivative })));
             }
             let length = (length * shortened.part()).min(longest);
             let last = length >= left * 0.999;
@@ -403,7 +403,7 @@ impl<S: TaylorSystem> Control<S> for Taylor {
         move |h| {
             let end = summed(problem, state.t, &series, order, h);
             if !(end.q.is_finite() && end.y.is_finite()) {
-                return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+                return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
             }
             if S::CONSTRAINED { onto_constraints(problem, (&state, &rates), &end) } else { Ok(end) }
         }

@@ -320,9 +320,9 @@ fn what_is_not_finite_is_an_error() {
     let run = Simulation::new(&TOP).input(quiet);
     let bad = SVector::from([0.0, f64::NAN, 0.0]);
     let error = run.fixed_step(0.1).run(q0, bad, 0.0..1.0).expect_err("refused");
-    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::InitialState });
+    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: RunPart::InitialState });
     let error = run.adaptive(1e-6, 1e-6).run(q0, bad, 0.0..1.0).expect_err("refused");
-    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::InitialState });
+    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: RunPart::InitialState });
     let error = run.fixed_step(0.1).run(q0, z0, 0.0..f64::INFINITY).expect_err("refused");
     assert_eq!(error.kind, IntegrationErrorKind::InvalidInterval);
 
@@ -332,7 +332,7 @@ fn what_is_not_finite_is_an_error() {
     let failing = Simulation::new(&TOP).input(broken);
     let (trajectory, error) = failing.fixed_step(0.1).attempt(q0, z0, 0.0..3.0);
     let error = error.expect("stops");
-    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Step });
+    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: RunPart::Step });
     assert!((error.time - 1.0).abs() < 0.11 && error.time == trajectory.last().t, "{error}");
     assert!(Configuration::is_finite(&trajectory.last().q) && VectorSpace::is_finite(&trajectory.last().z));
     // When, why, and where.
@@ -347,7 +347,7 @@ fn what_is_not_finite_is_an_error() {
     // The state handed over is kept when nothing can be integrated.
     let always = |_: f64, _: &UnitQuaternion<f64>, _: &SVector<f64, 3>| [f64::INFINITY; 3];
     let (trajectory, error) = Simulation::new(&TOP).input(always).fixed_step(0.1).attempt(q0, z0, 0.0..1.0);
-    assert_eq!(error.expect("stops").kind, IntegrationErrorKind::NonFinite { part: Part::Derivative });
+    assert_eq!(error.expect("stops").kind, IntegrationErrorKind::NonFinite { part: RunPart::Derivative });
     assert_eq!(trajectory.last().z, z0);
 }
 

@@ -24,7 +24,7 @@ pub use crate::centroidal::{CentroidalSystem, GravityTorques};
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart};
 pub use crate::configuration::Configuration;
 pub use crate::constraint::{ConstrainedSystem, ProjectionError, project};
-pub use crate::description::{Described, Equations, FrameOperations, OperationCount, Operations};
+pub use crate::description::{DescribedSystem, Equations, FrameOperations, OperationCount, Operations};
 pub use crate::error::{DragKind, ParameterError, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
 pub use crate::frames::{ByFrame, FrameMotion, FrameName, FramedSystem, JacobianRates};

@@ -6,7 +6,7 @@
 use nalgebra::{SMatrix, SVector, UnitQuaternion};
 
 use crate::chart::Chart;
-use crate::description::Described;
+use crate::description::DescribedSystem;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -22,7 +22,7 @@ pub(crate) struct FreeTop<T> {
     pub(crate) inertia: [T; 3],
 }
 
-impl<T: Real> Described for FreeTop<T> {}
+impl<T: Real> DescribedSystem for FreeTop<T> {}
 
 impl<T: Real> GaussSystem for FreeTop<T> {
     type Scalar = T;

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use gauss_batch::{Ended, HowItEnded};
+use gauss_batch::{Ended, RunOutcome};
 use gauss_runtime::integrate::LaneControl;
 
 use super::*;
@@ -123,7 +123,7 @@ fn runs_that_fail_do_so_as_they_would_alone() {
     let kernel = weightless(Pack::splat(1.0));
     let mut states = States::<TopKernel<Pack>>::from_fn(3, angles);
     let ends = Batch::new(&kernel).adaptive(-1.0, 0.0).run(0.0..1.0, &mut states);
-    let refused = |end: &HowItEnded<TopKernel<Pack>>| {
+    let refused = |end: &RunOutcome<TopKernel<Pack>>| {
         end.as_ref().is_err_and(|error| matches!(error.kind, IntegrationErrorKind::InvalidTolerance { .. }))
     };
     assert!(ends.len() == 3 && ends.iter().all(refused));

@@ -6,7 +6,7 @@ mod one_length;
 use std::ops::Range;
 
 use gauss_batch::{Batch, BatchSystem, Packs, SingleConfiguration, SingleSpeeds, States};
-use gauss_runtime::integrate::{Fixed, IntegrationErrorKind, OneStep, Part, Rkmk};
+use gauss_runtime::integrate::{Fixed, IntegrationErrorKind, OneStep, Rkmk, RunPart};
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
@@ -327,7 +327,7 @@ fn what_nobody_can_run_is_refused() {
     let mut broken =
         States::<TopKernel<Lanes<f64, 4>>>::from_fn(2, |_| (SVector::from([f64::NAN; 3]), SVector::zeros()));
     let error = Batch::new(&kernel).advance(&RungeKutta(Classical4), 0.1, 0.0..1.0, &mut broken).expect_err("refused");
-    assert_eq!(error.failures[1].kind, IntegrationErrorKind::NonFinite { part: Part::InitialState });
+    assert_eq!(error.failures[1].kind, IntegrationErrorKind::NonFinite { part: RunPart::InitialState });
     let mut none = States::<TopKernel<Lanes<f64, 4>>>::from_fn(0, angles);
     assert!(none.is_empty() && Batch::new(&kernel).advance(&CommutatorFree4, 0.1, 0.0..1.0, &mut none).is_ok());
 }

@@ -116,12 +116,12 @@ impl<T: Real, const N: usize> Parts<T> for SVector<T, N> {
 
 /// What a derived kernel without inputs is.
 pub trait Body<T: Real>:
-    RigidBodySystem<Scalar = T, Input = (), Configuration: Parts<T>, Speeds: VectorSpace<T>> + Described
+    RigidBodySystem<Scalar = T, Input = (), Configuration: Parts<T>, Speeds: VectorSpace<T>> + DescribedSystem
 {
 }
 
 impl<T: Real, K> Body<T> for K where
-    K: RigidBodySystem<Scalar = T, Input = (), Configuration: Parts<T>, Speeds: VectorSpace<T>> + Described
+    K: RigidBodySystem<Scalar = T, Input = (), Configuration: Parts<T>, Speeds: VectorSpace<T>> + DescribedSystem
 {
 }
 

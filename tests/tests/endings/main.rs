@@ -6,7 +6,7 @@ mod scenes;
 use std::f64::consts::FRAC_PI_2;
 
 use gauss_batch::{Batch, States};
-use gauss_runtime::integrate::{Adams, Collocation, DEFAULT_LIMIT, Fixed, Part, Summary};
+use gauss_runtime::integrate::{Adams, Collocation, DEFAULT_LIMIT, Fixed, RunPart, Summary};
 use gauss_runtime::prelude::*;
 use gauss_tests::watchdog::within;
 
@@ -315,14 +315,14 @@ fn what_overflows_is_an_error() {
         ]
     };
     for error in fast(1e300) {
-        assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::InitialState }, "{error}");
+        assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: RunPart::InitialState }, "{error}");
         assert!(error.to_string().contains("so large that squares overflow"), "{error}");
     }
     // It grows on the way: a force that pushes away from the middle.
     let kernel = Slider { friction: 0.0 }.kernel().expect("a slider");
     let away = |_: f64, q: &SVector<f64, 1>, _: &SVector<f64, 1>| q * 1e4;
     let error = refusal(Simulation::new(&kernel).input(away).fixed_step(0.01).attempt(one(1.0), one(0.0), 0.0..10.0));
-    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Step }, "{error}");
+    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: RunPart::Step }, "{error}");
     // e^(100 t) has a square that overflows when 200 t > 709.
     assert!((3.5..3.6).contains(&error.time), "{error}");
 }
@@ -368,7 +368,7 @@ fn other_ends_have_their_own_reasons() {
             refusal(run.adaptive(1e-9, 1e-9).attempt(one(1.0), one(3.0), 0.0..3.0)),
             refusal(run.fixed_step(0.125).attempt(one(1.0), one(3.0), 0.0..3.0)),
         ] {
-            assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Step }, "{error}");
+            assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: RunPart::Step }, "{error}");
         }
         // Dry friction that holds: no motion agrees with a force that jumps.
         let quiet = |_: f64, _: &SVector<f64, 1>, _: &SVector<f64, 1>| one(0.2);

@@ -1,6 +1,6 @@
 //! Four-bar linkages in a row, which pass positions where their constraints depend on one another.
 
-use gauss_batch::{Batch, HowItEnded, States};
+use gauss_batch::{Batch, RunOutcome, States};
 use gauss_runtime::integrate::{Control, Fixed};
 use gauss_runtime::prelude::*;
 
@@ -300,7 +300,7 @@ fn lanes_pass_singular_positions_as_alone() {
     for tolerance in [1e-6, 1e-8, 1e-10] {
         let mut states = States::from_fn(6, start);
         let mut check = |name: &str,
-                         ends: Vec<HowItEnded<RowKernel<Lanes<f64, 4>>>>,
+                         ends: Vec<RunOutcome<RowKernel<Lanes<f64, 4>>>>,
                          states: &States<_>,
                          alone: &dyn Fn(usize) -> bool| {
             for (n, end) in ends.into_iter().enumerate() {

@@ -131,7 +131,7 @@ fn charts() {
 /// `Own`.
 #[test]
 fn units_of_charts() {
-    fn units<S: GaussSystem<Scalar = f64> + Described>(q: S::Configuration, z: S::Speeds) -> String {
+    fn units<S: GaussSystem<Scalar = f64> + DescribedSystem>(q: S::Configuration, z: S::Speeds) -> String {
         let table = Table::<S>::new(vec![Sample { t: 0.0, q, z, p: z }]).state().si();
         table.iter().map(|column| column.unit.unwrap_or("?")).collect::<Vec<_>>().join(" ")
     }

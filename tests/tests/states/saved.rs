@@ -20,7 +20,9 @@ fn speeds<S: GaussSystem<Scalar = f64>>() -> S::Speeds {
 }
 
 /// There and back, also without names.
-fn returns<S: GaussSystem<Scalar = f64, Configuration: PartialEq, Speeds: PartialEq> + Described>(q: S::Configuration) {
+fn returns<S: GaussSystem<Scalar = f64, Configuration: PartialEq, Speeds: PartialEq> + DescribedSystem>(
+    q: S::Configuration,
+) {
     let z = speeds::<S>();
     let (written, fast) = (to_value(Coordinates::<S>(q)).expect("data"), to_value(Speeds::<S>(z)).expect("data"));
     for (data, names) in [(&written, S::COORDINATE_NAMES), (&fast, S::SPEED_NAMES)] {

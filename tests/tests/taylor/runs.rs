@@ -1,6 +1,6 @@
 //! Taylor's method: against reference solutions, its order, its ends, events, what it refuses.
 
-use gauss_runtime::integrate::{IntegrationErrorKind, Part};
+use gauss_runtime::integrate::{IntegrationErrorKind, RunPart};
 use gauss_runtime::prelude::*;
 use gauss_tests::scene::{Scene, quaternion_of};
 use gauss_tests::top::{Top, TopKernel};
@@ -180,7 +180,7 @@ fn what_cannot_be_done_is_said() {
     assert_eq!(kind(fine, q, z, 100.0, 3), IntegrationErrorKind::TooManySteps { limit: 3 });
     assert_eq!(
         kind(fine, SVector::from([f64::NAN]), z, 1.0, many),
-        IntegrationErrorKind::NonFinite { part: Part::InitialState }
+        IntegrationErrorKind::NonFinite { part: RunPart::InitialState }
     );
     // Coefficients of a finite state that overflow: no step is made with them.
     let fast = kind(fine, q, SVector::from([1e200]), 1.0, many);

@@ -104,7 +104,7 @@ pub type Start<K> = (<K as GaussSystem>::Configuration, <K as GaussSystem>::Spee
 /// [`SLIDERS`](Self::SLIDERS).
 pub trait Scene: 'static {
     /// What moves.
-    type Kernel: GaussSystem<Scalar = f64, Input = ()> + Described;
+    type Kernel: GaussSystem<Scalar = f64, Input = ()> + DescribedSystem;
 
     /// What may be changed.
     const SLIDERS: &'static [Slider];

@@ -6,7 +6,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::configuration::Configuration;
 use crate::integrate::SystemProblem;
 use crate::integrate::{
-    Feedback, Fixed, IntegrationErrorKind, MomentumForm, OneStep, Part, Problem, Simulation, State, VelocityForm,
+    Feedback, Fixed, IntegrationErrorKind, MomentumForm, OneStep, Problem, RunPart, Simulation, State, VelocityForm,
 };
 use crate::system::GaussSystem;
 use crate::testing::FreeTop;
@@ -179,7 +179,7 @@ fn broken_inputs_and_long_steps_are_refused() {
     let start = start_by_velocity();
     let exact = Splitting::exact(&TOP, Scheme::STRANG).expect("a body");
     let error = exact.step(&problem, &start, &problem.rates(&start), 0.1).err();
-    assert_eq!(error, Some(IntegrationErrorKind::NonFinite { part: Part::Step }));
+    assert_eq!(error, Some(IntegrationErrorKind::NonFinite { part: RunPart::Step }));
     let problem = SystemProblem { system: &TOP, form: VelocityForm, input: NONE };
     let discrete = Splitting::discrete(&TOP, Scheme::STRANG).expect("a body");
     let error = discrete.step(&problem, &start, &problem.rates(&start), 20.0).err();

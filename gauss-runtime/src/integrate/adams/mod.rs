@@ -17,11 +17,11 @@ mod lanes;
 use core::ops::ControlFlow;
 
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::drive::control::{Control, Emit, one_step};
+use crate::integrate::drive::control::{Control, StepCallback, one_step};
 use crate::integrate::drive::fixed::OneLength;
 use crate::integrate::problem::called::Called;
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::runge_kutta::components::{ComponentsOf, Point, RungeKutta};
 use crate::integrate::runge_kutta::tableau::DormandPrince8;
@@ -157,7 +157,7 @@ fn multistep<S: GaussSystem, P: Problem<System = S>, const K: usize>(
     if end.q.is_finite() && end.y.is_finite() {
         Ok(end)
     } else {
-        Err(IntegrationErrorKind::NonFinite { part: Part::Step })
+        Err(IntegrationErrorKind::NonFinite { part: RunPart::Step })
     }
 }
 
@@ -166,7 +166,7 @@ fn multistep<S: GaussSystem, P: Problem<System = S>, const K: usize>(
 fn first_steps<S: GaussSystem, P: Problem<System = S>, const K: usize, const ROOM: usize>(
     problem: &P,
     run: &mut OneLength<S>,
-    emit: &mut Emit<'_, S>,
+    emit: &mut StepCallback<'_, S>,
     history: &mut History<ComponentsOf<S>, S::Speeds, K, ROOM>,
 ) -> Result<ControlFlow<()>, IntegrationError> {
     let problem = &Called(problem);
@@ -194,7 +194,7 @@ fn first_steps<S: GaussSystem, P: Problem<System = S>, const K: usize, const ROO
 fn last_step<S: GaussSystem, P: Problem<System = S>, const K: usize>(
     problem: &P,
     run: &mut OneLength<S>,
-    emit: &mut Emit<'_, S>,
+    emit: &mut StepCallback<'_, S>,
 ) -> Result<(), IntegrationError> {
     let problem = &Called(problem);
     run.until(run.steps, problem, emit, |state, rates, h| begin::<S, _, K>(problem, state, rates, h)).map(|_| ())
@@ -207,7 +207,7 @@ impl<S: GaussSystem, const K: usize> Control<S> for Adams<S::Scalar, K> {
         start: State<S>,
         end: S::Scalar,
         limit: u64,
-        emit: &mut Emit<'_, S>,
+        emit: &mut StepCallback<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
         /// So many derivatives are there room for.
         const ROOM: usize = 64;

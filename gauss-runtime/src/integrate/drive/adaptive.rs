@@ -5,7 +5,8 @@ use core::ops::Range;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::cause::{Gave, Place, cause, change};
 use crate::integrate::drive::control::{
-    Control, Emit, Taken, check_tolerances, longest, one_step, prepare, smallest, to_a_number, unresolved,
+    Control, StepCallback, StepStatistics, check_tolerances, longest, one_step, prepare, smallest, to_a_number,
+    unresolved,
 };
 use crate::integrate::drive::pace::Pace;
 use crate::integrate::drive::projection::{accept, check_move, is_hopeless};
@@ -106,13 +107,13 @@ impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
         start: State<S>,
         end: S::Scalar,
         limit: u64,
-        emit: &mut Emit<'_, S>,
+        emit: &mut StepCallback<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
         let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
         let Tolerance { relative, absolute } = self.tolerance;
         check_tolerances(relative, absolute).map_err(|kind| stopped(&start, kind))?;
         let (span, start, rates) = prepare(problem, &start, end).map_err(|kind| stopped(&start, kind))?;
-        if emit(&start, &rates, Taken::default()).is_break() || span == 0.0 {
+        if emit(&start, &rates, StepStatistics::default()).is_break() || span == 0.0 {
             return Ok(start);
         }
         let lengths = self.first_and_longest(problem, &start, &rates, span, limit);
@@ -178,7 +179,7 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
 
     /// Tries a step. None when it is rejected, else how it was taken, and whether it was the last one.
     #[inline(always)]
-    fn step(&mut self) -> Result<Option<(Taken, bool)>, IntegrationErrorKind> {
+    fn step(&mut self) -> Result<Option<(StepStatistics, bool)>, IntegrationErrorKind> {
         let left = self.left();
         // Stretch by 1 % rather than leave a sliver.
         let last = self.length >= left * 0.99;
@@ -233,7 +234,7 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
             None => 0.0,
             Some(floor) => tolerance.excess(&Trial { from, to: &reached, length, floor: Some(floor) }),
         };
-        let taken = Taken { rejected: core::mem::take(&mut self.rejected), excess };
+        let taken = StepStatistics { rejected: core::mem::take(&mut self.rejected), excess };
         (self.state, self.rates) = (reached, rates);
         self.choose_length(used, error, excess);
         Ok(Some((taken, last)))
@@ -265,7 +266,11 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
 
     /// A step that failed: a shorter one may do, as long as it changes the time, and the state if anything does.
     #[cold]
-    fn halve(&mut self, left: f64, kind: IntegrationErrorKind) -> Result<Option<(Taken, bool)>, IntegrationErrorKind> {
+    fn halve(
+        &mut self,
+        left: f64,
+        kind: IntegrationErrorKind,
+    ) -> Result<Option<(StepStatistics, bool)>, IntegrationErrorKind> {
         self.length = StepLength::part(&kind) * self.length.min(left);
         self.rejected += 1;
         self.lengths.fail();

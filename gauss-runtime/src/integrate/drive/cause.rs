@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::step::iteration::worst;
 use crate::real::Real;
@@ -61,7 +61,7 @@ pub(in crate::integrate) fn cause<S: GaussSystem, P: Problem<System = S>>(
         Gave::AnyStep(kind) => (kind, false, true),
         Gave::Out { limit, hopeless } => (IntegrationErrorKind::TooManySteps { limit }, hopeless, false),
     };
-    let undefined = matches!(kind, IntegrationErrorKind::NonFinite { part: Part::Step | Part::Derivative });
+    let undefined = matches!(kind, IntegrationErrorKind::NonFinite { part: RunPart::Step | RunPart::Derivative });
     let vanish = matches!(kind, IntegrationErrorKind::StepTooSmall { .. });
     let used_up = matches!(kind, IntegrationErrorKind::TooManySteps { .. });
     // What is undefined at once, and not because it grew, has another reason.

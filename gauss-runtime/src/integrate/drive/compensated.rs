@@ -9,11 +9,11 @@
 //! ([`IncrementStep`]); attitudes are held at norm 1 within the same sum. The example `long_runs` measures it.
 
 use crate::configuration::{Configuration, VectorSpace, add_carrying};
-use crate::integrate::drive::control::{Control, Emit, one_step};
+use crate::integrate::drive::control::{Control, StepCallback, one_step};
 use crate::integrate::drive::fixed::steps_of_one_length;
 use crate::integrate::lie_group::rkmk::Rkmk;
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::runge_kutta::tableau::Tableau;
 use crate::integrate::step::checks::check_chart;
@@ -53,7 +53,7 @@ impl<S: GaussSystem, M: IncrementStep<S>> Control<S> for Compensated<S::Scalar, 
         start: State<S>,
         end: S::Scalar,
         limit: u64,
-        emit: &mut Emit<'_, S>,
+        emit: &mut StepCallback<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
         let mut carried: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
         steps_of_one_length(
@@ -71,7 +71,7 @@ impl<S: GaussSystem, M: IncrementStep<S>> Control<S> for Compensated<S::Scalar, 
                 let end = State { t: state.t + h, q, y };
                 check_chart(problem.system(), state, &end)?;
                 if !(end.q.is_finite() && end.y.is_finite()) {
-                    return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+                    return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
                 }
                 Ok((end, None))
             },

@@ -27,5 +27,5 @@ fn but_for_rounding_it_is_the_same_method() {
     let broken = Simulation::new(&TOP).input(|t, _, _| [if t > 1.0 { f64::NAN } else { 0.0 }; 3]);
     let error =
         broken.control(Compensated::with(&Tableau::RK4, 0.1)).run(start.q, start.y, 0.0..2.0).expect_err("stops");
-    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Step });
+    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: RunPart::Step });
 }

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use crate::configuration::Configuration;
 use crate::integrate::drive::projection::{consistent_start, onto_constraints};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::step::checks::is_in_range;
 use crate::integrate::step::one_step::OneStep;
@@ -19,16 +19,16 @@ pub const DEFAULT_LIMIT: u64 = 100_000_000;
 /// [`Summary`](crate::integrate::Summary).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
-pub struct Taken {
+pub struct StepStatistics {
     /// Trials of that step that were rejected.
     pub rejected: u32,
     /// The ratio of rounding to tolerance where rounding alone is larger; 0 elsewhere.
     pub excess: f64,
 }
 
-/// A function that a run calls with each state that it reaches, the derivatives there, and a [`Taken`] about the step.
-/// It breaks to end the run.
-pub type Emit<'a, S> = dyn FnMut(&State<S>, &Rates<S>, Taken) -> ControlFlow<()> + 'a;
+/// A function that a run calls with each state that it reaches, the derivatives there, and the [`StepStatistics`] of the
+/// step. It breaks to end the run.
+pub type StepCallback<'a, S> = dyn FnMut(&State<S>, &Rates<S>, StepStatistics) -> ControlFlow<()> + 'a;
 
 /// A method with its choice of steps, which carries a state to the end of an interval.
 #[diagnostic::on_unimplemented(
@@ -49,7 +49,7 @@ pub trait Control<S: GaussSystem> {
         start: State<S>,
         end: S::Scalar,
         limit: u64,
-        emit: &mut Emit<'_, S>,
+        emit: &mut StepCallback<'_, S>,
     ) -> Result<State<S>, IntegrationError>;
 
     /// The state a time `h` after `state`, where the derivatives are `rates`, with the accuracy of the method: what events
@@ -161,12 +161,12 @@ pub fn prepare<S: GaussSystem, P: Problem<System = S>>(
         return Err(IntegrationErrorKind::InvalidInterval);
     }
     if !(start.q.is_finite() && is_in_range(&start.y)) {
-        return Err(IntegrationErrorKind::NonFinite { part: Part::InitialState });
+        return Err(IntegrationErrorKind::NonFinite { part: RunPart::InitialState });
     }
     let start = consistent_start(problem, start)?;
     let rates = problem.rates(&start);
     if !rates.is_finite() {
-        return Err(IntegrationErrorKind::NonFinite { part: Part::Derivative });
+        return Err(IntegrationErrorKind::NonFinite { part: RunPart::Derivative });
     }
     Ok((span.lane(0), start, rates))
 }

@@ -50,7 +50,7 @@ use crate::integrate::drive::leaving::{Leaving, OnZero, rounding};
 use crate::integrate::drive::projection::check_jump;
 use crate::integrate::drive::search::{Crossing, Function, Looking, Made, side, value};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake, RunPart};
 use crate::integrate::problem::state::{Sample, State, TangentOf};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -129,7 +129,7 @@ impl<S: GaussSystem, E: Events<S>> Events<S> for &mut E {
 
 /// One event after others, with what becomes of the state there.
 #[derive(Clone, Copy, Debug)]
-pub struct Watched<E, G, J = Stay> {
+pub struct Watched<E, G, J = NoJump> {
     others: E,
     function: G,
     jump: J,
@@ -140,14 +140,14 @@ impl<E, G> Watched<E, G> {
     /// One more event after others.
     #[doc(hidden)]
     pub fn after(others: E, crossing: Crossing, terminal: bool, function: G) -> Self {
-        Self { others, function, jump: Stay, mark: Mark::new(crossing, terminal, false) }
+        Self { others, function, jump: NoJump, mark: Mark::new(crossing, terminal, false) }
     }
 
     /// With a jump, after which the function may go on through zero or has to be led back.
     #[doc(hidden)]
-    pub fn then<J>(self, jump: J, through: bool) -> Watched<E, G, Then<J>> {
+    pub fn then<J>(self, jump: J, through: bool) -> Watched<E, G, JumpFunction<J>> {
         let Self { others, function, mark, .. } = self;
-        Watched { others, function, jump: Then(jump), mark: Mark { through, ..mark } }
+        Watched { others, function, jump: JumpFunction(jump), mark: Mark { through, ..mark } }
     }
 }
 
@@ -157,21 +157,21 @@ pub trait Jump<S: GaussSystem> {
     fn jump(&mut self, state: &mut Sample<S>) -> bool;
 }
 
-/// The state stays as it is.
+/// No jump: the state stays as it is.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Stay;
+pub struct NoJump;
 
-impl<S: GaussSystem> Jump<S> for Stay {
+impl<S: GaussSystem> Jump<S> for NoJump {
     fn jump(&mut self, _: &mut Sample<S>) -> bool {
         false
     }
 }
 
-/// A function changes the state.
+/// A jump by a function that changes the state.
 #[derive(Clone, Copy, Debug)]
-pub struct Then<J>(J);
+pub struct JumpFunction<J>(J);
 
-impl<S: GaussSystem, J: FnMut(&mut Sample<S>)> Jump<S> for Then<J> {
+impl<S: GaussSystem, J: FnMut(&mut Sample<S>)> Jump<S> for JumpFunction<J> {
     fn jump(&mut self, state: &mut Sample<S>) -> bool {
         (self.0)(state);
         true
@@ -555,7 +555,7 @@ fn consistent<S: GaussSystem, P: Problem<System = S>>(
 ) -> Result<(S::Configuration, S::Speeds), IntegrationErrorKind> {
     let Sample { t, q, z, .. } = *set;
     if !(q.is_finite() && z.is_finite()) {
-        return Err(IntegrationErrorKind::NonFinite { part: Part::Jump });
+        return Err(IntegrationErrorKind::NonFinite { part: RunPart::Jump });
     }
     if !S::CONSTRAINED {
         return Ok((q.renormalise(), z));

@@ -198,10 +198,10 @@ fn an_event_function_that_is_undefined_stops_the_run() {
     let run = Simulation::new(&SPRING).input(undriven).event(Crossing::Any, |t: f64, _, _| (1.0 - t).sqrt());
     let (trajectory, error) = run.fixed_step(0.3).every(2).attempt(q0, z0, 0.0..3.0);
     let error = error.expect("stops");
-    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Event });
+    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: RunPart::Event });
     assert_eq!((error.time, trajectory.last().t), (0.3 * 3.0, 0.3 * 3.0));
     let error = run.fixed_step(0.3).run_to_end(q0, z0, 2.0..3.0).expect_err("stops");
-    assert_eq!((error.time, error.kind), (2.0, IntegrationErrorKind::NonFinite { part: Part::Event }));
+    assert_eq!((error.time, error.kind), (2.0, IntegrationErrorKind::NonFinite { part: RunPart::Event }));
 }
 
 /// Far from zero times are apart: steps that cannot be told apart are refused by every control, and others are as many

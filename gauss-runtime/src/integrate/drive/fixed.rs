@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use crate::integrate::drive::cause::{Gave, Place, cause};
-use crate::integrate::drive::control::{Control, Emit, Taken, one_step, prepare};
+use crate::integrate::drive::control::{Control, StepCallback, StepStatistics, one_step, prepare};
 use crate::integrate::drive::projection::accept;
 use crate::integrate::lie_group::rkmk::Rkmk;
 use crate::integrate::problem::equations::Problem;
@@ -105,7 +105,7 @@ impl<S: GaussSystem> OneLength<S> {
         start: &State<S>,
         end: S::Scalar,
         limit: u64,
-        emit: &mut Emit<'_, S>,
+        emit: &mut StepCallback<'_, S>,
     ) -> Result<Result<Self, State<S>>, IntegrationError> {
         let stopped = |state: &State<S>, kind| IntegrationError::at(problem, state, kind);
         let positive = length.lane(0).abs();
@@ -113,7 +113,7 @@ impl<S: GaussSystem> OneLength<S> {
             return Err(stopped(start, IntegrationErrorKind::InvalidStep { step: length.lane(0) }));
         }
         let (span, state, rates) = prepare(problem, start, end).map_err(|kind| stopped(start, kind))?;
-        if emit(&state, &rates, Taken::default()).is_break() || span == 0.0 {
+        if emit(&state, &rates, StepStatistics::default()).is_break() || span == 0.0 {
             return Ok(Err(state));
         }
         let time = further(state.t.lane(0), end.lane(0));
@@ -144,7 +144,7 @@ impl<S: GaussSystem> OneLength<S> {
         &mut self,
         made: u64,
         problem: &P,
-        emit: &mut Emit<'_, S>,
+        emit: &mut StepCallback<'_, S>,
         mut advance: impl FnMut(&State<S>, &Rates<S>, S::Scalar) -> Result<Advanced<S>, IntegrationErrorKind>,
     ) -> Result<ControlFlow<()>, IntegrationError> {
         // Copies, so that what steps work on stays in registers.
@@ -163,7 +163,7 @@ impl<S: GaussSystem> OneLength<S> {
             next.t = if last { end } else { time(start, h, n) };
             let there = accept(problem, (&state, &rates), &mut next, known).map_err(failed)?;
             (state, rates) = (next, there);
-            flow = emit(&state, &rates, Taken::default());
+            flow = emit(&state, &rates, StepStatistics::default());
         }
         (self.state, self.rates, self.made) = (state, rates, n);
         Ok(flow)
@@ -184,7 +184,7 @@ pub(in crate::integrate) fn steps_of_one_length<S: GaussSystem, P: Problem<Syste
     start: State<S>,
     end: S::Scalar,
     limit: u64,
-    emit: &mut Emit<'_, S>,
+    emit: &mut StepCallback<'_, S>,
     advance: impl FnMut(&State<S>, &Rates<S>, S::Scalar) -> Result<Advanced<S>, IntegrationErrorKind>,
 ) -> Result<State<S>, IntegrationError> {
     match OneLength::new(how, problem, &start, end, limit, emit)? {
@@ -200,7 +200,7 @@ impl<S: GaussSystem, M: OneStep<S>> Control<S> for Fixed<S::Scalar, M> {
         start: State<S>,
         end: S::Scalar,
         limit: u64,
-        emit: &mut Emit<'_, S>,
+        emit: &mut StepCallback<'_, S>,
     ) -> Result<State<S>, IntegrationError> {
         let how = (self.step, self.method.properties().stiff);
         steps_of_one_length(how, problem, start, end, limit, emit, |state, rates, h| {

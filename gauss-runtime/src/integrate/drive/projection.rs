@@ -18,7 +18,7 @@ use crate::configuration::{Configuration, VectorSpace};
 use crate::constraint::ConstraintLevel;
 use crate::integrate::drive::tolerance::{PATTERNS, Tolerance, Trial, larger, rounded};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, Sample, State, TangentOf};
 use crate::integrate::step::checks::is_in_range;
 use crate::real::Real;
@@ -41,7 +41,7 @@ pub fn accept<S: GaussSystem, P: Problem<System = S>>(
     known: Option<Rates<S>>,
 ) -> Result<Rates<S>, IntegrationErrorKind> {
     if !is_in_range(&state.y) {
-        return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+        return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
     }
     if S::CONSTRAINED {
         *state = onto_constraints(problem, from, state)?;
@@ -49,7 +49,7 @@ pub fn accept<S: GaussSystem, P: Problem<System = S>>(
         return Ok(rates);
     }
     let rates = problem.rates(state);
-    if rates.is_finite() { Ok(rates) } else { Err(IntegrationErrorKind::NonFinite { part: Part::Step }) }
+    if rates.is_finite() { Ok(rates) } else { Err(IntegrationErrorKind::NonFinite { part: RunPart::Step }) }
 }
 
 /// The end of a step of a constrained system brought onto its constraints, and not farther than half of the way of the step.

@@ -149,7 +149,7 @@ fn derivatives_belong_to_the_projected_state() {
     let problem = SystemProblem { system: &system, form: VelocityForm, input: NoInput };
     let (q, y) = swing();
     let mut seen = 0;
-    let mut check = |state: &State<_>, rates: &Rates<_>, _: Taken| {
+    let mut check = |state: &State<_>, rates: &Rates<_>, _: StepStatistics| {
         let expected = problem.rates(state);
         assert_eq!((rates.configuration, rates.variables), (expected.configuration, expected.variables));
         seen += 1;

@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 
 #[cfg(feature = "alloc")]
 use crate::integrate::drive::control::DEFAULT_LIMIT;
-use crate::integrate::drive::control::{Control, Taken};
+use crate::integrate::drive::control::{Control, StepStatistics};
 use crate::integrate::drive::event::{Events, Outcome, Watch};
 use crate::integrate::drive::observer::Observer;
 use crate::integrate::drive::pace::Pace;
@@ -222,44 +222,45 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         let mut before: Option<(State<S>, Rates<S>)> = None;
         let (mut held, mut cut) = (false, None);
         let limit = self.limit.saturating_sub(reached.summary.steps + reached.summary.rejected);
-        let outcome = self.control.drive(self.problem, start, end, limit, &mut |state, rates, taken: Taken| {
-            if count > 0 {
-                reached.summary.count(taken);
-            }
-            if E::COUNT > 0 {
-                let found = match &before {
-                    None => watch.begin(state).map(|()| Outcome::On),
-                    Some((from, slopes)) => {
-                        let made = Made { lane: 0, before: (from, slopes), after: (state, rates) };
-                        watch.step(&made, &mut |number, state| pass(Seen::Event(number, state)))
-                    }
-                };
-                cut = match found {
-                    Ok(Outcome::On) => None,
-                    Ok(Outcome::Here { state, after, number, stopped_by }) => {
-                        (held, reached.stopped_by, before) = (false, stopped_by, Some((state, *rates)));
-                        let counted = after.map_or(Ok(()), |_| {
-                            reached.summary.jumps += 1;
-                            jumps.count(state.t.lane(0), number)
-                        });
-                        Some(Cut::at(counted, (state, after), stopped_by.is_some(), pass))
-                    }
-                    Err(kind) => Some(Cut::Failed(kind)),
-                };
-                if cut.is_some() {
-                    return ControlFlow::Break(());
+        let outcome =
+            self.control.drive(self.problem, start, end, limit, &mut |state, rates, taken: StepStatistics| {
+                if count > 0 {
+                    reached.summary.count(taken);
                 }
-            }
-            held = !count.is_multiple_of(self.every);
-            if !held {
-                pass(Seen::Sample(state));
-            }
-            if held || E::COUNT > 0 {
-                before = Some((*state, *rates));
-            }
-            count += 1;
-            ControlFlow::Continue(())
-        });
+                if E::COUNT > 0 {
+                    let found = match &before {
+                        None => watch.begin(state).map(|()| Outcome::On),
+                        Some((from, slopes)) => {
+                            let made = Made { lane: 0, before: (from, slopes), after: (state, rates) };
+                            watch.step(&made, &mut |number, state| pass(Seen::Event(number, state)))
+                        }
+                    };
+                    cut = match found {
+                        Ok(Outcome::On) => None,
+                        Ok(Outcome::Here { state, after, number, stopped_by }) => {
+                            (held, reached.stopped_by, before) = (false, stopped_by, Some((state, *rates)));
+                            let counted = after.map_or(Ok(()), |_| {
+                                reached.summary.jumps += 1;
+                                jumps.count(state.t.lane(0), number)
+                            });
+                            Some(Cut::at(counted, (state, after), stopped_by.is_some(), pass))
+                        }
+                        Err(kind) => Some(Cut::Failed(kind)),
+                    };
+                    if cut.is_some() {
+                        return ControlFlow::Break(());
+                    }
+                }
+                held = !count.is_multiple_of(self.every);
+                if !held {
+                    pass(Seen::Sample(state));
+                }
+                if held || E::COUNT > 0 {
+                    before = Some((*state, *rates));
+                }
+                count += 1;
+                ControlFlow::Continue(())
+            });
         if let (true, Some((state, _))) = (held, &before) {
             pass(Seen::Sample(state));
         }

@@ -4,7 +4,7 @@ use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::control::Control;
 use crate::integrate::drive::zero::{below_zero, least_of_cubic, locate};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -63,7 +63,7 @@ pub(in crate::integrate) fn values<S: GaussSystem, P: Problem<System = S>>(
 /// One of the values of an event's function.
 pub(in crate::integrate) fn of_lane<T: Real>(values: T, lane: usize) -> Result<f64, IntegrationErrorKind> {
     let value = values.lane(lane);
-    if value.is_nan() { Err(IntegrationErrorKind::NonFinite { part: Part::Event }) } else { Ok(value) }
+    if value.is_nan() { Err(IntegrationErrorKind::NonFinite { part: RunPart::Event }) } else { Ok(value) }
 }
 
 /// Whether two values are both below zero, or both above.

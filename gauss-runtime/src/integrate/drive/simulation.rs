@@ -7,7 +7,7 @@ use crate::integrate::drive::adaptive::Adaptive;
 #[cfg(feature = "alloc")]
 use crate::integrate::drive::boxed::BoxedSimulation;
 use crate::integrate::drive::control::{Control, DEFAULT_LIMIT};
-use crate::integrate::drive::event::{Events, NoEvents, Then, Watched};
+use crate::integrate::drive::event::{Events, JumpFunction, NoEvents, Watched};
 use crate::integrate::drive::fixed::Fixed;
 use crate::integrate::drive::observer::{Callback, Observer, Unobserved};
 use crate::integrate::drive::run::Run;
@@ -25,9 +25,9 @@ use crate::integrate::problem::state::{Sample, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// Nothing is chosen yet; [`Simulation::fixed_step`] or [`Simulation::adaptive`] comes next.
+/// No choice of steps: [`Simulation::fixed_step`] or [`Simulation::adaptive`] comes next.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Undecided;
+pub struct NoControl;
 
 /// A run in preparation.
 ///
@@ -69,7 +69,7 @@ assert!((kernel.energy(end.t, &end.q, &end.z) - before).abs() < 1e-7 * before);
 /// the numbers that were given.
 #[derive(Clone, Copy, Debug)]
 #[must_use = "a simulation does nothing before `run`"]
-pub struct Simulation<P, C = Undecided, O = Unobserved, E = NoEvents> {
+pub struct Simulation<P, C = NoControl, O = Unobserved, E = NoEvents> {
     problem: P,
     control: C,
     observer: O,
@@ -88,7 +88,7 @@ impl<'k, S: GaussSystem> Simulation<SystemProblem<'k, S>> {
 impl<P> Simulation<P> {
     /// A run of any [`Problem`].
     pub fn of(problem: P) -> Self {
-        Self { problem, control: Undecided, observer: Unobserved, events: NoEvents, every: 1, limit: None }
+        Self { problem, control: NoControl, observer: Unobserved, events: NoEvents, every: 1, limit: None }
     }
 }
 
@@ -249,7 +249,7 @@ assert!(run.iter().all(|state| state.q[0] > -1e-14)); // some roundings of the t
     pub fn then<J: FnMut(&mut Sample<S>)>(
         self,
         jump: J,
-    ) -> Simulation<SystemProblem<'k, S, F, I>, C, O, Watched<E, G, Then<J>>> {
+    ) -> Simulation<SystemProblem<'k, S, F, I>, C, O, Watched<E, G, JumpFunction<J>>> {
         self.with_jump(jump, false)
     }
 
@@ -259,7 +259,7 @@ assert!(run.iter().all(|state| state.q[0] > -1e-14)); // some roundings of the t
     pub fn then_through<J: FnMut(&mut Sample<S>)>(
         self,
         jump: J,
-    ) -> Simulation<SystemProblem<'k, S, F, I>, C, O, Watched<E, G, Then<J>>> {
+    ) -> Simulation<SystemProblem<'k, S, F, I>, C, O, Watched<E, G, JumpFunction<J>>> {
         self.with_jump(jump, true)
     }
 
@@ -268,7 +268,7 @@ assert!(run.iter().all(|state| state.q[0] > -1e-14)); // some roundings of the t
         self,
         jump: J,
         through: bool,
-    ) -> Simulation<SystemProblem<'k, S, F, I>, C, O, Watched<E, G, Then<J>>> {
+    ) -> Simulation<SystemProblem<'k, S, F, I>, C, O, Watched<E, G, JumpFunction<J>>> {
         let Self { problem, control, observer, events, every, limit } = self;
         Simulation { problem, control, observer, events: events.then(jump, through), every, limit }
     }

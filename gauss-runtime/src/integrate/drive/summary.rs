@@ -3,7 +3,7 @@
 use core::fmt;
 use core::ops::Deref;
 
-use crate::integrate::drive::control::Taken;
+use crate::integrate::drive::control::StepStatistics;
 use crate::integrate::problem::state::Sample;
 use crate::system::GaussSystem;
 
@@ -24,7 +24,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    pub(in crate::integrate) fn count(&mut self, taken: Taken) {
+    pub(in crate::integrate) fn count(&mut self, taken: StepStatistics) {
         self.steps += 1;
         self.rejected += u64::from(taken.rejected);
         if taken.excess > 0.0 {

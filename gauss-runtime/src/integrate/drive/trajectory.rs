@@ -20,8 +20,8 @@ use crate::system::GaussSystem;
     serde(
         deny_unknown_fields,
         bound(
-            serialize = "S: GaussSystem<Scalar: serde::Serialize> + crate::description::Described",
-            deserialize = "S: GaussSystem<Scalar: serde::Deserialize<'de>> + crate::description::Described"
+            serialize = "S: GaussSystem<Scalar: serde::Serialize> + crate::description::DescribedSystem",
+            deserialize = "S: GaussSystem<Scalar: serde::Deserialize<'de>> + crate::description::DescribedSystem"
         )
     )
 )]

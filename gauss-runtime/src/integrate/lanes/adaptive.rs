@@ -7,7 +7,7 @@ use super::system::BatchSystem;
 use super::{Group, LaneControl, Verdict, chosen_state, largest, number, numbers_of, ones_in};
 use crate::integrate::drive::adaptive::{Adaptive, ROUNDED};
 use crate::integrate::drive::cause::{Gave, change};
-use crate::integrate::drive::control::{Taken, check_tolerances, longest, smallest, to_a_number, unresolved};
+use crate::integrate::drive::control::{StepStatistics, check_tolerances, longest, smallest, to_a_number, unresolved};
 use crate::integrate::drive::logarithms::{exponential, logarithm};
 use crate::integrate::drive::projection::{accept, check_move, is_hopeless};
 use crate::integrate::drive::step_length::StepLength;
@@ -126,7 +126,7 @@ impl<S: BatchSystem> Memory<S> {
                 }
                 lane.looked = lane.looked.max(lane.length);
                 let rejected = core::mem::take(&mut lane.rejected);
-                *verdict = Verdict::Taken(Taken { rejected, excess }, lane.last);
+                *verdict = Verdict::Taken(StepStatistics { rejected, excess }, lane.last);
                 // For those that are asked for below.
                 lane.used = if again { f64::INFINITY } else { lane.used };
             }

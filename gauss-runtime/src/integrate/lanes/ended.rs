@@ -37,7 +37,7 @@ pub struct EventState<Q, Z> {
 }
 
 /// How one run of an ensemble ended.
-pub type HowItEnded<S> = Result<Ended<SingleConfiguration<S>, SingleSpeeds<S>>, RunError>;
+pub type RunOutcome<S> = Result<Ended<SingleConfiguration<S>, SingleSpeeds<S>>, RunError>;
 
 /// A state that did not reach the end: the batch holds the last good one, at `time`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::system::BatchSystem;
 use super::{Group, LaneControl, Verdict, chosen_state, number, ones_in};
 use crate::integrate::drive::cause::Gave;
-use crate::integrate::drive::control::Taken;
+use crate::integrate::drive::control::StepStatistics;
 use crate::integrate::drive::fixed::{Advanced, Fixed, further, steps_within};
 use crate::integrate::drive::projection::accept;
 use crate::integrate::problem::called::Called;
@@ -175,7 +175,7 @@ impl<S: BatchSystem> March<S> {
         group.steps = made;
         group.take(trial.alone.unwrap_or(S::Scalar::one()), trial.alone.is_none(), (state, rates));
         for (n, lane) in self.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.steps) {
-            group.verdicts[n] = Verdict::Taken(Taken::default(), lane.is_last());
+            group.verdicts[n] = Verdict::Taken(StepStatistics::default(), lane.is_last());
             lane.made += made;
         }
         Ok(())

@@ -13,14 +13,14 @@ pub(crate) mod run;
 mod system;
 mod taylor;
 
-pub use ended::{Ended, EventState, HowItEnded, RunError};
+pub use ended::{Ended, EventState, RunError, RunOutcome};
 pub use system::{BatchSystem, SingleConfiguration, SingleSpeeds};
 
 use alloc::vec::Vec;
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::cause::Gave;
-use crate::integrate::drive::control::{Control, Taken};
+use crate::integrate::drive::control::{Control, StepStatistics};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::integrate::problem::state::{Rates, State};
@@ -92,7 +92,7 @@ pub enum Verdict {
     /// It is to be tried again.
     Rejected,
     /// It stands; whether it was the last one.
-    Taken(Taken, bool),
+    Taken(StepStatistics, bool),
     /// There will be no other.
     Gave(Gave),
 }

@@ -3,7 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::ended::{Ended, EventState, HowItEnded, RunError};
+use super::ended::{Ended, EventState, RunError, RunOutcome};
 use super::system::{BatchSystem, SingleConfiguration, SingleSpeeds};
 use super::{Group, LaneControl, Verdict, chosen_rates, number, numbers_of, ones_in};
 use crate::configuration::Configuration;
@@ -32,7 +32,7 @@ pub trait Runs<S: BatchSystem> {
     fn next(&mut self) -> Option<First<S>>;
 
     /// The last good state of a run, and how it ended.
-    fn end(&mut self, run: usize, state: (SingleConfiguration<S>, SingleSpeeds<S>), outcome: HowItEnded<S>);
+    fn end(&mut self, run: usize, state: (SingleConfiguration<S>, SingleSpeeds<S>), outcome: RunOutcome<S>);
 }
 
 /// A run in a lane.
@@ -103,7 +103,7 @@ where
         }
     }
 
-    fn not_started(&self, state: usize, kind: IntegrationErrorKind) -> HowItEnded<S> {
+    fn not_started(&self, state: usize, kind: IntegrationErrorKind) -> RunOutcome<S> {
         Err(RunError { state, time: self.times.0, kind })
     }
 

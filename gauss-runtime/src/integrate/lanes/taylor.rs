@@ -9,7 +9,7 @@ use super::{Group, LaneControl, Verdict, chosen_state, number, numbers_of, ones_
 use crate::integrate::drive::cause::Gave;
 use crate::integrate::drive::control::{check_tolerances, longest, smallest, to_a_number, unresolved};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::taylor::{Order, Shortened, Taylor, expanded, summed};
 use crate::real::Real;
 use crate::series::{PowerSeries, TaylorSystem};
@@ -57,7 +57,7 @@ where
             let mut gave = |kind| group.verdicts[n] = Verdict::Gave(Gave::AnyStep(kind));
             // A NaN among the coefficients makes no length; where they are all zero the system is at rest.
             if length.is_nan() {
-                gave(IntegrationErrorKind::NonFinite { part: Part::Derivative });
+                gave(IntegrationErrorKind::NonFinite { part: RunPart::Derivative });
                 continue;
             }
             let (length, left) = ((length * lane.shortened.part()).min(self.longest), number(rest, n).abs());

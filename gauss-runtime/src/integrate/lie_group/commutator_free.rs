@@ -2,7 +2,7 @@
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::step::checks::{check_chart, check_turn};
 use crate::integrate::step::one_step::{OneStep, Properties, Step};
@@ -41,7 +41,7 @@ impl<S: GaussSystem> OneStep<S> for CommutatorFree4 {
         check_chart(problem.system(), state, &end)?;
         // No stage has weight 0: what is not finite reaches the end.
         if !(end.q.is_finite() && end.y.is_finite()) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
         }
         let error = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
         Ok(Step { state: end, error, rates: None })
@@ -174,7 +174,7 @@ mod tests {
         let problem = SystemProblem { system: &TOP, form: VelocityForm, input: broken };
         let start = start_by_velocity();
         let error = CommutatorFree4.step(&problem, &start, &problem.rates(&start), 0.1).err();
-        assert_eq!(error, Some(IntegrationErrorKind::NonFinite { part: Part::Step }));
+        assert_eq!(error, Some(IntegrationErrorKind::NonFinite { part: RunPart::Step }));
     }
 
     #[test]

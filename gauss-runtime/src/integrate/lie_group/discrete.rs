@@ -6,7 +6,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::lie_group::commutator_free::{CommutatorFree4, Path, STAGE_TIMES, halves};
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::step::checks::check_chart;
 use crate::linearize::{Linearization, LinearizedSystem};
@@ -182,7 +182,7 @@ assert!((step.then(&next).by_state[(0, 0)] - 0.04_f64.cos()).abs() < 1e-9);
         let [by_time, by_step] = by_times.matrix().data.0.map(SVector::from);
         let derivatives = finite(&by_state) && finite(&by_input) && finite(&by_time) && finite(&by_step);
         if !(derivatives && end.q.is_finite() && end.y.is_finite()) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
         }
         Ok(DiscreteLinearization { t: end.t, q: end.q, z: end.y, by_state, by_input, by_time, by_step })
     }

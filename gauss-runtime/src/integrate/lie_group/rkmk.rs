@@ -6,7 +6,7 @@
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::runge_kutta::tableau::{Rational, Tableau, estimate_order};
 use crate::integrate::step::checks::{check_chart, check_increment};
@@ -121,7 +121,7 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
         let coarse = self.has_coarse_error.then(|| combination(h, &self.coarse_error, &stages));
         // A stage that is not finite makes the result so, because no later weight can take it out again.
         if !(end.q.is_finite() && end.y.is_finite() && error.is_finite() && last.is_finite()) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
         }
         // The last stage is the result also on a group: its σ is the step's. Renormalising moves it by rounding only.
         let rates = self.first_same_as_last.then_some(last);

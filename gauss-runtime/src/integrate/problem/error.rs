@@ -64,7 +64,7 @@ pub enum IntegrationErrorKind {
     /// A number became infinite or undefined, or so large that its square is infinite.
     NonFinite {
         /// The part of the step in which the number was seen first.
-        part: Part,
+        part: RunPart,
     },
     /// Steps shrink until they no longer change the time, and neither the coordinates nor rounding are to blame: the motion itself is
     /// singular here, or a force jumps where there is no motion that agrees with it, as dry friction at rest.
@@ -210,7 +210,7 @@ pub enum JumpMistake {
 /// Where a number that is not finite was seen first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Part {
+pub enum RunPart {
     /// The initial configuration or velocity, or the momentum made of them.
     InitialState,
     /// The equations of motion at the last good state.
@@ -223,7 +223,7 @@ pub enum Part {
     Jump,
 }
 
-impl Part {
+impl RunPart {
     /// What was found there, and the remedy.
     fn finding(self) -> &'static str {
         match self {

@@ -74,7 +74,7 @@ pub trait InputSource<S: GaussSystem> {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoInput;
 
-impl<S: GaussSystem<Input: Absent>> InputSource<S> for NoInput {
+impl<S: GaussSystem<Input: EmptyInput>> InputSource<S> for NoInput {
     #[inline(always)]
     fn input(&self, _: S::Scalar, _: &S::Configuration, _: &S::Speeds) -> S::Input {
         S::Input::NONE
@@ -87,12 +87,12 @@ impl<S: GaussSystem<Input: Absent>> InputSource<S> for NoInput {
     label = "this run has no `.input(…)`",
     note = "add `.input(|t, q, z| SVector::from([…]))` before the run, with a number for each input in the order of the scene"
 )]
-pub trait Absent {
+pub trait EmptyInput {
     /// Nothing.
     const NONE: Self;
 }
 
-impl Absent for () {
+impl EmptyInput for () {
     const NONE: Self = ();
 }
 

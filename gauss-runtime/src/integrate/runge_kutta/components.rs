@@ -17,7 +17,7 @@
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::runge_kutta::tableau::{Coefficients, Rational, estimate_order};
 use crate::integrate::step::checks::{check_chart, check_turn};
@@ -179,7 +179,7 @@ impl<C: Coefficients<S>, const S: usize> RungeKutta<C, S> {
         let rates = C::TABLEAU.first_same_as_last.then_some(last);
         // A stage that is not finite makes the result so, because no later weight can take it out again.
         if !(end.q.is_finite() && end.y.is_finite() && rates.is_none_or(|rates| rates.is_finite())) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
         }
         Ok((Step { state: end, error, rates }, coarse))
     }
@@ -221,7 +221,7 @@ impl<Sys: GaussSystem, C: Coefficients<S>, const S: usize> EstimatingStep<Sys> f
     ) -> Result<(Step<Sys>, Option<Rates<Sys>>), IntegrationErrorKind> {
         let (step, coarse) = Self::advance(problem, state, rates, h)?;
         if !step.error.is_finite() {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
         }
         Ok((step, coarse))
     }

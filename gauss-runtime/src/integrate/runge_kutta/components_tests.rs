@@ -167,7 +167,7 @@ fn too_long_steps_and_broken_inputs_are_refused() {
             .step_and_estimates(&problem, &start, &problem.rates(&start), 0.1)
             .map(|(step, _)| step.state.t),
     ] {
-        assert_eq!(kind, Err(IntegrationErrorKind::NonFinite { part: Part::Step }));
+        assert_eq!(kind, Err(IntegrationErrorKind::NonFinite { part: RunPart::Step }));
     }
 }
 

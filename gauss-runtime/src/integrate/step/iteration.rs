@@ -1,6 +1,6 @@
 //! When an iteration of an implicit step has come to its end.
 
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::real::Real;
 
 /// Sweeps after which an iteration is given up: 53 gain a binary digit each, and where a sweep gains less a shorter step is
@@ -40,7 +40,7 @@ impl Progress {
             return Err(if self.last > FAR {
                 IntegrationErrorKind::NotConverged { iterations: self.sweeps, residual: self.last }
             } else {
-                IntegrationErrorKind::NonFinite { part: Part::Step }
+                IntegrationErrorKind::NonFinite { part: RunPart::Step }
             });
         }
         self.last = residual;

@@ -15,7 +15,7 @@
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::step::checks::{check_chart, check_increment};
 use crate::integrate::step::iteration::{Progress, relative_change, worst};
@@ -163,7 +163,7 @@ impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Collocation<Sys::Scalar,
         };
         check_chart(problem.system(), state, &end)?;
         if !(end.q.is_finite() && end.y.is_finite()) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
         }
         Ok(Step { state: end, error: null(), rates: None })
     }

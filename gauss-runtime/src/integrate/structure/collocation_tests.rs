@@ -200,7 +200,7 @@ fn what_does_not_converge_is_an_error_in_words() {
     let broken = Feedback(|t: f64, _: &_, _: &_| [if t > 0.05 { f64::NAN } else { 0.0 }, 0.0, 0.0]);
     let broken = Simulation::new(&TOP).input_from(broken);
     let error = broken.control(Fixed::by(Collocation::midpoint(), 0.2)).run(q, fast, 0.0..1.0).expect_err("refused");
-    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Step });
+    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: RunPart::Step });
 }
 
 /// A torque whose rounding is 1e5 times that of the state, as where large terms cancel.

@@ -19,7 +19,7 @@ use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 use crate::chart::Chart;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::step::checks::{check_chart, check_increment};
 use crate::integrate::step::iteration::{Progress, relative_change, worst};
@@ -320,7 +320,7 @@ where
         };
         check_chart(problem.system(), state, &end)?;
         if !(end.q.is_finite() && end.y.is_finite()) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
         }
         let error = Rates { configuration: S::Speeds::zero(), variables: S::Speeds::zero() };
         Ok(Step { state: end, error, rates: None })

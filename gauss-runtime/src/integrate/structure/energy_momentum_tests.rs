@@ -100,5 +100,5 @@ fn what_cannot_be_solved_is_refused() {
     let run = Simulation::new(&TOP).input_from(broken).control(Fixed::by(method(), 0.2));
     let start = start_by_velocity();
     let error = run.run_to_end(start.q, start.y, 0.0..1.0).map(|end| end.t).expect_err("refused");
-    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Step });
+    assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: RunPart::Step });
 }

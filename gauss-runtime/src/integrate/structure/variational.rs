@@ -3,7 +3,7 @@
 use crate::chart::Chart;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, Part};
+use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::step::checks::{check_chart, check_increment};
 use crate::integrate::step::iteration::{Progress, relative_change, worst};
@@ -86,7 +86,7 @@ where
         let reached = State { t, q, y };
         check_chart(problem.system(), state, &reached)?;
         if !(reached.q.is_finite() && reached.y.is_finite()) {
-            return Err(IntegrationErrorKind::NonFinite { part: Part::Step });
+            return Err(IntegrationErrorKind::NonFinite { part: RunPart::Step });
         }
         let error = Rates { configuration: S::Speeds::zero(), variables: S::Speeds::zero() };
         Ok(Step { state: reached, error, rates: None })
@@ -224,6 +224,6 @@ mod tests {
         let run = Simulation::new(&TOP).input_from(broken).control(Fixed::by(Variational, 0.2));
         let start = start_by_velocity();
         let error = run.run_to_end(start.q, start.y, 0.0..1.0).map(|end| end.t).expect_err("refused");
-        assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: Part::Step });
+        assert_eq!(error.kind, IntegrationErrorKind::NonFinite { part: RunPart::Step });
     }
 }

@@ -1,6 +1,6 @@
 //! The scenes.
 
-use gauss_runtime::prelude::Described;
+use gauss_runtime::prelude::DescribedSystem;
 
 use crate::live::{Live, Motion};
 use crate::scene::{Scene, Show, Slider};
