@@ -9,6 +9,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::configuration::VectorSpace;
 use crate::real::Real;
+use crate::sealed::Sealed;
 use crate::system::GaussSystem;
 
 /// A system whose forces are known element by element: the right-hand side of (3.4).
@@ -125,10 +126,12 @@ impl fmt::Display for Element {
 }
 
 /// A matrix that is a list of columns `V`.
-pub trait Columns<V> {
+pub trait Columns<V>: Sealed {
     /// Column `n`, counted from 0; `None` beyond the last.
     fn nth(&self, n: usize) -> Option<V>;
 }
+
+impl<T, const N: usize, const E: usize> Sealed for SMatrix<T, N, E> {}
 
 impl<T: Real, const N: usize, const E: usize> Columns<SVector<T, N>> for SMatrix<T, N, E> {
     #[inline]

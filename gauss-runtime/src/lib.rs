@@ -100,6 +100,7 @@ mod conversion;
 mod conversion_tests;
 mod methods;
 mod projection_error;
+mod sealed;
 mod trigonometry;
 mod triple;
 mod vector_space;

@@ -9,6 +9,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
+use crate::sealed::Sealed;
 use crate::system::GaussSystem;
 
 /// A system whose equations come with their derivatives: the same instructions differentiated one by one, or, where that is shorter,
@@ -115,7 +116,7 @@ impl<T, const D: usize, const U: usize> Linearization<T, D, U> {
 }
 
 /// A [`Linearization`] without its sizes, for code over every system. Implemented by that type alone.
-pub trait LinearModel<T: Real>: Copy + Debug {
+pub trait LinearModel<T: Real>: Copy + Debug + Sealed {
     /// `SVector` of (σ, δz).
     type Vector: VectorSpace<T>;
     /// `SMatrix` of that size, square.
@@ -138,10 +139,12 @@ pub trait LinearModel<T: Real>: Copy + Debug {
 }
 
 /// A square matrix, ready for right-hand sides.
-pub trait Factored<T: Real, V> {
+pub trait Factored<T: Real, V>: Sealed {
     /// x with `matrix · x = right`; not finite where the matrix is singular.
     fn solve(&self, right: &V) -> V;
 }
+
+impl<T, const D: usize, const U: usize> Sealed for Linearization<T, D, U> {}
 
 impl<T: Real, const D: usize, const U: usize> LinearModel<T> for Linearization<T, D, U> {
     type Vector = SVector<T, D>;
@@ -261,6 +264,8 @@ impl<T: Real, const D: usize> Lu<T, D> {
         Self { rows, order }
     }
 }
+
+impl<T, const D: usize> Sealed for Lu<T, D> {}
 
 impl<T: Real, const D: usize> Factored<T, SVector<T, D>> for Lu<T, D> {
     #[inline]

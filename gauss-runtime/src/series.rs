@@ -8,6 +8,7 @@ use nalgebra::SVector;
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::real::Real;
+use crate::sealed::Sealed;
 use crate::system::GaussSystem;
 
 /// The highest order of a series.
@@ -56,7 +57,7 @@ pub fn state_of<S: TaylorSystem>(
 type ComponentsOf<S> = <<S as GaussSystem>::Configuration as Configuration>::Components;
 
 /// Coefficients of several power series.
-pub trait PowerSeries<T: Real> {
+pub trait PowerSeries<T: Real>: Sealed {
     /// A value of each variable.
     type Variables: VectorSpace<T>;
 
@@ -293,6 +294,8 @@ fn part<T: Real, const L: usize, const N: usize>(row: &Row<T, L>, from: usize) -
     part.copy_from_slice(&row.0[from..from + N]);
     part
 }
+
+impl<T, const V: usize, const D: usize, const L: usize> Sealed for Series<T, V, D, L> {}
 
 impl<T: Real, const V: usize, const D: usize, const L: usize> PowerSeries<T> for Series<T, V, D, L> {
     type Variables = SVector<T, V>;

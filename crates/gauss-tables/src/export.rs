@@ -9,7 +9,7 @@ use crate::table::Table;
 
 /// Files and plots of a [`Table`]. Folders above a file are made where they are missing; a file that cannot be written
 /// whole, as on a full disk, leaves the one before it unchanged.
-pub trait Export {
+pub trait Export: crate::sealed::Sealed {
     /// Writes CSV: names and units in the first line, and every digit.
     ///
     /// # Errors

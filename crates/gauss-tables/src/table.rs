@@ -11,7 +11,7 @@ use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
 
 /// Tables of a run.
-pub trait Tabulate<S: GaussSystem> {
+pub trait Tabulate<S: GaussSystem>: crate::sealed::Sealed {
     /// A table with a row for every sample, and the time as its first column.
     ///
     /// ```

@@ -13,6 +13,13 @@ pub mod measure;
 pub mod method;
 pub mod tuned;
 
+/// [`Tune`] is for simulations alone, so that functions can be added to it.
+mod sealed {
+    pub trait Sealed {}
+
+    impl<P, C, O, E> Sealed for gauss_runtime::integrate::Simulation<P, C, O, E> {}
+}
+
 pub use measure::Tune;
 pub use method::{EitherForm, Method};
 pub use tuned::{Candidate, Measured, TuneError, Tuned};

@@ -320,7 +320,7 @@ fn operations<S: DescribedSystem>(form: EitherForm) -> u64 {
 }
 
 /// Measures methods on the scene of a [`Simulation`].
-pub trait Tune<S: GaussSystem>: Sized {
+pub trait Tune<S: GaussSystem>: Sized + crate::sealed::Sealed {
     /// A simulation by a candidate.
     type Chosen;
 

@@ -16,6 +16,7 @@ use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::runge_kutta::components::{ComponentsOf, Point};
+use crate::sealed::Sealed;
 use crate::simd::Packed;
 
 /// Room for so many derivatives: with those of a vector the nearest cache is not full.
@@ -180,6 +181,8 @@ impl<S: BatchSystem, const K: usize> Advance<S> for Steps<S, K> {
         self.known.drain(..).fold(rates, |rates, (ones, known)| chosen_rates(ones, &known, &rates))
     }
 }
+
+impl<T, const K: usize> Sealed for Adams<T, K> {}
 
 impl<S: BatchSystem, const K: usize> LaneControl<S> for Adams<S::Scalar, K> {
     type Memory = Memory<S, K>;

@@ -53,6 +53,7 @@ use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake, RunPart};
 use crate::integrate::problem::state::{Sample, State, TangentOf};
 use crate::real::Real;
+use crate::sealed::Sealed;
 use crate::system::GaussSystem;
 
 /// The state of one event from step to step.
@@ -90,7 +91,7 @@ struct BeforeJump {
 }
 
 /// The events of a run, in the order in which they were added to the simulation.
-pub trait Events<S: GaussSystem> {
+pub trait Events<S: GaussSystem>: Sealed {
     /// Their number.
     const COUNT: usize;
 
@@ -105,6 +106,8 @@ pub trait Events<S: GaussSystem> {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoEvents;
 
+impl Sealed for NoEvents {}
+
 impl<S: GaussSystem> Events<S> for NoEvents {
     const COUNT: usize = 0;
 
@@ -114,6 +117,8 @@ impl<S: GaussSystem> Events<S> for NoEvents {
         false
     }
 }
+
+impl<E: Sealed> Sealed for &mut E {}
 
 impl<S: GaussSystem, E: Events<S>> Events<S> for &mut E {
     const COUNT: usize = E::COUNT;
@@ -152,7 +157,7 @@ impl<E, G> Watched<E, G> {
 }
 
 /// The effect of an event on the state.
-pub trait Jump<S: GaussSystem> {
+pub trait Jump<S: GaussSystem>: Sealed {
     /// Changes it; whether it does.
     fn jump(&mut self, state: &mut Sample<S>) -> bool;
 }
@@ -160,6 +165,8 @@ pub trait Jump<S: GaussSystem> {
 /// No jump: the state stays as it is.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoJump;
+
+impl Sealed for NoJump {}
 
 impl<S: GaussSystem> Jump<S> for NoJump {
     fn jump(&mut self, _: &mut Sample<S>) -> bool {
@@ -171,12 +178,16 @@ impl<S: GaussSystem> Jump<S> for NoJump {
 #[derive(Clone, Copy, Debug)]
 pub struct JumpFunction<J>(J);
 
+impl<J> Sealed for JumpFunction<J> {}
+
 impl<S: GaussSystem, J: FnMut(&mut Sample<S>)> Jump<S> for JumpFunction<J> {
     fn jump(&mut self, state: &mut Sample<S>) -> bool {
         (self.0)(state);
         true
     }
 }
+
+impl<E, G, J> Sealed for Watched<E, G, J> {}
 
 impl<S, E, G, J> Events<S> for Watched<E, G, J>
 where

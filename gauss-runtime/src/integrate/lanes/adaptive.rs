@@ -17,6 +17,7 @@ use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::integrate::step::one_step::EstimatingStep;
 use crate::real::Real;
+use crate::sealed::Sealed;
 use crate::simd::Packed;
 
 /// What one lane remembers: the fields of the same names of a run of its own.
@@ -177,6 +178,8 @@ fn growths(lanes: &[Lane], excesses: &Option<[f64; TOGETHER]>) -> ([f64; TOGETHE
     }
     (logarithms, growths)
 }
+
+impl<M> Sealed for Adaptive<M> {}
 
 impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
     type Memory = Memory<S>;

@@ -15,6 +15,7 @@ use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::step::one_step::OneStep;
 use crate::real::Real;
+use crate::sealed::Sealed;
 use crate::simd::Packed;
 
 /// Where a lane is on its way.
@@ -224,6 +225,8 @@ impl<S: BatchSystem, M: OneStep<S>> Advance<S> for One<'_, M> {
         rates
     }
 }
+
+impl<T, M> Sealed for Fixed<T, M> {}
 
 impl<S: BatchSystem, M: OneStep<S>> LaneControl<S> for Fixed<S::Scalar, M> {
     type Memory = March<S>;

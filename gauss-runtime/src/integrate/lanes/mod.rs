@@ -25,12 +25,13 @@ use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::integrate::problem::state::{Rates, State};
 use crate::real::Real;
+use crate::sealed::Sealed;
 use crate::simd::Packed;
 
 /// A choice of steps that can be made for every lane by itself: [`Adaptive`](crate::integrate::Adaptive) by any method that estimates
 /// its error, [`Taylor`](crate::integrate::Taylor), [`Fixed`](crate::integrate::Fixed) by any method, and
-/// [`Adams`](crate::integrate::Adams). Its functions are for the runs of this crate.
-pub trait LaneControl<S: BatchSystem>: Control<S> {
+/// [`Adams`](crate::integrate::Adams). Its functions are for the runs of this crate, which alone implements it.
+pub trait LaneControl<S: BatchSystem>: Control<S> + Sealed {
     /// What is remembered from step to step.
     #[doc(hidden)]
     type Memory;

@@ -12,6 +12,7 @@ use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::taylor::{Order, Shortened, Taylor, expanded, summed};
 use crate::real::Real;
+use crate::sealed::Sealed;
 use crate::series::{PowerSeries, TaylorSystem};
 use crate::simd::Packed;
 
@@ -90,6 +91,8 @@ where
         }
     }
 }
+
+impl Sealed for Taylor {}
 
 impl<S: TaylorSystem + BatchSystem> LaneControl<S> for Taylor {
     type Memory = Memory<S>;

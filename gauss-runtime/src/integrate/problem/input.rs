@@ -1,5 +1,6 @@
 //! Where the values of the input come from during a run.
 
+use crate::sealed::Sealed;
 use crate::system::GaussSystem;
 
 /// Where the values of the input come from during a run: a closure
@@ -87,10 +88,12 @@ impl<S: GaussSystem<Input: EmptyInput>> InputSource<S> for NoInput {
     label = "this run has no `.input(…)`",
     note = "add `.input(|t, q, z| SVector::from([…]))` before the run, with a number for each input in the order of the scene"
 )]
-pub trait EmptyInput {
+pub trait EmptyInput: Sealed {
     /// Nothing.
     const NONE: Self;
 }
+
+impl Sealed for () {}
 
 impl EmptyInput for () {
     const NONE: Self = ();
