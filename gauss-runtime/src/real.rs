@@ -18,6 +18,11 @@ use crate::trigonometry::{sin_cos, sines_and_cosines};
 /// `UnitQuaternion`, …) need to hold a scalar: `Copy + PartialEq + Debug + 'static` implies `nalgebra::Scalar`, and nothing
 /// more is required because this crate works on components only.
 ///
+/// A scalar of your own writes [`LANES`](Self::LANES) and eleven functions; all others are made of these, and are worth
+/// writing where the number type knows better. A scalar with less precision or more than `f64` writes
+/// [`EPSILON`](Self::EPSILON), and one that bounds its errors [`omitting`](Self::omitting). To be worked on in lockstep, or
+/// many states at once, it implements [`Packed`](crate::simd::Packed) as well.
+///
 /// Every function acts on each lane by itself and follows IEEE 754: results outside the domain are NaN, never a panic.
 /// Angles are in radians.
 pub trait Real:
@@ -47,16 +52,30 @@ pub trait Real:
     fn lane(self, i: usize) -> f64;
 
     /// Zero in every lane.
-    fn zero() -> Self;
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::from_f64(0.0)
+    }
 
     /// One in every lane.
-    fn one() -> Self;
+    #[inline(always)]
+    fn one() -> Self {
+        Self::from_f64(1.0)
+    }
 
     /// `value` in every lane, rounded to the precision of a lane.
     fn from_f64(value: f64) -> Self;
 
-    /// The rational number `p/q` in every lane, correctly rounded. `q = 0` gives what a division by zero gives.
-    fn ratio(p: i64, q: i64) -> Self;
+    /// The rational number `p/q` in every lane. `q = 0` gives what a division by zero gives.
+    ///
+    /// Correctly rounded where lanes can hold p and q, if division is; plain floats round other ratios once as well, the
+    /// function provided here p and q first.
+    #[inline]
+    fn ratio(p: i64, q: i64) -> Self {
+        // Halves of 32 digits are exact in `f64`, and their sum in whatever has 64 digits.
+        let number = |n: i64| Self::from_f64(((n >> 32) << 32) as f64) + Self::from_f64((n & 0xffff_ffff) as f64);
+        number(p) / number(q)
+    }
 
     /// `self·b + c`. Fused where that is one machine instruction, else two roundings: a fused multiply-add by software
     /// costs more than everything around it.
@@ -103,13 +122,22 @@ pub trait Real:
     }
 
     /// Inverse sine, in [−π/2, π/2].
-    fn asin(self) -> Self;
+    #[inline]
+    fn asin(self) -> Self {
+        self.atan2(((Self::one() - self) * (Self::one() + self)).sqrt())
+    }
 
     /// Inverse cosine, in [0, π].
-    fn acos(self) -> Self;
+    #[inline]
+    fn acos(self) -> Self {
+        ((Self::one() - self) * (Self::one() + self)).sqrt().atan2(self)
+    }
 
     /// Inverse tangent, in [−π/2, π/2].
-    fn atan(self) -> Self;
+    #[inline]
+    fn atan(self) -> Self {
+        self.atan2(Self::one())
+    }
 
     /// The angle of the point (`x`, `self`), in [−π, π]: `self` is the ordinate.
     fn atan2(self, x: Self) -> Self;
@@ -118,7 +146,13 @@ pub trait Real:
     fn sinh(self) -> Self;
 
     /// Hyperbolic cosine.
-    fn cosh(self) -> Self;
+    #[inline]
+    fn cosh(self) -> Self {
+        // By the exponential of half the argument, whose square alone may overflow.
+        let half = Self::ratio(1, 2);
+        let (growing, shrinking) = ((half * self).exp(), (-half * self).exp());
+        (half * growing) * growing + (half * shrinking) * shrinking
+    }
 
     /// Hyperbolic tangent.
     fn tanh(self) -> Self;
@@ -153,8 +187,11 @@ pub trait Real:
         (exponent * self.ln()).exp()
     }
 
-    /// Absolute value.
-    fn abs(self) -> Self;
+    /// Absolute value. The function provided here leaves −0 as it is.
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::select_lt(self, Self::zero(), -self, self)
+    }
 
     /// −1, 0 or 1, lane by lane; NaN of NaN.
     #[inline(always)]
@@ -189,7 +226,6 @@ pub trait Real:
     /// `self`, of which terms were left out that are together at most `at_most` in magnitude: the rest of a power series, the
     /// rounding of a coefficient. Scalars that account for their error (`gauss-bounded`) widen it; others are what they are.
     // No trait of its own: functions that take any `Real` call it, so that each scalar would have to implement that one, too.
-    #[doc(hidden)]
     #[inline(always)]
     fn omitting(self, at_most: Self) -> Self {
         let _ = at_most;
@@ -209,129 +245,7 @@ pub trait Real:
     fn all_lt(a: Self, b: Self) -> bool {
         (0..Self::LANES).all(|i| a.lane(i) < b.lane(i))
     }
-
-    /// One operation on the numbers of arrays, with the bits of one by one: plain floats are done in vectors.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn together<O: Operation, const N: usize>(numbers: [&[Self; N]; 4]) -> [Self; N] {
-        one_by_one::<Self, O, N>(numbers)
-    }
-
-    /// Whether the answer is yes for all numbers of arrays.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn all_together<Q: Question, const N: usize>(numbers: [&[Self; N]; 2]) -> bool {
-        each::<Self, Q, N>(numbers)
-    }
 }
-
-/// An operation on numbers, lane by lane: of as many of the four as it needs.
-#[doc(hidden)]
-pub trait Operation {
-    /// What it gives.
-    fn of<V: Real>(numbers: [V; 4]) -> V;
-}
-
-/// A question whose answer for several numbers is yes where it is for each.
-#[doc(hidden)]
-pub trait Question {
-    /// The answer.
-    fn of<V: Real>(numbers: [V; 2]) -> bool;
-}
-
-/// One by one.
-#[inline]
-fn one_by_one<T: Real, O: Operation, const N: usize>(numbers: [&[T; N]; 4]) -> [T; N] {
-    let mut results = *numbers[0];
-    for i in 0..N {
-        results[i] = O::of([numbers[0][i], numbers[1][i], numbers[2][i], numbers[3][i]]);
-    }
-    results
-}
-
-/// One by one, without a branch at each.
-#[inline]
-fn each<T: Real, Q: Question, const N: usize>(numbers: [&[T; N]; 2]) -> bool {
-    (0..N).fold(true, |all, i| all & Q::of([numbers[0][i], numbers[1][i]]))
-}
-
-/// In the vectors of the crate `wide`: as many of the longest as there are, then of shorter ones.
-#[cfg(feature = "wide")]
-macro_rules! in_vectors {
-    ($float:ident, $operation:ident, $question:ident: $($vector:ident of $width:literal),+) => {
-        #[inline]
-        fn $operation<O: Operation, const N: usize>(numbers: [&[$float; N]; 4]) -> [$float; N] {
-            use ::wide::{$($vector),+};
-
-            let (mut results, mut done) = ([0.0; N], 0);
-            $(
-                while done + $width <= N {
-                    let part = |k: usize| {
-                        let mut part = [0.0; $width];
-                        part.copy_from_slice(&numbers[k][done..done + $width]);
-                        $vector::new(part)
-                    };
-                    let result = O::of([part(0), part(1), part(2), part(3)]);
-                    results[done..done + $width].copy_from_slice(&result.to_array());
-                    done += $width;
-                }
-            )+
-            while done < N {
-                results[done] = O::of(numbers.map(|numbers| numbers[done]));
-                done += 1;
-            }
-            results
-        }
-
-        #[inline]
-        fn $question<Q: Question, const N: usize>(numbers: [&[$float; N]; 2]) -> bool {
-            use ::wide::{$($vector),+};
-
-            let (mut all, mut done) = (true, 0);
-            $(
-                while done + $width <= N {
-                    let part = |k: usize| {
-                        let mut part = [0.0; $width];
-                        part.copy_from_slice(&numbers[k][done..done + $width]);
-                        $vector::new(part)
-                    };
-                    all &= Q::of([part(0), part(1)]);
-                    done += $width;
-                }
-            )+
-            while done < N {
-                all &= Q::of(numbers.map(|numbers| numbers[done]));
-                done += 1;
-            }
-            all
-        }
-    };
-}
-
-#[cfg(feature = "wide")]
-in_vectors!(f64, of_doubles, all_doubles: f64x8 of 8, f64x4 of 4);
-#[cfg(feature = "wide")]
-in_vectors!(f32, of_singles, all_singles: f32x16 of 16, f32x8 of 8);
-
-#[cfg(not(feature = "wide"))]
-macro_rules! in_loops {
-    ($float:ident, $operation:ident, $question:ident) => {
-        #[inline]
-        fn $operation<O: Operation, const N: usize>(numbers: [&[$float; N]; 4]) -> [$float; N] {
-            one_by_one::<$float, O, N>(numbers)
-        }
-
-        #[inline]
-        fn $question<Q: Question, const N: usize>(numbers: [&[$float; N]; 2]) -> bool {
-            each::<$float, Q, N>(numbers)
-        }
-    };
-}
-
-#[cfg(not(feature = "wide"))]
-in_loops!(f64, of_doubles, all_doubles);
-#[cfg(not(feature = "wide"))]
-in_loops!(f32, of_singles, all_singles);
 
 #[cfg(feature = "std")]
 macro_rules! elementary {
@@ -347,7 +261,7 @@ macro_rules! elementary {
 const LARGE_ANGLE: f64 = 65_536.0;
 
 macro_rules! implement_real {
-    ($float:ident, $digits:expr, $operation:ident $question:ident; $($std:ident $libm:ident),+; $atan2:ident $pow:ident $tan:ident $sincos:expr, $together:expr) => {
+    ($float:ident, $digits:expr; $($std:ident $libm:ident),+; $atan2:ident $pow:ident $tan:ident $sincos:expr, $together:expr) => {
         impl Real for $float {
             const LANES: usize = 1;
             const EPSILON: f64 = $float::EPSILON as f64;
@@ -447,25 +361,15 @@ macro_rules! implement_real {
             fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
                 if a < b { x } else { y }
             }
-
-            #[inline(always)]
-            fn together<O: Operation, const N: usize>(numbers: [&[Self; N]; 4]) -> [Self; N] {
-                $operation::<O, N>(numbers)
-            }
-
-            #[inline(always)]
-            fn all_together<Q: Question, const N: usize>(numbers: [&[Self; N]; 2]) -> bool {
-                $question::<Q, N>(numbers)
-            }
         }
     };
 }
 
-implement_real!(f64, 53, of_doubles all_doubles;
+implement_real!(f64, 53;
     sqrt sqrt, asin asin, acos acos, atan atan,
     sinh sinh, cosh cosh, tanh tanh, exp exp, ln log; atan2 pow tan
     |x: f64| sin_cos(x, f64::fma), |angles: [f64; N]| sines_and_cosines(angles, f64::fma));
-implement_real!(f32, 24, of_singles all_singles;
+implement_real!(f32, 24;
 sqrt sqrtf, asin asinf, acos acosf, atan atanf,
 sinh sinhf, cosh coshf, tanh tanhf, exp expf, ln logf; atan2f powf tanf
 |x: f32| {
@@ -566,6 +470,110 @@ mod tests {
         assert_eq!(f32::ratio((1 << 60) + (1 << 36), 1 << 60), 1.0);
         assert!(f64::ratio(0, 0).is_nan());
         assert_eq!(f64::ratio(-1, 0), f64::NEG_INFINITY);
+    }
+
+    /// A scalar with no more than a scalar has to have.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    struct Least(f64);
+
+    macro_rules! arithmetic {
+        ($($trait:ident $method:ident $assign_trait:ident $assign:ident;)+) => {$(
+            impl $trait for Least {
+                type Output = Self;
+
+                fn $method(self, other: Self) -> Self {
+                    Self(self.0.$method(other.0))
+                }
+            }
+
+            impl $assign_trait for Least {
+                fn $assign(&mut self, other: Self) {
+                    self.0.$assign(other.0);
+                }
+            }
+        )+};
+    }
+
+    arithmetic! {
+        Add add AddAssign add_assign;
+        Sub sub SubAssign sub_assign;
+        Mul mul MulAssign mul_assign;
+        Div div DivAssign div_assign;
+    }
+
+    impl Neg for Least {
+        type Output = Self;
+
+        fn neg(self) -> Self {
+            Self(-self.0)
+        }
+    }
+
+    macro_rules! functions {
+        ($($name:ident)+) => {$(
+            fn $name(self) -> Self {
+                Self(Real::$name(self.0))
+            }
+        )+};
+    }
+
+    impl Real for Least {
+        const LANES: usize = 1;
+
+        fn lane(self, _: usize) -> f64 {
+            self.0
+        }
+
+        fn from_f64(value: f64) -> Self {
+            Self(value)
+        }
+
+        functions!(sqrt sinh tanh exp ln);
+
+        fn sin_cos(self) -> (Self, Self) {
+            let (sine, cosine) = Real::sin_cos(self.0);
+            (Self(sine), Self(cosine))
+        }
+
+        fn atan2(self, x: Self) -> Self {
+            Self(Real::atan2(self.0, x.0))
+        }
+
+        fn is_finite(self) -> bool {
+            self.0.is_finite()
+        }
+
+        fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
+            if a.0 < b.0 { x } else { y }
+        }
+    }
+
+    /// Each function of the library is within an ulp; of the sums and products, 1 − x and 1 + x are exact or rounded once,
+    /// and the root halves what goes into it. Exponentials are squared, which doubles their error.
+    #[test]
+    fn a_scalar_writes_eleven_functions() {
+        let near = |found: Least, expected: f64, ulps: f64| {
+            assert!((found.0 - expected).abs() <= ulps * f64::EPSILON * expected.abs(), "{} {expected}", found.0);
+        };
+        for x in [-1.0, -0.999_999, -0.5, -1e-9, 0.0, 1e-300, 0.3, 0.7, 0.999, 1.0] {
+            near(Least(x).asin(), Real::asin(x), 4.0);
+            near(Least(x).acos(), Real::acos(x), 4.0);
+        }
+        for x in [-710.4, -40.0, -1.0, 0.0, 1e-9, 0.4, 3.0, 710.4] {
+            near(Least(x).atan(), Real::atan(x), 4.0);
+            near(Least(x).cosh(), Real::cosh(x), 6.0);
+            assert_eq!(Least(x).abs().0, Real::abs(x));
+        }
+        near(Least(-1e300).atan(), -core::f64::consts::FRAC_PI_2, 1.0);
+        assert!(Least(1.1).asin().0.is_nan() && Least(-1.1).acos().0.is_nan());
+        assert_eq!((Least::zero(), Least::one()), (Least(0.0), Least(1.0)));
+        for (p, q) in [(1, 3), (-22, 7), (i64::MIN, 3), (43_867, 5_109_094_217_170_944_000), (-7, i64::MAX), (1, 0)] {
+            assert_eq!(Least::ratio(p, q).0.is_finite(), f64::ratio(p, q).is_finite());
+            if q != 0 {
+                near(Least::ratio(p, q), f64::ratio(p, q), 2.0);
+            }
+        }
+        assert_eq!([Least::ratio(1, 3).0, Least::ratio(-22, 7).0], [f64::ratio(1, 3), f64::ratio(-22, 7)]);
     }
 
     #[test]

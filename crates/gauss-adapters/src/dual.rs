@@ -144,16 +144,6 @@ impl<D: Parts> Real for DualNumber<D> {
     }
 
     #[inline(always)]
-    fn zero() -> Self {
-        Self::from_f64(0.0)
-    }
-
-    #[inline(always)]
-    fn one() -> Self {
-        Self::from_f64(1.0)
-    }
-
-    #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Self(D::from_re(value))
     }
@@ -174,11 +164,6 @@ impl<D: Parts> Real for DualNumber<D> {
     #[inline]
     fn atan2(self, x: Self) -> Self {
         Self(DualNum::atan2(&self.0, x.0))
-    }
-
-    #[inline]
-    fn abs(self) -> Self {
-        Self::select_lt(self, Self::zero(), -self, self)
     }
 
     #[inline]

@@ -3,7 +3,7 @@
 //!
 //! | scalar | with |
 //! |---|---|
-//! | [`Lanes<T, N>`](Lanes) | any scalar and any number of lanes: an array; of `f32` and `f64` in the vectors below, where there are |
+//! | [`Lanes<T, N>`](Lanes) | any scalar that is [`Packed`] and any number of lanes: an array; of `f32` and `f64` in the vectors below, where there are |
 //! | `wide::f64x4`, `wide::f64x8`, `wide::f32x8`, `wide::f32x16` | the feature `wide`: instructions of that width where the target has them |
 //!
 //! Eight numbers of 64 bits are best in `wide::f64x8`, which always lies in one line of the cache; four are as good in
@@ -13,6 +13,7 @@
 //! alone. So do explicit methods on components; exponentials of increments choose their series by the largest lane from half a radian
 //! on, and iterations of implicit methods go on until all lanes are solved.
 
+mod floats;
 mod packed;
 mod together;
 #[cfg(feature = "wide")]
@@ -22,9 +23,10 @@ pub use packed::Packed;
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::real::{Operation, Real};
+use crate::real::Real;
 use together::{
-    Choice, Difference, Finite, Less, Magnitude, Opposite, Product, ProductAndSum, Quotient, Reciprocal, Root, Sum,
+    Choice, Difference, Finite, Less, Magnitude, Operation, Opposite, Product, ProductAndSum, Quotient, Reciprocal,
+    Root, Sum,
 };
 
 /// N numbers in lockstep: of `f64`, four fill a vector of 256 bits, eight one of 512.
@@ -66,7 +68,7 @@ impl<T: Copy, const N: usize> Lanes<T, N> {
     }
 }
 
-impl<T: Real, const N: usize> Lanes<T, N> {
+impl<T: Real + Packed, const N: usize> Lanes<T, N> {
     #[inline(always)]
     fn together<O: Operation>(&self, other: &Self) -> Self {
         Self(T::together::<O, N>([&self.0, &other.0, &other.0, &other.0]))
@@ -91,7 +93,7 @@ impl<T, const N: usize> core::ops::IndexMut<usize> for Lanes<T, N> {
 
 macro_rules! lane_by_lane {
     ($($trait:ident $method:ident $assign_trait:ident $assign:ident $operation:ident;)+) => {$(
-        impl<T: Real, const N: usize> $trait for Lanes<T, N> {
+        impl<T: Real + Packed, const N: usize> $trait for Lanes<T, N> {
             type Output = Self;
 
             #[inline(always)]
@@ -100,7 +102,7 @@ macro_rules! lane_by_lane {
             }
         }
 
-        impl<T: Real, const N: usize> $assign_trait for Lanes<T, N> {
+        impl<T: Real + Packed, const N: usize> $assign_trait for Lanes<T, N> {
             #[inline(always)]
             fn $assign(&mut self, other: Self) {
                 *self = self.$method(other);
@@ -116,7 +118,7 @@ lane_by_lane! {
     Div div DivAssign div_assign Quotient;
 }
 
-impl<T: Real, const N: usize> Neg for Lanes<T, N> {
+impl<T: Real + Packed, const N: usize> Neg for Lanes<T, N> {
     type Output = Self;
 
     #[inline(always)]
@@ -134,7 +136,7 @@ macro_rules! functions {
     )+};
 }
 
-impl<T: Real, const N: usize> Real for Lanes<T, N> {
+impl<T: Real + Packed, const N: usize> Real for Lanes<T, N> {
     const LANES: usize = N * T::LANES;
     const EPSILON: f64 = T::EPSILON;
 

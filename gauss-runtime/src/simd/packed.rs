@@ -3,6 +3,7 @@
 use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 
 use super::Lanes;
+use super::together::{Operation, Question, each, one_by_one};
 use crate::configuration::{Configuration, Product, VectorSpace};
 use crate::real::Real;
 
@@ -30,6 +31,26 @@ pub trait Packed: Copy {
     /// # Panics
     /// When `lane ≥ WIDTH`.
     fn replace(&mut self, lane: usize, single: &Self::Single);
+
+    /// One operation on the numbers of arrays, with the bits of one by one: plain floats are done in vectors.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn together<O: Operation, const N: usize>(numbers: [&[Self; N]; 4]) -> [Self; N]
+    where
+        Self: Real,
+    {
+        one_by_one::<Self, O, N>(numbers)
+    }
+
+    /// Whether the answer is yes for all numbers of arrays.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn all_together<Q: Question, const N: usize>(numbers: [&[Self; N]; 2]) -> bool
+    where
+        Self: Real,
+    {
+        each::<Self, Q, N>(numbers)
+    }
 }
 
 /// [`Packed`] of scalars that are one number: one state of a batch is one number. For crates with
@@ -37,7 +58,7 @@ pub trait Packed: Copy {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __packs_of_one_0_1_0 {
-    ($([$($generics:tt)*] $scalar:ty;)+) => {$(
+    ($([$($generics:tt)*] $scalar:ty $({ $($own:tt)* })?;)+) => {$(
         impl<$($generics)*> $crate::simd::Packed for $scalar {
             type Single = Self;
             const WIDTH: usize = 1;
@@ -56,13 +77,10 @@ macro_rules! __packs_of_one_0_1_0 {
             fn replace(&mut self, lane: usize, single: &Self) {
                 [self][lane].clone_from(single);
             }
+
+            $($($own)*)?
         }
     )+};
-}
-
-__packs_of_one_0_1_0! {
-    [] f32;
-    [] f64;
 }
 
 impl<T: Real, const N: usize> Packed for Lanes<T, N> {

@@ -1,6 +1,34 @@
 //! What is done with the numbers of lanes at once.
 
-use crate::real::{Operation, Question, Real};
+use crate::real::Real;
+
+/// An operation on numbers, lane by lane: of as many of the four as it needs.
+pub trait Operation {
+    /// What it gives.
+    fn of<V: Real>(numbers: [V; 4]) -> V;
+}
+
+/// A question whose answer for several numbers is yes where it is for each.
+pub trait Question {
+    /// The answer.
+    fn of<V: Real>(numbers: [V; 2]) -> bool;
+}
+
+/// One by one.
+#[inline]
+pub(super) fn one_by_one<T: Real, O: Operation, const N: usize>(numbers: [&[T; N]; 4]) -> [T; N] {
+    let mut results = *numbers[0];
+    for i in 0..N {
+        results[i] = O::of([numbers[0][i], numbers[1][i], numbers[2][i], numbers[3][i]]);
+    }
+    results
+}
+
+/// One by one, without a branch at each.
+#[inline]
+pub(super) fn each<T: Real, Q: Question, const N: usize>(numbers: [&[T; N]; 2]) -> bool {
+    (0..N).fold(true, |all, i| all & Q::of([numbers[0][i], numbers[1][i]]))
+}
 
 macro_rules! operations {
     ($($name:ident: |$numbers:ident| $value:expr;)+) => {$(
