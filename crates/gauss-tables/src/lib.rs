@@ -54,13 +54,7 @@ mod table;
 
 /// [`Tabulate`] is for runs and [`Export`] for tables alone, so that functions can be added to them.
 mod sealed {
-    use gauss_runtime::system::GaussSystem;
-
     pub trait Sealed {}
-
-    impl<S: GaussSystem> Sealed for gauss_runtime::integrate::Trajectory<'_, S> {}
-
-    impl<S: GaussSystem> Sealed for crate::Table<S> {}
 }
 
 pub use error::TableError;

@@ -56,6 +56,10 @@ pub trait Tabulate<S: GaussSystem>: crate::sealed::Sealed {
     fn table_at(&self, times: impl IntoIterator<Item = S::Scalar>) -> Result<Table<S>, IntegrationError>;
 }
 
+impl<S: GaussSystem> crate::sealed::Sealed for Trajectory<'_, S> {}
+
+impl<S: GaussSystem> crate::sealed::Sealed for Table<S> {}
+
 impl<S: GaussSystem> Tabulate<S> for Trajectory<'_, S> {
     fn table(&self) -> Table<S> {
         Table::new(self.samples().to_vec())

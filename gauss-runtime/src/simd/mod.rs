@@ -228,3 +228,23 @@ impl<T: Real + Packed, const N: usize> Real for Lanes<T, N> {
         T::all_together::<Less, N>([&a.0, &b.0])
     }
 }
+
+impl<T: Real, const N: usize> Packed for Lanes<T, N> {
+    type Single = T;
+    const WIDTH: usize = N;
+
+    #[inline(always)]
+    fn repeat(single: &T) -> Self {
+        Self::splat(*single)
+    }
+
+    #[inline(always)]
+    fn extract(&self, lane: usize) -> T {
+        self.0[lane]
+    }
+
+    #[inline(always)]
+    fn replace(&mut self, lane: usize, single: &T) {
+        self.0[lane] = *single;
+    }
+}

@@ -2,7 +2,6 @@
 
 use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 
-use super::Lanes;
 use super::together::{Operation, Question, each, one_by_one};
 use crate::configuration::{Configuration, Product, VectorSpace};
 use crate::real::Real;
@@ -81,26 +80,6 @@ macro_rules! __packs_of_one_0_1_0 {
             $($($own)*)?
         }
     )+};
-}
-
-impl<T: Real, const N: usize> Packed for Lanes<T, N> {
-    type Single = T;
-    const WIDTH: usize = N;
-
-    #[inline(always)]
-    fn repeat(single: &T) -> Self {
-        Self::splat(*single)
-    }
-
-    #[inline(always)]
-    fn extract(&self, lane: usize) -> T {
-        self.0[lane]
-    }
-
-    #[inline(always)]
-    fn replace(&mut self, lane: usize, single: &T) {
-        self.0[lane] = *single;
-    }
 }
 
 /// The same numbers in another scalar.
