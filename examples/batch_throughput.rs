@@ -1,13 +1,14 @@
-//! How much faster many states are than one after another: accelerations and steps of three bodies, per core, in packs of every kind.
+//! How much faster many states are than one after another: accelerations and steps of three bodies, per core, in packs
+//! of every kind.
 //!
-//! `cargo run --release --example batch_throughput`; with `RUSTFLAGS="-C target-cpu=native"` in the instructions of the machine, and with
-//! `-C target-feature=-prefer-256-bit` besides in vectors of 512 bits also where the compiler chooses. Ratios mean something within one
-//! run: what is compared is measured in turn.
+//! `cargo run --release --example batch_throughput`; with `RUSTFLAGS="-C target-cpu=native"` in the instructions of the
+//! machine, and with `-C target-feature=-prefer-256-bit` besides in vectors of 512 bits also where the compiler
+//! chooses. Ratios mean something within one run: what is compared is measured in turn.
 //!
-//! Then what is reached of the machine's limits, measured in the same minute on one thread: the rate of floating-point operations of a loop of
-//! nothing but independent multiply-adds (two operations each), and bytes read and written by a copy of arrays that no cache holds. Operations of a
-//! kernel are what `OPERATIONS` counts, a fused multiply-add as two; bytes are those of a state's configuration, speeds and result, each moved once.
-//! There the fastest round counts.
+//! Then what is reached of the machine's limits, measured in the same minute on one thread: the rate of floating-point
+//! operations of a loop of nothing but independent multiply-adds (two operations each), and bytes read and written by a
+//! copy of arrays that no cache holds. Operations of a kernel are what `OPERATIONS` counts, a fused multiply-add as
+//! two; bytes are those of a state's configuration, speeds and result, each moved once. There the fastest round counts.
 //! `--states N` sets how many states are beyond all caches.
 
 use std::hint::black_box;
@@ -182,7 +183,8 @@ fn time(mut work: impl FnMut()) -> f64 {
 
 /// Floating-point operations a second in registers, on vectors of eight and of four, whichever is faster.
 fn peak() -> f64 {
-    /// Chains of multiply-adds that do not wait for one another: enough for two units of latency four, few enough for sixteen registers.
+    /// Chains of multiply-adds that do not wait for one another: enough for two units of latency four, few enough for
+    /// sixteen registers.
     const CHAINS: usize = 12;
     const LENGTH: usize = 2000;
     macro_rules! rate {

@@ -1,7 +1,8 @@
 //! A pole balanced on a cart by a linear–quadratic regulator: `cargo run --release --example cart_pole`.
 //!
-//! `#[gauss(linearize)]` has the derive write the exact derivatives of the equations; upright they are the A and B that the
-//! regulator is designed for. It is then tried on the equations themselves. The page that plays goes to `target/gauss`.
+//! `#[gauss(linearize)]` has the derive write the exact derivatives of the equations; upright they are the A and B that
+//! the regulator is designed for. It is then tried on the equations themselves. The page that plays goes to
+//! `target/gauss`.
 
 use std::error::Error;
 
@@ -35,8 +36,9 @@ type State = SVector<f64, 4>;
 type Square = SMatrix<f64, 4, 4>;
 type Hamiltonian = SMatrix<f64, 8, 8>;
 
-/// P of `AᵀP + PA − PBBᵀP/r + Q = 0` that makes `A − BBᵀP/r` stable: from the sign of the Hamiltonian matrix by Newton's iteration
-/// (Roberts, *Linear model reduction and solution of the algebraic Riccati equation*, Int. J. Control 32, 1980).
+/// P of `AᵀP + PA − PBBᵀP/r + Q = 0` that makes `A − BBᵀP/r` stable: from the sign of the Hamiltonian matrix by
+/// Newton's iteration (Roberts, *Linear model reduction and solution of the algebraic Riccati equation*, Int. J.
+/// Control 32, 1980).
 fn riccati(a: &Square, b: &State, q: &Square, r: f64) -> Option<Square> {
     let mut z = Hamiltonian::zeros();
     z.fixed_view_mut::<4, 4>(0, 0).copy_from(a);
@@ -96,8 +98,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("  {:5.1} {x:7.3} {theta:6.3} {:8.3}", s.t, law(s.t, &s.q, &s.z)[0]);
     }
 
-    // Near upright a disturbance x costs xᵀPx in the end: a check of derivatives, regulator and run together. What the linear
-    // equations neglect is of second order in the angle.
+    // Near upright a disturbance x costs xᵀPx in the end: a check of derivatives, regulator and run together. What the
+    // linear equations neglect is of second order in the angle.
     let start = State::new(0.0, 1e-3, 0.0, 0.0);
     let (step, mut cost, mut before) = (1e-3, 0.0, None);
     let run = simulation.fixed_step(step).run(upright + SVector::from([0.0, 1e-3]), still, 0.0..15.0)?;

@@ -1,9 +1,9 @@
 //! Bodies in a game: steps of one length, however fast frames come, and poses between them:
 //! `cargo run --release --example game_loop`.
 //!
-//! What happens must not depend on the machine that draws it: after the same number of steps the state is the same to the
-//! last bit at 30, 60 or 144 frames a second. What is drawn is between the last two states; how wrong that is is known:
-//! ⅛ h² times the acceleration.
+//! What happens must not depend on the machine that draws it: after the same number of steps the state is the same to
+//! the last bit at 30, 60 or 144 frames a second. What is drawn is between the last two states; how wrong that is is
+//! known: ⅛ h² times the acceleration.
 
 use std::error::Error;
 

@@ -1,15 +1,16 @@
-//! The inertia tensor and the centre of mass of a body from its motion: `cargo run --release --example identify_inertia`
-//! (`RUNS=10` before it: fewer runs).
+//! The inertia tensor and the centre of mass of a body from its motion:
+//! `cargo run --release --example identify_inertia` (`RUNS=10` before it: fewer runs).
 //!
-//! A satellite stands on an air bearing, a ball joint without friction, and is shaken by known torques. Its angular velocity and
-//! its attitude are measured, with noise. Two ways to its parameters, one after the other:
+//! A satellite stands on an air bearing, a ball joint without friction, and is shaken by known torques. Its angular
+//! velocity and its attitude are measured, with noise. Two ways to its parameters, one after the other:
 //!
-//! 1. `#[gauss(regressor)]`: the torques are linear in first moments and inertia, `Y(q, ω, ω̇) π = torque`, a least-squares problem
-//!    with one solution and no need to guess. It asks for ω̇, here the slope of parabolas through seven measured values of ω, which
-//!    flatten what oscillates: the estimate is a percent off.
-//! 2. `#[gauss(linearize(parameters))]`: the whole motion is fitted, parameters and initial state at once (Gauss–Newton). The
-//!    derivatives of the motion by them come from `error_matrix` and `by_parameters` along it. This is the maximum-likelihood
-//!    estimate; its covariance says how far it can be trusted, and many runs say whether that is true.
+//! 1. `#[gauss(regressor)]`: the torques are linear in first moments and inertia, `Y(q, ω, ω̇) π = torque`, a
+//!    least-squares problem with one solution and no need to guess. It asks for ω̇, here the slope of parabolas through
+//!    seven measured values of ω, which flatten what oscillates: the estimate is a percent off.
+//! 2. `#[gauss(linearize(parameters))]`: the whole motion is fitted, parameters and initial state at once
+//!    (Gauss–Newton). The derivatives of the motion by them come from `error_matrix` and `by_parameters` along it. This
+//!    is the maximum-likelihood estimate; its covariance says how far it can be trusted, and many runs say whether that
+//!    is true.
 
 use std::error::Error;
 use std::f64::consts::TAU;
@@ -39,8 +40,8 @@ struct Satellite {
     g: f64,
 }
 
-/// Unknown: three components of the centre of mass, six entries of the inertia tensor, beside the parameters that are known,
-/// mass and gravity. In the same places the regressor has first moments and inertia.
+/// Unknown: three components of the centre of mass, six entries of the inertia tensor, beside the parameters that are
+/// known, mass and gravity. In the same places the regressor has first moments and inertia.
 const UNKNOWN: usize = 9;
 const FIRST: usize = 1;
 /// With the initial attitude (an increment) and angular velocity before them.

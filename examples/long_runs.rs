@@ -1,10 +1,11 @@
-//! How rounding errors grow over long runs of a heavy top: energy, and the momentum about the vertical, which weight cannot
-//! change, after 10³ to 10ⁿ steps.
+//! How rounding errors grow over long runs of a heavy top: energy, and the momentum about the vertical, which weight
+//! cannot change, after 10³ to 10ⁿ steps.
 //!
-//! `cargo run --release --example long_runs` goes to 10⁵ steps, `… -- 8` to 10⁸ (hours). Errors are root mean squares over four
-//! starts, relative, in units of 10⁻¹⁶; `growth` is the exponent e of nᵉ from the second figure to the last: about ½ where
-//! roundings are independent of each other, 1 where each step errs the same way or the method itself does. The energy of a body in a
-//! fluid is quadratic without weight, and kept to rounding; with weight it is kept to the error of the method.
+//! `cargo run --release --example long_runs` goes to 10⁵ steps, `… -- 8` to 10⁸ (hours). Errors are root mean squares
+//! over four starts, relative, in units of 10⁻¹⁶; `growth` is the exponent e of nᵉ from the second figure to the last:
+//! about ½ where roundings are independent of each other, 1 where each step errs the same way or the method itself
+//! does. The energy of a body in a fluid is quadratic without weight, and kept to rounding; with weight it is kept to
+//! the error of the method.
 
 use gauss_exact::{MoserVeselov, Scheme, Splitting};
 use gauss_runtime::integrate::{Collocation, Compensated, Control, Fixed, Variational};

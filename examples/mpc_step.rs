@@ -1,8 +1,9 @@
 //! A pole balanced by model-predictive control with a motor that can push so hard and no harder:
 //! `cargo run --release --example mpc_step`.
 //!
-//! The derivatives of a whole step, exact ones, are the model of the sampled plant. Without limits the first push of the
-//! plan is that of the discrete regulator; with limits the conditions of Kuhn and Tucker say that the plan is the best one.
+//! The derivatives of a whole step, exact ones, are the model of the sampled plant. Without limits the first push of
+//! the plan is that of the discrete regulator; with limits the conditions of Kuhn and Tucker say that the plan is the
+//! best one.
 
 use std::error::Error;
 
@@ -81,9 +82,9 @@ impl Plant {
     // ANCHOR_END: condensed
 }
 
-/// The least ½ Uᵀ H U + Uᵀ f with every push within the limit. Pushes at the limit are held: the others go to their best
-/// as far as the next limit; when they are there, the held one that pulls back most is let go. H is positive definite,
-/// so that ends.
+/// The least ½ Uᵀ H U + Uᵀ f with every push within the limit. Pushes at the limit are held: the others go to their
+/// best as far as the next limit; when they are there, the held one that pulls back most is let go. H is positive
+/// definite, so that ends.
 fn best(hessian: &SMatrix<f64, AHEAD, AHEAD>, f: &Plan, limit: f64) -> Option<Plan> {
     let (mut plan, mut held) = (Plan::zeros(), [false; AHEAD]);
     for _ in 0..1000 {

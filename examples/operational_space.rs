@@ -1,6 +1,6 @@
-//! An arm of seven joints draws a circle with its tool, controlled in operational space: the error of the tool obeys the linear
-//! equation that the controller wants, whatever the arm does besides. `cargo run --release --example operational_space`
-//! writes the motion as a page into `target/gauss`.
+//! An arm of seven joints draws a circle with its tool, controlled in operational space: the error of the tool obeys
+//! the linear equation that the controller wants, whatever the arm does besides.
+//! `cargo run --release --example operational_space` writes the motion as a page into `target/gauss`.
 //!
 //! Joints are those of the public description of the Franka Emika Panda; links are like cylinders of its masses.
 
@@ -11,8 +11,8 @@ use gauss_runtime::frames::in_observers_axes;
 use gauss_runtime::operational::{OperationalError, OperationalSpace};
 use gauss_runtime::prelude::*;
 
-/// What is asked for beside the equations: the motion of the tool, and inverse dynamics at rest; the other frames are for the
-/// page.
+/// What is asked for beside the equations: the motion of the tool, and inverse dynamics at rest; the other frames are
+/// for the page.
 #[derive(GaussDynamics)]
 #[gauss(
     frames(b1, b2, b3, b4, b5, b6, b7, tool),
@@ -64,8 +64,8 @@ fn error(arm: &ArmKernel, t: f64, q: &Joints, z: &Joints) -> [Vector3<f64>; 2] {
     [tool.pose.translation.vector - place, tool.twist.fixed_rows::<3>(0) - velocity]
 }
 
-/// Torques with which the tool accelerates so that its error dies away, and the rest of the arm is braked where the tool does not
-/// feel it.
+/// Torques with which the tool accelerates so that its error dies away, and the rest of the arm is braked where the
+/// tool does not feel it.
 fn torques(arm: &ArmKernel, t: f64, q: &Joints, z: &Joints) -> Result<Joints, OperationalError> {
     let [place, velocity] = error(arm, t, q, z);
     let tool = arm.frames(t, q, z)[ArmFrame::tool];

@@ -1,7 +1,8 @@
-//! A kernel in the integrators of other crates: `cargo run --release --features other-integrators --example other_integrators`.
+//! A kernel in the integrators of other crates:
+//! `cargo run --release --features other-integrators --example other_integrators`.
 //!
-//! A heavy top for two seconds by `ode_solvers` and `differential-equations` beside our own run, and a door with a strong
-//! damper, which is stiff, by the implicit methods of `diffsol`. The tolerance of a step is the same everywhere.
+//! A heavy top for two seconds by `ode_solvers` and `differential-equations` beside our own run, and a door with a
+//! strong damper, which is stiff, by the implicit methods of `diffsol`. The tolerance of a step is the same everywhere.
 
 use std::cell::Cell;
 use std::time::Instant;

@@ -1,7 +1,7 @@
 //! A method of your own in twenty lines: `cargo run --release --example own_integrator`.
 //!
-//! Heun's method on the group, of order 2: an Euler step to look ahead, then a step with the mean of both rates. It knows
-//! nothing of bodies, charts or forces: any kernel runs with it, in velocity and in momentum form.
+//! Heun's method on the group, of order 2: an Euler step to look ahead, then a step with the mean of both rates. It
+//! knows nothing of bodies, charts or forces: any kernel runs with it, in velocity and in momentum form.
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::integrate::{

@@ -8,11 +8,11 @@ use gauss_playback::{Playback, Shape};
 use gauss_runtime::monitor::monitor;
 use gauss_runtime::prelude::*;
 
-/// A thin hoop on the floor z = 0. Its axis leans by `lean` from the vertical: at a right angle the hoop stands upright, at zero
-/// it lies flat.
+/// A thin hoop on the floor z = 0. Its axis leans by `lean` from the vertical: at a right angle the hoop stands
+/// upright, at zero it lies flat.
 ///
-/// The point that touches the floor rests. This says how fast the centre goes along the heading and across it, which cannot be
-/// integrated, and how high it is, which can.
+/// The point that touches the floor rests. This says how fast the centre goes along the heading and across it, which
+/// cannot be integrated, and how high it is, which can.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(x, y, z, heading, lean, spin),

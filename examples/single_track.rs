@@ -1,7 +1,8 @@
 //! A car as a single track whose tyres slip, at several speeds: `cargo run --release --example single_track`.
 //!
-//! Two checks are not of this library: how fast it turns in the end, and the speed at which a car that oversteers cannot be
-//! held any more (Riekert & Schunck, *Zur Fahrmechanik des gummibereiften Kraftfahrzeugs*, Ingenieur-Archiv 11, 1940).
+//! Two checks are not of this library: how fast it turns in the end, and the speed at which a car that oversteers
+//! cannot be held any more (Riekert & Schunck, *Zur Fahrmechanik des gummibereiften Kraftfahrzeugs*, Ingenieur-Archiv
+//! 11, 1940).
 
 use std::error::Error;
 
@@ -48,7 +49,8 @@ struct Car {
 // ANCHOR_END: car
 
 impl Car {
-    /// What the steering has to give more than L/R for each m/s² of lateral acceleration, rad s²/m: above 0 it understeers.
+    /// What the steering has to give more than L/R for each m/s² of lateral acceleration, rad s²/m: above 0 it
+    /// understeers.
     fn understeer(&self) -> f64 {
         let Self { mass, a, b, front_stiffness: front, rear_stiffness: rear, .. } = self;
         mass * (b * rear - a * front) / ((a + b) * front * rear)

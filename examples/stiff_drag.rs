@@ -1,9 +1,9 @@
 //! A capsule that creeps through thick oil, by explicit steps and by linearly implicit ones:
 //! `cargo run --release --example stiff_drag`.
 //!
-//! Its own motions die out within a ten-thousandth of a second; what there is to see takes ten seconds. Explicit methods follow
-//! the first all along, because longer steps are unstable. `#[gauss(linearize)]` has the derive write the Jacobian that a linearly
-//! implicit method needs: steps are then as long as the creeping allows.
+//! Its own motions die out within a ten-thousandth of a second; what there is to see takes ten seconds. Explicit
+//! methods follow the first all along, because longer steps are unstable. `#[gauss(linearize)]` has the derive write
+//! the Jacobian that a linearly implicit method needs: steps are then as long as the creeping allows.
 
 use std::error::Error;
 use std::time::{Duration, Instant};

@@ -2,7 +2,8 @@
 //!
 //! Masses, centres and radii of gyration are those of de Leva (*Adjustments to Zatsiorsky–Seluyanov's segment inertia
 //! parameters*, J. Biomechanics 29, 1996, table 4, males). That no muscle is needed is Mochon & McMahon's *Ballistic
-//! walking* (J. Biomechanics 13, 1980). The small oscillations are compared with those of two compound pendulums by hand.
+//! walking* (J. Biomechanics 13, 1980). The small oscillations are compared with those of two compound pendulums by
+//! hand.
 
 use std::error::Error;
 
@@ -68,8 +69,8 @@ impl Row {
     }
 }
 
-/// Shank and foot as one: mass, depth below the knee, inertia about their centre. The foot's centre is at the ankle: what
-/// it stands out in front is left out, as in ballistic walking.
+/// Shank and foot as one: mass, depth below the knee, inertia about their centre. The foot's centre is at the ankle:
+/// what it stands out in front is left out, as in ballistic walking.
 fn lower_leg() -> (f64, f64, f64) {
     let (shank, foot) = (SHANK.mass(), FOOT.mass());
     let mass = shank + foot;
@@ -138,8 +139,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("the knee is straight after {:.3} s, with the thigh {hip:.2} rad in front", end.t);
     let energy = |s: &Sample<LegKernel>| kernel.energy(s.t, &s.q, &s.z);
     let lost = (energy(end) - energy(run.first())).abs();
-    // Well within half a period of the slow oscillation, as a leg that swings ahead of a walker has to be; nothing takes
-    // energy before the knee is straight.
+    // Well within half a period of the slow oscillation, as a leg that swings ahead of a walker has to be; nothing
+    // takes energy before the knee is straight.
     if run.stopped_by() != Some(0) || end.t > 0.5 || hip < 0.0 || knee_dot > 0.0 || lost > 1e-8 {
         return Err("that is no step".into());
     }

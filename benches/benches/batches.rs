@@ -1,6 +1,8 @@
-//! `cargo bench -p gauss-benches --bench batches`: accelerations of many states, one by one and in batches of every kind of pack.
+//! `cargo bench -p gauss-benches --bench batches`: accelerations of many states, one by one and in batches of every
+//! kind of pack.
 //!
-//! With `--features robots` of S7′ and S8 as well. ns per state, medians of times taken in turn, and how many times more states a batch does in the same time.
+//! With `--features robots` of S7′ and S8 as well. ns per state, medians of times taken in turn, and how many times
+//! more states a batch does in the same time.
 
 use std::cell::RefCell;
 use std::hint::black_box;

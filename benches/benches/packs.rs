@@ -1,8 +1,9 @@
-//! `cargo bench -p gauss-benches --bench packs`: methods with vectors of four numbers beside the same, number by number.
+//! `cargo bench -p gauss-benches --bench packs`: methods with vectors of four numbers beside the same, number by
+//! number.
 //!
 //! Structs of `f64` are written with packs where the derive's model of cost has them win by a tenth or more; structs of
-//! any scalar are not, and differ in nothing else. So a ratio above one is a mistake of that model. *Chained*: each call
-//! waits for the one before. That all bits agree is looked at before anything is timed. With
+//! any scalar are not, and differ in nothing else. So a ratio above one is a mistake of that model. *Chained*: each
+//! call waits for the one before. That all bits agree is looked at before anything is timed. With
 //! `RUSTFLAGS="-C target-cpu=native"`; where products are not fused there are no packs, and ratios are one.
 
 use std::hint::black_box;

@@ -1,6 +1,6 @@
-//! `cargo bench -p gauss-benches --bench robots --features robots,peers [-- S8 …]`: forward and inverse dynamics of robots
-//! from their files, with the feature `robot-derivatives` also the derivatives of both, beside peers. Options as those
-//! of `kernels`.
+//! `cargo bench -p gauss-benches --bench robots --features robots,peers [-- S8 …]`: forward and inverse dynamics of
+//! robots from their files, with the feature `robot-derivatives` also the derivatives of both, beside peers. Options as
+//! those of `kernels`.
 
 use std::error::Error;
 

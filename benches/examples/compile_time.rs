@@ -1,11 +1,13 @@
-//! What a derive adds to `cargo build`: `cargo run --release -p gauss-benches --example compile_time [-- ROUNDS [STRUCTURE…]]`.
+//! What a derive adds to `cargo build`:
+//! `cargo run --release -p gauss-benches --example compile_time [-- ROUNDS [STRUCTURE…]]`.
 //!
-//! Programs are written to `target/compile_time`, each with one structure, and built with Cargo's own profiles `dev` and `release`. A program without
-//! the derive has the same struct and calls nothing of it; with the derive it makes a kernel and calls `acceleration`, with `linearize` that too, with
-//! `taylor` it runs a trajectory by power series instead, which compiles that integrator as well. Dependencies are compiled before anything is timed,
-//! and nothing is kept from build to build but them. Quoted is the median over the rounds, in which all programs of a structure take turns, of the
-//! difference to the program without the derive in the same round, with the range of the middle half. The trees, which take long,
-//! are built where they are asked for by name.
+//! Programs are written to `target/compile_time`, each with one structure, and built with Cargo's own profiles `dev`
+//! and `release`. A program without the derive has the same struct and calls nothing of it; with the derive it makes a
+//! kernel and calls `acceleration`, with `linearize` that too, with `taylor` it runs a trajectory by power series
+//! instead, which compiles that integrator as well. Dependencies are compiled before anything is timed, and nothing is
+//! kept from build to build but them. Quoted is the median over the rounds, in which all programs of a structure take
+//! turns, of the difference to the program without the derive in the same round, with the range of the middle half. The
+//! trees, which take long, are built where they are asked for by name.
 
 #[path = "../../gauss-codegen/examples/structures/mod.rs"]
 mod structures;

@@ -19,7 +19,8 @@ pub struct Case {
     pub ways: Vec<Way>,
     /// Operations of the generated kernel.
     pub operations: OperationCount,
-    /// The largest difference of each further way from the generated accelerations, relative to their length, over all states.
+    /// The largest difference of each further way from the generated accelerations, relative to their length, over all
+    /// states.
     pub differences: Vec<f64>,
     /// Ways of peers, each by every compiler, with their differences: the faster ones are moved to `ways`.
     pub peers: Vec<(Way, f64)>,
@@ -28,7 +29,8 @@ pub struct Case {
 /// A function that is timed, and what it computes with.
 type Timed<'d, D, S, R> = (fn(&D, &S) -> R, &'d D);
 
-/// The largest ‖ż − ż′‖/‖ż‖ over all states. By the functions that are timed: a method with one caller is inlined into it.
+/// The largest ‖ż − ż′‖/‖ż‖ over all states. By the functions that are timed: a method with one caller is inlined into
+/// it.
 fn difference<A, B, S, const N: usize>(
     (f, a): Timed<'_, A, S, SVector<f64, N>>,
     (g, b): Timed<'_, B, S, SVector<f64, N>>,

@@ -1,7 +1,8 @@
 //! What an evaluation of a kernel costs, beside the same equations written by hand and with matrices.
 //!
 //! - `scenes`: S1–S7, as a user writes them, and their parameters.
-//! - `by_hand`: the same equations by someone who knows the structure: everything constant computed once, plain scalars.
+//! - `by_hand`: the same equations by someone who knows the structure: everything constant computed once, plain
+//!   scalars.
 //! - `matrices`: the same equations as one types them with nalgebra, a factorisation a call.
 //! - `packs`: scenes in any scalar, for batches and ensembles.
 //! - `states`: 64 states of each scene.

@@ -1,4 +1,5 @@
-//! Equations of motion as one types them with nalgebra: matrices and vectors as in a textbook, a Cholesky factorisation a call.
+//! Equations of motion as one types them with nalgebra: matrices and vectors as in a textbook, a Cholesky factorisation
+//! a call.
 
 use gauss_runtime::prelude::*;
 use nalgebra::{Matrix2, Vector2};

@@ -1,7 +1,8 @@
 //! Times of several ways to the same result, taken in turn.
 //!
-//! Clocks of processors change and other programs run, so one way is timed next to the other, many times, in changing order, and ratios
-//! are taken of neighbours in time. What is quoted is the median; the spread is that of the middle half.
+//! Clocks of processors change and other programs run, so one way is timed next to the other, many times, in changing
+//! order, and ratios are taken of neighbours in time. What is quoted is the median; the spread is that of the middle
+//! half.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -38,7 +39,8 @@ impl Way {
             let function = black_box(function);
             for _ in 0..passes {
                 for state in &states {
-                    // Where it is: copied, it would be read in wider pieces than it was written in, for which processors wait.
+                    // Where it is: copied, it would be read in wider pieces than it was written in, for which
+                    // processors wait.
                     black_box(&call(function, state));
                 }
             }

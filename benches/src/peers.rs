@@ -1,4 +1,5 @@
-//! Other generators and simulators beside ours: code that `peers/install.sh` compiled, called through the same kind of pointer.
+//! Other generators and simulators beside ours: code that `peers/install.sh` compiled, called through the same kind of
+//! pointer.
 //!
 //! Without the feature `peers` there are none.
 
@@ -73,7 +74,8 @@ impl Peers {
         Ok(Self { installed })
     }
 
-    /// The ways of those that have the scene, named `PEER (COMPILER)`, with their largest difference from what is expected, relative to its length.
+    /// The ways of those that have the scene, named `PEER (COMPILER)`, with their largest difference from what is
+    /// expected, relative to its length.
     pub fn ways<S: Flat, const M: usize>(
         &self,
         scene: &str,

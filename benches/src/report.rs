@@ -6,8 +6,8 @@ use crate::cases::Case;
 use crate::measure::{Spread, Times};
 use crate::peers::peer;
 
-/// Peers that interpret a model while they run; all others generate code for one scene: from accelerations that a person derived if their names
-/// say so, otherwise from what the person describes.
+/// Peers that interpret a model while they run; all others generate code for one scene: from accelerations that a
+/// person derived if their names say so, otherwise from what the person describes.
 const SIMULATORS: [&str; 3] = ["pinocchio", "mujoco", "mujoco minimal"];
 
 /// A scene that was timed.

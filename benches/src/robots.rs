@@ -1,7 +1,7 @@
 //! Robots from their files: forward dynamics, inverse dynamics, and derivatives of both.
 //!
-//! Their numbers are those of `tests/robots`, which say where they are from; efforts of the joints are inputs. Under the
-//! feature `robot-derivatives` they are linearised as well, which takes the compiler a minute more.
+//! Their numbers are those of `tests/robots`, which say where they are from; efforts of the joints are inputs. Under
+//! the feature `robot-derivatives` they are linearised as well, which takes the compiler a minute more.
 
 use std::error::Error;
 

@@ -10,8 +10,8 @@ use crate::report::{Row, table};
 
 /// Times the cases that the arguments name, or all; prints tables and leaves them in `target/gauss/FILE`.
 ///
-/// Arguments are names of scenes, `--rounds 2000`, and `--duration 0.0001` (seconds a measurement; much shorter than what
-/// a busy machine gives a program at once).
+/// Arguments are names of scenes, `--rounds 2000`, and `--duration 0.0001` (seconds a measurement; much shorter than
+/// what a busy machine gives a program at once).
 ///
 /// # Errors
 /// When an option wants a number, or the file cannot be written.
@@ -61,7 +61,8 @@ fn choose_peers(case: &mut Case, duration: f64) {
     if ways.is_empty() {
         return;
     }
-    // A moment is short, so what else the machine does may last all of it for one and not for the other: the least time tells.
+    // A moment is short, so what else the machine does may last all of it for one and not for the other: the least time
+    // tells.
     let least: Vec<f64> = times(&ways, 200, duration).absolute.iter().map(|spread| spread.least).collect();
     let names: Vec<String> = ways.iter().map(|way| peers::peer(&way.name).to_owned()).collect();
     for (k, (way, difference)) in ways.into_iter().zip(differences).enumerate() {

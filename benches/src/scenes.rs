@@ -1,7 +1,7 @@
 //! The scenes of the benchmarks, as a user writes them.
 //!
-//! S1–S6 are small enough to be written by hand well; S7 is the arm of the public description of the Franka Emika Panda.
-//! SI units, angles in radians; gravity is 9.81 m/s² along −k₃.
+//! S1–S6 are small enough to be written by hand well; S7 is the arm of the public description of the Franka Emika
+//! Panda. SI units, angles in radians; gravity is 9.81 m/s² along −k₃.
 
 use gauss_runtime::prelude::*;
 use serde_json::Value;

@@ -1,11 +1,13 @@
-//! A Kalman filter whose errors are increments of the configuration: multiplicative, with three parameters for the attitude.
+//! A Kalman filter whose errors are increments of the configuration: multiplicative, with three parameters for the
+//! attitude.
 
 use gauss_runtime::linearize::error_matrix;
 use gauss_runtime::prelude::*;
 
 use crate::model::{DISTURBANCE, FIRST, STEP, STEPS, SpacecraftKernel, State, TRACKER, Truth, nominal, wheels};
 
-/// Of the error (σ, δω): the true attitude is `R ∘ exp(σ)`, the true angular velocity ω + δω, all in axes of the estimated body.
+/// Of the error (σ, δω): the true attitude is `R ∘ exp(σ)`, the true angular velocity ω + δω, all in axes of the
+/// estimated body.
 pub type Covariance = Matrix6<f64>;
 
 /// Where the transition matrix of a step comes from. The estimate itself is stepped in the same way by all.

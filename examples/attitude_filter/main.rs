@@ -1,9 +1,9 @@
-//! An extended Kalman filter for a satellite that a star tracker sees every ten seconds and that has no gyroscope: from one look to
-//! the next its rates follow from Euler's equations alone. With the exact derivatives of its steps the filter knows how wrong it is;
-//! with 1 + hF in their place it does not.
+//! An extended Kalman filter for a satellite that a star tracker sees every ten seconds and that has no gyroscope: from
+//! one look to the next its rates follow from Euler's equations alone. With the exact derivatives of its steps the
+//! filter knows how wrong it is; with 1 + hF in their place it does not.
 //!
-//! `cargo run --release --example attitude_filter [-- FOLDER]` draws the picture into `FOLDER`, by default `target/gauss`;
-//! `RUNS=20` before it: fewer motions.
+//! `cargo run --release --example attitude_filter [-- FOLDER]` draws the picture into `FOLDER`, by default
+//! `target/gauss`; `RUNS=20` before it: fewer motions.
 
 mod filter;
 mod model;

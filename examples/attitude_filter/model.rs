@@ -5,7 +5,8 @@ use std::f64::consts::{PI, TAU};
 use gauss_charts::statistics::Random;
 use gauss_runtime::prelude::*;
 
-/// A rigid satellite about its centre of mass O: the torque of its wheels, known, and one that nobody knows, both in body axes.
+/// A rigid satellite about its centre of mass O: the torque of its wheels, known, and one that nobody knows, both in
+/// body axes.
 #[derive(GaussDynamics)]
 #[gauss(linearize, motion = fixed_point, input(torque: Vector3 = "N m"), torque(wheels, value = torque))]
 pub struct Spacecraft {
@@ -30,15 +31,16 @@ pub const LOOKS: usize = 60;
 /// A second of arc, rad.
 pub const ARCSECOND: f64 = PI / 648_000.0;
 
-/// Standard deviations of the star tracker about the body axes, rad: e₃ is where it looks, and about that it sees least.
+/// Standard deviations of the star tracker about the body axes, rad: e₃ is where it looks, and about that it sees
+/// least.
 pub const TRACKER: [f64; 3] = [10.0 * ARCSECOND, 10.0 * ARCSECOND, 60.0 * ARCSECOND];
 
 /// The unknown torque is white noise: the square root of its spectral density, about each axis, N m √s.
 pub const DISTURBANCE: f64 = 1e-5;
 
-/// What is known at first: standard deviations of the attitude, rad, and of the angular velocity, rad/s. With three times as much
-/// of the latter the body would turn 3° away from the prediction until the second look, and what is of second order in that would
-/// show: no extended Kalman filter knows of it.
+/// What is known at first: standard deviations of the attitude, rad, and of the angular velocity, rad/s. With three
+/// times as much of the latter the body would turn 3° away from the prediction until the second look, and what is of
+/// second order in that would show: no extended Kalman filter knows of it.
 pub const FIRST: (f64, f64) = (2.0 * PI / 180.0, 0.1 * PI / 180.0);
 
 /// The satellite, of 30 kg.

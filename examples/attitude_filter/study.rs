@@ -64,8 +64,8 @@ impl Followed {
         (0..LOOKS).map(of_look).collect()
     }
 
-    /// The normalised error squared, on average over all looks after the filter has settled, and the standard error of that: motions
-    /// are independent of one another, looks are not.
+    /// The normalised error squared, on average over all looks after the filter has settled, and the standard error of
+    /// that: motions are independent of one another, looks are not.
     pub fn settled(&self) -> (f64, f64) {
         let of_run = |run: &Vec<Moment>| {
             let looks = run.iter().filter(|m| m.updated).skip(SETTLED);
@@ -79,9 +79,9 @@ impl Followed {
     }
 }
 
-/// Ends of the interval in which 95 % of all means of `count` normalised errors lie when filters know how wrong they are: χ² of that many
-/// times six degrees of freedom, by the approximation of Wilson and Hilferty (*The distribution of chi-square*, Proc. Natl. Acad. Sci. 17,
-/// 1931), which is good to four digits here.
+/// Ends of the interval in which 95 % of all means of `count` normalised errors lie when filters know how wrong they
+/// are: χ² of that many times six degrees of freedom, by the approximation of Wilson and Hilferty (*The distribution of
+/// chi-square*, Proc. Natl. Acad. Sci. 17, 1931), which is good to four digits here.
 pub fn interval(count: usize) -> (f64, f64) {
     // The share of a normal distribution within ±1.96 is 95 %.
     let spread = 2.0 / (9.0 * count as f64 * DIMENSION);

@@ -97,8 +97,8 @@ pub fn page(
     let saddle = [0.25, 0.0, -0.55];
     let [head, bars] = [along(0.75), along(1.0)];
     let in_frame = |[x, y, z]: [f64; 3]| [x + wheelbase + trail, y, z + rear_radius];
-    // The rear wheel does not slip along its heading nor across it; its normal force is none of the multipliers, since the
-    // coordinates let it touch. The front wheel is held upwards and in both directions of the floor.
+    // The rear wheel does not slip along its heading nor across it; its normal force is none of the multipliers, since
+    // the coordinates let it touch. The front wheel is held upwards and in both directions of the floor.
     let grip = |s: &Sample<BicycleKernel>| {
         let along = kernel.multipliers(s.t, &s.q, &s.z, &());
         let heading = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), s.q[2]);

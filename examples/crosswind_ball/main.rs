@@ -1,6 +1,7 @@
 //! A long pass in a crosswind: drag and Magnus force of the velocity against the air, buoyancy, added mass, gusts.
 //!
-//! `cargo run --release --example crosswind_ball [-- FOLDER]` draws the passes into `FOLDER`, by default `target/gauss`.
+//! `cargo run --release --example crosswind_ball [-- FOLDER]` draws the passes into `FOLDER`, by default
+//! `target/gauss`.
 
 mod model;
 

@@ -4,9 +4,9 @@ use gauss_runtime::prelude::*;
 
 /// A spinning ball; k₁ along the kick, k₂ to the left, k₃ up.
 ///
-/// Drag is quadratic in the whole velocity against the air, −c |v| v: for a sphere not component by component. The Magnus
-/// force is l ω × v. The air also carries the weight of what the ball displaces, moves with the ball as added mass, and pushes
-/// with its gradient of pressure where the wind freshens.
+/// Drag is quadratic in the whole velocity against the air, −c |v| v: for a sphere not component by component. The
+/// Magnus force is l ω × v. The air also carries the weight of what the ball displaces, moves with the ball as added
+/// mass, and pushes with its gradient of pressure where the wind freshens.
 #[derive(GaussDynamics)]
 #[gauss(
     chart = hybrid,
@@ -45,10 +45,10 @@ pub struct Ball {
 }
 
 impl Ball {
-    /// A football in the middle of what FIFA's Law 2 allows: 0.43 kg, 0.69 m around. C_D = 0.2 (J. E. Goff, M. J. Carré, Am. J.
-    /// Phys. 77 (2009) 1020–1027, fitted to the range of a kick without spin), taken as the same at every speed. C_L = S is a
-    /// round number chosen here, not a measurement. Air of 1.2 kg/m³. A thin shell has ⅔ m r²; the added mass of a sphere is
-    /// half of what it displaces. Gusts of 30 %, every three seconds.
+    /// A football in the middle of what FIFA's Law 2 allows: 0.43 kg, 0.69 m around. C_D = 0.2 (J. E. Goff, M. J.
+    /// Carré, Am. J. Phys. 77 (2009) 1020–1027, fitted to the range of a kick without spin), taken as the same at every
+    /// speed. C_L = S is a round number chosen here, not a measurement. Air of 1.2 kg/m³. A thin shell has ⅔ m r²; the
+    /// added mass of a sphere is half of what it displaces. Gusts of 30 %, every three seconds.
     pub fn football(wind: Vector3<f64>) -> Self {
         let (mass, air, radius) = (0.43, 1.2, 0.69 / std::f64::consts::TAU);
         let area = std::f64::consts::PI * radius * radius;
@@ -101,7 +101,8 @@ pub fn acceleration(ball: &Ball, t: f64, velocity: &Vector3<f64>, omega: &Vector
     (drag + magnus + stream - Vector3::z() * ball.heaviness()) / ball.total_mass()
 }
 
-/// Position and velocity of the mass point after each of `steps` classical Runge–Kutta steps of length `h`, from the origin.
+/// Position and velocity of the mass point after each of `steps` classical Runge–Kutta steps of length `h`, from the
+/// origin.
 pub fn fly_by_hand(
     ball: &Ball,
     velocity: Vector3<f64>,

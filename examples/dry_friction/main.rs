@@ -1,8 +1,8 @@
 //! Dry friction exactly, sticking and sliding by turns: a slider beside its exact solution, and an arm whose two joints
 //! stick and give way, beside friction that is made smooth.
 //!
-//! `cargo run --release --example dry_friction [-- FOLDER]` writes the motion of the arm as a page into `FOLDER`, by default
-//! `target/gauss`.
+//! `cargo run --release --example dry_friction [-- FOLDER]` writes the motion of the arm as a page into `FOLDER`, by
+//! default `target/gauss`.
 
 mod friction;
 mod model;

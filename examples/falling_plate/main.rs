@@ -1,6 +1,7 @@
 //! A plate falls in a fluid: it flutters or tumbles, depending on its weight; in an ideal fluid it does neither.
 //!
-//! `cargo run --release --example falling_plate [-- FOLDER]` draws the picture into `FOLDER`, by default `target/gauss`.
+//! `cargo run --release --example falling_plate [-- FOLDER]` draws the picture into `FOLDER`, by default
+//! `target/gauss`.
 
 mod picture;
 mod reference;

@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-/// Andersen, Pesavento & Wang (2005), dimensionless: x, y, θ and the velocities along, across, and of rotation; their rates.
+/// Andersen, Pesavento & Wang (2005), dimensionless: x, y, θ and the velocities along, across, and of rotation; their
+/// rates.
 #[must_use]
 pub fn falling_card(ratio: f64, beta: f64, [_, _, theta, u, v, w]: [f64; 6]) -> [f64; 6] {
     let (a, b, mu, c_t, c_r) = (1.4, 1.0, 0.2, 1.2, PI);
@@ -23,8 +24,8 @@ pub fn falling_card(ratio: f64, beta: f64, [_, _, theta, u, v, w]: [f64; 6]) -> 
 
 /// Chaplygin's equation of a body that falls from rest in an ideal fluid: θ and its rate, and their rates.
 ///
-/// The fluid's and the body's impulse is that of the weight W, −W t k₂. Along and across it is m₁ u and m₂ v, so that the torque
-/// (m₁ − m₂) u v on the moment of inertia J is a function of the angle and the time alone.
+/// The fluid's and the body's impulse is that of the weight W, −W t k₂. Along and across it is m₁ u and m₂ v, so that
+/// the torque (m₁ − m₂) u v on the moment of inertia J is a function of the angle and the time alone.
 #[must_use]
 pub fn chaplygin([m1, m2, j]: [f64; 3], weight: f64, t: f64, [theta, rate]: [f64; 2]) -> [f64; 2] {
     let (sine, cosine) = theta.sin_cos();

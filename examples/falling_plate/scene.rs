@@ -1,9 +1,9 @@
 //! A plate that falls edge over edge in a fluid: an elliptic cylinder, per length of its axis, which stays level.
 //!
-//! The forces are those of Andersen, Pesavento & Wang, "Analysis of transitions between fluttering, tumbling and steady descent
-//! of falling cards", J. Fluid Mech. 541 (2005) 91–104: added mass, weight, buoyancy, lift by a circulation ∝ velocity and
-//! rotation, drag, and a torque that resists the rotation. Units: half-width a = 1, density of the fluid ρ = 1, and the speed
-//! U = √((m − m_displaced) g/(π ρ a)) = 1, so that what remains of the weight is π.
+//! The forces are those of Andersen, Pesavento & Wang, "Analysis of transitions between fluttering, tumbling and steady
+//! descent of falling cards", J. Fluid Mech. 541 (2005) 91–104: added mass, weight, buoyancy, lift by a circulation ∝
+//! velocity and rotation, drag, and a torque that resists the rotation. Units: half-width a = 1, density of the fluid ρ
+//! = 1, and the speed U = √((m − m_displaced) g/(π ρ a)) = 1, so that what remains of the weight is π.
 
 use std::f64::consts::PI;
 
@@ -66,8 +66,9 @@ pub struct IdealPlate {
 /// Thickness over width of the plates of the paper.
 pub const THICKNESS: f64 = 1.0 / 14.0;
 
-/// The added mass of an elliptic cylinder with half-axes a = 1 (along e₁) and b in a fluid of density 1, per length: π b² along,
-/// π a² across, π (a² − b²)²/8 about its axis (Lamb, Hydrodynamics, § 71). In the plane the other three do not act.
+/// The added mass of an elliptic cylinder with half-axes a = 1 (along e₁) and b in a fluid of density 1, per length: π
+/// b² along, π a² across, π (a² − b²)²/8 about its axis (Lamb, Hydrodynamics, § 71). In the plane the other three do
+/// not act.
 #[must_use]
 pub fn added_mass(b: f64) -> Vector6<f64> {
     Vector6::new(b * b, 1.0, 0.0, 0.0, 0.0, 0.125 * (1.0 - b * b).powi(2)) * PI

@@ -1,8 +1,8 @@
-//! A sweep: eighty thousand double pendulums let go from rest, each run on until one of its arms goes over the top. Steps and
-//! events of every run are its own, in vectors and on all threads. The picture is the map of those times.
+//! A sweep: eighty thousand double pendulums let go from rest, each run on until one of its arms goes over the top.
+//! Steps and events of every run are its own, in vectors and on all threads. The picture is the map of those times.
 //!
-//! `cargo run --release --example flip_map [-- FOLDER]` draws it into `FOLDER`, by default `target/gauss`. `RUNS=50`: a map of 50 by
-//! 50 states.
+//! `cargo run --release --example flip_map [-- FOLDER]` draws it into `FOLDER`, by default `target/gauss`. `RUNS=50`: a
+//! map of 50 by 50 states.
 
 mod map;
 mod picture;

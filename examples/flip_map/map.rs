@@ -63,8 +63,8 @@ pub fn flips(starts: &[[f64; 2]], tolerance: f64, bar: &ProgressBar) -> Result<(
     Ok((flips, error, steps))
 }
 
-/// Whether the energy at rest suffices for the lower weight to come above the upper one, the lowest place over the top: with
-/// potential energy −2 cos θ₁ − cos θ₂ that place has −2 + 1.
+/// Whether the energy at rest suffices for the lower weight to come above the upper one, the lowest place over the top:
+/// with potential energy −2 cos θ₁ − cos θ₂ that place has −2 + 1.
 fn may_flip([upper, lower]: [f64; 2]) -> bool {
     2.0 * upper.cos() + lower.cos() <= 1.0
 }

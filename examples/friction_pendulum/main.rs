@@ -1,7 +1,8 @@
-//! A pendulum with dry friction, a spiral spring and a buffer: which element takes which part of the energy; and dry friction
-//! itself, as a force that jumps and made smooth, against its exact solution.
+//! A pendulum with dry friction, a spiral spring and a buffer: which element takes which part of the energy; and dry
+//! friction itself, as a force that jumps and made smooth, against its exact solution.
 //!
-//! `cargo run --release --example friction_pendulum [-- FOLDER]` draws the picture into `FOLDER`, by default `target/gauss`.
+//! `cargo run --release --example friction_pendulum [-- FOLDER]` draws the picture into `FOLDER`, by default
+//! `target/gauss`.
 
 mod picture;
 mod scene;

@@ -6,8 +6,8 @@ use gauss_runtime::prelude::*;
 
 /// A rod that hangs from a pivot with dry friction, a spiral spring, and a rubber buffer on one side.
 ///
-/// The friction is M v/√(v² + ε²): within 1 ‰ of M above 23 ε, and smooth at rest, where it creeps instead of sticking: as long
-/// as a torque τ < M pulls, at ε τ/√(M² − τ²).
+/// The friction is M v/√(v² + ε²): within 1 ‰ of M above 23 ε, and smooth at rest, where it creeps instead of sticking:
+/// as long as a torque τ < M pulls, at ε τ/√(M² − τ²).
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(theta),
@@ -130,8 +130,8 @@ impl Slider {
         SWINGS * PI * (self.m / self.k).sqrt()
     }
 
-    /// The exact position, m: each half swing is a half of a cosine about ±f/k, and so takes 2f/k from the amplitude (any
-    /// textbook of vibrations). At rest the spring is weaker than the friction.
+    /// The exact position, m: each half swing is a half of a cosine about ±f/k, and so takes 2f/k from the amplitude
+    /// (any textbook of vibrations). At rest the spring is weaker than the friction.
     #[must_use]
     pub fn exact(&self, t: f64) -> f64 {
         let half_period = PI * (self.m / self.k).sqrt();

@@ -1,5 +1,6 @@
-//! An arm from its file follows a way: under the efforts that the way asks for, with computed torque, and with the regulator that
-//! exact derivatives along the way give. The regulator costs what its Riccati equation says, and less than computed torque.
+//! An arm from its file follows a way: under the efforts that the way asks for, with computed torque, and with the
+//! regulator that exact derivatives along the way give. The regulator costs what its Riccati equation says, and less
+//! than computed torque.
 //!
 //! `cargo run --release --example guided_arm [-- FOLDER]` draws into `FOLDER`, by default `target/gauss`.
 

@@ -55,16 +55,16 @@ pub fn error(t: f64, q: &Joints, z: &Joints) -> State {
 /// 1/s: errors die like e^(−s t).
 pub const GAIN: f64 = 20.0;
 
-/// Computed torque: the inverse dynamics at the acceleration that is wanted, errors of place and rate fed back, so that these obey
-/// `ë + 2 s ė + s² e = 0`.
+/// Computed torque: the inverse dynamics at the acceleration that is wanted, errors of place and rate fed back, so that
+/// these obey `ë + 2 s ė + s² e = 0`.
 pub fn computed_torque(arm: &ArmKernel, t: f64, q: &Joints, z: &Joints) -> Joints {
     let [place, rate, acceleration] = wanted(t);
     let asked = acceleration + (rate - z) * (2.0 * GAIN) + (place - q) * (GAIN * GAIN);
     arm.inverse_dynamics(t, q, z, &asked, &Joints::zeros())
 }
 
-/// What errors e and efforts δu beyond the nominal ones cost: ∫ (eᵀ Q e + |A⁻¹ δu|²) dt, and eᵀ F e at the end, with the mass matrix A
-/// where the arm should be: efforts cost the square of what they accelerate. Q and F are diagonal.
+/// What errors e and efforts δu beyond the nominal ones cost: ∫ (eᵀ Q e + |A⁻¹ δu|²) dt, and eᵀ F e at the end, with
+/// the mass matrix A where the arm should be: efforts cost the square of what they accelerate. Q and F are diagonal.
 pub struct Cost {
     pub error: State,
     pub at_the_end: State,
@@ -83,8 +83,8 @@ impl Cost {
     }
 }
 
-/// The linear–quadratic regulator along the way: δu = −K(t) e, K from `−Ṗ = AᵀP + PA − P B R⁻¹ Bᵀ P + Q`, backward from P = F, with
-/// the exact derivatives of the equations on the way.
+/// The linear–quadratic regulator along the way: δu = −K(t) e, K from `−Ṗ = AᵀP + PA − P B R⁻¹ Bᵀ P + Q`, backward from
+/// P = F, with the exact derivatives of the equations on the way.
 pub struct Regulator {
     gains: Vec<Gains>,
     /// s, between two of them.

@@ -1,5 +1,5 @@
-//! Jumps and hand-overs: a runner on a springy leg, whose flights and stances are two kernels, and a ball that bounces until
-//! infinitely many impacts pile up.
+//! Jumps and hand-overs: a runner on a springy leg, whose flights and stances are two kernels, and a ball that bounces
+//! until infinitely many impacts pile up.
 //!
 //! `cargo run --release --example hopping [-- FOLDER]` draws the picture into `FOLDER`, by default `target/gauss`.
 

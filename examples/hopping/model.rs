@@ -88,8 +88,8 @@ where
 }
 
 impl Runner {
-    /// Seyfarth, Geyer, Günther & Blickhan, *A movement criterion for running*, Journal of Biomechanics 35 (2002): a human of 80 kg,
-    /// who runs stably without looking at anything.
+    /// Seyfarth, Geyer, Günther & Blickhan, *A movement criterion for running*, Journal of Biomechanics 35 (2002): a
+    /// human of 80 kg, who runs stably without looking at anything.
     pub fn human() -> Self {
         Self { m: 80.0, k: 20e3, l: 1.0, attack: 68.0_f64.to_radians(), g: 9.81 }
     }

@@ -1,5 +1,5 @@
-//! A hundred thousand throws of a body whose inertia and spin are uncertain, and a sweep over its spin: many states at once, in vectors
-//! and on all threads. The scatter against the covariance that derivatives of one run predict.
+//! A hundred thousand throws of a body whose inertia and spin are uncertain, and a sweep over its spin: many states at
+//! once, in vectors and on all threads. The scatter against the covariance that derivatives of one run predict.
 //!
 //! `cargo run --release --example monte_carlo [-- FOLDER]` draws the picture into `FOLDER`, by default `target/gauss`.
 

@@ -1,4 +1,5 @@
-//! A Crazyflie flies figures of eight under a geometric controller, and meets a gust: four rotors, wind, two kinds of drag.
+//! A Crazyflie flies figures of eight under a geometric controller, and meets a gust: four rotors, wind, two kinds of
+//! drag.
 //!
 //! `cargo run --release --example quadrotor [-- FOLDER]` draws the flight into `FOLDER`, by default `target/gauss`.
 

@@ -4,9 +4,9 @@ use gauss_runtime::prelude::*;
 
 /// A quadrotor in wind. O is the centre of mass, e₁ points forward, e₂ to the left, e₃ up along the rotors' axes.
 ///
-/// What acts, beside its weight: the lift `k n²` of each rotor at its hub, the torques of the air on the blades about e₃, the
-/// drag of the turning blades, linear in the air speed and proportional to the sum of the rotors' speeds, and the drag of the
-/// airframe, quadratic in the air speed.
+/// What acts, beside its weight: the lift `k n²` of each rotor at its hub, the torques of the air on the blades about
+/// e₃, the drag of the turning blades, linear in the air speed and proportional to the sum of the rotors' speeds, and
+/// the drag of the airframe, quadratic in the air speed.
 #[derive(GaussDynamics)]
 #[gauss(
     chart = hybrid,
@@ -60,10 +60,10 @@ pub struct Quadrotor {
 
 impl Quadrotor {
     /// The Crazyflie 2.0 as J. Förster identified it (System Identification of the Crazyflie 2.0 Nano Quadrocopter, ETH
-    /// Zürich, 2015, doi 10.3929/ethz-b-000214143). Lift and speed of a rotor are functions of one command there; `k` is lift
-    /// over speed squared at hover. The drag of the airframe is an estimate: the coefficients are those of the Crazyflie in
-    /// RotorPy (S. Folk, J. Paulos, V. Kumar, arXiv:2306.04485, 2023), here component by component, there times the whole air
-    /// speed. A gust of 5 m/s to the left.
+    /// Zürich, 2015, doi 10.3929/ethz-b-000214143). Lift and speed of a rotor are functions of one command there; `k`
+    /// is lift over speed squared at hover. The drag of the airframe is an estimate: the coefficients are those of the
+    /// Crazyflie in RotorPy (S. Folk, J. Paulos, V. Kumar, arXiv:2306.04485, 2023), here component by component, there
+    /// times the whole air speed. A gust of 5 m/s to the left.
     pub fn crazyflie() -> Self {
         // Speed in rad/s and lift in N of one rotor at a command.
         let speed = |command: f64| 0.040_765_21 * command + 380.8359;
@@ -102,7 +102,8 @@ pub struct Wanted {
     pub acceleration: Vector3<f64>,
 }
 
-/// The path: two seconds of climb by 1 m, then figures of eight, 3 m long, 1.5 m wide, with 1.2 rad/s after two seconds.
+/// The path: two seconds of climb by 1 m, then figures of eight, 3 m long, 1.5 m wide, with 1.2 rad/s after two
+/// seconds.
 pub fn wanted(t: f64) -> Wanted {
     // s⁵ polynomial from rest to rest, and its derivatives by time.
     let s = (t / 2.0).clamp(0.0, 1.0);
@@ -138,9 +139,9 @@ pub struct Seen {
     pub omega: Vector3<f64>,
 }
 
-/// The geometric controller of T. Lee, M. Leok and N. H. McClamroch (Geometric Tracking Control of a Quadrotor UAV on SE(3),
-/// CDC 2010), e₁ as far north as it can be, without feeding the wanted angular velocity forward. It does not know the wind.
-/// Gives the four speeds, rad/s.
+/// The geometric controller of T. Lee, M. Leok and N. H. McClamroch (Geometric Tracking Control of a Quadrotor UAV on
+/// SE(3), CDC 2010), e₁ as far north as it can be, without feeding the wanted angular velocity forward. It does not
+/// know the wind. Gives the four speeds, rad/s.
 pub fn pilot(craft: &Quadrotor, t: f64, seen: &Seen) -> [f64; 4] {
     /// Natural frequencies of position and attitude, rad/s, and the damping ratio of both.
     const POSITION: f64 = 4.0;

@@ -1,5 +1,5 @@
-//! The same craft from a textbook, typed by hand: Newton's and Euler's equations, and the classical Runge–Kutta method on
-//! twelve plus six plain numbers. Nothing here knows the derive.
+//! The same craft from a textbook, typed by hand: Newton's and Euler's equations, and the classical Runge–Kutta method
+//! on twelve plus six plain numbers. Nothing here knows the derive.
 
 use gauss_runtime::prelude::*;
 

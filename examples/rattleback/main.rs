@@ -1,5 +1,5 @@
-//! A rattleback: spun one way it goes on, spun the other way it rattles, stops and turns back: `cargo run --release --example
-//! rattleback`.
+//! A rattleback: spun one way it goes on, spun the other way it rattles, stops and turns back:
+//! `cargo run --release --example rattleback`.
 
 use gauss_examples::plots::write_page;
 use gauss_playback::{Playback, Shape};

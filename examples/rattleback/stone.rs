@@ -4,8 +4,8 @@ use gauss_runtime::prelude::*;
 
 /// An ellipsoid of half-axes `a` that rolls on the plane z = 0, O in its centre, e₃ up at rest.
 ///
-/// With γ = Rᵀk₃, the vertical in body axes, its lowest point is at −(aᵢ² γᵢ)/h from O, where h = √Σ aᵢ² γᵢ² is the height of O.
-/// That this point rests says what the velocity of O is: those speeds are solved for, and three are left.
+/// With γ = Rᵀk₃, the vertical in body axes, its lowest point is at −(aᵢ² γᵢ)/h from O, where h = √Σ aᵢ² γᵢ² is the
+/// height of O. That this point rests says what the velocity of O is: those speeds are solved for, and three are left.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(x, y, attitude: Rotation),

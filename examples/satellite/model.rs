@@ -2,8 +2,8 @@
 
 use gauss_runtime::prelude::*;
 
-/// A 6U CubeSat at its full mass, uniform: 366 × 226.3 × 100 mm, 12 kg (CubeSat Design Specification, Rev. 14.1, Cal Poly
-/// 2022). e₁, e₂, e₃ along its edges, the longest first: moments of inertia in ascending order.
+/// A 6U CubeSat at its full mass, uniform: 366 × 226.3 × 100 mm, 12 kg (CubeSat Design Specification, Rev. 14.1, Cal
+/// Poly 2022). e₁, e₂, e₃ along its edges, the longest first: moments of inertia in ascending order.
 pub fn cubesat() -> (f64, Vector3<f64>) {
     let (mass, edges) = (12.0, Vector3::new(0.366_f64, 0.2263, 0.1));
     let squares = edges.component_mul(&edges);
@@ -22,9 +22,9 @@ pub fn mean_motion() -> f64 {
 
 /// A rigid body in central gravity; Ω is the centre of the Earth.
 ///
-/// SI units: rotations are known to 10⁻¹⁶, places to 10⁻⁹ m, and neither spoils the other, because in the hybrid chart ḃ and
-/// ω have equations of their own. The right-invariant chart would not do here: its momentum about Ω is 10¹⁵ times the angular
-/// momentum of the body about G, which is lost in the rounding; see [`FromTheCentre`].
+/// SI units: rotations are known to 10⁻¹⁶, places to 10⁻⁹ m, and neither spoils the other, because in the hybrid chart
+/// ḃ and ω have equations of their own. The right-invariant chart would not do here: its momentum about Ω is 10¹⁵ times
+/// the angular momentum of the body about G, which is lost in the rounding; see [`FromTheCentre`].
 // ANCHOR: orbiter
 #[derive(GaussDynamics)]
 #[gauss(chart = hybrid, central_gravity(earth, mu = mu))]
@@ -63,8 +63,8 @@ pub fn orbiter() -> Result<OrbiterKernel, ParameterError> {
     Orbiter { mass, inertia, mu: MU }.kernel()
 }
 
-/// On the circular orbit over k₁ at t = 0, with e₃ along the normal k₃: e₁ is turned by `pitch` from the upward vertical and
-/// rests in the frame of the orbit; then it is turned and leaned by `lean` about e₂ as it flies.
+/// On the circular orbit over k₁ at t = 0, with e₃ along the normal k₃: e₁ is turned by `pitch` from the upward
+/// vertical and rests in the frame of the orbit; then it is turned and leaned by `lean` about e₂ as it flies.
 pub fn start(pitch: f64, lean: f64) -> (Isometry3<f64>, SVector<f64, 6>) {
     let n = mean_motion();
     let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), pitch)
@@ -94,15 +94,15 @@ pub fn pitch(q: &Isometry3<f64>) -> f64 {
     Vector3::z().dot(&up.cross(&e1)).atan2(up.dot(&e1))
 }
 
-/// In the plane of a circular orbit 2·pitch moves as a pendulum: pitch¨ + 3n² (I₂ − I₁)/I₃ sin(pitch) cos(pitch) = 0. Its
-/// frequency n √(3 (I₂ − I₁)/I₃) at small angles, rad/s.
+/// In the plane of a circular orbit 2·pitch moves as a pendulum: pitch¨ + 3n² (I₂ − I₁)/I₃ sin(pitch) cos(pitch) = 0.
+/// Its frequency n √(3 (I₂ − I₁)/I₃) at small angles, rad/s.
 pub fn libration_frequency() -> f64 {
     let i = cubesat().1;
     mean_motion() * (3.0 * (i.y - i.x) / i.z).sqrt()
 }
 
-/// The period of a libration of this amplitude from the vertical, exact: 4K(sin amplitude)/frequency, s. K by the mean of
-/// Gauss.
+/// The period of a libration of this amplitude from the vertical, exact: 4K(sin amplitude)/frequency, s. K by the mean
+/// of Gauss.
 pub fn libration_period(amplitude: f64) -> f64 {
     let (mut a, mut b) = (1.0, amplitude.cos());
     for _ in 0..8 {
@@ -174,13 +174,15 @@ impl Slewer {
     }
 }
 
-/// The torque that turns the hub by `angle` in `seconds` from rest to rest, as a sine, N m: J α¨ = −motor, J that of the hub.
+/// The torque that turns the hub by `angle` in `seconds` from rest to rest, as a sine, N m: J α¨ = −motor, J that of
+/// the hub.
 pub fn slew_torque(slewer: &Slewer, angle: f64, seconds: f64, t: f64) -> f64 {
     let phase = std::f64::consts::TAU * t / seconds;
     -std::f64::consts::TAU * slewer.moments().0 * angle / (seconds * seconds) * phase.sin()
 }
 
-/// Rates of (ω, σ̇) of a gyrostat by hand, σ the wheel's angle: d/dt (Iω + h e₃) + ω × (Iω + h e₃) = 0, and J_w (ω₃˙ + σ̈) = m.
+/// Rates of (ω, σ̇) of a gyrostat by hand, σ the wheel's angle: d/dt (Iω + h e₃) + ω × (Iω + h e₃) = 0, and J_w (ω₃˙ +
+/// σ̈) = m.
 fn gyrostat(slewer: &Slewer, motor: f64, z: &SVector<f64, 4>) -> SVector<f64, 4> {
     let ((_, about), omega) = (slewer.moments(), Vector3::new(z[0], z[1], z[2]));
     let without_spin = slewer.hub.inertia + slewer.wheel.inertia;
@@ -193,7 +195,8 @@ fn gyrostat(slewer: &Slewer, motor: f64, z: &SVector<f64, 4>) -> SVector<f64, 4>
     SVector::from([turn.x, turn.y, turn.z, motor / about - turn.z])
 }
 
-/// ω and σ̇ of the gyrostat after so many classical Runge–Kutta steps, rolling about e₁ with the wheel at rest at first.
+/// ω and σ̇ of the gyrostat after so many classical Runge–Kutta steps, rolling about e₁ with the wheel at rest at
+/// first.
 pub fn tumble_by_hand(slewer: &Slewer, roll: f64, motor: impl Fn(f64) -> f64, h: f64, steps: usize) -> SVector<f64, 4> {
     let mut z = SVector::from([roll, 0.0, 0.0, 0.0]);
     for n in 0..steps {
@@ -207,8 +210,8 @@ pub fn tumble_by_hand(slewer: &Slewer, roll: f64, motor: impl Fn(f64) -> f64, h:
     z
 }
 
-/// The slew by `angle` in `seconds`, the hub rolling at `roll` rad/s about e₁ at first. Tolerances of 10⁻¹² (an angle in rad;
-/// of the speeds).
+/// The slew by `angle` in `seconds`, the hub rolling at `roll` rad/s about e₁ at first. Tolerances of 10⁻¹² (an angle
+/// in rad; of the speeds).
 ///
 /// # Errors
 /// When the run does not reach the end.

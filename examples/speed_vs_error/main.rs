@@ -2,8 +2,8 @@
 //! are known.
 //!
 //! `cargo run --release --example speed_vs_error [-- [--quick] [--to FOLDER] [SCENE…]]` measures all scenes (three to
-//! four minutes of an idle core; `--quick`: a rough look in a quarter of a minute) and writes a page, a picture and tables
-//! into `FOLDER`, by default `target/gauss`.
+//! four minutes of an idle core; `--quick`: a rough look in a quarter of a minute) and writes a page, a picture and
+//! tables into `FOLDER`, by default `target/gauss`.
 //!
 //! A method is one line in `measure/methods.rs`; a scene is one entry in `measure/catalogue.rs` with a struct for the
 //! derive, its data and its equations by hand.

@@ -69,7 +69,8 @@ pub struct Plot<'a> {
 /// A rectangle between two corners, and its colour.
 pub type Cell = ([(f64, f64); 2], RGBColor);
 
-/// So many units of the drawing make a pixel: curves go through whole units, and would look jagged through whole pixels.
+/// So many units of the drawing make a pixel: curves go through whole units, and would look jagged through whole
+/// pixels.
 const FINE: u32 = 8;
 /// Heights of the head and the legend, sizes of labels and margins, in units.
 const TITLE: i32 = 46 * FINE as i32;
@@ -221,7 +222,8 @@ pub fn sheet(title: &str, size: (u32, u32), rows: &[Vec<Plot<'_>>]) -> Result<St
     })
 }
 
-/// A picture of a size in pixels, with plots in rectangles below a title: their left and upper ends there, widths and heights.
+/// A picture of a size in pixels, with plots in rectangles below a title: their left and upper ends there, widths and
+/// heights.
 ///
 /// # Errors
 /// When it cannot be laid out.

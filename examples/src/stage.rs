@@ -3,8 +3,8 @@
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
 
-/// A cart at q₁ along k₁, a pole of a length on it at the angle q₂ from upright, and the push on the cart, N, drawn so many
-/// metres long for each newton.
+/// A cart at q₁ along k₁, a pole of a length on it at the angle q₂ from upright, and the push on the cart, N, drawn so
+/// many metres long for each newton.
 #[must_use]
 pub fn cart_and_pole<S>(
     page: Playback<S>,

@@ -9,9 +9,10 @@ pub const LONG: f64 = 1.0;
 pub const SHORT: f64 = 0.1;
 pub const REACH: f64 = 1.1;
 
-/// E. Kanso, J. E. Marsden, C. W. Rowley and J. B. Melli-Huber, *Locomotion of articulated bodies in a perfect fluid*, Journal of
-/// Nonlinear Science 15 (2005), section 5: neutrally buoyant ellipses, each with its own added mass (what they do to one another through
-/// the water is left out), in the plane. The middle one moves freely; the others are turned against it as functions of time.
+/// E. Kanso, J. E. Marsden, C. W. Rowley and J. B. Melli-Huber, *Locomotion of articulated bodies in a perfect fluid*,
+/// Journal of Nonlinear Science 15 (2005), section 5: neutrally buoyant ellipses, each with its own added mass (what
+/// they do to one another through the water is left out), in the plane. The middle one moves freely; the others are
+/// turned against it as functions of time.
 ///
 /// Nothing acts. From rest the impulse of bodies and water stays zero, and the fish swims all the same.
 #[derive(Clone, Copy, Debug, GaussDynamics)]
@@ -83,8 +84,9 @@ impl Fish {
         [hung(1.0, front), *middle, hung(-1.0, rear)]
     }
 
-    /// The twist of the middle that a change of shape asks for when the impulse of everything is zero: the kinematic connection of the
-    /// paper, `−(Σ XᵀMX)⁻¹ Σ XᵀM S α̇`, with X from the twist of the middle to that of a body, both in their own axes.
+    /// The twist of the middle that a change of shape asks for when the impulse of everything is zero: the kinematic
+    /// connection of the paper, `−(Σ XᵀMX)⁻¹ Σ XᵀM S α̇`, with X from the twist of the middle to that of a body, both
+    /// in their own axes.
     ///
     /// # Panics
     /// Never: the matrix is that of a kinetic energy.
@@ -97,7 +99,8 @@ impl Fish {
         let (mut locked, mut driven) = (matter, Vector3::zeros());
         for (side, (angle, rate)) in [1.0, -1.0].into_iter().zip(self.shape(t)) {
             let (sin, cos) = angle.sin_cos();
-            // The middle of the body from the middle of the fish, axes of the middle; its velocity there, then in its own axes.
+            // The middle of the body from the middle of the fish, axes of the middle; its velocity there, then in its
+            // own axes.
             let place = Vector3::new(side * self.reach * (1.0 + cos), side * self.reach * sin, 0.0);
             let back = Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0);
             let carried = back * Matrix3::new(1.0, 0.0, -place.y, 0.0, 1.0, place.x, 0.0, 0.0, 1.0);
@@ -108,8 +111,8 @@ impl Fish {
         -locked.lu().solve(&driven).expect("bodies have mass")
     }
 
-    /// Where the middle is at the end of a time, from the identity at t = 0: the connection integrated by the classical Runge–Kutta
-    /// method.
+    /// Where the middle is at the end of a time, from the identity at t = 0: the connection integrated by the classical
+    /// Runge–Kutta method.
     pub fn by_hand(&self, end: f64, steps: u32) -> Isometry2<f64> {
         let h = end / f64::from(steps);
         let mut state = Vector3::zeros();

@@ -1,4 +1,5 @@
-//! A fish of three ellipses that swims through a perfect fluid by changing its shape, and where its impulse says it must be.
+//! A fish of three ellipses that swims through a perfect fluid by changing its shape, and where its impulse says it
+//! must be.
 //!
 //! `cargo run --release --example swimmer [-- FOLDER]` draws into `FOLDER`, by default `target/gauss`.
 
@@ -36,7 +37,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         "one stroke      {per_stroke:.4} semi-axes; ending where its shape began, it is elsewhere: a geometric phase"
     );
 
-    // A phase knows no time: twice as fast it goes as far. Back and forth on one way through the shapes it goes nowhere.
+    // A phase knows no time: twice as fast it goes as far. Back and forth on one way through the shapes it goes
+    // nowhere.
     let idle = Fish::new(AMPLITUDE, 0.0);
     let nowhere = swim(&idle, 1)?;
     let left = nowhere[nowhere.len() - 1].q.translation.vector.norm();

@@ -133,7 +133,8 @@ impl<const D: usize, const U: usize> Task<D, U> {
         Some(Change { ahead, gains, first, second })
     }
 
-    /// From the start to the end with a part of the change; `None` where no part makes the cost as much lower as it should.
+    /// From the start to the end with a part of the change; `None` where no part makes the cost as much lower as it
+    /// should.
     fn forward(
         &self,
         plant: &impl Plant<D, U>,

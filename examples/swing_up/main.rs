@@ -1,6 +1,6 @@
-//! Trajectories that are found: a pole swung up by its cart and an arm that reaches, by differential dynamic programming with the
-//! exact derivatives that `linearize` generates, of first order (iLQR) and with the second ones of `hessian`, beside a
-//! run with finite differences.
+//! Trajectories that are found: a pole swung up by its cart and an arm that reaches, by differential dynamic
+//! programming with the exact derivatives that `linearize` generates, of first order (iLQR) and with the second ones of
+//! `hessian`, beside a run with finite differences.
 //!
 //! `cargo run --release --example swing_up [-- FOLDER]` draws into `FOLDER`, by default `target/gauss`.
 
@@ -112,8 +112,8 @@ fn swing_up() -> Result<Vec<Vec<Plot<'static>>>, Box<dyn Error>> {
 /// Where it was, and the state at the end.
 type Replay = (Vec<Sample<CartPoleKernel>>, Vector<4>);
 
-/// The equations themselves, by an integrator that chooses its steps, under the pushes that were found, from a start that is
-/// `beside` in the angle.
+/// The equations themselves, by an integrator that chooses its steps, under the pushes that were found, from a start
+/// that is `beside` in the angle.
 fn replay(kernel: &CartPoleKernel, plan: &Plan<4, 1>, beside: f64, regulated: bool) -> Result<Replay, Box<dyn Error>> {
     let (mut x, mut way) = (plan.states[0] + Vector::from([0.0, beside, 0.0, 0.0]), Vec::new());
     for (k, push) in plan.inputs.iter().enumerate() {

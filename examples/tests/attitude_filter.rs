@@ -1,5 +1,5 @@
-//! The filter of the example `attitude_filter`: its transition against differences of the very prediction, its update against the closed
-//! form on three axes, and its consistency.
+//! The filter of the example `attitude_filter`: its transition against differences of the very prediction, its update
+//! against the closed form on three axes, and its consistency.
 
 #[allow(dead_code)] // The program compares more.
 #[path = "../attitude_filter/filter.rs"]
@@ -67,7 +67,8 @@ fn a_look_weighs_by_variances() {
         let noise = TRACKER[i] * TRACKER[i];
         // The sum of two variances, a quotient, an exponential and a logarithm.
         assert!((moved[i] - expected[i] * prior / (prior + noise)).abs() < 20.0 * f64::EPSILON);
-        // The axes of the new estimate are turned by half of the change: e₃, which is seen worst, enters the others to second order.
+        // The axes of the new estimate are turned by half of the change: e₃, which is seen worst, enters the others to
+        // second order.
         let variance = estimate.covariance[(i, i)] / (prior * noise / (prior + noise));
         let turned = moved.norm_squared() * (TRACKER[2] / TRACKER[i]).powi(2);
         assert!((variance - 1.0).abs() < turned + 1e-9, "{i}: {variance}");
@@ -89,7 +90,8 @@ fn the_filter_knows_how_wrong_it_is() {
     let exact = follow(Transition::Exact);
     let (low, high) = interval(motions.len());
     let looks = exact.after_looks();
-    // 57 of 60 are expected within, ±1.7 if looks were independent; neighbours are not quite, so more than thrice that is allowed.
+    // 57 of 60 are expected within, ±1.7 if looks were independent; neighbours are not quite, so more than thrice that
+    // is allowed.
     let within = looks.iter().filter(|look| (low..high).contains(&look.normalised)).count();
     assert!(looks.len() == LOOKS && within >= 51, "{within}");
     let (mean, error) = exact.settled();

@@ -53,8 +53,8 @@ fn the_mass_point_by_hand_flies_the_same_way() {
         let halved = (coarse[n].0 - x).norm() + (coarse[n].1 - v).norm();
         let apart = (s.q.translation.vector - x).norm() + (s.z.fixed_rows::<3>(0) - v).norm();
         assert!(apart <= 2.0 * halved / 15.0 + tolerance(2.0), "{apart:e} at {} s", s.t);
-        // The equations themselves, at the states of the run. The momentum of the added mass is balanced in turning axes, where
-        // ω × v of some 10³ m/s² comes in and goes out again: a dozen roundings of that.
+        // The equations themselves, at the states of the run. The momentum of the added mass is balanced in turning
+        // axes, where ω × v of some 10³ m/s² comes in and goes out again: a dozen roundings of that.
         let exact = acceleration(&ball, s.t, &s.z.fixed_rows::<3>(0).into_owned(), &omega);
         let generated = kernel.acceleration(s.t, &s.q, &s.z, &());
         let turned = (s.q.rotation * s.z.fixed_rows::<3>(3).into_owned() - omega).norm();

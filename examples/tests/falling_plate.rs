@@ -1,4 +1,5 @@
-//! The claims of the example `falling_plate`, against equations typed by hand, Lamb's ellipsoids, and Chaplygin's equation.
+//! The claims of the example `falling_plate`, against equations typed by hand, Lamb's ellipsoids, and Chaplygin's
+//! equation.
 
 #[path = "../falling_plate/reference.rs"]
 mod reference;
@@ -48,8 +49,8 @@ fn it_falls_as_the_equations_of_the_paper_say() {
         });
         let found = [end.q.translation.x, end.q.translation.y];
         for (found, (coarse, fine)) in found.iter().zip(coarse.iter().zip(&fine)) {
-            // A few hundred steps with errors of 1e-10 of numbers below 10, which grow a few times where the plate glides; the
-            // reference is as good as its two runs agree.
+            // A few hundred steps with errors of 1e-10 of numbers below 10, which grow a few times where the plate
+            // glides; the reference is as good as its two runs agree.
             assert!((coarse - fine).abs() < 1e-8, "the reference is not good enough: {coarse} and {fine}");
             assert!((found - fine).abs() < (coarse - fine).abs() + 1e-6, "I* = {ratio}: {found} and {fine}");
         }
@@ -79,7 +80,8 @@ fn a_light_plate_flutters_and_a_heavy_one_tumbles() {
     assert!(turns(&heavy) > 2.0, "it turns over and over");
 }
 
-/// In an ideal fluid the impulse is that of the weight (Kirchhoff), and the angle obeys an equation of its own (Chaplygin).
+/// In an ideal fluid the impulse is that of the weight (Kirchhoff), and the angle obeys an equation of its own
+/// (Chaplygin).
 #[test]
 fn in_an_ideal_fluid_the_impulse_is_that_of_the_weight() {
     let plate = IdealPlate::new(FLUTTERING);
@@ -107,9 +109,11 @@ fn in_an_ideal_fluid_the_impulse_is_that_of_the_weight() {
     assert!((angle - fine).abs() < (coarse - fine).abs() + bound, "{angle} and {fine}");
 }
 
-/// Lamb's α₀ of an ellipsoid with half-axes a, b, c (Hydrodynamics, § 114): abc ∫₀^∞ dλ/((a² + λ) Δ), Δ² = (a² + λ)(b² + λ)(c² + λ).
+/// Lamb's α₀ of an ellipsoid with half-axes a, b, c (Hydrodynamics, § 114): abc ∫₀^∞ dλ/((a² + λ) Δ), Δ² = (a² + λ)(b²
+/// + λ)(c² + λ).
 fn alpha(a: f64, b: f64, c: f64) -> f64 {
-    // With λ = eˣ the integrand vanishes like eˣ and e^(−3x/2) at the ends, where the trapezoidal rule is as good as can be.
+    // With λ = eˣ the integrand vanishes like eˣ and e^(−3x/2) at the ends, where the trapezoidal rule is as good as
+    // can be.
     let h = 0.05;
     let integrand = |n: i32| {
         let l = (h * f64::from(n)).exp();
@@ -123,8 +127,8 @@ fn alpha(a: f64, b: f64, c: f64) -> f64 {
 fn the_added_mass_is_that_of_a_very_long_ellipsoid() {
     let (a, b, c) = (1.0, THICKNESS, 1e4);
     let (alpha, beta) = (alpha(a, b, c), alpha(b, a, c));
-    // § 114, § 115: over the displaced mass, and over the moment of inertia of the displaced fluid. Slices of an ellipsoid are
-    // similar to each other, so the quotients are those of the cylinder but for (a/c)² ln(c/a).
+    // § 114, § 115: over the displaced mass, and over the moment of inertia of the displaced fluid. Slices of an
+    // ellipsoid are similar to each other, so the quotients are those of the cylinder but for (a/c)² ln(c/a).
     let along = alpha / (2.0 - alpha);
     let across = beta / (2.0 - beta);
     let (difference, sum) = (a * a - b * b, a * a + b * b);
@@ -132,7 +136,8 @@ fn the_added_mass_is_that_of_a_very_long_ellipsoid() {
     let cylinder = added_mass(b);
     let displaced = PI * a * b;
     let moment = 0.25 * displaced * sum;
-    // The denominators are differences of numbers of size 2 that leave 2b/(a + b): b/a magnifies what (a/c)² makes of them.
+    // The denominators are differences of numbers of size 2 that leave 2b/(a + b): b/a magnifies what (a/c)² makes of
+    // them.
     let bound = (a / c).powi(2) * (c / a).ln() * (a / b).powi(2);
     for (ellipsoid, cylinder) in
         [(along, cylinder[0] / displaced), (across, cylinder[1] / displaced), (about, cylinder[5] / moment)]

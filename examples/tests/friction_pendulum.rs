@@ -7,7 +7,8 @@ use gauss_runtime::prelude::*;
 
 use scene::{Pendulum, Slider};
 
-/// The torques of gravity, spiral, buffer with its damping, and friction, N m: a uniform rod hangs at rest, angles from there.
+/// The torques of gravity, spiral, buffer with its damping, and friction, N m: a uniform rod hangs at rest, angles from
+/// there.
 fn torques(p: &Pendulum, theta: f64, speed: f64) -> [f64; 4] {
     let lever = -p.rod.center_of_mass.z;
     let beyond = p.limit - theta;
@@ -48,8 +49,8 @@ fn the_forces_are_those_of_the_textbook() {
             let theta = 0.1 * f64::from(n);
             let (q, z) = (SVector::from([theta]), SVector::from([speed]));
             let expected = torques(&pendulum, theta, speed);
-            // A dozen roundings of terms no larger than these; what is pressed is a difference of numbers of size 1 where the
-            // buffer is hardly touched.
+            // A dozen roundings of terms no larger than these; what is pressed is a difference of numbers of size 1
+            // where the buffer is hardly touched.
             let size: f64 =
                 expected.iter().map(|torque| torque.abs()).sum::<f64>() + pendulum.rubber * theta.abs().max(1.0);
             let rounding = 12.0 * f64::EPSILON * size;
@@ -74,8 +75,8 @@ fn it_swings_as_the_equations_typed_by_hand_do() {
     let end = run.run_to_end(SVector::from([1.6]), SVector::from([0.0]), 0.0..2.0).unwrap();
     let [coarse, fine] = [10_000, 20_000].map(|steps| runge_kutta(&pendulum, [1.6, 0.0], 2.0, steps));
     for (found, coarse, fine) in [(end.q[0], coarse[0], fine[0]), (end.z[0], coarse[1], fine[1])] {
-        // Halving the steps of a method of order 4 leaves a fifteenth of the difference; the adaptive run makes some thousand
-        // errors of 1e-11 of numbers below 10, which swings do not magnify.
+        // Halving the steps of a method of order 4 leaves a fifteenth of the difference; the adaptive run makes some
+        // thousand errors of 1e-11 of numbers below 10, which swings do not magnify.
         let bound = (coarse - fine).abs() / 15.0 + 1e-7;
         assert!((coarse - fine).abs() < 1e-8, "the reference is not good enough: {coarse} and {fine}");
         assert!((found - fine).abs() < bound, "{found} and {fine}");
@@ -91,14 +92,15 @@ fn at_rest_it_creeps_as_slowly_as_it_is_said_to() {
     assert!(pull.abs() < pendulum.dry, "friction holds it");
     let creeping = pendulum.creep * pull / (pendulum.dry * pendulum.dry - pull * pull).sqrt();
     let found = kernel.acceleration(0.0, &SVector::from([theta]), &SVector::from([creeping]), &())[0];
-    // At that speed the torques balance but for that of the buffer's damping, whose slope is (w/2x)² where nothing touches it.
+    // At that speed the torques balance but for that of the buffer's damping, whose slope is (w/2x)² where nothing
+    // touches it.
     let slope = (0.5 * pendulum.soft / (theta - pendulum.limit)).powi(2);
     let bound = pendulum.loss * slope * slope * creeping.abs() + 12.0 * f64::EPSILON * pendulum.rubber;
     assert!((found * pendulum.rod.inertia.m22).abs() < 1.01 * bound, "{found}");
 }
 
-/// Lengths in the plane (x, v/ω) are kept along an arc, so that errors of steps add up; each is the tolerance, of numbers up to 1,
-/// or where the force jumps, and the error is hard to estimate, up to three times that.
+/// Lengths in the plane (x, v/ω) are kept along an arc, so that errors of steps add up; each is the tolerance, of
+/// numbers up to 1, or where the force jumps, and the error is hard to estimate, up to three times that.
 #[test]
 fn dry_friction_takes_the_same_from_every_swing() {
     let slider = Slider::desk();

@@ -1,5 +1,5 @@
-//! The claims of the example `hopping`: hand-overs lose nothing, the gait of the literature is stable, and impacts come when they
-//! should.
+//! The claims of the example `hopping`: hand-overs lose nothing, the gait of the literature is stable, and impacts come
+//! when they should.
 
 #[path = "../hopping/model.rs"]
 mod model;
@@ -15,8 +15,8 @@ fn hand_overs_keep_energy_and_stances_are_symmetric_in_a_gait() {
     assert!(run.steps.len() == 60 && !run.stumbled);
     let energy = runner.energy(run.steps[0].apex);
     for step in &run.steps {
-        // The leg is at its full length at both ends of a stance: all energy is that of the mass. Tolerances of 1e-12 a step of some
-        // hundred, of 1800 J.
+        // The leg is at its full length at both ends of a stance: all energy is that of the mass. Tolerances of 1e-12 a
+        // step of some hundred, of 1800 J.
         for moment in [step.apex, step.touchdown, step.liftoff] {
             assert!((runner.energy(moment) / energy - 1.0).abs() < 1e-9, "{}", runner.energy(moment) - energy);
         }

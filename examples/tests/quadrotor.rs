@@ -37,8 +37,8 @@ fn four_rotors_carry_the_weight_at_the_speed_of_hovering() {
     let hover = SVector::from([craft.hover_speed(); 4]);
     let kernel = craft.kernel().unwrap();
     let acceleration = kernel.acceleration(0.0, &Isometry3::identity(), &SVector::zeros(), &hover);
-    // Four lifts against a weight: ten roundings of g; the torques about e₁ and e₂ cancel up to roundings of a·mg/4 over the
-    // inertia, some 2·10² rad/s².
+    // Four lifts against a weight: ten roundings of g; the torques about e₁ and e₂ cancel up to roundings of a·mg/4
+    // over the inertia, some 2·10² rad/s².
     let levers = craft.a * craft.mass * craft.g / craft.inertia.min();
     assert!(acceleration.norm() <= 10.0 * f64::EPSILON * (craft.g + levers), "{acceleration}");
 }

@@ -11,8 +11,8 @@ use model::{
     orbit, orbiter, pitch, slew, slew_torque, start, tumble_by_hand,
 };
 
-/// An error of 10⁻¹² in each step is an error of phase of as much over the amplitude, and the steps of at most 20 s are some
-/// 300 an orbit. The interpolation between samples is of fourth order: (20 s · 10⁻³/s)⁴/384 of the amplitude.
+/// An error of 10⁻¹² in each step is an error of phase of as much over the amplitude, and the steps of at most 20 s are
+/// some 300 an orbit. The interpolation between samples is of fourth order: (20 s · 10⁻³/s)⁴/384 of the amplitude.
 fn phase_error(orbits: f64, amplitude: f64) -> f64 {
     1e-12 * 300.0 * orbits / amplitude + 0.02_f64.powi(4) / 384.0
 }
@@ -37,7 +37,8 @@ fn lying_along_its_path_it_falls_over_at_the_rate_of_the_theory() {
     for s in path.iter() {
         let theory = deviation * (libration_frequency() * s.t).cosh();
         let found = pitch(&s.q) - FRAC_PI_2;
-        // Errors grow as the deviation does. Beyond the linear equation: δ³ against δ; 10⁻¹⁶·π/2 is the rounding of angles.
+        // Errors grow as the deviation does. Beyond the linear equation: δ³ against δ; 10⁻¹⁶·π/2 is the rounding of
+        // angles.
         let relative = 1e-12 * 300.0 / deviation + theory * theory;
         assert!((found - theory).abs() <= relative * theory + 1e-15, "{found:e} against {theory:e} at {} s", s.t);
     }
@@ -80,8 +81,8 @@ fn leaning_out_of_the_plane_it_moves_as_euler_and_kepler_say() {
     let (coarse, fine) = (by_hand(0.3, 0.2, h, steps), by_hand(0.3, 0.2, 0.5 * h, 2 * steps));
     let omega = end.z.fixed_rows::<3>(3).into_owned();
     let rotation = end.q.rotation.to_rotation_matrix().into_inner();
-    // A fifteenth of what halving changes is the finer one's error, of fourth order; twice that. 10⁻¹² a step for the run,
-    // which grows as far as a libration and the drift along the orbit do: by 6π in one.
+    // A fifteenth of what halving changes is the finer one's error, of fourth order; twice that. 10⁻¹² a step for the
+    // run, which grows as far as a libration and the drift along the orbit do: by 6π in one.
     let run = 1e-12 * 300.0 * 6.0 * std::f64::consts::PI;
     let within = |halved: f64| 2.0 * halved / 15.0 + run;
     assert!((end.q.translation.vector - fine.0).norm() / RADIUS <= within((coarse.0 - fine.0).norm() / RADIUS));

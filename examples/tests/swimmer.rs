@@ -1,4 +1,5 @@
-//! The example `swimmer`: from rest the impulse of fish and water stays zero, so its rate is a function of its shape alone.
+//! The example `swimmer`: from rest the impulse of fish and water stays zero, so its rate is a function of its shape
+//! alone.
 
 use gauss_runtime::prelude::*;
 use std::f64::consts::{FRAC_PI_2, TAU};

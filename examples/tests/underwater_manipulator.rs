@@ -33,7 +33,8 @@ fn accelerations_are_those_of_newton_and_euler() {
             let torques = SVector::from([0.3, -0.2]);
             let ours = kernel.acceleration(0.0, &q, &z, &torques);
             let theirs = by_hand::acceleration(&vehicle, &q, &z, &torques);
-            // The smallest moment of the arm against the largest sum of forces: conditions of some 10³, a few hundred roundings.
+            // The smallest moment of the arm against the largest sum of forces: conditions of some 10³, a few hundred
+            // roundings.
             let scale = theirs.amax().max(1.0);
             assert!((ours - theirs).amax() <= 1e-11 * scale, "{ours} {theirs}");
         }

@@ -45,8 +45,8 @@ pub struct Whole {
 }
 
 impl Whole {
-    /// The base moves all: the first six momenta are those of the whole about the origin of the base, in its axes, and the first six
-    /// rows of A say where the centre of mass is, `∂Q/∂ω = −m [c]×`.
+    /// The base moves all: the first six momenta are those of the whole about the origin of the base, in its axes, and
+    /// the first six rows of A say where the centre of mass is, `∂Q/∂ω = −m [c]×`.
     pub fn of(kernel: &QuadrupedKernel, sample: &Sample<QuadrupedKernel>) -> Whole {
         let (pose, _) = &sample.q;
         let matrix = kernel.mass_matrix(sample.t, &sample.q);

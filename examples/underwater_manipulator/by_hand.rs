@@ -1,5 +1,6 @@
-//! The same vehicle by hand: Newton's and Euler's laws for each body and its water in the body's own axes, paired with velocities that
-//! the joints leave free. Accelerations enter linearly, so nine evaluations give the equations that are solved.
+//! The same vehicle by hand: Newton's and Euler's laws for each body and its water in the body's own axes, paired with
+//! velocities that the joints leave free. Accelerations enter linearly, so nine evaluations give the equations that are
+//! solved.
 
 use gauss_runtime::prelude::*;
 
@@ -16,8 +17,8 @@ struct Link {
 }
 
 impl Link {
-    /// A body whose axes are turned about `axis` by `angle` against its parent's, O at `offset` from the parent's O in the parent's
-    /// axes and at `arm` from there in its own.
+    /// A body whose axes are turned about `axis` by `angle` against its parent's, O at `offset` from the parent's O in
+    /// the parent's axes and at `arm` from there in its own.
     fn child(
         &self,
         offset: Vector3<f64>,
@@ -78,7 +79,8 @@ fn missing(link: &Link, matter: &Matter, current: &Vector3<f64>, gravity: &Vecto
     [body[0] + water[0] - loads[0], body[1] + water[1] - loads[1]]
 }
 
-/// The generalised forces that a motion needs beyond what acts on it: along the twist of the hull and the rates of the joints.
+/// The generalised forces that a motion needs beyond what acts on it: along the twist of the hull and the rates of the
+/// joints.
 fn residual(vehicle: &Vehicle, q: &Place, z: &Speeds, rates: &Speeds) -> Speeds {
     let triple = |v: &Speeds, k: usize| Vector3::new(v[k], v[k + 1], v[k + 2]);
     let chain = |z: &Speeds, rates: &Speeds| -> [Link; 3] {
@@ -146,7 +148,8 @@ pub fn acceleration(vehicle: &Vehicle, q: &Place, z: &Speeds, torques: &SVector<
     matrix.lu().solve(&(given - still)).expect("bodies have mass")
 }
 
-/// The motion by the classical Runge–Kutta method on (R as a quaternion, b, angles, z), at every whole tenth of a second.
+/// The motion by the classical Runge–Kutta method on (R as a quaternion, b, angles, z), at every whole tenth of a
+/// second.
 pub fn run(
     vehicle: &Vehicle,
     start: (Place, Speeds),

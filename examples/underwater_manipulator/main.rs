@@ -1,5 +1,5 @@
-//! A vehicle with an arm of two joints in a current: how far it turns when the arm reaches out, and what the water that the arm
-//! carries along has to do with it.
+//! A vehicle with an arm of two joints in a current: how far it turns when the arm reaches out, and what the water that
+//! the arm carries along has to do with it.
 //!
 //! `cargo run --release --example underwater_manipulator [-- FOLDER]` draws into `FOLDER`, by default `target/gauss`.
 

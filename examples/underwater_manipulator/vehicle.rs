@@ -15,9 +15,9 @@ pub const SHOULDER: [f64; 3] = [0.25, 0.0, 0.12];
 
 /// k₁ north, k₂ east, k₃ down; hull's axes forward, starboard, down, O in its centre of mass.
 ///
-/// The shoulder yaws about e₃ of the hull, the elbow pitches about e₂ of the upper arm. O of each link is in its middle, where its
-/// mass, its fluid and its drag are symmetric; e₁ runs along it. All three bodies carry fluid along, weigh, float and are dragged, each
-/// relative to the current.
+/// The shoulder yaws about e₃ of the hull, the elbow pitches about e₂ of the upper arm. O of each link is in its
+/// middle, where its mass, its fluid and its drag are symmetric; e₁ runs along it. All three bodies carry fluid along,
+/// weigh, float and are dragged, each relative to the current.
 #[derive(Clone, Copy, Debug, GaussDynamics)]
 #[gauss(
     chart = left_invariant,
@@ -84,11 +84,12 @@ pub struct Vehicle {
 }
 
 impl Vehicle {
-    /// The hull is the BlueROV2 Heavy as identified by M. von Benzon, F. F. Sørensen, E. Uth, J. Jouffroy, J. Liniger and S.
-    /// Pedersen, *An open-source benchmark simulator: control of a BlueROV2 underwater robot*, Journal of Marine Science and Engineering
-    /// 10 (2022), 1898, table A1. The links are round tubes of the density of 1.2 of water; slender-body theory gives their water,
-    /// `ρπr²` for each metre across the axis (J. N. Newman, *Marine Hydrodynamics*, 1977, section 4.17), and cross-flow their drag, with
-    /// a coefficient of 1.1. The hull is trimmed: with the arm it weighs what it displaces.
+    /// The hull is the BlueROV2 Heavy as identified by M. von Benzon, F. F. Sørensen, E. Uth, J. Jouffroy, J. Liniger
+    /// and S. Pedersen, *An open-source benchmark simulator: control of a BlueROV2 underwater robot*, Journal of Marine
+    /// Science and Engineering 10 (2022), 1898, table A1. The links are round tubes of the density of 1.2 of water;
+    /// slender-body theory gives their water, `ρπr²` for each metre across the axis (J. N. Newman, *Marine
+    /// Hydrodynamics*, 1977, section 4.17), and cross-flow their drag, with a coefficient of 1.1. The hull is trimmed:
+    /// with the arm it weighs what it displaces.
     pub fn bluerov2() -> Self {
         let section = PI * RADIUS * RADIUS;
         let (link_displaced, link_mass) = (WATER * section * LINK, 1.2 * WATER * section * LINK);

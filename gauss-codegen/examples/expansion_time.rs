@@ -1,11 +1,12 @@
-//! How long the derive takes, as its users meet it: `cargo run --profile unoptimised --example expansion_time [-- RUNS]`.
+//! How long the derive takes, as its users meet it:
+//! `cargo run --profile unoptimised --example expansion_time [-- RUNS]`.
 //!
 //! First every size of structure beside what is aimed at, then one body in every chart. Cargo compiles macros without
 //! optimisation unless told otherwise, so the figures are taken on an unoptimised build of `gauss-codegen`.
 //!
-//! With a name (`body`, `torpedo`, `top`, `arm`, `quadruped`, `spatial`, `planar`, or a file that describes a robot that
-//! floats, for which the feature `urdf` is needed) one expansion, for a profiler: where a machine is shared, instructions
-//! are counted (`valgrind --tool=callgrind`).
+//! With a name (`body`, `torpedo`, `top`, `arm`, `quadruped`, `spatial`, `planar`, or a file that describes a robot
+//! that floats, for which the feature `urdf` is needed) one expansion, for a profiler: where a machine is shared,
+//! instructions are counted (`valgrind --tool=callgrind`).
 
 mod structures;
 
@@ -19,7 +20,8 @@ fn runs() -> usize {
     std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(RUNS)
 }
 
-/// How long this thread has computed, whatever else runs on the machine; where the system does not say, what has passed.
+/// How long this thread has computed, whatever else runs on the machine; where the system does not say, what has
+/// passed.
 fn computed(begun: Instant) -> Duration {
     let scheduled = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanoseconds = scheduled.and_then(|text| text.split(' ').next()?.parse().ok());

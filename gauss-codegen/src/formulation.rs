@@ -32,7 +32,8 @@ pub struct Formulation<'a, 'g> {
     pub inertial_parameters: Vec<InertialParameter<'g>>,
     /// The equations for people, as text and in LaTeX.
     pub printed: [Printed; 2],
-    /// Components x, y, z, w of the unit quaternions behind rotations, one for each coordinate, and the entries of R in terms of them.
+    /// Components x, y, z, w of the unit quaternions behind rotations, one for each coordinate, and the entries of R in
+    /// terms of them.
     pub quaternions: Vec<Option<[Expr<'g>; 4]>>,
     pub definitions: Map<u32, Expr<'g>>,
     /// Coordinates that are the components of one unit quaternion or of one unit vector.
@@ -181,9 +182,9 @@ fn regressor<'g>(clause: &Ident, system: &System<'g>, parameters: &[Parameter<'g
 /// Headings, each with its lines.
 pub type Printed = Vec<(String, Vec<String>)>;
 
-/// The equations as text and in LaTeX, before anything else is made of the system, and nothing is left of it: in which order
-/// the terms of a sum come depends on what was made before, and what is multiplied out on how much. So what is printed
-/// depends on the scene alone, and what is derived not on printing.
+/// The equations as text and in LaTeX, before anything else is made of the system, and nothing is left of it: in which
+/// order the terms of a sum come depends on what was made before, and what is multiplied out on how much. So what is
+/// printed depends on the scene alone, and what is derived not on printing.
 fn printed(system: &mut System<'_>) -> [Printed; 2] {
     system.forget();
     let printed = system.scene.graph.aside(|| {

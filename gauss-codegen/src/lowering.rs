@@ -18,7 +18,8 @@ use crate::translate::Given;
 /// The programs of all formulas and of the derivatives that are wanted.
 ///
 /// # Errors
-/// More code than is wanted, masses that are something else besides, motions without a power series; mistakes of this crate.
+/// More code than is wanted, masses that are something else besides, motions without a power series; mistakes of this
+/// crate.
 pub fn lower<'g>(formulation: &Formulation<'_, 'g>) -> Result<Kernel<'g>> {
     let Given { model, literals, .. } = &formulation.given;
     let graph = formulation.system.scene.graph;

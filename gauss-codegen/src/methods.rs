@@ -15,15 +15,16 @@ pub enum Method {
     ConstraintFunction,
     /// λ; only with constraints.
     Multipliers,
-    /// One for each element of what acts, as are the columns of the generalised forces; dE/dt. Only where there are elements.
+    /// One for each element of what acts, as are the columns of the generalised forces; dE/dt. Only where there are
+    /// elements.
     Powers,
     ElementForces,
     SuppliedPower,
     BodyTwist,
     Speeds,
     BodyMomentum,
-    /// R, row by row, and b of the only body; the twist (u, ω) that each component of an increment of the configuration makes.
-    /// Only where the configuration is not that pose in a chart of its own.
+    /// R, row by row, and b of the only body; the twist (u, ω) that each component of an increment of the configuration
+    /// makes. Only where the configuration is not that pose in a chart of its own.
     Pose,
     PoseByConfiguration,
     /// A numerator and the square of what it is divided by; only in charts with a singularity.

@@ -1,4 +1,5 @@
-//! What is too long, too deep or too large is refused at its place before time, memory or the stack run out; the rest works.
+//! What is too long, too deep or too large is refused at its place before time, memory or the stack run out; the rest
+//! works.
 
 use std::thread;
 use std::time::{Duration, Instant};
@@ -183,7 +184,8 @@ fn checks_out_of_range() {
     assert!(found.as_ref().is_none_or(|message| !message.contains("bug")), "{found:?}");
 }
 
-/// What a file of many links is refused for is found before everything is derived, and names are not looked for one by one.
+/// What a file of many links is refused for is found before everything is derived, and names are not looked for one by
+/// one.
 #[cfg(feature = "urdf")]
 #[test]
 fn many_links() {
@@ -210,8 +212,8 @@ fn many_links() {
     }
 }
 
-/// A file of a hundred links, ten limbs of ten, whose numbers are all different, derived, checked and written: one to two
-/// seconds of a quiet processor. It has 78,000 operations.
+/// A file of a hundred links, ten limbs of ten, whose numbers are all different, derived, checked and written: one to
+/// two seconds of a quiet processor. It has 78,000 operations.
 #[cfg(feature = "urdf")]
 #[test]
 fn a_hundred_links() {
@@ -335,8 +337,8 @@ fn files_that_never_end() {
     refused(include("0.xml"), "files include each other more than 32 deep");
 }
 
-/// What stands twice in each function of a function is doubled 2⁶⁰ times where it is written out: equations and the names of
-/// sums leave it out.
+/// What stands twice in each function of a function is doubled 2⁶⁰ times where it is written out: equations and the
+/// names of sums leave it out.
 #[test]
 fn functions_of_what_stands_twice() {
     let nested = |function: &str| (0..60).fold("x * y".to_owned(), |inner, _| format!("{function}({inner})"));

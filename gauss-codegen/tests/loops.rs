@@ -51,8 +51,8 @@ fn values(derivation: &Derivation, name: &str, q: &[f64]) -> Vec<f64> {
     program.run(&arguments).expect(name)
 }
 
-/// The cranks stay parallel: J has no third row that vanishes where the loop is closed, and on a body that falls nothing
-/// in it moves.
+/// The cranks stay parallel: J has no third row that vanishes where the loop is closed, and on a body that falls
+/// nothing in it moves.
 #[test]
 fn on_a_body_that_moves() {
     let linkage = derived("free", &linkage("><freejoint name=\"root\"/>", CLOSED)).expect("derived");
@@ -86,8 +86,8 @@ fn across_the_axes() {
     assert!(both[0].iter().zip(&both[1]).all(|(a, b)| (a - b).abs() < 1e-12 * (1.0 + a.abs())), "{both:?}");
 }
 
-/// In a plane a rod that is welded turns with the other; what a file says twice holds once, and what contradicts is told
-/// in its line.
+/// In a plane a rod that is welded turns with the other; what a file says twice holds once, and what contradicts is
+/// told in its line.
 #[test]
 fn welds_and_what_is_said_twice() {
     let weld = "<weld body1=\"b\" body2=\"c\"/>";

@@ -1,4 +1,5 @@
-//! Equations for people are no longer than the graph that they are printed from: what long rows have in common has a name.
+//! Equations for people are no longer than the graph that they are printed from: what long rows have in common has a
+//! name.
 
 #[allow(dead_code)]
 mod common;
@@ -9,8 +10,8 @@ use std::time::{Duration, Instant};
 
 use gauss_codegen::{Derivation, Notation};
 
-/// The bicycle of Whipple: a frame with its rider, a fork, two wheels that roll without slipping. Without `independent` its
-/// contacts have multipliers; with it three of eight speeds stay.
+/// The bicycle of Whipple: a frame with its rider, a fork, two wheels that roll without slipping. Without `independent`
+/// its contacts have multipliers; with it three of eight speeds stay.
 fn bicycle(independent: &str) -> Derivation {
     let source = format!(
         "#[gauss(

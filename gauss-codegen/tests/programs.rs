@@ -1,4 +1,5 @@
-//! The public face as other crates use it: programs run on other numbers, written and read, refused when malformed, and in C.
+//! The public face as other crates use it: programs run on other numbers, written and read, refused when malformed, and
+//! in C.
 
 mod common;
 #[path = "programs/poles.rs"]
@@ -104,7 +105,8 @@ impl Scalar for Dual {
     }
 }
 
-/// Derivatives by the speeds, once from the program that computes them and once by dual numbers through that of the accelerations.
+/// Derivatives by the speeds, once from the program that computes them and once by dual numbers through that of the
+/// accelerations.
 #[test]
 fn dual_numbers_run_through_programs() {
     for name in ["Arms", "Vehicle"] {

@@ -1,5 +1,5 @@
-//! Expressions that have no value, whatever the state and the parameters are: mistakes of the user, each at its token and all at once, and
-//! never called a bug.
+//! Expressions that have no value, whatever the state and the parameters are: mistakes of the user, each at its token
+//! and all at once, and never called a bug.
 
 /// A mistake: the text pointed at and the message.
 type Mistake<'a> = (&'a str, &'a str);

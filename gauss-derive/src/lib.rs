@@ -4,9 +4,10 @@
 
 #![deny(missing_docs)]
 
-/// Derives the equations of motion of rigid bodies from the Gauss condition, and generates `Name::kernel()`, the `NameKernel` that
-/// implements `GaussSystem`, `Name::warnings()`, and `NameState`: coordinates and speeds by name. Where the only matter is one body,
-/// however its coordinates and speeds are written, the kernel implements `RigidBodySystem`, and `convert` carries states to others.
+/// Derives the equations of motion of rigid bodies from the Gauss condition, and generates `Name::kernel()`, the
+/// `NameKernel` that implements `GaussSystem`, `Name::warnings()`, and `NameState`: coordinates and speeds by name.
+/// Where the only matter is one body, however its coordinates and speeds are written, the kernel implements
+/// `RigidBodySystem`, and `convert` carries states to others.
 ///
 /// # The struct: `#[gauss(…)]`
 ///
@@ -37,15 +38,16 @@
 /// | `displaced_mass` | scalar | mass of the displaced fluid: buoyancy; needs `gravity` |
 /// | `center_of_buoyancy` | `Vector3` | from O, body axes; without it buoyancy acts at O |
 ///
-/// The last segment of the written type decides the shape. Behind an alias the role gives it: `inertia = spherical |
-/// principal | full` (of `inertia_about_center_of_mass` too), `added_mass = diagonal | full`, `gravity = vertical | vector`.
-/// The scalar is `f32`, `f64`, or a type parameter of the struct (`struct Body<T> { … }`; the kernel is then generic over
-/// `T: Real`). Fields without a role are left alone.
+/// The last segment of the written type decides the shape. Behind an alias the role gives it:
+/// `inertia = spherical | principal | full` (of `inertia_about_center_of_mass` too), `added_mass = diagonal | full`,
+/// `gravity = vertical | vector`. The scalar is `f32`, `f64`, or a type parameter of the struct
+/// (`struct Body<T> { … }`; the kernel is then generic over `T: Real`). Fields without a role are left alone.
 ///
-/// Instead of fields the same words can be clauses of the struct: `mass = 2.0, inertia = [a, a, c], center_of_mass = [0, 0, l]`,
-/// expressions of numbers and fields without a role; `added_mass` is a list of six, or a field that is a `Vector6` or a `Matrix6`.
-/// Numbers that they determine are computed when the code is generated (unless the scalar is a type parameter), and zeros and
-/// equal moments leave it. A list of six is a full inertia, `[xx, xy, xz, yy, yz, zz]`.
+/// Instead of fields the same words can be clauses of the struct:
+/// `mass = 2.0, inertia = [a, a, c], center_of_mass = [0, 0, l]`, expressions of numbers and fields without a role;
+/// `added_mass` is a list of six, or a field that is a `Vector6` or a `Matrix6`. Numbers that they determine are
+/// computed when the code is generated (unless the scalar is a type parameter), and zeros and equal moments leave it. A
+/// list of six is a full inertia, `[xx, xy, xz, yy, yz, zz]`.
 ///
 /// # Configurations and order of z
 ///
@@ -55,13 +57,14 @@
 /// | `fixed_point` | `UnitQuaternion` | three angular | the angles |
 /// | `planar` | `Isometry2` | two linear, ω | x, y, θ |
 ///
-/// Jet charts have `SVector`s as configurations. `euler_zyx` is R = R_z(ψ) R_y(θ) R_x(φ), with angles (ψ, θ, φ), and so on.
+/// Jet charts have `SVector`s as configurations. `euler_zyx` is R = R_z(ψ) R_y(θ) R_x(φ), with angles (ψ, θ, φ), and so
+/// on.
 ///
 /// # States by name
 ///
-/// Of a system the configuration is made of its elements of groups in the order in which they are declared, then of one `SVector` of
-/// all its scalars: `A`, `(A, B)`, `(A, (B, C))`. Nobody needs to count: `NameState` has a field for every coordinate and every speed,
-/// vectors as `Vector3`.
+/// Of a system the configuration is made of its elements of groups in the order in which they are declared, then of one
+/// `SVector` of all its scalars: `A`, `(A, B)`, `(A, (B, C))`. Nobody needs to count: `NameState` has a field for every
+/// coordinate and every speed, vectors as `Vector3`.
 ///
 /// ```text
 /// let start = SpacecraftState { angle: 0.3, spin: 2.0, ..Default::default() }; // the rest at the origin, at rest
@@ -69,16 +72,19 @@
 /// let motor = |_t: f64, q: &_, z: &_| SVector::from([-k * SpacecraftState::of(q, z).angle]);
 /// ```
 ///
-/// Without `speeds` the speeds are called after their coordinates: `angle_dot` of a scalar, `craft_u` and `craft_omega` of a pose,
-/// `attitude_omega` of a rotation. Charts have `pose` (`rotation` about a fixed point) and `u`, `xi` or `b_dot` with `omega`; jet charts
-/// `b1`, `psi` …, `b1_dot`, `psi_dot` …. Of a vector of which `independent` keeps a component that is called `w_x`.
+/// Without `speeds` the speeds are called after their coordinates: `angle_dot` of a scalar, `craft_u` and `craft_omega`
+/// of a pose, `attitude_omega` of a rotation. Charts have `pose` (`rotation` about a fixed point) and `u`, `xi` or
+/// `b_dot` with `omega`; jet charts `b1`, `psi` …, `b1_dot`, `psi_dot` …. Of a vector of which `independent` keeps a
+/// component that is called `w_x`.
 ///
 /// Where there are inputs `NameInput` has them by name, of a wrench `contact_force` and `contact_torque`:
-/// `SpacecraftInput { motor: 0.1, ..Default::default() }.input()` is what kernels take, `SpacecraftInput::of(&input)` the way back.
+/// `SpacecraftInput { motor: 0.1, ..Default::default() }.input()` is what kernels take, `SpacecraftInput::of(&input)`
+/// the way back.
 ///
 /// # Frames
 ///
-/// `frames(tool, hull)` has methods written for bodies and frames of the scene; in a chart its body is `body`. Names stay as they are:
+/// `frames(tool, hull)` has methods written for bodies and frames of the scene; in a chart its body is `body`. Names
+/// stay as they are:
 ///
 /// ```text
 /// let pose = kernel.pose_of(ArmFrame::tool, t, &q);            // b and R, as the observer sees them
@@ -97,11 +103,12 @@
 ///
 /// # What kernels refuse, and warnings
 ///
-/// `kernel()` refuses what no body, spring or stop has: numbers that are not finite; masses, moments of inertia, displaced masses and
-/// stiffness below zero; inertias that are not symmetric, or break the triangle inequality; stops without width or with exchanged
-/// limits. Bodies that others move with can be without mass or without some moment (rotors, forks, rods, plates) as long as the sum is
-/// regular. Of a body that turns about one axis alone the other moments may be all zero, for "not stated". `waive(triangle_inequality)`
-/// waives that rule for all bodies, `waive(triangle_inequality = arm)` for one.
+/// `kernel()` refuses what no body, spring or stop has: numbers that are not finite; masses, moments of inertia,
+/// displaced masses and stiffness below zero; inertias that are not symmetric, or break the triangle inequality; stops
+/// without width or with exchanged limits. Bodies that others move with can be without mass or without some moment
+/// (rotors, forks, rods, plates) as long as the sum is regular. Of a body that turns about one axis alone the other
+/// moments may be all zero, for "not stated". `waive(triangle_inequality)` waives that rule for all bodies,
+/// `waive(triangle_inequality = arm)` for one.
 ///
 /// `warnings()` lists likely mistakes: drag and damping that feed energy, a `gravity` below zero, a center that pushes
 /// away, added mass with the sign of the derivatives X_u̇ … N_ṙ.
@@ -110,9 +117,10 @@
 /// # Systems
 ///
 /// Any of these clauses but `point` and `limit` makes a system, as does a field that is a body; its kernel implements
-/// `GaussSystem`, with `taylor` also `TaylorSystem`. Without `chart` and `motion` the coordinates are those of the clauses. With
-/// one of the two, the body without a name, which is called `body`, moves in its chart: its configuration, its speeds and their
-/// kinematics come first, those of the clauses after them, and whatever else there is can hang on it or constrain it:
+/// `GaussSystem`, with `taylor` also `TaylorSystem`. Without `chart` and `motion` the coordinates are those of the
+/// clauses. With one of the two, the body without a name, which is called `body`, moves in its chart: its
+/// configuration, its speeds and their kinematics come first, those of the clauses after them, and whatever else there
+/// is can hang on it or constrain it:
 ///
 /// ```text
 /// #[gauss(
@@ -165,11 +173,12 @@
 /// | `parameters = inertial` | the mass data of every link that moves are fields `#[gauss(body)] upper_arm: RigidBody<f64>`; such fields can also be there for some links alone. `Arm::from_file(…)` has the values of the file; the other fields of the struct are its arguments, in their order |
 /// | `ignore(gazebo, contact)` | elements and attributes of the file that are known not to act: no warnings of these |
 ///
-/// The file becomes clauses, and those of the struct come after them: more bodies, coordinates, forces, constraints, inputs, fields. Its
-/// names are kept: a joint that turns or slides is a scalar coordinate `elbow`; a planar one `slide_x`, `slide_y`, `slide_theta` in the
-/// plane normal to its axis; a floating one a pose. One that mimics another has no coordinate; what mimics a fixed one is fixed. A link
-/// is a body of its name, in the axes of the file; one without a moving joint is a frame, and what it weighs is added to the link that
-/// it is fixed to. Coordinates and efforts have the order of the file.
+/// The file becomes clauses, and those of the struct come after them: more bodies, coordinates, forces, constraints,
+/// inputs, fields. Its names are kept: a joint that turns or slides is a scalar coordinate `elbow`; a planar one
+/// `slide_x`, `slide_y`, `slide_theta` in the plane normal to its axis; a floating one a pose. One that mimics another
+/// has no coordinate; what mimics a fixed one is fixed. A link is a body of its name, in the axes of the file; one
+/// without a moving joint is a frame, and what it weighs is added to the link that it is fixed to. Coordinates and
+/// efforts have the order of the file.
 ///
 /// ```text
 /// let start = ArmState { elbow: 0.3, ..Default::default() };                     // elbow_dot is its rate
@@ -177,7 +186,8 @@
 /// let pose = kernel.pose_of(ArmFrame::named("tool0").unwrap(), 0.0, &start.q()); // with frames(tool0)
 /// ```
 ///
-/// In expressions `input.elbow` is this input, also where `elbow` is the coordinate: `drive(wrist = 0.1 * input.elbow)`.
+/// In expressions `input.elbow` is this input, also where `elbow` is the coordinate:
+/// `drive(wrist = 0.1 * input.elbow)`.
 ///
 /// The force elements are called `efforts`, `joint_damping`, `joint_friction`, and `elbow_limits`. A URDF has no
 /// `gravity`: without the clause or a field nothing weighs. Rotors of transmissions (`rotorInertia`) are armatures,
@@ -202,9 +212,9 @@
 /// `<attach>` hangs a body of another model, with what refers to it. An edit of any of these files, and of meshes,
 /// compiles the struct anew; mistakes are shown where they are written.
 ///
-/// Files may be anywhere, also behind links, as for `include_str!`. They are regular files, of 16 MiB at most with all that they
-/// include, a mesh of 64 MiB; elements are nested 256 deep at most, includes 32; a file attaches 32 models, and replicates 100 times, a
-/// thousand copies each. What is beyond is a mistake with its place.
+/// Files may be anywhere, also behind links, as for `include_str!`. They are regular files, of 16 MiB at most with all
+/// that they include, a mesh of 64 MiB; elements are nested 256 deep at most, includes 32; a file attaches 32 models,
+/// and replicates 100 times, a thousand copies each. What is beyond is a mistake with its place.
 ///
 /// Nothing is left out in silence: a table has every element and attribute of both formats, as one that acts, that is
 /// warned of, or that is harmless. Whatever acts in the file and not in the equations (elements and attributes that are
@@ -216,8 +226,9 @@
 ///
 /// # What acts
 ///
-/// These clauses stand in systems, and beside `chart` and `motion`. There the body of the chart is called `body`, as is the
-/// only body of a system that has no name of its own; in a chart `body = body` can be left out, and `at = …` is in body axes.
+/// These clauses stand in systems, and beside `chart` and `motion`. There the body of the chart is called `body`, as is
+/// the only body of a system that has no name of its own; in a chart `body = body` can be left out, and `at = …` is in
+/// body axes.
 ///
 /// | clause | meaning |
 /// |---|---|
@@ -248,11 +259,12 @@
 ///
 /// # Expressions
 ///
-/// Rust arithmetic on coordinates, speeds, fields, definitions, `pi` and the time `t`, with `sin cos tan asin acos atan atan2 tanh exp
-/// ln sqrt hypot powi powf dot cross`, functions that clauses declare, and the rotations `rotation_x rotation_y rotation_z inverse`,
-/// which are joined by `*` and turn vectors by `*`. A coordinate that is a `Rotation` is one of them; a `Pose` has `pose.position` and
-/// `pose.rotation`. Components are `v.x` or `v[0]`. The exponent of `powi` is an integer literal, that of `powf` is made of numbers and
-/// fields, and its base is not negative. A `rotation_z(pi / 2)` is exact.
+/// Rust arithmetic on coordinates, speeds, fields, definitions, `pi` and the time `t`, with
+/// `sin cos tan asin acos atan atan2 tanh exp ln sqrt hypot powi powf dot cross`, functions that clauses declare, and
+/// the rotations `rotation_x rotation_y rotation_z inverse`, which are joined by `*` and turn vectors by `*`. A
+/// coordinate that is a `Rotation` is one of them; a `Pose` has `pose.position` and `pose.rotation`. Components are
+/// `v.x` or `v[0]`. The exponent of `powi` is an integer literal, that of `powf` is made of numbers and fields, and its
+/// base is not negative. A `rotation_z(pi / 2)` is exact.
 ///
 /// | where | what else |
 /// |---|---|
@@ -264,21 +276,21 @@
 /// # Units
 ///
 /// Fields and inputs can have units: `#[gauss(unit = "N s^2/m^2")] k: f64`, `#[gauss(mass, unit = "kg")] m: f64`,
-/// `input(rudder = "rad")`. One unit that is written has all of the scene checked: terms of sums, arguments of functions, and
-/// what stands where N, N m, J, W, m or m/s are needed. Roles have the units of the SI, `t` is in s, positions and velocities
-/// of bodies are in m, m/s and rad/s. What has no unit, such as coordinates, agrees with everything; so does a number in a sum
-/// or alone, while as a factor it is a pure number: `2 * t` is in s.
+/// `input(rudder = "rad")`. One unit that is written has all of the scene checked: terms of sums, arguments of
+/// functions, and what stands where N, N m, J, W, m or m/s are needed. Roles have the units of the SI, `t` is in s,
+/// positions and velocities of bodies are in m, m/s and rad/s. What has no unit, such as coordinates, agrees with
+/// everything; so does a number in a sum or alone, while as a factor it is a pure number: `2 * t` is in s.
 ///
-/// Units are coherent ones of the SI, since values are used as they are: `kg m s N J W Pa Hz rad 1`. They are joined by a space,
-/// `*` or `·`; what follows `/` divides, and several factors after one `/` stand in brackets, `kg/(m s)`; powers are whole, `m^2`,
-/// `s^-1` or `m²`. A radian has no dimension. A wrench is in N and N m, and what has parts with different units, such as added
-/// mass, a `RigidBody` or the coefficients of a drag as a field, takes none.
+/// Units are coherent ones of the SI, since values are used as they are: `kg m s N J W Pa Hz rad 1`. They are joined by
+/// a space, `*` or `·`; what follows `/` divides, and several factors after one `/` stand in brackets, `kg/(m s)`;
+/// powers are whole, `m^2`, `s^-1` or `m²`. A radian has no dimension. A wrench is in N and N m, and what has parts
+/// with different units, such as added mass, a `RigidBody` or the coefficients of a drag as a field, takes none.
 ///
 /// # Errors
 ///
-/// Every mistake is a compile error at the token that is wrong, all of them at once. What is too long, too deep or too large to
-/// be derived within 10 s and 1 GB is a mistake like others; powers have at most 100 factors. What uses the kernel of such a struct
-/// gives no further errors.
+/// Every mistake is a compile error at the token that is wrong, all of them at once. What is too long, too deep or too
+/// large to be derived within 10 s and 1 GB is a mistake like others; powers have at most 100 factors. What uses the
+/// kernel of such a struct gives no further errors.
 #[proc_macro_derive(GaussDynamics, attributes(gauss))]
 pub fn derive_gauss_dynamics(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     let input = match gauss_codegen::item(input.into()) {

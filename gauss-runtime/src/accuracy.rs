@@ -7,13 +7,13 @@ use crate::methods::by_method;
 /// The loss of one method: its error in double precision, in units of what a change of every parameter and argument in
 /// its last place does to the result. A loss of 1 is what no method can do without; of 10 one decimal place more.
 ///
-/// Of a component y of a result that is ε (|y| + c), ε = 2⁻⁵², where ε c is the root mean square of the changes of y when
-/// every parameter, argument and number of the scene that double precision cannot hold is changed by some ε of its own
-/// size at once, independently of the others. The loss of a result is that of its worst component. A component that
+/// Of a component y of a result that is ε (|y| + c), ε = 2⁻⁵², where ε c is the root mean square of the changes of y
+/// when every parameter, argument and number of the scene that double precision cannot hold is changed by some ε of its
+/// own size at once, independently of the others. The loss of a result is that of its worst component. A component that
 /// vanishes whatever the numbers are has no unit of its own: its error is divided by the largest unit of the result.
 ///
-/// Both numbers are rounded up to 1, 2 or 5 times a power of ten, 0.1 at least; 1e16 means that no digit is left, or that
-/// the method divides by zero where there is a value.
+/// Both numbers are rounded up to 1, 2 or 5 times a power of ten, 0.1 at least; 1e16 means that no digit is left, or
+/// that the method divides by zero where there is a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 #[non_exhaustive]
 pub struct Loss {
@@ -52,8 +52,8 @@ by_method! {
     /// states that the search tried: right within a factor of ten where it was compared with 106 digits, and other
     /// states may be worse. The scalar of the crate `gauss-bounded` bounds the loss at a given state.
     ///
-    /// Of the arrangements of a method the cheapest is taken that loses little more than the best of them at every sample
-    /// state.
+    /// Of the arrangements of a method the cheapest is taken that loses little more than the best of them at every
+    /// sample state.
     #[derive(Clone, Copy, Debug, Default, PartialEq)]
     #[non_exhaustive]
     Accuracy of Loss = Loss::NONE;

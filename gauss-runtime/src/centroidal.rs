@@ -12,12 +12,13 @@ use crate::triple::{add, cross, sub, triple};
 
 /// A system that gives its centre of mass G and its momenta about G: `methods(centroidal)`.
 ///
-/// Components are the observer's, of momenta linear then angular. All bodies and particles count, the fluid around bodies does not.
-/// Without mass there is no centre, and the numbers are not finite.
+/// Components are the observer's, of momenta linear then angular. All bodies and particles count, the fluid around
+/// bodies does not. Without mass there is no centre, and the numbers are not finite.
 ///
-/// With the *centroidal momentum matrix* `A_G` the momentum is `h = A_G z`, and `dh/dt = A_G ż + bias` is the resultant of all forces
-/// from outside and their torque about G (D. E. Orin, A. Goswami & S.-H. Lee, *Centroidal dynamics of a humanoid robot*, Autonomous
-/// Robots 35, 2013). Where something is moved as a function of time the momentum at z = 0 comes besides.
+/// With the *centroidal momentum matrix* `A_G` the momentum is `h = A_G z`, and `dh/dt = A_G ż + bias` is the resultant
+/// of all forces from outside and their torque about G (D. E. Orin, A. Goswami & S.-H. Lee, *Centroidal dynamics of a
+/// humanoid robot*, Autonomous Robots 35, 2013). Where something is moved as a function of time the momentum at z = 0
+/// comes besides.
 #[cfg_attr(
     feature = "derive",
     doc = r##"

@@ -6,8 +6,8 @@ use crate::private::eigenvalues;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// The condition number of A at a configuration, 1 at best: accelerations lose some log₁₀ of it in digits, beyond what parameters and
-/// forces have lost already. Infinite where A is not positive definite up to rounding.
+/// The condition number of A at a configuration, 1 at best: accelerations lose some log₁₀ of it in digits, beyond what
+/// parameters and forces have lost already. Infinite where A is not positive definite up to rounding.
 ///
 /// It is the ratio of the extreme eigenvalues of `D^−½ A D^−½`, D the diagonal of A: units, and how masses compare with
 /// moments of inertia, do not matter to it, as they do not to the generated code. It is large for a light body in a

@@ -46,15 +46,15 @@ pub trait Configuration: Copy + Debug {
     /// `self ∘ exp(tangent)`.
     fn retract(&self, tangent: &Self::Tangent) -> Self;
 
-    /// `self ∘ exp(tangent)`, held at norm 1: the end of a step. What holds the norm is added before the sum is rounded, so that
-    /// it does no harm over long runs (see [`lie::so3::advance`](crate::lie::so3::advance)).
+    /// `self ∘ exp(tangent)`, held at norm 1: the end of a step. What holds the norm is added before the sum is
+    /// rounded, so that it does no harm over long runs (see [`lie::so3::advance`](crate::lie::so3::advance)).
     fn advance(&self, tangent: &Self::Tangent) -> Self {
         self.retract(tangent).renormalise()
     }
 
-    /// `meant ∘ exp(tangent)`, brought back to norm 1, where `meant = self ∘ exp(carried)` is known beyond the precision of
-    /// `self`; `carried` becomes that of the result: see [`lie::carried`](crate::lie::carried). Where this is not written, nothing
-    /// is carried.
+    /// `meant ∘ exp(tangent)`, brought back to norm 1, where `meant = self ∘ exp(carried)` is known beyond the
+    /// precision of `self`; `carried` becomes that of the result: see [`lie::carried`](crate::lie::carried). Where this
+    /// is not written, nothing is carried.
     fn retract_carrying(&self, tangent: &Self::Tangent, carried: &mut Self::Tangent) -> Self {
         let _ = carried;
         self.advance(tangent)
@@ -72,15 +72,15 @@ pub trait Configuration: Copy + Debug {
     /// The sign of the ½ is that of increments on the right; with increments on the left it would be −½.
     fn dexp_inv(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent;
 
-    /// The Lie bracket `[v, w] = ad_v w`, of increments on the right. Where it is not written it is twice the odd part of
-    /// [`dexp_inv`](Self::dexp_inv) in v: all its further terms are even.
+    /// The Lie bracket `[v, w] = ad_v w`, of increments on the right. Where it is not written it is twice the odd part
+    /// of [`dexp_inv`](Self::dexp_inv) in v: all its further terms are even.
     fn bracket(v: &Self::Tangent, w: &Self::Tangent) -> Self::Tangent {
         let back = Self::dexp_inv(&v.scale(-Self::Scalar::one()), w);
         Self::dexp_inv(v, w).add_scaled(-Self::Scalar::one(), &back)
     }
 
-    /// The left-trivialised differential of exp at `v`, a linear map of increments: the inverse of [`dexp_inv`](Self::dexp_inv),
-    /// without its poles. What depends on `v` alone is worked out once.
+    /// The left-trivialised differential of exp at `v`, a linear map of increments: the inverse of
+    /// [`dexp_inv`](Self::dexp_inv), without its poles. What depends on `v` alone is worked out once.
     ///
     /// If σ moves with the rate w then `q₀ ∘ exp(σ)` moves with the body velocity `dexp(σ)(w)`:
     ///
@@ -114,15 +114,15 @@ pub trait Configuration: Copy + Debug {
     /// when it starts there; a product of the components and the velocity, as for quaternions `½ q ∘ (ω, 0)`, is one.
     fn component_rates(&self, velocity: &Self::Tangent) -> Self::Components;
 
-    /// The left-trivialised increment that changes the components by `change`, to first order in it; what leads off the group is
-    /// dropped. `q.tangent(&q.component_rates(&v))` is v.
+    /// The left-trivialised increment that changes the components by `change`, to first order in it; what leads off the
+    /// group is dropped. `q.tangent(&q.component_rates(&v))` is v.
     fn tangent(&self, change: &Self::Components) -> Self::Tangent;
 
     /// Whether every component is finite.
     fn is_finite(&self) -> bool;
 
-    /// The unit of component `i` where all else is in units of the SI, `"1"` of a pure number; empty where the scene decides, as of
-    /// a plain coordinate.
+    /// The unit of component `i` where all else is in units of the SI, `"1"` of a pure number; empty where the scene
+    /// decides, as of a plain coordinate.
     #[must_use]
     fn component_unit(i: usize) -> &'static str {
         let _ = i;
@@ -136,14 +136,15 @@ pub trait Configuration: Copy + Debug {
         ""
     }
 
-    /// The change of the components that brings norms back to 1, to first order: what a method that works on components adds
-    /// to the change of a step before it is rounded, as [`advance`](Self::advance) does. Zero where there is nothing to keep.
+    /// The change of the components that brings norms back to 1, to first order: what a method that works on components
+    /// adds to the change of a step before it is rounded, as [`advance`](Self::advance) does. Zero where there is
+    /// nothing to keep.
     fn norm_correction(&self) -> Self::Components {
         Self::Components::zero()
     }
 
-    /// The nearest valid configuration: a unit quaternion is brought back to norm 1 without bias, and left alone where its norm
-    /// is 1 up to rounding. The identity where there is nothing to keep.
+    /// The nearest valid configuration: a unit quaternion is brought back to norm 1 without bias, and left alone where
+    /// its norm is 1 up to rounding. The identity where there is nothing to keep.
     fn renormalise(&self) -> Self {
         *self
     }
@@ -156,8 +157,8 @@ pub trait Configuration: Copy + Debug {
         0.0
     }
 
-    /// [`increment_angle`](Self::increment_angle) of every lane by itself. Where it is not written it is the largest one in all of
-    /// them.
+    /// [`increment_angle`](Self::increment_angle) of every lane by itself. Where it is not written it is the largest
+    /// one in all of them.
     #[inline]
     fn increment_angles(tangent: &Self::Tangent) -> Self::Scalar {
         Self::Scalar::from_f64(Self::increment_angle(tangent))
@@ -167,7 +168,8 @@ pub trait Configuration: Copy + Debug {
     /// the origin for translations, the value itself for a plain coordinate. The largest over the lanes.
     fn magnitude(&self, i: usize) -> f64;
 
-    /// [`magnitude`](Self::magnitude) of every lane by itself. Where it is not written it is the largest one in all of them.
+    /// [`magnitude`](Self::magnitude) of every lane by itself. Where it is not written it is the largest one in all of
+    /// them.
     #[inline]
     fn magnitudes(&self, i: usize) -> Self::Scalar {
         Self::Scalar::from_f64(self.magnitude(i))

@@ -9,8 +9,8 @@ use crate::real::Real;
 use crate::system::RigidBodySystem;
 use crate::triple::norm;
 
-/// The state (q, z) of one kernel in the variables of another: same pose, same body twist of O, up to rounding (divided by
-/// the distance from a singularity of the coordinates, which at √ε is refused).
+/// The state (q, z) of one kernel in the variables of another: same pose, same body twist of O, up to rounding (divided
+/// by the distance from a singularity of the coordinates, which at √ε is refused).
 ///
 /// Both kernels should describe the same body with the same O. They may differ in all else, so this also converts
 /// between a velocity chart of the free motion and any chart of a planar motion or of one with a fixed point, and
@@ -18,7 +18,8 @@ use crate::triple::norm;
 /// of time: [`convert_at`].
 ///
 /// # Errors
-/// - [`ChartError::Singular`] and [`ChartError::Undetermined`] when the pose is a singular point of the target's coordinates;
+/// - [`ChartError::Singular`] and [`ChartError::Undetermined`] when the pose is a singular point of the target's
+///   coordinates;
 /// - [`ChartError::Inexpressible`] when the target motion cannot have the pose or the twist beyond rounding;
 /// - [`ChartError::NonFinite`] when the state has an infinite or undefined component.
 pub fn convert<A, B>(
@@ -62,8 +63,8 @@ where
     }
     let (configuration, speeds) = admitted(t, to, configuration, speeds, &pose)?;
 
-    // Projecting on the target's twists and going back must change nothing but the last digits. Their unit is set by the
-    // largest number on the way: the twist, z itself (large near gimbal lock), and b × ω (large far from Ω).
+    // Projecting on the target's twists and going back must change nothing but the last digits. Their unit is set by
+    // the largest number on the way: the twist, z itself (large near gimbal lock), and b × ω (large far from Ω).
     let back = to.body_twist(t, &configuration, &speeds);
     let [_, _, _, wx, wy, wz] = twist.data.0[0];
     let lever = norm(&pose.translation.vector.data.0[0]) * norm(&[wx, wy, wz]);
@@ -133,8 +134,8 @@ fn refuse_near_singularity<B: RigidBodySystem>(
     for lane in 0..B::Scalar::LANES {
         let regularity = regularity.lane(lane).abs();
         if regularity <= Real::sqrt(B::Scalar::EPSILON) {
-            // Near a singularity the sine of an angle is the angle. Euler angles are singular in the middle one; for a Rodrigues
-            // vector it is half the distance.
+            // Near a singularity the sine of an angle is the angle. Euler angles are singular in the middle one; for a
+            // Rodrigues vector it is half the distance.
             let (angle, distance) = match chart {
                 RotationChart::Euler(_) => (coordinates_of_rotation(chart, &pose.rotation)?[1].lane(lane), regularity),
                 _ => (core::f64::consts::PI - 2.0 * regularity, 2.0 * regularity),

@@ -131,7 +131,8 @@ by_method! {
     constraint_function,
     /// Of [`GaussSystem::evaluate`](crate::system::GaussSystem::evaluate).
     evaluate,
-    /// Of [`ConstrainedSystem::multipliers`](crate::constraint::ConstrainedSystem::multipliers); none without constraints.
+    /// Of [`ConstrainedSystem::multipliers`](crate::constraint::ConstrainedSystem::multipliers); none without
+    /// constraints.
     multipliers,
     /// Of [`ForcedSystem::powers`](crate::forces::ForcedSystem::powers); none where nothing acts.
     powers,
@@ -155,7 +156,8 @@ by_method! {
     centroidal_matrix,
     /// Of [`CentroidalSystem::centroidal_bias`](crate::centroidal::CentroidalSystem::centroidal_bias).
     centroidal_bias,
-    /// Of [`GaussSystem::nonlinear_effects`](crate::system::GaussSystem::nonlinear_effects), where it is a program of its own.
+    /// Of [`GaussSystem::nonlinear_effects`](crate::system::GaussSystem::nonlinear_effects), where it is a program of
+    /// its own.
     nonlinear_effects,
     /// Of [`GravityTorques::gravity_torques`](crate::centroidal::GravityTorques::gravity_torques).
     gravity_torques,

@@ -1,8 +1,10 @@
-//! Parameters that no body has: which field, which value, which rule. And parameters that a body can have, but hardly should.
+//! Parameters that no body has: which field, which value, which rule. And parameters that a body can have, but hardly
+//! should.
 
 use core::fmt;
 
-/// The most violations that one error lists, and the most warnings; a scene has a handful of fields, and each reports once.
+/// The most violations that one error lists, and the most warnings; a scene has a handful of fields, and each reports
+/// once.
 pub const MOST_VIOLATIONS: usize = 8;
 
 /// A rule that parameters of bodies satisfy.
@@ -35,13 +37,14 @@ pub enum Rule {
         /// The upper limit.
         most: f64,
     },
-    /// Bodies without mass, or without some moment of inertia, move together with others that make up for it. The value is the
-    /// smallest eigenvalue of their mass matrix scaled to a unit diagonal, 0.
+    /// Bodies without mass, or without some moment of inertia, move together with others that make up for it. The value
+    /// is the smallest eigenvalue of their mass matrix scaled to a unit diagonal, 0.
     RegularSum,
-    /// An inertia tensor is positive definite; of a body that others move with, no moment is negative. The value is its smallest
-    /// principal moment.
+    /// An inertia tensor is positive definite; of a body that others move with, no moment is negative. The value is its
+    /// smallest principal moment.
     PositiveDefiniteInertia,
-    /// The moments of inertia about the centre of mass, `I_O − m(|c|² 1 − c cᵀ)`, are positive. The value is the smallest.
+    /// The moments of inertia about the centre of mass, `I_O − m(|c|² 1 − c cᵀ)`, are positive. The value is the
+    /// smallest.
     InertiaAboutCenterOfMass,
     /// No principal moment of inertia exceeds the sum of the other two. The value is the largest moment.
     TriangleInequality {
@@ -254,10 +257,11 @@ impl fmt::Display for DragKind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Finding {
-    /// A matrix of drag D delivers energy. The value is the smallest eigenvalue of its symmetric part, in the units given.
+    /// A matrix of drag D delivers energy. The value is the smallest eigenvalue of its symmetric part, in the units
+    /// given.
     ///
-    /// Of linear drag VᵀDV is the power taken. Quadratic drag takes `|V_j| VᵀDV` from velocities whose components all have
-    /// the same size |V_j|; others are not looked at.
+    /// Of linear drag VᵀDV is the power taken. Quadratic drag takes `|V_j| VᵀDV` from velocities whose components all
+    /// have the same size |V_j|; others are not looked at.
     DragFeedsEnergy {
         /// Linear or quadratic.
         kind: DragKind,
@@ -269,8 +273,8 @@ pub enum Finding {
     GravityUpward,
     /// A centre pushes away. The value is its gravitational parameter.
     CenterRepels,
-    /// A diagonal entry of an added mass is negative, which is the sign of the derivatives X_u̇ … N_ṙ (SNAME 1950). The value is
-    /// that entry.
+    /// A diagonal entry of an added mass is negative, which is the sign of the derivatives X_u̇ … N_ṙ (SNAME 1950). The
+    /// value is that entry.
     AddedMassOfDerivatives,
 }
 

@@ -1,7 +1,7 @@
 //! Forces on a system, element by element: generalised forces and powers by name, and the balance of energy.
 //!
-//! With E the kinetic and potential energy, and P_e the power of element e, `dE/dt = Σ P_e + ∂U/∂t`, summed over the elements
-//! whose work the potential energy U does not count already: [`ForcedSystem::supplied_power`].
+//! With E the kinetic and potential energy, and P_e the power of element e, `dE/dt = Σ P_e + ∂U/∂t`, summed over the
+//! elements whose work the potential energy U does not count already: [`ForcedSystem::supplied_power`].
 
 use core::fmt;
 
@@ -43,8 +43,9 @@ pub trait ForcedSystem: GaussSystem {
     /// dE/dt by the elements, E = T + U: the powers of those that are not in the potential energy, and of the dampers
     /// of springs and stops that are, plus ∂U/∂t.
     ///
-    /// It is all of dE/dt. Where something is moved as a function of time (a prescribed coordinate, a constraint that depends
-    /// on t), whatever moves it does work as well: that is the last element, `guides`, which has no generalised force.
+    /// It is all of dE/dt. Where something is moved as a function of time (a prescribed coordinate, a constraint that
+    /// depends on t), whatever moves it does work as well: that is the last element, `guides`, which has no generalised
+    /// force.
     fn supplied_power(
         &self,
         t: Self::Scalar,
@@ -93,7 +94,8 @@ fn position<S: ForcedSystem + ?Sized>(name: &str) -> Option<usize> {
 pub struct Element {
     /// Its name in the scene, or the name of its kind where it has none.
     pub name: &'static str,
-    /// Whether [`potential_energy`](GaussSystem::potential_energy) counts its work; of a spring with a damper, that of the spring.
+    /// Whether [`potential_energy`](GaussSystem::potential_energy) counts its work; of a spring with a damper, that of
+    /// the spring.
     pub conservative: bool,
     /// Whether it is a spring or a stop with a damper, whose power changes the energy.
     pub damped: bool,

@@ -1,10 +1,11 @@
-//! Where frames of a system are and how they move: pose, twist, Jacobian and acceleration of bodies and frames by their names.
+//! Where frames of a system are and how they move: pose, twist, Jacobian and acceleration of bodies and frames by their
+//! names.
 //!
 //! `#[gauss(frames(tool, left_foot))]` has the derive write them: its kernel then implements [`FramedSystem`].
 //!
-//! A frame is a body or a `frame(…)` of the scene: its origin O and its axes e. Vectors have components in the axes of the frame
-//! itself, and the pole is its origin: (linear, angular), as everywhere in this crate. [`in_observers_axes`] turns them, and
-//! [`moved_to`] takes them to another point of the frame.
+//! A frame is a body or a `frame(…)` of the scene: its origin O and its axes e. Vectors have components in the axes of
+//! the frame itself, and the pole is its origin: (linear, angular), as everywhere in this crate. [`in_observers_axes`]
+//! turns them, and [`moved_to`] takes them to another point of the frame.
 
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -82,7 +83,8 @@ pub trait FramedSystem: GaussSystem {
     /// [`ByFrame`] of all frames.
     type Frames: Index<Self::Frame, Output = FrameMotion<Self::Scalar, Self::Jacobian>>;
 
-    /// The pose (R, b): `x̂ = R x + b` takes coordinates in the frame to the observer's. R is a matrix, as it is computed.
+    /// The pose (R, b): `x̂ = R x + b` takes coordinates in the frame to the observer's. R is a matrix, as it is
+    /// computed.
     fn pose_of(&self, frame: Self::Frame, t: Self::Scalar, q: &Self::Configuration) -> FramePose<Self::Scalar>;
 
     /// The twist (u, ω): velocity of the origin and angular velocity, both relative to the observer, components in the
@@ -98,11 +100,12 @@ pub trait FramedSystem: GaussSystem {
     /// ∂(u, ω)/∂z, a column for each speed: rows as [`twist_of`](Self::twist_of).
     fn jacobian_of(&self, frame: Self::Frame, t: Self::Scalar, q: &Self::Configuration) -> Self::Jacobian;
 
-    /// (a, ω̇) at ż = 0: acceleration of the origin and angular acceleration as the observer sees them, components in the frame's
-    /// axes. So (a, ω̇) is `J ż + bias`.
+    /// (a, ω̇) at ż = 0: acceleration of the origin and angular acceleration as the observer sees them, components in
+    /// the frame's axes. So (a, ω̇) is `J ż + bias`.
     ///
-    /// a is the *classical* acceleration d²b/dt² of a point, `u̇ + ω × u`, not the rate u̇ of components in turning axes. Seen in
-    /// observer's axes it is d/dt(R J) z, and what moves as a function of time besides. Gravity is no part of it.
+    /// a is the *classical* acceleration d²b/dt² of a point, `u̇ + ω × u`, not the rate u̇ of components in turning
+    /// axes. Seen in observer's axes it is d/dt(R J) z, and what moves as a function of time besides. Gravity is no
+    /// part of it.
     fn bias_of(
         &self,
         frame: Self::Frame,
@@ -240,7 +243,8 @@ pub fn in_frames_axes<T: Real, const N: usize>(pose: &FramePose<T>, columns: &SM
 
 /// Twists, or Jacobians of twists, with the pole at another point of the frame: `u + ω × at`, and ω as it is.
 ///
-/// `at` is from the old pole, in the axes of the columns. For a point that is fixed in a frame `at` are its coordinates there.
+/// `at` is from the old pole, in the axes of the columns. For a point that is fixed in a frame `at` are its coordinates
+/// there.
 #[inline]
 pub fn moved_to<T: Real, const N: usize>(at: &Vector3<T>, columns: &SMatrix<T, 6, N>) -> SMatrix<T, 6, N> {
     let at = at.data.0[0];

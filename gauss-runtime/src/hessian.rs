@@ -1,5 +1,5 @@
-//! Second derivatives of the equations of motion along given weights: what differential dynamic programming, Newton's method along a
-//! trajectory and the sensitivities of costates ask for.
+//! Second derivatives of the equations of motion along given weights: what differential dynamic programming, Newton's
+//! method along a trajectory and the sensitivities of costates ask for.
 //!
 //! `#[gauss(linearize(hessian))]` on a struct has the derive write them: its kernel then implements [`HessianSystem`].
 
@@ -11,14 +11,15 @@ use crate::linearize::{LinearModel, LinearizedSystem};
 
 /// A system whose equations come with the second derivatives of `λ · (V, ż)`, a number, by the state and the input.
 ///
-/// λ weighs the rates as [`Linearization::rate`](crate::linearize::Linearization::rate) has them, V and then ż: the gradient of the
-/// cost to go in dynamic programming, the costate in the maximum principle. All second derivatives of all rates would be as many
-/// matrices; of one sum of them there is one, and it costs a few times [`linearize`](LinearizedSystem::linearize).
+/// λ weighs the rates as [`Linearization::rate`](crate::linearize::Linearization::rate) has them, V and then ż: the
+/// gradient of the cost to go in dynamic programming, the costate in the maximum principle. All second derivatives of
+/// all rates would be as many matrices; of one sum of them there is one, and it costs a few times
+/// [`linearize`](LinearizedSystem::linearize).
 ///
-/// The state moves by (σ, δz) as for `linearize`: second derivatives are those of `λ · (V, ż)` at `q ∘ exp(σ)`, `z + δz` and
-/// `input + δu`, by σ, δz and δu at 0. They are symmetric. (Differentiating `linearize` along one component of a rotation after the
-/// other is not: it differs by half of the bracket of the two, [`Configuration::Tangent`](crate::configuration::Configuration), and the mean of
-/// both orders is what stands here.)
+/// The state moves by (σ, δz) as for `linearize`: second derivatives are those of `λ · (V, ż)` at `q ∘ exp(σ)`,
+/// `z + δz` and `input + δu`, by σ, δz and δu at 0. They are symmetric. (Differentiating `linearize` along one
+/// component of a rotation after the other is not: it differs by half of the bracket of the two,
+/// [`Configuration::Tangent`](crate::configuration::Configuration), and the mean of both orders is what stands here.)
 #[cfg_attr(
     feature = "derive",
     doc = r##"
@@ -58,8 +59,8 @@ pub trait HessianSystem: LinearizedSystem {
     /// [`Hessian`] of this system's sizes.
     type Hessian: Copy + Debug;
 
-    /// The second derivatives of `weights · (V, ż)`, exact up to rounding; under constraints those of the accelerations that satisfy
-    /// them.
+    /// The second derivatives of `weights · (V, ż)`, exact up to rounding; under constraints those of the accelerations
+    /// that satisfy them.
     ///
     /// At a kink (`abs`, `min`, `max`, `clamp`) second derivatives are those of its two sides; the kink itself adds
     /// nothing. Where a root is 0 they are of no use. Non-finite input gives non-finite output.

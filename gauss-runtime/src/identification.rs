@@ -1,5 +1,5 @@
-//! What identification of parameters needs of a system: the derivatives of its motion by them, and its forces of inertia as a
-//! linear function of masses, first moments and inertias.
+//! What identification of parameters needs of a system: the derivatives of its motion by them, and its forces of
+//! inertia as a linear function of masses, first moments and inertias.
 //!
 //! `#[gauss(linearize(parameters))]` on a struct has the derive write [`ParametricSystem`], `#[gauss(regressor)]`
 //! [`InertialRegressor`].
@@ -13,9 +13,9 @@ use crate::system::GaussSystem;
 
 /// A system whose equations come with their derivatives by the parameters, the numbers of the fields of its struct.
 ///
-/// Each number of a field is a parameter, in the order of the fields. Of a symmetric matrix (inertia, added mass) the entries below the
-/// diagonal are parameters: each moves with its mirror image, and counts once. A parameter that the equations do not depend on
-/// has a column of zeros.
+/// Each number of a field is a parameter, in the order of the fields. Of a symmetric matrix (inertia, added mass) the
+/// entries below the diagonal are parameters: each moves with its mirror image, and counts once. A parameter that the
+/// equations do not depend on has a column of zeros.
 #[cfg_attr(
     feature = "derive",
     doc = r##"
@@ -47,20 +47,22 @@ assert!(!PendulumKernel::PARAMETER_PATTERN[1][0]);
 "##
 )]
 pub trait ParametricSystem: LinearizedSystem {
-    /// `SMatrix<Scalar, D, P>`: a row for each component of (V, ż), as in [`Linearization`](crate::linearize::Linearization), a column for each
-    /// parameter.
+    /// `SMatrix<Scalar, D, P>`: a row for each component of (V, ż), as in
+    /// [`Linearization`](crate::linearize::Linearization), a column for each parameter.
     type ByParameters: Copy + Debug + Index<(usize, usize), Output = Self::Scalar>;
 
-    /// The parameters in order, by the names of their fields: `m`, `center[2]`, `inertia[1][0]`, `arm.center_of_mass[2]`.
+    /// The parameters in order, by the names of their fields: `m`, `center[2]`, `inertia[1][0]`,
+    /// `arm.center_of_mass[2]`.
     const PARAMETERS: &'static [&'static str];
 
     /// Which entries of [`by_parameters`](Self::by_parameters) can be other than zero, row by row.
     const PARAMETER_PATTERN: &'static [&'static [bool]];
 
-    /// ∂(V, ż)/∂parameters at a state, exact up to rounding; under constraints those of the accelerations that satisfy them.
+    /// ∂(V, ż)/∂parameters at a state, exact up to rounding; under constraints those of the accelerations that satisfy
+    /// them.
     ///
-    /// Units are those of V or ż over those of the parameter. Kinks and roots as in [`LinearizedSystem::linearize`]. Non-finite
-    /// input gives non-finite output.
+    /// Units are those of V or ż over those of the parameter. Kinks and roots as in [`LinearizedSystem::linearize`].
+    /// Non-finite input gives non-finite output.
     fn by_parameters(
         &self,
         t: Self::Scalar,
@@ -74,12 +76,13 @@ pub trait ParametricSystem: LinearizedSystem {
 /// identified from a motion and its forces.
 ///
 /// The equations of motion are `Y(t, q, z, ż) π = other_forces + Jᵀλ`, and without constraints
-/// `gauss_residual = Y π − other_forces` at any ż. A row of Y pairs with a component of z, its unit is that of the generalised
-/// force over that of the parameter.
+/// `gauss_residual = Y π − other_forces` at any ż. A row of Y pairs with a component of z, its unit is that of the
+/// generalised force over that of the parameter.
 ///
-/// π has for every body the mass m, the first moment m c about O (body axes), the inertia I_O about O (body axes: six entries, three
-/// principal moments, or one, by the type of the field) and the added mass, as far as they are fields; for every particle its
-/// mass, if that is a field. All of it is linear at once because moments are about O, not about the centre of mass.
+/// π has for every body the mass m, the first moment m c about O (body axes), the inertia I_O about O (body axes: six
+/// entries, three principal moments, or one, by the type of the field) and the added mass, as far as they are fields;
+/// for every particle its mass, if that is a field. All of it is linear at once because moments are about O, not about
+/// the centre of mass.
 ///
 /// `Y π` has the forces of inertia less those of uniform gravity: the `gravity` of the struct belongs to the masses.
 /// Buoyancy and all other elements (springs, drag, the motion of a medium, central gravity, forces) are in
@@ -126,7 +129,8 @@ pub trait InertialRegressor: GaussSystem {
     /// `SVector<Scalar, P>`.
     type InertialParameters: VectorSpace<Self::Scalar>;
 
-    /// The entries of π in order, by the names of the fields: `m`, `m * c[0]`, `inertia[1][0]`, `arm.mass * arm.center_of_mass[2]`.
+    /// The entries of π in order, by the names of the fields: `m`, `m * c[0]`, `inertia[1][0]`,
+    /// `arm.mass * arm.center_of_mass[2]`.
     const INERTIAL_PARAMETERS: &'static [&'static str];
 
     /// Which entries of Y can be other than zero, row by row.
@@ -144,8 +148,8 @@ pub trait InertialRegressor: GaussSystem {
     /// π of the kernel's own parameters.
     fn inertial_parameters(&self) -> Self::InertialParameters;
 
-    /// The generalised forces that `Y π` does not contain: those of the elements, buoyancy, and the inertia of masses that are no
-    /// fields (the only ones that depend on ż). Forces of constraints are not among them.
+    /// The generalised forces that `Y π` does not contain: those of the elements, buoyancy, and the inertia of masses
+    /// that are no fields (the only ones that depend on ż). Forces of constraints are not among them.
     fn other_forces(
         &self,
         t: Self::Scalar,

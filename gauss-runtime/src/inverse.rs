@@ -1,7 +1,8 @@
-//! Inverse dynamics with its derivatives: what identification along a path, feedforward of elastic joints and trajectory
-//! optimisation that has ż among its unknowns are made of.
+//! Inverse dynamics with its derivatives: what identification along a path, feedforward of elastic joints and
+//! trajectory optimisation that has ż among its unknowns are made of.
 //!
-//! `#[gauss(linearize(inverse))]` on a struct has the derive write them: its kernel then implements [`InverseLinearizedSystem`].
+//! `#[gauss(linearize(inverse))]` on a struct has the derive write them: its kernel then implements
+//! [`InverseLinearizedSystem`].
 
 use core::fmt::Debug;
 
@@ -10,12 +11,13 @@ use nalgebra::{SMatrix, SVector};
 use crate::configuration::VectorSpace;
 use crate::system::GaussSystem;
 
-/// A system whose inverse dynamics comes with its derivatives. There is no factorisation in them: they cost a fraction of those of the
-/// accelerations.
+/// A system whose inverse dynamics comes with its derivatives. There is no factorisation in them: they cost a fraction
+/// of those of the accelerations.
 ///
-/// The state moves by (σ, δz): `q ∘ exp(σ)` as everywhere in this crate (seen from the body: for a pose its first three components
-/// move O along body axes, the last three turn about them), and `z + δz`. Under constraints the force is that of
-/// [`GaussSystem::inverse_dynamics`], and its derivatives are taken along all directions, those that the constraints exclude among them.
+/// The state moves by (σ, δz): `q ∘ exp(σ)` as everywhere in this crate (seen from the body: for a pose its first three
+/// components move O along body axes, the last three turn about them), and `z + δz`. Under constraints the force is
+/// that of [`GaussSystem::inverse_dynamics`], and its derivatives are taken along all directions, those that the
+/// constraints exclude among them.
 #[cfg_attr(
     feature = "derive",
     doc = r##"
@@ -53,9 +55,9 @@ pub trait InverseLinearizedSystem: GaussSystem<Input: VectorSpace<<Self as Gauss
     /// [`InverseLinearization`] of this system's sizes.
     type InverseLinearization: Copy + Debug;
 
-    /// [`GaussSystem::inverse_dynamics`] and all its derivatives, exact up to rounding. What is said of kinks and roots at
-    /// [`LinearizedSystem::linearize`](crate::linearize::LinearizedSystem::linearize) holds here, too. Non-finite input gives non-finite
-    /// output.
+    /// [`GaussSystem::inverse_dynamics`] and all its derivatives, exact up to rounding. What is said of kinks and roots
+    /// at [`LinearizedSystem::linearize`](crate::linearize::LinearizedSystem::linearize) holds here, too. Non-finite
+    /// input gives non-finite output.
     fn linearize_inverse(
         &self,
         t: Self::Scalar,
@@ -66,8 +68,8 @@ pub trait InverseLinearizedSystem: GaussSystem<Input: VectorSpace<<Self as Gauss
     ) -> Self::InverseLinearization;
 }
 
-/// The generalised force τ that must act besides for ż to be what it is, in components dual to z, and its derivatives. C counts the
-/// components of an increment σ of the configuration, N the speeds, U the components of the input.
+/// The generalised force τ that must act besides for ż to be what it is, in components dual to z, and its derivatives.
+/// C counts the components of an increment σ of the configuration, N the speeds, U the components of the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct InverseLinearization<T, const C: usize, const N: usize, const U: usize> {

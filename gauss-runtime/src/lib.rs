@@ -24,8 +24,8 @@
 //! | [`simd`] | packs of numbers that are worked on in lockstep |
 //! | `saved` | parameters, states and runs as data, for `serde` |
 //!
-//! Mathematics and numbers of equations: Massa & Vignolo, *Newton–Euler, Lagrange and Kirchhoff formulations of rigid body
-//! dynamics: a unified approach*.
+//! Mathematics and numbers of equations: Massa & Vignolo, *Newton–Euler, Lagrange and Kirchhoff formulations of rigid
+//! body dynamics: a unified approach*.
 //!
 //! # Crates around this one
 //!
@@ -49,8 +49,8 @@
 //! - `alloc`: trajectories, and whatever needs one, without the standard library. Integrators and monitors themselves
 //!   never allocate.
 //! - `urdf`, `mjcf`: robots from their files, which the derive reads; they imply `derive`.
-//! - `wide` (default): sines and cosines of several angles in vectors, by the crate `wide`, with the same bits; its vectors as
-//!   scalars, for the widest instructions that the target has; see [`simd`].
+//! - `wide` (default): sines and cosines of several angles in vectors, by the crate `wide`, with the same bits; its
+//!   vectors as scalars, for the widest instructions that the target has; see [`simd`].
 //! - `serde`: parameters, states and runs as data: the module `saved`.
 
 #![no_std]

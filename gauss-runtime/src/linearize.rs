@@ -1,5 +1,5 @@
-//! Exact derivatives of the equations of motion by the state, time and the input: what control, estimation and linearly implicit
-//! integrators are made of.
+//! Exact derivatives of the equations of motion by the state, time and the input: what control, estimation and linearly
+//! implicit integrators are made of.
 //!
 //! `#[gauss(linearize)]` on a struct has the derive write them: its kernel then implements [`LinearizedSystem`].
 
@@ -12,12 +12,12 @@ use crate::real::Real;
 use crate::sealed::Sealed;
 use crate::system::GaussSystem;
 
-/// A system whose equations come with their derivatives: the same instructions differentiated one by one, or, where that is shorter,
-/// −A⁻¹ times the derivatives of the forces at fixed accelerations.
+/// A system whose equations come with their derivatives: the same instructions differentiated one by one, or, where
+/// that is shorter, −A⁻¹ times the derivatives of the forces at fixed accelerations.
 ///
-/// The state moves by (σ, δz): `q ∘ exp(σ)` as everywhere in this crate (seen from the body: for a pose its first three components
-/// move O along body axes, the last three turn about them), and `z + δz`. Rates are (V, ż), with V the velocity of the
-/// configuration, q̇ seen from the body.
+/// The state moves by (σ, δz): `q ∘ exp(σ)` as everywhere in this crate (seen from the body: for a pose its first three
+/// components move O along body axes, the last three turn about them), and `z + δz`. Rates are (V, ż), with V the
+/// velocity of the configuration, q̇ seen from the body.
 ///
 #[cfg_attr(
     feature = "derive",
@@ -64,11 +64,13 @@ pub trait LinearizedSystem: GaussSystem<Input: VectorSpace<<Self as GaussSystem>
     /// Which entries of [`Linearization::by_input`] can be other than zero, row by row.
     const INPUT_PATTERN: &'static [&'static [bool]];
 
-    /// (V, ż) and all their derivatives, exact up to rounding; under constraints those of the accelerations that satisfy them.
+    /// (V, ż) and all their derivatives, exact up to rounding; under constraints those of the accelerations that
+    /// satisfy them.
     ///
-    /// Where a force has a kink (`abs`, `min`, `max`, `clamp`) the derivative is the mean of those on its two sides; that of a jump
-    /// (`signum`) is 0. Where a root is 0 its infinite slope is replaced by a huge one, so that what does not change to first order, such
-    /// as |v| v at rest, has the derivative 0. Non-finite input gives non-finite output.
+    /// Where a force has a kink (`abs`, `min`, `max`, `clamp`) the derivative is the mean of those on its two sides;
+    /// that of a jump (`signum`) is 0. Where a root is 0 its infinite slope is replaced by a huge one, so that what
+    /// does not change to first order, such as |v| v at rest, has the derivative 0. Non-finite input gives non-finite
+    /// output.
     fn linearize(
         &self,
         t: Self::Scalar,
@@ -186,9 +188,9 @@ impl<T: Real, const D: usize, const U: usize> LinearModel<T> for Linearization<T
 /// The matrix F of `d(σ, δz)/dt = F (σ, δz)`, for states a small increment away from a motion, as regulators and
 /// filters need them.
 ///
-/// The neighbour `q(t) ∘ exp(σ)` has the velocity V + ∂V/∂σ σ + ∂V/∂z δz, and its increment changes by what that is more than V
-/// and by [σ, V], because it is seen in axes that move. So F is [`Linearization::by_state`] and, where the configuration is a
-/// group, the bracket.
+/// The neighbour `q(t) ∘ exp(σ)` has the velocity V + ∂V/∂σ σ + ∂V/∂z δz, and its increment changes by what that is
+/// more than V and by [σ, V], because it is seen in axes that move. So F is [`Linearization::by_state`] and, where the
+/// configuration is a group, the bracket.
 #[must_use]
 pub fn error_matrix<S: LinearizedSystem>(
     linear: &S::Linearization,

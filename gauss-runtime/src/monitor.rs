@@ -1,5 +1,5 @@
-//! First integrals watched over a run: energy always, the momentum in space for a rigid body; and energy against the work
-//! supplied.
+//! First integrals watched over a run: energy always, the momentum in space for a rigid body; and energy against the
+//! work supplied.
 //!
 //! A first integral measures the accuracy of a simulation without a reference solution. Three numbers describe its
 //! error: the largest deviation (accuracy), the slope of a least-squares line (a drift grows without bound; a geometric
@@ -176,8 +176,8 @@ impl fmt::Display for EnergyMonitor {
 
 /// The energy and the momentum (Q̂, Γ̂_Ω) in space of a rigid body and its fluid.
 ///
-/// The energy is constant without inputs and drag; Q̂ and Γ̂_Ω are without forces, and components of them along the symmetries
-/// of a potential (for gravity along k₃: Q̂₁, Q̂₂ and Γ̂₃).
+/// The energy is constant without inputs and drag; Q̂ and Γ̂_Ω are without forces, and components of them along the
+/// symmetries of a potential (for gravity along k₃: Q̂₁, Q̂₂ and Γ̂₃).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyMonitor {
     /// The energy.

@@ -1,8 +1,8 @@
 //! Operational space: the inertia that a frame shows to forces at it, and the mass matrix factored.
 //!
-//! With J the [Jacobian](crate::frames::FramedSystem::jacobian_of) of a task (rows of one frame or of several), forces F at it
-//! accelerate it by `Λ⁻¹ F`, where `Λ = (J A⁻¹ Jᵀ)⁻¹`; O. Khatib, *A unified approach for motion and force control of robot
-//! manipulators: the operational space formulation*, IEEE Journal of Robotics and Automation 3 (1987).
+//! With J the [Jacobian](crate::frames::FramedSystem::jacobian_of) of a task (rows of one frame or of several), forces
+//! F at it accelerate it by `Λ⁻¹ F`, where `Λ = (J A⁻¹ Jᵀ)⁻¹`; O. Khatib, *A unified approach for motion and force
+//! control of robot manipulators: the operational space formulation*, IEEE Journal of Robotics and Automation 3 (1987).
 
 use core::fmt;
 
@@ -90,8 +90,8 @@ impl<T: Real, const N: usize> Factor<T, N> {
 pub struct OperationalSpace<T, const K: usize, const N: usize> {
     /// `Λ = (J A⁻¹ Jᵀ)⁻¹`.
     pub inertia: SMatrix<T, K, K>,
-    /// `J̄ = A⁻¹ Jᵀ Λ`, the inverse of J with the least kinetic energy: `J J̄ = 1`, and generalised forces τ with `J̄ᵀ τ = 0` do not
-    /// accelerate the task.
+    /// `J̄ = A⁻¹ Jᵀ Λ`, the inverse of J with the least kinetic energy: `J J̄ = 1`, and generalised forces τ with
+    /// `J̄ᵀ τ = 0` do not accelerate the task.
     pub inverse: SMatrix<T, N, K>,
 }
 
@@ -122,8 +122,8 @@ impl<T: Real, const K: usize, const N: usize> OperationalSpace<T, K, N> {
         Ok(Self { inertia, inverse })
     }
 
-    /// The generalised forces that accelerate the task as wanted, `Jᵀ Λ (wanted − bias)`: to be added to what holds the system without
-    /// acceleration ([`inverse_dynamics`](crate::system::GaussSystem::inverse_dynamics) at ż = 0).
+    /// The generalised forces that accelerate the task as wanted, `Jᵀ Λ (wanted − bias)`: to be added to what holds the
+    /// system without acceleration ([`inverse_dynamics`](crate::system::GaussSystem::inverse_dynamics) at ż = 0).
     #[must_use]
     pub fn forces(&self, jacobian: &SMatrix<T, K, N>, wanted: &SVector<T, K>, bias: &SVector<T, K>) -> SVector<T, N> {
         let lacking: [T; K] = core::array::from_fn(|i| wanted[i] - bias[i]);
@@ -194,8 +194,8 @@ fn length<T: Real, const N: usize, const K: usize>(columns: &SMatrix<T, N, K>, k
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum OperationalError {
-    /// This row of the Jacobian, counted from 0, depends on those before it up to rounding: the task cannot be accelerated in all
-    /// its directions. Leave rows out, or move away from there.
+    /// This row of the Jacobian, counted from 0, depends on those before it up to rounding: the task cannot be
+    /// accelerated in all its directions. Leave rows out, or move away from there.
     Singular {
         /// The row.
         row: usize,

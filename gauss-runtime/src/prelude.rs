@@ -1,7 +1,7 @@
 //! The items that most simulations need: `use gauss_runtime::prelude::*;`. The other methods are in
 //! [`integrate`](crate::integrate), many states at once in the crate `gauss-batch`, reports on energy and momenta in
-//! [`monitor`](mod@crate::monitor). Names that other preludes have as well, and those that few programs write, are taken
-//! from their modules.
+//! [`monitor`](mod@crate::monitor). Names that other preludes have as well, and those that few programs write, are
+//! taken from their modules.
 
 #[cfg(feature = "derive")]
 pub use gauss_derive::GaussDynamics;

@@ -30,7 +30,8 @@ pub enum ProjectionFailure {
     NotConverged,
 }
 
-/// A state that could not be brought onto the constraints: see [`GaussSystem::project`](crate::system::GaussSystem::project).
+/// A state that could not be brought onto the constraints: see
+/// [`GaussSystem::project`](crate::system::GaussSystem::project).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ProjectionError {
@@ -38,8 +39,8 @@ pub struct ProjectionError {
     pub level: ConstraintLevel,
     /// What happened.
     pub failure: ProjectionFailure,
-    /// The largest component of the residual of the state that was given, in the unit of that constraint; NaN where it is
-    /// undefined.
+    /// The largest component of the residual of the state that was given, in the unit of that constraint; NaN where it
+    /// is undefined.
     pub given: f64,
     /// The same where the search was given up.
     pub residual: f64,

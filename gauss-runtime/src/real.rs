@@ -15,13 +15,13 @@ use crate::trigonometry::{sin_cos, sines_and_cosines};
 ///
 /// Implemented for [`f32`] and [`f64`]; implement it for SIMD packs, dual numbers or extended precision to run the same
 /// generated kernels on them. The supertraits are those that nalgebra's containers (`SVector`, `Isometry3`,
-/// `UnitQuaternion`, …) need to hold a scalar: `Copy + PartialEq + Debug + 'static` implies `nalgebra::Scalar`, and nothing
-/// more is required because this crate works on components only.
+/// `UnitQuaternion`, …) need to hold a scalar: `Copy + PartialEq + Debug + 'static` implies `nalgebra::Scalar`, and
+/// nothing more is required because this crate works on components only.
 ///
 /// A scalar of your own writes [`LANES`](Self::LANES) and eleven functions; all others are made of these, and are worth
 /// writing where the number type knows better. A scalar with less precision or more than `f64` writes
-/// [`EPSILON`](Self::EPSILON), and one that bounds its errors [`omitting`](Self::omitting). To be worked on in lockstep, or
-/// many states at once, it implements [`Packed`](crate::simd::Packed) as well.
+/// [`EPSILON`](Self::EPSILON), and one that bounds its errors [`omitting`](Self::omitting). To be worked on in
+/// lockstep, or many states at once, it implements [`Packed`](crate::simd::Packed) as well.
 ///
 /// Every function acts on each lane by itself and follows IEEE 754: results outside the domain are NaN, never a panic.
 /// Angles are in radians.
@@ -68,8 +68,8 @@ pub trait Real:
 
     /// The rational number `p/q` in every lane. `q = 0` gives what a division by zero gives.
     ///
-    /// Correctly rounded where lanes can hold p and q, if division is; plain floats round other ratios once as well, the
-    /// function provided here p and q first.
+    /// Correctly rounded where lanes can hold p and q, if division is; plain floats round other ratios once as well,
+    /// the function provided here p and q first.
     #[inline]
     fn ratio(p: i64, q: i64) -> Self {
         // Halves of 32 digits are exact in `f64`, and their sum in whatever has 64 digits.
@@ -90,8 +90,8 @@ pub trait Real:
     /// Sine and cosine together.
     fn sin_cos(self) -> (Self, Self);
 
-    /// Sines and cosines of several angles, with the bits that each gets alone: kernels ask for those of all angles of a state at once,
-    /// which plain floats compute side by side in vectors.
+    /// Sines and cosines of several angles, with the bits that each gets alone: kernels ask for those of all angles of
+    /// a state at once, which plain floats compute side by side in vectors.
     #[inline(always)]
     fn sines_and_cosines<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
         // Not `map` of arrays, which compilers leave a call.
@@ -223,9 +223,11 @@ pub trait Real:
         Self::one() / self
     }
 
-    /// `self`, of which terms were left out that are together at most `at_most` in magnitude: the rest of a power series, the
-    /// rounding of a coefficient. Scalars that account for their error (`gauss-bounded`) widen it; others are what they are.
-    // No trait of its own: functions that take any `Real` call it, so that each scalar would have to implement that one, too.
+    /// `self`, of which terms were left out that are together at most `at_most` in magnitude: the rest of a power
+    /// series, the rounding of a coefficient. Scalars that account for their error (`gauss-bounded`) widen it; others
+    /// are what they are.
+    // No trait of its own: functions that take any `Real` call it, so that each scalar would have to implement that
+    // one, too.
     #[inline(always)]
     fn omitting(self, at_most: Self) -> Self {
         let _ = at_most;
@@ -548,8 +550,8 @@ mod tests {
         }
     }
 
-    /// Each function of the library is within an ulp; of the sums and products, 1 − x and 1 + x are exact or rounded once,
-    /// and the root halves what goes into it. Exponentials are squared, which doubles their error.
+    /// Each function of the library is within an ulp; of the sums and products, 1 − x and 1 + x are exact or rounded
+    /// once, and the root halves what goes into it. Exponentials are squared, which doubles their error.
     #[test]
     fn a_scalar_writes_eleven_functions() {
         let near = |found: Least, expected: f64, ulps: f64| {

@@ -1,8 +1,9 @@
 //! Power series of motions in time: what the clause `taylor` of the derive generates, and the arrays that it works on.
 //!
-//! The equations of motion are products, quotients, roots and functions of series; coefficient by coefficient each is a sum over
-//! products of earlier coefficients (Knuth, TAOCP 2, 4.7; Moore 1966; Jorba & Zou 2005). All of these sums of one order are
-//! formed together, a *lane* each, which is what vector instructions are made for; what remains of an order is a straight line.
+//! The equations of motion are products, quotients, roots and functions of series; coefficient by coefficient each is a
+//! sum over products of earlier coefficients (Knuth, TAOCP 2, 4.7; Moore 1966; Jorba & Zou 2005). All of these sums of
+//! one order are formed together, a *lane* each, which is what vector instructions are made for; what remains of an
+//! order is a straight line.
 
 use nalgebra::SVector;
 
@@ -21,13 +22,13 @@ pub trait TaylorSystem: GaussSystem<Input = ()> {
     /// The coefficients of all variables.
     type Series: PowerSeries<Self::Scalar>;
 
-    /// How many variables are measured together, group by group in the order of the variables: a unit quaternion, a translation,
-    /// a scalar, a speed.
+    /// How many variables are measured together, group by group in the order of the variables: a unit quaternion, a
+    /// translation, a scalar, a speed.
     const GROUPS: &'static [usize];
 
     /// The series of the solution through (t, q, z) up to the given order, at most [`MAX_ORDER`] and at least 1:
-    /// `x(t + τ) = Σ coefficient(k) τᵏ`. With constraints it is that of the equations with multipliers, which satisfies them if
-    /// the state does.
+    /// `x(t + τ) = Σ coefficient(k) τᵏ`. With constraints it is that of the equations with multipliers, which satisfies
+    /// them if the state does.
     fn expand(
         &self,
         t: Self::Scalar,
@@ -91,8 +92,9 @@ struct Row<T, const L: usize>([T; L]);
 
 /// The power series of V variables, and of the D factors of L products that are computed from these variables.
 ///
-/// Of numbers both factors of each product are kept, row by row, so that products lie side by side in vectors. Packs are vectors
-/// themselves: of them each factor is kept once, in all its orders one after the other, which is a fraction of the memory.
+/// Of numbers both factors of each product are kept, row by row, so that products lie side by side in vectors. Packs
+/// are vectors themselves: of them each factor is kept once, in all its orders one after the other, which is a fraction
+/// of the memory.
 #[derive(Clone, Debug)]
 pub struct Series<T, const V: usize, const D: usize, const L: usize> {
     variables: [SVector<T, V>; MAX_ORDER + 1],
@@ -109,7 +111,8 @@ const BLOCK: usize = if cfg!(target_feature = "avx") { 16 } else { 8 };
 /// The number of products is a multiple of this.
 const PACK: usize = 4;
 
-/// `sums[i] += row[from + i]·factors[i]`: a macro, because arrays that go through functions do not always stay in registers.
+/// `sums[i] += row[from + i]·factors[i]`: a macro, because arrays that go through functions do not always stay in
+/// registers.
 macro_rules! add_products {
     ($n:expr, $sums:ident, $row:expr, $from:expr, $factors:ident) => {
         for i in 0..$n {
@@ -181,8 +184,8 @@ impl<T: Real, const V: usize, const D: usize, const L: usize> Series<T, V, D, L>
         sums
     }
 
-    /// N of the sums of an odd order k, and of those of order k + 1 what can be known: twice as much is done with what is loaded.
-    /// The factors of order k − 1 have been stored only just, so they are read last.
+    /// N of the sums of an odd order k, and of those of order k + 1 what can be known: twice as much is done with what
+    /// is loaded. The factors of order k − 1 have been stored only just, so they are read last.
     #[inline(always)]
     fn odd<const N: usize>(&mut self, k: usize, from: usize) -> [T; N] {
         let (left, right) = (&self.left, &self.right);
@@ -231,7 +234,8 @@ impl<T: Real, const V: usize, const D: usize, const L: usize> Series<T, V, D, L>
 /// All orders of one factor.
 type Orders<T> = [T; MAX_ORDER + 1];
 
-/// [`Series::odd`] of factors that are kept by themselves, and with its bits: the sums, and what is known of the next ones.
+/// [`Series::odd`] of factors that are kept by themselves, and with its bits: the sums, and what is known of the next
+/// ones.
 #[inline(always)]
 fn odd_of_packs<T: Real>(k: usize, left: [&Orders<T>; PACK], right: [&Orders<T>; PACK]) -> ([T; PACK], [T; PACK]) {
     let (mut sums, mut ahead) = ([T::zero(); PACK], [T::zero(); PACK]);

@@ -1,4 +1,5 @@
-//! What a generated kernel offers: the equations of motion in two forms, energies, and the pieces of the Gauss condition.
+//! What a generated kernel offers: the equations of motion in two forms, energies, and the pieces of the Gauss
+//! condition.
 //!
 //! Time first, then what a method depends on: `t, &q, &z, &input`. q is the configuration, z the quasi-velocities,
 //! `p = ∂T/∂z` the momenta.
@@ -18,9 +19,9 @@ use crate::triple::{add, cross, quaternion, rotate, triple};
 /// A mechanical system whose equations of motion come from the Gauss condition (3.4).
 ///
 /// Implemented by the kernels that `#[derive(GaussDynamics)]` generates, and by systems whose equations are written by
-/// hand. The equations and costs of a kernel are in [`DescribedSystem`](crate::description::DescribedSystem). Units are the user's,
-/// consistent ones; angles are in radians. No method panics, and non-finite input gives non-finite output, which the
-/// integrators look for.
+/// hand. The equations and costs of a kernel are in [`DescribedSystem`](crate::description::DescribedSystem). Units are
+/// the user's, consistent ones; angles are in radians. No method panics, and non-finite input gives non-finite output,
+/// which the integrators look for.
 pub trait GaussSystem {
     /// The number type.
     type Scalar: Real;
@@ -47,8 +48,8 @@ pub trait GaussSystem {
     /// [`project`](Self::project) the state after every step.
     const CONSTRAINED: bool = false;
 
-    /// How smooth the accelerations are as functions of the state: adaptive integrators step with more care where they are
-    /// not.
+    /// How smooth the accelerations are as functions of the state: adaptive integrators step with more care where they
+    /// are not.
     const SMOOTHNESS: Smoothness = Smoothness::Smooth;
 
     /// The velocity of the configuration, q̇ = ψ(t, q, z) (3.2), as seen from the body (left-trivialised).
@@ -59,8 +60,8 @@ pub trait GaussSystem {
         z: &Self::Speeds,
     ) -> <Self::Configuration as Configuration>::Tangent;
 
-    /// ż: the velocity form of the equations of motion. It satisfies the constraints, differentiated to `J ż = γ`, where
-    /// there are any.
+    /// ż: the velocity form of the equations of motion. It satisfies the constraints, differentiated to `J ż = γ`,
+    /// where there are any.
     fn acceleration(
         &self,
         t: Self::Scalar,
@@ -69,8 +70,8 @@ pub trait GaussSystem {
         input: &Self::Input,
     ) -> Self::Speeds;
 
-    /// q̇, ż and both energies at once: what they have in common, such as sines, cosines and velocities of bodies, is computed once.
-    /// For callers that want all of it, such as output with accounts; integrators call what they need.
+    /// q̇, ż and both energies at once: what they have in common, such as sines, cosines and velocities of bodies, is
+    /// computed once. For callers that want all of it, such as output with accounts; integrators call what they need.
     #[inline]
     fn evaluate(
         &self,
@@ -130,9 +131,9 @@ pub trait GaussSystem {
     /// wrench about O in body axes. For the joints of an arm it is the result of recursive Newton–Euler, with inputs of
     /// the joints at zero.
     ///
-    /// Under constraints ż must satisfy them, or no force makes it. Forces of constraints are then those of the motion without the
-    /// force: of all generalised forces with the same motion, which differ by Jᵀμ, this is the one that leaves the multipliers as
-    /// they are.
+    /// Under constraints ż must satisfy them, or no force makes it. Forces of constraints are then those of the motion
+    /// without the force: of all generalised forces with the same motion, which differ by Jᵀμ, this is the one that
+    /// leaves the multipliers as they are.
     #[inline]
     fn inverse_dynamics(
         &self,
@@ -172,21 +173,22 @@ pub trait GaussSystem {
         input: &Self::Input,
     ) -> Self::Scalar;
 
-    /// How far the coordinates are from a singularity: 0 at one, where it vanishes with the distance, and ±1 at best. For Euler
-    /// angles the sine or cosine of the middle angle (det ∂ω/∂q̇ over the lengths of its columns), of opposite signs on the
-    /// two sides; for Rodrigues' parameters, which become infinite, 1/√(1 + |g|²), the cosine of half the angle of the rotation,
-    /// and for modified ones 1/√(1 + |σ|²), that of a quarter; 1 in charts without singularities. Errors of velocities
-    /// grow like its reciprocal, but for modified parameters, which stretch equally in all directions.
+    /// How far the coordinates are from a singularity: 0 at one, where it vanishes with the distance, and ±1 at best.
+    /// For Euler angles the sine or cosine of the middle angle (det ∂ω/∂q̇ over the lengths of its columns), of
+    /// opposite signs on the two sides; for Rodrigues' parameters, which become infinite, 1/√(1 + |g|²), the cosine of
+    /// half the angle of the rotation, and for modified ones 1/√(1 + |σ|²), that of a quarter; 1 in charts without
+    /// singularities. Errors of velocities grow like its reciprocal, but for modified parameters, which stretch equally
+    /// in all directions.
     #[inline]
     fn regularity(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Scalar {
         let _ = (t, q);
         Self::Scalar::one()
     }
 
-    /// The state nearest to (q, z), measured by the kinetic energy, that satisfies the constraints up to rounding; the state
-    /// as it is where there are none ([`CONSTRAINED`](Self::CONSTRAINED)). Use it to make initial states consistent.
-    /// It goes any distance; how far it went is [`q.difference(&nearest)`](Configuration::difference) and the difference of the
-    /// speeds.
+    /// The state nearest to (q, z), measured by the kinetic energy, that satisfies the constraints up to rounding; the
+    /// state as it is where there are none ([`CONSTRAINED`](Self::CONSTRAINED)). Use it to make initial states
+    /// consistent. It goes any distance; how far it went is [`q.difference(&nearest)`](Configuration::difference) and
+    /// the difference of the speeds.
     ///
     /// # Errors
     /// [`ProjectionError`] when none is found from there: see [`project`](crate::constraint::project).
@@ -260,8 +262,8 @@ impl<S: GaussSystem + ?Sized> Evaluated<S> {
     }
 }
 
-/// How smooth the accelerations of a system are as functions of time and state. The least smooth element decides: the order
-/// is that of growing roughness.
+/// How smooth the accelerations of a system are as functions of time and state. The least smooth element decides: the
+/// order is that of growing roughness.
 ///
 /// A method of order p has local errors of order h^(p+1) only where p derivatives of the acceleration exist. On a step
 /// across a kink they are of order h², across a jump of order h, whatever the method, and so are the errors of states
@@ -275,8 +277,8 @@ pub enum Smoothness {
     /// Accelerations are continuous, derivatives jump: `abs`, `min`, `max`, `clamp`; of `smooth_step` the second ones.
     Kinks,
     /// Accelerations jump: `signum`. Where a system comes to rest on a jump (dry friction) there is no solution in the
-    /// classical sense: adaptive steps shrink to the tolerance over the jump, steps of one length chatter. A steep smooth
-    /// law sticks without either.
+    /// classical sense: adaptive steps shrink to the tolerance over the jump, steps of one length chatter. A steep
+    /// smooth law sticks without either.
     Jumps,
 }
 
@@ -342,7 +344,8 @@ impl<T> RigidBody<T, AboutCenterOfMass<T>> {
 
 /// A system whose only matter is one rigid body: its variables as a pose and a twist, whatever they are.
 ///
-/// Bodies in charts, and bodies with coordinates and speeds of their own, also with fewer degrees of freedom or constraints.
+/// Bodies in charts, and bodies with coordinates and speeds of their own, also with fewer degrees of freedom or
+/// constraints.
 ///
 /// Frames: F = {Ω, k₁ k₂ k₃} of the observer, F′ = {O, e₁ e₂ e₃} of the body.
 #[diagnostic::on_unimplemented(
@@ -372,8 +375,9 @@ pub trait RigidBodySystem: GaussSystem {
         self.configuration_at(Self::Scalar::zero(), pose)
     }
 
-    /// A configuration with the given pose at time t. In a chart there is one, up to full turns of angles. Coordinates of the
-    /// scene's own are found by Newton's method, from zero first; where several have that pose, it is one of them.
+    /// A configuration with the given pose at time t. In a chart there is one, up to full turns of angles. Coordinates
+    /// of the scene's own are found by Newton's method, from zero first; where several have that pose, it is one of
+    /// them.
     ///
     /// # Errors
     /// When the pose is singular for the coordinates, the motion does not have it, or nothing is found.
@@ -383,8 +387,8 @@ pub trait RigidBodySystem: GaussSystem {
         pose: &Isometry3<Self::Scalar>,
     ) -> Result<Self::Configuration, ChartError>;
 
-    /// How well a twist determines the speeds here: 1 where the twists of all speeds are orthogonal, 0 where some of them
-    /// depend on the others, as in polar coordinates at the pole. 1 in charts, which have their
+    /// How well a twist determines the speeds here: 1 where the twists of all speeds are orthogonal, 0 where some of
+    /// them depend on the others, as in polar coordinates at the pole. 1 in charts, which have their
     /// [`regularity`](GaussSystem::regularity).
     #[inline]
     fn determinacy(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Scalar {

@@ -1,11 +1,12 @@
 //! Functions of one number given by points: what `table(…)` of a scene becomes.
 //!
-//! Between the points a [`Linear`] table is a straight line from each to the next, a [`Cubic`] one the natural cubic spline, which has
-//! two continuous derivatives. Beyond the first and the last point both go on straight. The points are constants, and so are the
-//! coefficients: they are worked out by the compiler, which refuses points that are not in order.
+//! Between the points a [`Linear`] table is a straight line from each to the next, a [`Cubic`] one the natural cubic
+//! spline, which has two continuous derivatives. Beyond the first and the last point both go on straight. The points
+//! are constants, and so are the coefficients: they are worked out by the compiler, which refuses points that are not
+//! in order.
 //!
-//! A piece is found by one comparison for each point, without branches, so that lanes, dual numbers and numbers with error bounds find
-//! their own.
+//! A piece is found by one comparison for each point, without branches, so that lanes, dual numbers and numbers with
+//! error bounds find their own.
 
 use crate::real::Real;
 
@@ -39,8 +40,8 @@ impl<const N: usize> Linear<N> {
     /// ```
     ///
     /// # Panics
-    /// Of fewer than two points, of x that do not increase, of numbers that are not finite: when the program is compiled, if the
-    /// table is a constant.
+    /// Of fewer than two points, of x that do not increase, of numbers that are not finite: when the program is
+    /// compiled, if the table is a constant.
     #[must_use]
     pub const fn through(points: &[[f64; 2]; N]) -> Self {
         check(points);
@@ -155,8 +156,8 @@ const fn check<const N: usize>(points: &[[f64; 2]; N]) {
     }
 }
 
-/// Second derivatives of the natural spline at its points: zero at the ends; the tridiagonal system for the others is diagonally
-/// dominant, and eliminated as it stands (de Boor, A Practical Guide to Splines, IV).
+/// Second derivatives of the natural spline at its points: zero at the ends; the tridiagonal system for the others is
+/// diagonally dominant, and eliminated as it stands (de Boor, A Practical Guide to Splines, IV).
 const fn curvatures<const N: usize>(points: &[[f64; 2]; N]) -> [f64; N] {
     // Row i: h₋ m₋ + 2 (h₋ + h₊) m + h₊ m₊ = 6 (s₊ − s₋), where h are widths and s slopes of secants.
     let (mut upper, mut right) = ([0.0; N], [0.0; N]);

@@ -1,16 +1,17 @@
-//! Sines and cosines of one angle or several together, inlined and without branches: kernels with angles spend most of their time in
-//! the library's otherwise, and what is without branches can be done for several angles in one vector.
+//! Sines and cosines of one angle or several together, inlined and without branches: kernels with angles spend most of
+//! their time in the library's otherwise, and what is without branches can be done for several angles in one vector.
 //!
-//! The angle is reduced by the nearest multiple of π/2, which is subtracted in parts (Cody & Waite, *Software Manual for the Elementary
-//! Functions*, 1980), with what the last subtraction rounds off carried along. The polynomials on [−π/4, π/4] are those of fdlibm (Sun
-//! Microsystems 1993; `k_sin.c`, `k_cos.c`), whose errors are below 2⁻⁵⁸. Results are within 0.96 ulp: of that 0.5 is the last sum; of a
-//! cosine 0.2 is each of the two before it, of a sine 0.15 what [`fused`] leaves out; found in 3·10⁸ angles: 0.91 and 0.93. Others are
-//! found by one test for all angles and reduced in whole numbers ([`huge`]): those beyond [`MULTIPLES`] quarter turns, and, where products
-//! and sums are not fused, those within [`CLOSE`] of a multiple of π/2. So no angle is left to the library of a platform, some of which
-//! are 8 ulp off at 5.3e255.
+//! The angle is reduced by the nearest multiple of π/2, which is subtracted in parts (Cody & Waite, *Software Manual
+//! for the Elementary Functions*, 1980), with what the last subtraction rounds off carried along. The polynomials on
+//! [−π/4, π/4] are those of fdlibm (Sun Microsystems 1993; `k_sin.c`, `k_cos.c`), whose errors are below 2⁻⁵⁸. Results
+//! are within 0.96 ulp: of that 0.5 is the last sum; of a cosine 0.2 is each of the two before it, of a sine 0.15 what
+//! [`fused`] leaves out; found in 3·10⁸ angles: 0.91 and 0.93. Others are found by one test for all angles and reduced
+//! in whole numbers ([`huge`]): those beyond [`MULTIPLES`] quarter turns, and, where products and sums are not fused,
+//! those within [`CLOSE`] of a multiple of π/2. So no angle is left to the library of a platform, some of which are 8
+//! ulp off at 5.3e255.
 //!
-//! Those of single precision are rounded from these: each of the 4,278,190,080 finite numbers was tried, and none is further than half
-//! an ulp from the library's result in double precision (to 1e-8 ulp).
+//! Those of single precision are rounded from these: each of the 4,278,190,080 finite numbers was tried, and none is
+//! further than half an ulp from the library's result in double precision (to 1e-8 ulp).
 //!
 //! An angle gets the same bits alone and among others.
 
@@ -22,8 +23,8 @@ use core::ops::{Add, Mul, Neg, Sub};
 pub(crate) const FUSED: bool =
     cfg!(all(feature = "std", any(target_feature = "fma", all(target_arch = "aarch64", target_feature = "neon"))));
 
-/// As many quarter turns are allowed: products of such multiples with parts of 33 and 34 binary digits are exact, and what the reduction
-/// leaves out is far below an ulp.
+/// As many quarter turns are allowed: products of such multiples with parts of 33 and 34 binary digits are exact, and
+/// what the reduction leaves out is far below an ulp.
 const MULTIPLES: u64 = 1 << 16;
 
 /// Half of the digits of an angle of [`MULTIPLES`] quarter turns are left here.
@@ -87,8 +88,8 @@ trait Pack: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> 
 
 const SIGN: u64 = 1 << 63;
 
-/// Whether all multiples in the last digits are below [`MULTIPLES`]; not so of an angle that is not finite. In whole numbers, whose units
-/// have nothing else to do.
+/// Whether all multiples in the last digits are below [`MULTIPLES`]; not so of an angle that is not finite. In whole
+/// numbers, whose units have nothing else to do.
 #[inline(always)]
 fn within_limit<const N: usize>(shifted: [f64; N]) -> bool {
     let above = |shifted: f64| shifted.to_bits().wrapping_sub(SHIFTER.to_bits() - MULTIPLES);
@@ -125,7 +126,8 @@ impl Pack for f64 {
     }
 }
 
-/// The same numbers in every place. Not by `map`, which compilers leave as a call, and then keep every vector in memory.
+/// The same numbers in every place. Not by `map`, which compilers leave as a call, and then keep every vector in
+/// memory.
 #[inline(always)]
 fn constants<P: Pack>([a, b, c, d, e, f]: [f64; 6]) -> [P; 6] {
     [P::splat(a), P::splat(b), P::splat(c), P::splat(d), P::splat(e), P::splat(f)]
@@ -147,8 +149,9 @@ fn reduced<const FUSED: bool, P: Pack>(x: P, fma: impl MultiplyAdd) -> Reduced<P
     let n = shifted - number(SHIFTER);
     let (y, excess) = if FUSED {
         let [first, second, third] = [number(PARTS[0]), number(PARTS[1]), number(PARTS[2])];
-        // Exact: a multiple of 2⁻⁵³ below 1; so is the product, of 34 and 17 digits. So is y − left: either the two are within a factor
-        // of two of each other, or both are so small that y has no more than 53 digits down to the last one of the product.
+        // Exact: a multiple of 2⁻⁵³ below 1; so is the product, of 34 and 17 digits. So is y − left: either the two are
+        // within a factor of two of each other, or both are so small that y has no more than 53 digits down to the last
+        // one of the product.
         let (left, part) = (fma(-n, first, x), n * second);
         let y = left - part;
         (y, fma(n, third, (y - left) + part))
@@ -181,8 +184,8 @@ struct Wanted<P> {
     start: P,
 }
 
-/// By fused products: sin(y − e) = y − (s y³ + e), cos(y − e) = 1 + (c y³ + (e − y/2)) y, with at most 0.15 and 0.04 ulp of e left out.
-/// One form for both, so that both can be places of one vector.
+/// By fused products: sin(y − e) = y − (s y³ + e), cos(y − e) = 1 + (c y³ + (e − y/2)) y, with at most 0.15 and 0.04
+/// ulp of e left out. One form for both, so that both can be places of one vector.
 #[inline(always)]
 fn fused<P: Pack>(y: P, excess: P, wanted: Wanted<P>, fma: impl MultiplyAdd) -> P {
     let z = y * y;
@@ -252,8 +255,8 @@ fn one_by_one<const N: usize>(x: [f64; N], fma: impl MultiplyAdd) -> ([f64; N], 
     (pairs.map(|pair| pair.0), pairs.map(|pair| pair.1))
 }
 
-/// The vectors of the crate `wide`. Of loops over arrays compilers pack only parts (LLVM 21), and more or less of them from kernel to
-/// kernel.
+/// The vectors of the crate `wide`. Of loops over arrays compilers pack only parts (LLVM 21), and more or less of them
+/// from kernel to kernel.
 #[cfg(feature = "wide")]
 mod vectors {
     use ::wide::{f64x2, f64x4, f64x8, u64x2, u64x4, u64x8};
@@ -305,7 +308,8 @@ mod vectors {
 
     packs! { f64x2 u64x2 f64x4 u64x4 f64x8 u64x8 }
 
-    /// Sines and cosines of as many angles as fill half a vector: what is done for the sine is done for the cosine in the other half.
+    /// Sines and cosines of as many angles as fill half a vector: what is done for the sine is done for the cosine in
+    /// the other half.
     macro_rules! halves {
         ($($name:ident: $half:literal of $vector:ident, $pack:expr, $array:expr;)+) => {$(
             #[inline(always)]
@@ -351,7 +355,8 @@ mod vectors {
         halves_of_eight: 4 of f64x8, f64x4::new, f64x4::to_array;
     }
 
-    /// How many places of a vector may repeat the last angle. Where two vectors stand for one, they would cost more than the rest alone.
+    /// How many places of a vector may repeat the last angle. Where two vectors stand for one, they would cost more
+    /// than the rest alone.
     const REPEATED: usize = if cfg!(target_feature = "avx") { 1 } else { 0 };
 
     /// The same of eight: five angles are less work in one vector than in two with both halves.
@@ -377,8 +382,8 @@ mod vectors {
                 let (s, c) = if hold {
                     (s, c)
                 } else if $count == 2 {
-                    // A copy of the two: what a call is given lies in memory, and they would be read from there in one piece right
-                    // after they were written in two.
+                    // A copy of the two: what a call is given lies in memory, and they would be read from there in one
+                    // piece right after they were written in two.
                     one_by_one(core::array::from_fn(|i| x[(done + i).min(N - 1)]), fma)
                 } else {
                     one_by_one($angles, fma)

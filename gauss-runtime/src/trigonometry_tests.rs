@@ -1,4 +1,5 @@
-//! Sines and cosines against sums of two numbers (106 binary digits) and against the library; both reductions, whatever the target.
+//! Sines and cosines against sums of two numbers (106 binary digits) and against the library; both reductions, whatever
+//! the target.
 
 use std::vec::Vec;
 
@@ -128,8 +129,8 @@ fn agree_with_the_library_within_an_ulp() {
     }
 }
 
-/// Angles of any size, the nearest of all doubles to a multiple of π/2 among them: alone, among others, the functions one by one, and
-/// in single precision.
+/// Angles of any size, the nearest of all doubles to a multiple of π/2 among them: alone, among others, the functions
+/// one by one, and in single precision.
 #[test]
 fn angles_of_any_size_are_as_exact_as_small_ones() {
     use crate::simd::Lanes;
@@ -203,7 +204,8 @@ fn among_others_an_angle_gets_the_bits_that_it_gets_alone() {
     check::<23>(&numbers);
 }
 
-/// Vectors that hold sines in one half and cosines in the other: the same operations, also where those that should be fused are not.
+/// Vectors that hold sines in one half and cosines in the other: the same operations, also where those that should be
+/// fused are not.
 #[cfg(feature = "wide")]
 #[test]
 fn both_in_one_vector_get_the_bits_of_one_by_one() {
@@ -227,8 +229,8 @@ fn both_in_one_vector_get_the_bits_of_one_by_one() {
     }
 }
 
-/// In single precision they are rounded from double, within half an ulp and what the first rounding can add, 2⁻²⁹ of an ulp: every
-/// 2003rd number of both signs, or all of them by
+/// In single precision they are rounded from double, within half an ulp and what the first rounding can add, 2⁻²⁹ of an
+/// ulp: every 2003rd number of both signs, or all of them by
 /// `LONG_RUNS=1 cargo test --release -p gauss-runtime --lib single_precision_is_rounded_once_more`.
 #[test]
 fn single_precision_is_rounded_once_more() {

@@ -21,9 +21,9 @@ pub struct Outcome {
     pub state: f64,
     /// The largest deviation of a first integral from its reference value on the way, relative to the terms in it.
     pub integrals: f64,
-    /// How far rounding and truncation in z are blown up: the largest |z|/|(u, ω)| on the way, or its ratio to the least
-    /// if that is more; 1 at least. It is large near a singularity of the coordinates, and in the right-invariant chart
-    /// far from Ω, where ξ̂ = ḃ − ω̂×b.
+    /// How far rounding and truncation in z are blown up: the largest |z|/|(u, ω)| on the way, or its ratio to the
+    /// least if that is more; 1 at least. It is large near a singularity of the coordinates, and in the right-invariant
+    /// chart far from Ω, where ξ̂ = ḃ − ω̂×b.
     pub stretch: f64,
     /// Steps taken.
     pub steps: u64,
@@ -58,8 +58,8 @@ pub fn distance_from_singularity(chart: Chart, rotation: &UnitQuaternion<f64>) -
         RotationChart::Euler(EulerSequence { axes: [first, second, third] }) => {
             let r = rotation.to_rotation_matrix().into_inner();
             let (first, second, third) = (usize::from(first), usize::from(second), usize::from(third));
-            // Singular is where the first axis, which stays in space, and the third, which stays in the body, are parallel.
-            // The sine of their angle from the two entries of the row beside the third, which do not cancel.
+            // Singular is where the first axis, which stays in space, and the third, which stays in the body, are
+            // parallel. The sine of their angle from the two entries of the row beside the third, which do not cancel.
             let others = if first == third { [second, 3 - first - second] } else { [first, second] };
             let sine = others.map(|i| r[(first, i)] * r[(first, i)]).iter().sum::<f64>().sqrt();
             sine.min(1.0).asin()
@@ -86,8 +86,8 @@ pub fn distance(reference: &State, pose: &Isometry3<f64>, twist: &SVector<f64, 6
         .fold(0.0, |worst, error| if error > worst || error.is_nan() { error } else { worst })
 }
 
-/// Runs `kernel` over the scene and compares. `left` is the same body in the left-invariant chart, in whose variables the
-/// reference is given; states go from it to `kernel` and back by [`convert`].
+/// Runs `kernel` over the scene and compares. `left` is the same body in the left-invariant chart, in whose variables
+/// the reference is given; states go from it to `kernel` and back by [`convert`].
 ///
 /// # Errors
 /// When the state has no coordinates in the chart, or the integration stops.

@@ -1,5 +1,6 @@
-//! Double-double numbers: the unevaluated sum of two doubles, some 31 decimal digits (T. J. Dekker, Numerische Mathematik 18, 1971;
-//! Y. Hida, X. S. Li & D. H. Bailey, *Algorithms for quad-double precision floating point arithmetic*, 2001).
+//! Double-double numbers: the unevaluated sum of two doubles, some 31 decimal digits (T. J. Dekker, Numerische
+//! Mathematik 18, 1971; Y. Hida, X. S. Li & D. H. Bailey, *Algorithms for quad-double precision floating point
+//! arithmetic*, 2001).
 
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 

@@ -1,11 +1,11 @@
 //! What holds for every system at every state, and for two descriptions of one system.
 //!
-//! Derivatives along the flow are central differences of order 8 on the curve `t + s, q ∘ exp(s q̇), z + s ż`, which touches
-//! the true motion: nothing but the kernel is needed for them, and no second scalar.
+//! Derivatives along the flow are central differences of order 8 on the curve `t + s, q ∘ exp(s q̇), z + s ż`, which
+//! touches the true motion: nothing but the kernel is needed for them, and no second scalar.
 //!
-//! What is allowed is rounding, 8√N units in the last place for methods of N operations, each of which rounds once and in
-//! either direction, of terms as large as [`Sizes`] says; and in differences, which divide it by the step, a truncation of
-//! 1e-12.
+//! What is allowed is rounding, 8√N units in the last place for methods of N operations, each of which rounds once and
+//! in either direction, of terms as large as [`Sizes`] says; and in differences, which divide it by the step, a
+//! truncation of 1e-12.
 
 use gauss_runtime::constraint::project;
 use gauss_runtime::description::OperationCount;
@@ -112,7 +112,8 @@ impl<S: Driven> Flow<S> {
         sum
     }
 
-    /// What rounding and truncation leave of a difference, in parts of what it is a difference of: the weights add up to 2.1.
+    /// What rounding and truncation leave of a difference, in parts of what it is a difference of: the weights add up
+    /// to 2.1.
     fn slack(&self, rounding: f64) -> f64 {
         2.1 * rounding / self.step + 1e-12
     }
@@ -285,8 +286,8 @@ pub fn laws<S: System>(system: &S, t: f64, q: &S::Configuration, z: &S::Speeds, 
 /// What holds of what acts, with constraints or without; with constraints the state must be on them.
 ///
 /// - The power of each element is its generalised force by z, unless something is moved as a function of time.
-/// - The energy T + U changes at the rate that is supplied: by the elements that are not in it, whatever moves what is moved
-///   among them, by dampers of those that are, and by ∂U/∂t. What all elements deliver changes T, and the rest U.
+/// - The energy T + U changes at the rate that is supplied: by the elements that are not in it, whatever moves what is
+///   moved among them, by dampers of those that are, and by ∂U/∂t. What all elements deliver changes T, and the rest U.
 ///
 /// # Panics
 /// When one of them does not hold.
@@ -341,8 +342,9 @@ fn acting(columns: &[Vec<f64>], sizes: &Sizes) -> f64 {
     columns.iter().map(|column| largest(column)).sum::<f64>() + sizes.force
 }
 
-/// [`balance`], and where there are no constraints and nothing is moved as a function of time: the generalised forces of all
-/// elements are the right-hand side of (3.4). What is left of the residual is inertia, A ż and a quadratic form of z.
+/// [`balance`], and where there are no constraints and nothing is moved as a function of time: the generalised forces
+/// of all elements are the right-hand side of (3.4). What is left of the residual is inertia, A ż and a quadratic form
+/// of z.
 ///
 /// # Panics
 /// When one of them does not hold.
@@ -402,7 +404,8 @@ fn gain<S: System>(system: &S, t: f64, q: &S::Configuration, z: &S::Speeds, cons
 /// What holds at every state on the constraints of a system beside [`laws`].
 ///
 /// - The state that is on the constraints stays where it is when projected, and moves along them.
-/// - C(ż + d) − C(ż) = ½ d·A d + λ·J d for every d: ż makes C least among what the constraints admit, and λ belongs to it.
+/// - C(ż + d) − C(ż) = ½ d·A d + λ·J d for every d: ż makes C least among what the constraints admit, and λ belongs to
+///   it.
 ///
 /// # Panics
 /// When one of them does not hold.
@@ -449,8 +452,8 @@ pub fn position_rates<S: System + ConstrainedSystem>(system: &S, t: f64, q: &S::
     near("φ̇", &list(&system.velocity_residual(t, q, z)), &rate, allowed);
 }
 
-/// One motion in two descriptions: states of `from` are taken to states of `to` by `map`, and then energies are the same,
-/// and the flow of one is taken to the flow of the other.
+/// One motion in two descriptions: states of `from` are taken to states of `to` by `map`, and then energies are the
+/// same, and the flow of one is taken to the flow of the other.
 ///
 /// # Panics
 /// When it is not.

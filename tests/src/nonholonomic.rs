@@ -5,7 +5,8 @@ use gauss_runtime::prelude::*;
 use crate::laws::{Flow, Sizes, System};
 use crate::trajectory::{Seen, rows};
 
-/// R by rows, b, u and ω in body axes, by their names in the references; ḃ is given in observer's axes, ω in the body's.
+/// R by rows, b, u and ω in body axes, by their names in the references; ḃ is given in observer's axes, ω in the
+/// body's.
 #[must_use]
 pub fn rigid_state(pose: &Isometry3<f64>, velocity: Vector3<f64>, omega: Vector3<f64>) -> Seen {
     let list = |v: Vector3<f64>| v.iter().copied().collect::<Vec<_>>();
@@ -45,7 +46,8 @@ pub fn precise() -> Adaptive {
 pub fn gains_energy<S: System>(kernel: &S, t: f64, q: &S::Configuration, z: &S::Speeds, power: f64) {
     let sizes = Sizes::of(kernel, t, q, z);
     let found = Flow::new(kernel, t, q, z).rate(|t, q, z| vec![kernel.energy(t, q, z)])[0];
-    // Differences over 1/200 of the time of a radian, with weights that add up to 2.1; their truncation; and what ż is off by.
+    // Differences over 1/200 of the time of a radian, with weights that add up to 2.1; their truncation; and what ż is
+    // off by.
     let difference = 420.0 * sizes.velocity * sizes.rounding + 1e-12;
     let conditioned = sizes.rounding * sizes.mass * sizes.acceleration * z.max_norm();
     let allowed = difference * sizes.energy + conditioned;

@@ -9,8 +9,8 @@ use gauss_runtime::system::GaussSystem;
 
 /// Steps of order 8 whose embedded estimate, of order 5, stays below a tolerance.
 ///
-/// The estimate is of the order h⁶ and the error of the result of the order h⁹: with a tolerance δ the local error of the
-/// result is near δ^(3/2), relative to the sizes that the estimate is measured by. So δ = 1e-10 asks for 1e-15.
+/// The estimate is of the order h⁶ and the error of the result of the order h⁹: with a tolerance δ the local error of
+/// the result is near δ^(3/2), relative to the sizes that the estimate is measured by. So δ = 1e-10 asks for 1e-15.
 #[derive(Clone, Copy, Debug)]
 pub struct Order8 {
     method: Rkmk<f64, 12>,
@@ -33,9 +33,9 @@ impl Order8 {
 }
 
 /// The largest ratio of an error to the size of what it is an error of. Positions and angles: the distance from the
-/// origin (at least 1) and 1 rad. Variables: linear and angular ones apart, each against the largest of its three, because
-/// a component that passes through zero is not to be known any better than its neighbours. Between linear and angular
-/// ones lies at most 10⁶, beyond which one is rounding of the other.
+/// origin (at least 1) and 1 rad. Variables: linear and angular ones apart, each against the largest of its three,
+/// because a component that passes through zero is not to be known any better than its neighbours. Between linear and
+/// angular ones lies at most 10⁶, beyond which one is rounding of the other.
 fn ratio<S: GaussSystem<Scalar = f64>>(from: &State<S>, to: &State<S>, error: &Rates<S>) -> f64 {
     let mut worst = 0.0_f64;
     let mut see = |error: f64, size: f64| {

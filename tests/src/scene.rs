@@ -151,8 +151,8 @@ impl State {
     }
 }
 
-/// The unit quaternion of a rotation matrix, from the largest of its four components (Shepperd 1978): every component to a
-/// few roundings.
+/// The unit quaternion of a rotation matrix, from the largest of its four components (Shepperd 1978): every component
+/// to a few roundings.
 #[must_use]
 pub fn quaternion_of(r: &Matrix3<f64>) -> UnitQuaternion<f64> {
     let trace = r.trace();
@@ -259,8 +259,9 @@ impl FileParameters {
             buoyancy: self.buoyancy_point.as_ref().map_or(zero, vector),
         };
         if let Some(total) = &self.kinetic_matrix_6x6 {
-            // Only the sum of body and fluid is given, and only the sum matters without gravity: a ball of dyadic mass and
-            // inertia, so that the subtraction is exact to a rounding of the total, less than every entry of the total.
+            // Only the sum of body and fluid is given, and only the sum matters without gravity: a ball of dyadic mass
+            // and inertia, so that the subtraction is exact to a rounding of the total, less than every entry of the
+            // total.
             (parameters.mass, parameters.inertia) = (0.375, Matrix3::from_diagonal_element(0.25));
             parameters.added = matrix6(total)
                 - Matrix6::from_fn(|i, j| {

@@ -89,10 +89,10 @@ impl<S: GaussSystem<Scalar = f64, Input = ()>> Run<'_, S> {
     ///
     /// Allowed: three times the published error of an established integrator (DOP853, relative tolerance 1e-13) on
     /// textbook equations, one sample of such errors; and rounding, for which each of N steps commits about 8 of random
-    /// sign, so that 8√N of them change the final state by the scene's sensitivity to one. Parameters, and constants made of
-    /// them, are rounded once, which makes everything move at a wrong rate, so 8Θ with Θ = max |q̇| T count too. `stretch`
-    /// is how much the chosen variables magnify what is committed in them: 1 for those of the textbook equations. Chains of
-    /// coordinates and back cost ten more.
+    /// sign, so that 8√N of them change the final state by the scene's sensitivity to one. Parameters, and constants
+    /// made of them, are rounded once, which makes everything move at a wrong rate, so 8Θ with Θ = max |q̇| T count
+    /// too. `stretch` is how much the chosen variables magnify what is committed in them: 1 for those of the textbook
+    /// equations. Chains of coordinates and back cost ten more.
     ///
     /// # Panics
     /// When a state is farther off than that.

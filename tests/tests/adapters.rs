@@ -1,5 +1,5 @@
-//! Kernels in the integrators of other crates against our own runs: a free body in space and in fluid, a pendulum, in both forms;
-//! with the feature `adapters`.
+//! Kernels in the integrators of other crates against our own runs: a free body in space and in fluid, a pendulum, in
+//! both forms; with the feature `adapters`.
 
 use gauss_adapters::FlatSystem;
 use gauss_runtime::integrate::{NoInput, Problem, SystemProblem};
@@ -139,8 +139,8 @@ fn distance<S: GaussSystem<Scalar = f64>>(a: &(S::Configuration, S::Speeds), b: 
     a.0.difference(&b.0).max_norm().max(a.1.add_scaled(-1.0, &b.1).max_norm())
 }
 
-/// Errors of a step add up over a few hundred steps of an explicit method, and these motions double them a few times: 1e-7. Low orders
-/// take thousands of steps.
+/// Errors of a step add up over a few hundred steps of an explicit method, and these motions double them a few times:
+/// 1e-7. Low orders take thousands of steps.
 fn same_end<X: Foreign>(foreign: &X, push: Push, bound: f64) {
     let (top, spin) = (free_top(), Vector3::new(0.01, 2.0, 0.3));
     let start = (UnitQuaternion::from_euler_angles(0.3, 0.2, -1.0), spin);
@@ -202,8 +202,8 @@ fn differential_equations() {
     same_end(&DifferentialEquations, SWAYING, 1e-7);
 }
 
-/// The twelfth stage of its method of order 8 has the time of the first in version 0.6.2, which the order suffers from where equations
-/// depend on time: so here they do not.
+/// The twelfth stage of its method of order 8 has the time of the first in version 0.6.2, which the order suffers from
+/// where equations depend on time: so here they do not.
 #[test]
 fn ode_solvers_of_fixed_and_dynamic_size() {
     same_end(&OdeSolvers, Push { amplitude: 0.0 }, 1e-7);

@@ -1,5 +1,6 @@
-//! An arm of seven joints (Franka Emika Panda): accelerations at given states from recursive Newton–Euler in multiprecision
-//! arithmetic, what an evaluation costs, what holds at every state, and which of its masses a motion tells.
+//! An arm of seven joints (Franka Emika Panda): accelerations at given states from recursive Newton–Euler in
+//! multiprecision arithmetic, what an evaluation costs, what holds at every state, and which of its masses a motion
+//! tells.
 
 use std::fs;
 use std::path::Path;
@@ -74,7 +75,8 @@ arm!(
 );
 
 arm!(
-    /// Speeds of its own: sums of the joints' rates from the base on, which for parallel axes are angular velocities in space.
+    /// Speeds of its own: sums of the joints' rates from the base on, which for parallel axes are angular velocities in
+    /// space.
     ArmByOtherSpeeds [
         coordinates(q1, q2, q3, q4, q5, q6, q7),
         speeds(s1, s2, s3, s4, s5, s6, s7),
@@ -113,8 +115,8 @@ fn arms() -> (ArmKernel, StraightArmKernel, ArmByOtherSpeedsKernel) {
     )
 }
 
-/// A ∂ż = −∂τ at the ż of the motion: solved for in columns, and not solved for at all. Both programs add some hundred products for
-/// every entry, and the substitution is backward stable.
+/// A ∂ż = −∂τ at the ż of the motion: solved for in columns, and not solved for at all. Both programs add some hundred
+/// products for every entry, and the substitution is backward stable.
 #[test]
 fn accelerations_and_forces_have_derivatives_that_agree() {
     let (arm, ..) = arms();
@@ -175,8 +177,8 @@ chain!(Chain7 [
     drive(q1 = u1), drive(q2 = u2), drive(q3 = u3), drive(q4 = u4), drive(q5 = u5), drive(q6 = u6), drive(q7 = u7),
 ]);
 
-/// What motors add is solved for beside the rest, which stays what it is: A ∂ż is the same for each, and 1 along its own
-/// motor. The substitution is backward stable, with some hundred products for every entry.
+/// What motors add is solved for beside the rest, which stays what it is: A ∂ż is the same for each, and 1 along its
+/// own motor. The substitution is backward stable, with some hundred products for every entry.
 #[test]
 fn derivatives_in_bundles_of_columns() {
     let mut random = Random(11);
@@ -269,9 +271,10 @@ fn an_evaluation_costs_what_composite_inertias_cost() {
     }
 }
 
-/// Recursive Newton–Euler, customised and with base parameters, takes 92n − 127 multiplications and 81n − 117 additions for a general
-/// robot of n hinges (W. Khalil & J.-F. Kleinfinger, *Minimum operations and minimum parameters of the dynamic models of tree
-/// structure robots*, IEEE J. Robotics and Automation 3, 1987). The arm is not general: its joints are at right angles.
+/// Recursive Newton–Euler, customised and with base parameters, takes 92n − 127 multiplications and 81n − 117 additions
+/// for a general robot of n hinges (W. Khalil & J.-F. Kleinfinger, *Minimum operations and minimum parameters of the
+/// dynamic models of tree structure robots*, IEEE J. Robotics and Automation 3, 1987). The arm is not general: its
+/// joints are at right angles.
 #[test]
 fn inverse_dynamics_costs_less_than_recursive_newton_euler() {
     let published = (92 * 7 - 127, 81 * 7 - 117);
@@ -284,8 +287,8 @@ fn inverse_dynamics_costs_less_than_recursive_newton_euler() {
     }
 }
 
-/// Lengths of what is left of the columns beside those before, the longest first (Gram–Schmidt twice, with pivots): a gap among them
-/// is at the rank.
+/// Lengths of what is left of the columns beside those before, the longest first (Gram–Schmidt twice, with pivots): a
+/// gap among them is at the rank.
 fn pivots(mut columns: Vec<Vec<f64>>) -> Vec<f64> {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let mut lengths = Vec::new();
@@ -308,9 +311,9 @@ fn pivots(mut columns: Vec<Vec<f64>>) -> Vec<f64> {
     lengths
 }
 
-/// The rank of stacked regressors is the number of base parameters: 43 of the 70 (C. Gaz, M. Cognetti, A. Oliva, P. Robuffo Giordano &
-/// A. De Luca, *Dynamic identification of the Franka Emika Panda robot with retrieval of feasible parameters using penalty-based
-/// optimization*, IEEE Robotics and Automation Letters 4, 2019).
+/// The rank of stacked regressors is the number of base parameters: 43 of the 70 (C. Gaz, M. Cognetti, A. Oliva, P.
+/// Robuffo Giordano & A. De Luca, *Dynamic identification of the Franka Emika Panda robot with retrieval of feasible
+/// parameters using penalty-based optimization*, IEEE Robotics and Automation Letters 4, 2019).
 #[test]
 fn base_parameters_can_be_told_apart() {
     let (arm, ..) = arms();
@@ -345,7 +348,8 @@ fn derivatives_by_parameters_are_in_the_regressor() {
         let regressor = arm.regressor(0.0, &q, &z, &arm.acceleration(0.0, &q, &z, &()));
         let mass_matrix = arm.mass_matrix(0.0, &q);
         let eigenvalues = mass_matrix.symmetric_eigenvalues();
-        // Accelerations, and their derivatives once more, are known as well as A can be inverted; 8√N roundings of N operations.
+        // Accelerations, and their derivatives once more, are known as well as A can be inverted; 8√N roundings of N
+        // operations.
         let rounding = 8.0 * f64::from(ArmKernel::OPERATIONS.by_parameters.total()).sqrt() * f64::EPSILON;
         let rounding = rounding * eigenvalues.max() / eigenvalues.min();
         for (link, body) in links.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! Armatures against particles that move on lines of their own, across gravity; friction of joints against its law and its power.
+//! Armatures against particles that move on lines of their own, across gravity; friction of joints against its law and
+//! its power.
 
 mod common;
 
@@ -139,7 +140,8 @@ pair!(of_a_long_chain: GearedChain BesideChain, SVector::from([0.3, -0.4, 0.2, 0
     particle(mass = 0.1, position = [a4, 0, 0]), particle(mass = a, position = [a5, 0, 0])
 ]);
 
-/// Derivatives, too: by recursion over the links where there are armatures, by another way where particles share the speeds.
+/// Derivatives, too: by recursion over the links where there are armatures, by another way where particles share the
+/// speeds.
 #[test]
 fn derivatives_of_a_long_chain() {
     let [a, g] = [Bounded::from_f64(0.3), Bounded::from_f64(9.81)];

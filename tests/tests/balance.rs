@@ -1,6 +1,6 @@
-//! The balance of power and the right-hand side of (3.4), of systems on which something acts: `laws::forced_laws` on one scene
-//! for every kind of element and every way in which bodies hang together. Stops set in over half a unit, so that energies are smooth
-//! on the step of the differences, as the laws suppose.
+//! The balance of power and the right-hand side of (3.4), of systems on which something acts: `laws::forced_laws` on
+//! one scene for every kind of element and every way in which bodies hang together. Stops set in over half a unit, so
+//! that energies are smooth on the step of the differences, as the laws suppose.
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{balance, forced_laws};
@@ -35,7 +35,8 @@ struct Crane {
     k: f64,
 }
 
-/// Two arms: motors with reactions, springs between points of both, a wrench at run time, drag in a wind, a push at a point.
+/// Two arms: motors with reactions, springs between points of both, a wrench at run time, drag in a wind, a push at a
+/// point.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(a, b, c),

@@ -61,8 +61,8 @@ fn states_between_samples_have_their_error() {
             ("compensated", errors(Compensated::by(Rkmk::new(&Tableau::RK4), 0.1), every)),
             ("chosen at run time", errors(Method::Gauss8 { step: 0.9 }, every)),
         ] {
-            // The error of a phase grows evenly: within the last steps it is that of the samples, and what a step of another length
-            // adds is of the same size; rounding by about twenty steps.
+            // The error of a phase grows evenly: within the last steps it is that of the samples, and what a step of
+            // another length adds is of the same size; rounding by about twenty steps.
             assert!(between < 2.0 * samples + 1e-14, "{name}, {every}: {between:e} between, {samples:e} at samples");
             assert!(samples < 1e-2, "{name}: {samples:e}");
         }

@@ -88,7 +88,8 @@ fn bounds(r: f64) -> [f64; 3] {
 #[test]
 fn moments_replace_the_points_as_well_as_theory_says() {
     for r in [3.0, 10.0, 30.0, 100.0, 300.0] {
-        // Sums of seven terms, each rounded some ten times, of energies, forces and torques that are at most this large.
+        // Sums of seven terms, each rounded some ten times, of energies, forces and torques that are at most this
+        // large.
         let total = 6.25 * MU / r;
         let rounding = 100.0 * f64::EPSILON * total;
         let sizes = [rounding, rounding / r, rounding / r];
@@ -162,8 +163,9 @@ fn orbits_are_keplers() {
     let place = |[x, y]: [f64; 2]| tilt * Vector3::new(x, y, 0.0);
     let ([start, velocity], time) = (kepler(0.0), 9.0);
     let (start, velocity, end) = (place(start), place(velocity), kepler(time).map(place));
-    // Errors of steps, 1e-12 each and a hundred of them, change the energy, and the phase by 3π times that a revolution, which
-    // is another factor of ten in one and a half of them; near the pericentre speeds are twice what they are in the mean.
+    // Errors of steps, 1e-12 each and a hundred of them, change the energy, and the phase by 3π times that a
+    // revolution, which is another factor of ten in one and a half of them; near the pericentre speeds are twice what
+    // they are in the mean.
     let allowed = 1e-8;
 
     let ball = Ball { mass: 3.0, inertia: 1.2, mu: 1.0 }.kernel().expect("a ball");

@@ -1,5 +1,5 @@
-//! All charts give the same motion: a random state is written in every chart, ż is mapped to the acceleration of the body
-//! twist by dual numbers (no finite differences), and what the charts say must agree up to rounding.
+//! All charts give the same motion: a random state is written in every chart, ż is mapped to the acceleration of the
+//! body twist by dual numbers (no finite differences), and what the charts say must agree up to rounding.
 
 #[macro_use]
 mod common;

@@ -1,5 +1,5 @@
-//! Derivatives of steps: against dual numbers through the very same step, which agree up to the bounds that both carry on their own
-//! rounding; against differences; and what is true of every motion.
+//! Derivatives of steps: against dual numbers through the very same step, which agree up to the bounds that both carry
+//! on their own rounding; against differences; and what is true of every motion.
 
 mod common;
 
@@ -262,13 +262,15 @@ fn apart<S: GaussSystem<Scalar = f64>, const N: usize>(
     speeds(&[list(&sigma), list(&to.1.add_scaled(-1.0, &from.1))].concat())
 }
 
-/// Central differences over e and 2e, extrapolated: they are off by e⁴ times a fifth derivative and some roundings over e.
+/// Central differences over e and 2e, extrapolated: they are off by e⁴ times a fifth derivative and some roundings over
+/// e.
 fn slope<const N: usize>(f: impl Fn(f64) -> SVector<f64, N>) -> SVector<f64, N> {
     let central = |e: f64| (f(e) - f(-e)) / (2.0 * e);
     (central(1e-3) * 4.0 - central(2e-3)) / 3.0
 }
 
-/// Fifth derivatives up to 1e3 (springs and gyroscopic terms of some units, over steps shorter than one), and a hundred roundings.
+/// Fifth derivatives up to 1e3 (springs and gyroscopic terms of some units, over steps shorter than one), and a hundred
+/// roundings.
 const SLOPE_ERROR: f64 = 4.0 * 1e-12 * 1e3 / 120.0 + 100.0 * f64::EPSILON / 1e-3;
 
 #[test]
@@ -373,8 +375,8 @@ impl<T: Real> Top<T> {
     }
 }
 
-/// The flow keeps the volume of phase space (Liouville), which in body axes is that of (σ, z): momenta are I ω, and the volume of SO(3)
-/// is the same seen from either side. So the determinant of a step of order 4 is 1 up to h⁵.
+/// The flow keeps the volume of phase space (Liouville), which in body axes is that of (σ, z): momenta are I ω, and the
+/// volume of SO(3) is the same seen from either side. So the determinant of a step of order 4 is 1 up to h⁵.
 #[test]
 fn steps_keep_the_volume_up_to_their_order() {
     let kernel = Top::<f64>::sample().kernel().unwrap();
@@ -428,7 +430,8 @@ fn lanes_and_single_precision() {
         let roughly = CommutatorFree4.step_linearized(&single, 0.0, &q.cast(), &spin(lane).cast(), &(), 0.02).unwrap();
         let size = alone.by_state.amax();
         for (i, &expected) in alone.by_state.iter().enumerate() {
-            // Small lanes take the long series beside others that are not: some roundings of what coefficients multiply.
+            // Small lanes take the long series beside others that are not: some roundings of what coefficients
+            // multiply.
             assert!((together.by_state[i][lane] - expected).abs() < 100.0 * f64::EPSILON * size, "lane {lane}, {i}");
             let error = (f64::from(roughly.by_state[i]) - expected).abs();
             assert!(error < 1e3 * f64::from(f32::EPSILON) * size, "lane {lane}, {i}: {error:e}");
@@ -436,7 +439,8 @@ fn lanes_and_single_precision() {
     }
 }
 
-/// Second derivatives, by the mass and by what is structurally there but zero at this state: nothing is left out that has a rate.
+/// Second derivatives, by the mass and by what is structurally there but zero at this state: nothing is left out that
+/// has a rate.
 #[test]
 fn dual_numbers_differentiate_once_more() {
     use gauss_adapters::DualNumber;

@@ -1,4 +1,5 @@
-//! Dual numbers of `num-dual` in kernels and integrators: derivatives of whole simulations by parameters, against differences.
+//! Dual numbers of `num-dual` in kernels and integrators: derivatives of whole simulations by parameters, against
+//! differences.
 
 use gauss_adapters::DualNumber;
 use gauss_runtime::integrate::Fixed;
@@ -26,8 +27,8 @@ fn spin<T: Real>(mass: T, height: T) -> [T; 3] {
     [end.z[0], end.z[1], end.z[2]]
 }
 
-/// Central differences of a step e, extrapolated: their error is of order e⁴ (1e-12 for 1e-3) and 2 ε/e, some 1e-12, of the largest
-/// number on the way, in each of the fifty steps at worst.
+/// Central differences of a step e, extrapolated: their error is of order e⁴ (1e-12 for 1e-3) and 2 ε/e, some 1e-12, of
+/// the largest number on the way, in each of the fifty steps at worst.
 fn slope(f: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
     let central = |e: f64| {
         let (after, before) = (f(e), f(-e));
@@ -92,7 +93,8 @@ fn so_are_second_derivatives() {
     }
 }
 
-/// Every function of a dual number has the derivative that differences have, where it is smooth; and says when it has none.
+/// Every function of a dual number has the derivative that differences have, where it is smooth; and says when it has
+/// none.
 #[test]
 fn functions_know_their_derivatives() {
     fn functions<T: Real>(x: T) -> Vec<T> {

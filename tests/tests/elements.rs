@@ -1,5 +1,5 @@
-//! Elements one by one against closed forms: springs and stops along a coordinate, the functions that are not smooth, wrenches at
-//! run time; what elements are called, and how smooth a scene is.
+//! Elements one by one against closed forms: springs and stops along a coordinate, the functions that are not smooth,
+//! wrenches at run time; what elements are called, and how smooth a scene is.
 
 use gauss_runtime::prelude::*;
 
@@ -53,8 +53,9 @@ struct Stopped {
     c: f64,
 }
 
-/// `s = (x + √(x² + w²))/2` is x ≤ s ≤ x + w²/4x far beyond a limit and 0 ≤ s ≤ w²/4|x| far before it. With x = w sinh a the
-/// force is k s ds/dx = (k w/2) e^(2a)/(e^a + e^(−a)), which beyond the limit is k x/(1 − e^(−4a)), and e^|a| ≥ 2|x|/w.
+/// `s = (x + √(x² + w²))/2` is x ≤ s ≤ x + w²/4x far beyond a limit and 0 ≤ s ≤ w²/4|x| far before it. With x = w sinh
+/// a the force is k s ds/dx = (k w/2) e^(2a)/(e^a + e^(−a)), which beyond the limit is k x/(1 − e^(−4a)), and e^|a| ≥
+/// 2|x|/w.
 #[test]
 fn a_stop_is_a_spring_beyond_its_limits_and_nothing_between_them() {
     let (low, high, k, w, c) = (-1.0, 2.0, 50.0, 0.01, 3.0);
@@ -223,8 +224,8 @@ fn a_wrench_has_its_frame_and_its_pole() {
 
 #[test]
 fn a_wrench_is_supplied_at_run_time() {
-    // A controller that holds O where it is, in observer's axes, against nothing else: b̈ = −4 (b − b₀) − 4 ḃ of a body that
-    // does not turn, since the lever of the force about G is compensated.
+    // A controller that holds O where it is, in observer's axes, against nothing else: b̈ = −4 (b − b₀) − 4 ḃ of a body
+    // that does not turn, since the lever of the force about G is compensated.
     let kernel = OfObserver::new().kernel().unwrap();
     let OfObserver { mass, center, at, k, .. } = OfObserver::new();
     let controller = |_: f64, pose: &Isometry3<f64>, z: &SVector<f64, 6>| {
@@ -316,8 +317,8 @@ fn scenes_say_how_smooth_they_are() {
     assert_eq!(smoothness(&Rubbed::new().kernel().unwrap()), Smoothness::Jumps);
 }
 
-/// Two bodies on a hinge and a third one that moves by itself, with elements between them, some beside the same load written
-/// otherwise. The seat is where the hinge is.
+/// Two bodies on a hinge and a third one that moves by itself, with elements between them, some beside the same load
+/// written otherwise. The seat is where the hinge is.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(a, b, theta, x, y, z, d, e),
@@ -368,8 +369,8 @@ fn joined() -> Joined {
     Joined { one: body(), two: body(), three: body(), k, c, rest, stiffness: full(8.0), damping: full(5.0) }
 }
 
-/// The place of the third body relative to the second: displacement and Cardan angles in the axes of the second; and the
-/// twist about their third axes, of the quaternion. By nalgebra alone.
+/// The place of the third body relative to the second: displacement and Cardan angles in the axes of the second; and
+/// the twist about their third axes, of the quaternion. By nalgebra alone.
 fn relative_place(q: &Eight) -> (Vector6<f64>, f64) {
     let about = |axis: Unit<Vector3<f64>>, angle: f64| UnitQuaternion::from_axis_angle(&axis, angle);
     let (x, y, z) = (Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis());
@@ -408,8 +409,8 @@ fn elements_between_bodies_are_the_same_loads_written_otherwise() {
             ("twisted", "twisted_by_angle"),
             ("mounted", "mounted_by_angle"),
         ] {
-            // Coefficients and rates are of order 1, and each component is a sum of less than fifty products of them and of
-            // entries of rotations.
+            // Coefficients and rates are of order 1, and each component is a sum of less than fifty products of them
+            // and of entries of rotations.
             let difference = (force(name) - force(other)).amax();
             assert!(difference <= 64.0 * f64::EPSILON * 8.0, "{name}: {difference:e}");
             let [power, same] = [name, other].map(|name| kernel.power(name, 0.0, &q, &z, &()).unwrap());
@@ -427,7 +428,8 @@ fn torsional_springs_and_bushings_act_by_the_relative_place() {
         let (x, twist) = relative_place(&q);
         let (sine, cosine) = (twist - scene.rest).sin_cos();
         let turned = sine.atan2(cosine);
-        // Central differences along the rates: h² times a third derivative and ε/h, both below 1e-9 for numbers of order 1.
+        // Central differences along the rates: h² times a third derivative and ε/h, both below 1e-9 for numbers of
+        // order 1.
         let h = 1e-5;
         let [(ahead, twist_ahead), (behind, twist_behind)] = [h, -h].map(|h| relative_place(&(q + h * z)));
         let (rate, twisting) = ((ahead - behind) / (2.0 * h), (twist_ahead - twist_behind) / (2.0 * h));

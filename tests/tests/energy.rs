@@ -61,8 +61,8 @@ fn along_the_flow<K: Body<Bounded>, D: Body<Dual<Bounded>>>(
     }
 }
 
-/// The share of power balances that are proved to 1e-12 relative to the terms that enter. With a full added mass they sum
-/// several hundred products, whose worst cases add up to more for most bodies; those are zero up to their bounds.
+/// The share of power balances that are proved to 1e-12 relative to the terms that enter. With a full added mass they
+/// sum several hundred products, whose worst cases add up to more for most bodies; those are zero up to their bounds.
 const SHARE: f64 = 0.3;
 
 macro_rules! conserved {
@@ -217,8 +217,8 @@ mod kirchhoff {
             let kernel = Left::<()>::kernel::<Bounded>(parameters);
             let (q, z) = state.of(&kernel).expect("regular everywhere");
             let found = list(&kernel.acceleration(Bounded::zero(), &q, &z, &()));
-            // Backward stable: the error of a Cholesky solution is below 3 n² u cond(M) |x| (Higham, theorem 10.4), and the
-            // right-hand side carries some twenty roundings of terms of its size.
+            // Backward stable: the error of a Cholesky solution is below 3 n² u cond(M) |x| (Higham, theorem 10.4), and
+            // the right-hand side carries some twenty roundings of terms of its size.
             let eigenvalues = matrix.symmetric_eigenvalues();
             let condition = eigenvalues.max() / eigenvalues.min();
             let terms = (matrix.norm() * nu.norm_squared() + force.iter().chain(&torque).map(|f| f.abs()).sum::<f64>())
@@ -283,8 +283,8 @@ mod newton_euler {
     }
 }
 
-/// A scalar gravity pulls along −k₃, and along −k₂ where the motion is in the plane k₁k₂: a body at rest falls that way, in
-/// every chart, wherever its centre of mass is and however it is turned.
+/// A scalar gravity pulls along −k₃, and along −k₂ where the motion is in the plane k₁k₂: a body at rest falls that
+/// way, in every chart, wherever its centre of mass is and however it is turned.
 mod falling {
     use super::*;
 

@@ -52,7 +52,8 @@ struct Rolling {
     r: f64,
 }
 
-/// Everything agrees up to the rounding of some hundred operations on numbers of order hundred, and costs less than its parts.
+/// Everything agrees up to the rounding of some hundred operations on numbers of order hundred, and costs less than its
+/// parts.
 fn check<K: GaussSystem<Scalar = f64> + DescribedSystem>(
     kernel: &K,
     q: &K::Configuration,

@@ -417,7 +417,8 @@ fn bodies_that_spin_do_not_fall_through_floors() {
     assert!(turned > 30 && piled_up == 3 * (3 * 6 * 3) + 1 && whole == 3 * 6 * 3, "{turned} {piled_up} {whole}");
 }
 
-/// Where the body's third axis lies level, or nearly so, turning the velocity along it changes next to nothing of the fall.
+/// Where the body's third axis lies level, or nearly so, turning the velocity along it changes next to nothing of the
+/// fall.
 #[test]
 fn a_level_axis_does_not_turn_a_fall_back() {
     let own = InItsAxes::thrown().kernel().expect("a body");

@@ -1,5 +1,5 @@
-//! Forces, torques, drives, springs, dissipation and inputs of systems: a reference solution, closed forms, two ways to say the
-//! same, and the balance of power.
+//! Forces, torques, drives, springs, dissipation and inputs of systems: a reference solution, closed forms, two ways to
+//! say the same, and the balance of power.
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::forced_laws;
@@ -155,7 +155,8 @@ fn arm(mass: f64, length: f64) -> RigidBody<f64> {
     }
 }
 
-/// A vehicle with a thruster: a force at a named point, in observer's axes, against the same at a point fixed in the body.
+/// A vehicle with a thruster: a force at a named point, in observer's axes, against the same at a point fixed in the
+/// body.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(pose: Pose),

@@ -1,5 +1,5 @@
-//! Scenes on which something acts derive wherever a struct can be written: without any prelude, among shadowed names, behind
-//! aliases, inside macros, generic, with fields of any name, under the strictest lints.
+//! Scenes on which something acts derive wherever a struct can be written: without any prelude, among shadowed names,
+//! behind aliases, inside macros, generic, with fields of any name, under the strictest lints.
 
 #![deny(warnings, missing_docs)]
 
@@ -127,7 +127,8 @@ fn names_may_be_shadowed() {
     assert!(body.warnings().is_empty() && body.kernel().is_ok());
 }
 
-/// Names of fields, inputs, elements and definitions are the user's, also those that generated code uses inside, and raw ones.
+/// Names of fields, inputs, elements and definitions are the user's, also those that generated code uses inside, and
+/// raw ones.
 #[test]
 fn anything_may_have_any_name() {
     use gauss_runtime::prelude::*;

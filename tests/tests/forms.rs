@@ -1,6 +1,6 @@
-//! The pieces of the Gauss condition belong together: residual, constraint function, mass matrix, momenta, both forms of the
-//! equations. Every derivative is exact (dual numbers run through the generated kernels), every comparison is up to the
-//! running bound of rounding.
+//! The pieces of the Gauss condition belong together: residual, constraint function, mass matrix, momenta, both forms
+//! of the equations. Every derivative is exact (dual numbers run through the generated kernels), every comparison is up
+//! to the running bound of rounding.
 
 // Matrices are indexed by row and column as in the formulas.
 #![allow(clippy::needless_range_loop)]
@@ -161,8 +161,8 @@ fn momentum_form<K: Body<Bounded>, D: Body<Dual<Bounded>>>(
     Ok(())
 }
 
-/// The share of residuals and momentum rates that are proved to 1e-12 relative to the terms that enter: the bound of ż is
-/// multiplied by A once more, so fewer than of the accelerations themselves.
+/// The share of residuals and momentum rates that are proved to 1e-12 relative to the terms that enter: the bound of ż
+/// is multiplied by A once more, so fewer than of the accelerations themselves.
 const SHARE: f64 = 0.5;
 
 macro_rules! forms {

@@ -1,5 +1,5 @@
-//! Poses, twists, Jacobians and accelerations of frames against dual numbers through poses and twists, in every kind of scene: two
-//! ways to each number, equal up to the bounds that both carry on their own rounding.
+//! Poses, twists, Jacobians and accelerations of frames against dual numbers through poses and twists, in every kind of
+//! scene: two ways to each number, equal up to the bounds that both carry on their own rounding.
 
 mod common;
 

@@ -229,7 +229,8 @@ fn the_total_momentum_of_a_gyrostat_is_kept() {
             })
             .run_to_end(q, z, 0.0..4.0)
             .unwrap();
-        // Stages on the group, where ṗ = 0 because R is orthogonal: a tolerance of 1e-9 in the steps, and the momenta do not care. Ten roundings of terms up to ten at the start.
+        // Stages on the group, where ṗ = 0 because R is orthogonal: a tolerance of 1e-9 in the steps, and the momenta
+        // do not care. Ten roundings of terms up to ten at the start.
         assert!(worst <= 100.0 * f64::EPSILON, "{name}: {worst:e}");
     }
 }

@@ -1,5 +1,5 @@
-//! Functions of expressions: inverse and hyperbolic ones, powers, π, tables, and functions of the user's own, in forces, potentials,
-//! derivatives and power series, and in every scalar.
+//! Functions of expressions: inverse and hyperbolic ones, powers, π, tables, and functions of the user's own, in
+//! forces, potentials, derivatives and power series, and in every scalar.
 
 use gauss_bounded::Bounded;
 use gauss_runtime::integrate::Taylor;

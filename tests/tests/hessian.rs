@@ -1,5 +1,5 @@
-//! `hessian` against dual numbers through `linearize` of the same scene, in the kinds of scene that differ in how they come to their
-//! accelerations: equal up to the bounds that both carry on their own rounding.
+//! `hessian` against dual numbers through `linearize` of the same scene, in the kinds of scene that differ in how they
+//! come to their accelerations: equal up to the bounds that both carry on their own rounding.
 
 mod common;
 
@@ -29,8 +29,8 @@ macro_rules! kernels {
     };
 }
 
-/// Second derivatives of a weighted sum of the rates beside dual numbers through `linearize`, at random states: of components of one
-/// rotation the mean of both orders.
+/// Second derivatives of a weighted sum of the rates beside dual numbers through `linearize`, at random states: of
+/// components of one rotation the mean of both orders.
 fn check<C, B, D, const S: usize, const U: usize>(origin: &C, (bounded, dual): (&B, &D))
 where
     C: Configuration<Scalar = f64> + Parts<f64>,
@@ -104,7 +104,8 @@ fn rigid<T: Real>(mass: f64, x: f64) -> RigidBody<T> {
     }
 }
 
-/// A hull with a rotor that slides: increments of two rotations, which do not commute, and an input that enters nonlinearly.
+/// A hull with a rotor that slides: increments of two rotations, which do not commute, and an input that enters
+/// nonlinearly.
 #[derive(GaussDynamics)]
 #[gauss(
     linearize(hessian),

@@ -1,5 +1,5 @@
-//! Pendulums of several kinds, each in two choices of coordinates: reference solutions, what holds at every state, and that
-//! both choices are one motion.
+//! Pendulums of several kinds, each in two choices of coordinates: reference solutions, what holds at every state, and
+//! that both choices are one motion.
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Time, balance, constrained_laws, corresponds, laws, least, position_rates};
@@ -124,7 +124,8 @@ struct CartPoleOnRail {
     g: f64,
 }
 
-/// A pendulum on the rotating Earth, by the horizontal coordinates of the bob in axes (east, north, up) that turn with it.
+/// A pendulum on the rotating Earth, by the horizontal coordinates of the bob in axes (east, north, up) that turn with
+/// it.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(x, y),
@@ -371,8 +372,8 @@ fn foucault_precession() {
     let end = Simulation::new(&kernel).adaptive(1e-12, 1e-13).run_to_end(start.0, start.1, 0.0..duration).unwrap();
     let change = azimuth(&end.q, &end.z) - azimuth(&start.0, &start.1);
     let relative = change / (-turn * latitude.sin() * duration) - 1.0;
-    // An ellipse of half-axes a, b turns by 3/8 a b/l² √(g/l) more; b = −a Ω sin λ √(l/g) makes that −3/8 (a/l)² of Ω sin λ.
-    // The next term is smaller by (a/l)², and a hundredth of this one is room for the ripple within a period.
+    // An ellipse of half-axes a, b turns by 3/8 a b/l² √(g/l) more; b = −a Ω sin λ √(l/g) makes that −3/8 (a/l)² of Ω
+    // sin λ. The next term is smaller by (a/l)², and a hundredth of this one is room for the ripple within a period.
     let ellipse = -3.0 / 8.0 * (0.67_f64 / l).powi(2);
     assert!((relative / ellipse - 1.0).abs() < 0.01, "{relative:e} {ellipse:e}");
     let listed: f64 = reference(name)["precession"]["change_of_azimuth_of_swing"].as_str().unwrap().parse().unwrap();

@@ -1,5 +1,5 @@
-//! The derive works wherever a struct can be written: renamed runtime, no prelude, shadowed names, inside functions, generic,
-//! behind aliases, under the strictest lints.
+//! The derive works wherever a struct can be written: renamed runtime, no prelude, shadowed names, inside functions,
+//! generic, behind aliases, under the strictest lints.
 
 #![deny(warnings, missing_docs)]
 

@@ -39,8 +39,8 @@ fn order<M: OneStep<TopKernel<f64>> + Copy>(scene: &Scene, method: M, steps: [u3
     (order, symmetric, (coarse / fine).ln() / (f64::from(steps[1]) / f64::from(steps[0])).ln())
 }
 
-/// Errors of symmetric methods have even powers of the step only, so that the slope is near the order at long steps. Those of
-/// others may begin with a larger power that is seen first.
+/// Errors of symmetric methods have even powers of the step only, so that the slope is near the order at long steps.
+/// Those of others may begin with a larger power that is seen first.
 #[test]
 fn orders_on_a_heavy_top_against_its_reference() {
     let scene = Scene::load("hlw_heavy_top");
@@ -95,8 +95,8 @@ fn change_of_clebsch(method: impl OneStep<KirchhoffKernel>, step: f64, steps: u3
     worst
 }
 
-/// All four are quadratic in the momenta. Each step rounds the six momenta a few times, by less than 4ε of an integral; such errors
-/// are of both signs, and add up like the root of the number of steps.
+/// All four are quadratic in the momenta. Each step rounds the six momenta a few times, by less than 4ε of an integral;
+/// such errors are of both signs, and add up like the root of the number of steps.
 #[test]
 fn integrals_of_clebsch_are_kept_to_rounding() {
     let (step, steps) = (0.1, 20_000);

@@ -1,4 +1,5 @@
-//! Packs of numbers: every function gives every lane the bits that it would get alone, also where results are not finite.
+//! Packs of numbers: every function gives every lane the bits that it would get alone, also where results are not
+//! finite.
 
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;

@@ -1,5 +1,5 @@
-//! `linearize` and `by_parameters` against dual numbers through the same kernel's accelerations and kinematics, in every kind of
-//! scene: two ways to each entry, equal up to the bounds that both carry on their own rounding.
+//! `linearize` and `by_parameters` against dual numbers through the same kernel's accelerations and kinematics, in
+//! every kind of scene: two ways to each entry, equal up to the bounds that both carry on their own rounding.
 
 mod common;
 
@@ -64,7 +64,8 @@ macro_rules! kernels {
     };
 }
 
-/// Compares at random states. `origin` is a configuration around which they are drawn; of a number beyond the parameters none moves.
+/// Compares at random states. `origin` is a configuration around which they are drawn; of a number beyond the
+/// parameters none moves.
 fn check<C, B, D>(origin: &C, (bounded, moved): (&B, impl Fn(usize) -> D))
 where
     C: Configuration<Scalar = f64> + Parts<f64>,
@@ -506,7 +507,8 @@ fn parameters_have_the_names_of_their_fields() {
     assert_eq!(names[names.len() - 9..], ["g", "k", "c", "d[0]", "d[1]", "d[2]", "d[3]", "d[4]", "d[5]"]);
 }
 
-/// In the plane of a cart and its pendulums only one moment of inertia of each enters, and what is fixed to the cart's side does not.
+/// In the plane of a cart and its pendulums only one moment of inertia of each enters, and what is fixed to the cart's
+/// side does not.
 #[test]
 fn patterns_tell_what_matters() {
     let column = |name: &str| CartKernel::<f64>::PARAMETERS.iter().position(|known| *known == name).unwrap();

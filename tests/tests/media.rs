@@ -1,5 +1,5 @@
-//! Bodies in a uniform stream: what Galilei's principle and the principle of equivalence say of them, up to bounds on rounding,
-//! and closed forms.
+//! Bodies in a uniform stream: what Galilei's principle and the principle of equivalence say of them, up to bounds on
+//! rounding, and closed forms.
 
 #[macro_use]
 mod common;
@@ -74,8 +74,8 @@ body!(Swept [chart = hybrid, medium(velocity = stream + t * surge)]);
 body!(StillBoat [chart = hybrid, motion = planar]);
 body!(SweptBoat [chart = hybrid, motion = planar, medium(velocity = stream + t * surge)]);
 
-/// In the variables of the hybrid chart, where z begins with ḃ: the motion in a stream is that in a still fluid seen from a frame
-/// that goes with it. There gravity is g − dc/dt, and ḃ is ḃ − c.
+/// In the variables of the hybrid chart, where z begins with ḃ: the motion in a stream is that in a still fluid seen
+/// from a frame that goes with it. There gravity is g − dc/dt, and ḃ is ḃ − c.
 fn equivalent<S, C>(
     (swept, still): (&S, &C),
     stream: (&[Bounded], &[Bounded]),
@@ -241,8 +241,8 @@ fn so_it_is_for_what_hangs_on_another_body() {
     });
 }
 
-/// A ball in a tide, without drag: (m + m′/2) dv/dt = 3/2 m′ dc/dt with the displaced mass m′, half of which is the added mass of
-/// a ball (Auton, Hunt & Prud'homme 1988).
+/// A ball in a tide, without drag: (m + m′/2) dv/dt = 3/2 m′ dc/dt with the displaced mass m′, half of which is the
+/// added mass of a ball (Auton, Hunt & Prud'homme 1988).
 #[derive(GaussDynamics)]
 #[gauss(chart = left_invariant, medium(velocity = [speed * cos(pulse * t), 0, 0]))]
 struct Ball {

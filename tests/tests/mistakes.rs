@@ -1,4 +1,5 @@
-//! The twenty likeliest mistakes, each with what is said of it: `docs/mistakes.md` is written from here (`UPDATE_MISTAKES=1`) and compared.
+//! The twenty likeliest mistakes, each with what is said of it: `docs/mistakes.md` is written from here
+//! (`UPDATE_MISTAKES=1`) and compared.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -6,7 +7,8 @@ use std::path::Path;
 use gauss_codegen::Derivation;
 use gauss_runtime::prelude::*;
 
-/// What is written, and what it is to be called: clauses of a particle with coordinates x and y, or a struct as a whole.
+/// What is written, and what it is to be called: clauses of a particle with coordinates x and y, or a struct as a
+/// whole.
 const WRITTEN: [(&str, &str); 15] = [
     ("a misspelt word", "#[gauss(chart = hybird)] struct Body { #[gauss(mass)] m: f64, #[gauss(inertia)] i: f64 }"),
     ("no inertia", "struct Body { #[gauss(mass)] m: f64 }"),

@@ -1,5 +1,6 @@
-//! A chart combines with whatever systems have, and fluid with every body: the same scene with the coordinates, speeds and
-//! kinematics of the chart written out gives the same numbers in every method, up to bounds on the rounding of both.
+//! A chart combines with whatever systems have, and fluid with every body: the same scene with the coordinates, speeds
+//! and kinematics of the chart written out gives the same numbers in every method, up to bounds on the rounding of
+//! both.
 
 #[macro_use]
 mod common;
@@ -406,8 +407,8 @@ fn a_chart_in_the_plane_carries_a_pendulum() {
     });
 }
 
-/// One body in a fluid that streams: in a chart, with fields or with clauses for what the fluid does; and as the body of a
-/// system.
+/// One body in a fluid that streams: in a chart, with fields or with clauses for what the fluid does; and as the body
+/// of a system.
 macro_rules! in_fluid {
     ($module:ident, chart [$($chart:tt)+], own [$($own:tt)+], $added:ident [$($clause:tt)+]) => {
         mod $module {

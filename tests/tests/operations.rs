@@ -1,5 +1,5 @@
-//! A scene pays for nothing that it lacks: the operation counts of the generated code, feature by feature, and the table of
-//! them in BENCHMARKS.md.
+//! A scene pays for nothing that it lacks: the operation counts of the generated code, feature by feature, and the
+//! table of them in BENCHMARKS.md.
 
 #[macro_use]
 mod common;
@@ -114,8 +114,8 @@ const RICHER: [(usize, usize); 14] = [
     (9, 10),
 ];
 
-/// Chart, method, and two scenes of which the poorer is given the dearer form, because the cheaper one loses digits there: the
-/// loss of every form is measured scene by scene.
+/// Chart, method, and two scenes of which the poorer is given the dearer form, because the cheaper one loses digits
+/// there: the loss of every form is measured scene by scene.
 const DEARER_FOR_ACCURACY: [[&str; 4]; 1] =
     [["hybrid", "acceleration", "principal axes, full added mass", "everything"]];
 
@@ -177,7 +177,8 @@ fn what_is_absent_costs_nothing() {
     assert_eq!((hybrid.acceleration.additions, hybrid.acceleration.multiplications), (0, 6));
 }
 
-/// The section of BENCHMARKS.md between the markers: additions + multiplications of each method, and what two of them lose.
+/// The section of BENCHMARKS.md between the markers: additions + multiplications of each method, and what two of them
+/// lose.
 fn table() -> String {
     let mut out = String::from(
         "| scene | chart | acceleration | momentum rate | kinetic energy | loss of acceleration | of momentum rate |\n\

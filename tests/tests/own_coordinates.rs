@@ -1,5 +1,5 @@
-//! One body in coordinates and speeds of a scene's own, carried to charts and back: same pose, same twist, same momentum and
-//! energy; what cannot be expressed is said in words.
+//! One body in coordinates and speeds of a scene's own, carried to charts and back: same pose, same twist, same
+//! momentum and energy; what cannot be expressed is said in words.
 
 use std::fmt::Debug;
 
@@ -109,8 +109,8 @@ fn states() -> Vec<(Isometry3<f64>, SVector<f64, 6>)> {
     (1..40).map(state).collect()
 }
 
-/// Roundings of the pose, times what the worst of these coordinates make of them: latitudes and pitches here are at least
-/// 10⁻² from a quarter turn, and distances 10⁻² from zero.
+/// Roundings of the pose, times what the worst of these coordinates make of them: latitudes and pitches here are at
+/// least 10⁻² from a quarter turn, and distances 10⁻² from zero.
 const ALLOWED: f64 = 1e3 * 64.0 * f64::EPSILON;
 
 /// There and back, with what does not depend on variables.

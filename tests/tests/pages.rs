@@ -1,5 +1,5 @@
-//! The pages that people read: links lead somewhere, lines are as wide as a person reads, every chapter of the guide is in
-//! its list and is compiled, and the README's table of times is that of BENCHMARKS.md.
+//! The pages that people read: links lead somewhere, lines are as wide as a person reads, every chapter of the guide is
+//! in its list and is compiled, and the README's table of times is that of BENCHMARKS.md.
 
 use std::collections::HashSet;
 use std::fmt::Write as _;

@@ -1,5 +1,5 @@
-//! `kernel()` of systems refuses what no body, spring or stop has, and accepts bodies without mass where others make up for it;
-//! `warnings()` of every struct says what is likely not meant.
+//! `kernel()` of systems refuses what no body, spring or stop has, and accepts bodies without mass where others make up
+//! for it; `warnings()` of every struct says what is likely not meant.
 
 use gauss_runtime::error::{Finding, ParameterError, ParameterWarnings, Rule, Violation};
 use gauss_runtime::prelude::*;

@@ -1,5 +1,5 @@
-//! Programs beside the kernels that the derive makes of the same structs: the interpreter, what C is compared with, computes what
-//! Rust computes; and programs survive being written and read.
+//! Programs beside the kernels that the derive makes of the same structs: the interpreter, what C is compared with,
+//! computes what Rust computes; and programs survive being written and read.
 
 use gauss_codegen::Derivation;
 use gauss_codegen::program::Program;
@@ -9,7 +9,8 @@ use gauss_runtime::prelude::*;
 /// The structs of this file.
 const SOURCE: &str = include_str!("programs.rs");
 
-/// A vehicle in water: full inertia and added mass, weight, lift that is not smooth, inputs, a literal without a short fraction.
+/// A vehicle in water: full inertia and added mass, weight, lift that is not smooth, inputs, a literal without a short
+/// fraction.
 #[derive(GaussDynamics)]
 #[gauss(
     chart = hybrid, input(thrust, rudder), define(v = body.relative_velocity), drag(quadratic = [1.0, 8.0, 8.0, 0.1, 2.0, 2.0]),

@@ -1,4 +1,5 @@
-//! The regressor: `Y π − other forces` is the residual, Y does not depend on π, and inverse dynamics gives the forces of a motion.
+//! The regressor: `Y π − other forces` is the residual, Y does not depend on π, and inverse dynamics gives the forces
+//! of a motion.
 //!
 //! Two ways to each number, equal up to the bounds that both carry on their own rounding.
 

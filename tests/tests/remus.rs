@@ -1,8 +1,8 @@
 //! The REMUS 100: the velocity-product terms of the derived Kirchhoff equations are the published cross terms.
 //!
 //! Source: T. Prestero, *Verification of a six-degree of freedom simulation model for the REMUS autonomous underwater
-//! vehicle*, MIT/WHOI 2001, appendix C. The thesis lists the added mass by its derivatives (X_u̇, …, so M_A is minus their
-//! matrix) and the cross terms of the fluid alone as forces, that is on the right-hand side of the equations.
+//! vehicle*, MIT/WHOI 2001, appendix C. The thesis lists the added mass by its derivatives (X_u̇, …, so M_A is minus
+//! their matrix) and the cross terms of the fluid alone as forces, that is on the right-hand side of the equations.
 
 use std::collections::BTreeMap;
 

@@ -64,10 +64,11 @@ fn a_chart_near_its_singularity_is_right_or_refused() {
         let start = body.configuration(&angles.pose(0.0, &q)).expect("a rotation");
         let omega = body.speeds(0.0, &start, &angles.body_twist(0.0, &q, &z));
         let truth = Simulation::new(&body).adaptive(1e-12, 1e-12).run(start, omega, 0.0..1.0).expect("no singularity");
-        // Some 1e-11 a step over some hundreds of steps, a hundred times the tolerance because estimates of order 8 are optimistic
-        // this near; and rounding of the angles divided by the distance.
+        // Some 1e-11 a step over some hundreds of steps, a hundred times the tolerance because estimates of order 8 are
+        // optimistic this near; and rounding of the angles divided by the distance.
         let allowed = 1e-8 + 1e3 * f64::EPSILON / distance;
-        // Where rounding is more than the tolerance the run says so: accelerations are up to 1/distance² of what rounds them.
+        // Where rounding is more than the tolerance the run says so: accelerations are up to 1/distance² of what rounds
+        // them.
         let allowed = if excess > 0.0 { allowed + 8.0 * f64::EPSILON / (distance * distance) } else { allowed };
         let error = end.rotation.angle_to(&truth.last().q);
         assert!(error < allowed, "{error:e} rad at {distance:e} from gimbal lock, allowed {allowed:e}");

@@ -1,5 +1,5 @@
-//! The linearly implicit method on kernels: its order in every kind of scene, what it does where scenes are stiff, and what it
-//! refuses.
+//! The linearly implicit method on kernels: its order in every kind of scene, what it does where scenes are stiff, and
+//! what it refuses.
 
 use std::f64::consts::PI;
 
@@ -26,8 +26,8 @@ fn march<S: GaussSystem<Scalar = f64>>(
     state
 }
 
-/// The least-squares slope of log error against log step, where the errors are far above rounding, over runs of one unit of time.
-/// The exact end is that of Gauss' method of order 6 with steps a tenth of the shortest.
+/// The least-squares slope of log error against log step, where the errors are far above rounding, over runs of one
+/// unit of time. The exact end is that of Gauss' method of order 6 with steps a tenth of the shortest.
 fn order<S: LinearizedSystem<Scalar = f64>, F: Form<S>, I: InputSource<S> + Copy>(
     system: &S,
     form: F,
@@ -50,8 +50,8 @@ fn order<S: LinearizedSystem<Scalar = f64>, F: Form<S>, I: InputSource<S> + Copy
         / points.iter().map(|(x, _)| (x - mx).powi(2)).sum::<f64>()
 }
 
-/// Slopes tend to the order as steps tend to 0: what they differ by is the share of the next term of the error, a third at most with
-/// these steps.
+/// Slopes tend to the order as steps tend to 0: what they differ by is the share of the next term of the error, a third
+/// at most with these steps.
 fn is_four(what: &str, order: f64) {
     assert!((order - 4.0).abs() < 0.35, "{what}: {order}");
 }
@@ -197,8 +197,8 @@ struct Sinking {
     drag: Vector6<f64>,
 }
 
-/// R(∞) = 0: u̇ = −g − rate·u is left at −g/rate by one step, whatever it was. The stability function at hλ = −10⁶ is of order
-/// 1/hλ, with a constant of about 10.
+/// R(∞) = 0: u̇ = −g − rate·u is left at −g/rate by one step, whatever it was. The stability function at hλ = −10⁶ is
+/// of order 1/hλ, with a constant of about 10.
 #[test]
 fn what_decays_fast_is_gone_after_a_step() {
     let rate = 1e6;

@@ -1,5 +1,5 @@
-//! Systems in coordinates of their own: reference solutions, textbook equations, two choices of coordinates for one system,
-//! and what holds for every system (residual, momenta, energy).
+//! Systems in coordinates of their own: reference solutions, textbook equations, two choices of coordinates for one
+//! system, and what holds for every system (residual, momenta, energy).
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{System, Time, balance, forced_laws, laws, least};

@@ -1,5 +1,5 @@
-//! A system of a pose, coordinates and a constraint, in other scalars than `f64`: single precision, dual numbers, and numbers
-//! with bounds on their rounding.
+//! A system of a pose, coordinates and a constraint, in other scalars than `f64`: single precision, dual numbers, and
+//! numbers with bounds on their rounding.
 
 #[macro_use]
 mod common;
@@ -116,7 +116,8 @@ fn single_precision_agrees(at: &State<f64>) {
     assert!((f64::from(found) - expected).abs() <= allowed, "{found} {expected}");
 }
 
-/// The residual at ż, the momentum form and the constraint differentiated, within bounds that rounding is proved to keep.
+/// The residual at ż, the momentum form and the constraint differentiated, within bounds that rounding is proved to
+/// keep.
 fn bounds_hold(at: &State<f64>) -> Result<(), TestCaseError> {
     let kernel = slung::<Bounded>();
     let (q, z) = lift(at, |x| Bounded::measured(x, 0.0));

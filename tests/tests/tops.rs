@@ -1,5 +1,5 @@
-//! Tops: heavy, Kovalevskaya's, Goryachev and Chaplygin's; each as a rotation, in the observer's axes, in Euler angles, as a
-//! free body that constraints hold at O, and in the charts of one body.
+//! Tops: heavy, Kovalevskaya's, Goryachev and Chaplygin's; each as a rotation, in the observer's axes, in Euler angles,
+//! as a free body that constraints hold at O, and in the charts of one body.
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Flow, System, Time, constrained_laws, corresponds, laws, least, position_rates};

@@ -1,5 +1,5 @@
-//! Centre of mass and momenta about it against sums over bodies, by poses and twists of their frames, and against dual numbers;
-//! nonlinear effects and gravity torques against the methods that they are parts of.
+//! Centre of mass and momenta about it against sums over bodies, by poses and twists of their frames, and against dual
+//! numbers; nonlinear effects and gravity torques against the methods that they are parts of.
 
 mod common;
 

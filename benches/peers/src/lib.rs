@@ -1,7 +1,8 @@
-//! Calls what other generators and simulators make of the scenes: shared libraries that `benches/peers/install.sh` compiles.
+//! Calls what other generators and simulators make of the scenes: shared libraries that `benches/peers/install.sh`
+//! compiles.
 //!
-//! A library is one peer compiled by one compiler, `target/peers/lib/PEER.COMPILER.so`. Each of its functions is one scene,
-//! `void s1(const double *state, double *out)`; a scene that the peer cannot compute is missing.
+//! A library is one peer compiled by one compiler, `target/peers/lib/PEER.COMPILER.so`. Each of its functions is one
+//! scene, `void s1(const double *state, double *out)`; a scene that the peer cannot compute is missing.
 
 use std::ffi::OsStr;
 use std::io;

@@ -1,5 +1,5 @@
-//! Equations of motion by someone who knows the structure: constants computed once, sines and cosines inlined and once an angle,
-//! fused multiply-adds, no matrix that is not full.
+//! Equations of motion by someone who knows the structure: constants computed once, sines and cosines inlined and once
+//! an angle, fused multiply-adds, no matrix that is not full.
 
 use gauss_runtime::prelude::*;
 use nalgebra::Vector2;
@@ -230,7 +230,8 @@ impl DoublePendulum {
         Self { moments: [upper, lower, m2 * l * c2], weights, product: upper * lower }
     }
 
-    /// Rates of the angular velocities of the links; sines of both angles, sine and cosine of what the lower one is ahead.
+    /// Rates of the angular velocities of the links; sines of both angles, sine and cosine of what the lower one is
+    /// ahead.
     #[inline(always)]
     fn rates(&self, sines: [f64; 2], (sine, cosine): (f64, f64), speeds: [f64; 2]) -> [f64; 2] {
         let [upper, lower, coupling] = self.moments;

@@ -1,6 +1,7 @@
-//! Sine and cosine as someone writes them who wants speed alone: inlined, without branches and without a test of the range. Reduction in
-//! two parts by fused multiply-adds, minimax polynomials, selection by quadrant; errors up to 1.5 ulp, and none of this holds for
-//! angles beyond some thousand turns. C compilers and rustc pack two calls beside each other.
+//! Sine and cosine as someone writes them who wants speed alone: inlined, without branches and without a test of the
+//! range. Reduction in two parts by fused multiply-adds, minimax polynomials, selection by quadrant; errors up to 1.5
+//! ulp, and none of this holds for angles beyond some thousand turns. C compilers and rustc pack two calls beside each
+//! other.
 
 use gauss_runtime::prelude::Real;
 

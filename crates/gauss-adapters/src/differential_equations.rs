@@ -1,5 +1,5 @@
-//! The trait `ODE` of `differential-equations`: a [`FlatSystem`] is an equation for any of its types of states, arrays, `Vec` and
-//! whatever its features add.
+//! The trait `ODE` of `differential-equations`: a [`FlatSystem`] is an equation for any of its types of states, arrays,
+//! `Vec` and whatever its features add.
 //!
 //! ```
 //! use differential_equations::prelude::{ExplicitRungeKutta, IVP};

@@ -1,5 +1,5 @@
-//! A problem of `diffsol`: [`FlatSystem::diffsol`] gives its `OdeBuilder` with right-hand side, Jacobian–vector product and initial
-//! state set; tolerances, roots and the like are set there.
+//! A problem of `diffsol`: [`FlatSystem::diffsol`] gives its `OdeBuilder` with right-hand side, Jacobian–vector product
+//! and initial state set; tolerances, roots and the like are set there.
 //!
 //! A door with a strong damper, which is stiff, by the backward differentiation formulas:
 //!
@@ -54,7 +54,8 @@ where
     P: Problem<System = S>,
     J: JacobianProduct<P>,
 {
-    /// A builder of `diffsol` with these equations, from the state (q, z) at time t, for matrices M. It has no parameters.
+    /// A builder of `diffsol` with these equations, from the state (q, z) at time t, for matrices M. It has no
+    /// parameters.
     ///
     /// ∂f/∂x is that of the system: [`Differences`](crate::ways::Differences) where nothing better was given.
     #[expect(clippy::type_complexity, reason = "closures have no names")]

@@ -17,9 +17,9 @@ use gauss_runtime::system::GaussSystem;
 /// are proportional to the length, so the exact solution keeps it. When an integrator changes the length, the rotation
 /// has no error from that; the velocity of O has one of the order of the tolerance.
 ///
-/// Made like a [`Simulation`](gauss_runtime::integrate::Simulation). It does not bring a state back onto constraints while it runs, as those
-/// do: accelerations satisfy constraints that were differentiated, so states leave them slowly, and
-/// [`GaussSystem::project`] of the final state repairs a short run. `f` never fails; undefined results are NaN.
+/// Made like a [`Simulation`](gauss_runtime::integrate::Simulation). It does not bring a state back onto constraints
+/// while it runs, as those do: accelerations satisfy constraints that were differentiated, so states leave them slowly,
+/// and [`GaussSystem::project`] of the final state repairs a short run. `f` never fails; undefined results are NaN.
 ///
 /// J is the way in which ∂f/∂x is computed for implicit methods.
 ///
@@ -174,7 +174,8 @@ where
         self.rates_by(t, |i| x[i], |i, value| slope[i] = value);
     }
 
-    /// `f(t, x)` for vectors of any type: x is read by `get`, each component of f is handed to `put` with its number, once.
+    /// `f(t, x)` for vectors of any type: x is read by `get`, each component of f is handed to `put` with its number,
+    /// once.
     #[inline]
     pub fn rates_by(&self, t: S::Scalar, get: impl Fn(usize) -> S::Scalar, mut put: impl FnMut(usize, S::Scalar)) {
         let (unbound, state) = Self::state(t, get);

@@ -10,9 +10,9 @@
 //! | `dual` | the dual numbers of `num-dual` as scalars (feature `num-dual`) |
 //! | `interchange` | poses in the types of `mint` and `glam` (features `mint`, `glam030` to `glam033`) |
 //!
-//! The integrators of [`integrate`](gauss_runtime::integrate) keep the group, are faster, and say why they stop; these are for methods
-//! that they do not have, and for programs that are built on one of those crates already. For any other crate [`FlatSystem`] has
-//! all that is needed.
+//! The integrators of [`integrate`](gauss_runtime::integrate) keep the group, are faster, and say why they stop; these
+//! are for methods that they do not have, and for programs that are built on one of those crates already. For any other
+//! crate [`FlatSystem`] has all that is needed.
 
 #![no_std]
 #![forbid(unsafe_code)]

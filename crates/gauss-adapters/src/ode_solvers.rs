@@ -1,9 +1,9 @@
-//! The trait `System` of `ode_solvers`: a [`FlatSystem`] is what its methods take, with vectors of a size known when the program is
-//! compiled (`SVector`), or not (`DVector`).
+//! The trait `System` of `ode_solvers`: a [`FlatSystem`] is what its methods take, with vectors of a size known when
+//! the program is compiled (`SVector`), or not (`DVector`).
 //!
-//! The vectors are those that `ode_solvers` exports, of its own version of nalgebra. In its version 0.6.2 `Dop853` evaluates stage 12 at
-//! the beginning of the step instead of its end: where equations depend on time it is slow and stops by `StiffnessDetected`, and
-//! `Dopri5` is the one to take.
+//! The vectors are those that `ode_solvers` exports, of its own version of nalgebra. In its version 0.6.2 `Dop853`
+//! evaluates stage 12 at the beginning of the step instead of its end: where equations depend on time it is slow and
+//! stops by `StiffnessDetected`, and `Dopri5` is the one to take.
 //!
 //! ```
 //! use gauss_adapters::FlatSystem;

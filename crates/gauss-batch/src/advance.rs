@@ -52,8 +52,8 @@ struct Block<'a, S: BatchSystem, P, M> {
     failures: Vec<RunError>,
 }
 
-/// Carries a block, of which the first `states` lanes count, over the interval. What stopped is returned, by lane; (q, z) then holds
-/// the last good state of that lane.
+/// Carries a block, of which the first `states` lanes count, over the interval. What stopped is returned, by lane; (q,
+/// z) then holds the last good state of that lane.
 pub(crate) fn advance<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>>(
     problem: &P,
     method: &M,
@@ -112,8 +112,8 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
         state..end
     }
 
-    /// The span of time and the state at its start, which is good in all lanes: lanes that are not hold the state of one that is.
-    /// `None` when none is.
+    /// The span of time and the state at its start, which is good in all lanes: lanes that are not hold the state of
+    /// one that is. `None` when none is.
     fn start(&mut self, interval: &Interval, q: &S::Configuration, z: &S::Speeds) -> Option<(f64, Reached<S>)> {
         if !(interval.step.is_finite() && interval.step != 0.0) {
             self.fail_the_rest(interval.start, IntegrationErrorKind::InvalidStep { step: interval.step });
@@ -169,9 +169,9 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
         }
     }
 
-    /// What is to be tried next, and whether there is anything. The error of a step does not tell which lanes fail. They are independent,
-    /// and a step of length zero succeeds from every good state: so each is tried while the others stand still; those that are to
-    /// blame stop, and the others make the step.
+    /// What is to be tried next, and whether there is anything. The error of a step does not tell which lanes fail.
+    /// They are independent, and a step of length zero succeeds from every good state: so each is tried while the
+    /// others stand still; those that are to blame stop, and the others make the step.
     #[cold]
     #[inline(never)]
     fn after(&mut self, trial: Trial, failed: Option<IntegrationErrorKind>, from: &State<S>) -> Option<Trial> {

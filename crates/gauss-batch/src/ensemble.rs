@@ -17,9 +17,10 @@ use crate::{Batch, Borrowed, Kernels};
 
 /// Many runs over one interval, in lanes and on threads, each with steps and an end of its own.
 ///
-/// Every run takes the steps that it would take alone and is told of by itself: one that ends early or fails does not hold up the
-/// others, its lane is handed to the next. Where all states share a kernel ([`Batch::new`]) that is the next state whichever
-/// block it is in; where each has parameters of its own ([`Batch::each`]), lanes belong to their states.
+/// Every run takes the steps that it would take alone and is told of by itself: one that ends early or fails does not
+/// hold up the others, its lane is handed to the next. Where all states share a kernel ([`Batch::new`]) that is the
+/// next state whichever block it is in; where each has parameters of its own ([`Batch::each`]), lanes belong to their
+/// states.
 ///
 /// Throws until they hit the ground, at speeds that differ:
 ///
@@ -69,8 +70,8 @@ pub struct Ensemble<'k, K: ?Sized, F, I, C, E = NoEvents> {
 }
 
 impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
-    /// Steps as long as the tolerances allow, of each state by itself, by [`RungeKutta`](gauss_runtime::integrate::RungeKutta) of order 8
-    /// (Dormand and Prince): see [`Adaptive::new`].
+    /// Steps as long as the tolerances allow, of each state by itself, by
+    /// [`RungeKutta`](gauss_runtime::integrate::RungeKutta) of order 8 (Dormand and Prince): see [`Adaptive::new`].
     pub fn adaptive(self, relative: f64, absolute: f64) -> Ensemble<'k, K, F, I, Adaptive> {
         self.control(Adaptive::new(relative, absolute))
     }
@@ -95,7 +96,8 @@ impl<'k, K: ?Sized, F, I, C, E> Ensemble<'k, K, F, I, C, E> {
         self
     }
 
-    /// Calls a function with the number of each state whose run has ended, however it did, in the thread that carried it.
+    /// Calls a function with the number of each state whose run has ended, however it did, in the thread that carried
+    /// it.
     pub fn progress(mut self, ended: &'k (dyn Fn(usize) + Sync)) -> Self {
         self.progress = Some(ended);
         self
@@ -144,8 +146,8 @@ impl<'k, K: ?Sized, F, I, M, E> Ensemble<'k, K, F, I, Adaptive<M>, E> {
 
 impl<'k, K: ?Sized, F, I, C, E, G> Ensemble<'k, K, F, I, C, Watched<E, G>> {
     /// Changes the state at the event that was added last, as
-    /// [`Simulation::then`](gauss_runtime::integrate::Simulation::then) does. The function sees a whole pack; what it makes of the lanes of
-    /// other runs is dropped.
+    /// [`Simulation::then`](gauss_runtime::integrate::Simulation::then) does. The function sees a whole pack; what it
+    /// makes of the lanes of other runs is dropped.
     pub fn then<S, J>(self, jump: J) -> Ensemble<'k, K, F, I, C, Watched<E, G, JumpFunction<J>>>
     where
         S: GaussSystem,

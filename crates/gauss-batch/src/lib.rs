@@ -1,12 +1,13 @@
 //! Many states of one scene at once: lanes times threads.
 //!
-//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) works on several states for about the price of one. [`States`] holds any
-//! number of states in blocks of that width, and a [`Batch`] works through the blocks: accelerations, runs of fixed steps by any
-//! [`OneStep`], or runs whose steps are chosen, with events ([`Ensemble`]), on one thread or, with the feature `rayon`, on all.
+//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) works on several states for about the price of one.
+//! [`States`] holds any number of states in blocks of that width, and a [`Batch`] works through the blocks:
+//! accelerations, runs of fixed steps by any [`OneStep`], or runs whose steps are chosen, with events ([`Ensemble`]),
+//! on one thread or, with the feature `rayon`, on all.
 //!
-//! The struct that the kernel is derived from is generic in its scalar, `struct Body<T>`. Where all states have the same
-//! parameters, these are numbers repeated in every lane; a sweep over parameters gives each state its own, a kernel for every
-//! block ([`Batch::each`]).
+//! The struct that the kernel is derived from is generic in its scalar, `struct Body<T>`. Where all states have the
+//! same parameters, these are numbers repeated in every lane; a sweep over parameters gives each state its own, a
+//! kernel for every block ([`Batch::each`]).
 //!
 //! ```
 //! use gauss_batch::{Batch, Packs, States};
@@ -54,16 +55,18 @@
 //! # }
 //! ```
 //!
-//! **Bits.** A state gets the bits of a run of its own ([`Fixed`](gauss_runtime::integrate::Fixed)) by explicit methods. Two things look at
-//! other lanes: iterations of implicit methods end when all lanes are solved, and increments of more than half a radian, in the same
-//! step as smaller ones, take another formula for the same number; both differ by rounding.
+//! **Bits.** A state gets the bits of a run of its own ([`Fixed`](gauss_runtime::integrate::Fixed)) by explicit
+//! methods. Two things look at other lanes: iterations of implicit methods end when all lanes are solved, and
+//! increments of more than half a radian, in the same step as smaller ones, take another formula for the same number;
+//! both differ by rounding.
 //!
-//! **Steps of their own.** In an [`Ensemble`] every run takes the steps that it would take alone: the trials, errors and lengths of a
-//! step are those of its lane, and a lane whose run has ended is handed to the next. [`Taylor`](gauss_runtime::integrate::Taylor) has one
-//! order for the lanes of a block, so only with an order given are its steps those of single runs.
+//! **Steps of their own.** In an [`Ensemble`] every run takes the steps that it would take alone: the trials, errors
+//! and lengths of a step are those of its lane, and a lane whose run has ended is handed to the next.
+//! [`Taylor`](gauss_runtime::integrate::Taylor) has one order for the lanes of a block, so only with an order given are
+//! its steps those of single runs.
 //!
-//! **Failures.** A state that cannot go on stops by itself: it stays in its lane, with a step of length zero, and the others of its
-//! block go on as if nothing had happened.
+//! **Failures.** A state that cannot go on stops by itself: it stays in its lane, with a step of length zero, and the
+//! others of its block go on as if nothing had happened.
 
 #![no_std]
 #![forbid(unsafe_code)]
@@ -206,7 +209,8 @@ impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
         );
     }
 
-    /// Carries all states over the interval, which may run backwards, by steps of length |step|; the last one ends in time.
+    /// Carries all states over the interval, which may run backwards, by steps of length |step|; the last one ends in
+    /// time.
     ///
     /// # Errors
     /// When states do not reach the end: they stay where they stopped. All others do reach it.

@@ -7,10 +7,12 @@ use gauss_runtime::integrate::lanes::{BatchSystem, SingleConfiguration, SingleSp
 use gauss_runtime::simd::Packed;
 use gauss_runtime::system::GaussSystem;
 
-/// Values of many states: blocks of as many as there are lanes, each block in structure-of-arrays layout, one after another.
+/// Values of many states: blocks of as many as there are lanes, each block in structure-of-arrays layout, one after
+/// another.
 ///
-/// So what is worked on together lies together: a block is read as whole vectors, from a few neighbouring lines of memory, whatever the
-/// number of states. Where the number is no multiple of the lanes, the rest of the last block repeats the last state.
+/// So what is worked on together lies together: a block is read as whole vectors, from a few neighbouring lines of
+/// memory, whatever the number of states. Where the number is no multiple of the lanes, the rest of the last block
+/// repeats the last state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Packs<V> {
     pub(crate) blocks: Vec<V>,

@@ -1,8 +1,8 @@
 //! How many digits of a result are right: a scalar that carries a guaranteed bound on its own rounding.
 //!
-//! Every generic kernel, [`linearize`](gauss_runtime::linearize), energies and integrators of fixed step take [`Bounded`] as
-//! they take `f64`. Its `value` is, to the last bit, what the same code computes in the plain scalar; its `bound` is
-//! never below the distance of that value from what exact arithmetic makes of the same inputs.
+//! Every generic kernel, [`linearize`](gauss_runtime::linearize), energies and integrators of fixed step take
+//! [`Bounded`] as they take `f64`. Its `value` is, to the last bit, what the same code computes in the plain scalar;
+//! its `bound` is never below the distance of that value from what exact arithmetic makes of the same inputs.
 //!
 //! ```
 //! use gauss_bounded::{Bounded, exact};
@@ -63,10 +63,10 @@
 //!
 //! From step to step a bound grows as `e^{βLt}`, whatever the motion does. L is the norm of the Jacobian of the rates
 //! with all its signs forgotten, of an oscillator its frequency ω; β is the sum of the weights `|bᵢ|` of a Runge–Kutta
-//! method: 1 for [`RK4`](gauss_runtime::integrate::Tableau::RK4), 13 for the method of order 8 that `fixed_step` takes. A digit
-//! is gone every `2.3/(βL)`: of an oscillator by `RK4` nothing is left after six periods, by order 8 after half a
-//! period, where the run itself has lost a digit or two. So bounds are for a function at a state (a kernel, `linearize`,
-//! an energy) and for some steps; check long runs against one with more digits, or with half the step.
+//! method: 1 for [`RK4`](gauss_runtime::integrate::Tableau::RK4), 13 for the method of order 8 that `fixed_step` takes.
+//! A digit is gone every `2.3/(βL)`: of an oscillator by `RK4` nothing is left after six periods, by order 8 after half
+//! a period, where the run itself has lost a digit or two. So bounds are for a function at a state (a kernel,
+//! `linearize`, an energy) and for some steps; check long runs against one with more digits, or with half the step.
 //!
 //! # What is not
 //!

@@ -1,8 +1,8 @@
 //! Jacobi's elliptic functions and the integrals that belong to them, in `f64`.
 //!
-//! Parameters are given by the complementary modulus k' = √(1 − k²) ∈ [0, 1], because a body near the separatrix has k so
-//! near to 1 that only k' tells how near. Relative errors are a few roundings times max(1, |u|): small cn and dn keep their
-//! digits.
+//! Parameters are given by the complementary modulus k' = √(1 − k²) ∈ [0, 1], because a body near the separatrix has k
+//! so near to 1 that only k' tells how near. Relative errors are a few roundings times max(1, |u|): small cn and dn
+//! keep their digits.
 //!
 //! Written for `f64` and not for every [`Real`]: the number of steps depends on the data.
 

@@ -5,14 +5,15 @@
 //! moment and the second when it has the largest, so that e is the axis with the larger of the other two moments when a
 //! is the smallest: every amplitude is a sum of squares then, and the modulus a difference of given numbers.
 //!
-//! Attitude: R = R_ℓ(ψ) R_y(−β) R_a(−θ), with θ, β the direction of y seen from a and ψ the angle about the constant momentum ℓ
-//! in space. ψ̇ = |y| (y_e²/I_e + y_o²/I_o)/(y_e² + y_o²), an average of two rates: the integral of the third kind enters as a
-//! sum of positive terms with no pole in sight.
+//! Attitude: R = R_ℓ(ψ) R_y(−β) R_a(−θ), with θ, β the direction of y seen from a and ψ the angle about the constant
+//! momentum ℓ in space. ψ̇ = |y| (y_e²/I_e + y_o²/I_o)/(y_e² + y_o²), an average of two rates: the integral of the
+//! third kind enters as a sum of positive terms with no pole in sight.
 //!
-//! A body of two equal moments needs none of that: R exp(t y/I₁) exp(t (1/I₃ − 1/I₁) y₃ e₃) is its attitude, and y turns about e₃.
+//! A body of two equal moments needs none of that: R exp(t y/I₁) exp(t (1/I₃ − 1/I₁) y₃ e₃) is its attitude, and y
+//! turns about e₃.
 //!
-//! Sources: Celledoni, Fassò, Säfström & Zanna (SIAM J. Sci. Comput. 30, 2008); van Zon & Schofield (J. Comput. Phys. 225, 2007);
-//! Carlson (Numer. Algorithms 10, 1995); the arrangement is ours.
+//! Sources: Celledoni, Fassò, Säfström & Zanna (SIAM J. Sci. Comput. 30, 2008); van Zon & Schofield (J. Comput. Phys.
+//! 225, 2007); Carlson (Numer. Algorithms 10, 1995); the arrangement is ours.
 
 use gauss_runtime::__crates_0_1_0::{Triple, add, dot, quaternion, sub, triple, two_sum, unit_quaternion};
 use gauss_runtime::integrate::{IntegrationErrorKind, RunPart};
@@ -26,8 +27,9 @@ use crate::inertia::{FreeMotion, Turn};
 
 /// The exact free motion of a body with given principal moments, in one call of some thousand operations.
 ///
-/// Errors: a few roundings of the angle through which the body turns, and of the phase of its wobble times how much the motion
-/// depends on it. Energy and the length of the momentum are kept to a few roundings a call, which are not of one sign.
+/// Errors: a few roundings of the angle through which the body turns, and of the phase of its wobble times how much the
+/// motion depends on it. Energy and the length of the momentum are kept to a few roundings a call, which are not of one
+/// sign.
 ///
 /// For `f64`: the number of operations depends on the state.
 ///
@@ -52,7 +54,8 @@ pub struct FreeFlow {
     unit: f64,
     /// Axes from the smallest moment to the largest.
     order: [usize; 3],
-    /// I₁(I₃ − I₂) and I₃(I₂ − I₁), sorted: y stays on the side of axis 3 when the first times y₃² exceeds the second times y₁².
+    /// I₁(I₃ − I₂) and I₃(I₂ − I₁), sorted: y stays on the side of axis 3 when the first times y₃² exceeds the second
+    /// times y₁².
     sides: [f64; 2],
     /// The axis of a body of revolution, with (1/I₃ − 1/I₁)/2.
     revolution: Option<(usize, f64)>,
@@ -118,7 +121,8 @@ impl FreeFlow {
         rotation[a] = spun * x + spin * z;
         rotation[b] = spun * z - spin * x;
         rotation[axis] = spun * along + cosine * spin;
-        // y turns back: cos − 1 and sin of the spin, whose rounding would leave the same bits in every call of a steady spin.
+        // y turns back: cos − 1 and sin of the spin, whose rounding would leave the same bits in every call of a steady
+        // spin.
         let (less, sine) = (-2.0 * spin * spin, 2.0 * spin * spun);
         let ((square, rest), (other, other_rest)) = (two_product(sine, sine), two_product(less, less));
         let (sum, low) = two_sum(2.0 * less, square);
@@ -132,7 +136,8 @@ impl FreeFlow {
         (if rotation[3] < 0.0 { rotation.map(|c| -c) } else { rotation }, change)
     }
 
-    /// The turn and the change of the momentum, in units in which the largest component of y and the largest moment are between 1 and 2.
+    /// The turn and the change of the momentum, in units in which the largest component of y and the largest moment are
+    /// between 1 and 2.
     fn flow(&self, y: Triple<f64>, t: f64) -> ([f64; 4], Triple<f64>) {
         let [first, second] = self.sides;
         let [smallest, middle, largest] = self.order;
@@ -256,8 +261,8 @@ fn finite(rotation: [f64; 4], change: Triple<f64>) -> Result<(), IntegrationErro
     if all { Ok(()) } else { Err(IntegrationErrorKind::NonFinite { part: RunPart::Step }) }
 }
 
-/// (sin θ/θ, cos θ) from s = θ². In long thin tops, which turn slowly about their momentum, a drift waits for these: up to θ = 1 their
-/// series are summed in pairs, without a root, to a rounding or two (what is left out is below 1/20!).
+/// (sin θ/θ, cos θ) from s = θ². In long thin tops, which turn slowly about their momentum, a drift waits for these: up
+/// to θ = 1 their series are summed in pairs, without a root, to a rounding or two (what is left out is below 1/20!).
 #[inline(always)]
 fn sinc_and_cosine(s: f64) -> (f64, f64) {
     if s < 1.0 { (summed(SINC, s), summed(COSINE, s)) } else { sinc_cos(s) }
@@ -292,7 +297,8 @@ fn summed(c: [f64; 10], s: f64) -> f64 {
 }
 
 impl Frame {
-    /// The frame along (even, odd, about) with directions such that it is right-handed and y leans towards its third axis.
+    /// The frame along (even, odd, about) with directions such that it is right-handed and y leans towards its third
+    /// axis.
     fn leaning(axes: [usize; 3], y: Triple<f64>) -> Self {
         let side = if y[axes[2]] < 0.0 { -1.0 } else { 1.0 };
         let hand = if (axes[0] + 1) % 3 == axes[1] { side } else { -side };
@@ -326,10 +332,10 @@ impl Orbit {
     }
 }
 
-/// The change of the momentum, with the rounding of what was reached taken out of energy and length: it would leave the same bits in
-/// every call, and repeated calls would drift. Both defects are sums of products with the change, in twice the precision because the
-/// rounding of these would also be of one sign for one motion; the energy's relative to the axis that y is nearest to, so that
-/// small deviations from a steady motion count with their own size.
+/// The change of the momentum, with the rounding of what was reached taken out of energy and length: it would leave the
+/// same bits in every call, and repeated calls would drift. Both defects are sums of products with the change, in twice
+/// the precision because the rounding of these would also be of one sign for one motion; the energy's relative to the
+/// axis that y is nearest to, so that small deviations from a steady motion count with their own size.
 fn restore(reached: Triple<f64>, before: Triple<f64>, weights: Triple<f64>) -> Triple<f64> {
     let nearest = (1..3).fold(0, |best, i| if reached[i].abs() > reached[best].abs() { i } else { best });
     let relative = weights.map(|w| w - weights[nearest]);
@@ -348,7 +354,8 @@ fn restore(reached: Triple<f64>, before: Triple<f64>, weights: Triple<f64>) -> T
     let slope: Triple<f64> = core::array::from_fn(|i| reached[i] * (relative[i] - kept / square));
     let steepness = dot(slope, slope);
     let step = if steepness > 0.0 { -0.5 * weighted_sum(relative, squares, rests) / steepness } else { 0.0 };
-    // From afar the rounding of the energy is more than what is left of it near the saddle: only what is rounding of y is taken.
+    // From afar the rounding of the energy is more than what is left of it near the saddle: only what is rounding of y
+    // is taken.
     let rounding = 16.0 * f64::EPSILON;
     let step = if step * step * steepness <= rounding * rounding * square { step } else { 0.0 };
     let stretch = -0.5 * weighted_sum([1.0; 3], squares, rests) / square;
@@ -366,7 +373,8 @@ fn weighted_sum(weights: Triple<f64>, squares: Triple<f64>, rests: Triple<f64>) 
     sum + low
 }
 
-/// a b to nearest, and exactly what is missing there (Dekker; Veltkamp's factors of 26 digits): also where no fused operation is.
+/// a b to nearest, and exactly what is missing there (Dekker; Veltkamp's factors of 26 digits): also where no fused
+/// operation is.
 fn two_product(a: f64, b: f64) -> (f64, f64) {
     let split = |x: f64| {
         // 2²⁷ + 1.
@@ -421,8 +429,8 @@ fn so3_exp(sigma: Triple<f64>) -> [f64; 4] {
     quaternion(&so3::exp(&SVector::from(sigma)))
 }
 
-/// The largest power of two that does not exceed a number; units of this size round nothing, and leave no component at 1, where
-/// floating-point numbers lie twice as densely below as above and roundings are not of random sign.
+/// The largest power of two that does not exceed a number; units of this size round nothing, and leave no component at
+/// 1, where floating-point numbers lie twice as densely below as above and roundings are not of random sign.
 pub(crate) fn power_of_two(x: f64) -> f64 {
     const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
     f64::from_bits(x.to_bits() & EXPONENT).max(f64::MIN_POSITIVE)

@@ -11,8 +11,8 @@ use nalgebra::{Matrix3, SVector, UnitQuaternion, Vector3};
 pub struct Turn<T> {
     /// δ: the attitude goes from R to R∘δ.
     pub rotation: UnitQuaternion<T>,
-    /// The change of the angular momentum about the fixed point, components in the body's axes. A change and not the new
-    /// value, so that adding it commits roundings of the size of the change's.
+    /// The change of the angular momentum about the fixed point, components in the body's axes. A change and not the
+    /// new value, so that adding it commits roundings of the size of the change's.
     pub change: Vector3<T>,
 }
 
@@ -44,8 +44,8 @@ pub struct PrincipalAxes<T> {
 }
 
 impl<T: Real> PrincipalAxes<T> {
-    /// The axes of a symmetric tensor, by Jacobi's rotations; those of a diagonal tensor are left as they are. `None` when a
-    /// moment is not greater than zero, or a number is not finite.
+    /// The axes of a symmetric tensor, by Jacobi's rotations; those of a diagonal tensor are left as they are. `None`
+    /// when a moment is not greater than zero, or a number is not finite.
     #[must_use]
     pub fn of(inertia: &Matrix3<T>) -> Option<Self> {
         let mut a: [[T; 3]; 3] = core::array::from_fn(|i| core::array::from_fn(|j| inertia.data.0[j][i]));
@@ -95,8 +95,8 @@ impl<T: Real> PrincipalAxes<T> {
     }
 }
 
-/// One rotation about the third axis that annihilates entry (p, q), by the smaller angle. Where the entry is zero already
-/// nothing changes.
+/// One rotation about the third axis that annihilates entry (p, q), by the smaller angle. Where the entry is zero
+/// already nothing changes.
 fn annihilate<T: Real>(a: &mut [[T; 3]; 3], turned: &mut [T; 4], p: usize, q: usize) {
     let (one, half) = (T::one(), T::ratio(1, 2));
     let (k, off) = (3 - p - q, a[p][q]);

@@ -1,5 +1,5 @@
-//! Bodies with constant inertia: their free motion, exactly or by an integrable discretisation, and splitting methods that
-//! put kicks of force between.
+//! Bodies with constant inertia: their free motion, exactly or by an integrable discretisation, and splitting methods
+//! that put kicks of force between.
 //!
 //! | file | holds |
 //! |---|---|

@@ -1,10 +1,10 @@
 //! The discrete Moser–Veselov method for free bodies, made accurate to order 10 by modified moments of inertia.
 //!
 //! A step turns the body by the Cayley transform of c, the quaternion (c, 1) normalised, where
-//! `c_i = (1 + |c|²)(h/2) y_i/Ĩ_i + (Ĩ_j − Ĩ_k)/Ĩ_i c_j c_k` ((i, j, k) cyclic), and changes the momentum y accordingly:
-//! `y_i += (4/h)(Ĩ_j − Ĩ_k) c_j c_k/(1 + |c|²)` (Moser & Veselov 1991; McLachlan & Zanna 2005). With Ĩ = I the method has order 2; its
-//! orbits are those of the body at a wrong rate. `1/Ĩ_i = s/I_i + d` with s and d functions of the energy and of |y| puts the
-//! rate right (Hairer & Vilmart, J. Phys. A 39, 2006).
+//! `c_i = (1 + |c|²)(h/2) y_i/Ĩ_i + (Ĩ_j − Ĩ_k)/Ĩ_i c_j c_k` ((i, j, k) cyclic), and changes the momentum y
+//! accordingly: `y_i += (4/h)(Ĩ_j − Ĩ_k) c_j c_k/(1 + |c|²)` (Moser & Veselov 1991; McLachlan & Zanna 2005). With Ĩ = I
+//! the method has order 2; its orbits are those of the body at a wrong rate. `1/Ĩ_i = s/I_i + d` with s and d functions
+//! of the energy and of |y| puts the rate right (Hairer & Vilmart, J. Phys. A 39, 2006).
 
 use gauss_runtime::__crates_0_1_0::{add, cross, dot, scaled, triple, unit_quaternion};
 use gauss_runtime::integrate::{IntegrationErrorKind, RunPart};
@@ -20,12 +20,12 @@ const MOST_ITERATIONS: u32 = 20;
 
 /// The discrete Moser–Veselov method with corrections, of order 2, 4, 6, 8 or 10.
 ///
-/// Symmetric; energy, |y| and the momentum in space are kept up to rounding. Without corrections the map is symplectic; with
-/// them y moves by a Poisson map, but how the attitude follows is a gradient of the same function only as far as the corrections
-/// go. No elementary functions.
+/// Symmetric; energy, |y| and the momentum in space are kept up to rounding. Without corrections the map is symplectic;
+/// with them y moves by a Poisson map, but how the attitude follows is a gradient of the same function only as far as
+/// the corrections go. No elementary functions.
 ///
-/// Steps that turn the body by much more than 1 rad, or a body whose moments differ much by correspondingly less, end with
-/// [`IntegrationErrorKind::NotConverged`].
+/// Steps that turn the body by much more than 1 rad, or a body whose moments differ much by correspondingly less, end
+/// with [`IntegrationErrorKind::NotConverged`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MoserVeselov<T> {
     /// Moments in units of the largest.

@@ -16,9 +16,8 @@ impl Scheme {
     /// Kick half, drift, kick half: order 2, one force a step.
     pub const STRANG: Self = Self::new(&[0.5, 0.5], &[1.0], 2);
 
-    /// Order 4 with six forces a step and a small error constant, because it uses that the kinetic energy is quadratic in the
-    /// momenta (Blanes & Moan, J. Comput. Appl. Math. 142, 2002, SRKN₆ᵇ). The first choice
-    /// for bodies.
+    /// Order 4 with six forces a step and a small error constant, because it uses that the kinetic energy is quadratic
+    /// in the momenta (Blanes & Moan, J. Comput. Appl. Math. 142, 2002, SRKN₆ᵇ). The first choice for bodies.
     pub const BLANES_MOAN_4: Self = Self::new(&BLANES_MOAN_KICKS, &BLANES_MOAN_DRIFTS, 4);
 
     /// Order 6 with eleven forces a step and a small error constant, for the same reason (Blanes & Moan 2002, SRKN₁₁ᵇ).
@@ -130,8 +129,8 @@ mod tests {
         }
     }
 
-    /// For a harmonic oscillator steps are products of shears; their trace is 2 cos h + O(h^(order + 2)). All schemes, not only
-    /// compositions, have to pass.
+    /// For a harmonic oscillator steps are products of shears; their trace is 2 cos h + O(h^(order + 2)). All schemes,
+    /// not only compositions, have to pass.
     #[test]
     fn an_oscillator_sees_the_order() {
         for scheme in ALL {

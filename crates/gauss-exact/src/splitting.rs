@@ -1,8 +1,8 @@
 //! Splitting methods for one body: free motion between kicks.
 //!
-//! The kinetic energy alone moves a body as if nothing acted, which is integrable; the potential alone changes momenta by the
-//! force at a fixed place. Both are done exactly (or to order 10), in turn, and how fast the body spins costs nothing
-//! (McLachlan 1993; Celledoni, Fassò, Säfström & Zanna 2008).
+//! The kinetic energy alone moves a body as if nothing acted, which is integrable; the potential alone changes momenta
+//! by the force at a fixed place. Both are done exactly (or to order 10), in turn, and how fast the body spins costs
+//! nothing (McLachlan 1993; Celledoni, Fassò, Säfström & Zanna 2008).
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::integrate::{IntegrationErrorKind, OneStep, Problem, Properties, Rates, RunPart, State, Step};
@@ -47,8 +47,8 @@ impl Splitting<f64, FreeFlow> {
 }
 
 impl<T: Real> Splitting<T, MoserVeselov<T>> {
-    /// Over the discrete Moser–Veselov method of order 10: cheaper, no elementary functions, for steps that turn the body by
-    /// less than about 1 rad.
+    /// Over the discrete Moser–Veselov method of order 10: cheaper, no elementary functions, for steps that turn the
+    /// body by less than about 1 rad.
     ///
     /// # Errors
     /// When the system is not such a body.
@@ -103,8 +103,8 @@ where
     Ok((mass, tensor))
 }
 
-/// Tries kinematics and forces at a few states. Those where the forces are not finite (the centre of attraction, say) do not
-/// count.
+/// Tries kinematics and forces at a few states. Those where the forces are not finite (the centre of attraction, say)
+/// do not count.
 pub(crate) fn try_system<S>(system: &S, samples: &[S::Configuration; 3]) -> Result<(), SplittingError>
 where
     S: GaussSystem<Input: Default>,

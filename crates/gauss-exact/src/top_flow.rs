@@ -15,15 +15,17 @@ use crate::configuration::{BodyConfiguration, SplittingError};
 use crate::splitting::{constant_body, try_system};
 use crate::top_orbit::Top;
 
-/// The exact motion of a body about a fixed point of its axis, with equal moments across it, under a weight: Lagrange's top, and with
-/// no spin the spherical pendulum. One call for any span of time, of some thousand operations; for
-/// [`Fixed::by`](gauss_runtime::integrate::Fixed::by), in velocity form or momentum form, with steps as long as states are wanted;
-/// where events are looked for, steps that resolve the motion.
+/// The exact motion of a body about a fixed point of its axis, with equal moments across it, under a weight: Lagrange's
+/// top, and with no spin the spherical pendulum. One call for any span of time, of some thousand operations; for
+/// [`Fixed::by`](gauss_runtime::integrate::Fixed::by), in velocity form or momentum form, with steps as long as states
+/// are wanted; where events are looked for, steps that resolve the motion.
 ///
-/// Errors: some roundings of the angles through which the body spins, precesses and nutates, times how much the motion depends on
-/// them. What a step is made of is read from the kernel: inertia, the moment of the weight and its direction.
+/// Errors: some roundings of the angles through which the body spins, precesses and nutates, times how much the motion
+/// depends on them. What a step is made of is read from the kernel: inertia, the moment of the weight and its
+/// direction.
 ///
-/// Where the kinetic energy is more than 10⁶⁰ times that of the weight, powers overflow, and the step is refused: `FreeFlow` is that motion.
+/// Where the kinetic energy is more than 10⁶⁰ times that of the weight, powers overflow, and the step is refused:
+/// `FreeFlow` is that motion.
 ///
 /// For `f64`: the number of operations depends on the state. It belongs to the kernel that it was made for.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,20 +1,20 @@
-//! The motion of a heavy body of revolution about a point of its axis, without units: moments across the axis, weight times lever
-//! times two and their ratio are 1.
+//! The motion of a heavy body of revolution about a point of its axis, without units: moments across the axis, weight
+//! times lever times two and their ratio are 1.
 //!
-//! A rotation is `R_z(φ) R_y(θ) R_z(ψ)` in Cayley and Klein's parameters, α = cos θ/2 e^{i(φ+ψ)/2} and β = sin θ/2 e^{i(φ−ψ)/2}.
-//! With u = cos θ, the momentum ℓ along the axis, λ about the vertical and μ = μ₁ + iμ₂ across,
+//! A rotation is `R_z(φ) R_y(θ) R_z(ψ)` in Cayley and Klein's parameters, α = cos θ/2 e^{i(φ+ψ)/2} and β = sin θ/2
+//! e^{i(φ−ψ)/2}. With u = cos θ, the momentum ℓ along the axis, λ about the vertical and μ = μ₁ + iμ₂ across,
 //!
 //! ```text
 //! u̇² = u³ + c₂ … = (u − u₁)(u − u₂)(u − u₃),   u₁ ≤ u ≤ u₂ ≤ 1 ≤ u₃,   u = u₁ cn² + u₂ sn²
 //! φ̇ + ψ̇ = (κ − 1)ℓ + (λ + ℓ)/(1 + u),   φ̇ − ψ̇ = (1 − κ)ℓ + (λ − ℓ)/(1 − u)
 //! ```
 //!
-//! Each parameter has one integral of the third kind, whose integrand is positive: 1 − u from the lower end of the nutation, 1 + u
-//! from the upper. Heights are counted from where the motion starts, and what is small near the vertical comes from products and
-//! not from differences, so that motions near it keep their digits.
+//! Each parameter has one integral of the third kind, whose integrand is positive: 1 − u from the lower end of the
+//! nutation, 1 + u from the upper. Heights are counted from where the motion starts, and what is small near the
+//! vertical comes from products and not from differences, so that motions near it keep their digits.
 //!
-//! Sources: Klein & Sommerfeld, *Theorie des Kreisels*, VI; Whittaker, *Analytical Dynamics*, 71; Carlson (Numer. Algorithms 10,
-//! 1995); the arrangement is ours.
+//! Sources: Klein & Sommerfeld, *Theorie des Kreisels*, VI; Whittaker, *Analytical Dynamics*, 71; Carlson (Numer.
+//! Algorithms 10, 1995); the arrangement is ours.
 
 use gauss_runtime::real::Real;
 
@@ -59,13 +59,15 @@ pub(crate) struct Top {
 /// Smaller numbers are taken for this one: its square is a number.
 const LEAST: f64 = 1e-150;
 
-/// The least momentum that an axis through the vertical is given, so that angles about the vertical turn by half a turn there.
+/// The least momentum that an axis through the vertical is given, so that angles about the vertical turn by half a turn
+/// there.
 const SLIGHT: f64 = 1e-100;
 
 /// A parameter that is not zero, though its square is below any rounding.
 const ABOUT: f64 = 1e-70;
 
-/// Zeros of a cubic with the first coefficient 1 and real zeros; `f(0) = c₀ ≥ 0`, so that one is not positive and two not negative.
+/// Zeros of a cubic with the first coefficient 1 and real zeros; `f(0) = c₀ ≥ 0`, so that one is not positive and two
+/// not negative.
 fn zeros([c0, c1, c2]: [f64; 3]) -> [f64; 3] {
     let middle = -c2 / 3.0;
     let reach = 2.0 * Real::sqrt((middle * middle - c1 / 3.0).max(0.0));
@@ -99,7 +101,8 @@ fn zeros([c0, c1, c2]: [f64; 3]) -> [f64; 3] {
     if lowest_alone { [alone.min(0.0), less.max(0.0), more.max(0.0)] } else { [less.min(0.0), more.max(0.0), alone] }
 }
 
-/// The integral of du/(cn² + g sn²) up to an argument with its values, g ≤ k'² ≤ 1, and the argument itself: a sum of positive terms.
+/// The integral of du/(cn² + g sn²) up to an argument with its values, g ≤ k'² ≤ 1, and the argument itself: a sum of
+/// positive terms.
 fn third_kind(values: &Jacobi, g: f64, complement: f64) -> (f64, f64) {
     let (argument, part) = values.integrals(g, complement);
     (argument, (1.0 - g).fma(part, argument))

@@ -1,5 +1,6 @@
-//! A trajectory as a page that plays: bodies as ellipsoids, boxes, cylinders and rods, traces of points, arrows of forces or
-//! momenta, and curves below, with a slider of time. One HTML file that any browser opens, without network or libraries.
+//! A trajectory as a page that plays: bodies as ellipsoids, boxes, cylinders and rods, traces of points, arrows of
+//! forces or momenta, and curves below, with a slider of time. One HTML file that any browser opens, without network or
+//! libraries.
 //!
 //! ```
 //! use gauss_playback::{Playback, Shape};
@@ -30,8 +31,8 @@
 //! # }
 //! ```
 //!
-//! A system has more bodies: [`Playback::frames`] takes all frames of a kernel with `frames(…)`, and
-//! [`Playback::rod`] joins two of them, so that a robot is drawn as its skeleton without any mesh. With the feature `urdf`
+//! A system has more bodies: [`Playback::frames`] takes all frames of a kernel with `frames(…)`, and [`Playback::rod`]
+//! joins two of them, so that a robot is drawn as its skeleton without any mesh. With the feature `urdf`
 //! `Playback::shapes_of_urdf` gives them the boxes, cylinders and balls of their file.
 //!
 //! All lengths are in the units of the scene; the axes are the observer's, and k₃ points up on the screen.

@@ -111,7 +111,8 @@ impl Page {
     }
 }
 
-/// A template with contents in the place of each `{{name}}`. Contents are copied as they are: a title may be `{{data}}`.
+/// A template with contents in the place of each `{{name}}`. Contents are copied as they are: a title may be
+/// `{{data}}`.
 fn filled<'a>(template: &str, contents: impl Fn(&str) -> &'a str) -> String {
     let mut parts = template.split("{{");
     let mut page = parts.next().unwrap_or_default().to_owned();

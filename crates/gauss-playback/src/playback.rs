@@ -36,7 +36,8 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
         Self::with_pictures(title, path, PICTURES)
     }
 
-    /// The same with another number of pictures, at least two: more for long runs with fast turns, fewer for small files.
+    /// The same with another number of pictures, at least two: more for long runs with fast turns, fewer for small
+    /// files.
     ///
     /// # Errors
     /// The error of [`Trajectory::at`].
@@ -113,8 +114,8 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
         self
     }
 
-    /// Gives the bodies that are there, such as those of [`frames`](Self::frames), the boxes, cylinders and balls that the links
-    /// of their names have in a URDF file: those that are shown, and where these are meshes those that touch.
+    /// Gives the bodies that are there, such as those of [`frames`](Self::frames), the boxes, cylinders and balls that
+    /// the links of their names have in a URDF file: those that are shown, and where these are meshes those that touch.
     #[cfg(feature = "urdf")]
     #[must_use]
     pub fn shapes_of_urdf(mut self, file: impl AsRef<Path>) -> Self {
@@ -163,8 +164,8 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
         self
     }
 
-    /// Which way is up on the screen, observer's axes; without this k₃. In a scene whose k₃ points down, as those of ships do,
-    /// `[0.0, 0.0, -1.0]`; for motion in the plane of k₁ and k₂ with weight along −k₂, `[0.0, 1.0, 0.0]`.
+    /// Which way is up on the screen, observer's axes; without this k₃. In a scene whose k₃ points down, as those of
+    /// ships do, `[0.0, 0.0, -1.0]`; for motion in the plane of k₁ and k₂ with weight along −k₂, `[0.0, 1.0, 0.0]`.
     #[must_use]
     pub fn up(mut self, direction: [f64; 3]) -> Self {
         if !page::can_be_shown(&direction) || direction == [0.0; 3] {
@@ -195,8 +196,8 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
         self
     }
 
-    /// A vector at a point, both by the observer: a force, a momentum. `scale` is its length on the screen per unit, in the units
-    /// of length of the scene.
+    /// A vector at a point, both by the observer: a force, a momentum. `scale` is its length on the screen per unit, in
+    /// the units of length of the scene.
     #[must_use]
     pub fn arrow(
         mut self,

@@ -68,8 +68,9 @@ impl Shape {
         Self::cylinder(radius, along.norm()).at(&Isometry3::from_parts(Translation3::from((from + to) / 2.0), turn))
     }
 
-    /// The ellipsoid of uniform density with this mass, centre of mass c (body axes from O), and inertia about c (body axes): what can
-    /// be drawn of a body of which only these are known. Its semi-axes obey `m (b² + c²)/5 = I₁` and so on.
+    /// The ellipsoid of uniform density with this mass, centre of mass c (body axes from O), and inertia about c (body
+    /// axes): what can be drawn of a body of which only these are known. Its semi-axes obey `m (b² + c²)/5 = I₁` and so
+    /// on.
     ///
     /// A moment that exceeds the sum of the two others belongs to no body; the semi-axis is drawn as if it did not. An
     /// inertia that is not finite, or a mass that is not positive, has a shape that a page refuses.

@@ -37,8 +37,8 @@ pub fn shapes(text: &str) -> Result<Vec<(String, Shape)>, String> {
     Ok(all)
 }
 
-/// The lines within an element that declares the prefixes that nothing in them does, such as that of `<drake:joint>`: XML asks for
-/// it, readers of robots do not.
+/// The lines within an element that declares the prefixes that nothing in them does, such as that of `<drake:joint>`:
+/// XML asks for it, readers of robots do not.
 fn with_prefixes(lines: String) -> String {
     /// More than any file has; each is found by parsing once more.
     const MOST: usize = 16;

@@ -73,8 +73,8 @@ impl<S: GaussSystem> Tabulate<S> for Trajectory<'_, S> {
 /// Named columns of numbers, a row for each of some states; of packs of numbers the first lane. As text it is CSV
 /// (RFC 4180, with the names in the first line, and every digit that tells a number from its neighbours).
 ///
-/// Columns have units where these were [given](Self::units) or are those of the [SI](Self::si); the heading of CSV is then
-/// `angle / rad`. [`Export`](crate::Export) has other formats and plots.
+/// Columns have units where these were [given](Self::units) or are those of the [SI](Self::si); the heading of CSV is
+/// then `angle / rad`. [`Export`](crate::Export) has other formats and plots.
 pub struct Table<S: GaussSystem> {
     samples: Vec<Sample<S>>,
     columns: Vec<Stored>,
@@ -161,10 +161,10 @@ impl<S: GaussSystem> Table<S> {
         self.with(names.map(|name| (name, "")), |sample, put| function(sample).into_iter().for_each(put))
     }
 
-    /// The numbers that the state consists of, under the names of coordinates and speeds. Of a rotation they are those of its
-    /// quaternion (`turn_i`, `turn_j`, `turn_k`, `turn_w`), of a pose also the place (`craft_x`, `craft_y`, `craft_z`), in the
-    /// plane `pose_cos`, `pose_sin`, `pose_x`, `pose_y`. A system that has [no names](DescribedSystem::COORDINATE_NAMES), as one written
-    /// by hand, has `q1`, `q2`, … and `z1`, `z2`, ….
+    /// The numbers that the state consists of, under the names of coordinates and speeds. Of a rotation they are those
+    /// of its quaternion (`turn_i`, `turn_j`, `turn_k`, `turn_w`), of a pose also the place (`craft_x`, `craft_y`,
+    /// `craft_z`), in the plane `pose_cos`, `pose_sin`, `pose_x`, `pose_y`. A system that has [no
+    /// names](DescribedSystem::COORDINATE_NAMES), as one written by hand, has `q1`, `q2`, … and `z1`, `z2`, ….
     #[must_use]
     pub fn state(self) -> Self
     where
@@ -245,8 +245,9 @@ impl<S: GaussSystem> Table<S> {
         if unknown.is_empty() { Ok(self) } else { Err(UnknownColumns(unknown)) }
     }
 
-    /// Says that the scene is in units of the SI: those of time, energies and powers, of poses and rotations, and of the velocities of a
-    /// body in a chart without coordinates are then known. The other columns, such as coordinates of your own, are left as they are.
+    /// Says that the scene is in units of the SI: those of time, energies and powers, of poses and rotations, and of
+    /// the velocities of a body in a chart without coordinates are then known. The other columns, such as coordinates
+    /// of your own, are left as they are.
     #[must_use]
     pub fn si(mut self) -> Self {
         for column in &mut self.columns {

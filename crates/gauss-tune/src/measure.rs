@@ -1,9 +1,9 @@
 //! Which method is cheapest for a scene: measured on the scene itself.
 //!
-//! A reference comes first: the pair of order 8 in both forms, at tolerances that are tightened until the two agree to a tenth of
-//! the error that is wanted. Then every [`Method`] is run in both forms, and its step or tolerance varied until the measured error is just
-//! below the one wanted. What meets it in the shortest time wins; without a clock, what takes the fewest operations of the
-//! kernel.
+//! A reference comes first: the pair of order 8 in both forms, at tolerances that are tightened until the two agree to
+//! a tenth of the error that is wanted. Then every [`Method`] is run in both forms, and its step or tolerance varied
+//! until the measured error is just below the one wanted. What meets it in the shortest time wins; without a clock,
+//! what takes the fewest operations of the kernel.
 //!
 //! Errors are those of the whole run, not of a step, at sixteen times spread evenly over the interval.
 
@@ -48,7 +48,8 @@ impl<S: GaussSystem, I: InputSource<S>> InputSource<S> for Counted<'_, I> {
 /// Times at which errors are measured, the end included.
 const CHECKPOINTS: usize = 16;
 
-/// Runs of more steps are given up: a method that needs so many is not the cheapest, or the interval is longer than it need be to tell.
+/// Runs of more steps are given up: a method that needs so many is not the cheapest, or the interval is longer than it
+/// need be to tell.
 const MOST_STEPS: u64 = 100_000;
 
 /// Trials of one method in one form.
@@ -164,8 +165,8 @@ impl<'a, S: GaussSystem, I: InputSource<S>> Bench<'a, S, I> {
         Ok(seen)
     }
 
-    /// The largest difference of two runs, each component against `absolute + relative·size`, where the size is the largest that the
-    /// component of the reference has at any checkpoint.
+    /// The largest difference of two runs, each component against `absolute + relative·size`, where the size is the
+    /// largest that the component of the reference has at any checkpoint.
     fn distance(&self, found: &Seen<S>, reference: &Seen<S>) -> f64 {
         let mut worst = 0.0_f64;
         let mut see = |difference: f64, size: f64| {
@@ -223,8 +224,8 @@ impl<'a, S: GaussSystem, I: InputSource<S>> Bench<'a, S, I> {
         Err(TuneError::NoReference { disagreement: closest, stopped })
     }
 
-    /// The coarsest setting of a method that meets the error, or the last one tried. `make` gives the method of a setting whose
-    /// error goes like its power `order`. Gives up at more than ten times `budget` evaluations.
+    /// The coarsest setting of a method that meets the error, or the last one tried. `make` gives the method of a
+    /// setting whose error goes like its power `order`. Gives up at more than ten times `budget` evaluations.
     fn search<C: Control<S>, F: Form<S>>(
         &self,
         reference: &Seen<S>,
@@ -334,10 +335,10 @@ pub trait Tune<S: GaussSystem>: Sized + crate::sealed::Sealed {
     /// motion, variational – have to be known to fit when the program is compiled, which a function for any scene
     /// cannot: [`tune_steps`](Self::tune_steps) measures one of them in the same way.
     ///
-    /// Runs the scene some eighty times, and gives up runs of more than 100,000 steps: shorten the interval where that is too long,
-    /// but keep what is typical of the motion in it.
-    /// Form, control, observers and events that were set are not looked at. Settings near the best ones are as good, and times
-    /// vary: what is chosen may differ from call to call, its error does not.
+    /// Runs the scene some eighty times, and gives up runs of more than 100,000 steps: shorten the interval where that
+    /// is too long, but keep what is typical of the motion in it. Form, control, observers and events that were set are
+    /// not looked at. Settings near the best ones are as good, and times vary: what is chosen may differ from call to
+    /// call, its error does not.
     ///
     /// ```
     /// use gauss_runtime::prelude::*;
@@ -491,7 +492,8 @@ where
         let bench = Bench::of(self, (q0, z0), interval, relative, absolute)?;
         let (reference, _) = bench.reference()?;
         let make = |setting: f64| make(bench.whole(setting));
-        // As many evaluations as the reference took at tolerances that are tighter by a hundred and more, and ten times as many.
+        // As many evaluations as the reference took at tolerances that are tighter by a hundred and more, and ten times
+        // as many.
         let budget = 10.0 * reference.evaluations as f64;
         let setting = bench.mean_step(&reference);
         match bench.search(&reference, self.problem().form, (&make, f64::from(order)), setting, budget) {

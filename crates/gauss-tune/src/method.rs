@@ -71,8 +71,8 @@ pub(crate) enum Family<T> {
 }
 
 impl<T> Method<T> {
-    /// All that [`Tune::tune`](crate::Tune::tune) tries, the likely ones first: what they take bounds the search among the
-    /// rest.
+    /// All that [`Tune::tune`](crate::Tune::tune) tries, the likely ones first: what they take bounds the search among
+    /// the rest.
     pub(crate) const FAMILIES: [Family<T>; 8] = [
         Family::Tolerances { of: |relative, absolute| Self::DormandPrince8 { relative, absolute } },
         Family::Tolerances { of: |relative, absolute| Self::Verner9 { relative, absolute } },

@@ -54,8 +54,8 @@ pub struct Measured<C> {
 pub struct Tuned<T> {
     /// The cheapest that meets the wanted error.
     pub best: Candidate<T>,
-    /// Every method in every form at the coarsest setting that meets the error, the cheapest first; then those that did not meet
-    /// it, or would have at many times the cost, with the last that was tried.
+    /// Every method in every form at the coarsest setting that meets the error, the cheapest first; then those that did
+    /// not meet it, or would have at many times the cost, with the last that was tried.
     pub candidates: Vec<Candidate<T>>,
     /// How far the two reference runs are apart, in units of the wanted error.
     pub disagreement: f64,
@@ -85,8 +85,8 @@ impl<T: Real> fmt::Display for Tuned<T> {
 pub enum TuneError {
     /// Tolerances must be finite, not negative, and not both zero.
     InvalidTolerance,
-    /// No two runs agree to a tenth of the error wanted: it is below what rounding allows, the motion is chaotic on the interval,
-    /// or no run reaches the end.
+    /// No two runs agree to a tenth of the error wanted: it is below what rounding allows, the motion is chaotic on the
+    /// interval, or no run reaches the end.
     NoReference {
         /// How far apart the best two were, in units of the wanted error; infinite when there were none.
         disagreement: f64,

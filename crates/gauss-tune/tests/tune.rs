@@ -31,7 +31,8 @@ fn what_is_chosen_meets_the_error_and_is_the_cheapest() {
         for candidate in tuned.candidates.iter().filter(|candidate| candidate.error <= 1.0) {
             let end = scene.tuned(candidate).run_to_end(start.q, start.y, 0.0..8.0).expect("runs");
             let error = end.q.difference(&exact.q).max_norm().max((end.z - exact.z).amax());
-            // The end is one of the times at which errors were measured, against a reference that is off by a tenth at most.
+            // The end is one of the times at which errors were measured, against a reference that is off by a tenth at
+            // most.
             assert!(error <= wanted * (candidate.error + 0.1), "{candidate:?}: {error:e}");
             assert!(candidate.seconds >= tuned.best.seconds && candidate.steps > 0);
         }

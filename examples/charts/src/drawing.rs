@@ -9,7 +9,8 @@ use resvg::{tiny_skia, usvg};
 /// A part of the picture.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// Kirchhoff, Newton–Euler, hybrid, Lagrange: from the palette of Okabe and Ito, told apart by every kind of colour vision.
+/// Kirchhoff, Newton–Euler, hybrid, Lagrange: from the palette of Okabe and Ito, told apart by every kind of colour
+/// vision.
 pub const COLOURS: [RGBColor; 4] =
     [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(0, 158, 115), RGBColor(204, 121, 167)];
 /// Text and axes.

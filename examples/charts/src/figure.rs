@@ -113,8 +113,8 @@ fn momentum(area: &Area<'_>, comparison: &Comparison) -> Result<(), Box<dyn Erro
     .draw(area, &all)
 }
 
-/// The motion, with its momenta in space, which gravity along k₃ changes along k₃ only, and how far each chart is from the
-/// reference at an everyday step.
+/// The motion, with its momenta in space, which gravity along k₃ changes along k₃ only, and how far each chart is from
+/// the reference at an everyday step.
 #[must_use]
 pub fn page(kernel: &KirchhoffKernel, comparison: &Comparison) -> Playback<KirchhoffKernel> {
     let moments = &comparison.reference.moments;

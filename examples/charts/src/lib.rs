@@ -1,7 +1,7 @@
 //! What the example `kirchhoff_vs_newton_euler` is made of; here and not next to it, so that a test can run it too.
 //!
-//! A package of its own, so that the first program that a stranger runs waits for few others. The other examples draw with
-//! [`drawing`], and take random numbers from [`statistics`].
+//! A package of its own, so that the first program that a stranger runs waits for few others. The other examples draw
+//! with [`drawing`], and take random numbers from [`statistics`].
 //!
 //! | module | holds |
 //! |---|---|

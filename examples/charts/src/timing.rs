@@ -1,7 +1,8 @@
 //! Nanoseconds per evaluation of generated code.
 //!
-//! Batches of all candidates take turns, so that a change of the processor's clock hits each of them alike. A batch evaluates
-//! 256 different states of the motion, each passed through `black_box`: loading and storing a state is part of the time.
+//! Batches of all candidates take turns, so that a change of the processor's clock hits each of them alike. A batch
+//! evaluates 256 different states of the motion, each passed through `black_box`: loading and storing a state is part
+//! of the time.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -35,7 +36,8 @@ struct Candidate<'k> {
     times: Vec<f64>,
 }
 
-/// States in a batch: few enough to stay in the first-level cache, enough that no two neighbours are predicted from each other.
+/// States in a batch: few enough to stay in the first-level cache, enough that no two neighbours are predicted from
+/// each other.
 const STATES: usize = 256;
 
 /// Times ż, ṗ and z(p) in every chart, at states of the given run; three results a chart, in this order.

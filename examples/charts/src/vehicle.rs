@@ -1,8 +1,8 @@
 //! The REMUS 100 autonomous underwater vehicle in an ideal fluid, once for each chart.
 //!
-//! Source of every number: T. Prestero, *Verification of a six-degree of freedom simulation model for the REMUS autonomous
-//! underwater vehicle*, MIT/WHOI 2001, appendix C. Body axes: e₁ forward, e₂ starboard, e₃ down, O at the centre of
-//! buoyancy. Observer: k₁ north, k₂ east, k₃ down. SI units.
+//! Source of every number: T. Prestero, *Verification of a six-degree of freedom simulation model for the REMUS
+//! autonomous underwater vehicle*, MIT/WHOI 2001, appendix C. Body axes: e₁ forward, e₂ starboard, e₃ down, O at the
+//! centre of buoyancy. Observer: k₁ north, k₂ east, k₃ down. SI units.
 
 use gauss_runtime::prelude::*;
 

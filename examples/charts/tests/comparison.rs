@@ -20,9 +20,9 @@ fn four_charts_give_one_motion() {
     let comparison = Comparison::of(&Fleet::published().unwrap(), DURATION).unwrap();
     let steps = DURATION * f64::from(PRECISE_RATE);
 
-    // Rounding: a position of size `FAR` is rounded once a step; speeds are of order 1 m/s and 1 rad/s and their roundings are
-    // carried on for the length of the run. In the right-invariant chart u is a difference of numbers of size `FAR`, and
-    // solving for ξ̂˙ multiplies by the lever once more.
+    // Rounding: a position of size `FAR` is rounded once a step; speeds are of order 1 m/s and 1 rad/s and their
+    // roundings are carried on for the length of the run. In the right-invariant chart u is a difference of numbers of
+    // size `FAR`, and solving for ξ̂˙ multiplies by the lever once more.
     for run in &comparison.precise {
         let lever = if run.name == "Newton–Euler" { FAR * FAR } else { FAR };
         let rounding = f64::EPSILON * lever * steps * DURATION;

@@ -1,5 +1,5 @@
-//! Scenes that lose their digits where their equations are multiplied out, or formed about the wrong point. Accelerations
-//! at one state, beside closed forms in which nothing cancels.
+//! Scenes that lose their digits where their equations are multiplied out, or formed about the wrong point.
+//! Accelerations at one state, beside closed forms in which nothing cancels.
 
 use std::error::Error;
 use std::f64::consts::FRAC_PI_2;

@@ -1,10 +1,10 @@
 //! What a robot costs, from its file: `cargo run --release --example robot -- path/to.urdf [CLAUSE…] [--write
 //! FILE.rs|FOLDER]`.
 //!
-//! Clauses are those that stand beside the file in `#[gauss(…)]`, such as `base=floating gravity=9.81 linearize`.
-//! With `--write arm.rs` the struct and what the derive makes of it become a source file, with `--write arm` a crate; both
-//! need gauss-runtime and no macro.
-//! With `--values` states are read, and what every method gives is written (`values.rs`).
+//! Clauses are those that stand beside the file in `#[gauss(…)]`, such as `base=floating gravity=9.81 linearize`. With
+//! `--write arm.rs` the struct and what the derive makes of it become a source file, with `--write arm` a crate; both
+//! need gauss-runtime and no macro. With `--values` states are read, and what every method gives is written
+//! (`values.rs`).
 
 mod values;
 

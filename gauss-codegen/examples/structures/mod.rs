@@ -11,7 +11,8 @@ pub fn free_body(clauses: &str) -> String {
     )
 }
 
-/// A vehicle in water: added mass, weight and buoyancy at different points, linear drag, a fin whose lift goes with the square of the speed.
+/// A vehicle in water: added mass, weight and buoyancy at different points, linear drag, a fin whose lift goes with the
+/// square of the speed.
 pub fn torpedo(clauses: &str) -> String {
     format!(
         "#[gauss(chart = left_invariant, define(v = body.relative_velocity), drag(linear = drag), \
@@ -79,8 +80,8 @@ pub fn spatial(n: usize) -> String {
     format!("#[gauss({clauses}, limit = 1000000)] {}", fields(n))
 }
 
-/// Joint origins and fixed turns of the Franka Emika Panda (public URDF description, example-robot-data 6.0); with further clauses, each after a
-/// comma.
+/// Joint origins and fixed turns of the Franka Emika Panda (public URDF description, example-robot-data 6.0); with
+/// further clauses, each after a comma.
 pub fn arm(clauses: &str) -> String {
     const JOINTS: [([&str; 3], &str); 7] = [
         (["0", "0", "0.333"], ""),
@@ -100,8 +101,8 @@ pub fn arm(clauses: &str) -> String {
     format!("#[gauss({links}{clauses})] struct Arm {{ {bodies} #[gauss(gravity)] g: f64 }}")
 }
 
-/// A walker on four legs of three joints each, which may be driven at every joint; joint origins are those of ANYmal B (ANYbotics, public description, BSD
-/// 3-clause). With further clauses, each after a comma.
+/// A walker on four legs of three joints each, which may be driven at every joint; joint origins are those of ANYmal B
+/// (ANYbotics, public description, BSD 3-clause). With further clauses, each after a comma.
 pub fn quadruped(driven: bool, clauses: &str) -> String {
     let (mut names, mut bodies, mut actions) = (Vec::new(), String::new(), String::new());
     for (leg, [x, y]) in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].into_iter().enumerate() {
@@ -129,8 +130,8 @@ pub fn quadruped(driven: bool, clauses: &str) -> String {
     )
 }
 
-/// Bodies that hang on a trunk that is free in space, one on the other in each limb, by hinges; with further clauses, each after a
-/// comma. A limb is the limb at whose end it begins, if any, and the axes of its hinges.
+/// Bodies that hang on a trunk that is free in space, one on the other in each limb, by hinges; with further clauses,
+/// each after a comma. A limb is the limb at whose end it begins, if any, and the axes of its hinges.
 fn limbs(name: &str, limbs: &[(Option<usize>, &str)], clauses: &str) -> String {
     let mut links = String::from("body(trunk, pose = base)");
     let (mut count, mut ends) = (0_u32, Vec::<String>::new());

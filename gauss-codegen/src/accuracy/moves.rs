@@ -55,8 +55,8 @@ pub enum Move {
     Faster(f64),
     /// All coordinates are so many powers of ten smaller.
     Smaller(f64),
-    /// An angle is near that many quarter turns, and a sum of fast rates that depends on it near zero: a wheel that spins
-    /// nearly flat has an energy that is small beside the terms of which it is the sum.
+    /// An angle is near that many quarter turns, and a sum of fast rates that depends on it near zero: a wheel that
+    /// spins nearly flat has an energy that is small beside the terms of which it is the sum.
     Spin(usize, f64, f64),
 }
 

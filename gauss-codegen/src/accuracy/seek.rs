@@ -240,8 +240,8 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         (0..end).filter(|&state| is_worth(state)).chain(self.states_of_many(drafts)).collect()
     }
 
-    /// States where several numbers of a sample state change at once, which are added to the others: derivatives may lose
-    /// digits there that functions keep.
+    /// States where several numbers of a sample state change at once, which are added to the others: derivatives may
+    /// lose digits there that functions keep.
     fn states_of_many<'n>(&self, drafts: &mut Vec<Draft<'n>>) -> Range<usize> {
         let end = drafts.len();
         let Some(sample) = drafts.first().filter(|_| self.besides.len() > 1).cloned() else { return end..end };
@@ -412,8 +412,8 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         }
     }
 
-    /// Tries all functions at a changed state, which is kept where one of them loses more than before; whether one loses
-    /// much more.
+    /// Tries all functions at a changed state, which is kept where one of them loses more than before; whether one
+    /// loses much more.
     fn try_change<'n>(
         &self,
         base: usize,

@@ -251,15 +251,15 @@ impl Tried {
 /// roundings that do not amplify each other add up to some √n, and now and then to the one or to n: of programs of up
 /// to a thousand operations two that are equally good differ by that much, and at the next state the other way round.
 const FACTOR: f64 = 32.0;
-/// The same of a program whose sums are in another order: each partial sum is bounded by three that were rounded before, and is
-/// rounded itself.
+/// The same of a program whose sums are in another order: each partial sum is bounded by three that were rounded
+/// before, and is rounded itself.
 const REORDERED: f64 = 4.0;
 /// Results below this share of the error of double precision vanish identically: of terms whose roundings are 2⁻⁵³,
 /// those of 106 digits are 2⁻⁷⁴ of a change, and some of either are small by chance.
 const VANISHING: f64 = 1.0 / 1024.0;
 
-/// Three decimal places may go at an extreme state where keeping them costs a quarter more: nobody pays for them who has
-/// ordinary numbers. One may at half of the states: where more do, it is the scene that is extreme, not the state.
+/// Three decimal places may go at an extreme state where keeping them costs a quarter more: nobody pays for them who
+/// has ordinary numbers. One may at half of the states: where more do, it is the scene that is extreme, not the state.
 const TOLERABLE: f64 = 1e3;
 const ORDINARY: f64 = 10.0;
 

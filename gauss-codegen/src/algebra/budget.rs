@@ -2,14 +2,15 @@
 
 use std::cell::Cell;
 
-/// Nodes and edges that a derivation may have for each operation that its code may have, many times as many as any scene
-/// that is known needs; and at least, where a `limit` is small. What is made of more would take gigabytes and minutes.
+/// Nodes and edges that a derivation may have for each operation that its code may have, many times as many as any
+/// scene that is known needs; and at least, where a `limit` is small. What is made of more would take gigabytes and
+/// minutes.
 const SIZE: [usize; 2] = [60, 600_000];
 /// Before a number of operations is allowed: those of the usual limit.
 const USUAL: usize = 3_000_000;
 
-/// Products of terms that may be formed while a derivation multiplies out: three times as many as any scene that is known
-/// needs; and as many rewritings of them. What would take more stays as it is.
+/// Products of terms that may be formed while a derivation multiplies out: three times as many as any scene that is
+/// known needs; and as many rewritings of them. What would take more stays as it is.
 const TERMS: u64 = 1_000_000;
 
 /// What is left.

@@ -1,8 +1,8 @@
-//! Numbers of two doubles, of 106 binary digits: what the results of programs in double precision are compared with. Twenty operations of the
-//! machine each, where [`Precise`](super::Precise) allocates.
+//! Numbers of two doubles, of 106 binary digits: what the results of programs in double precision are compared with.
+//! Twenty operations of the machine each, where [`Precise`](super::Precise) allocates.
 //!
-//! Sums and products after Dekker (1971) and Joldes, Muller & Popescu, Tight and rigorous error bounds for basic building blocks of
-//! double-word arithmetic (2017): the error is some units of 2⁻¹⁰⁴.
+//! Sums and products after Dekker (1971) and Joldes, Muller & Popescu, Tight and rigorous error bounds for basic
+//! building blocks of double-word arithmetic (2017): the error is some units of 2⁻¹⁰⁴.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

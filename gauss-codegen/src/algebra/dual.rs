@@ -1,5 +1,5 @@
-//! Dual numbers over any numbers: what expressions and programs are run in for derivatives that owe nothing to symbolic ones, and over
-//! dual numbers again for second ones.
+//! Dual numbers over any numbers: what expressions and programs are run in for derivatives that owe nothing to symbolic
+//! ones, and over dual numbers again for second ones.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -99,7 +99,8 @@ fn without<N: ManyDigits>(x: N, n: f64, parts: &[f64]) -> N {
     parts.iter().fold(x, |rest, &part| rest - N::number(n) * N::number(part))
 }
 
-/// `Σ xᵏ/k!` over k = from, from + step, …, whose first term is given; `factor` is what x and its sign give each next one.
+/// `Σ xᵏ/k!` over k = from, from + step, …, whose first term is given; `factor` is what x and its sign give each next
+/// one.
 fn series<N: ManyDigits>(first: N, factor: N, from: u32, step: u32) -> N {
     let (mut sum, mut term, mut k) = (first, first, from);
     for _ in 0..TERMS {

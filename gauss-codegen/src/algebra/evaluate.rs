@@ -8,7 +8,8 @@ use super::map::Map;
 use super::node::{Id, Node};
 use super::rational::Rational;
 
-/// What expressions are evaluated in, and a program can be run on: `f64`, `f32`, and with a few lines dual numbers, intervals or numbers of more digits.
+/// What expressions are evaluated in, and a program can be run on: `f64`, `f32`, and with a few lines dual numbers,
+/// intervals or numbers of more digits.
 pub trait Scalar:
     Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
@@ -76,7 +77,8 @@ primitive!(f32);
 
 /// What checks are made in.
 pub trait Number: Scalar + Copy + PartialOrd {
-    /// What is left of an unknown when numbers of order one are eliminated from it, and should be zero: some thousand roundings.
+    /// What is left of an unknown when numbers of order one are eliminated from it, and should be zero: some thousand
+    /// roundings.
     const NEGLIGIBLE: f64;
 
     /// The nearest one.
@@ -99,8 +101,8 @@ pub trait Number: Scalar + Copy + PartialOrd {
         if exponent < 0 { one / power } else { power }
     }
 
-    /// A function, where those of the user's own, of which nothing is known, are stood in for by shifted sines: what holds of any
-    /// function holds of these.
+    /// A function, where those of the user's own, of which nothing is known, are stood in for by shifted sines: what
+    /// holds of any function holds of these.
     fn call_any(self, function: Function) -> Self {
         let Function::Own(own) = function else { return self.call(function) };
         let (shift, order) = own.stand_in();
@@ -217,8 +219,8 @@ impl<'a, N: Number> Evaluation<'a, N> {
     }
 }
 
-/// Directional derivatives of expressions at a point by dual numbers, each node once: differentiation that owes nothing to
-/// the symbolic one.
+/// Directional derivatives of expressions at a point by dual numbers, each node once: differentiation that owes nothing
+/// to the symbolic one.
 pub struct Tangents<'a, 'b, N = f64> {
     values: &'a mut Evaluation<'b, N>,
     /// Rate of every symbol that moves.

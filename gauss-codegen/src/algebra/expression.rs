@@ -99,7 +99,8 @@ impl<'g> Expr<'g> {
         self.graph.call(Function::Abs, self)
     }
 
-    /// √((1 − x)(1 + x)): the other leg of a right triangle with the hypotenuse 1; no digits cancel where the triangle is thin.
+    /// √((1 − x)(1 + x)): the other leg of a right triangle with the hypotenuse 1; no digits cancel where the triangle
+    /// is thin.
     pub fn leg(self) -> Self {
         let one = self.graph.one();
         ((one - self).group() * (one + self).group()).sqrt()

@@ -78,7 +78,8 @@ impl Graph {
         graph
     }
 
-    /// True once something was divided by zero, or by a number beyond any use in double precision; every result is then meaningless.
+    /// True once something was divided by zero, or by a number beyond any use in double precision; every result is then
+    /// meaningless.
     pub fn is_undefined(&self) -> bool {
         self.undefined.get()
     }
@@ -162,8 +163,8 @@ impl Graph {
         };
         let id = match known {
             Some(place) => {
-                // To find one of many parts again takes as long as to make it, and functions of functions, sixty deep, have
-                // derivatives of as many factors that are found a million times.
+                // To find one of many parts again takes as long as to make it, and functions of functions, sixty deep,
+                // have derivatives of as many factors that are found a million times.
                 self.budget.count(node.edges() / LONG);
                 place as Id
             }
@@ -181,8 +182,8 @@ impl Graph {
         Expr { graph: self, id }
     }
 
-    /// What comes of some work, without the expressions that it makes: the graph is afterwards what it was before. Nothing
-    /// that is kept may refer to them.
+    /// What comes of some work, without the expressions that it makes: the graph is afterwards what it was before.
+    /// Nothing that is kept may refer to them.
     pub fn aside<R: 'static>(&self, work: impl FnOnce() -> R) -> R {
         let (nodes, symbols, functions) =
             (self.nodes.borrow().len(), self.symbols.borrow().len(), self.functions.borrow().len());

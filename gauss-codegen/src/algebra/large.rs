@@ -1,7 +1,8 @@
 //! Fractions that 64-bit integers do not hold.
 //!
-//! Each distinct one is kept once for the life of the process, so that a coefficient stays two words that are copied freely, and
-//! equal coefficients are equal words. They are rare: they arise where dozens of literals or high powers are multiplied out.
+//! Each distinct one is kept once for the life of the process, so that a coefficient stays two words that are copied
+//! freely, and equal coefficients are equal words. They are rare: they arise where dozens of literals or high powers
+//! are multiplied out.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -12,11 +13,13 @@ use num_rational::BigRational;
 /// Numerators and denominators up to this length are exact: products of a hundred literals of three digits.
 const EXACT_BITS: u64 = 1024;
 
-/// What is left of longer ones. Rounding by 2⁻²⁵⁶ is sixty decimal places below that of double precision. A sum that would be zero in exact
-/// arithmetic becomes a few such units instead, which the check of a system takes for the zero that it is.
+/// What is left of longer ones. Rounding by 2⁻²⁵⁶ is sixty decimal places below that of double precision. A sum that
+/// would be zero in exact arithmetic becomes a few such units instead, which the check of a system takes for the zero
+/// that it is.
 const ROUNDED_BITS: i64 = 256;
 
-/// Powers of two between which numbers are numbers: four times the exponents of double precision, for what comes back into them.
+/// Powers of two between which numbers are numbers: four times the exponents of double precision, for what comes back
+/// into them.
 const RANGE: i64 = 4096;
 
 /// All that were ever needed, by index and by value.

@@ -162,10 +162,10 @@ pub fn inverse_of_symmetric<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> 
     inverse
 }
 
-/// x with A x = right for a symmetric positive definite A with varying entries: LDLᵀ, unrolled on the shared graph. Each
-/// block of coupled unknowns is solved alone, the unknown with the fewest neighbours first, which for trees keeps the
-/// sparsity of A; what is zero is never touched. The factors do not depend on the right-hand side, so several solves on one
-/// graph share them.
+/// x with A x = right for a symmetric positive definite A with varying entries: LDLᵀ, unrolled on the shared graph.
+/// Each block of coupled unknowns is solved alone, the unknown with the fewest neighbours first, which for trees keeps
+/// the sparsity of A; what is zero is never touched. The factors do not depend on the right-hand side, so several
+/// solves on one graph share them.
 pub fn solve_symmetric<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Vec<Expr<'g>> {
     solve_by_blocks(matrix, right, matrix.len())
 }
@@ -195,9 +195,9 @@ fn is_within(e: Expr<'_>, left: &mut usize) -> bool {
     }
 }
 
-/// The same with blocks of two unknowns solved by Cramer's rule: one division instead of two that wait for one another. For two unknowns,
-/// and not for more, the rule is as accurate as elimination (Higham, Accuracy and Stability of Numerical Algorithms, 2002, 1.10.1).
-/// `None` when there is no such block.
+/// The same with blocks of two unknowns solved by Cramer's rule: one division instead of two that wait for one another.
+/// For two unknowns, and not for more, the rule is as accurate as elimination (Higham, Accuracy and Stability of
+/// Numerical Algorithms, 2002, 1.10.1). `None` when there is no such block.
 pub fn solve_pairs<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Option<Vec<Expr<'g>>> {
     let blocks = connected_blocks(matrix);
     let pairs: Vec<[usize; 2]> = blocks.into_iter().filter_map(|block| block.try_into().ok()).collect();
@@ -216,8 +216,9 @@ pub fn solve_pairs<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Option<V
     Some(solution)
 }
 
-/// (x, μ) with `A x + Jᵀ μ = right`, `J x = bias`, for a symmetric positive definite A and rows of J that are independent:
-/// the same elimination of the whole, the multipliers last, so that the pivots are those of A and of −J A⁻¹ Jᵀ.
+/// (x, μ) with `A x + Jᵀ μ = right`, `J x = bias`, for a symmetric positive definite A and rows of J that are
+/// independent: the same elimination of the whole, the multipliers last, so that the pivots are those of A and of −J
+/// A⁻¹ Jᵀ.
 pub fn solve_saddle<'g>(
     matrix: &[Vec<Expr<'g>>],
     jacobian: &[Vec<Expr<'g>>],
@@ -281,7 +282,8 @@ impl<'g> Factored<'g> {
         Self { blocks: connected_blocks(matrix).into_iter().map(factored).collect() }
     }
 
-    /// From the order of elimination and, below the diagonal and on it, what is left of each column when its turn comes.
+    /// From the order of elimination and, below the diagonal and on it, what is left of each column when its turn
+    /// comes.
     pub fn of_columns(order: Vec<usize>, rest: Vec<Vec<Expr<'g>>>) -> Self {
         Self { blocks: vec![FactoredBlock { order, rest }] }
     }

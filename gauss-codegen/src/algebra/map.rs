@@ -1,6 +1,7 @@
 //! Maps and sets for small keys. Macros run unoptimised, where a look-up in the standard maps takes hundreds of
-//! instructions: these are made of plain loops over slices. Keys are indices and short sequences of them, and nobody chooses
-//! them to collide. What they hold is gone through in the order in which it came, so that nothing depends on addresses.
+//! instructions: these are made of plain loops over slices. Keys are indices and short sequences of them, and nobody
+//! chooses them to collide. What they hold is gone through in the order in which it came, so that nothing depends on
+//! addresses.
 
 use std::ops::Index;
 
@@ -125,8 +126,8 @@ impl Places {
         self.slots = slots;
     }
 
-    /// Forgets the last of the list, of which these are the words, the last first. On the way to what came before they do
-    /// not stand, for each took the first free slot.
+    /// Forgets the last of the list, of which these are the words, the last first. On the way to what came before they
+    /// do not stand, for each took the first free slot.
     pub fn truncate(&mut self, words: impl Iterator<Item = u64>) {
         for word in words {
             let slots = &mut *self.slots;

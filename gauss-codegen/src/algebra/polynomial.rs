@@ -150,8 +150,8 @@ impl<'g> Expr<'g> {
         Some(Rc::unwrap_or_clone(polynomial))
     }
 
-    /// The same with sums of moving symbols and constants, such as `x − c`, as atoms where they are factors: what is multiplied out there
-    /// loses the digits of the difference.
+    /// The same with sums of moving symbols and constants, such as `x − c`, as atoms where they are factors: what is
+    /// multiplied out there loses the digits of the difference.
     pub fn expand_around_sums(self, limit: usize) -> Option<Polynomial<'g>> {
         let mut expander = Expander { whole: true, ..Expander::new(self.graph, limit) };
         let polynomial = expander.expand(self)?;

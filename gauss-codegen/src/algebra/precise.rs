@@ -1,5 +1,5 @@
-//! Numbers of 256 binary digits, for telling rounding errors from wrong results: two forms of one result that lose all digits of double
-//! precision where their terms cancel still agree in sixty decimal places of these.
+//! Numbers of 256 binary digits, for telling rounding errors from wrong results: two forms of one result that lose all
+//! digits of double precision where their terms cancel still agree in sixty decimal places of these.
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -12,9 +12,9 @@ use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed, ToPrimitive, Zero};
 use super::large;
 use super::map::Key;
 
-/// A fraction. Arithmetic never panics and never overflows; it rounds nothing up to a thousand bits, and by 2⁻²⁵⁶ beyond (see
-/// `large.rs`). What has no value, as a quotient by zero, becomes `0/0`, which stays `0/0` and is noticed by the graph (see
-/// `Graph::is_undefined`).
+/// A fraction. Arithmetic never panics and never overflows; it rounds nothing up to a thousand bits, and by 2⁻²⁵⁶
+/// beyond (see `large.rs`). What has no value, as a quotient by zero, becomes `0/0`, which stays `0/0` and is noticed
+/// by the graph (see `Graph::is_undefined`).
 ///
 /// Nearly all coefficients are small integers, so those take a short way past the greatest common divisors of
 /// `num_rational`, whose equality and hash are also needlessly general for reduced fractions.
@@ -139,7 +139,8 @@ impl Rational {
         self.general(other, |a, b| a.checked_add(b), |a, b| a + b)
     }
 
-    /// The greatest fraction of which both are multiples: that of the numerators over the least common multiple of the denominators.
+    /// The greatest fraction of which both are multiples: that of the numerators over the least common multiple of the
+    /// denominators.
     pub fn common_divisor(self, other: Self) -> Self {
         if self.denominator > 0 && other.denominator > 0 {
             let numerator = greatest_common_divisor(self.numerator, other.numerator);
@@ -169,7 +170,8 @@ impl Rational {
         self.common_divisor(other)
     }
 
-    /// Within 64 bits where that is possible; the most negative integer counts as large, so that negation never overflows.
+    /// Within 64 bits where that is possible; the most negative integer counts as large, so that negation never
+    /// overflows.
     fn general(
         self,
         other: Self,

@@ -26,8 +26,8 @@ impl Graph {
         self.budget.restrict(size);
     }
 
-    /// True once there is more than a derivation may have; everything that is made afterwards is zero, so that whatever is
-    /// going on soon ends, and every result is meaningless.
+    /// True once there is more than a derivation may have; everything that is made afterwards is zero, so that whatever
+    /// is going on soon ends, and every result is meaningless.
     pub fn is_exhausted(&self) -> bool {
         self.budget.is_exhausted()
     }

@@ -69,8 +69,8 @@ fn normal_forms_decide_identities() {
     assert!((x + y).powi(9).expand(5).is_none());
 }
 
-/// A sine made before its cosine, both in a denominator: `cos² → 1 − sin²` and the rule of the denominator must not undo one
-/// another.
+/// A sine made before its cosine, both in a denominator: `cos² → 1 − sin²` and the rule of the denominator must not
+/// undo one another.
 #[test]
 fn rewriting_sines_in_denominators_ends() {
     let graph = Graph::new();

@@ -42,8 +42,8 @@ fn assert_same(element: &str, written: &str) {
     let [free, one, other] = ["limit = 50000", element, written].map(accelerations);
     assert_eq!(one.len(), 8);
     for ((free, a), b) in free.iter().zip(&one).zip(&other) {
-        // Numbers of order 1 to 10, each the sum of less than a hundred products, through a mass matrix with a condition
-        // below ten.
+        // Numbers of order 1 to 10, each the sum of less than a hundred products, through a mass matrix with a
+        // condition below ten.
         assert!((a - b).abs() <= 1e3 * f64::EPSILON * 10.0, "{element}: {a} and {b}");
         assert!(a.is_finite() && free.is_finite());
     }

@@ -1,4 +1,5 @@
-//! The arguments of every function of a kernel, and where the symbols of a program come from: these taken apart, the fields of the kernel.
+//! The arguments of every function of a kernel, and where the symbols of a program come from: these taken apart, the
+//! fields of the kernel.
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};

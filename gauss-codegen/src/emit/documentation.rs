@@ -57,7 +57,8 @@ fn text(derived: &Derived<'_, '_>, printed: &Printed) -> String {
 /// Lines of one `align*`: TeX sets it as a whole, and no box is higher than 5.7 m.
 const LINES_OF_TEX: usize = 100;
 
-/// Bytes of a right side of LaTeX before it goes on below, at a sign of its outermost sum: some hand's breadths on paper.
+/// Bytes of a right side of LaTeX before it goes on below, at a sign of its outermost sum: some hand's breadths on
+/// paper.
 const WIDTH_OF_TEX: usize = 1000;
 
 fn latex(printed: &Printed) -> String {
@@ -128,7 +129,8 @@ fn description(derived: &Derived<'_, '_>) -> String {
 /// The loss above which the documentation of a kernel warns of it: three decimal places.
 const MUCH: f64 = 1e3;
 
-/// LaTeX that is longer is not set in rustdoc: pages of a megabyte are read by nobody, and every compilation writes them.
+/// LaTeX that is longer is not set in rustdoc: pages of a megabyte are read by nobody, and every compilation writes
+/// them.
 const TOO_LONG: usize = 12_000;
 
 /// Rustdoc of the kernel: what it is, what it takes, its equations, its costs. What a scene does not have is not on it.

@@ -1,15 +1,17 @@
 //! What is emitted of a struct with mistakes: the mistakes, and what other code names of the kernel.
 //!
-//! The type of a kernel depends on clauses that may be the ones that are wrong, so no implementation of a trait would fit the
-//! code that uses it. `NameKernel` is a type that contains the first mistake instead, as the length of an array: the compiler
-//! reports that one and is silent about whatever depends on it. Only that an array has no fields would be told of
-//! `NameState { … }`: `NameState` is therefore what a trait gives of it, which is not even known to be an array.
+//! The type of a kernel depends on clauses that may be the ones that are wrong, so no implementation of a trait would
+//! fit the code that uses it. `NameKernel` is a type that contains the first mistake instead, as the length of an
+//! array: the compiler reports that one and is silent about whatever depends on it. Only that an array has no fields
+//! would be told of `NameState { … }`: `NameState` is therefore what a trait gives of it, which is not even known to be
+//! an array.
 
 use proc_macro2::{TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use syn::{DeriveInput, Error};
 
-/// The mistakes, each at its token, and stand-ins for `NameKernel` and `Name::kernel()`, so that one mistake is one message.
+/// The mistakes, each at its token, and stand-ins for `NameKernel` and `Name::kernel()`, so that one mistake is one
+/// message.
 pub fn fallback(input: &DeriveInput, mistakes: &Error) -> TokenStream {
     let DeriveInput { ident, vis, generics, .. } = input;
     let mut mistakes = mistakes.into_iter().map(|mistake| mistake.into_compile_error());

@@ -1,4 +1,5 @@
-//! `FramedSystem`: poses, twists, Jacobians and accelerations of the frames that are asked for, and their names; `JacobianRates`.
+//! `FramedSystem`: poses, twists, Jacobians and accelerations of the frames that are asked for, and their names;
+//! `JacobianRates`.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};

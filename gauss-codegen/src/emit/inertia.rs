@@ -8,8 +8,8 @@ use crate::words::Unraw;
 
 use super::derived::Derived;
 
-/// What must hold of the mass data of a body with a name: mass, centre of mass from O, rows of the inertia about O, or about the
-/// centre of mass (`central`), which is called `word`.
+/// What must hold of the mass data of a body with a name: mass, centre of mass from O, rows of the inertia about O, or
+/// about the centre of mass (`central`), which is called `word`.
 pub fn named_body(
     derived: &Derived<'_, '_>,
     body: &Ident,
@@ -56,7 +56,8 @@ pub fn waived(derived: &Derived<'_, '_>, body: Option<&Ident>, checks: TokenStre
     }
 }
 
-/// A check of the mass matrix of one body, which says nothing where others make up for what it lacks: their sum is checked then.
+/// A check of the mass matrix of one body, which says nothing where others make up for what it lacks: their sum is
+/// checked then.
 pub fn own_matrix(derived: &Derived<'_, '_>, check: TokenStream) -> TokenStream {
     match derived.subject.system.scene.chart() {
         Some(_) => check,

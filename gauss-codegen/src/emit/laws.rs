@@ -1,4 +1,5 @@
-//! Constants of springs and stops in `kernel()`, and `warnings()`: what is likely not meant, although a kernel can be made of it.
+//! Constants of springs and stops in `kernel()`, and `warnings()`: what is likely not meant, although a kernel can be
+//! made of it.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -68,8 +69,8 @@ pub fn warnings(derived: &Derived<'_, '_>) -> TokenStream {
     let findings =
         [drags(derived, &symbols), laws(derived, &symbols), gravity(derived), added_masses(derived, &symbols)];
     quote! {
-        /// What is likely not meant, although a kernel can be made of it: drag and damping that feed energy, gravity that points
-        /// upward, added mass with the sign of hydrodynamic derivatives.
+        /// What is likely not meant, although a kernel can be made of it: drag and damping that feed energy, gravity
+        /// that points upward, added mass with the sign of hydrodynamic derivatives.
         #[allow(unused_variables, unused_mut, dead_code, clippy::all, clippy::pedantic)]
         #visibility fn warnings(&self) -> #private::ParameterWarnings {
             #read

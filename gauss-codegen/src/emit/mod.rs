@@ -10,9 +10,10 @@
 //! | `file` | the file that a robot was read from, and warnings of what it says in vain |
 //! | `derived` | everything known about one derive, and what the implementations are made with |
 //!
-//! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and `kernel()`),
-//! `state` and `input` (by name, both `record`s), `of_file` (numbers of a robot's file), `gauss_system`, `description`, `rigid_body`, `constrained`, `forced`, `framed`, `whole`, `taylor`, `linearized`, `hessian`, `inverse`, `parametric`, `regressor`; `fallback`
-//! where there are mistakes.
+//! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and
+//! `kernel()`), `state` and `input` (by name, both `record`s), `of_file` (numbers of a robot's file), `gauss_system`,
+//! `description`, `rigid_body`, `constrained`, `forced`, `framed`, `whole`, `taylor`, `linearized`, `hessian`,
+//! `inverse`, `parametric`, `regressor`; `fallback` where there are mistakes.
 
 use proc_macro2::TokenStream;
 use quote::quote;

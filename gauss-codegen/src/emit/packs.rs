@@ -1,7 +1,7 @@
 //! Methods that are written with vectors as well, and the rows of constants that these load.
 //!
-//! Only where the scalar is `f64`: others have no vectors, or are vectors. Which of the two forms is compiled is chosen by
-//! the runtime, `with_vectors!`.
+//! Only where the scalar is `f64`: others have no vectors, or are vectors. Which of the two forms is compiled is chosen
+//! by the runtime, `with_vectors!`.
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
@@ -92,7 +92,8 @@ impl<'g> Packs<'g> {
         (!self.rows.is_empty()).then(|| quote!(rows: #private::Rows::new([#(#rows),*])))
     }
 
-    /// The statements of a method in both forms, of which one is given; its outputs. Nothing where it has that form alone.
+    /// The statements of a method in both forms, of which one is given; its outputs. Nothing where it has that form
+    /// alone.
     pub fn in_both_forms(
         &self,
         method: Method,

@@ -61,8 +61,8 @@ fn field_check(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStrea
     }
 }
 
-/// The constants computed and checked: together, parameters that are fine one by one can overflow. `label` is the field that
-/// speaks for them.
+/// The constants computed and checked: together, parameters that are fine one by one can overflow. `label` is the field
+/// that speaks for them.
 pub fn constants(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, label: &str) -> TokenStream {
     let (compute, outputs) = statements(&derived.kernel.constants, symbols, &derived.scalar());
     let sum = sum(derived);
@@ -78,7 +78,8 @@ pub fn constants(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>, lab
     }
 }
 
-/// Bodies some of which have no mass have a mass matrix all the same; where there is one body alone that is checked of it.
+/// Bodies some of which have no mass have a mass matrix all the same; where there is one body alone that is checked of
+/// it.
 fn sum(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     if derived.subject.system.scene.chart().is_some() {
         return None;
@@ -171,8 +172,8 @@ fn finite_value(shape: Shape, label: &str, name: &Ident) -> TokenStream {
     }
 }
 
-/// The matrix of the kinetic energy of the body without a name, on the axes of its motion: with a centre of mass off O its parts can be
-/// fine one by one, and not together.
+/// The matrix of the kinetic energy of the body without a name, on the axes of its motion: with a centre of mass off O
+/// its parts can be fine one by one, and not together.
 fn kinetic_matrix(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> Option<TokenStream> {
     let Subject { model, system, links, .. } = &derived.subject;
     let clause = model.bodies.iter().position(|body| body.name.is_none())?;

@@ -13,8 +13,8 @@ pub struct ScalarTokens<'a> {
     pub scalar: &'a Scalar,
     /// `::gauss_runtime::real::Real`.
     pub real: TokenStream,
-    /// A product and a sum. For primitive types a function of its own: compilers look for an implementation at every call of a
-    /// trait's, which was half of the time in which they checked types.
+    /// A product and a sum. For primitive types a function of its own: compilers look for an implementation at every
+    /// call of a trait's, which was half of the time in which they checked types.
     pub fma: TokenStream,
     /// `::gauss_runtime::__private::apart`.
     pub apart: TokenStream,

@@ -1,4 +1,5 @@
-//! `RigidBodySystem`: the configuration as a pose, twist and momentum in body axes; of every system whose only matter is one body.
+//! `RigidBodySystem`: the configuration as a pose, twist and momentum in body axes; of every system whose only matter
+//! is one body.
 
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -39,8 +39,8 @@ pub fn clause_local(
     }
 }
 
-/// What must hold of the fluid about the bodies: what clauses of named bodies say of it, and that the body and its added mass
-/// together have a positive definite kinetic energy in every motion that the body can have.
+/// What must hold of the fluid about the bodies: what clauses of named bodies say of it, and that the body and its
+/// added mass together have a positive definite kinetic energy in every motion that the body can have.
 pub fn fluid(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     let subject = &derived.subject;
     let model = subject.model;

@@ -1,4 +1,5 @@
-//! What is absent leaves nothing behind: the code of a scene without an element is the code of the scene that never heard of it.
+//! What is absent leaves nothing behind: the code of a scene without an element is the code of the scene that never
+//! heard of it.
 
 use super::tests::{function, generate};
 

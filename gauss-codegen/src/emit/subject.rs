@@ -34,7 +34,8 @@ pub struct Subject<'a, 'g> {
     pub quaternions: &'a [Option<[Expr<'g>; 4]>],
 }
 
-/// A factor of the configuration: elements of groups in the order in which they are declared, then all scalars together.
+/// A factor of the configuration: elements of groups in the order in which they are declared, then all scalars
+/// together.
 enum Factor<'g> {
     Group { coordinate: usize },
     Scalars { symbols: Vec<Expr<'g>> },

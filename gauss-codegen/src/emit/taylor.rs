@@ -14,8 +14,9 @@
 //! | w = aᵖ | `(p(aₖw₀ + Σ jaⱼwₖ₋ⱼ/k) − Σ jwⱼaₖ₋ⱼ/k)/a₀` |
 //! | θ = atan2(y, x), r = x² + y² | `(yₖx₀ − xₖy₀ + Σ (jyⱼxₖ₋ⱼ − jxⱼyₖ₋ⱼ − jθⱼrₖ₋ⱼ)/k)/r₀` |
 //!
-//! with sums over 0 < j < k (Knuth, TAOCP 2, 4.7). Each sum is a *lane* of the runtime's `Series`: all lanes of an order are summed
-//! before its straight line begins. What is multiplied by constants or added costs one operation an order.
+//! with sums over 0 < j < k (Knuth, TAOCP 2, 4.7). Each sum is a *lane* of the runtime's `Series`: all lanes of an
+//! order are summed before its straight line begins. What is multiplied by constants or added costs one operation an
+//! order.
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};

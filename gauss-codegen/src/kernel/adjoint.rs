@@ -1,13 +1,13 @@
-//! Gradients of programs with one output: backward differentiation, instruction by instruction. All derivatives of one number cost a
-//! few times the number, however many there are; second derivatives are tangents of these.
+//! Gradients of programs with one output: backward differentiation, instruction by instruction. All derivatives of one
+//! number cost a few times the number, however many there are; second derivatives are tangents of these.
 
 use crate::algebra::{BinaryFunction, Function, Map, Rational};
 
 use super::tangent::{Direction, Pass, Rate, Tangent, Writer};
 use super::write::{Operand, Operation, Program};
 
-/// The derivatives of the only output of a program along each of the directions, as a program that reads what that one read, and the
-/// rates.
+/// The derivatives of the only output of a program along each of the directions, as a program that reads what that one
+/// read, and the rates.
 pub fn gradient<'g>(program: &Program<'g>, directions: &[Direction<'g>]) -> Program<'g> {
     let mut writer = Writer::default();
     let none = Map::default();

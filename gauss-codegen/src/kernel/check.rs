@@ -34,10 +34,11 @@ pub(super) struct Checked<'a, 'g> {
 }
 
 impl<'g> Checked<'_, 'g> {
-    /// Roots and logarithms have domains: the point is the first of a few at which everything has a value. Functions that have none at
-    /// any of them cannot be checked. A wrong term is wrong nearly everywhere, and in numbers of many digits, too; where terms cancel, two
-    /// right forms differ by the roundings of what cancelled, which are smaller there by as many digits as there are more. So programs
-    /// are refused when they disagree at three points and do so in numbers of many digits.
+    /// Roots and logarithms have domains: the point is the first of a few at which everything has a value. Functions
+    /// that have none at any of them cannot be checked. A wrong term is wrong nearly everywhere, and in numbers of many
+    /// digits, too; where terms cancel, two right forms differ by the roundings of what cancelled, which are smaller
+    /// there by as many digits as there are more. So programs are refused when they disagree at three points and do so
+    /// in numbers of many digits.
     pub fn check(&self, graph: &'g Graph, sample: &Sample<'_, 'g>) -> Result<(), Miscompiled> {
         self.check_in::<f64>(graph, sample).or_else(|_| self.check_in::<Precise>(graph, sample))
     }
@@ -85,7 +86,8 @@ fn compare<N: Number>(function: usize, found: &[N], expected: &[N]) -> Result<()
         let (apart, found, expected) = ((found - wanted).to_f64(), found.to_f64(), wanted.to_f64());
         // Inputs are of order one; hundreds of roundings stay far below, a wrong term far above this.
         let close = apart.abs() <= 1e-6 * (1.0 + expected.abs());
-        // Derivatives alone may have no value where functions have one, as that of 0^k by k: there is nothing to compare with.
+        // Derivatives alone may have no value where functions have one, as that of 0^k by k: there is nothing to
+        // compare with.
         if expected.is_finite() && !close {
             return Err(Miscompiled { function, output, expected, found });
         }
@@ -106,7 +108,8 @@ pub(super) struct Sample<'a, 'g> {
 }
 
 impl<'g> Sample<'_, 'g> {
-    /// A value of order one for every symbol, different for each, but for literals, and the values of what is defined by them.
+    /// A value of order one for every symbol, different for each, but for literals, and the values of what is defined
+    /// by them.
     pub fn point<N: Number>(&self, graph: &'g Graph, shift: u32) -> Map<u32, N> {
         let mut point: Map<u32, N> = graph
             .symbol_keys()

@@ -75,7 +75,8 @@ impl<'g> Candidates<'g> {
         let first = Some(lowered[0].outputs.clone()).filter(|_| tried.usable()[1][0]);
         let Lowered { outputs, program, .. } = lowered.swap_remove(best);
         let loss = tried.losses[best].clone();
-        // A power series has a recurrence for every product, and takes a negation of an addend for an instruction like any other.
+        // A power series has a recurrence for every product, and takes a negation of an addend for an instruction like
+        // any other.
         if self.aim == Aim::Series {
             return Taken { outputs, first, carried_out: program.clone(), program, begun: true, loss };
         }
@@ -92,8 +93,8 @@ impl<'g> Candidates<'g> {
 }
 
 impl<'g> Pool<'g> {
-    /// Of equal outputs, hoisted in one way or the other. Where the best loses much, each is tried without its differences
-    /// of like functions as well.
+    /// Of equal outputs, hoisted in one way or the other. Where the best loses much, each is tried without its
+    /// differences of like functions as well.
     pub fn of<'a>(
         arrangements: &[Vec<Expr<'g>>],
         aim: Aim,

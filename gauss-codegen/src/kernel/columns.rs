@@ -1,6 +1,6 @@
-//! Derivatives that are the solutions of one linear system, `x = A⁻¹ right` for every direction: what comes before is a program,
-//! the substitution a loop over columns, which compilers carry out several at a time. Written out, it would be most of the code of
-//! a tree with many joints.
+//! Derivatives that are the solutions of one linear system, `x = A⁻¹ right` for every direction: what comes before is a
+//! program, the substitution a loop over columns, which compilers carry out several at a time. Written out, it would be
+//! most of the code of a tree with many joints.
 
 use std::ops::Range;
 
@@ -110,8 +110,8 @@ impl Shape {
 }
 
 impl Shape {
-    /// Unknowns in a row that are eliminated together: what is below each of them are the rest of them and what is below
-    /// the last. Nothing else leads into the middle.
+    /// Unknowns in a row that are eliminated together: what is below each of them are the rest of them and what is
+    /// below the last. Nothing else leads into the middle.
     pub fn groups(&self) -> Vec<Range<usize>> {
         let count = self.order.len();
         let leading = |k: usize| self.below.iter().filter(|rows| rows.first() == Some(&k)).count();

@@ -14,7 +14,8 @@ use super::write::Program;
 pub struct Differentiated<'g> {
     /// The outputs, in equivalent arrangements.
     pub arrangements: Vec<Vec<Expr<'g>>>,
-    /// Symbols that stand for expressions of the arguments, in the order of their definitions, and move by rates of their own.
+    /// Symbols that stand for expressions of the arguments, in the order of their definitions, and move by rates of
+    /// their own.
     pub defined: Vec<Expr<'g>>,
     pub directions: Vec<Direction<'g>>,
     /// Forms of their own.
@@ -33,8 +34,8 @@ pub struct Derived<'g> {
 pub(super) type WithColumns<'g> = (Program<'g>, Option<LoweredColumns<'g>>);
 
 impl<'g> Differentiated<'g> {
-    /// The cheapest arrangement with its derivatives. What is defined enters as it is, because its rates are simple where
-    /// those of its definition are not: R σ̂ beside what a quaternion makes of it.
+    /// The cheapest arrangement with its derivatives. What is defined enters as it is, because its rates are simple
+    /// where those of its definition are not: R σ̂ beside what a quaternion makes of it.
     pub(super) fn lower(
         &self,
         hoister: &mut Hoister<'_, 'g>,
@@ -56,8 +57,8 @@ impl<'g> Differentiated<'g> {
         let mut of_usable: Vec<_> = of_usable.collect();
         let costs: Vec<u32> = of_usable.iter().map(|(program, _)| program.cost().total()).collect();
         let [sampled, all] = [tried.taken_by_samples(&costs), tried.taken(&costs)];
-        // Where a state that was sought decides otherwise, derivatives may keep digits that their functions lose; of the
-        // functions themselves there are programs of their own.
+        // Where a state that was sought decides otherwise, derivatives may keep digits that their functions lose; of
+        // the functions themselves there are programs of their own.
         let best = if sampled == all {
             all
         } else {
@@ -74,8 +75,8 @@ impl<'g> Differentiated<'g> {
         ((program.carried_out(), columns), Expected::along(outputs, &self.directions, kept))
     }
 
-    /// A program of derivatives, or what has a form of its own and costs less. Of roots, whose slope may be infinite, only
-    /// programs know what their derivatives are where nothing changes.
+    /// A program of derivatives, or what has a form of its own and costs less. Of roots, whose slope may be infinite,
+    /// only programs know what their derivatives are where nothing changes.
     fn cheaper(&self, program: Program<'g>, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> WithColumns<'g> {
         let most = program.cost().total();
         if program.counts().roots > 0 {

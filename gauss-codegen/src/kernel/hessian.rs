@@ -14,7 +14,8 @@ use super::write::{Operand, Operation, Program};
 pub struct Curved<'g> {
     /// The number, in equivalent arrangements.
     pub arrangements: Vec<Expr<'g>>,
-    /// Symbols that stand for expressions of the arguments, in the order of their definitions, and move by rates of their own.
+    /// Symbols that stand for expressions of the arguments, in the order of their definitions, and move by rates of
+    /// their own.
     pub defined: Vec<Expr<'g>>,
     pub directions: Vec<Direction<'g>>,
     /// Directions with the same number need not commute; those without one commute with all.
@@ -60,7 +61,8 @@ impl<'g> Curved<'g> {
         let all = with_tangents(&gradient, (&self.defined, definitions), &self.directions);
         // Along j of the derivative along i.
         let entry = |i: usize, j: usize| all.outputs[count * (1 + j) + i];
-        // Tangents of what little depends on are short, of what all depends on long: derivatives along the latter are taken last.
+        // Tangents of what little depends on are short, of what all depends on long: derivatives along the latter are
+        // taken last.
         let reach: Vec<usize> = self.directions.iter().map(|direction| reach(program, direction)).collect();
         let mut instructions = all.instructions.clone();
         let outputs = Self::pairs(count).map(|(i, j)| {

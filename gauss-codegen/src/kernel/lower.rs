@@ -54,8 +54,8 @@ pub type Literals<'a, 'g> = Option<&'a [(Rational, Expr<'g>)]>;
 
 impl<'g> Kernel<'g> {
     /// Lowers functions, each of which has an arrangement; those of `evaluate` also together. `definitions` are symbols
-    /// that stand for expressions of the arguments. Every program is then run at a pseudo-random point and compared with
-    /// its expressions.
+    /// that stand for expressions of the arguments. Every program is then run at a pseudo-random point and compared
+    /// with its expressions.
     pub fn lower(
         graph: &'g Graph,
         functions: &Methods<Candidates<'g>>,
@@ -177,8 +177,8 @@ fn taken_of_each<'g>(
     taken
 }
 
-/// Several functions in one program, of each what was taken and what comes first where that keeps the digits. What wins alone may have less in
-/// common with the rest than what comes first: it is replaced where that costs less.
+/// Several functions in one program, of each what was taken and what comes first where that keeps the digits. What wins
+/// alone may have less in common with the rest than what comes first: it is replaced where that costs less.
 fn lower_together<'g>(hoister: &mut Hoister<'_, 'g>, functions: &[&Taken<'g>]) -> (Program<'g>, Vec<Expr<'g>>) {
     let mut lower = |parts: &[&[Expr<'g>]]| {
         let outputs = parts.concat();

@@ -14,8 +14,9 @@
 //! - `wanted`: all of these as one list. `expected`: what each should compute.
 //! - `check`: programs against the expressions that they were made from.
 //!
-//! Knows nothing of frames or bodies. Every program is checked before it is handed out (see [`Kernel::lower`]), and the shape of each
-//! after every pass in debug builds. Here the inputs of code are symbols; [`crate::program`] says what code is.
+//! Knows nothing of frames or bodies. Every program is checked before it is handed out (see [`Kernel::lower`]), and the
+//! shape of each after every pass in debug builds. Here the inputs of code are symbols; [`crate::program`] says what
+//! code is.
 
 mod adjoint;
 mod check;

@@ -6,8 +6,8 @@ use crate::program::Pass;
 /// Parts of one sum or product that are paired with one another: the number of pairs goes with its square.
 const PAIRED: usize = 200;
 
-/// Pairs that are looked at before a program is left as it is: at least, and for each of its nodes. All scenes that are known
-/// need a tenth.
+/// Pairs that are looked at before a program is left as it is: at least, and for each of its nodes. All scenes that are
+/// known need a tenth.
 const PAIRS: [usize; 2] = [500_000, 500];
 
 /// Levels that are written at once: a chain of more, each part the part of one other, would overflow the stack.
@@ -100,7 +100,8 @@ impl<'g> Network<'g> {
         network
     }
 
-    /// Nodes that are written first, parts before what is made of them, so that no more than some levels are written at once.
+    /// Nodes that are written first, parts before what is made of them, so that no more than some levels are written at
+    /// once.
     pub fn stages(&self) -> Vec<Place> {
         let mut depth: Vec<Option<u32>> = vec![None; self.nodes.len()];
         let mut stages = Vec::new();
@@ -212,7 +213,8 @@ impl<'g> Network<'g> {
     }
 
     /// Splits pairs of parts that several sums (or several products) contain off as nodes of their own, the most
-    /// frequent first, until no pair occurs twice. Terms of sums are alike up to a common factor. Whether there was any.
+    /// frequent first, until no pair occurs twice. Terms of sums are alike up to a common factor. Whether there was
+    /// any.
     fn share(&mut self, kind: Kind) -> bool {
         let mut shared = false;
         let mut left = PAIRS[0] + PAIRS[1] * self.nodes.len();

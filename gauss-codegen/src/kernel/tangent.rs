@@ -1,8 +1,8 @@
 //! Derivatives of programs: forward differentiation, instruction by instruction, along many directions at once.
 //!
-//! A program is a list of elementary steps, so the chain rule is one rule a step, and what a step costs its derivative costs two or
-//! three times. Products with 0 and 1 are never written, equal instructions are written once, and what no output needs is
-//! left out: outputs that cannot change along a direction are the number 0.
+//! A program is a list of elementary steps, so the chain rule is one rule a step, and what a step costs its derivative
+//! costs two or three times. Products with 0 and 1 are never written, equal instructions are written once, and what no
+//! output needs is left out: outputs that cannot change along a direction are the number 0.
 
 use crate::algebra::{BinaryFunction, Expr, Function, Map, Rational};
 
@@ -11,8 +11,8 @@ use super::write::{Operand, Operation, Program};
 /// The rates of the symbols that move, each a number, a symbol, or the negative of one. Others stand still.
 pub type Direction<'g> = Vec<(Expr<'g>, Expr<'g>)>;
 
-/// The outputs of `program`, and then, direction by direction, the derivatives of them all. `bound` are symbols that are outputs of
-/// the other program: what reads them reads these.
+/// The outputs of `program`, and then, direction by direction, the derivatives of them all. `bound` are symbols that
+/// are outputs of the other program: what reads them reads these.
 pub fn with_tangents<'g>(
     program: &Program<'g>,
     bound: (&[Expr<'g>], &Program<'g>),
@@ -57,8 +57,8 @@ pub struct Implicit<'a, 'g> {
     pub loads: &'a [Expr<'g>],
 }
 
-/// The derivatives of the outputs of a program, and then of the root, direction by direction: `−(∂residual/∂x)⁻¹ ∂residual`. What
-/// the solution divides by is worked out once for all directions.
+/// The derivatives of the outputs of a program, and then of the root, direction by direction:
+/// `−(∂residual/∂x)⁻¹ ∂residual`. What the solution divides by is worked out once for all directions.
 pub fn implicit_tangents<'g>(
     explicit: &Program<'g>,
     implicit: &Implicit<'_, 'g>,
@@ -435,8 +435,9 @@ impl<'a, 'g> Pass<'a, 'g> {
         Some(match function {
             Function::Exp => own,
             Function::Ln => self.writer.reciprocal(a),
-            // At 0, where the slope is infinite, a huge number in its place: 0 stays 0 along directions in which the radicand, such as
-            // the square of a velocity, does not change to first order. Two factors, because 2⁻¹²⁴ is no fraction of 64-bit integers.
+            // At 0, where the slope is infinite, a huge number in its place: 0 stays 0 along directions in which the
+            // radicand, such as the square of a velocity, does not change to first order. Two factors, because 2⁻¹²⁴ is
+            // no fraction of 64-bit integers.
             Function::Sqrt => {
                 let least = self.writer.least();
                 let root = self.writer.push(Operation::Binary(BinaryFunction::Max, own, least));

@@ -21,8 +21,8 @@ impl<'g> Program<'g> {
         Writer::new(Network::new(&outputs)).write().verified()
     }
 
-    /// The same computation as it is carried out: products within the sums that read them, no product at the beginning of a sum that
-    /// something is added to, chains that overlap.
+    /// The same computation as it is carried out: products within the sums that read them, no product at the beginning
+    /// of a sum that something is added to, chains that overlap.
     pub(super) fn carried_out(self) -> Self {
         self.with_products_in_sums().with_sums_begun().ordered()
     }

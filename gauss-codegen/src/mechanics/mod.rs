@@ -1,11 +1,14 @@
-//! From a scene to its equations. Reads like the paper; knows nothing of tokens. One body in a chart is a system of one link.
+//! From a scene to its equations. Reads like the paper; knows nothing of tokens. One body in a chart is a system of one
+//! link.
 //!
 //! Folders, in the order of the work:
 //!
 //! - `kinematics`: frames and vectors, rotations, how one body moves, ψ of each chart (3.2).
 //! - `matter`: bodies as symbols, integrals over them by moments.
-//! - `links`: bodies, frames and particles, each relative to its parent; sums over them by recursion; what moves with the parent as well.
-//! - `loads`: forces and potentials, their wrenches on one link, central gravity, a medium that moves, accounts of power.
+//! - `links`: bodies, frames and particles, each relative to its parent; sums over them by recursion; what moves with
+//!   the parent as well.
+//! - `loads`: forces and potentials, their wrenches on one link, central gravity, a medium that moves, accounts of
+//!   power.
 //! - `constraints`: multipliers, and constraints solved for the speeds that depend on others.
 //! - `arrangements`: ways to write the same equations: a free link in its body axes, multiplied out, link by link.
 //! - `check`: the definition (3.1), and every scene against it before code is written.

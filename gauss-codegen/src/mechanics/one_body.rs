@@ -12,8 +12,8 @@ use crate::mechanics::system::System;
 use crate::mechanics::tidy::compact;
 
 impl<'g> System<'g> {
-    /// What says where the only body is, and how it moves there: of a system of no more and no less, whose configuration
-    /// is not that pose.
+    /// What says where the only body is, and how it moves there: of a system of no more and no less, whose
+    /// configuration is not that pose.
     pub fn formulas_of_one_body(&self) -> Option<Vec<Formula<'g>>> {
         let (link, body) = self.one_body().filter(|_| self.rigid_body().is_none())?;
         let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
@@ -34,7 +34,8 @@ impl<'g> System<'g> {
         first.body().filter(|_| further.is_none()).map(|body| (first, body))
     }
 
-    /// For each component of an increment of the configuration the twist in body axes that it makes: u = Rᵀ ḃ, [ω]× = Rᵀ Ṙ.
+    /// For each component of an increment of the configuration the twist in body axes that it makes: u = Rᵀ ḃ, [ω]× =
+    /// Rᵀ Ṙ.
     fn twists_of_increments(&self, link: &Link<'g>) -> Vec<Expr<'g>> {
         let frame = Frame { graph: self.scene.graph, rotation: link.rotation };
         let twist = |along: &Map<u32, Expr<'g>>| -> [Triple<'g>; 2] {

@@ -1,11 +1,11 @@
-//! Random systems: what their programs compute against the minimiser of (3.1) over particles alone, found by dense algebra
-//! in double precision.
+//! Random systems: what their programs compute against the minimiser of (3.1) over particles alone, found by dense
+//! algebra in double precision.
 //!
 //! - `numbers`: smooth functions that expressions and jets evaluate alike.
 //! - `plan`: a system as data, drawn at random.
 //! - `scene`: its scene, from which the derive makes programs.
-//! - `witness`: its particles, (3.1) and the constraints at a state. Shares with the derive only what is given: functions,
-//!   ψ, the places of links.
+//! - `witness`: its particles, (3.1) and the constraints at a state. Shares with the derive only what is given:
+//!   functions, ψ, the places of links.
 //! - `derivatives`: the recursion against dual numbers through the accelerations.
 //! - `expectation`: what each method of the kernel should compute, and what its roundings are measured by.
 

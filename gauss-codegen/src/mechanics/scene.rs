@@ -12,8 +12,8 @@ use crate::mechanics::matter::body::Body;
 use crate::mechanics::print::names::Name;
 use crate::mechanics::tidy::tidy;
 
-/// Degrees of freedom up to which everything is also tried multiplied out: of links that hang on one another, and of links
-/// that do not, where a free body must be among them.
+/// Degrees of freedom up to which everything is also tried multiplied out: of links that hang on one another, and of
+/// links that do not, where a free body must be among them.
 const SMALL: [usize; 2] = [3, 6];
 
 /// One coordinate of the configuration.
@@ -108,8 +108,8 @@ impl<'g> SystemScene<'g> {
         self.assembled(&kept, self.kinematics.clone(), self.rates.clone(), tree, self.elements.clone())
     }
 
-    /// The scene in which constraints are solved: of its speeds those of `kept` stay, in terms of which the replacement has
-    /// the others.
+    /// The scene in which constraints are solved: of its speeds those of `kept` stay, in terms of which the replacement
+    /// has the others.
     pub fn reduced(&self, replacement: &Substitution<'g>, kept: &[usize]) -> Self {
         let value = |e: Expr<'g>| replacement.of(e);
         let kinematics = self.kinematics.iter().copied().map(value).collect();
@@ -188,8 +188,8 @@ impl<'g> SystemScene<'g> {
         self.speeds.len() > if self.tree.is_chained() { chained } else { apart }
     }
 
-    /// Rates whose ψ is not affine in z: velocities would then not be linear in z, and (3.4) not this one. Indices into the
-    /// kinematics.
+    /// Rates whose ψ is not affine in z: velocities would then not be linear in z, and (3.4) not this one. Indices into
+    /// the kinematics.
     pub fn rates_not_affine(&self) -> Vec<usize> {
         let affine = |rate: &Expr<'g>| {
             self.speeds.iter().all(|&z| {

@@ -1,5 +1,6 @@
-//! The charts of one body are special cases of a system: the very sums that systems are made from, over one link with the
-//! ψ of the chart, agree identically with the definition and with the arrangement in body axes, in every chart and motion.
+//! The charts of one body are special cases of a system: the very sums that systems are made from, over one link with
+//! the ψ of the chart, agree identically with the definition and with the arrangement in body axes, in every chart and
+//! motion.
 
 use crate::algebra::{Expr, Graph};
 use crate::model::{Chart, Motion};

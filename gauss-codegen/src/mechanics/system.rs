@@ -22,8 +22,8 @@ use crate::mechanics::tidy::{compact, sums, tidy};
 
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
 pub const DENSE: usize = 10;
-/// Degrees of freedom up to which C is also orthogonalised as a sum of squares, and where a link floats, which may be light:
-/// its program grows with their square, and beyond that would be a third of the time of an expansion.
+/// Degrees of freedom up to which C is also orthogonalised as a sum of squares, and where a link floats, which may be
+/// light: its program grows with their square, and beyond that would be a third of the time of an expansion.
 const SQUARES: [usize; 2] = [6, 12];
 
 /// A system with what its equations are made of.
@@ -117,8 +117,8 @@ impl<'g> System<'g> {
         }
     }
 
-    /// The body that is all of the system, where the configuration is known to be its pose: in a chart, or with the pose or the rotation for
-    /// its only coordinate.
+    /// The body that is all of the system, where the configuration is known to be its pose: in a chart, or with the
+    /// pose or the rotation for its only coordinate.
     pub fn rigid_body(&self) -> Option<&FreeLink<'g>> {
         let body = self.lone_link().filter(|_| self.constraints.is_empty())?;
         let placed = match self.scene.coordinates.as_slice() {
@@ -184,8 +184,8 @@ impl<'g> System<'g> {
         self.working.as_ref().map_or(&self.scene.tree, |working| &working.tree)
     }
 
-    /// The same once more by the poles and in the axes that were given, where others are worked with: what needs no forces can
-    /// be shorter there.
+    /// The same once more by the poles and in the axes that were given, where others are worked with: what needs no
+    /// forces can be shorter there.
     fn by_given_poles(&self, of: impl Fn(&Tree<'g>) -> Vec<Expr<'g>>) -> Option<Vec<Expr<'g>>> {
         self.working.as_ref().map(|_| of(&self.scene.tree))
     }
@@ -364,16 +364,16 @@ impl<'g> System<'g> {
         arrangements.iter().flat_map(solve).chain(self.gathered_accelerations()).chain(orthogonal).collect()
     }
 
-    /// C as a sum of squares, where several speeds share it. Where a speed turns a root about a pole that may be far from
-    /// its O, as those of twists about Ω do, the squares are not of what is relative.
+    /// C as a sum of squares, where several speeds share it. Where a speed turns a root about a pole that may be far
+    /// from its O, as those of twists about Ω do, the squares are not of what is relative.
     fn elements(&self) -> Vec<Elements<'_, 'g>> {
         let few = self.scene.speeds.len() <= most_squares(&self.scene);
         let trees = few.then(|| [self.tree()].into_iter().chain(&self.in_own_axes));
         trees.into_iter().flatten().filter_map(|tree| self.elements_of(tree)).collect()
     }
 
-    /// ż from C as a sum of squares where a scene has too many speeds for that to be tried at once: if nothing else keeps
-    /// the digits.
+    /// ż from C as a sum of squares where a scene has too many speeds for that to be tried at once: if nothing else
+    /// keeps the digits.
     pub fn accelerations_by_squares(&self) -> Vec<Vec<Expr<'g>>> {
         let [_, most] = SQUARES;
         let many = most_squares(&self.scene) + 1..=most;

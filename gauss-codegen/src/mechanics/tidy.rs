@@ -6,8 +6,8 @@ use crate::algebra::{Expr, Polynomial};
 pub const LIMIT: usize = 400;
 /// Terms up to which a row is worth reading.
 const READABLE: usize = 24;
-/// Terms up to which it is multiplied out for readers. What is longer on the way is hardly ever short in the end, and to find that out
-/// of the rows of an arm took a seventh of its derivation.
+/// Terms up to which it is multiplied out for readers. What is longer on the way is hardly ever short in the end, and
+/// to find that out of the rows of an arm took a seventh of its derivation.
 const ON_THE_WAY: usize = 4 * READABLE;
 
 /// The normal form of an expression if it is short enough to read.
@@ -20,8 +20,8 @@ pub fn legible(e: Expr<'_>) -> Expr<'_> {
     if e.is_leaf() { e } else { readable(e).map_or(e, |p| p.collect()) }
 }
 
-/// An expression as a computer wants it: multiplied out where that is short, but for sums as they are written, and with cosines that keep
-/// their digits near quarter turns.
+/// An expression as a computer wants it: multiplied out where that is short, but for sums as they are written, and with
+/// cosines that keep their digits near quarter turns.
 pub fn compact(e: Expr<'_>) -> Expr<'_> {
     short(e).unwrap_or(e)
 }

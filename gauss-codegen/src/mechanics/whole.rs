@@ -1,4 +1,5 @@
-//! What is asked of the system as a whole beside its equations: momenta about the centre of mass, what acts at ż = 0, weights.
+//! What is asked of the system as a whole beside its equations: momenta about the centre of mass, what acts at ż = 0,
+//! weights.
 
 use crate::algebra::{Expr, Map};
 

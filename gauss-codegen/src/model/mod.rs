@@ -1,8 +1,8 @@
 //! The attribute language, read and checked: a struct with `#[gauss(…)]` goes in, a [`Model`] comes out.
 //!
 //! This is the only part of the pipeline that knows syn's input types. Nothing here panics on what a user can write;
-//! every mistake is collected in a [`Context`](language::context::Context) and all of them are reported together, each at
-//! the token that is wrong, with what was expected.
+//! every mistake is collected in a [`Context`](language::context::Context) and all of them are reported together, each
+//! at the token that is wrong, with what was expected.
 //!
 //! | room | what it holds |
 //! |---|---|

@@ -43,8 +43,8 @@ pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
     context.finish(model)
 }
 
-/// The fields of a struct with named fields, or none of a unit struct where it can be `without`; anything else is a mistake at its
-/// name.
+/// The fields of a struct with named fields, or none of a unit struct where it can be `without`; anything else is a
+/// mistake at its name.
 fn named_fields<'a>(
     input: &'a DeriveInput,
     without: Option<&'a FieldsNamed>,

@@ -4,9 +4,10 @@ use super::code::Code;
 use super::instruction::{Instruction, Operand};
 
 impl<S: Copy> Code<S> {
-    /// The same instructions with those of sines and cosines, and whatever these wait for, at the beginning: those of angles that wait
-    /// for no other sine or cosine in a row, then those that wait for them. In a row inputs come first, by their places: neighbours in
-    /// memory are read as vectors. Where only one angle could be in each row, the same code.
+    /// The same instructions with those of sines and cosines, and whatever these wait for, at the beginning: those of
+    /// angles that wait for no other sine or cosine in a row, then those that wait for them. In a row inputs come
+    /// first, by their places: neighbours in memory are read as vectors. Where only one angle could be in each row, the
+    /// same code.
     pub(crate) fn with_angles_together<K: Ord>(self, place: impl Fn(S) -> K) -> Self {
         let stages = self.angle_stages();
         let rows = stages.iter().flatten().max().map_or(0, |last| last + 1);

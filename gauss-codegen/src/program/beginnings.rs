@@ -1,9 +1,9 @@
 //! Sums in another order: (a b + c d) + e is (a b + e) + c d, so that no product is left that is not fused.
 //!
-//! A sum whose terms are all products begins with one that is not fused with an addition. What is added to it anyhow is put in that
-//! place, if nothing else reads the sum, and if no chain becomes longer than the longest of the program. Partial sums change by what
-//! is added, so that each is the sum of three of those that there were: the sum itself, what it was added to, and the one in its
-//! place. Their roundings are of the same size therefore.
+//! A sum whose terms are all products begins with one that is not fused with an addition. What is added to it anyhow is
+//! put in that place, if nothing else reads the sum, and if no chain becomes longer than the longest of the program.
+//! Partial sums change by what is added, so that each is the sum of three of those that there were: the sum itself,
+//! what it was added to, and the one in its place. Their roundings are of the same size therefore.
 
 use super::code::Code;
 use super::instruction::{Instruction, Operand};

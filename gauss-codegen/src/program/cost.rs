@@ -24,8 +24,9 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// A single figure to compare arrangements by, in units of one addition. A division or a root keeps its unit busy as long as eight
-    /// additions (Fog, Instruction tables: four cycles where two additions start in each), and everything else waits for it.
+    /// A single figure to compare arrangements by, in units of one addition. A division or a root keeps its unit busy
+    /// as long as eight additions (Fog, Instruction tables: four cycles where two additions start in each), and
+    /// everything else waits for it.
     pub fn weighted(&self) -> u32 {
         self.additions + self.multiplications + 8 * (self.divisions + self.roots) + 15 * self.transcendentals
     }
@@ -57,9 +58,9 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// A single figure to compare arrangements by, in units of one addition: all instructions, and the longest chain. Two
-    /// additions start in a cycle, so that a call that waits for another would wait for two of them in every cycle of the
-    /// chain, and calls that overlap for none; of what both take together 1.4 was found to fit best.
+    /// A single figure to compare arrangements by, in units of one addition: all instructions, and the longest chain.
+    /// Two additions start in a cycle, so that a call that waits for another would wait for two of them in every cycle
+    /// of the chain, and calls that overlap for none; of what both take together 1.4 was found to fit best.
     pub fn total(self) -> u32 {
         self.operations + self.chain * 3 / 2
     }
@@ -84,8 +85,8 @@ impl<S: Copy> Operand<S> {
 }
 
 impl<S: Copy> Instruction<S> {
-    /// Cycles from its operands to its result (Fog, Instruction tables: four for additions and products, fifteen for divisions and
-    /// roots; forty for inlined sines and cosines).
+    /// Cycles from its operands to its result (Fog, Instruction tables: four for additions and products, fifteen for
+    /// divisions and roots; forty for inlined sines and cosines).
     pub(super) fn cycles(&self) -> u32 {
         match self {
             Instruction::Negate(_) => 1,
@@ -98,7 +99,8 @@ impl<S: Copy> Instruction<S> {
         }
     }
 
-    /// The cycle in which its result is there, after those of the instructions before it, were there no limit to what runs at once.
+    /// The cycle in which its result is there, after those of the instructions before it, were there no limit to what
+    /// runs at once.
     pub(crate) fn ready(&self, ready: &[u32]) -> u32 {
         self.operands().map(|operand| operand.ready(ready)).max().unwrap_or(0) + self.cycles()
     }

@@ -9,7 +9,8 @@ use super::input::{Argument, Input, Results};
 use super::instruction::Operand;
 use super::verify::Malformed;
 
-/// A function with names for its arguments and results. Its fields can be read; it is made by [`Program::new`], which verifies it.
+/// A function with names for its arguments and results. Its fields can be read; it is made by [`Program::new`], which
+/// verifies it.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]

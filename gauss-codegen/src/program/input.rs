@@ -28,8 +28,8 @@ pub enum ArgumentKind {
     Constants,
     /// Time, in seconds: one number.
     Time,
-    /// The components of the configuration, in the order of its parts: of rotations those of the unit quaternion, x, y, z, w, of turns in
-    /// the plane cosine and sine, of poses these and then the position.
+    /// The components of the configuration, in the order of its parts: of rotations those of the unit quaternion, x, y,
+    /// z, w, of turns in the plane cosine and sine, of poses these and then the position.
     Configuration,
     /// The speeds z.
     Speeds,

@@ -4,8 +4,8 @@ use crate::algebra::{BinaryFunction, Function, Key, Rational, joined};
 
 use super::input::Input;
 
-/// What an instruction works on. `S` is what inputs are called: an [`Input`] of a finished [`Program`](super::Program), a symbol
-/// while it is made.
+/// What an instruction works on. `S` is what inputs are called: an [`Input`] of a finished [`Program`](super::Program),
+/// a symbol while it is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Operand<S = Input> {

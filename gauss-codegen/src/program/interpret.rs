@@ -13,7 +13,8 @@ enum Computed<T> {
 }
 
 impl<S: Copy> Code<S> {
-    /// Carries out the instructions; `input` gives the value of every input. Products are rounded before anything is added to them.
+    /// Carries out the instructions; `input` gives the value of every input. Products are rounded before anything is
+    /// added to them.
     ///
     /// # Panics
     /// Of code that [`Code::verify`] refuses.

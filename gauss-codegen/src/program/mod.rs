@@ -1,12 +1,14 @@
-//! Programs: straight lines of instructions with everything that is needed to run them, print them, or write them in some language.
+//! Programs: straight lines of instructions with everything that is needed to run them, print them, or write them in
+//! some language.
 //!
 //! # What a program is
 //! A [`Program`] stands alone: it refers to no scene and no expression. It has
-//! - [`arguments`](Program::arguments), each a list of numbers with names: time, the components of the configuration, speeds,
-//!   momenta, inputs, and the constants of a kernel, which a program of its own computes from the parameters;
-//! - [`code`](Program::code): [`Instruction`]s in the order in which they are carried out, each of which is assigned once. What it
-//!   works on is an [`Operand`]: an input, an exact fraction, or the result of an earlier instruction, by its index. There are no
-//!   loops, branches or memory. Sine and cosine of one angle are one instruction with two results;
+//! - [`arguments`](Program::arguments), each a list of numbers with names: time, the components of the configuration,
+//!   speeds, momenta, inputs, and the constants of a kernel, which a program of its own computes from the parameters;
+//! - [`code`](Program::code): [`Instruction`]s in the order in which they are carried out, each of which is assigned
+//!   once. What it works on is an [`Operand`]: an input, an exact fraction, or the result of an earlier instruction, by
+//!   its index. There are no loops, branches or memory. Sine and cosine of one angle are one instruction with two
+//!   results;
 //! - [`results`](Program::results): what the outputs of the code are together, numbers, vectors or matrices by rows.
 //!
 //! ```
@@ -31,8 +33,8 @@
 //! it is made.
 //!
 //! # How to write a target
-//! A target is a function from [`Functions`] to text. It declares arguments, writes each of the ten instructions and five
-//! operands, and hands results back; [`targets::c`](crate::targets::c) is the shortest example.
+//! A target is a function from [`Functions`] to text. It declares arguments, writes each of the ten instructions and
+//! five operands, and hands results back; [`targets::c`](crate::targets::c) is the shortest example.
 
 mod angles;
 mod beginnings;

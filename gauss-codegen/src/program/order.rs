@@ -1,9 +1,10 @@
-//! The order of the instructions of long programs: what most waits for comes first, as long as there is room for results.
+//! The order of the instructions of long programs: what most waits for comes first, as long as there is room for
+//! results.
 //!
-//! Compilers keep about the order that they are given where blocks are long, and processors look ahead some hundred instructions: the
-//! order decides how many chains overlap, and how many results wait at once. List scheduling with one instruction a cycle, after
-//! Goodman & Hsu, Code scheduling and register allocation in large basic blocks (1988). What is computed stays the same to the last
-//! bit.
+//! Compilers keep about the order that they are given where blocks are long, and processors look ahead some hundred
+//! instructions: the order decides how many chains overlap, and how many results wait at once. List scheduling with one
+//! instruction a cycle, after Goodman & Hsu, Code scheduling and register allocation in large basic blocks (1988). What
+//! is computed stays the same to the last bit.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -11,12 +12,12 @@ use std::ops::RangeInclusive;
 
 use super::code::Code;
 
-/// Results that wait at once, above which what frees others comes first: between the registers that processors have, sixteen and
-/// thirty-two.
+/// Results that wait at once, above which what frees others comes first: between the registers that processors have,
+/// sixteen and thirty-two.
 const ROOM: usize = 24;
 
-/// Lengths of programs that are ordered. Processors see a shorter one nearly whole, and none was found to gain; a longer
-/// one is not one function (`targets::rust`).
+/// Lengths of programs that are ordered. Processors see a shorter one nearly whole, and none was found to gain; a
+/// longer one is not one function (`targets::rust`).
 const LENGTHS: RangeInclusive<usize> = 256..=65_536;
 
 impl<S: Copy> Code<S> {
@@ -47,8 +48,8 @@ struct Scheduler {
     start: Vec<u32>,
     /// Where it is written.
     place: Vec<Option<usize>>,
-    /// What waits for nothing but its cycle: by that, by height once it can start, and by what it frees. What is written, or has come
-    /// to free more, is passed over.
+    /// What waits for nothing but its cycle: by that, by height once it can start, and by what it frees. What is
+    /// written, or has come to free more, is passed over.
     later: BinaryHeap<Reverse<(u32, usize)>>,
     now: BinaryHeap<(u32, Reverse<usize>)>,
     freeing: BinaryHeap<(usize, usize, Reverse<usize>)>,

@@ -17,8 +17,8 @@ use crate::algebra::Function;
 ///   3 add, 6 mul; cost 9, chain 8
 /// ```
 ///
-/// Results are `%k` with `k` the index of the instruction, `sin %k` and `cos %k` the parts of a pair. An input is written by its
-/// name where only one has that name, else as a component of its argument.
+/// Results are `%k` with `k` the index of the instruction, `sin %k` and `cos %k` the parts of a pair. An input is
+/// written by its name where only one has that name, else as a component of its argument.
 impl fmt::Display for Program {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let arguments = self.arguments.iter().map(|argument| format!("{}: {}", argument.name, argument.kind));

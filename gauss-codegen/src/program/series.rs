@@ -1,11 +1,13 @@
-//! What power series of the outputs need to know of code: what moves, what is added up within another sum, what it costs.
+//! What power series of the outputs need to know of code: what moves, what is added up within another sum, what it
+//! costs.
 
 use crate::algebra::{BinaryFunction, Function};
 
 use super::code::Code;
 use super::instruction::{Instruction, Operand};
 
-/// What a product of series costs in one order, where a sum costs 1: a lane of multiply-adds over the lower orders and two more.
+/// What a product of series costs in one order, where a sum costs 1: a lane of multiply-adds over the lower orders and
+/// two more.
 const PRODUCT: u32 = 5;
 
 impl<S: Copy> Code<S> {
@@ -19,7 +21,8 @@ impl<S: Copy> Code<S> {
         moving
     }
 
-    /// Which instructions add up or multiply something that one other instruction adds to something else, and nobody else reads.
+    /// Which instructions add up or multiply something that one other instruction adds to something else, and nobody
+    /// else reads.
     pub fn added_once(&self) -> Vec<bool> {
         let mut uses = vec![0_usize; self.instructions.len()];
         let mut added = vec![false; self.instructions.len()];

@@ -1,8 +1,8 @@
 //! Negations: −(a b − c) is written c − a b, so that no instruction is spent on a sign.
 //!
-//! The addend of a multiply-add, and what is added or subtracted, take a sign for nothing; a result does not. A sign is therefore led
-//! from a result to what it was computed of, as far as nobody else reads that. Results stay the same to the last bit, but for the sign of
-//! a zero.
+//! The addend of a multiply-add, and what is added or subtracted, take a sign for nothing; a result does not. A sign is
+//! therefore led from a result to what it was computed of, as far as nobody else reads that. Results stay the same to
+//! the last bit, but for the sign of a zero.
 
 use super::code::Code;
 use super::instruction::{Instruction, Operand};

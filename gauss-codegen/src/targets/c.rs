@@ -1,10 +1,10 @@
 //! C99: one function of doubles a program, which needs nothing but `<math.h>` and keeps nothing.
 //!
-//! Arguments are arrays, but for the time; those without components are left out. A program whose only result is a number returns
-//! it, others write their results into the arrays that come last, matrices row after row, after everything is computed: a result may
-//! overwrite an argument. Numbers are written without loss. Whether
-//! products are fused with sums is the compiler's choice (`-ffp-contract`). Parameters are not checked: what `kernel()` refuses in Rust
-//! gives infinities or NaN here.
+//! Arguments are arrays, but for the time; those without components are left out. A program whose only result is a
+//! number returns it, others write their results into the arrays that come last, matrices row after row, after
+//! everything is computed: a result may overwrite an argument. Numbers are written without loss. Whether products are
+//! fused with sums is the compiler's choice (`-ffp-contract`). Parameters are not checked: what `kernel()` refuses in
+//! Rust gives infinities or NaN here.
 //!
 //! ```
 //! let top = "#[gauss(motion = fixed_point)] struct Top { #[gauss(mass)] m: f64, #[gauss(inertia)] i: Vector3<f64> }";
@@ -27,8 +27,8 @@ const SIGNUM: &str = "static double gauss_signum(double x)\n{\n    return x > 0.
 /// Characters of arguments that still stand in one line.
 const LINE: usize = 88;
 
-/// A source file with all programs of a struct: the constants, then every method. Functions are named after the struct and the
-/// method, `heavy_top_acceleration`.
+/// A source file with all programs of a struct: the constants, then every method. Functions are named after the struct
+/// and the method, `heavy_top_acceleration`.
 pub fn source(functions: &Functions) -> String {
     let prefix = snake(&functions.name);
     let mut out = comment(&functions.equations);

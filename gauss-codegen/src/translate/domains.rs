@@ -75,7 +75,8 @@ impl<'g> Translator<'_, 'g> {
         self.mistake(span, "a smooth step has two ends, and these are the same; write different numbers".to_owned())
     }
 
-    /// A number that literals alone determine, arithmetic with which should stay in range; a power of not too many factors.
+    /// A number that literals alone determine, arithmetic with which should stay in range; a power of not too many
+    /// factors.
     pub(super) fn in_range(&self, value: Expr<'g>, written: &Expression) -> Expr<'g> {
         if value.largest_exponent() > LARGEST_EXPONENT {
             return self.mistake(written.span, too_many_factors());

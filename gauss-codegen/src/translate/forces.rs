@@ -1,5 +1,5 @@
-//! What acts, as the user wrote it, in symbols: springs become potentials and dissipation functions, torques with a reaction
-//! two loads, drag a wrench of the velocity relative to the medium.
+//! What acts, as the user wrote it, in symbols: springs become potentials and dissipation functions, torques with a
+//! reaction two loads, drag a wrench of the velocity relative to the medium.
 
 use std::collections::HashSet;
 
@@ -396,11 +396,11 @@ impl<'g> Translator<'_, 'g> {
         std::array::from_fn(|i| columns.map(|column| column[i]))
     }
 
-    /// Beyond a limit a spring sets in over the given width: `½ k s²` with `s = (x + √(x² + w²))/2`, which is x far beyond
-    /// the limit and 0 far before it. What it damps is the rate of s.
+    /// Beyond a limit a spring sets in over the given width: `½ k s²` with `s = (x + √(x² + w²))/2`, which is x far
+    /// beyond the limit and 0 far before it. What it damps is the rate of s.
     ///
-    /// The force is k s² /√(x² + w²): ¼ k w at the limit, 0.03 k w a width before it, and k w⁴/16|x|³ far before. A force of no extent
-    /// before the limit would have a kink or a power series that ends there.
+    /// The force is k s² /√(x² + w²): ¼ k w at the limit, 0.03 k w a width before it, and k w⁴/16|x|³ far before. A
+    /// force of no extent before the limit would have a kink or a power series that ends there.
     fn stop(&self, name: &str, clause: &ForceClause, tree: &Tree<'g>) -> Result<Vec<Action<'g>>> {
         let [length, _] = self.extent(clause, tree)?;
         let stiffness = self.constant(name, clause, STIFFNESS, tree)?;

@@ -10,8 +10,8 @@ use super::translator::{ObservedRates, Translator, bug};
 use super::value::Value;
 
 impl<'g> Translator<'_, 'g> {
-    /// ψ, in the order of the coordinates; ḃ and ω̂ of each that is a pose or a rotation, where the kinematics give them
-    /// rather than u and ω.
+    /// ψ, in the order of the coordinates; ḃ and ω̂ of each that is a pose or a rotation, where the kinematics give
+    /// them rather than u and ω.
     pub(super) fn kinematics(&self) -> Result<(Vec<Expr<'g>>, Vec<ObservedRates<'g>>)> {
         let mut rates = self.chart().map(ChartedBody::coordinate_rates).unwrap_or_default();
         let mut observed = vec![[None; 2]; self.model.coordinates.len()];
@@ -32,8 +32,8 @@ impl<'g> Translator<'_, 'g> {
         Ok((rates, observed))
     }
 
-    /// v and w of `twist(inverse(pose.rotation) * v, inverse(pose.rotation) * w)`, and w of `inverse(rotation) * w`: turned back into
-    /// observer's axes they are what they were.
+    /// v and w of `twist(inverse(pose.rotation) * v, inverse(pose.rotation) * w)`, and w of `inverse(rotation) * w`:
+    /// turned back into observer's axes they are what they were.
     fn observed_rates_of(
         &self,
         coordinate: usize,

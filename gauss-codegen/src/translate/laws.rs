@@ -1,4 +1,5 @@
-//! Constants of springs, stops and other elements, and masses of particles, for what `kernel()` checks and `warnings()` finds.
+//! Constants of springs, stops and other elements, and masses of particles, for what `kernel()` checks and `warnings()`
+//! finds.
 
 use crate::algebra::Expr;
 use crate::model::LawKind;

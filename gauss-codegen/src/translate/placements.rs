@@ -62,8 +62,8 @@ impl<'g> Translator<'_, 'g> {
         })
     }
 
-    /// The velocity of O and the angular velocity, each in the axes in which the kinematics give it, of a body whose position
-    /// and rotation are those of a pose, or whose rotation is a coordinate.
+    /// The velocity of O and the angular velocity, each in the axes in which the kinematics give it, of a body whose
+    /// position and rotation are those of a pose, or whose rotation is a coordinate.
     fn velocities_of_pose(&self, clause: &BodyClause) -> [Option<Vector<'g>>; 2] {
         let none = [self.graph.zero(); 3];
         let in_body = |body| Vector { body, space: none };

@@ -77,7 +77,8 @@ fn coordinates(model: &Model) -> Vec<Quantity> {
     parts
 }
 
-/// Speeds as they are declared; without `speeds` the rates of the coordinates. Of those that constraints determine none.
+/// Speeds as they are declared; without `speeds` the rates of the coordinates. Of those that constraints determine
+/// none.
 fn speeds(model: &Model, kept: Option<&[usize]>) -> Vec<Quantity> {
     let mut all: Vec<Quantity> = Vec::new();
     for word in model.in_chart.map(InChart::speed_words).unwrap_or_default() {

@@ -2,7 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-/// How long this thread has computed, whatever else runs on the machine; where the system does not say, what has passed.
+/// How long this thread has computed, whatever else runs on the machine; where the system does not say, what has
+/// passed.
 pub fn computed(begun: Instant) -> Duration {
     let scheduled = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanoseconds = scheduled.and_then(|text| text.split(' ').next()?.parse().ok());

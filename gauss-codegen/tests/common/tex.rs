@@ -4,8 +4,8 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Sets all of it in one document, each environment under its title; says what TeX complains of. `None`, with the reason
-/// printed, where there is no TeX.
+/// Sets all of it in one document, each environment under its title; says what TeX complains of. `None`, with the
+/// reason printed, where there is no TeX.
 pub fn complaints(name: &str, equations: &[(String, String)]) -> Option<String> {
     if Command::new("pdflatex").arg("--version").output().is_err() {
         eprintln!("skipped: there is no `pdflatex` here, so the structure of LaTeX is all that was looked at");

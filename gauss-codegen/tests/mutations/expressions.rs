@@ -1,5 +1,5 @@
-//! Scenes of expressions that are well formed and as unlikely as can be: functions of functions, numbers of all sizes, bodies
-//! that are none, definitions of themselves.
+//! Scenes of expressions that are well formed and as unlikely as can be: functions of functions, numbers of all sizes,
+//! bodies that are none, definitions of themselves.
 
 use super::random::Random;
 

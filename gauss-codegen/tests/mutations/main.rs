@@ -1,10 +1,10 @@
-//! Whatever is written in the place of a scene ends in code or in located mistakes: no panic, no abort, no blame on this crate, no
-//! derivation above 10 s or 1 GB, no code that is no Rust.
+//! Whatever is written in the place of a scene ends in code or in located mistakes: no panic, no abort, no blame on
+//! this crate, no derivation above 10 s or 1 GB, no code that is no Rust.
 //!
-//! All scenes of this project are changed at random, token by token, and files of robots tag by tag; others are made of random
-//! expressions. Each run derives some thousand of them; `MUTATIONS=200000 cargo test -p gauss-codegen --test mutations` more,
-//! from `FIRST=5000000` on others, and `MUTATION=17` shows the one with that number. They are derived in other processes, which
-//! may be killed.
+//! All scenes of this project are changed at random, token by token, and files of robots tag by tag; others are made of
+//! random expressions. Each run derives some thousand of them;
+//! `MUTATIONS=200000 cargo test -p gauss-codegen --test mutations` more, from `FIRST=5000000` on others, and
+//! `MUTATION=17` shows the one with that number. They are derived in other processes, which may be killed.
 
 #[path = "../common/computed.rs"]
 mod computed;

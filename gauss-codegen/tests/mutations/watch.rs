@@ -9,8 +9,8 @@ use std::time::{Duration, Instant};
 
 use super::derive::{FAULT, NEXT};
 
-/// Until a derivation hangs: it says itself when it took more than 10 s of a processor, of which it may have a thirtieth
-/// where other programs come first. The first of a process gathers the corpus as well.
+/// Until a derivation hangs: it says itself when it took more than 10 s of a processor, of which it may have a
+/// thirtieth where other programs come first. The first of a process gathers the corpus as well.
 const PATIENCE: Duration = Duration::from_secs(300);
 /// Address space in kilobytes: the gigabyte, and what the program itself and its threads reserve.
 const MEMORY: u32 = 1_400_000;

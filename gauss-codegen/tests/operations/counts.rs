@@ -229,7 +229,8 @@ impl Chain {
     }
 }
 
-/// The function of the scalar that is called by that path: one of its trait, or a product and a sum of a type that is known.
+/// The function of the scalar that is called by that path: one of its trait, or a product and a sum of a type that is
+/// known.
 fn function(path: &str) -> Option<&str> {
     let known = || ["fma_f64", "fma_f32"].iter().any(|name| path.ends_with(name)).then_some("fma");
     path.rsplit_once("Real::").map(|(_, function)| function).or_else(known)

@@ -4,8 +4,8 @@
 use crate::common::{Random, close, random_arguments};
 use gauss_codegen::Derivation;
 
-/// A floating trunk with three legs of three hinges about x, y and y; the poles of all links are moved along their axes by
-/// these multiples of 1/32, their own and nothing else of the legs.
+/// A floating trunk with three legs of three hinges about x, y and y; the poles of all links are moved along their axes
+/// by these multiples of 1/32, their own and nothing else of the legs.
 fn legs([hip, thigh, shank]: [i32; 3]) -> String {
     let leg = |side: &str, sign: f64| {
         let [hip, thigh, shank] = [hip, thigh, shank].map(|way| sign * f64::from(way) / 32.0);

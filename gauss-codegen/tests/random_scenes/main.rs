@@ -1,5 +1,5 @@
-//! No valid scene is refused: random ones with offsets, scales from 1e-8 to 1e8 and literals of up to thirty digits, as source, through
-//! the whole pipeline.
+//! No valid scene is refused: random ones with offsets, scales from 1e-8 to 1e8 and literals of up to thirty digits, as
+//! source, through the whole pipeline.
 //!
 //! `SCENES=5000 cargo test -p gauss-codegen --test random_scenes` makes more of them than every run does.
 

@@ -1,5 +1,5 @@
-//! Random scenes as users write them: a struct and its attribute. All are valid: whatever moves has mass, and functions are
-//! defined everywhere.
+//! Random scenes as users write them: a struct and its attribute. All are valid: whatever moves has mass, and functions
+//! are defined everywhere.
 
 use crate::random::Random;
 

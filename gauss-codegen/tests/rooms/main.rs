@@ -1,5 +1,6 @@
-//! No two files import each other, nor two folders, by whatever way round; `syn` is named where structs are read; `emit` does not ask how
-//! a scene was written; no function is longer than a screen.
+//! No two files import each other, nor two folders, by whatever way round; `syn` is named where structs are read;
+//! `emit` does not ask how a scene was written; no function is longer than a screen, no file than 600 lines, no comment
+//! wider than 120 columns.
 //!
 //! Of every file the names are looked up that it takes from others: in `use` declarations and in paths, through
 //! re-exports to the file that defines them. A module that only hands on is seen through; tests do not count.
@@ -45,8 +46,8 @@ fn libraries() -> Vec<String> {
     found
 }
 
-/// The root files of all libraries, programs and tests that have more than one file, by path from the top of the repository.
-fn roots() -> Vec<String> {
+/// All files of Rust, by path from the top of the repository.
+fn files() -> Vec<String> {
     let mut found = Vec::new();
     let mut folders = vec![here().join("..")];
     while let Some(folder) = folders.pop() {
@@ -55,7 +56,7 @@ fn roots() -> Vec<String> {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             if path.is_dir() && name != "target" && !name.starts_with('.') {
                 folders.push(path);
-            } else if name == "lib.rs" || name == "main.rs" {
+            } else if name.ends_with(".rs") {
                 let path = path.strip_prefix(here().join("..")).expect("it is below");
                 found.push(path.display().to_string());
             }
@@ -63,6 +64,12 @@ fn roots() -> Vec<String> {
     }
     found.sort();
     found
+}
+
+/// The root files of all libraries, programs and tests that have more than one file.
+fn roots() -> Vec<String> {
+    let is_root = |file: &String| ["lib.rs", "main.rs"].iter().any(|root| Path::new(file).ends_with(root));
+    files().into_iter().filter(is_root).collect()
 }
 
 #[test]
@@ -81,7 +88,8 @@ fn no_files_import_each_other_in_a_circle() {
 
 /// Folders whose files import each other, though no two files do, and why.
 const CIRCLES_OF_FOLDERS: [(&str, &[&str]); 2] = [
-    // States are drawn for a scene, losses measured where it is lowered, and derivatives of mechanics lowered in columns.
+    // States are drawn for a scene, losses measured where it is lowered, and derivatives of mechanics lowered in
+    // columns.
     ("gauss-codegen", &["accuracy", "kernel", "mechanics"]),
     // A tree carries the loads of its links, which are places in the tree.
     (
@@ -202,4 +210,31 @@ fn no_function_is_longer_than_a_screen() {
     }
     assert!(found.is_empty(), "\n{found}");
     assert!(tables.is_empty(), "no longer long: {tables:?}");
+}
+
+/// Lines that a file may have, and columns of a comment.
+const LINES_OF_FILE: usize = 600;
+const COLUMNS: usize = 120;
+
+#[test]
+fn files_are_short_and_comments_narrow() {
+    let mut found = String::new();
+    for file in files() {
+        let path = here().join("..").join(&file);
+        let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{file}: {error}"));
+        if text.lines().count() > LINES_OF_FILE {
+            found += &format!("{file} has {} lines\n", text.lines().count());
+        }
+        // Rows of tables and code that is a test cannot be broken, and what compilers say of a mistake names its line.
+        let mut in_code = file.starts_with("tests/compile_fail/");
+        for (line, number) in text.lines().zip(1..) {
+            let Some(comment) = line.trim_start().strip_prefix("//") else { continue };
+            let comment = comment.trim_start_matches(['/', '!', ' ']);
+            in_code ^= comment.starts_with("```");
+            if !in_code && !comment.starts_with('|') && line.chars().count() > COLUMNS {
+                found += &format!("{file}:{number} has {} columns\n", line.chars().count());
+            }
+        }
+    }
+    assert!(found.is_empty(), "\n{found}");
 }

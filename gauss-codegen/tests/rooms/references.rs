@@ -26,8 +26,8 @@ pub fn imports(modules: &Modules) -> Imports {
     imports
 }
 
-/// For each folder, what its parts take from each other: files, and folders with all that is in them. The file of a folder's own
-/// module puts its parts together, so that it is none of them.
+/// For each folder, what its parts take from each other: files, and folders with all that is in them. The file of a
+/// folder's own module puts its parts together, so that it is none of them.
 pub fn between_parts(imports: &Imports) -> Vec<Imports> {
     let mut folders = BTreeSet::from([""]);
     for (file, _) in imports.keys() {

@@ -51,8 +51,8 @@ pub enum MotionRule {
     InPlane,
     /// A body in the plane k₁k₂ keeps e₃ = k₃: the tilt, as a sine of its half, must vanish.
     Upright,
-    /// Component `index` of the body twist (u₁, u₂, u₃, ω₁, ω₂, ω₃) is not a velocity of the target motion, and must equal
-    /// what the target makes of it; the value is the difference.
+    /// Component `index` of the body twist (u₁, u₂, u₃, ω₁, ω₂, ω₃) is not a velocity of the target motion, and must
+    /// equal what the target makes of it; the value is the difference.
     Twist {
         /// 0 … 5.
         index: usize,

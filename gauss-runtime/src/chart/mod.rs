@@ -24,15 +24,15 @@ pub enum Chart {
     Hybrid,
     /// Velocities of coordinates (2.6): Lagrange's equations.
     Jet(RotationChart),
-    /// The user's own quasi-velocities, by the kinematics q̇ = ψ(t, q, z) (3.2). The configuration is an `SVector` of the
-    /// coordinates, a pose, a rotation, or pairs of these: elements of groups in the order written, then all plain
+    /// The user's own quasi-velocities, by the kinematics q̇ = ψ(t, q, z) (3.2). The configuration is an `SVector` of
+    /// the coordinates, a pose, a rotation, or pairs of these: elements of groups in the order written, then all plain
     /// coordinates, as in `(Isometry3, (UnitQuaternion, SVector))`.
     Own,
 }
 
 impl Chart {
-    /// Whether velocities lose digits near a singularity of the coordinates. Not where these stretch equally in all directions, as modified
-    /// Rodrigues parameters do: a motion past a full turn loses none, however close.
+    /// Whether velocities lose digits near a singularity of the coordinates. Not where these stretch equally in all
+    /// directions, as modified Rodrigues parameters do: a motion past a full turn loses none, however close.
     pub(crate) const fn loses_digits(self) -> bool {
         !matches!(self, Self::Jet(RotationChart::ModifiedRodrigues))
     }
@@ -79,7 +79,8 @@ impl fmt::Display for RotationChart {
 
 /// The axes of Euler angles: `R = R_a0(α₀) R_a1(α₁) R_a2(α₂)`, each rotation about an axis of the already turned body.
 ///
-/// Neighbouring axes differ, so there are twelve sequences: six Tait–Bryan (three axes) and six proper Euler (first = last).
+/// Neighbouring axes differ, so there are twelve sequences: six Tait–Bryan (three axes) and six proper Euler (first =
+/// last).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct EulerSequence {
     /// Axes in the order of the factors: 0 = x, 1 = y, 2 = z.

@@ -4,8 +4,8 @@
 //!
 //! `w = cos β/2 cos (α+γ)/2, q_i = cos β/2 sin (α+γ)/2, q_j = sin β/2 cos (α−γ)/2, q_k = ε sin β/2 sin (α−γ)/2`
 //!
-//! so all three angles are atan2 of components or of their norms: no arc cosine, and no rotation matrix, whose entries have
-//! already lost small angles.
+//! so all three angles are atan2 of components or of their norms: no arc cosine, and no rotation matrix, whose entries
+//! have already lost small angles.
 //!
 //! **Tait–Bryan angles** about i, j, k become proper ones by a quarter turn about the middle axis: since
 //! `R_j(−π/2) e_k = −ε e_i`, `R_i(α) R_j(β) R_k(γ) R_j(π/2) = R_i(α) R_j(β + π/2) R_i(−εγ)`.
@@ -125,7 +125,8 @@ fn euler_angles<T: Real>(sequence: EulerSequence, q: [T; 4]) -> Result<[T; 3], C
         let (w1, i1, j1, k1) = (w - qj, qi - qk, qj + w, qk + qi);
         let (sum, difference) = (i1.atan2(w1), k1.atan2(j1));
         let (p, r) = ((w1 * w1 + i1 * i1).sqrt(), (j1 * j1 + k1 * k1).sqrt());
-        // cos β = 2pr/(p² + r²), and sin β = (r² − p²)/(p² + r²) with r² − p² = 4(w q_j + q_i q_k) taken without cancelling.
+        // cos β = 2pr/(p² + r²), and sin β = (r² − p²)/(p² + r²) with r² − p² = 4(w q_j + q_i q_k) taken without
+        // cancelling.
         let sine = w * qj + qi * qk;
         let beta = (sine + sine).atan2(p * r);
         let gap = T::select_lt(p, r, p, r).atan2(T::select_lt(p, r, r, p));

@@ -1,11 +1,12 @@
-//! Constraints that coordinates and speeds do not solve by themselves: multipliers, and the way back to states that satisfy
-//! them.
+//! Constraints that coordinates and speeds do not solve by themselves: multipliers, and the way back to states that
+//! satisfy them.
 //!
 //! C is least subject to φ(t, q) = 0 (position constraints) and φ(t, q, z) = 0 (velocity constraints), so that
-//! [`acceleration`](GaussSystem::acceleration) satisfies them differentiated, `J ż = γ`. That keeps φ̇ and φ at zero only up
-//! to the errors of integration, which add up. Integrators therefore [`project`] the state after every step. The projection
-//! moves it by no more than about the step's own error and leaves exact solutions where they are: the order of the method stays
-//! (Hairer, Lubich & Wanner, *Geometric Numerical Integration*, IV.4; Ascher, Chin, Petzold & Reich 1995).
+//! [`acceleration`](GaussSystem::acceleration) satisfies them differentiated, `J ż = γ`. That keeps φ̇ and φ at zero
+//! only up to the errors of integration, which add up. Integrators therefore [`project`] the state after every step.
+//! The projection moves it by no more than about the step's own error and leaves exact solutions where they are: the
+//! order of the method stays (Hairer, Lubich & Wanner, *Geometric Numerical Integration*, IV.4; Ascher, Chin, Petzold &
+//! Reich 1995).
 
 pub use crate::projection_error::{ConstraintLevel, ProjectionError, ProjectionFailure};
 
@@ -17,9 +18,9 @@ use crate::system::GaussSystem;
 
 /// A system with constraints that its coordinates and speeds do not solve by themselves.
 ///
-/// Both kinds of constraint share one numbering, that of [`Multipliers`](Self::Multipliers). Units of a residual are those of
-/// its φ (per unit of time for dφ/dt), units of λ are such that λ·φ is an energy for a position constraint, and a power for
-/// a velocity constraint.
+/// Both kinds of constraint share one numbering, that of [`Multipliers`](Self::Multipliers). Units of a residual are
+/// those of its φ (per unit of time for dφ/dt), units of λ are such that λ·φ is an energy for a position constraint,
+/// and a power for a velocity constraint.
 pub trait ConstrainedSystem: GaussSystem {
     /// `SVector<Scalar, K>`: one component for each scalar constraint, in the order written.
     type Multipliers: VectorSpace<Self::Scalar>;
@@ -59,31 +60,33 @@ pub trait ConstrainedSystem: GaussSystem {
     ) -> Self::Speeds;
 }
 
-/// Corrections that are tried on each level from one start. Damped corrections at least halve what a linear constraint would leave
-/// three quarters of, and five or six steps of quadratic convergence go from one digit to all of them.
+/// Corrections that are tried on each level from one start. Damped corrections at least halve what a linear constraint
+/// would leave three quarters of, and five or six steps of quadratic convergence go from one digit to all of them.
 const MOST_CORRECTIONS: u32 = 60;
 /// Halvings of a correction before it is given up: near a singular J the first correction can be 2³⁰ times too long.
 const MOST_HALVINGS: i32 = 30;
-/// Where the search begins anew when it fails: multiples of the first correction away from the given state, both ways along the
-/// normal of the constraints.
+/// Where the search begins anew when it fails: multiples of the first correction away from the given state, both ways
+/// along the normal of the constraints.
 const OTHER_STARTS: [f64; 10] = [-0.5, 2.0, -1.0, 3.0, -2.0, 5.0, -4.0, 9.0, -8.0, 16.0];
 
-/// The state nearest to (q, z), measured by the kinetic energy, that satisfies the constraints up to rounding: positions
-/// first, then velocities at the corrected positions. This is [`GaussSystem::project`] of constrained systems.
+/// The state nearest to (q, z), measured by the kinetic energy, that satisfies the constraints up to rounding:
+/// positions first, then velocities at the corrected positions. This is [`GaussSystem::project`] of constrained
+/// systems.
 ///
-/// Newton's method with a new J for every correction, damped where a whole one does not help. It ends when nothing but rounding
-/// is left of the residual, for which two things must come together. A correction for one and the same residual, taken before
-/// and after the step, tells how much the linearisation has changed along it; where that is little, the residual should have
-/// fallen, and has not. And a small part of the correction does not make the residual fall by that part either, as it would
-/// wherever the constraints can be resolved. No unit or size of coordinates enters. At least one correction is made, so that the
-/// derivatives that dual numbers carry satisfy the differentiated constraints also where the values do by themselves.
+/// Newton's method with a new J for every correction, damped where a whole one does not help. It ends when nothing but
+/// rounding is left of the residual, for which two things must come together. A correction for one and the same
+/// residual, taken before and after the step, tells how much the linearisation has changed along it; where that is
+/// little, the residual should have fallen, and has not. And a small part of the correction does not make the residual
+/// fall by that part either, as it would wherever the constraints can be resolved. No unit or size of coordinates
+/// enters. At least one correction is made, so that the derivatives that dual numbers carry satisfy the differentiated
+/// constraints also where the values do by themselves.
 ///
-/// Where the search ends without a state (constraints that curve back before they vanish), it begins anew some corrections
-/// away on either side; the state that is found then need not be the nearest.
+/// Where the search ends without a state (constraints that curve back before they vanish), it begins anew some
+/// corrections away on either side; the state that is found then need not be the nearest.
 ///
 /// # Errors
-/// [`ProjectionError`] when corrections are undefined, or none of the starts leads to the constraints: with the residual of the
-/// given state, and the smallest one where a search was given up.
+/// [`ProjectionError`] when corrections are undefined, or none of the starts leads to the constraints: with the
+/// residual of the given state, and the smallest one where a search was given up.
 pub fn project<S: ConstrainedSystem>(
     system: &S,
     t: S::Scalar,
@@ -175,9 +178,9 @@ impl<T: Real, R, C, M, F> Search<T, R, C, M, F> {
                 (point, left) = (next, remaining);
                 continue;
             }
-            // With θ the relative change of J along the step, ½θ of the residual is left but for rounding. 1/64 is far from ½, so
-            // that constraints of different units and curvature may share the norm, and far above the rounding of the
-            // corrections themselves.
+            // With θ the relative change of J along the step, ½θ of the residual is left but for rounding. 1/64 is far
+            // from ½, so that constraints of different units and curvature may share the norm, and far above the
+            // rounding of the corrections themselves.
             let change = (self.correction)(&next, &left).add_scaled(-T::one(), &step);
             let straight = change.max_norm() <= step.max_norm() / 64.0;
             let resolved = self.falls_by_parts(&point, &step, &left);
@@ -193,8 +196,8 @@ impl<T: Real, R, C, M, F> Search<T, R, C, M, F> {
         stopped(ProjectionFailure::NotConverged, &left)
     }
 
-    /// Whether some small part of a correction cancels that part of the residual: only rounding or a kink forbids it. Parts are
-    /// taken ever smaller, until they no longer move the point.
+    /// Whether some small part of a correction cancels that part of the residual: only rounding or a kink forbids it.
+    /// Parts are taken ever smaller, until they no longer move the point.
     fn falls_by_parts<X, L: VectorSpace<T>, K: VectorSpace<T>>(&self, point: &X, step: &K, left: &L) -> bool
     where
         R: Fn(&X) -> L,

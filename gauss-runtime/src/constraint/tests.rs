@@ -8,8 +8,8 @@ use crate::simd::Lanes;
 use crate::testing::constrained::{Constraint, Hand, circle, line, on_both, pendulum, skate};
 use crate::testing::dual::dual;
 
-/// The rounding of x² + y² − 1 at the nearest representable point: ½ε of each product and of their sum, and ε for that of the
-/// point itself.
+/// The rounding of x² + y² − 1 at the nearest representable point: ½ε of each product and of their sum, and ε for that
+/// of the point itself.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 #[test]
@@ -91,7 +91,8 @@ fn derivatives_are_projected_too() {
     // d(x u + y v) = 0.3·2 − dv.
     assert_eq!([z[0], z[1]], [dual(2.0, 0.7), dual(0.0, 0.6)]);
 
-    // From far away the derivative of the result is that of q/|q|, for which a correction at the settled values is needed.
+    // From far away the derivative of the result is that of q/|q|, for which a correction at the settled values is
+    // needed.
     let q = SVector::from([dual(3.0, 1.0), dual(4.0, 0.0)]);
     let (q, _) = system.project(zero, &q, &SVector::from([zero, zero])).expect("is found");
     assert!((q[0].rate - 0.128).abs() < 1e-15 && (q[1].rate + 0.096).abs() < 1e-15, "{q:?}");

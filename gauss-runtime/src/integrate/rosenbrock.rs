@@ -1,14 +1,15 @@
 //! RODAS: a linearly implicit method of order 4(3) for stiff scenes, with exact Jacobians.
 //!
-//! Explicit methods need steps as short as the fastest decay of the scene, long after it has died out. A Rosenbrock method solves a
-//! linear system in each stage instead, with the Jacobian that the derive writes
+//! Explicit methods need steps as short as the fastest decay of the scene, long after it has died out. A Rosenbrock
+//! method solves a linear system in each stage instead, with the Jacobian that the derive writes
 //! ([`LinearizedSystem`]), and no iteration: it is L-stable, so steps can be as long as what one looks at allows.
 //!
-//! In the chart `q = q₀ ∘ exp(σ)` about the start of the step the equations are `σ̇ = dexp_inv(σ, V)` and ż = f on a linear
-//! space, where the method keeps its order. Their Jacobian at σ = 0 is that of (V, ż) and the first term of dexp⁻¹: ½ [·, V].
+//! In the chart `q = q₀ ∘ exp(σ)` about the start of the step the equations are `σ̇ = dexp_inv(σ, V)` and ż = f on a
+//! linear space, where the method keeps its order. Their Jacobian at σ = 0 is that of (V, ż) and the first term of
+//! dexp⁻¹: ½ [·, V].
 //!
-//! Coefficients: E. Hairer & G. Wanner, *Solving Ordinary Differential Equations II*, IV.7 and IV.10, code RODAS; a test
-//! verifies the order conditions.
+//! Coefficients: E. Hairer & G. Wanner, *Solving Ordinary Differential Equations II*, IV.7 and IV.10, code RODAS; a
+//! test verifies the order conditions.
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::step_length::power;
@@ -26,8 +27,8 @@ const STAGES: usize = 6;
 /// γ of the matrix `1/(hγ) − J`.
 const GAMMA: f64 = 0.25;
 
-/// Stages at `y₀ + Σ a_ij u_j`. The last row makes the embedded solution of order 3, and that with u₆ added is the step: the
-/// method is stiffly accurate.
+/// Stages at `y₀ + Σ a_ij u_j`. The last row makes the embedded solution of order 3, and that with u₆ added is the
+/// step: the method is stiffly accurate.
 const A: [[f64; STAGES]; STAGES] = [
     [0.0; STAGES],
     [1.544, 0.0, 0.0, 0.0, 0.0, 0.0],
@@ -60,15 +61,17 @@ const TIMES: [f64; STAGES] = [0.0, 0.386, 0.21, 0.63, 1.0, 1.0];
 /// Right-hand sides have `γ_i h ∂f/∂t` added, γ_i = Σ_j γ_ij.
 const TIME_SLOPES: [f64; STAGES] = [0.25, -0.1043, 0.1035, -0.0362, 0.0, 0.0];
 
-/// RODAS of Hairer and Wanner on the group: six stages, order 4 with an estimate of order 3, L-stable, stiffly accurate.
+/// RODAS of Hairer and Wanner on the group: six stages, order 4 with an estimate of order 3, L-stable, stiffly
+/// accurate.
 ///
 /// For kernels with `#[gauss(linearize)]`. A step costs a linearisation, a factorisation of the size of the state
 /// (twice the degrees of freedom) and five more evaluations. It keeps no integral, and damps motions faster than the
 /// step: not for conservative scenes.
 ///
-/// Both forms of the equations are integrated in z: the derivatives are those of ż. Derivatives of the equations by time
-/// are exact. Those of an input that depends on time or state are differences: by time over points within the step, of order
-/// h⁴, as the method; by the state central ones, whose relative error of about 1e-10 limits the order at that size of errors.
+/// Both forms of the equations are integrated in z: the derivatives are those of ż. Derivatives of the equations by
+/// time are exact. Those of an input that depends on time or state are differences: by time over points within the
+/// step, of order h⁴, as the method; by the state central ones, whose relative error of about 1e-10 limits the order at
+/// that size of errors.
 ///
 #[cfg_attr(
     feature = "derive",
@@ -114,9 +117,9 @@ impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
         Properties { stiff: true, ..Properties::of_order(4) }
     }
 
-    /// Refuses stages that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the coordinates
-    /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined, as with a singular matrix
-    /// ([`IntegrationErrorKind::NonFinite`]).
+    /// Refuses stages that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the
+    /// coordinates ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined, as with a singular
+    /// matrix ([`IntegrationErrorKind::NonFinite`]).
     fn step<P: Problem<System = S>>(
         &self,
         problem: &P,
@@ -382,7 +385,8 @@ mod tests {
         }
     }
 
-    /// The last stage is the solution with its own rates, so that R(∞) = 0: rows α + γ of the last two stages are the weights.
+    /// The last stage is the solution with its own rates, so that R(∞) = 0: rows α + γ of the last two stages are the
+    /// weights.
     #[test]
     fn stiffly_accurate() {
         let method = classical();

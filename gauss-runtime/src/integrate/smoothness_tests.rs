@@ -1,4 +1,5 @@
-//! Adaptive steps where accelerations are not smooth: oscillators with kinks and jumps against their exact solutions, which are arcs of sines.
+//! Adaptive steps where accelerations are not smooth: oscillators with kinks and jumps against their exact solutions,
+//! which are arcs of sines.
 
 use core::cell::Cell;
 use core::f64::consts::PI;
@@ -91,11 +92,12 @@ fn outcomes<L: Law>(scene: &Scene) -> Vec<(f64, Outcome)> {
     five.into_iter().chain(eight).collect()
 }
 
-/// The error stays within what the steps were allowed. The flow of an arc keeps (x, ẋ) or (3x, ẋ) in length, so that an error of
-/// one step is scaled by 3 at most until the end, and errors of steps add up.
+/// The error stays within what the steps were allowed. The flow of an arc keeps (x, ẋ) or (3x, ẋ) in length, so that an
+/// error of one step is scaled by 3 at most until the end, and errors of steps add up.
 ///
-/// And marking is worth it: without it the errors are several times as large (geometric mean over tolerances and pairs, because
-/// what the estimate sees of one crossing depends on where in a step it lies), for no less than two thirds of the evaluations.
+/// And marking is worth it: without it the errors are several times as large (geometric mean over tolerances and pairs,
+/// because what the estimate sees of one crossing depends on where in a step it lies), for no less than two thirds of
+/// the evaluations.
 fn stays_near_tolerance<L: Law>(scene: &Scene) {
     let (careful, careless) = (outcomes::<L>(scene), outcomes::<Concealed<L>>(scene));
     for (tolerance, Outcome { error, steps, .. }) in &careful {

@@ -36,20 +36,22 @@ pub struct Taylor {
     pub(in crate::integrate) largest_step: Option<f64>,
 }
 
-/// Orders per e-fold of the tolerance, to begin with. At order p steps are as long as ρ ε^(1/p): ½ is best where the cost of a step
-/// goes with p², 1 where it goes with p.
+/// Orders per e-fold of the tolerance, to begin with. At order p steps are as long as ρ ε^(1/p): ½ is best where the
+/// cost of a step goes with p², 1 where it goes with p.
 const ORDERS: f64 = 0.75;
 
-/// The part of a tolerance that a series leaves out. All that is left out is an error of the step, where the estimate of an embedded pair is
-/// the error of its lower order and the step is better: with a whole tolerance Taylor's method is up to 23 times less exact than order 8 at
-/// the same one, most of all where errors grow (a pendulum upside down, a wing nut), with a 32nd about as exact. It takes
-/// two or three orders more, or steps shorter by a sixth: a seventh more work.
+/// The part of a tolerance that a series leaves out. All that is left out is an error of the step, where the estimate
+/// of an embedded pair is the error of its lower order and the step is better: with a whole tolerance Taylor's method
+/// is up to 23 times less exact than order 8 at the same one, most of all where errors grow (a pendulum upside down, a
+/// wing nut), with a 32nd about as exact. It takes two or three orders more, or steps shorter by a sixth: a seventh
+/// more work.
 const LEFT_OUT: f64 = 1.0 / 32.0;
 
 /// The part of a rounding of the state below which nothing need be left out of a series.
 const LEAST: f64 = 1.0 / 64.0;
 
-/// So many times a step is tried again that the projection onto constraints moves too far: each time the series is expanded anew.
+/// So many times a step is tried again that the projection onto constraints moves too far: each time the series is
+/// expanded anew.
 const SHORTENED: u32 = 8;
 
 /// The lowest order that is chosen, and how far apart orders are compared.
@@ -57,8 +59,9 @@ const LOWEST: usize = 6;
 const APART: usize = 4;
 
 impl Taylor {
-    /// The error of each component in a step is kept well below `absolute + relative·size`, as that of order 8 is, where the size is 1 for a
-    /// rotation, the largest component of a translation, |q| for a plain coordinate and |z| for a speed.
+    /// The error of each component in a step is kept well below `absolute + relative·size`, as that of order 8 is,
+    /// where the size is 1 for a rotation, the largest component of a translation, |q| for a plain coordinate and |z|
+    /// for a speed.
     #[must_use]
     pub fn new(relative: f64, absolute: f64) -> Self {
         Self { relative, absolute, order: None, largest_step: None }
@@ -95,8 +98,9 @@ impl Taylor {
         Real::ln(ratio / (1.0 - ratio))
     }
 
-    /// ln of the longest steps at two orders with the given tails, so that what is left out of the series is within the tolerance.
-    /// It is judged by the last two terms, since one of them may be small by chance. `guess` is about as long, for the sizes.
+    /// ln of the longest steps at two orders with the given tails, so that what is left out of the series is within the
+    /// tolerance. It is judged by the last two terms, since one of them may be small by chance. `guess` is about as
+    /// long, for the sizes.
     ///
     /// Beside them, how many times the tolerance rounding is where it is more: less than that cannot be left out.
     pub(in crate::integrate) fn lengths<S: TaylorSystem>(
@@ -141,7 +145,8 @@ impl Taylor {
     }
 }
 
-/// What a step costs, relatively: a part for each step, one for each order, one for each product of two orders. Measured on bodies.
+/// What a step costs, relatively: a part for each step, one for each order, one for each product of two orders.
+/// Measured on bodies.
 fn cost(order: usize) -> f64 {
     let p = order as f64;
     1.0 + p / 3.0 + p * p / 200.0
@@ -151,7 +156,8 @@ fn cost(order: usize) -> f64 {
 pub(in crate::integrate) struct Order {
     /// Orders to judge steps at: [`APART`] lower, and the present one, with their tails.
     judged: [(usize, f64); 2],
-    /// ln of the least gain in length that makes up for the lower order's lower cost, and for a higher order's higher cost.
+    /// ln of the least gain in length that makes up for the lower order's lower cost, and for a higher order's higher
+    /// cost.
     worth: [f64; 2],
 }
 
@@ -277,8 +283,8 @@ impl Taylor {
 }
 
 impl<'k, S: TaylorSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C, O, E> {
-    /// Taylor's method with steps and orders as the tolerances ask: the cheapest way to a trajectory of a smooth system, from
-    /// tolerances of about 1e-6 on, and further than other methods can go.
+    /// Taylor's method with steps and orders as the tolerances ask: the cheapest way to a trajectory of a smooth
+    /// system, from tolerances of about 1e-6 on, and further than other methods can go.
     ///
     #[cfg_attr(
         feature = "derive",

@@ -1,13 +1,13 @@
 //! Elements of the groups known beyond the precision of their components: what long runs sum up in.
 //!
-//! An element is meant that differs from the stored one by a carried increment, seen from the body: `meant = stored ∘ exp(carried)`,
-//! where `carried` is of the size of a rounding. Then `meant ∘ exp(σ)` is stored to the nearest, and what was rounded off is
-//! carried on. So a sum of n increments of size h has the rounding errors of the increments, h ε each, and not those of the sum,
-//! ε each (Kahan; for Runge–Kutta methods Hairer, Lubich & Wanner, *Geometric Numerical Integration*, VIII.5). Squares of the carried
-//! increment are below the rounding of a rounding.
+//! An element is meant that differs from the stored one by a carried increment, seen from the body:
+//! `meant = stored ∘ exp(carried)`, where `carried` is of the size of a rounding. Then `meant ∘ exp(σ)` is stored to
+//! the nearest, and what was rounded off is carried on. So a sum of n increments of size h has the rounding errors of
+//! the increments, h ε each, and not those of the sum, ε each (Kahan; for Runge–Kutta methods Hairer, Lubich & Wanner,
+//! *Geometric Numerical Integration*, VIII.5). Squares of the carried increment are below the rounding of a rounding.
 //!
-//! Norms. A unit quaternion gets `q·½(1 − |q|²)` added within the same sum, which holds its norm at 1 and, being along q, turns
-//! nothing: the carried increment has no part along q.
+//! Norms. A unit quaternion gets `q·½(1 − |q|²)` added within the same sum, which holds its norm at 1 and, being along
+//! q, turns nothing: the carried increment has no part along q.
 
 use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 

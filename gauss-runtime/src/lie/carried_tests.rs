@@ -5,8 +5,8 @@ use nalgebra::{Isometry2, Isometry3, Quaternion, SVector, UnitQuaternion, Vector
 use crate::configuration::{Configuration, Product, VectorSpace};
 use crate::triple::quaternion;
 
-/// 65536 numbers between 2⁻⁹ and 2⁻⁸, multiples of 2⁻²⁹: their sum is exact, and none is there twice, so that no rounding is
-/// repeated either.
+/// 65536 numbers between 2⁻⁹ and 2⁻⁸, multiples of 2⁻²⁹: their sum is exact, and none is there twice, so that no
+/// rounding is repeated either.
 fn multiples() -> impl Iterator<Item = f64> {
     (0..1_u64 << 16).scan(12_345_u64, |state, _| {
         *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -26,8 +26,8 @@ fn products<C: Configuration<Scalar = f64>>(start: C, along: impl Fn(f64) -> C::
     (carrying, plain, total)
 }
 
-/// The errors of the increments, of which 7·2⁻⁸ ε/2 is the largest, and those of a few operations in each, add up like the root
-/// of 65536 to a few ε; the result is rounded once more.
+/// The errors of the increments, of which 7·2⁻⁸ ε/2 is the largest, and those of a few operations in each, add up like
+/// the root of 65536 to a few ε; the result is rounded once more.
 const FEW: f64 = 8.0 * f64::EPSILON;
 
 /// The axis (2, 3, 6), of length 7 exactly.

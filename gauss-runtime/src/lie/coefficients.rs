@@ -18,15 +18,15 @@
 //!
 //! `d/ds versine = −D/2`,  `d/ds cubic = −C`,  `C = (3·cubic − versine)/(2θ²) = Σ (−s)ⁿ (n+1)/(2n+5)!`,  1/120 at 0.
 //!
-//! **Truncation.** Every series alternates, and the ratio of neighbouring terms is at most s/2 at first (the cosine; s/6
-//! `sinc`, s/12 `versine`, s/20 `cubic`, s/15 D, s/28 N, s/21 C) and falls like s/4n², so from the term after the largest on the
-//! error is below the first term left out. In `f64`, s < ¼ keeps terms 0…7: what is left out is below s⁸/16! < 1e-18.
-//! s ≤ 16 keeps terms 0…16: N leaves out less than 1e-23 of N(0), the others are used for smaller s. With 12 and 25 terms
-//! after the first, for double-double numbers, the bounds are 1e-34 and 1e-42.
+//! **Truncation.** Every series alternates, and the ratio of neighbouring terms is at most s/2 at first (the cosine;
+//! s/6 `sinc`, s/12 `versine`, s/20 `cubic`, s/15 D, s/28 N, s/21 C) and falls like s/4n², so from the term after the
+//! largest on the error is below the first term left out. In `f64`, s < ¼ keeps terms 0…7: what is left out is below
+//! s⁸/16! < 1e-18. s ≤ 16 keeps terms 0…16: N leaves out less than 1e-23 of N(0), the others are used for smaller s.
+//! With 12 and 25 terms after the first, for double-double numbers, the bounds are 1e-34 and 1e-42.
 //!
-//! **Rounding**, measured against 50 digits on 8,700 angles up to 6.2: relative errors at most 1.5e-16 (`sinc`, absolute),
-//! 3.9e-16 (`versine`), 3.5e-16 (`cubic`), 3.6e-16 (`dexp_inv`), 1e-15 (its derivative, forty times smaller than it),
-//! 6e-16 up to θ = 5 (the derivative of `versine`, which vanishes at 2π), 1.1e-15 (that of `cubic`).
+//! **Rounding**, measured against 50 digits on 8,700 angles up to 6.2: relative errors at most 1.5e-16 (`sinc`,
+//! absolute), 3.9e-16 (`versine`), 3.5e-16 (`cubic`), 3.6e-16 (`dexp_inv`), 1e-15 (its derivative, forty times smaller
+//! than it), 6e-16 up to θ = 5 (the derivative of `versine`, which vanishes at 2π), 1.1e-15 (that of `cubic`).
 //!
 //! **Which branch.** A plain scalar takes one branch. A pack takes the short series when all lanes are small (the usual
 //! case in an integrator), else both other forms and selects; what is discarded may be infinite.
@@ -47,8 +47,8 @@ const fn terms<T: Real>() -> (usize, usize) {
     }
 }
 
-/// `1 + x·r(0)·(1 + x·r(1)·(1 + …))`, `r(n)` the ratio of term n+1 to term n without its power of x. What is left out is less
-/// than ε/64: 3.5e-18 in `f64`, 1.9e-9 in `f32`, where five terms of the cosine leave out 2.7e-10.
+/// `1 + x·r(0)·(1 + x·r(1)·(1 + …))`, `r(n)` the ratio of term n+1 to term n without its power of x. What is left out
+/// is less than ε/64: 3.5e-18 in `f64`, 1.9e-9 in `f32`, where five terms of the cosine leave out 2.7e-10.
 #[inline(always)]
 fn nested<T: Real>(x: T, terms: usize, ratio: impl Fn(i64) -> (i64, i64)) -> T {
     let mut sum = T::one();
@@ -144,7 +144,8 @@ fn versine_slope_series<T: Real>(s: T, terms: usize) -> T {
     T::ratio(1, 12) * nested(-s, terms, |n| (n + 2, (n + 1) * (2 * n + 5) * (2 * n + 6)))
 }
 
-/// The derivative of [`versine`] with respect to `s = θ²`. Series up to θ = 2.5, beyond which the closed form hardly cancels.
+/// The derivative of [`versine`] with respect to `s = θ²`. Series up to θ = 2.5, beyond which the closed form hardly
+/// cancels.
 #[inline]
 pub fn versine_derivative<T: Real>(s: T) -> T {
     branch(
@@ -155,7 +156,8 @@ pub fn versine_derivative<T: Real>(s: T) -> T {
     )
 }
 
-/// The derivative of [`cubic`] with respect to `s = θ²`. Series up to θ ≈ 3.4, beyond which the closed form hardly cancels.
+/// The derivative of [`cubic`] with respect to `s = θ²`. Series up to θ ≈ 3.4, beyond which the closed form hardly
+/// cancels.
 #[inline]
 pub fn cubic_derivative<T: Real>(s: T) -> T {
     branch(
@@ -166,7 +168,8 @@ pub fn cubic_derivative<T: Real>(s: T) -> T {
     )
 }
 
-/// `(1 − (θ/2) cot(θ/2))/θ²` from `s = θ²`: the coefficient of `ad²` in dexp⁻¹ on SO(3), and of `[ω]×²` in V⁻¹ on SE(3).
+/// `(1 − (θ/2) cot(θ/2))/θ²` from `s = θ²`: the coefficient of `ad²` in dexp⁻¹ on SO(3), and of `[ω]×²` in V⁻¹ on
+/// SE(3).
 ///
 /// Series up to θ = 2.5, beyond which `1 − (θ/2) cot(θ/2)` no longer cancels. A pole at 2π.
 #[inline]

@@ -1,7 +1,7 @@
 //! SE(2): motions of the plane k₁k₂, with body twists (u₁, u₂, ω).
 //!
-//! The rotation by θ is the unit complex number `cos θ + i sin θ`; plane vectors are complex numbers too, so that `i u` is u
-//! turned by a right angle.
+//! The rotation by θ is the unit complex number `cos θ + i sin θ`; plane vectors are complex numbers too, so that `i u`
+//! is u turned by a right angle.
 
 use nalgebra::{Complex, Isometry2, SVector, Translation, Unit, UnitComplex};
 
@@ -88,8 +88,8 @@ pub fn dexp_inv<T: Real>(v: &SVector<T, 3>, w: &SVector<T, 3>) -> SVector<T, 3> 
     SVector::from([sum(0), sum(1), w.data.0[0][2]])
 }
 
-/// The map `w ↦ w − a [v, w] + b [v, [v, w]]`, a and b those of SO(3) at the angle of v: exact, since `ad³ = −ω² ad`. See
-/// [`Configuration::dexp`].
+/// The map `w ↦ w − a [v, w] + b [v, [v, w]]`, a and b those of SO(3) at the angle of v: exact, since `ad³ = −ω² ad`.
+/// See [`Configuration::dexp`].
 ///
 /// [`Configuration::dexp`]: crate::configuration::Configuration::dexp
 #[inline]

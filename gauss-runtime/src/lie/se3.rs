@@ -1,8 +1,8 @@
 //! SE(3): poses (R, b), `x̂ = R x + b`, and body twists (u, ω) about the pole O, in this order.
 //!
-//! The algebra of SE(3) is that of SO(3) over dual numbers, `ω + ε u` with ε² = 0 (Clifford; Study). So the angular rows of
-//! every formula are those of [`so3`](super::so3), and the linear rows are their derivative in the direction u: this is
-//! how [`dexp_inv`] is built, without a 6×6 matrix.
+//! The algebra of SE(3) is that of SO(3) over dual numbers, `ω + ε u` with ε² = 0 (Clifford; Study). So the angular
+//! rows of every formula are those of [`so3`](super::so3), and the linear rows are their derivative in the direction u:
+//! this is how [`dexp_inv`] is built, without a 6×6 matrix.
 
 use nalgebra::{Isometry3, SVector, Translation, UnitQuaternion};
 
@@ -80,7 +80,8 @@ pub fn adjoint<T: Real>(pose: &Isometry3<T>, w: &SVector<T, 6>) -> SVector<T, 6>
     join(add(rotate(rotation, u), cross(triple(&pose.translation.vector), angular)), angular)
 }
 
-/// See [`Configuration::dexp_inv`]. With σ = (v, ω), w = (w_u, w_ω), c(θ²) the coefficient of SO(3) and c′ its derivative:
+/// See [`Configuration::dexp_inv`]. With σ = (v, ω), w = (w_u, w_ω), c(θ²) the coefficient of SO(3) and c′ its
+/// derivative:
 ///
 /// - angular: `w_ω + ½ ω×w_ω + c ω×(ω×w_ω)`
 /// - linear: `w_u + ½(ω×w_u + v×w_ω) + c[ω×(ω×w_u + v×w_ω) + v×(ω×w_ω)] + 2c′(ω·v) ω×(ω×w_ω)`
@@ -104,8 +105,8 @@ pub fn dexp_inv<T: Real>(sigma: &SVector<T, 6>, w: &SVector<T, 6>) -> SVector<T,
     join(linear, angular)
 }
 
-/// See [`Configuration::dexp`]. With σ = (v, ω), w = (w_u, w_ω), a(θ²) and b(θ²) the coefficients of SO(3), a′ and b′ their
-/// derivatives:
+/// See [`Configuration::dexp`]. With σ = (v, ω), w = (w_u, w_ω), a(θ²) and b(θ²) the coefficients of SO(3), a′ and b′
+/// their derivatives:
 ///
 /// - angular: `w_ω − a ω×w_ω + b ω×(ω×w_ω)`
 /// - linear: `w_u − a(ω×w_u + v×w_ω) + b[ω×(ω×w_u + v×w_ω) + v×(ω×w_ω)] + 2(ω·v)[b′ ω×(ω×w_ω) − a′ ω×w_ω]`

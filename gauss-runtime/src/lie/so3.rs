@@ -21,8 +21,8 @@ pub(super) fn exp_components<T: Real>(sigma: [T; 3]) -> [T; 4] {
 
 /// The rotation vector of smallest length, |σ| ≤ π, with `exp(σ)` the given rotation.
 ///
-/// By atan2 of the vector part against the scalar part: full precision from the identity to half a turn, where of the two
-/// opposite answers the one along the quaternion's vector part is given (against it when w < 0).
+/// By atan2 of the vector part against the scalar part: full precision from the identity to half a turn, where of the
+/// two opposite answers the one along the quaternion's vector part is given (against it when w < 0).
 #[inline]
 pub fn log<T: Real>(rotation: &UnitQuaternion<T>) -> SVector<T, 3> {
     SVector::from(log_components(quaternion(rotation)))
@@ -66,7 +66,8 @@ pub fn dexp_inv<T: Real>(v: &SVector<T, 3>, w: &SVector<T, 3>) -> SVector<T, 3> 
     SVector::from(axpy(c, cross(v, once), axpy(T::ratio(1, 2), once, w)))
 }
 
-/// The map `w ↦ w − a v×w + b v×(v×w)`, `a = (1 − cos θ)/θ²`, `b = (θ − sin θ)/θ³`, θ = |v|: see [`Configuration::dexp`].
+/// The map `w ↦ w − a v×w + b v×(v×w)`, `a = (1 − cos θ)/θ²`, `b = (θ − sin θ)/θ³`, θ = |v|: see
+/// [`Configuration::dexp`].
 ///
 /// [`Configuration::dexp`]: crate::configuration::Configuration::dexp
 #[inline]
@@ -89,9 +90,9 @@ pub fn retract<T: Real>(rotation: &UnitQuaternion<T>, sigma: &SVector<T, 3>) -> 
 
 /// `q ∘ exp(σ)`, held at norm 1: the end of a step.
 ///
-/// The change `q ∘ (exp(σ) − 1)` and what brings the norm of q back are summed before they are rounded. A correction that is
-/// rounded on its own is a few units in the last place, the same ones whenever the motion comes by: momenta in space
-/// would drift in proportion to time.
+/// The change `q ∘ (exp(σ) − 1)` and what brings the norm of q back are summed before they are rounded. A correction
+/// that is rounded on its own is a few units in the last place, the same ones whenever the motion comes by: momenta in
+/// space would drift in proportion to time.
 #[inline]
 pub fn advance<T: Real>(rotation: &UnitQuaternion<T>, sigma: &SVector<T, 3>) -> UnitQuaternion<T> {
     unit_quaternion(turned(quaternion(rotation), less_one(triple(sigma))))
@@ -149,8 +150,8 @@ pub(crate) fn tangent<T: Real>(q: [T; 4], change: [T; 4]) -> [T; 3] {
 
 /// Brings the norm back to 1.
 ///
-/// Near norm 1 each component gets the correction `q·½(1 − |q|²)` *added*, so that it is rounded to nearest: dividing by a
-/// rounded norm shrinks on average, because floating-point numbers lie twice as densely below 1 as above. A norm
+/// Near norm 1 each component gets the correction `q·½(1 − |q|²)` *added*, so that it is rounded to nearest: dividing
+/// by a rounded norm shrinks on average, because floating-point numbers lie twice as densely below 1 as above. A norm
 /// that is right up to rounding is left alone, because so small a correction, rounded, would turn as much as it mends:
 /// steps hold the norm before they round ([`advance`]).
 #[inline]
@@ -167,8 +168,8 @@ pub fn renormalise<T: Real>(rotation: &UnitQuaternion<T>) -> UnitQuaternion<T> {
     unit_quaternion(if far(q) { brought(once) } else { once })
 }
 
-/// `1/√(1 − defect) − 1`; to first order where the second order is below rounding, and 0 where the defect is the rounding of four
-/// components and of the sum of their squares.
+/// `1/√(1 − defect) − 1`; to first order where the second order is below rounding, and 0 where the defect is the
+/// rounding of four components and of the sum of their squares.
 #[inline(always)]
 pub(super) fn norm_factor<T: Real>(defect: T) -> T {
     let rounding = T::from_f64(4.0 * T::EPSILON);

@@ -75,13 +75,15 @@ impl fmt::Display for EnergyBalance {
     }
 }
 
-/// The balance of energy over a trajectory, with the input that it was run with. The first lane speaks for packs of numbers.
+/// The balance of energy over a trajectory, with the input that it was run with. The first lane speaks for packs of
+/// numbers.
 ///
-/// The power is integrated from sample to sample by Kronrod's extension of Gauss–Lobatto quadrature with four nodes (Gander &
-/// Gautschi, *Adaptive quadrature – revisited*, BIT 40, 2000), at states of the run ([`Trajectory::at`]). The uncertainty is the
-/// difference to the four nodes alone, of sixth order in the distance of samples; it is no bound. A residual far beyond it
-/// and rounding is the integrator's error, or a power that is not accounted for, such as what jumps at events take or
-/// give. Run with [`largest_step`](crate::integrate::Simulation::largest_step) where the quadrature limits.
+/// The power is integrated from sample to sample by Kronrod's extension of Gauss–Lobatto quadrature with four nodes
+/// (Gander & Gautschi, *Adaptive quadrature – revisited*, BIT 40, 2000), at states of the run ([`Trajectory::at`]). The
+/// uncertainty is the difference to the four nodes alone, of sixth order in the distance of samples; it is no bound. A
+/// residual far beyond it and rounding is the integrator's error, or a power that is not accounted for, such as what
+/// jumps at events take or give. Run with [`largest_step`](crate::integrate::Simulation::largest_step) where the
+/// quadrature limits.
 ///
 /// In systems with something moved as a function of time the residual is the work of whatever moves it: see
 /// [`ForcedSystem::supplied_power`].
@@ -158,8 +160,8 @@ mod tests {
                 let origin = BalancePoint { t: interval.start, energy: 0.0, work: 0.0, uncertainty: 0.0 };
                 assert_eq!(balance.points()[0], origin);
                 assert_eq!(balance.last().t, interval.end);
-                // The quadrature is of a higher order than its uncertainty, which is of the sixth, as the integrator is; each step
-                // rounds an energy and an integral of it.
+                // The quadrature is of a higher order than its uncertainty, which is of the sixth, as the integrator
+                // is; each step rounds an energy and an integral of it.
                 let (residual, uncertainty) = (balance.largest_residual(), balance.last().uncertainty);
                 let largest = balance.points().iter().map(|point| point.energy.abs()).fold(1.0, f64::max);
                 let rounding = 2.0 * f64::EPSILON * largest * trajectory.len() as f64;

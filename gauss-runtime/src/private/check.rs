@@ -123,9 +123,10 @@ impl<T: Real> ParameterCheck<T> {
         }
     }
 
-    /// The inertia tensor about O of a body in a sum, with its mass and its centre of mass: as [`inertia`](Self::inertia) and
-    /// [`central_inertia`](Self::central_inertia), but a smallest moment of zero, as of rods, plates and particles, is one of a
-    /// body: whether others make up for it is found by [`regular`](Self::regular).
+    /// The inertia tensor about O of a body in a sum, with its mass and its centre of mass: as
+    /// [`inertia`](Self::inertia) and [`central_inertia`](Self::central_inertia), but a smallest moment of zero, as of
+    /// rods, plates and particles, is one of a body: whether others make up for it is found by
+    /// [`regular`](Self::regular).
     pub fn inertia_in_sum(&mut self, field: &'static str, mass: T, center: [T; 3], inertia: &[[T; 3]; 3]) {
         if !self.symmetric_so_far(field, inertia, |row, col| Rule::SymmetricInertia { row, col }) {
             return;
@@ -159,7 +160,8 @@ impl<T: Real> ParameterCheck<T> {
     }
 
     /// The inertia tensor about O of a body that turns about one of its axes alone: that of a body, as in
-    /// [`inertia_in_sum`](Self::inertia_in_sum), or nothing but the moment about that axis, and zeros. No other moment enters.
+    /// [`inertia_in_sum`](Self::inertia_in_sum), or nothing but the moment about that axis, and zeros. No other moment
+    /// enters.
     pub fn inertia_about_axis(
         &mut self,
         field: &'static str,
@@ -217,8 +219,8 @@ impl<T: Real> ParameterCheck<T> {
 
     /// The mass matrix A of body and fluid: positive definite, and invertible in the precision of the scalar.
     ///
-    /// Its rows carry different units, so it is scaled to a unit diagonal first; then eigenvalues mean something. Silent
-    /// when any parameter is wrong already, because A is made of all of them.
+    /// Its rows carry different units, so it is scaled to a unit diagonal first; then eigenvalues mean something.
+    /// Silent when any parameter is wrong already, because A is made of all of them.
     pub fn kinetic_matrix<const N: usize>(&mut self, field: &'static str, matrix: &[[T; N]; N]) {
         if !self.violations.as_slice().is_empty() {
             return;
@@ -246,17 +248,19 @@ impl<T: Real> ParameterCheck<T> {
         });
     }
 
-    /// The field with a mass or a moment of zero for which others must make up, if there is one, and all is well otherwise.
+    /// The field with a mass or a moment of zero for which others must make up, if there is one, and all is well
+    /// otherwise.
     #[must_use]
     pub fn massless(&self) -> Option<&'static str> {
         self.massless.filter(|_| self.violations.as_slice().is_empty())
     }
 
-    /// The mass matrix A of bodies some of which have no mass of their own, at a few configurations, of general position: it is
-    /// regular at one of them, and then nearly everywhere, since its determinant is an analytic function.
+    /// The mass matrix A of bodies some of which have no mass of their own, at a few configurations, of general
+    /// position: it is regular at one of them, and then nearly everywhere, since its determinant is an analytic
+    /// function.
     ///
-    /// A matrix that is singular whatever q is has an eigenvalue of rounding: some ε for each of the terms that its entries are
-    /// sums of. Silent where nothing is [massless](Self::massless).
+    /// A matrix that is singular whatever q is has an eigenvalue of rounding: some ε for each of the terms that its
+    /// entries are sums of. Silent where nothing is [massless](Self::massless).
     pub fn regular<const N: usize>(&mut self, samples: &[[[T; N]; N]]) {
         let Some(field) = self.massless() else { return };
         let negligible = 256.0 * N as f64 * Self::UNIT;
@@ -270,8 +274,8 @@ impl<T: Real> ParameterCheck<T> {
         });
     }
 
-    /// The constants of a kernel: parameters that are fine one by one can overflow together, or underflow to a divisor of
-    /// zero. Silent when any parameter is wrong already.
+    /// The constants of a kernel: parameters that are fine one by one can overflow together, or underflow to a divisor
+    /// of zero. Silent when any parameter is wrong already.
     pub fn constants(&mut self, field: &'static str, constants: &[T]) {
         if self.violations.as_slice().is_empty() {
             self.each_lane(field, |lane| {
@@ -366,8 +370,8 @@ fn extremes<const N: usize>(values: &[f64; N]) -> (f64, f64, usize) {
     found
 }
 
-/// The smallest and the largest eigenvalue of a matrix whose rows have different units, scaled to a unit diagonal; or the entry on
-/// its diagonal that is not positive.
+/// The smallest and the largest eigenvalue of a matrix whose rows have different units, scaled to a unit diagonal; or
+/// the entry on its diagonal that is not positive.
 fn of_unit_diagonal<const N: usize>(a: &[[f64; N]; N]) -> Result<(f64, f64), f64> {
     let positive = |value: f64| value > 0.0;
     if let Some(i) = (0..N).find(|&i| !positive(a[i][i])) {

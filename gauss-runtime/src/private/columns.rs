@@ -75,8 +75,8 @@ pub fn zeros<T: Real, const R: usize, const C: usize>() -> SMatrix<T, R, C> {
     SMatrix::from([[T::zero(); R]; C])
 }
 
-/// A linearization whose derivatives are filled in where it is handed over: in a function as long as a program compilers
-/// would fill a copy.
+/// A linearization whose derivatives are filled in where it is handed over: in a function as long as a program
+/// compilers would fill a copy.
 #[inline(always)]
 pub fn filled<T: Real, const D: usize, const U: usize>(
     rate: [T; D],

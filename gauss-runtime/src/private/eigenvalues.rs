@@ -1,7 +1,7 @@
 //! Eigenvalues of small symmetric matrices by Jacobi's method.
 //!
-//! Chosen for its accuracy: on a positive definite matrix scaled to a unit diagonal it gives even the small eigenvalues to
-//! high relative precision (Demmel & Veselić 1992), and these decide whether a mass matrix is accepted.
+//! Chosen for its accuracy: on a positive definite matrix scaled to a unit diagonal it gives even the small eigenvalues
+//! to high relative precision (Demmel & Veselić 1992), and these decide whether a mass matrix is accepted.
 
 use crate::real::Real;
 

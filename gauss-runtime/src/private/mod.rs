@@ -1,7 +1,8 @@
 //! What generated code calls, and nothing else should: no promise of stability is made here.
 //!
-//! Generated code is arithmetic on scalars; this module takes the user's containers apart and puts results together, turns
-//! poses into configurations and back, checks parameters, and has the traits and types that generated code implements and names.
+//! Generated code is arithmetic on scalars; this module takes the user's containers apart and puts results together,
+//! turns poses into configurations and back, checks parameters, and has the traits and types that generated code
+//! implements and names.
 
 mod check;
 mod columns;

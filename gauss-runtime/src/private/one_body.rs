@@ -20,8 +20,8 @@ const OFF: f64 = 64.0;
 const STEPS: usize = 60;
 const STARTS: usize = 24;
 
-/// The pose with R, row by row, and b. The largest component of the quaternion is found first, so that none is the root of a
-/// difference (Shepperd, J. Guidance and Control 1, 1978).
+/// The pose with R, row by row, and b. The largest component of the quaternion is found first, so that none is the root
+/// of a difference (Shepperd, J. Guidance and Control 1, 1978).
 pub fn pose_from_rows<T: Real>([a, b, c]: [[T; 3]; 3], position: [T; 3]) -> Isometry3<T> {
     let one = T::one();
     // Each is 4 q_i q, by the component q_i.
@@ -220,7 +220,8 @@ fn within<T: Real>(value: T, bound: f64) -> bool {
 
 /// `Σ x_k a_k = right` as nearly as can be, by orthogonalising the columns (modified Gram–Schmidt, each twice).
 ///
-/// Velocities are divided by the longest lever among the columns, so that the result does not depend on the unit of length.
+/// Velocities are divided by the longest lever among the columns, so that the result does not depend on the unit of
+/// length.
 struct LeastSquares<T, const N: usize> {
     columns: [Twist<T>; N],
     orthogonal: [Twist<T>; N],

@@ -78,8 +78,8 @@ pub fn rotation_of_pose<T: Real>(pose: &Isometry3<T>) -> Result<UnitQuaternion<T
 /// The pose of a planar body.
 #[inline(always)]
 pub fn pose_of_plane<T: Real>(plane: &Isometry2<T>) -> Isometry3<T> {
-    // The half angle from cos θ and sin θ without an inverse function: for cos θ ≥ 0 it is (sin θ, 1 + cos θ) up to length,
-    // otherwise ±(1 − cos θ, sin θ), so that the longer one is always taken.
+    // The half angle from cos θ and sin θ without an inverse function: for cos θ ≥ 0 it is (sin θ, 1 + cos θ) up to
+    // length, otherwise ±(1 − cos θ, sin θ), so that the longer one is always taken.
     let rotation = plane.rotation.as_ref();
     let (cosine, sine) = (rotation.re, rotation.im);
     let (zero, one) = (T::zero(), T::one());
@@ -158,8 +158,8 @@ pub fn plane_chart_of_pose<T: Real>(pose: &Isometry3<T>) -> Result<[T; 3], Chart
     Ok([x, y, theta])
 }
 
-/// A length or a sine that should be zero and is so small that it can be the rounding of numbers of order 1. A pose carries
-/// no unit of length of its own, so the bound is absolute.
+/// A length or a sine that should be zero and is so small that it can be the rounding of numbers of order 1. A pose
+/// carries no unit of length of its own, so the bound is absolute.
 #[inline(always)]
 fn vanishes<T: Real>(value: T, rule: MotionRule) -> Result<(), ChartError> {
     for lane in 0..T::LANES {

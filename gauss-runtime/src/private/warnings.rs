@@ -7,8 +7,8 @@ use super::eigenvalues::eigenvalues;
 use crate::error::{BoundedList, DragKind, Finding, ParameterWarning, ParameterWarnings};
 use crate::real::Real;
 
-/// Collects findings about parameters. For packs of numbers every lane is looked at; the first lane with a finding speaks for
-/// the others.
+/// Collects findings about parameters. For packs of numbers every lane is looked at; the first lane with a finding
+/// speaks for the others.
 pub struct WarningCheck<T> {
     warnings: BoundedList<ParameterWarning>,
     scalar: PhantomData<T>,
@@ -28,7 +28,8 @@ impl<T: Real> WarningCheck<T> {
         Self { warnings: BoundedList::<ParameterWarning>::new(), scalar: PhantomData }
     }
 
-    /// A matrix of drag in the order (u, ω), written as `field`: its symmetric part must not have a negative eigenvalue.
+    /// A matrix of drag in the order (u, ω), written as `field`: its symmetric part must not have a negative
+    /// eigenvalue.
     ///
     /// Silent where an entry is not finite: the kernel is refused then.
     pub fn drag(&mut self, field: &'static str, kind: DragKind, matrix: &[[T; 6]; 6]) {
@@ -85,8 +86,8 @@ impl<T: Real> WarningCheck<T> {
 
 /// The smallest eigenvalue of the symmetric part, where it is negative beyond rounding.
 ///
-/// Rows and columns carry different units, but the sign of the smallest eigenvalue is invariant under congruence (Sylvester),
-/// so it is decided after scaling to a unit diagonal, which takes the units out.
+/// Rows and columns carry different units, but the sign of the smallest eigenvalue is invariant under congruence
+/// (Sylvester), so it is decided after scaling to a unit diagonal, which takes the units out.
 fn negative_eigenvalue<const N: usize>(matrix: &[[f64; N]; N], unit: f64) -> Option<f64> {
     if !matrix.iter().flatten().all(|entry| entry.is_finite()) {
         return None;
@@ -97,7 +98,8 @@ fn negative_eigenvalue<const N: usize>(matrix: &[[f64; N]; N], unit: f64) -> Opt
         // A diagonal entry is as it was given: its sign is beyond doubt.
         symmetric[i][i]
     } else {
-        // Next to a zero on the diagonal any entry makes the part indefinite; the row is scaled to the size of its entries then.
+        // Next to a zero on the diagonal any entry makes the part indefinite; the row is scaled to the size of its
+        // entries then.
         let scale: [f64; N] = core::array::from_fn(|i| {
             let size = if symmetric[i][i] > 0.0 {
                 symmetric[i][i]
@@ -108,8 +110,9 @@ fn negative_eigenvalue<const N: usize>(matrix: &[[f64; N]; N], unit: f64) -> Opt
         });
         let scaled: [[f64; N]; N] =
             core::array::from_fn(|i| core::array::from_fn(|j| (symmetric[i][j] * scale[i]) * scale[j]));
-        // Each entry is rounded when it is given, in the mean, and four times by scaling; these six ε of each move an eigenvalue
-        // by 6 ε of the Frobenius norm at most. Jacobi's rotations are orthogonal up to rounding and add about as much.
+        // Each entry is rounded when it is given, in the mean, and four times by scaling; these six ε of each move an
+        // eigenvalue by 6 ε of the Frobenius norm at most. Jacobi's rotations are orthogonal up to rounding and add
+        // about as much.
         let norm = Real::sqrt(scaled.iter().flatten().map(|entry| entry * entry).sum::<f64>());
         let smallest = least(&eigenvalues(&scaled));
         if smallest >= -16.0 * unit * norm {
@@ -117,7 +120,8 @@ fn negative_eigenvalue<const N: usize>(matrix: &[[f64; N]; N], unit: f64) -> Opt
         }
         smallest
     };
-    // What is reported is in the units given. Where these are so far apart that rounding hides its sign there, the scaled one.
+    // What is reported is in the units given. Where these are so far apart that rounding hides its sign there, the
+    // scaled one.
     let smallest = least(&eigenvalues(&symmetric));
     Some(if smallest < 0.0 { smallest } else { scaled_eigenvalue })
 }

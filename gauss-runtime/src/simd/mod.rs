@@ -1,5 +1,5 @@
-//! Packs of numbers that are worked on in lockstep: a kernel or an integrator in packs works on as many states as there are lanes,
-//! for about the price of one.
+//! Packs of numbers that are worked on in lockstep: a kernel or an integrator in packs works on as many states as there
+//! are lanes, for about the price of one.
 //!
 //! | scalar | with |
 //! |---|---|
@@ -7,11 +7,12 @@
 //! | `wide::f64x4`, `wide::f64x8`, `wide::f32x8`, `wide::f32x16` | the feature `wide`: instructions of that width where the target has them |
 //!
 //! Eight numbers of 64 bits are best in `wide::f64x8`, which always lies in one line of the cache; four are as good in
-//! `Lanes<f64, 4>` (`BENCHMARKS.md`). The scalar is chosen by the parameter of the struct that a kernel is derived from, `Body<T>`.
+//! `Lanes<f64, 4>` (`BENCHMARKS.md`). The scalar is chosen by the parameter of the struct that a kernel is derived
+//! from, `Body<T>`.
 //!
-//! **Bits.** No operation looks at another lane, and none is reordered: a kernel gives each lane the bits that it would get
-//! alone. So do explicit methods on components; exponentials of increments choose their series by the largest lane from half a radian
-//! on, and iterations of implicit methods go on until all lanes are solved.
+//! **Bits.** No operation looks at another lane, and none is reordered: a kernel gives each lane the bits that it would
+//! get alone. So do explicit methods on components; exponentials of increments choose their series by the largest lane
+//! from half a radian on, and iterations of implicit methods go on until all lanes are solved.
 
 mod floats;
 mod packed;

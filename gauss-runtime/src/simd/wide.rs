@@ -5,7 +5,8 @@ use ::wide::{f32x8, f32x16, f64x4, f64x8};
 use super::Packed;
 use crate::real::Real;
 
-/// Functions without an instruction of their own, lane by lane: the bits of each lane are those that it would get alone.
+/// Functions without an instruction of their own, lane by lane: the bits of each lane are those that it would get
+/// alone.
 macro_rules! lane_by_lane {
     ($vector:ident: $($name:ident)+) => {$(
         #[inline(always)]

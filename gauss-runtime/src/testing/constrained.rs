@@ -1,5 +1,5 @@
-//! Constrained systems typed by hand: N coordinates with q̇ = z, masses along them, K constraints as functions. What the derive
-//! generates for such systems is written out here by other means, with an elimination at run time.
+//! Constrained systems typed by hand: N coordinates with q̇ = z, masses along them, K constraints as functions. What
+//! the derive generates for such systems is written out here by other means, with an elimination at run time.
 
 use nalgebra::{SMatrix, SVector};
 

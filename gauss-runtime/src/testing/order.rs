@@ -44,9 +44,9 @@ pub(crate) fn distance<S: GaussSystem<Scalar = f64>>(a: &State<S>, b: &State<S>)
     a.q.difference(&b.q).max_norm().max(a.y.add_scaled(-1.0, &b.y).max_norm())
 }
 
-/// The fitted order of a method over runs of the given numbers of steps. The exact end is taken from the tableau of order 8
-/// with ten times as many steps as the longest run has, so that of methods of orders up to 8 it sees the errors;
-/// its own rounding grows like the root of their number.
+/// The fitted order of a method over runs of the given numbers of steps. The exact end is taken from the tableau of
+/// order 8 with ten times as many steps as the longest run has, so that of methods of orders up to 8 it sees the
+/// errors; its own rounding grows like the root of their number.
 pub(crate) fn measured_order<S: GaussSystem<Scalar = f64>>(
     method: &impl OneStep<S>,
     problem: &impl Problem<System = S>,
@@ -81,8 +81,8 @@ pub(crate) const WEIGHT: Feedback<Torque> = Feedback(|_, q, _| {
 /// No torque.
 pub(crate) const NONE: Feedback<Torque> = Feedback(|_, _, _| [0.0; 3]);
 
-/// The free body of Hairer, Lubich & Wanner, *Geometric Numerical Integration*, fig. VII.5.3: body angular momentum (0.2, 1,
-/// 0.4), quaternion w + xi + yj + zk = (0.4, 0.2, 0.4, 0.8).
+/// The free body of Hairer, Lubich & Wanner, *Geometric Numerical Integration*, fig. VII.5.3: body angular momentum
+/// (0.2, 1, 0.4), quaternion w + xi + yj + zk = (0.4, 0.2, 0.4, 0.8).
 pub(crate) const TOP: FreeTop<f64> = FreeTop { inertia: [0.5, 0.85, 1.0] };
 
 /// Its start, with y = z.

@@ -1,11 +1,14 @@
-//! The remainder of an angle of any size (Payne & Hanek, *Radian reduction for trigonometric functions*, SIGNUM Newsletter 18, 1983).
+//! The remainder of an angle of any size (Payne & Hanek, *Radian reduction for trigonometric functions*, SIGNUM
+//! Newsletter 18, 1983).
 //!
-//! An angle is m·2^e with a whole number m, so whole turns are dropped from x/2π = m·2^(e − 2)·(2/π) by leaving out the leading digits
-//! of 2/π. Of the others 192 are taken, which leave an error below 2⁻¹³⁷ of a quarter turn. No double is nearer than 2⁻⁶² to a
-//! multiple of a quarter turn (6381956970095103·2⁷⁹⁷ is nearest: J.-M. Muller, *Elementary Functions*, table 11.1), so 75 digits of the
-//! remainder are right. All is done in whole numbers: the same on every platform.
+//! An angle is m·2^e with a whole number m, so whole turns are dropped from x/2π = m·2^(e − 2)·(2/π) by leaving out the
+//! leading digits of 2/π. Of the others 192 are taken, which leave an error below 2⁻¹³⁷ of a quarter turn. No double is
+//! nearer than 2⁻⁶² to a multiple of a quarter turn (6381956970095103·2⁷⁹⁷ is nearest: J.-M. Muller, *Elementary
+//! Functions*, table 11.1), so 75 digits of the remainder are right. All is done in whole numbers: the same on every
+//! platform.
 
-/// Binary digits of 2/π behind the point, after as many zeros as let the least of the angles in question begin within the table.
+/// Binary digits of 2/π behind the point, after as many zeros as let the least of the angles in question begin within
+/// the table.
 const TWO_OVER_PI: [u64; 20] = [
     0,
     0xA2F9_836E_4E44_1529,
@@ -35,8 +38,8 @@ const ZEROS: i32 = 64;
 /// π/2 in units of 2⁻⁶³.
 const QUARTER_TURN: u64 = 0xC90F_DAA2_2168_C234;
 
-/// The nearest multiple n of π/2 modulo 4, and x − n π/2 as y − excess, for a finite x of at least 2⁻¹⁰; the relative error of
-/// y − excess is below 2⁻⁶¹.
+/// The nearest multiple n of π/2 modulo 4, and x − n π/2 as y − excess, for a finite x of at least 2⁻¹⁰; the relative
+/// error of y − excess is below 2⁻⁶¹.
 pub(super) fn reduced(x: f64) -> (u64, f64, f64) {
     let bits = x.abs().to_bits();
     let mantissa = bits & ((1 << 52) - 1) | 1 << 52;

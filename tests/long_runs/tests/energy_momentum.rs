@@ -1,5 +1,6 @@
-//! The energy–momentum method on derived kernels: bodies in fluid with weight and buoyancy at different points, in space and in the
-//! plane, a top on a spring. Energy and momenta over up to 10⁵ steps; the order against reference solutions.
+//! The energy–momentum method on derived kernels: bodies in fluid with weight and buoyancy at different points, in
+//! space and in the plane, a top on a spring. Energy and momenta over up to 10⁵ steps; the order against reference
+//! solutions.
 
 use gauss_long_runs::steps;
 use gauss_runtime::integrate::{Composed, Composition, EnergyMomentum, Fixed, OneStep};
@@ -75,8 +76,9 @@ fn usual() -> u32 {
     steps(100_000)
 }
 
-/// What a run of the usual length does to quantities that should not change, given with the size that rounding is relative to: the
-/// largest deviation, and the change along the line through a hundred samples, each relative to the largest size.
+/// What a run of the usual length does to quantities that should not change, given with the size that rounding is
+/// relative to: the largest deviation, and the change along the line through a hundred samples, each relative to the
+/// largest size.
 fn changes<S, M, const K: usize>(
     kernel: &S,
     start: (S::Configuration, S::Speeds),
@@ -123,8 +125,8 @@ where
     })
 }
 
-/// A walk of the usual length, each step of which rounds what is kept by some 4ε; it has no slope but the one to where it
-/// ends.
+/// A walk of the usual length, each step of which rounds what is kept by some 4ε; it has no slope but the one to where
+/// it ends.
 fn walks<const K: usize>(changes: [(f64, f64); K]) {
     let walk = 4.0 * f64::EPSILON * f64::from(usual()).sqrt();
     assert!(changes.iter().all(|&(worst, along)| worst < walk && along < walk), "{changes:?} {walk:e}");
@@ -175,8 +177,8 @@ fn a_potential_that_is_not_linear_in_the_attitude() {
     let two = [0.02, 0.01].map(|step| changes(&kernel, start, EnergyMomentum::new(), step, kept));
     two.iter().for_each(|&[_, momentum]| walks([momentum]));
     let [coarse, fine] = two.map(|[energy, _]| energy);
-    // The motion is chaotic, and what is left of the energy's error walks: in four times the time twice as far, where a drift
-    // would go four times as far.
+    // The motion is chaotic, and what is left of the energy's error walks: in four times the time twice as far, where a
+    // drift would go four times as far.
     let [longer, _] = changes_over(4 * usual(), &kernel, start, EnergyMomentum::new(), 0.02, kept);
     assert!(coarse.0 < 1e-7 && longer.0 < 3.0 * coarse.0, "{coarse:?} {longer:?}");
     let order = (coarse.0 / fine.0).log2();

@@ -1,5 +1,5 @@
-//! Each element by itself on a body without fluid and weight, where kernels are arranged otherwise than in a fluid: all charts
-//! say the same, and the rest of the motion is that of the free body.
+//! Each element by itself on a body without fluid and weight, where kernels are arranged otherwise than in a fluid: all
+//! charts say the same, and the rest of the motion is that of the free body.
 
 use gauss_runtime::prelude::*;
 use proptest::test_runner::TestCaseError;

@@ -1,5 +1,5 @@
-//! What acts on one rigid body, element by element: the same in every chart, by itself and with everything else on; the same as
-//! the scene written as a system; and the balance of momentum and energy.
+//! What acts on one rigid body, element by element: the same in every chart, by itself and with everything else on; the
+//! same as the scene written as a system; and the balance of momentum and energy.
 
 #[macro_use]
 #[path = "../common/mod.rs"]

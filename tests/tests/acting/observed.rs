@@ -124,8 +124,8 @@ pub fn agree(what: &str, one: &Observed, other: &Observed) -> Result<(), TestCas
     Ok(())
 }
 
-/// The right-hand side is the sum of the columns: what the elements change in the residual, at any ż. `bare` is the same body
-/// without them, with the inputs that it has, and weight and buoyancy on it as well.
+/// The right-hand side is the sum of the columns: what the elements change in the residual, at any ż. `bare` is the
+/// same body without them, with the inputs that it has, and weight and buoyancy on it as well.
 pub fn columns_add_up<K, B>(kernel: &K, (bare, none): (&B, &B::Input), state: &State) -> Result<(), TestCaseError>
 where
     K: Body<Bounded> + ForcedSystem,

@@ -1,4 +1,5 @@
-//! Everything on, in single precision: the double-precision result, up to the bounds on rounding of the same program, scaled.
+//! Everything on, in single precision: the double-precision result, up to the bounds on rounding of the same program,
+//! scaled.
 
 use gauss_runtime::prelude::*;
 use proptest::prelude::*;
@@ -12,7 +13,8 @@ use crate::common::states::{Motion, State, state};
 use crate::observed::{TIME, inputs};
 use crate::scenes::{Body, Loads, Scene, free, planar};
 
-/// The nearest multiple of 1/1024: then parameters, and what is made of them for what acts, are exact in single precision.
+/// The nearest multiple of 1/1024: then parameters, and what is made of them for what acts, are exact in single
+/// precision.
 fn coarse(x: f64) -> f64 {
     (x * 1024.0).round() / 1024.0
 }
@@ -32,8 +34,8 @@ fn coarse_parameters(p: &Parameters) -> Parameters {
     }
 }
 
-/// Accelerations and powers at a pose and speeds that are exact in single precision. The quaternion is of norm 1 up to single
-/// precision, which is another configuration for the formulas, but the same one for both.
+/// Accelerations and powers at a pose and speeds that are exact in single precision. The quaternion is of norm 1 up to
+/// single precision, which is another configuration for the formulas, but the same one for both.
 fn results<T: Real, K: Body<T> + ForcedSystem>(kernel: &K, state: &State) -> Option<Vec<T>> {
     let exact = |x: &f64| T::from_f64(f64::from(*x as f32));
     let parts: Vec<T> =
@@ -55,7 +57,8 @@ fn agrees<S: Scene>(p: &Parameters, state: &State) -> Result<u32, TestCaseError>
     let mut judged = 0;
     for (a, b) in wide.iter().zip(narrow) {
         let bound = ratio * a.bound;
-        // Beyond a thousandth of the scale a bound that is linear in ε means nothing. Products of inputs are rounded once more.
+        // Beyond a thousandth of the scale a bound that is linear in ε means nothing. Products of inputs are rounded
+        // once more.
         if bound < 1e-3 * scale {
             judged += 1;
             let allowed = 1.01 * bound + 16.0 * f64::from(f32::EPSILON) * scale;

@@ -70,8 +70,8 @@ fn every_run_takes_the_steps_that_it_would_take_alone() {
     );
 }
 
-/// Of one order the series are those of single runs, too. Where the order is chosen, it is one for the lanes of a block, and runs
-/// agree as their tolerances say.
+/// Of one order the series are those of single runs, too. Where the order is chosen, it is one for the lanes of a
+/// block, and runs agree as their tolerances say.
 #[test]
 fn series_have_lengths_of_their_own() {
     let start = |i| (pose(i), twist(i));
@@ -110,8 +110,8 @@ fn a_sweep_has_parameters_of_its_own_in_every_lane() {
     }
 }
 
-/// What is undefined from the start, what meets the singularity of its angles, what needs too many steps: each with the time and
-/// the reason of a run of its own, at its last good state.
+/// What is undefined from the start, what meets the singularity of its angles, what needs too many steps: each with the
+/// time and the reason of a run of its own, at its last good state.
 #[test]
 fn runs_that_fail_do_so_as_they_would_alone() {
     type Pack = Lanes<f64, 4>;

@@ -230,8 +230,9 @@ fn states_may_have_parameters_of_their_own() {
     }
 }
 
-/// One state is undefined from the start, one turns too fast, one meets the singularity of its angles: each is named with its own
-/// time and reason, and stays where it stopped; its neighbours get the bits that they would get without it.
+/// One state is undefined from the start, one turns too fast, one meets the singularity of its angles: each is named
+/// with its own time and reason, and stays where it stopped; its neighbours get the bits that they would get without
+/// it.
 #[test]
 fn states_that_stop_are_named_and_do_not_hinder_others() {
     fn check<T: Real + Packed<Single = f64>>() {

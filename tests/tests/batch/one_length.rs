@@ -1,5 +1,5 @@
-//! Ensembles by steps of one length, of methods that remember the steps before, too: the bits of single runs, their events, their
-//! reasons to stop.
+//! Ensembles by steps of one length, of methods that remember the steps before, too: the bits of single runs, their
+//! events, their reasons to stop.
 
 use gauss_exact::{FreeFlow, Scheme, Splitting};
 use gauss_runtime::integrate::Adams;
@@ -7,7 +7,8 @@ use gauss_runtime::integrate::Adams;
 use super::ensembles::{agree, bounce_as_alone, fail_as_alone};
 use super::*;
 
-/// More states than lanes; the last step shorter; methods whose beginnings give derivatives, and do not; forwards and backwards.
+/// More states than lanes; the last step shorter; methods whose beginnings give derivatives, and do not; forwards and
+/// backwards.
 #[test]
 fn every_run_takes_the_steps_that_it_would_take_alone() {
     type Four = Lanes<f64, 4>;

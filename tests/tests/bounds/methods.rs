@@ -94,8 +94,8 @@ fn splitting() {
     });
 }
 
-/// How far bounds of a run reach: forgotten correlations let them grow as e^{βLt}, where L is the norm of the Jacobian of
-/// the rates with its signs forgotten, of an oscillator L = ω = 1, and β the sum of the weights |bᵢ| of the method.
+/// How far bounds of a run reach: forgotten correlations let them grow as e^{βLt}, where L is the norm of the Jacobian
+/// of the rates with its signs forgotten, of an oscillator L = ω = 1, and β the sum of the weights |bᵢ| of the method.
 #[test]
 fn bounds_of_a_run_grow_exponentially() {
     let oscillator = Oscillator { k: Bounded::exact(1.0) }.kernel().expect("a system");

@@ -14,7 +14,8 @@ const ACCURACY: f64 = 1e-12;
 /// How many results had a bound below [`ACCURACY`], so that agreement within the bounds proves agreement to it.
 ///
 /// The bounds add up worst cases over some hundreds of operations (10² to 10³ ε, 2e-14 to 2e-13) and grow with the
-/// conditioning of the body's mass matrix and the nearness of singular points; there, agreement is asserted to the bound.
+/// conditioning of the body's mass matrix and the nearness of singular points; there, agreement is asserted to the
+/// bound.
 #[derive(Debug, Default)]
 pub struct Tally {
     sharp: Cell<u32>,
@@ -32,8 +33,8 @@ impl Tally {
 
 /// Runs a check on random bodies and states of a motion; at least the given share of its results must be sharp.
 ///
-/// The share of all bodies and states is meant, of which a run sees a sample: it is refuted by a sample that is five standard
-/// deviations short of it, which chance alone makes of one run in three million.
+/// The share of all bodies and states is meant, of which a run sees a sample: it is refuted by a sample that is five
+/// standard deviations short of it, which chance alone makes of one run in three million.
 pub fn explore(
     motion: Motion,
     least_share: f64,

@@ -1,4 +1,5 @@
-//! Numbers that nobody should pass, to every public entry of the integration: each comes back soon, with a good state or a reason.
+//! Numbers that nobody should pass, to every public entry of the integration: each comes back soon, with a good state
+//! or a reason.
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
@@ -20,8 +21,8 @@ use crate::scenes::{
     Angles, Bead, Driven, GenericTop, GenericTopKernel, Inclined, Pendulum, PendulumKernel, Spring, one, toy,
 };
 
-/// What numbers can be. Beside each other they make steps of which a run is refused, or has few: not the millions that somebody
-/// who asks for them gets: no two have a ratio of 10⁶ to 10⁸.
+/// What numbers can be. Beside each other they make steps of which a run is refused, or has few: not the millions that
+/// somebody who asks for them gets: no two have a ratio of 10⁶ to 10⁸.
 const HOSTILE: [f64; 22] = [
     f64::NAN,
     f64::INFINITY,

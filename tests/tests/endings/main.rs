@@ -1,4 +1,5 @@
-//! Every run ends, soon, with a reason: what hung, took a thousand times as many steps as it needs, or ended with a wrong hint.
+//! Every run ends, soon, with a reason: what hung, took a thousand times as many steps as it needs, or ended with a
+//! wrong hint.
 
 mod hostile;
 mod scenes;
@@ -181,13 +182,14 @@ fn steps_do_not_chase_rounding_in_coordinates_that_become_singular() {
             path.summary().steps + path.summary().rejected
         })
     });
-    // By order 8 a hundredth of the tolerance takes 1.8 times the steps, a ten thousandth 3.2 times. At 1e-14, 45 roundings,
-    // the last digits of the controller decide how often a step is tried again near the end, a fifth of all: twice is noise.
+    // By order 8 a hundredth of the tolerance takes 1.8 times the steps, a ten thousandth 3.2 times. At 1e-14, 45
+    // roundings, the last digits of the controller decide how often a step is tried again near the end, a fifth of all:
+    // twice is noise.
     assert!(steps.windows(2).all(|pair| pair[1] < 3 * pair[0]) && steps[3] < 7 * steps[0], "{steps:?}");
 }
 
-/// About an axis the columns of ∂ω/∂q̇ stay perpendicular, and the parameters become infinite all the same. The kernels are one in `f64` and
-/// one in packs; the turn about an axis has this rate, and ends at this time.
+/// About an axis the columns of ∂ω/∂q̇ stay perpendicular, and the parameters become infinite all the same. The kernels
+/// are one in `f64` and one in packs; the turn about an axis has this rate, and ends at this time.
 fn ends_where_parameters_are_infinite<S, L>(name: &str, (kernel, pack): (&S, &L), (rate, singular): (f64, f64))
 where
     S: TaylorSystem<Scalar = f64, Configuration = Vector3<f64>, Speeds = Vector3<f64>, Input = ()>,
@@ -281,7 +283,8 @@ fn what_stays_at_a_distance_from_infinite_parameters_runs() {
 fn steps_do_not_chase_rounding_in_momenta() {
     within(SOON, "a sleeping top in momenta", || {
         let top = Inclined::toy().kernel().expect("a top");
-        // A little slower than is stable, a milliradian from upright, where angles and their momenta are nearly singular.
+        // A little slower than is stable, a milliradian from upright, where angles and their momenta are nearly
+        // singular.
         let spin = (0.98_f64 * 4.0 * 0.2 * 0.4 * 9.81).sqrt() / 0.05;
         let tilted = Isometry3::from_parts(Translation3::identity(), UnitQuaternion::new(Vector3::x() * 1e-3));
         let q = top.configuration(&tilted).expect("regular");

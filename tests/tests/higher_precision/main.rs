@@ -90,8 +90,8 @@ fn pendulum<T: Real>(tolerance: f64) -> f64 {
     error(&first, &scene["final"]["x1"]).max(error(&second, &scene["final"]["x2"]))
 }
 
-/// What a run makes of what its steps leave out is a property of the motion, and measured in double precision: in double-double
-/// numbers it is the same up to the luck of signs and orders, for which a factor of a hundred is allowed.
+/// What a run makes of what its steps leave out is a property of the motion, and measured in double precision: in
+/// double-double numbers it is the same up to the luck of signs and orders, for which a factor of a hundred is allowed.
 fn check(wide: fn(f64) -> f64, narrow: fn(f64) -> f64) {
     let growth = narrow(NARROW) / NARROW;
     let found = wide(WIDE);

@@ -1,5 +1,5 @@
-//! Bodies in gimbals and in a closed loop: a gyroscope and a four-bar linkage, with coordinates that solve the joints and with
-//! constraints that make them.
+//! Bodies in gimbals and in a closed loop: a gyroscope and a four-bar linkage, with coordinates that solve the joints
+//! and with constraints that make them.
 
 mod rows;
 
@@ -100,7 +100,8 @@ macro_rules! four_bars {
 }
 
 four_bars!(
-    /// Three angles, and the loop closed by a position constraint: two components, since everything is in the plane k₁k₂.
+    /// Three angles, and the loop closed by a position constraint: two components, since everything is in the plane
+    /// k₁k₂.
     Loop [
         coordinates(a, b, c),
         body(crank, rotation = rotation_z(a)),
@@ -214,7 +215,8 @@ fn gyroscope_in_gimbals_as_in_the_reference() {
     Run { name, system: &axle, start }.agrees(1.0, |_, q, z| rotor(q, z));
 }
 
-/// The rotor is symmetric, so nothing turns it about its axis: the spin is constant, and the kernel has no code for its rate.
+/// The rotor is symmetric, so nothing turns it about its axis: the spin is constant, and the kernel has no code for its
+/// rate.
 #[test]
 fn the_spin_of_the_rotor_is_kept() {
     let (_, kernel, _) = gyroscopes();
@@ -248,8 +250,8 @@ fn four_bars() -> (LoopKernel, ByCrankKernel, ApartKernel) {
     (Loop::of(linkage).kernel().unwrap(), ByCrank::of(linkage).kernel().unwrap(), Apart::of(linkage).kernel().unwrap())
 }
 
-/// The angles with the coupler's end above the line from the elbow to the rocker's bearing, by the law of cosines, and their
-/// rates.
+/// The angles with the coupler's end above the line from the elbow to the rocker's bearing, by the law of cosines, and
+/// their rates.
 fn closed(a: f64, rate: f64) -> (Angles, Angles) {
     let ([l1, l2, l3], (s, c)) = ([0.4, 1.0, 0.8], a.sin_cos());
     let (x, y) = (1.0 - l1 * c, -l1 * s);
@@ -316,7 +318,8 @@ fn the_loop_stays_closed_for_a_hundred_thousand_steps() {
         .run_to_end(q, z, 0.0..100.0)
         .unwrap();
     assert_eq!(steps, 100_001);
-    // Sums of a few lengths near one, and of speeds near ten with angles near a thousand, whose rounding is that of their sines.
+    // Sums of a few lengths near one, and of speeds near ten with angles near a thousand, whose rounding is that of
+    // their sines.
     assert!(gap <= 8.0 * f64::EPSILON * end.q[0].abs().max(1.0), "{gap:e}");
     assert!(slip <= 64.0 * f64::EPSILON * end.q[0].abs().max(10.0), "{slip:e}");
     assert!(end.q[0] > 200.0, "the crank goes round: {}", end.q[0]);

@@ -4,8 +4,8 @@ use gauss_batch::{Batch, RunOutcome, States};
 use gauss_runtime::integrate::{Control, Fixed};
 use gauss_runtime::prelude::*;
 
-/// Two four-bar linkages in a row (IFToMM benchmark A02, with N = 2): every rod has a length of 1 m and a mass of 1 kg, and when all lie on
-/// the line through the bearings the constraints depend on one another.
+/// Two four-bar linkages in a row (IFToMM benchmark A02, with N = 2): every rod has a length of 1 m and a mass of 1 kg,
+/// and when all lie on the line through the bearings the constraints depend on one another.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(a0, a1, a2, b0, b1),
@@ -234,7 +234,8 @@ fn upright<const N: usize>() -> (SVector<f64, N>, SVector<f64, N>) {
     (of_posts(std::f64::consts::FRAC_PI_2), of_posts(-1.0))
 }
 
-/// What a run kept of its energy, and how it ended; 10 s hold nine passages of the singular position for one that gets through.
+/// What a run kept of its energy, and how it ended; 10 s hold nine passages of the singular position for one that gets
+/// through.
 fn passages<const N: usize, K, C>(kernel: &K, control: C, end: f64) -> (f64, usize, Option<IntegrationErrorKind>)
 where
     K: GaussSystem<Scalar = f64, Configuration = SVector<f64, N>, Speeds = SVector<f64, N>, Input = ()>,
@@ -253,9 +254,9 @@ where
 
 /// Whether a run has kept its energy within its tolerance and ended as it may; whether it got through.
 ///
-/// In each step a component of the state is off by √N tolerances at most, the mean over N being one, and the projection moves it by no
-/// more than ten times that. The energy changes with the components by what its gradient is: momenta, whose sum is 0.7 m of each
-/// rod at 5 m/s at most, and weights with levers, 9.81 N at 1 m and less for each.
+/// In each step a component of the state is off by √N tolerances at most, the mean over N being one, and the projection
+/// moves it by no more than ten times that. The energy changes with the components by what its gradient is: momenta,
+/// whose sum is 0.7 m of each rod at 5 m/s at most, and weights with levers, 9.81 N at 1 m and less for each.
 fn keeps<const N: usize>(
     name: &str,
     tolerance: f64,
@@ -287,8 +288,9 @@ fn energy_is_kept_at_singular_positions_or_the_run_ends_with_the_reason() {
     assert!(through >= 10, "{through} of 21 runs pass");
 }
 
-/// At a singular position lanes keep their energy or end with the reason, each by itself, and nearly always as they do alone: a pack is
-/// projected until all of its lanes are on the constraints, so their last digits differ, and there these count.
+/// At a singular position lanes keep their energy or end with the reason, each by itself, and nearly always as they do
+/// alone: a pack is projected until all of its lanes are on the constraints, so their last digits differ, and there
+/// these count.
 #[test]
 fn lanes_pass_singular_positions_as_alone() {
     let (single, packs) = (row::<f64>(), row::<Lanes<f64, 4>>());
@@ -328,7 +330,8 @@ fn lanes_pass_singular_positions_as_alone() {
     assert!(alike >= 24, "{alike} of 36");
 }
 
-/// Steps of one length know no rejection: they pass, or end. A hundredth of the energy is what coarse steps of order 4 lose.
+/// Steps of one length know no rejection: they pass, or end. A hundredth of the energy is what coarse steps of order 4
+/// lose.
 #[test]
 fn steps_that_cannot_be_shortened_end_at_singular_positions() {
     let two = row::<f64>();

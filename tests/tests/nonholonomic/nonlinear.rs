@@ -1,5 +1,5 @@
-//! Constraints that are not linear in velocities: C is minimised subject to what they say of accelerations, as Gauss' principle
-//! has it (Appell 1911, Chetaev 1932).
+//! Constraints that are not linear in velocities: C is minimised subject to what they say of accelerations, as Gauss'
+//! principle has it (Appell 1911, Chetaev 1932).
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Time, balance, corresponds, laws};

@@ -5,7 +5,8 @@ use gauss_tests::laws::{Time, constrained_laws, laws, position_rates};
 use gauss_tests::nonholonomic::precise;
 use proptest::prelude::*;
 
-/// A point at the end of a thread, in Cartesian coordinates. The multiplier of the distance is a force, against the tension.
+/// A point at the end of a thread, in Cartesian coordinates. The multiplier of the distance is a force, against the
+/// tension.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(x, y, z),

@@ -1,4 +1,5 @@
-//! The Chaplygin sleigh: a body on a plane with a knife edge at O, which slides along e₁ and not along e₂. G = O + a e₁.
+//! The Chaplygin sleigh: a body on a plane with a knife edge at O, which slides along e₁ and not along e₂. G = O + a
+//! e₁.
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Time, constrained_laws, corresponds, laws, least};
@@ -141,7 +142,8 @@ fn the_motion_ends_straight() {
     let energy = kernel.kinetic_energy(0.0, &SVector::zeros(), &start);
     let last = Simulation::new(&kernel).control(precise()).run_to_end(SVector::zeros(), start, 0.0..60.0).unwrap();
     let final_speed = (2.0 * energy / MASS).sqrt();
-    // ω decays like exp(−k t), k = m a v/I_O; at the end far below rounding, so that the energy's drift is what is seen.
+    // ω decays like exp(−k t), k = m a v/I_O; at the end far below rounding, so that the energy's drift is what is
+    // seen.
     assert!(last.z[1].abs() < 1e-12 && (last.z[0] - final_speed).abs() < 1e-11, "{}", last.z);
 }
 
@@ -174,7 +176,8 @@ proptest! {
             (pose, SVector::from([z[0], 0.0, 0.0, 0.0, 0.0, z[1]]))
         });
 
-        // v̇ = a ω², I_O ω̇ = −m a v ω; the edge gives G, which moves with v and a ω along e₁ and e₂, the rest of its acceleration.
+        // v̇ = a ω², I_O ω̇ = −m a v ω; the edge gives G, which moves with v and a ω along e₁ and e₂, the rest of its
+        // acceleration.
         let about_edge = INERTIA + MASS * LEVER * LEVER;
         let expected = [LEVER * omega * omega, -MASS * LEVER * v * omega / about_edge];
         let force = MASS * v * omega * INERTIA / about_edge;

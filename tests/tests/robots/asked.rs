@@ -1,5 +1,5 @@
-//! What is asked of robots, of one from a file with mimics, fixed links and turned frames, beside sums over the links as
-//! the numbers of the file say.
+//! What is asked of robots, of one from a file with mimics, fixed links and turned frames, beside sums over the links
+//! as the numbers of the file say.
 
 use gauss_runtime::frames::in_observers_axes;
 use gauss_runtime::operational::{Factor, OperationalSpace};

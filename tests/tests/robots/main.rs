@@ -321,8 +321,8 @@ fn mass_data_in_fields() {
 )]
 struct Robotiq;
 
-/// Knuckles and outer fingers turn about the palm; inner fingers turn as far back, and so move on circles: the inertia is the same
-/// wherever they are, and the pads stay parallel.
+/// Knuckles and outer fingers turn about the palm; inner fingers turn as far back, and so move on circles: the inertia
+/// is the same wherever they are, and the pads stay parallel.
 #[test]
 fn a_published_gripper() {
     let kernel = Robotiq.kernel().unwrap();

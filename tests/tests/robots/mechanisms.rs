@@ -1,5 +1,5 @@
-//! Mechanisms of MJCF files against clauses that say the same, and against MuJoCo: joints that follow others, points and
-//! places in common, ranges, classes and weights that are held.
+//! Mechanisms of MJCF files against clauses that say the same, and against MuJoCo: joints that follow others, points
+//! and places in common, ranges, classes and weights that are held.
 
 use gauss_runtime::prelude::*;
 
@@ -73,8 +73,8 @@ fn a_mechanism_of_many_joints() {
 #[gauss(mjcf = "robots/loop.xml")]
 struct Loop;
 
-/// The point that both links have at rest is common to them, and the place of a load in that of what carries it; what is
-/// free falls.
+/// The point that both links have at rest is common to them, and the place of a load in that of what carries it; what
+/// is free falls.
 #[test]
 fn a_point_and_a_place_in_common() {
     let kernel = Loop.kernel().unwrap();
@@ -110,8 +110,8 @@ fn a_point_and_a_place_in_common() {
 #[gauss(mjcf = "robots/servos.xml", inputs = actuators, saturation = clamp)]
 struct Servos;
 
-/// What MuJoCo finds (3.3.7 and 4.0.0, `qacc` of `mj_forward`): at the second and the third state controls, forces and the efforts of
-/// the shoulder are at their ends, at the last the tendon is slack.
+/// What MuJoCo finds (3.3.7 and 4.0.0, `qacc` of `mj_forward`): at the second and the third state controls, forces and
+/// the efforts of the shoulder are at their ends, at the last the tendon is slack.
 #[test]
 fn ranges_classes_and_held_weights() {
     let kernel = Servos.kernel().unwrap();

@@ -19,8 +19,8 @@ fn it_hovers() {
     assert!(found.amax() <= 1e3 * EPSILON * 9.81, "{found}");
 }
 
-/// A unit of control is a force along the third axis of its site with a torque about it, at the site: the power of these is
-/// that of the generalised force.
+/// A unit of control is a force along the third axis of its site with a torque about it, at the site: the power of
+/// these is that of the generalised force.
 #[test]
 fn thrusts_act_at_their_sites() {
     let kernel = Quadrotor.kernel().unwrap();

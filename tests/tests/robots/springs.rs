@@ -1,5 +1,5 @@
-//! Springs of joints with one coordinate and with several, along sums of coordinates and along cables, joints in frames,
-//! and keyframes that leave out what is where it was.
+//! Springs of joints with one coordinate and with several, along sums of coordinates and along cables, joints in
+//! frames, and keyframes that leave out what is where it was.
 
 use gauss_runtime::prelude::*;
 
@@ -9,8 +9,8 @@ use super::EPSILON;
 #[gauss(mjcf = "robots/springs.xml")]
 struct Springs;
 
-/// At every keyframe what MuJoCo 4.0.0 finds (`qacc` of `mj_forward` after `mj_resetDataKeyframe`; 3.3.7 has the same to
-/// rounding): those of the free body along observer's axes, in place of its own, and its ω̇ in own axes.
+/// At every keyframe what MuJoCo 4.0.0 finds (`qacc` of `mj_forward` after `mj_resetDataKeyframe`; 3.3.7 has the same
+/// to rounding): those of the free body along observer's axes, in place of its own, and its ω̇ in own axes.
 #[test]
 fn springs_at_keyframes() {
     let kernel = Springs.kernel().unwrap();
@@ -103,8 +103,8 @@ fn springs_at_keyframes() {
     }
 }
 
-/// Without qpos everything is where the file has it, with a velocity in own axes of what is turned there; a quaternion of
-/// no length is none.
+/// Without qpos everything is where the file has it, with a velocity in own axes of what is turned there; a quaternion
+/// of no length is none.
 #[test]
 fn keyframes_say_what_they_say() {
     let [start, still, moving, unturned] =
@@ -119,8 +119,8 @@ fn keyframes_say_what_they_say() {
     assert_eq!([unturned.hover.rotation, unturned.swing], [UnitQuaternion::identity(); 2]);
 }
 
-/// The torque of a turn keeps its digits where the turn is small: the terms of R cancel, so that it is off by the rounding of
-/// these products of the quaternion alone.
+/// The torque of a turn keeps its digits where the turn is small: the terms of R cancel, so that it is off by the
+/// rounding of these products of the quaternion alone.
 #[test]
 fn small_turns() {
     let kernel = Springs.kernel().unwrap();

@@ -1,5 +1,5 @@
-//! Balls that roll on a horizontal plane: a homogeneous one on a turntable, and Chaplygin's with three different moments of
-//! inertia. Their centre is at O = G.
+//! Balls that roll on a horizontal plane: a homogeneous one on a turntable, and Chaplygin's with three different
+//! moments of inertia. Their centre is at O = G.
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Time, balance, constrained_laws, corresponds, laws, least};
@@ -179,7 +179,8 @@ fn rolling(centre: &SVector<f64, 2>, z: &Vector3<f64>) -> Vector3<f64> {
 
 #[test]
 fn the_centre_goes_round_in_circles() {
-    // b̈ = Ω/(1 + m r²/I) k₃ × ḃ: a circle at 2Ω/7 when the ball is homogeneous, at 2Ω/5 when it is a shell (Milne 1948).
+    // b̈ = Ω/(1 + m r²/I) k₃ × ḃ: a circle at 2Ω/7 when the ball is homogeneous, at 2Ω/5 when it is a shell (Milne
+    // 1948).
     for (inertia, part) in [(0.4, 2.0 / 7.0), (2.0 / 3.0, 2.0 / 5.0)] {
         let (r, spin) = (0.25, 1.5);
         let kernel = OnTurntable { m: 1.0, j: inertia * r * r, r, spin, g: G }.kernel().unwrap();

@@ -1,7 +1,8 @@
-//! A disk that rolls on the plane z = 0 and falls. Its axis is e₃, O its centre; the contact is at ρ = −r (k₃ − (k₃·e₃) e₃)/|…|.
+//! A disk that rolls on the plane z = 0 and falls. Its axis is e₃, O its centre; the contact is at ρ = −r (k₃ − (k₃·e₃)
+//! e₃)/|…|.
 //!
-//! Euler angles: R = R_z(φ) R_x(θ) R_z(ψ), θ the angle between the axis and the vertical, w the angular velocity in the axes of
-//! R_z(φ) R_x(θ), of which the second points from the contact to the centre.
+//! Euler angles: R = R_z(φ) R_x(θ) R_z(ψ), θ the angle between the axis and the vertical, w the angular velocity in the
+//! axes of R_z(φ) R_x(θ), of which the second points from the contact to the centre.
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Time, constrained_laws, corresponds, laws, least};
@@ -286,7 +287,8 @@ fn every_way_gives_the_reference() {
     });
 }
 
-/// Any state of a disk that is far enough from lying flat, where ρ jumps, for central differences to resolve its motion.
+/// Any state of a disk that is far enough from lying flat, where ρ jumps, for central differences to resolve its
+/// motion.
 fn rolling() -> impl Strategy<Value = Rolling> {
     let angle = -3.0..3.0;
     let q = (-2.0..2.0, -2.0..2.0, angle.clone(), 0.7..2.4, angle);

@@ -28,8 +28,8 @@ fn a_disk_let_go_at_rest() {
 
 #[test]
 fn a_disk_rolling_in_a_circle() {
-    // φ̇ = Ω and θ are constant when (C + m r²) w₃ Ω sin θ − A Ω² sin θ cos θ + m g r cos θ = 0; the ground then carries the
-    // weight and holds the centre on its circle, of radius r |w₃/Ω|.
+    // φ̇ = Ω and θ are constant when (C + m r²) w₃ Ω sin θ − A Ω² sin θ cos θ + m g r cos θ = 0; the ground then
+    // carries the weight and holds the centre on its circle, of radius r |w₃/Ω|.
     for (theta, rate) in [(1.2, 1.5), (1.9, -2.0), (0.6, 4.0), (std::f64::consts::FRAC_PI_2, 1.0)] {
         let (s, c) = f64::sin_cos(theta);
         let w3 = (ACROSS * rate * c - MASS * G * RADIUS * c / (rate * s)) / (ALONG + MASS * RADIUS * RADIUS);
@@ -57,7 +57,8 @@ fn a_hundred_thousand_steps_stay_on_the_constraints() {
     };
     Simulation::new(&kernel).fixed_step(1e-3).observe(watch).run_to_end(q, z, 0.0..100.0).unwrap();
     assert_eq!(steps, 100_001);
-    // Terms of half a metre, and of 3 m/s of which each is a sum of six: a few roundings, no more at the end than at first.
+    // Terms of half a metre, and of 3 m/s of which each is a sum of six: a few roundings, no more at the end than at
+    // first.
     assert!(off <= 4.0 * f64::EPSILON * RADIUS, "{off:e}");
     assert!(slip <= 16.0 * f64::EPSILON * 3.0, "{slip:e}");
     // The method of order 4 commits errors near (ωh)⁵/120 of the motion a step, with ω = 6: 1e-8 in all if they add up.

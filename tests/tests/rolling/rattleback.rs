@@ -1,6 +1,6 @@
-//! The rattleback: an ellipsoid whose principal axes of inertia are turned against its own, so that it spins one way and not the
-//! other. O is its centre, e₃ points up at rest, G is below O. With γ = Rᵀk₃ the lowest point of the ellipsoid of half-axes a is
-//! at −(aᵢ² γᵢ)/h from O, h = √Σ aᵢ² γᵢ² the height of O.
+//! The rattleback: an ellipsoid whose principal axes of inertia are turned against its own, so that it spins one way
+//! and not the other. O is its centre, e₃ points up at rest, G is below O. With γ = Rᵀk₃ the lowest point of the
+//! ellipsoid of half-axes a is at −(aᵢ² γᵢ)/h from O, h = √Σ aᵢ² γᵢ² the height of O.
 
 use gauss_runtime::prelude::*;
 use gauss_tests::laws::{Time, constrained_laws, corresponds, laws, least};
@@ -8,7 +8,8 @@ use gauss_tests::nonholonomic::{precise, rigid_state, state_of_twist, twist};
 use gauss_tests::trajectory::{Run, Seen};
 use proptest::prelude::*;
 
-/// Speeds that solve the rolling, angles as in the reference: γ = (−cos ρ sin π, sin ρ, cos ρ cos π) of roll ρ and pitch π.
+/// Speeds that solve the rolling, angles as in the reference: γ = (−cos ρ sin π, sin ρ, cos ρ cos π) of roll ρ and
+/// pitch π.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(x, y, yaw, roll, pitch),

@@ -1,5 +1,5 @@
-//! Splitting methods on derived kernels: reference solutions, errors as measured elsewhere, what long runs keep, what is
-//! refused.
+//! Splitting methods on derived kernels: reference solutions, errors as measured elsewhere, what long runs keep, what
+//! is refused.
 
 mod bodies;
 
@@ -23,8 +23,9 @@ fn run(scene: &Scene, kernel: &Top, method: &(impl OneStep<Top> + Copy), steps: 
         .sample
 }
 
-/// What rounding may do to the end of a scene: each of `calls` drifts commits some 16 roundings of random sign, of which the
-/// motion makes what the scene says of one; parameters are rounded once, so that the angle counts that the body turns through.
+/// What rounding may do to the end of a scene: each of `calls` drifts commits some 16 roundings of random sign, of
+/// which the motion makes what the scene says of one; parameters are rounded once, so that the angle counts that the
+/// body turns through.
 fn rounding(scene: &Scene, calls: f64) -> f64 {
     let angle = scene.initial.omega.norm().max(scene.last.omega.norm()) * scene.duration;
     16.0 * (calls.sqrt() + angle) * scene.sensitivity.max(EPSILON)
@@ -176,8 +177,8 @@ fn heavy_tops_as_measured_elsewhere() {
     }
 }
 
-/// A hundred thousand steps: the energy swings and does not drift, the momentum about gravity is kept up to rounding of random
-/// sign, the quaternion has norm 1.
+/// A hundred thousand steps: the energy swings and does not drift, the momentum about gravity is kept up to rounding of
+/// random sign, the quaternion has norm 1.
 fn keeps_energy_and_momentum(scene: &Scene, kernel: &Top, method: &(impl OneStep<Top> + Copy)) {
     let (q, z) = (scene.initial.pose().rotation, scene.initial.omega);
     let (steps, h) = (100_000_u32, 0.1);

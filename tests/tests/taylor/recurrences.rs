@@ -1,4 +1,5 @@
-//! The series of one state against a Runge–Kutta method that knows nothing of series, for every operation that programs have.
+//! The series of one state against a Runge–Kutta method that knows nothing of series, for every operation that programs
+//! have.
 
 use gauss_runtime::integrate::{NoInput, OneStep, Problem, Rkmk, State, SystemProblem};
 use gauss_runtime::prelude::*;
@@ -51,8 +52,9 @@ fn agrees<S: TaylorSystem<Scalar = f64>>(system: &S, q: S::Configuration, z: S::
         let expected = by_short_steps(system, &start, tau);
         let apart = expected.q.difference(&q.renormalise()).max_norm();
         let apart = apart.max(expected.y.add_scaled(-1.0, &z).max_norm());
-        // Each short step leaves some roundings of the state and of the rates times h. What the series leaves out, 0.3³¹ of the
-        // size and a little more, is less. A coefficient of order k that is wrong by a part in ten shows as 0.1·0.3ᵏ.
+        // Each short step leaves some roundings of the state and of the rates times h. What the series leaves out,
+        // 0.3³¹ of the size and a little more, is less. A coefficient of order k that is wrong by a part in ten shows
+        // as 0.1·0.3ᵏ.
         let rates = size::<S>(&series, 1) * tau.abs();
         let allowed = f64::from(STEPS) * 8.0 * f64::EPSILON * (scale + rates);
         assert!(apart <= allowed, "{apart:e} > {allowed:e} at τ = {tau}");

@@ -19,8 +19,8 @@ fn error(scene: &Scene, control: Taylor) -> (f64, u32) {
     ((end.q.to_rotation_matrix().into_inner() - scene.last.rotation).amax(), steps - 1)
 }
 
-/// What a run may be off at the end: some roundings a step, and what was left out of the series, carried on as the reference says
-/// that errors of the initial state are.
+/// What a run may be off at the end: some roundings a step, and what was left out of the series, carried on as the
+/// reference says that errors of the initial state are.
 fn allowed(scene: &Scene, tolerance: f64, steps: u32) -> f64 {
     let growth = scene.sensitivity / (0.5 * f64::EPSILON);
     f64::from(steps) * (tolerance + 4.0 * f64::EPSILON) * growth.max(1.0)
@@ -41,8 +41,8 @@ fn tops_reach_their_references_at_every_tolerance() {
     }
 }
 
-/// With loose tolerances steps are as long as is asked for. Over the first tenth of the scene, in steps so short that the slope is
-/// that of the leading term.
+/// With loose tolerances steps are as long as is asked for. Over the first tenth of the scene, in steps so short that
+/// the slope is that of the leading term.
 #[test]
 fn errors_go_with_the_order() {
     let scene = Scene::load("hlw_heavy_top");
@@ -102,8 +102,8 @@ struct Pendulum {
     g: f64,
 }
 
-/// Upside down errors grow by e³ a second: what a step adds is seen. At one tolerance both methods are to be about as exact; before, a series
-/// left out all of the tolerance, and was 5 to 16 times worse here.
+/// Upside down errors grow by e³ a second: what a step adds is seen. At one tolerance both methods are to be about as
+/// exact; before, a series left out all of the tolerance, and was 5 to 16 times worse here.
 #[test]
 fn next_to_instabilities_series_are_as_exact_as_order_8() {
     let kernel = Pendulum { g: 9.81 }.kernel().expect("a pendulum");

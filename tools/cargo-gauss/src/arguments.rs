@@ -34,7 +34,8 @@ pub struct Show {
     /// What is printed.
     #[arg(long = "as", value_enum, default_value_t = Form::Text)]
     pub form: Form,
-    /// In these charts in place of the chart of the struct, such as `left_invariant,jet(euler_zyx)`, side by side in a page.
+    /// In these charts in place of the chart of the struct, such as `left_invariant,jet(euler_zyx)`, side by side in a
+    /// page.
     #[arg(long, value_delimiter = ',')]
     pub charts: Vec<String>,
     /// With `--as program`: one method alone.

@@ -13,7 +13,8 @@ struct Found {
     derived: bool,
 }
 
-/// The structs of these names, wherever in the modules of the file they are; without names all that derive their dynamics.
+/// The structs of these names, wherever in the modules of the file they are; without names all that derive their
+/// dynamics.
 ///
 /// # Errors
 /// A sentence for every name that no struct has; that there is no struct at all; at its place what is no struct.

@@ -1,5 +1,5 @@
-//! Free motions: closed forms, the group property, what is kept, orders, and what is refused. Reference solutions are met by
-//! derived kernels in `tests/splitting`.
+//! Free motions: closed forms, the group property, what is kept, orders, and what is refused. Reference solutions are
+//! met by derived kernels in `tests/splitting`.
 
 use std::vec::Vec;
 
@@ -64,9 +64,9 @@ fn energy(i: [f64; 3], y: Vector3<f64>) -> f64 {
     0.5 * (0..3).map(|k| y[k] * y[k] / i[k]).sum::<f64>()
 }
 
-/// How far a state can be off when it was computed in `calls` calls: each commits some 16 roundings to the momentum, which the
-/// motion magnifies as it magnifies a small change of the start, and moments and spans are rounded once, so that the angle
-/// through which it turns counts too.
+/// How far a state can be off when it was computed in `calls` calls: each commits some 16 roundings to the momentum,
+/// which the motion magnifies as it magnifies a small change of the start, and moments and spans are rounded once, so
+/// that the angle through which it turns counts too.
 fn allowed(i: [f64; 3], y: [f64; 3], t: f64, calls: f64) -> f64 {
     let flow = FreeFlow::new(i);
     let small = 2.0_f64.powi(-30);
@@ -141,8 +141,8 @@ fn a_body_of_revolution_as_in_the_textbook() {
     }
 }
 
-/// A steady spin has the same sine and cosine in every call: their rounding, left alone, would add up to n/10 units of the last place.
-/// What is left are roundings of momenta, of either sign: √n of them, with a factor.
+/// A steady spin has the same sine and cosine in every call: their rounding, left alone, would add up to n/10 units of
+/// the last place. What is left are roundings of momenta, of either sign: √n of them, with a factor.
 #[test]
 fn the_momentum_of_a_body_of_revolution_does_not_drift() {
     const CALLS: u32 = 100_000;
@@ -229,9 +229,9 @@ fn corrections_have_their_orders_and_published_errors() {
             let h = 30.0 / f64::from(steps);
             let reached = (0..steps).fold((q, y), |state, _| advance(&method, state, h));
             let error = (matrix(reached.0) - matrix(exact.0)).amax();
-            // Two digits were published; the attitude there starts from another quaternion, so that R differs by a rotation
-            // of space and its largest entry by some ten per cent. Rounding: one in every step, of random sign, where a change
-            // of T by one turns the body by another angle 30 rad later.
+            // Two digits were published; the attitude there starts from another quaternion, so that R differs by a
+            // rotation of space and its largest entry by some ten per cent. Rounding: one in every step, of random
+            // sign, where a change of T by one turns the body by another angle 30 rad later.
             let rounding = 30.0 * EPSILON * f64::from(steps).sqrt();
             assert!(error <= 1.5 * published + rounding, "order {order}, {steps} steps: {error:e}, {published:e}");
             errors.push((error, rounding));

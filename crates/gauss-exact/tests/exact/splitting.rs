@@ -69,8 +69,8 @@ fn there_and_back(method: &impl OneStep<FreeTop<f64>>) -> f64 {
 #[test]
 fn a_run_back_undoes_a_run() {
     for scheme in SCHEMES {
-        // At most seventeen drifts a step, each of some ten roundings of random sign, four times as much in one of ten thousand
-        // walks; the motion magnifies hardly in so short a time.
+        // At most seventeen drifts a step, each of some ten roundings of random sign, four times as much in one of ten
+        // thousand walks; the motion magnifies hardly in so short a time.
         let rounding = 4.0 * 10.0 * f64::EPSILON * (2.0 * 20.0 * 17.0_f64).sqrt();
         let exact = there_and_back(&Splitting::exact(&TOP, scheme).expect("a body"));
         let discrete = there_and_back(&Splitting::discrete(&TOP, scheme).expect("a body"));

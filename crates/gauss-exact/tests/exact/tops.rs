@@ -1,5 +1,5 @@
-//! The exact motion of a heavy body of revolution: against steps of order 8, spans that add up, what is kept. Derived kernels and
-//! reference solutions: `tests/splitting`.
+//! The exact motion of a heavy body of revolution: against steps of order 8, spans that add up, what is kept. Derived
+//! kernels and reference solutions: `tests/splitting`.
 
 use nalgebra::{SVector, UnitQuaternion};
 
@@ -73,8 +73,8 @@ fn by_steps(start: &Top, t: f64, steps: u32) -> Top {
     Top { alpha: [q.w, q.z], beta: [q.y, -q.x], across: [y.x, y.y], along: y.z }
 }
 
-/// How far a state can be off that was computed in some calls, each of which commits some 16 roundings to it and to the angle through
-/// which the body turns; the motion magnifies them as it magnifies a small change of the start.
+/// How far a state can be off that was computed in some calls, each of which commits some 16 roundings to it and to the
+/// angle through which the body turns; the motion magnifies them as it magnifies a small change of the start.
 fn allowed(start: &Top, t: f64, calls: f64) -> f64 {
     let small = 2.0_f64.powi(-44);
     let reached = start.after(t, RATIO);
@@ -149,7 +149,8 @@ fn energy_and_momentum_are_kept() {
     }
 }
 
-/// Tops beside whose spin their weight is nothing, and the other way round; what is no number, or too large for its powers, ends as none.
+/// Tops beside whose spin their weight is nothing, and the other way round; what is no number, or too large for its
+/// powers, ends as none.
 #[test]
 fn sizes_do_not_matter_and_undefined_states_stay_undefined() {
     for size in [1e-60, 1e-20, 1e20, 1e30] {

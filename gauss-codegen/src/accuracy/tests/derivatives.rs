@@ -85,8 +85,8 @@ fn losses_there(scene: &str, configuration: &[f64], speeds: &[f64]) -> Vec<Lost>
     losses
 }
 
-/// The tide at the end of a tether of one centimetre, 7000 km from the centre: accelerations keep their digits in a form
-/// that a state decides for which was sought.
+/// The tide at the end of a tether of one centimetre, 7000 km from the centre: accelerations keep their digits in a
+/// form that a state decides for which was sought.
 #[test]
 fn derivatives_keep_the_digits_that_accelerations_keep() {
     let scene = "coordinates(x, y, z, u, v, w), central_gravity(mu = 3.986004418e14), \

@@ -23,7 +23,8 @@ use crate::mechanics::{Coordinate, Method, acceleration_by_definition};
 use super::random::Random;
 use scenes::Scene;
 
-/// How many by default: some seconds. Of half as many one is expected to lose much, a number of which nothing can be said.
+/// How many by default: some seconds. Of half as many one is expected to lose much, a number of which nothing can be
+/// said.
 const SCENES: u64 = 208;
 /// Changes of all numbers at once, with signs of their own, and their size.
 const CHANGES: u64 = 2;
@@ -32,8 +33,8 @@ const CHANGE: f64 = 1.0 / (1_u64 << 44) as f64;
 /// What scenes are counted by that lose more, and what no scene may lose unless its kernel says so.
 const MOST: f64 = 1e3;
 const SELDOM: f64 = 30.0;
-/// A loss is at most so many times what the kernel says, whose search tries some hundred states of all that there are: at
-/// two neighbouring states the roundings of one program amount to losses that differ by as much.
+/// A loss is at most so many times what the kernel says, whose search tries some hundred states of all that there are:
+/// at two neighbouring states the roundings of one program amount to losses that differ by as much.
 const WITHIN: f64 = 10.0;
 /// What half of a kind may lose: the roundings of some ten operations that do not amplify each other, in units of one
 /// rounding of every number, are of the order of one.
@@ -52,8 +53,8 @@ fn loss(derived: &Derived<'_, '_>, scene: &Scene, seed: u64) -> Option<(f64, usi
     loss_beside(derived, &values, |state| acceleration_by_definition(system, state), &found, seed)
 }
 
-/// The largest error of what was found at a state, beside what is exact there, in units of what a change of every number
-/// does to that, and where it is.
+/// The largest error of what was found at a state, beside what is exact there, in units of what a change of every
+/// number does to that, and where it is.
 fn loss_beside(
     derived: &Derived<'_, '_>,
     values: &[(u32, f64)],
@@ -87,7 +88,8 @@ fn values_of_scene(derived: &Derived<'_, '_>, scene: &Scene, seed: u64) -> Vec<(
     values_of(derived, &scene.values, std::iter::repeat_with(|| scene.speed * random.signed(0.5)))
 }
 
-/// Symbols of everything that a number is given for, in order, by the numbers of each coordinate; quaternions are scaled.
+/// Symbols of everything that a number is given for, in order, by the numbers of each coordinate; quaternions are
+/// scaled.
 fn values_of(
     derived: &Derived<'_, '_>,
     configuration: &[Vec<f64>],

@@ -1,12 +1,12 @@
-//! A x = r solved link by link: a quadratic function of the motion of all links is minimised over the speeds of the leaves
-//! first, which leaves a quadratic function of their parents' motion alone. The work grows with the number of links, where
-//! that of a factorisation of A grows with its cube.
+//! A x = r solved link by link: a quadratic function of the motion of all links is minimised over the speeds of the
+//! leaves first, which leaves a quadratic function of their parents' motion alone. The work grows with the number of
+//! links, where that of a factorisation of A grows with its cube.
 //!
-//! Where a speed moves several links in ways of their own — angles from the vertical turn the next joint back — the joints'
-//! own speeds, sums of those of the user, are eliminated in their place.
+//! Where a speed moves several links in ways of their own — angles from the vertical turn the next joint back — the
+//! joints' own speeds, sums of those of the user, are eliminated in their place.
 //!
-//! This is Gaussian elimination in an order that never forms A, and the *articulated-body inertia* of a link (Featherstone,
-//! Rigid Body Dynamics Algorithms, chapter 7) is what the elimination leaves at it.
+//! This is Gaussian elimination in an order that never forms A, and the *articulated-body inertia* of a link
+//! (Featherstone, Rigid Body Dynamics Algorithms, chapter 7) is what the elimination leaves at it.
 
 use crate::algebra::{Expr, Factored, FactoredColumns, Rational};
 
@@ -104,8 +104,8 @@ impl<'a, 'g> Articulated<'a, 'g> {
         Combinations { rows, columns }
     }
 
-    /// A as LDLᵀ in the speeds of the joints: what is left of a column is the response of its joint, carried to the joints
-    /// that it hangs on. For many right-hand sides: each is solved for without a motion of any link.
+    /// A as LDLᵀ in the speeds of the joints: what is left of a column is the response of its joint, carried to the
+    /// joints that it hangs on. For many right-hand sides: each is solved for without a motion of any link.
     pub fn factored(&self) -> JointFactors<'g> {
         let links = &self.tree.links;
         let sequence: Vec<(usize, &Pivot<'g>)> =
@@ -283,7 +283,8 @@ fn ratio<'g>(a: &Pair<'g>, b: &Pair<'g>) -> Option<Rational> {
     ratio
 }
 
-/// Solves `Σ c x = right`, row by row, each time one in which a single unknown is left; `None` when there is no such row.
+/// Solves `Σ c x = right`, row by row, each time one in which a single unknown is left; `None` when there is no such
+/// row.
 fn substituted<'g>(rows: &[Vec<(usize, Rational)>], right: &[Expr<'g>]) -> Option<Vec<Expr<'g>>> {
     let mut known: Vec<Option<Expr<'g>>> = vec![None; right.len()];
     let mut open: Vec<usize> = (0..rows.len()).collect();
@@ -384,7 +385,8 @@ impl<'g> ArticulatedInertia<'g> {
         })
     }
 
-    /// About a pole from which the old one is at r: `a` of the old is `a + α × r` of the new, and `r × F` joins the torque.
+    /// About a pole from which the old one is at r: `a` of the old is `a + α × r` of the new, and `r × F` joins the
+    /// torque.
     fn shifted(&self, r: &Triple<'g>) -> Self {
         let turn = cross_matrix(r);
         let product = |a: &Matrix<'g>, b: &Matrix<'g>| -> Matrix<'g> {

@@ -96,7 +96,8 @@ impl<'g> KineticMatrix<'g> {
         }
     }
 
-    /// Whether translation is solved for together with rotation, or several components of one of the two with each other.
+    /// Whether translation is solved for together with rotation, or several components of one of the two with each
+    /// other.
     pub fn is_coupled(&self, active: &[usize]) -> bool {
         let coupled = |i: &usize| active.iter().any(|j| i != j && !self.entries[*i][*j].is_zero());
         self.isotropic.is_none() && active.iter().any(coupled)
@@ -114,7 +115,8 @@ fn multiple_of_identity<'g>(entries: &[Vec<Expr<'g>>], axes: &[usize]) -> Option
     axes.iter().all(|&i| axes.iter().all(|&j| fits(i, j))).then_some(lambda)
 }
 
-/// Weight and buoyancy, or the weight of matter alone: resultant `effective_mass ĝ` and torque about O `effective_moment × ĝ`.
+/// Weight and buoyancy, or the weight of matter alone: resultant `effective_mass ĝ` and torque about O
+/// `effective_moment × ĝ`.
 #[derive(Clone, Copy)]
 pub struct Weight<'g> {
     pub gravity: Triple<'g>,
@@ -123,8 +125,8 @@ pub struct Weight<'g> {
     pub effective_moment: Triple<'g>,
 }
 
-/// Weight and buoyancy, and the weight in a field that is uniform over the matter: where the translation is eliminated it
-/// leaves the balance of torques before numbers are put in.
+/// Weight and buoyancy, and the weight in a field that is uniform over the matter: where the translation is eliminated
+/// it leaves the balance of torques before numbers are put in.
 #[derive(Default)]
 pub struct Weights<'g> {
     pub gravity: Option<Weight<'g>>,

@@ -2,8 +2,8 @@
 //! about these times those of angular accelerations, all affine in ż. Orthogonalised element by element, the light keep
 //! their digits beside the heavy, and what is far from O is not squared; A is never formed.
 //!
-//! Where all axes are parallel the unknown of a hinge is not its own rate but the angular acceleration of its link: what
-//! turns an ancestor then moves the joint alone, and a long link does not hide a short lever before it.
+//! Where all axes are parallel the unknown of a hinge is not its own rate but the angular acceleration of its link:
+//! what turns an ancestor then moves the joint alone, and a long link does not hide a short lever before it.
 
 use crate::algebra::{Expr, LeastSquares};
 
@@ -51,8 +51,8 @@ impl<'g> Form<'g> {
 }
 
 impl<'a, 'g> Elements<'a, 'g> {
-    /// Of all matter; `None` where fluid is moved or displaced: its impulse is no sum of squares of this kind. `planar` is
-    /// the axis that every turn is about, if there is one.
+    /// Of all matter; `None` where fluid is moved or displaced: its impulse is no sum of squares of this kind. `planar`
+    /// is the axis that every turn is about, if there is one.
     pub fn new(tree: &'a Tree<'g>, planar: Option<usize>) -> Option<Self> {
         let dry =
             |link: &Link<'g>| link.body().is_none_or(|body| body.added_mass.is_none() && body.displaced.is_none());

@@ -56,8 +56,8 @@ impl<'g> FreeLink<'g> {
         }
     }
 
-    /// In coordinates what does not depend on one of them, because the body is the same whichever way it is turned about an axis, is
-    /// free of it only when it is multiplied out.
+    /// In coordinates what does not depend on one of them, because the body is the same whichever way it is turned
+    /// about an axis, is free of it only when it is multiplied out.
     fn short_in_coordinates(&self) -> Option<Short<'g>> {
         let kinematics = &self.kinematics;
         let graph = kinematics.frame.graph;

@@ -8,8 +8,8 @@ use crate::mechanics::system::System;
 use super::witness::{Witness, largest, sample_state, sum};
 
 /// Positions that are sums of multiples of those before them, with the same factors wherever the system is: they say
-/// nothing, as the components of a loop's position across the plane in which it moves. Symbols that stand for `literals` have
-/// those values.
+/// nothing, as the components of a loop's position across the plane in which it moves. Symbols that stand for
+/// `literals` have those values.
 pub fn needless_constraints<'g>(system: &System<'g>, literals: &[(Rational, Expr<'g>)]) -> Vec<usize> {
     // Roundings of numbers, not of what is computed with them: planes of which each link has its own.
     const NEGLIGIBLE: f64 = 1e-12;
@@ -60,7 +60,8 @@ pub fn dependencies<'a, 'g, N: Number + 'a>(
     if dependent.is_empty() {
         return Vec::new();
     }
-    // What depends on others does so everywhere; a row of powers such as k¹⁰⁰⁰ is small beside others at some states alone.
+    // What depends on others does so everywhere; a row of powers such as k¹⁰⁰⁰ is small beside others at some states
+    // alone.
     let elsewhere: Vec<_> = usable.take(3).map(|other| (dependent_rows(&other, negligible), other)).collect();
     dependent.retain(|(k, _)| elsewhere.iter().all(|(rows, _)| rows.iter().any(|(row, _)| row == k)));
     // What constraints say of velocities, of a system at rest.

@@ -1,5 +1,5 @@
-//! Every system against the definition, before code is written: C of (3.1) must be stationary at a pseudo-random state; no
-//! speed and no constraint may depend on others.
+//! Every system against the definition, before code is written: C of (3.1) must be stationary at a pseudo-random state;
+//! no speed and no constraint may depend on others.
 
 use std::fmt;
 
@@ -70,9 +70,9 @@ impl<'a, 'g> Claims<'a, 'g> {
 
 /// Evaluates the condition at one state, with the residual at any ż and with every arrangement's acceleration.
 ///
-/// Where large terms cancel, right formulas disagree by the roundings of these, and a pivot that is small beside what it was formed of looks
-/// like zero. Such a finding of double precision counts only if numbers of many digits confirm it: roundings are smaller there by sixty
-/// decimal places, a wrong term and a dependent row are what they were.
+/// Where large terms cancel, right formulas disagree by the roundings of these, and a pivot that is small beside what
+/// it was formed of looks like zero. Such a finding of double precision counts only if numbers of many digits confirm
+/// it: roundings are smaller there by sixty decimal places, a wrong term and a dependent row are what they were.
 pub fn check_system_against_definition<'g>(
     system: &System<'g>,
     claims: &Claims<'_, 'g>,
@@ -89,8 +89,8 @@ fn check_in<'g, N: Number>(system: &System<'g>, claims: &Claims<'_, 'g>) -> Resu
     let n = system.scene.speeds.len();
     let matrix: Vec<Expr<'g>> = system.matrix.iter().flatten().copied().collect();
     let arbitrary: Vec<N> = (0..n).map(|k| N::number(0.7 - 0.3 * (k % 4) as f64)).collect();
-    // Roots and logarithms have domains: the first of a few states where everything has a value. Where there is none, the
-    // programs are still checked against their expressions.
+    // Roots and logarithms have domains: the first of a few states where everything has a value. Where there is none,
+    // the programs are still checked against their expressions.
     let inside = |witness: &Witness<'_, 'g, N>| {
         let values = witness.values(matrix.iter().chain(claims.accelerations.iter().flatten()));
         values.iter().chain(&witness.stationarity(&arbitrary)).all(is_in_range)
@@ -105,8 +105,8 @@ fn check_in<'g, N: Number>(system: &System<'g>, claims: &Claims<'_, 'g>) -> Resu
     if !faults.is_empty() {
         return Err(faults);
     }
-    // A wrong term is wrong nearly everywhere, roundings grow large near singular states alone: only what disagrees at three
-    // states is refused.
+    // A wrong term is wrong nearly everywhere, roundings grow large near singular states alone: only what disagrees at
+    // three states is refused.
     let mut found = Vec::new();
     for witness in states().filter(inside) {
         match compare(witness, claims, &arbitrary) {

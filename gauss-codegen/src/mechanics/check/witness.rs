@@ -1,5 +1,5 @@
-//! The definition at one state: what stationarity of C, (3.1) over all bodies and particles, asks of accelerations, with
-//! positions as they were given and all further differentiation by dual numbers.
+//! The definition at one state: what stationarity of C, (3.1) over all bodies and particles, asks of accelerations,
+//! with positions as they were given and all further differentiation by dual numbers.
 
 use std::cell::OnceCell;
 
@@ -293,7 +293,8 @@ pub fn acceleration_by_definition<N: Number>(system: &System<'_>, state: Map<u32
     eliminated(rows).into_iter().take(n).collect()
 }
 
-/// The unknowns of linear equations with their right-hand sides in the last column, by elimination with the largest pivots.
+/// The unknowns of linear equations with their right-hand sides in the last column, by elimination with the largest
+/// pivots.
 #[cfg(test)]
 fn eliminated<N: Number>(mut rows: Vec<Vec<N>>) -> Vec<N> {
     let n = rows.len();

@@ -1,5 +1,5 @@
-//! Constraints that coordinates and speeds do not solve by themselves: C is minimised subject to `J ż = γ`, which is what
-//! `φ(t, q) = 0` differentiated twice, and `φ(t, q, z) = 0` differentiated once, say.
+//! Constraints that coordinates and speeds do not solve by themselves: C is minimised subject to `J ż = γ`, which is
+//! what `φ(t, q) = 0` differentiated twice, and `φ(t, q, z) = 0` differentiated once, say.
 
 use crate::algebra::{Expr, Map, solve_saddle};
 

@@ -1,5 +1,5 @@
-//! Rates of all that a state is made of, as differential equations of numbers: components of the configuration, a rotation as its
-//! unit quaternion, and z. Power series are made of them.
+//! Rates of all that a state is made of, as differential equations of numbers: components of the configuration, a
+//! rotation as its unit quaternion, and z. Power series are made of them.
 
 use crate::algebra::Expr;
 

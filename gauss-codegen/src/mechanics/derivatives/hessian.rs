@@ -1,8 +1,8 @@
-//! Second derivatives of the equations along given weights: the Hessian of `λ · (V, ż)` by the state and the inputs, for optimisation
-//! along trajectories.
+//! Second derivatives of the equations along given weights: the Hessian of `λ · (V, ż)` by the state and the inputs,
+//! for optimisation along trajectories.
 //!
-//! Of elements of groups second derivatives are those of σ ↦ λ · (V, ż)(q ∘ exp(σ)): the mean of what differentiating along one
-//! component and then the other gives, and the other way round.
+//! Of elements of groups second derivatives are those of σ ↦ λ · (V, ż)(q ∘ exp(σ)): the mean of what differentiating
+//! along one component and then the other gives, and the other way round.
 
 use crate::algebra::{Expr, Map, Rational, Substitution};
 use crate::kernel::{Curved, Direction};
@@ -44,8 +44,8 @@ impl<'g> Hessian<'g> {
     }
 }
 
-/// Second derivatives of accelerations that solve `∂C/∂ż = 0`, for links that hang on one another. With μ = A⁻¹λ they are
-/// `−(∂ᵢ∂ⱼ + ∂ⱼż · ∂ᵢ∂/∂ż + ∂ᵢż · ∂ⱼ∂/∂ż) (μ · ∂C/∂ż)` at fixed μ, and ż fixed but where it is named.
+/// Second derivatives of accelerations that solve `∂C/∂ż = 0`, for links that hang on one another. With μ = A⁻¹λ they
+/// are `−(∂ᵢ∂ⱼ + ∂ⱼż · ∂ᵢ∂/∂ż + ∂ᵢż · ∂ⱼ∂/∂ż) (μ · ∂C/∂ż)` at fixed μ, and ż fixed but where it is named.
 struct Recursion<'a, 'g> {
     curved: &'a Curved<'g>,
     /// λ of the rates of the configuration times these, and λ of ż.

@@ -94,8 +94,8 @@ fn unit(right: &[Expr<'_>]) -> Option<usize> {
 }
 
 impl<'g> System<'g> {
-    /// ż and its derivatives along each of the directions, in the ways that are worth trying. None where the residual is not that of
-    /// links alone.
+    /// ż and its derivatives along each of the directions, in the ways that are worth trying. None where the residual
+    /// is not that of links alone.
     pub fn accelerations_with_derivatives(
         &self,
         directions: &[Rates<'g>],
@@ -125,8 +125,9 @@ impl<'g> System<'g> {
         rotors.iter().zip(self.acting()).map(|(rotor, force)| *rotor - force).collect()
     }
 
-    /// `weights · ∂C/∂ż` at any ż, twice differentiated: along the first direction of each pair and then along the second. The weights
-    /// are symbols. Where [`residuals_with_derivatives`](Self::residuals_with_derivatives) has something, too.
+    /// `weights · ∂C/∂ż` at any ż, twice differentiated: along the first direction of each pair and then along the
+    /// second. The weights are symbols. Where [`residuals_with_derivatives`](Self::residuals_with_derivatives) has
+    /// something, too.
     pub fn weighted_residual_twice(
         &self,
         weights: &[Expr<'g>],
@@ -155,8 +156,9 @@ impl<'g> System<'g> {
         sums(&tree.acted_on_by(&self.loads.forces, nothing), &self.other_forces())
     }
 
-    /// ∂C/∂ż at any ż, and its derivatives along directions that leave ż as it is, in the ways that are worth trying. None where the
-    /// residual is not that of links alone: under constraints it has multipliers that depend on everything.
+    /// ∂C/∂ż at any ż, and its derivatives along directions that leave ż as it is, in the ways that are worth trying.
+    /// None where the residual is not that of links alone: under constraints it has multipliers that depend on
+    /// everything.
     pub fn residuals_with_derivatives(&self, directions: &[Rates<'g>]) -> Vec<Vec<Vec<Expr<'g>>>> {
         if !self.constraints.is_empty() || self.lone_link().is_some() {
             return Vec::new();

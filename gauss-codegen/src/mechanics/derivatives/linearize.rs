@@ -1,8 +1,8 @@
-//! What the derivatives of the equations by the state are taken along: a direction for each component of an increment of the
-//! configuration, for each speed, for time and for each input.
+//! What the derivatives of the equations by the state are taken along: a direction for each component of an increment
+//! of the configuration, for each speed, for time and for each input.
 //!
-//! Increments are those of the runtime, seen from the body: along `q ∘ exp(σ)` the rate of R is R σ̂ and that of b is R σ_u, as
-//! under a velocity V = σ. So the directions of the configuration are its rates with V a unit vector.
+//! Increments are those of the runtime, seen from the body: along `q ∘ exp(σ)` the rate of R is R σ̂ and that of b is R
+//! σ_u, as under a velocity V = σ. So the directions of the configuration are its rates with V a unit vector.
 
 use crate::algebra::{Expr, Graph};
 use crate::kernel::{ByParameters, Columns, Derived, Differentiated, Direction, Equation};
@@ -96,8 +96,8 @@ impl<'g> Linearization<'g> {
         system.accelerations_by_parameters(&directions).into_iter().map(beside).collect()
     }
 
-    /// The derivatives of the same functions by parameters. Without constraints accelerations solve ∂C/∂ż = 0, whose matrix A is
-    /// the one that takes z to the momenta.
+    /// The derivatives of the same functions by parameters. Without constraints accelerations solve ∂C/∂ż = 0, whose
+    /// matrix A is the one that takes z to the momenta.
     pub fn by_parameters(&self, system: &System<'g>, parameters: Vec<Expr<'g>>) -> ByParameters<'g> {
         let equation = || Equation { unknowns: system.scene.speed_rates.clone(), loads: system.scene.momenta.clone() };
         ByParameters {

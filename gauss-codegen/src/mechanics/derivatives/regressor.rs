@@ -1,8 +1,9 @@
 //! The forces of inertia as a linear function of inertial parameters, `Y π`: what identification solves for.
 //!
-//! ∂C/∂ż is linear in the moments of the masses and in the added mass, not in the centre of mass: in it `c = s/m` is put in place of
-//! c, with the first moment s, and the coefficients of m, s, I_O and X are its derivatives by them. Uniform gravity is an
-//! acceleration of the observer and goes with the masses; the elements of what acts, and buoyancy, do not.
+//! ∂C/∂ż is linear in the moments of the masses and in the added mass, not in the centre of mass: in it `c = s/m` is
+//! put in place of c, with the first moment s, and the coefficients of m, s, I_O and X are its derivatives by them.
+//! Uniform gravity is an acceleration of the observer and goes with the masses; the elements of what acts, and
+//! buoyancy, do not.
 
 use crate::algebra::{Expr, Graph, Map};
 use crate::kernel::Differentiated;
@@ -26,8 +27,8 @@ pub struct InertialParameter<'g> {
     /// In terms of what the user calls its factors.
     pub name: String,
     value: Expr<'g>,
-    /// What stands for it where forces of inertia are differentiated: their derivatives do not read it, unless a mass is
-    /// something else besides.
+    /// What stands for it where forces of inertia are differentiated: their derivatives do not read it, unless a mass
+    /// is something else besides.
     pub symbol: Expr<'g>,
 }
 
@@ -118,8 +119,8 @@ impl<'a, 'g> InertialParameters<'a, 'g> {
         Body { center_of_mass: body.center_of_mass.map(center), inertia, central: None, ..body.clone() }
     }
 
-    /// `residuals` are arrangements of the forces of inertia, weight and buoyancy of bodies by their first moments, `forces` those of
-    /// all else; `defined` are symbols that stand for expressions of the arguments.
+    /// `residuals` are arrangements of the forces of inertia, weight and buoyancy of bodies by their first moments,
+    /// `forces` those of all else; `defined` are symbols that stand for expressions of the arguments.
     ///
     /// # Errors
     /// The name of a parameter that something is divided by: the forces are not linear in it.

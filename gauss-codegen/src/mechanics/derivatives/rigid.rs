@@ -1,14 +1,15 @@
 //! Derivatives of ∂C/∂ż of links by recursion: whatever displaces a joint moves all that hangs on it rigidly.
 //!
-//! Changes are taken as a link sees them, δ̂y = δy − Φ × y with its turn Φ. In a link that hangs on a displaced joint nothing
-//! changes then but how the whole moves: its angular velocity by W, and the accelerations of its points by
-//! `e + α′ × x + 2 W × (v_P − v_O)`. So the change of the forces of inertia of all that hangs there is linear in (e, α′, W), and the
-//! coefficients are moments that are gathered once: m, ∫x dm, ∫x xᵀ dm, and with y = v_P − v_O ∫y dm, ∫y xᵀ dm. Beyond the joint, toward
-//! the root, all of it acts as one force, turned and moved with the joint.
+//! Changes are taken as a link sees them, δ̂y = δy − Φ × y with its turn Φ. In a link that hangs on a displaced joint
+//! nothing changes then but how the whole moves: its angular velocity by W, and the accelerations of its points by
+//! `e + α′ × x + 2 W × (v_P − v_O)`. So the change of the forces of inertia of all that hangs there is linear in (e,
+//! α′, W), and the coefficients are moments that are gathered once: m, ∫x dm, ∫x xᵀ dm, and with y = v_P − v_O ∫y dm,
+//! ∫y xᵀ dm. Beyond the joint, toward the root, all of it acts as one force, turned and moved with the joint.
 //!
-//! The same holds along a speed or time, where joints are not displaced but move in another way. Branches that do not meet have
-//! nothing in common, and no term. (With joints of one degree of freedom, and partial derivatives by angles, these are the sums of Singh, Russell &
-//! Wensing, Efficient analytical derivatives of rigid body dynamics using spatial vector algebra, 2022.)
+//! The same holds along a speed or time, where joints are not displaced but move in another way. Branches that do not
+//! meet have nothing in common, and no term. (With joints of one degree of freedom, and partial derivatives by angles,
+//! these are the sums of Singh, Russell & Wensing, Efficient analytical derivatives of rigid body dynamics using
+//! spatial vector algebra, 2022.)
 
 use crate::algebra::{Expr, Map, Rational, Substitution};
 
@@ -98,8 +99,8 @@ pub struct Derivative<'g> {
 }
 
 impl<'a, 'g> Motion<'a, 'g> {
-    /// `along` has symbols for ż: at the ż that `solved` gives for each of them, or at any, where links that float take nothing of
-    /// their accelerations at once. `None` where fluid moves with links.
+    /// `along` has symbols for ż: at the ż that `solved` gives for each of them, or at any, where links that float take
+    /// nothing of their accelerations at once. `None` where fluid moves with links.
     pub fn new(
         tree: &'a Tree<'g>,
         loads: &'a Loads<'g>,
@@ -325,7 +326,8 @@ impl<'a, 'g> Motion<'a, 'g> {
         Row { linear, angular, twice_spin: spin }
     }
 
-    /// What changes of joints do to the rows of the links that they hang on, and changes of partial velocities to their own.
+    /// What changes of joints do to the rows of the links that they hang on, and changes of partial velocities to their
+    /// own.
     fn add_from_below(&self, direction: &Rates<'g>, changes: &[Option<Change<'g>>], residual: &mut [Expr<'g>]) {
         let links = &self.tree.links;
         let mut pending: Vec<Option<Pair<'g>>> = vec![None; links.len()];
@@ -382,7 +384,8 @@ impl<'g> Gathered<'g> {
         })
     }
 
-    /// What a change of the joint does to the forces that it hands on, about the O that is displaced; `forces` are those of now.
+    /// What a change of the joint does to the forces that it hands on, about the O that is displaced; `forces` are
+    /// those of now.
     pub fn force(&self, change: &Change<'g>, forces: &Pair<'g>) -> Pair<'g> {
         let Moments { mass, first, .. } = self.moments;
         let inertia = self.moments.inertia();

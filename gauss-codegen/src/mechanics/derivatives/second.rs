@@ -1,12 +1,13 @@
 //! Second derivatives of `μ · ∂C/∂ż` of links by recursion, μ a generalised velocity that does not depend on the state.
 //!
-//! With the virtual velocities w_P that μ gives, `μ · ∂C/∂ż = ∫(a_P − g)·w_P dm`. What displaces a joint changes, as all that hangs on it sees it,
-//! accelerations by `e + α′ × x + 2 W × y` (see [`rigid`](super::rigid)) and virtual velocities by `ε + η × x`. So the derivative along
-//! one joint's change is linear in (e, α′, 2W, ε, η), with the coefficients P = ∫w dm, Π = ∫x × w dm, Q = ∫y × w dm, and the force F
-//! and torque M that hangs there. A change of a joint above is such a field again: it changes what the joint adds through the motion of
-//! the parent, and the coefficients through moments that are gathered once, those and ∫w xᵀ dm. So a second derivative is a row of five
-//! vectors, carried toward the root, times a change of five vectors there. What a joint adds to itself is differentiated as it stands,
-//! with the parent's motion held.
+//! With the virtual velocities w_P that μ gives, `μ · ∂C/∂ż = ∫(a_P − g)·w_P dm`. What displaces a joint changes, as
+//! all that hangs on it sees it, accelerations by `e + α′ × x + 2 W × y` (see [`rigid`](super::rigid)) and virtual
+//! velocities by `ε + η × x`. So the derivative along one joint's change is linear in (e, α′, 2W, ε, η), with the
+//! coefficients P = ∫w dm, Π = ∫x × w dm, Q = ∫y × w dm, and the force F and torque M that hangs there. A change of a
+//! joint above is such a field again: it changes what the joint adds through the motion of the parent, and the
+//! coefficients through moments that are gathered once, those and ∫w xᵀ dm. So a second derivative is a row of five
+//! vectors, carried toward the root, times a change of five vectors there. What a joint adds to itself is
+//! differentiated as it stands, with the parent's motion held.
 
 use crate::algebra::{Expr, Graph, Map, Rational, Substitution};
 

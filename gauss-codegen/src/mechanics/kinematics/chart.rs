@@ -1,4 +1,5 @@
-//! Charts: each one is a choice of ψ in q̇ = ψ(q, z) (3.2) and nothing else. A chart of one body is a system of one link.
+//! Charts: each one is a choice of ψ in q̇ = ψ(q, z) (3.2) and nothing else. A chart of one body is a system of one
+//! link.
 
 use crate::algebra::{Expr, Graph, Map};
 use crate::model::{Chart, Motion, RotationChart};

@@ -57,7 +57,8 @@ pub fn rotation_of<'g>(graph: &'g Graph, chart: RotationChart, q: &[Expr<'g>]) -
     }
 }
 
-/// R of a unit quaternion (x, y, z, w). Doubled components are quantities of their own: nine products serve all entries.
+/// R of a unit quaternion (x, y, z, w). Doubled components are quantities of their own: nine products serve all
+/// entries.
 pub fn rotation_of_quaternion<'g>(graph: &'g Graph, [x, y, z, w]: [Expr<'g>; 4]) -> [Triple<'g>; 3] {
     let half = cross_plus_square(w, &[x, y, z]);
     std::array::from_fn(|i| std::array::from_fn(|j| identity(graph, i, j) + half[i][j].scale(2.into())))

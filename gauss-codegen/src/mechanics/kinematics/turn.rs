@@ -41,7 +41,8 @@ impl<'g> Turn<'g> {
         Self { matrix, spin, about: self.about.map(|(axis, angle)| (axis, -angle)) }
     }
 
-    /// By what angles it is turned on in a direction, in the turned axes: the axial vector of RᵀδR, where R is orthogonal.
+    /// By what angles it is turned on in a direction, in the turned axes: the axial vector of RᵀδR, where R is
+    /// orthogonal.
     pub fn displacement(&self, direction: &Map<u32, Expr<'g>>) -> Triple<'g> {
         let graph = self.spin[0].graph();
         let unit =
@@ -98,8 +99,8 @@ impl<'g> Turn<'g> {
     }
 
     /// A symmetric tensor of the turned axes, in those before: R J Rᵀ. About an axis it is
-    /// `J_aa − sin·w, J_bb + sin·w, cos·w − J_ab` with `w = sin (J_aa − J_bb) + 2 cos J_ab` in the plane of the turn, because
-    /// cos² = 1 − sin²: half the work of the two products.
+    /// `J_aa − sin·w, J_bb + sin·w, cos·w − J_ab` with `w = sin (J_aa − J_bb) + 2 cos J_ab` in the plane of the turn,
+    /// because cos² = 1 − sin²: half the work of the two products.
     pub fn tensor(&self, j: &[Triple<'g>; 3]) -> [Triple<'g>; 3] {
         let Some((axis, _)) = self.about else {
             let half: [Triple<'g>; 3] = std::array::from_fn(|k| self.vector(&j[k]).map(Expr::group));
@@ -124,8 +125,8 @@ impl<'g> Turn<'g> {
         turned
     }
 
-    /// Any tensor of the turned axes, in those before. About an axis its part in the plane of the turn is a multiple of 1, one of
-    /// the quarter turn, and a symmetric part that turns twice as far, as in [`tensor`](Self::tensor).
+    /// Any tensor of the turned axes, in those before. About an axis its part in the plane of the turn is a multiple of
+    /// 1, one of the quarter turn, and a symmetric part that turns twice as far, as in [`tensor`](Self::tensor).
     pub fn mixed(&self, y: &[Triple<'g>; 3]) -> [Triple<'g>; 3] {
         let transposed =
             |m: &[Triple<'g>; 3]| -> [Triple<'g>; 3] { std::array::from_fn(|i| std::array::from_fn(|j| m[j][i])) };

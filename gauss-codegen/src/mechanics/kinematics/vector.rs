@@ -5,8 +5,8 @@ use crate::algebra::{Expr, Graph, Map};
 /// Three components.
 pub type Triple<'g> = [Expr<'g>; 3];
 
-/// The body frame e seen from the observer frame k: `R_ij = k_i · e_j`, and the angular velocity, so that vectors can be
-/// turned and differentiated (Poisson: ė_k = ω × e_k, k̇_k = 0).
+/// The body frame e seen from the observer frame k: `R_ij = k_i · e_j`, and the angular velocity, so that vectors can
+/// be turned and differentiated (Poisson: ė_k = ω × e_k, k̇_k = 0).
 #[derive(Clone)]
 pub struct Frame<'g> {
     pub graph: &'g Graph,

@@ -1,5 +1,5 @@
-//! Sums over all matter that are seen from its centre of mass G: where G is, momenta about it, and their rates. Components are the
-//! observer's. The fluid around bodies is no part of them.
+//! Sums over all matter that are seen from its centre of mass G: where G is, momenta about it, and their rates.
+//! Components are the observer's. The fluid around bodies is no part of them.
 
 use crate::algebra::Expr;
 

@@ -1,5 +1,5 @@
-//! Where a link is and how it moves: pose, twist, its partial velocities and its acceleration at ż = 0. Components are in the
-//! axes of the link, the pole is its O; the pose is seen by the observer.
+//! Where a link is and how it moves: pose, twist, its partial velocities and its acceleration at ż = 0. Components are
+//! in the axes of the link, the pole is its O; the pose is seen by the observer.
 
 use crate::algebra::Expr;
 
@@ -31,8 +31,8 @@ impl<'g> Tree<'g> {
         link.in_body_axes(linear).into_iter().chain(angular).collect()
     }
 
-    /// ∂(u, ω)/∂z row by row, in two ways: carried outward from the links that the speeds move, and with axes and levers of
-    /// these links gathered inward.
+    /// ∂(u, ω)/∂z row by row, in two ways: carried outward from the links that the speeds move, and with axes and
+    /// levers of these links gathered inward.
     pub fn jacobians_of(&self, k: usize) -> [Vec<Expr<'g>>; 2] {
         let outward = (0..self.speed_count()).map(|speed| self.motion(k, speed)).collect();
         [outward, self.columns_from(k)].map(|columns: Vec<Pair<'g>>| self.rows_in_axes_of(k, &columns))
@@ -52,8 +52,8 @@ impl<'g> Tree<'g> {
         })
     }
 
-    /// ∂v_O/∂z and ∂ω/∂z in working axes. On the way to the root `axes` are those of the link seen from the axes of k, row by
-    /// row, and `lever` is from its O to that of k.
+    /// ∂v_O/∂z and ∂ω/∂z in working axes. On the way to the root `axes` are those of the link seen from the axes of k,
+    /// row by row, and `lever` is from its O to that of k.
     fn columns_from(&self, k: usize) -> Vec<Pair<'g>> {
         let none = [self.graph.zero(); 3];
         let mut columns = vec![(none, none); self.speed_count()];

@@ -1,5 +1,6 @@
-//! Links: bodies, frames and particles where they hang. Each is placed and moves relative to its parent, and its partial
-//! velocities are taken relative to the parent's too, so that every quantity is formed once, from the one before.
+//! Links: bodies, frames and particles where they hang. Each is placed and moves relative to its parent, and its
+//! partial velocities are taken relative to the parent's too, so that every quantity is formed once, from the one
+//! before.
 
 use crate::algebra::{Expr, Graph, Map};
 
@@ -38,8 +39,8 @@ pub struct Placement<'g> {
     /// Index of an earlier link.
     pub parent: Option<usize>,
     pub position: Triple<'g>,
-    /// Of O and of the axes of a root, each part in the axes where it is simplest, where they are known so; else they follow from the
-    /// position and the turns.
+    /// Of O and of the axes of a root, each part in the axes where it is simplest, where they are known so; else they
+    /// follow from the position and the turns.
     pub velocity: Option<Vector<'g>>,
     pub angular_velocity: Option<Vector<'g>>,
     pub turns: Vec<Turn<'g>>,
@@ -393,8 +394,8 @@ pub fn impulse<'g>(added: &[Vec<Expr<'g>>], u: &Triple<'g>, omega: &Triple<'g>) 
     (row(0), row(3))
 }
 
-/// `dQ_f/dt` and `dΓ_f/dt + v_O × Q_f` of the fluid's impulse in body axes; `u` is the velocity of O relative to the fluid far
-/// away, `rate` the observer's derivative of a vector in body axes.
+/// `dQ_f/dt` and `dΓ_f/dt + v_O × Q_f` of the fluid's impulse in body axes; `u` is the velocity of O relative to the
+/// fluid far away, `rate` the observer's derivative of a vector in body axes.
 pub fn reaction<'g>(
     added: &[Vec<Expr<'g>>],
     u: &Triple<'g>,

@@ -14,8 +14,8 @@ const MONOMIALS: [&[usize]; 10] = [&[], &[0], &[1], &[2], &[0, 0], &[1, 1], &[2,
 /// Moves moments from the leaves to the roots, and from roots that keep still to the ground.
 ///
 /// Matter at x moves with the velocity `V + W × x` of its parent plus `δ(x) = δ_O + δ_ω × x`. A moment can move to the
-/// parent when its coefficient vanishes in `(V + W × x)·δ` for every V and W and in δ·δ, so that no energy, momentum or power
-/// changes, and when what it becomes in the parent's axes is constant.
+/// parent when its coefficient vanishes in `(V + W × x)·δ` for every V and W and in δ·δ, so that no energy, momentum or
+/// power changes, and when what it becomes in the parent's axes is constant.
 pub fn regroup<'g>(graph: &'g Graph, links: &mut [Link<'g>]) {
     let formal = |name: &str| -> Triple<'g> { std::array::from_fn(|_| graph.symbol(name, name, false)) };
     let (v, w) = (formal("V"), formal("W"));

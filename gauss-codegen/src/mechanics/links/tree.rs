@@ -1,5 +1,5 @@
-//! Sums over links by recursion: velocities and accelerations outward from the roots, momenta and forces inward, so that
-//! what moves together is summed before it is projected. Every sum over bodies of (3.3) and (3.4) is one of these.
+//! Sums over links by recursion: velocities and accelerations outward from the roots, momenta and forces inward, so
+//! that what moves together is summed before it is projected. Every sum over bodies of (3.3) and (3.4) is one of these.
 
 use crate::algebra::{Expr, Graph, Map};
 
@@ -54,8 +54,8 @@ pub struct Tree<'g> {
 }
 
 impl<'g> Tree<'g> {
-    /// Components are taken in k where every turn is about one and the same axis, else in body axes, in which the added mass
-    /// of a fluid is constant.
+    /// Components are taken in k where every turn is about one and the same axis, else in body axes, in which the added
+    /// mass of a fluid is constant.
     pub fn new(
         graph: &'g Graph,
         placements: Vec<Placement<'g>>,
@@ -186,8 +186,8 @@ impl<'g> Tree<'g> {
         self.speeds.len()
     }
 
-    /// The ways to form the rates of angular momenta that are worth trying: about a single axis the tensor is a number, and
-    /// particles have none.
+    /// The ways to form the rates of angular momenta that are worth trying: about a single axis the tensor is a number,
+    /// and particles have none.
     pub fn inertias(&self, long: bool) -> &'static [Inertia] {
         let particles = self.links.iter().all(|link| link.body().is_none());
         match (self.planar.is_some() || particles, long) {
@@ -243,8 +243,8 @@ impl<'g> Tree<'g> {
         add_projected(&self.rotors, &self.speeds, momenta, Rotor::momentum)
     }
 
-    /// A_αβ: the momentum that each partial velocity gives to all that it moves, paired with the partial velocities of the
-    /// links on the way to the root.
+    /// A_αβ: the momentum that each partial velocity gives to all that it moves, paired with the partial velocities of
+    /// the links on the way to the root.
     pub fn mass_matrix(&self) -> Vec<Vec<Expr<'g>>> {
         let n = self.speeds.len();
         let mut matrix = vec![vec![self.graph.zero(); n]; n];
@@ -294,8 +294,8 @@ impl<'g> Tree<'g> {
         matrix
     }
 
-    /// What the fluid around a link adds to A through the motion of its ancestors alone: it is no moment, so it is not in
-    /// what moves together with them.
+    /// What the fluid around a link adds to A through the motion of its ancestors alone: it is no moment, so it is not
+    /// in what moves together with them.
     fn add_carried_fluid(&self, matrix: &mut [Vec<Expr<'g>>]) {
         for (k, link) in self.links.iter().enumerate() {
             let added = link.body().and_then(|body| body.added_mass.as_ref());
@@ -355,8 +355,8 @@ impl<'g> Tree<'g> {
         (self.accelerations(&self.rates, Some(loads), Observers::Moved(held, &mut taken)), taken)
     }
 
-    /// `a_O − g` and ω̇ of every link, and the forces of inertia of all that hangs on it, at its O. `relative` is ż′ where `along` is
-    /// known to have `ż = ζ + ż′`.
+    /// `a_O − g` and ω̇ of every link, and the forces of inertia of all that hangs on it, at its O. `relative` is ż′
+    /// where `along` is known to have `ż = ζ + ż′`.
     pub fn forces_of_inertia(
         &self,
         along: &Map<u32, Expr<'g>>,

@@ -1,11 +1,11 @@
 //! Poles and axes by which the sums over links are formed: a choice, since no sum depends on it.
 //!
-//! - The pole of a link that turns about an axis may be anywhere on this axis: where it takes away components of what is
-//!   between joints (the common normals of Denavit and Hartenberg).
-//! - Nothing but the moments of a link shows how far it has turned, if all that hangs on it turns about the same axis: it
-//!   works in the axes that it has before it turns. Its moments are turned there, once, and not velocities, accelerations,
-//!   forces, and inertias of all that hangs on it. Those of a rotor that is symmetric about its axis are not even
-//!   turned: its angle drops out.
+//! - The pole of a link that turns about an axis may be anywhere on this axis: where it takes away components of what
+//!   is between joints (the common normals of Denavit and Hartenberg).
+//! - Nothing but the moments of a link shows how far it has turned, if all that hangs on it turns about the same axis:
+//!   it works in the axes that it has before it turns. Its moments are turned there, once, and not velocities,
+//!   accelerations, forces, and inertias of all that hangs on it. Those of a rotor that is symmetric about its axis are
+//!   not even turned: its angle drops out.
 
 use crate::algebra::Expr;
 

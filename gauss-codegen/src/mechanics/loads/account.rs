@@ -18,7 +18,8 @@ pub struct Account<'g> {
 
 /// What weight and buoyancy are called.
 pub const GRAVITY: &str = "gravity";
-/// Powers, generalised forces (speeds by elements, row by row), and dE/dt: the powers of what is not in the energy, and ∂U/∂t.
+/// Powers, generalised forces (speeds by elements, row by row), and dE/dt: the powers of what is not in the energy, and
+/// ∂U/∂t.
 pub fn account_formulas<'g>(accounts: &[Account<'g>], explicit_power: Expr<'g>) -> Vec<Formula<'g>> {
     let Some(first) = accounts.first() else { return Vec::new() };
     let single = |method, outputs| Formula { method, arrangements: vec![outputs] };

@@ -12,7 +12,8 @@ use crate::mechanics::tidy::sums;
 /// The name of the account of prescribed motion: coordinates and constraints that are given functions of time.
 const GUIDES: &str = "guides";
 
-/// One account of a name: what acts by a potential and by forces, as a spring with a damper does, is in the energy by the first.
+/// One account of a name: what acts by a potential and by forces, as a spring with a damper does, is in the energy by
+/// the first.
 fn joined(accounts: Vec<Account<'_>>) -> Vec<Account<'_>> {
     let mut all: Vec<Account<'_>> = Vec::with_capacity(accounts.len());
     for account in accounts {
@@ -75,8 +76,8 @@ impl<'g> System<'g> {
         sorted(accounts)
     }
 
-    /// What moves them does work: whatever changes the kinetic energy and is done by nothing else. It has no generalised
-    /// force: its forces do no work in ∂v_P/∂z, or are multipliers.
+    /// What moves them does work: whatever changes the kinetic energy and is done by nothing else. It has no
+    /// generalised force: its forces do no work in ∂v_P/∂z, or are multipliers.
     fn account_of_guides(&self, others: &[Account<'g>]) -> Account<'g> {
         let scene = &self.scene;
         let rates = scene.speed_rates.iter().zip(self.any_acceleration()).map(|(s, e)| (s.key(), e.group())).collect();

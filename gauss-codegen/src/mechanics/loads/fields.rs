@@ -11,10 +11,10 @@ const LIMIT: usize = 2000;
 
 /// What a uniform stream changes beside the relative velocity that drag feels: forces and a torque about O, body axes.
 ///
-/// The fluid's impulse is that of the motion relative to the stream (Galilei), so the fluid reacts to u − c where it reacted to
-/// u: the difference of the two reactions acts. In a stream that accelerates there is a gradient of pressure besides, which
-/// acts on the displaced mass as gravity of −dc/dt would. `stream` is c in body axes, `acceleration` is dc/dt of the observer,
-/// in body axes too, (`u`, `omega`) the twist of O.
+/// The fluid's impulse is that of the motion relative to the stream (Galilei), so the fluid reacts to u − c where it
+/// reacted to u: the difference of the two reactions acts. In a stream that accelerates there is a gradient of pressure
+/// besides, which acts on the displaced mass as gravity of −dc/dt would. `stream` is c in body axes, `acceleration` is
+/// dc/dt of the observer, in body axes too, (`u`, `omega`) the twist of O.
 pub fn entrained<'g>(
     graph: &'g Graph,
     body: &Body<'g>,

@@ -1,5 +1,5 @@
-//! What acts beside weight and buoyancy: potentials, and forces, each of which enters through `∫∂v_P/∂z·dF` of (3.4), at the
-//! point where it acts; nothing else is ever said about it.
+//! What acts beside weight and buoyancy: potentials, and forces, each of which enters through `∫∂v_P/∂z·dF` of (3.4),
+//! at the point where it acts; nothing else is ever said about it.
 
 use crate::algebra::{Expr, Map};
 

@@ -1,5 +1,5 @@
-//! Loads on one body in a chart: wrenches about O, formed once for all charts in terms of the pose and the velocities as
-//! symbols, which each chart then replaces by what they are in it.
+//! Loads on one body in a chart: wrenches about O, formed once for all charts in terms of the pose and the velocities
+//! as symbols, which each chart then replaces by what they are in it.
 
 use crate::algebra::{Expr, Graph, Map};
 
@@ -10,8 +10,8 @@ use crate::mechanics::loads::forces::{Action, Element, Force};
 use crate::mechanics::loads::wrench::Wrench;
 use crate::mechanics::print::names::Name;
 
-/// Symbols for the motion of a body: its pose, and its velocities in both frames, so that what is written in the one or in the
-/// other is never turned there and back.
+/// Symbols for the motion of a body: its pose, and its velocities in both frames, so that what is written in the one or
+/// in the other is never turned there and back.
 #[derive(Clone)]
 pub struct Observed<'g> {
     graph: &'g Graph,
@@ -91,8 +91,8 @@ impl<'g> Observed<'g> {
         pairs.map(|(symbol, value)| (symbol.key(), value.group())).collect()
     }
 
-    /// The wrench dual to the velocities in a power, which is linear in them, or in a dissipation function: its derivatives
-    /// by them.
+    /// The wrench dual to the velocities in a power, which is linear in them, or in a dissipation function: its
+    /// derivatives by them.
     fn dual(&self, power: Expr<'g>) -> Wrench<'g> {
         let by = |symbols: &Triple<'g>| symbols.map(|v| power.partial(v));
         Wrench {

@@ -1,6 +1,7 @@
-//! Rotors: inertia of a rate. What turns with a coordinate by a gear, and is so small and symmetric that nothing else is seen of it
-//! (the armature of a motor), has `T = ½ a q̇²`: formal matter that moves on a line of its own, at q. Of a rotation there are three,
-//! one for each component of ω, of which a ω² needs no more since ω × a ω = 0; of a pose six, with the velocity in observer's axes.
+//! Rotors: inertia of a rate. What turns with a coordinate by a gear, and is so small and symmetric that nothing else
+//! is seen of it (the armature of a motor), has `T = ½ a q̇²`: formal matter that moves on a line of its own, at q. Of
+//! a rotation there are three, one for each component of ω, of which a ω² needs no more since ω × a ω = 0; of a pose
+//! six, with the velocity in observer's axes.
 
 use crate::algebra::{Expr, Map};
 

@@ -1,4 +1,5 @@
-//! The equations of a scene for people: momenta, the Gauss condition, forces, and the solved-for form where it is short.
+//! The equations of a scene for people: momenta, the Gauss condition, forces, and the solved-for form where it is
+//! short.
 
 use crate::algebra::{Expr, Map, Notation, Parts, print_definition, print_parts, print_short, print_with};
 use crate::mechanics::tidy::{LIMIT, legible, readable};

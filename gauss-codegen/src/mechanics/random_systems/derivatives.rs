@@ -14,8 +14,8 @@ use super::scene::Symbols;
 use super::usable_states;
 use super::witness::State;
 
-/// In numbers of 256 binary digits: some ten thousand roundings, amplified by condition numbers of up to 1e6 twice, leave 60 decimal places; a
-/// wrong term leaves none.
+/// In numbers of 256 binary digits: some ten thousand roundings, amplified by condition numbers of up to 1e6 twice,
+/// leave 60 decimal places; a wrong term leaves none.
 const AGREEMENT: f64 = 1e-50;
 
 /// All that expressions read, with quaternions whose norm is 1 to the last of many digits.
@@ -115,8 +115,8 @@ fn agree_by_parameters<'g>(
     !ways.is_empty()
 }
 
-/// Whether there are second derivatives in forms of their own; panics where one is wrong. Those of small systems are found in a third way, by
-/// differentiating expressions.
+/// Whether there are second derivatives in forms of their own; panics where one is wrong. Those of small systems are
+/// found in a third way, by differentiating expressions.
 fn agree_twice<'g>(curved: &Curved<'g>, small: bool, values: &Map<u32, Precise>, what: &str) -> bool {
     let mut evaluation = Evaluation::new(values);
     let expected = curved.values(&mut evaluation);
@@ -157,7 +157,8 @@ fn trees_have_the_derivatives_that_dual_numbers_give() {
         };
         let attempt = |random: &mut Random| {
             let plan = Plan::tree(random, shape);
-            // Second ones take longer: of some small trees, in space and in the plane, with rates and with speeds of their own.
+            // Second ones take longer: of some small trees, in space and in the plane, with rates and with speeds of
+            // their own.
             check(&plan, random, trial % 2 == 1 && trial % 3 != 2, &format!("trial {trial} of {shape:?}: {plan:?}"))
         };
         told += usize::from((0..16).any(|_| attempt(&mut random)));

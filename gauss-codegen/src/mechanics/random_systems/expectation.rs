@@ -161,8 +161,8 @@ impl Reduction {
     }
 }
 
-/// Of a system whose constraints are solved for some of its speeds, at a state that satisfies them: what the whole one does,
-/// with `z = V z_kept + …`, `V = (1, −J_d⁻¹ J_k)`.
+/// Of a system whose constraints are solved for some of its speeds, at a state that satisfies them: what the whole one
+/// does, with `z = V z_kept + …`, `V = (1, −J_d⁻¹ J_k)`.
 pub fn of_reduced(
     w: &Witness<'_>,
     plan: &Plan,
@@ -199,8 +199,8 @@ pub fn of_reduced(
     let balance = apply(&directions, &w.momentum_rate);
     let momentum_rate: Vec<f64> = balance.iter().zip(apply(&turning, &w.momentum)).map(|(a, b)| a + b).collect();
     let function = w.constraint_function(&all_rates) - w.constraint_function(&completed(&still));
-    // Elimination multiplies roundings by what it divides by, once for each factor V; the state satisfies the constraints
-    // with roundings of its own.
+    // Elimination multiplies roundings by what it divides by, once for each factor V; the state satisfies the
+    // constraints with roundings of its own.
     let (v, divided) = (norm(&transposed(&directions, w.matrix.len())), 1.0 + norm(&solver) * norm(&w.jacobian));
     let factor = v * v * divided * divided;
     let reduced_condition = norm(&inverse(&matrix)?) * norm(&matrix);

@@ -1,5 +1,5 @@
-//! Numbers that functions are evaluated with: expressions of the derive on one side, jets of double precision on the other;
-//! and the random smooth functions that both evaluate.
+//! Numbers that functions are evaluated with: expressions of the derive on one side, jets of double precision on the
+//! other; and the random smooth functions that both evaluate.
 
 use std::ops::{Add, Mul, Sub};
 
@@ -38,8 +38,8 @@ impl Number for Expr<'_> {
     }
 }
 
-/// A function of two variables τ and σ up to the terms 1, τ, τ², σ, τσ, by its derivatives. Along a motion τ is time; σ moves
-/// the configuration, or the speeds, along one partial velocity.
+/// A function of two variables τ and σ up to the terms 1, τ, τ², σ, τσ, by its derivatives. Along a motion τ is time; σ
+/// moves the configuration, or the speeds, along one partial velocity.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Jet {
     pub value: f64,

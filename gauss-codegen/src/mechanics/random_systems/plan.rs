@@ -213,7 +213,8 @@ impl Plan {
         let mixed = choice != SpeedChoice::Rates;
         self.bases = vec![vec![None; self.speeds]; rows];
         for (r, row) in self.bases.iter_mut().enumerate() {
-            // Beside the speed that each rate mostly is, about two others: more would leave few well conditioned states.
+            // Beside the speed that each rate mostly is, about two others: more would leave few well conditioned
+            // states.
             for entry in row.iter_mut().filter(|_| mixed) {
                 if below(random, rows.max(6)) < 2 {
                     *entry = Some(Smooth::random(random, 1, &arguments));

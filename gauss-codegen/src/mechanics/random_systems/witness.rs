@@ -233,7 +233,8 @@ impl Motion {
         plan.potential.as_ref().map_or_else(Jet::default, |potential| potential.at(&self.moved))
     }
 
-    /// φ of positions, if it is one, and its level of velocities: value, rate along the motion, derivative with respect to z.
+    /// φ of positions, if it is one, and its level of velocities: value, rate along the motion, derivative with respect
+    /// to z.
     fn constraint(&self, constraint: &ConstraintPlan) -> (f64, Jet) {
         let position = |phi: Jet| (phi.value, phi.velocity());
         match constraint {
@@ -285,8 +286,8 @@ pub struct Witness<'a> {
     pub sizes: Sizes,
 }
 
-/// Absolute values behind each result: what its roundings are measured by. Velocities of origins and axes count too: what they
-/// give to particles may cancel.
+/// Absolute values behind each result: what its roundings are measured by. Velocities of origins and axes count too:
+/// what they give to particles may cancel.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sizes {
     pub matrix: f64,

@@ -11,7 +11,8 @@ use crate::model::scene::forces::Value;
 use crate::model::scene::roles::Shape;
 use proc_macro2::Ident;
 
-/// The fields that are six by six or the diagonal of that, with what they are: the coefficients of drags, and added masses.
+/// The fields that are six by six or the diagonal of that, with what they are: the coefficients of drags, and added
+/// masses.
 pub fn fields<'a>(statements: &'a Statements) -> Vec<(&'a Ident, String)> {
     let mut all: Vec<(&Coefficients, String)> = Vec::new();
     for clause in &statements.forces {

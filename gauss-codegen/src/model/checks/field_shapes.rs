@@ -237,8 +237,8 @@ pub fn check_companion(role: Role, span: Span, known: impl Fn(Role) -> bool, sca
     }
 }
 
-/// The scalar where no field shows one. That it is hidden is said only if nothing else is wrong, since any other remedy may
-/// show it.
+/// The scalar where no field shows one. That it is hidden is said only if nothing else is wrong, since any other remedy
+/// may show it.
 pub fn scalar_without_fields(input: &DeriveInput, fields: &[ReadField<'_>], context: &mut Context) -> Option<Scalar> {
     let generic = input.generics.params.iter().any(|parameter| matches!(parameter, GenericParam::Type(_)));
     let of_role = |role: Role| move |field: &&ReadField<'_>| field.role.as_ref().is_some_and(|c| c.role == role);

@@ -109,8 +109,8 @@ fn check_drive(
     }
 }
 
-/// What acts does something, and inputs are for something. Asked only where all else is well, since what could not be read
-/// may be what is missed.
+/// What acts does something, and inputs are for something. Asked only where all else is well, since what could not be
+/// read may be what is missed.
 pub fn check_effect(statements: &Statements, context: &mut Context) {
     let moving = Moving::new(statements);
     for clause in &statements.forces {

@@ -166,8 +166,8 @@ pub fn check(list: &mut [RoleClause], alone: bool, fields: &[ReadField<'_>], sco
     }
 }
 
-/// What literal numbers alone show to be wrong. The rest is checked when a kernel is made, because it depends on the motion: of a body
-/// in the plane one moment of inertia matters.
+/// What literal numbers alone show to be wrong. The rest is checked when a kernel is made, because it depends on the
+/// motion: of a body in the plane one moment of inertia matters.
 fn broken_rule(clause: &RoleClause, alone: bool) -> Option<(Span, String)> {
     let RoleValue::Expression(value) = &clause.value else { return None };
     let parts: Vec<&Expression> = match &value.kind {

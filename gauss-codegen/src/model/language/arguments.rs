@@ -114,7 +114,8 @@ pub fn meant<T: Copy>(word: &str, table: &Table<T>) -> Option<&'static str> {
         .map(|(name, _)| name)
 }
 
-/// The unit in quotes that follows `=`, which is at `span` if nothing does: its text and where it is written; `owner` has it.
+/// The unit in quotes that follows `=`, which is at `span` if nothing does: its text and where it is written; `owner`
+/// has it.
 pub fn read_unit(owner: &Ident, tokens: &[TokenTree], span: Span, context: &mut Context) -> Option<(String, Span)> {
     let tokens = attributes::flat(tokens.iter().cloned().collect());
     let text = match tokens.as_slice() {

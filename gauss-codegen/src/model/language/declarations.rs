@@ -1,5 +1,5 @@
-//! Clauses that declare names: coordinates, speeds and inputs with their kinds, speeds that stay independent, kinematics, and
-//! definitions.
+//! Clauses that declare names: coordinates, speeds and inputs with their kinds, speeds that stay independent,
+//! kinematics, and definitions.
 
 use super::arguments::{self, brackets, value};
 use super::attributes::{self, Clause, Content, Owner};

@@ -17,7 +17,8 @@ const KINDS: &Table<bool> = &[("linear", false), ("cubic", true)];
 const IN_FUNCTION: Owner = Owner::Action { word: "function", example: "an argument such as `derivative = slope`" };
 const IN_TABLE: Owner = Owner::Action { word: "table", example: "an argument such as `points = POINTS`" };
 
-/// `function(lift, derivative = lift_slope)`, or `function(lift = aero::lift, derivative = aero::lift_slope, second = …)`.
+/// `function(lift, derivative = lift_slope)`, or
+/// `function(lift = aero::lift, derivative = aero::lift_slope, second = …)`.
 pub fn read_function(clause: &Clause, context: &mut Context) -> Option<FunctionClause> {
     let group = brackets(clause, "lift, derivative = lift_slope", context)?;
     let (arguments, _) = arguments::arguments(group, IN_FUNCTION, context);

@@ -1,6 +1,6 @@
 //! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating`,
-//! `inputs = all | none | transmissions | actuators`, `joint_friction = smooth(width) | none`, `limits = stop(…) | none`,
-//! `saturation = clamp | none`, `parameters = inertial`, `ignore(…)`.
+//! `inputs = all | none | transmissions | actuators`, `joint_friction = smooth(width) | none`,
+//! `limits = stop(…) | none`, `saturation = clamp | none`, `parameters = inertial`, `ignore(…)`.
 
 use super::arguments;
 use super::arithmetic;

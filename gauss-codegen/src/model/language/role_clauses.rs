@@ -1,5 +1,6 @@
-//! Mass data that are written in clauses, `mass = 2.0` or `inertia = [a, a, c]`, in place of fields: numbers known when the
-//! code is generated, equal moments, and components that are zero stay out of it. Of the fluid about any body: `added_mass = x`.
+//! Mass data that are written in clauses, `mass = 2.0` or `inertia = [a, a, c]`, in place of fields: numbers known when
+//! the code is generated, equal moments, and components that are zero stay out of it. Of the fluid about any body:
+//! `added_mass = x`.
 
 use super::attributes::{self, Clause};
 use super::context::Context;

@@ -1,5 +1,5 @@
-//! The clauses of a system, each read on its own: what `declarations`, `placements` and `actions` read, constraints, the
-//! potential, the dissipation function, and the limit on the size of the code.
+//! The clauses of a system, each read on its own: what `declarations`, `placements` and `actions` read, constraints,
+//! the potential, the dissipation function, and the limit on the size of the code.
 
 use super::arguments::{self, brackets, equals, value};
 use super::attributes::{self, Clause, Content, Owner};

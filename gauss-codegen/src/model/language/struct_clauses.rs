@@ -1,8 +1,8 @@
 //! The clauses of the struct that choose a chart and methods. Clauses of motion and forces are read by `statements`.
 //!
 //! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
-//! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor` and `regressor` alone;
-//! `linearize` alone or as `linearize(word, …)`; `frames(name, …)`; `methods(word, …)`.
+//! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor`
+//! and `regressor` alone; `linearize` alone or as `linearize(word, …)`; `frames(name, …)`; `methods(word, …)`.
 
 use super::arguments::UNIT;
 use super::attributes::{self, Clause, Content, Owner, Word};

@@ -9,8 +9,8 @@ pub fn instead<T: Copy>(word: &str, table: &Table<T>) -> Option<T> {
     table.iter().find(|(name, _)| plain(name) == plain(word)).map(|&(_, entry)| entry)
 }
 
-/// The argument of a clause with these arguments that is written in the place of `word`, if that is a word of the field and
-/// none of them, and what to know of it.
+/// The argument of a clause with these arguments that is written in the place of `word`, if that is a word of the field
+/// and none of them, and what to know of it.
 pub fn argument<T: Copy>(word: &str, table: &Table<T>) -> Option<(&'static str, &'static str)> {
     let is_one = |word: &&str| table.iter().any(|(name, _)| name == word);
     let name = *instead(word, FOR_ARGUMENTS).filter(|_| !is_one(&word))?.iter().find(|name| is_one(name))?;

@@ -1,8 +1,8 @@
-//! Units as they are written, `"N s/m"`, and the dimensions that they have: powers of kg, m and s. Only coherent units of the
-//! SI are taken, since values are used as they are.
+//! Units as they are written, `"N s/m"`, and the dimensions that they have: powers of kg, m and s. Only coherent units
+//! of the SI are taken, since values are used as they are.
 //!
-//! Factors are joined by a space, `*` or `·`. What follows `/` divides, as in `m/s/s`; since `kg/m s` is read in two ways,
-//! several factors after one `/` stand in brackets: `kg/(m s)`. Powers are whole: `m^2`, `s^-1`, `m²`.
+//! Factors are joined by a space, `*` or `·`. What follows `/` divides, as in `m/s/s`; since `kg/m s` is read in two
+//! ways, several factors after one `/` stand in brackets: `kg/(m s)`. Powers are whole: `m^2`, `s^-1`, `m²`.
 
 use super::words;
 use std::fmt;

@@ -19,7 +19,8 @@ pub fn scope(
     let coordinates = statements.coordinates.as_ref();
     let speeds = statements.speeds.as_ref();
     let inputs = statements.inputs.as_ref();
-    // Without a clause of coordinates, or of speeds where there are kinematics, every name is one that is missing there.
+    // Without a clause of coordinates, or of speeds where there are kinematics, every name is one that is missing
+    // there.
     let complete = !uncertain
         && !statements.missed_any(&[
             Statement::Frame,

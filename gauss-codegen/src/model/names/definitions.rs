@@ -1,5 +1,6 @@
-//! Definitions: expressions with names. Each is checked by itself and then once more wherever its name stands, since what it may
-//! contain depends on that. Afterwards its tree takes the place of its name, so that nothing behind the model knows of it.
+//! Definitions: expressions with names. Each is checked by itself and then once more wherever its name stands, since
+//! what it may contain depends on that. Afterwards its tree takes the place of its name, so that nothing behind the
+//! model knows of it.
 
 use super::places::Place;
 use super::scope::Scope;

@@ -233,7 +233,8 @@ impl Meaning {
         }
     }
 
-    /// It has this velocity: of bodies all of them, of poses those of the twist, of rotations the angular ones, of points their own.
+    /// It has this velocity: of bodies all of them, of poses those of the twist, of rotations the angular ones, of
+    /// points their own.
     pub fn has_velocity(&self, property: Property) -> bool {
         let angular = matches!(property, Property::AngularVelocity | Property::BodyAngularVelocity);
         match self {

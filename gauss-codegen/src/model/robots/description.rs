@@ -200,8 +200,8 @@ impl Joint {
     }
 }
 
-/// What drives joints by a control u: along the length l = Σ c q the force (g₀ + g₁ l + g₂ l̇) u + b₀ + b₁ l + b₂ l̇; or by
-/// a wrench on a frame, whose l stays zero.
+/// What drives joints by a control u: along the length l = Σ c q the force (g₀ + g₁ l + g₂ l̇) u + b₀ + b₁ l + b₂ l̇;
+/// or by a wrench on a frame, whose l stays zero.
 #[derive(Clone, Debug)]
 pub struct Drive {
     pub name: String,

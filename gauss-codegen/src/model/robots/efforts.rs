@@ -49,8 +49,8 @@ impl Robot<'_> {
         all
     }
 
-    /// What an input does in joints: the index of each, its coordinate with how many times its rate that of the joint is, and a
-    /// factor of a force.
+    /// What an input does in joints: the index of each, its coordinate with how many times its rate that of the joint
+    /// is, and a factor of a force.
     fn parts(&self, input: &Input) -> Vec<(usize, &Ident, f64, f64, Expression)> {
         let control = self.writer.name(&input.name.ident);
         match input.of {
@@ -68,8 +68,8 @@ impl Robot<'_> {
         }
     }
 
-    /// The joints of a length: the index of each, its coordinate with how many times its rate that of the joint is, and what the
-    /// length changes by the joint.
+    /// The joints of a length: the index of each, its coordinate with how many times its rate that of the joint is, and
+    /// what the length changes by the joint.
     pub fn ends_of<'b>(
         &'b self,
         along: &'b [(String, f64)],
@@ -87,7 +87,8 @@ impl Robot<'_> {
         self.law(drive, control, &[(1, length), (2, rate)])
     }
 
-    /// The same of these values, each with the place of its factors. What is beyond ranges is cut off where that is said.
+    /// The same of these values, each with the place of its factors. What is beyond ranges is cut off where that is
+    /// said.
     fn law(&self, drive: &Drive, control: Expression, values: &[(usize, Expression)]) -> Expression {
         let writer = self.writer;
         let scaled = |factor: f64, value: Expression| match factor == 1.0 {

@@ -11,7 +11,8 @@ use crate::algebra::Rational;
 use crate::model::language::number;
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 
-/// The shortest decimal fraction that is read as a number. What is too small for a normal one is none that a file means.
+/// The shortest decimal fraction that is read as a number. What is too small for a normal one is none that a file
+/// means.
 pub fn exact(value: f64) -> Rational {
     let size = number::exact(&format!("{:e}", value.abs())).unwrap_or_else(Rational::zero);
     if value < 0.0 { -size } else { size }

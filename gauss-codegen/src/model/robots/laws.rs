@@ -118,7 +118,8 @@ impl Robot<'_> {
         terms.reduce(|a, b| writer.plus(a, b))
     }
 
-    /// Forces that hold a part of the weight of links, at their centres of mass; `gravity` is that of the struct, if it has one.
+    /// Forces that hold a part of the weight of links, at their centres of mass; `gravity` is that of the struct, if it
+    /// has one.
     fn held(&self, gravity: Option<&RoleClause>) -> (Vec<ForceClause>, Vec<Note>) {
         let writer = self.writer;
         let (mut forces, mut notes) = (Vec::new(), Vec::new());

@@ -1,7 +1,7 @@
 //! What becomes of every element and attribute of a format: one table for each, which the readers go by.
 //!
-//! What is in no table is a warning of the compiler: nothing is left out in silence. Tests read the tables, too: each attribute that
-//! acts changes the description, each of the others does not.
+//! What is in no table is a warning of the compiler: nothing is left out in silence. Tests read the tables, too: each
+//! attribute that acts changes the description, each of the others does not.
 
 #[cfg(test)]
 pub mod checks;
@@ -11,8 +11,8 @@ pub mod checks;
 pub enum Verdict {
     /// The description depends on it.
     Acts,
-    /// It acts in the file and not in the equations, which is said with these words; but for values of these words, with which it
-    /// does nothing.
+    /// It acts in the file and not in the equations, which is said with these words; but for values of these words,
+    /// with which it does nothing.
     Warned(&'static str, &'static str),
     /// The motion does not depend on it, for this reason.
     Harmless(&'static str),

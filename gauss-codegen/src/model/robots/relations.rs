@@ -54,7 +54,8 @@ impl Robot<'_> {
         Some(all)
     }
 
-    /// What a loop of these links hangs on, if it moves: in the axes of this link a loop that stays in a plane stays in the same.
+    /// What a loop of these links hangs on, if it moves: in the axes of this link a loop that stays in a plane stays in
+    /// the same.
     fn axes(&self, links: [usize; 2]) -> Option<usize> {
         let parent_of = &self.structure.parent_of;
         let chain = |link: usize| std::iter::successors(Some(link), |&link| parent_of[link]);

@@ -28,7 +28,8 @@ impl Rotation {
         let across = r[2][1].hypot(r[2][2]);
         // Where the first and the last turn are about one axis, one of them is enough.
         let roll = if across > RESIDUE { settled(r[2][1].atan2(r[2][2])) } else { 0.0 };
-        // Near there rounding leaves little of the roll; the yaw is that of what it leaves, R R_x(−roll), and makes it good.
+        // Near there rounding leaves little of the roll; the yaw is that of what it leaves, R R_x(−roll), and makes it
+        // good.
         let [sine, cosine] = sine_and_cosine(roll);
         let [x, y] = [0, 1].map(|i| r[i][1] * cosine - r[i][2] * sine);
         Rotation::from_angles([roll, (-r[2][0]).atan2(across), (-x).atan2(y)])

@@ -34,8 +34,8 @@ impl Robot<'_> {
         springs.filter_map(spring).collect()
     }
 
-    /// Of joints whose coordinate is a rotation or a pose, as `mj_passive` of MuJoCo's `src/engine/engine_passive.c` has them:
-    /// the force −k (r − r₀) at O, and the torque −k φ n, with the turn R₀ᵀR by the angle φ ≤ π about n.
+    /// Of joints whose coordinate is a rotation or a pose, as `mj_passive` of MuJoCo's `src/engine/engine_passive.c`
+    /// has them: the force −k (r − r₀) at O, and the torque −k φ n, with the turn R₀ᵀR by the angle φ ≤ π about n.
     pub fn springs_of_turns(&self) -> (Vec<ForceClause>, Vec<Note>) {
         let writer = self.writer;
         let (mut forces, mut notes) = (Vec::new(), Vec::new());
@@ -71,8 +71,8 @@ impl Robot<'_> {
         (forces, notes)
     }
 
-    /// φ n of the turn R₀ᵀR, in the axes that it turns: φ from atan2 of its sine and cosine, so that it keeps its digits
-    /// where it is small.
+    /// φ n of the turn R₀ᵀR, in the axes that it turns: φ from atan2 of its sine and cosine, so that it keeps its
+    /// digits where it is small.
     fn rotation_vector(&self, rotation: &Expression, from: &Rotation) -> Expression {
         let writer = self.writer;
         let unit: [Triple; 3] = Rotation::none().matrix;

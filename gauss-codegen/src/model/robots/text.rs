@@ -233,8 +233,8 @@ fn prolog(text: &str) -> (Vec<Range<usize>>, Option<usize>) {
     (passed, None)
 }
 
-/// Blanks in the place of a declaration that does not stand at the very beginning, as XML has it and other readers do not:
-/// the declaration has no effect here, and the text after it keeps its lines and columns.
+/// Blanks in the place of a declaration that does not stand at the very beginning, as XML has it and other readers do
+/// not: the declaration has no effect here, and the text after it keeps its lines and columns.
 fn without_late_declaration(mut text: String) -> String {
     let is_declaration = |range: &Range<usize>| text[range.clone()].starts_with("<?xml ");
     let late = prolog(&text).0.into_iter().find(is_declaration).filter(|range| range.start > 0);

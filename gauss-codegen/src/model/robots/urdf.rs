@@ -242,8 +242,8 @@ fn transmission<'a>(node: Node<'a, 'a>, description: &mut Description, reading: 
     }
 }
 
-/// The number of an element that has one of these names, as its text or its `value`. What is none is a mistake where inertia
-/// depends on it; files that are driven otherwise often have words there.
+/// The number of an element that has one of these names, as its text or its `value`. What is none is a mistake where
+/// inertia depends on it; files that are driven otherwise often have words there.
 fn written<'a>(node: Node<'a, 'a>, names: &[&str], matters: bool, reading: &mut Reading<'a>) -> Option<f64> {
     let element = node.descendants().find(|inner| names.contains(&inner.tag_name().name()))?;
     let text = reading.text(element, "value").or(element.text()).unwrap_or_default().trim();

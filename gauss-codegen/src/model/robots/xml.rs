@@ -253,7 +253,8 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// Notes everything that nobody looked at: what is harmless in one note, what may act as ignored, once for each name.
+    /// Notes everything that nobody looked at: what is harmless in one note, what may act as ignored, once for each
+    /// name.
     pub fn note_unread(&mut self) {
         let (mut quiet, mut acting) = (Unread::default(), Unread::default());
         self.unread(self.document.root_element(), &mut quiet, &mut acting);

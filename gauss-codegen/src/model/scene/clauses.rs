@@ -65,8 +65,8 @@ pub enum SpeedKind {
 /// `body(name, parent = …, position = …, rotation = …)` or `frame(name, …)`.
 #[derive(Clone)]
 pub struct BodyClause {
-    /// Of a body the field with its mass data, unless they are given here; `None` for the only body, whose mass data are the
-    /// fields with roles. Frames have names.
+    /// Of a body the field with its mass data, unless they are given here; `None` for the only body, whose mass data
+    /// are the fields with roles. Frames have names.
     pub name: Option<Ident>,
     /// It is a frame: axes with an origin and no mass.
     pub massless: bool,

@@ -5,8 +5,8 @@ use proc_macro2::{Ident, Span};
 /// A robot that was read from a file.
 #[derive(Clone)]
 pub struct Described {
-    /// Where the file is, and those that it includes: the generated code names them, so that an edit compiles the struct
-    /// anew.
+    /// Where the file is, and those that it includes: the generated code names them, so that an edit compiles the
+    /// struct anew.
     pub paths: Vec<String>,
     /// As it is written.
     pub file: String,

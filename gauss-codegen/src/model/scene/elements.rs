@@ -139,8 +139,8 @@ pub enum Takes {
     /// Coefficients in body axes, pole O, order (u, ω), in these units for forces and for torques: six scalars that may
     /// depend on all that forces do, or a field that is a `Vector6` (diagonal) or a `Matrix6`.
     Coefficients([&'static str; 2]),
-    /// Constant coefficients, in these units for forces and for torques: six scalars of fields and numbers, or a field that
-    /// is a `Vector6` (diagonal) or a symmetric `Matrix6`; called so in messages.
+    /// Constant coefficients, in these units for forces and for torques: six scalars of fields and numbers, or a field
+    /// that is a `Vector6` (diagonal) or a symmetric `Matrix6`; called so in messages.
     Matrix { called: &'static str, units: [&'static str; 2], law: LawKind },
     /// The centre of a field: a vector of t, fields and numbers, observer axes from Ω.
     Center,
@@ -438,8 +438,8 @@ pub static COUPLING: Row = Row {
     argument: "an argument such as `viscous = c`",
 };
 
-/// Against the twist θ of `body` relative to `other` about their third axes, and its rate: the potential ½ k (θ − θ₀)², with
-/// θ − θ₀ between −π and π. The twist is the angle of the turn about e₃ that is nearest to the relative rotation.
+/// Against the twist θ of `body` relative to `other` about their third axes, and its rate: the potential ½ k (θ − θ₀)²,
+/// with θ − θ₀ between −π and π. The twist is the angle of the turn about e₃ that is nearest to the relative rotation.
 pub static TORSIONAL_SPRING: Row = Row {
     kind: ElementKind::TorsionalSpring,
     word: "torsional_spring",
@@ -460,9 +460,9 @@ pub static TORSIONAL_SPRING: Row = Row {
     argument: "an argument such as `stiffness = k`",
 };
 
-/// By the place x of `body` relative to `other`, in the axes of `other`: the displacement from O′ to O and the Cardan angles
-/// (α, β, γ) of the rotation `rotation_x(α) * rotation_y(β) * rotation_z(γ)`. The potential is ½ xᵀKx, the dissipation
-/// function ½ ẋᵀCẋ. The same coordinates as those of `Force::LinearBushing` of Simbody, displacement first.
+/// By the place x of `body` relative to `other`, in the axes of `other`: the displacement from O′ to O and the Cardan
+/// angles (α, β, γ) of the rotation `rotation_x(α) * rotation_y(β) * rotation_z(γ)`. The potential is ½ xᵀKx, the
+/// dissipation function ½ ẋᵀCẋ. The same coordinates as those of `Force::LinearBushing` of Simbody, displacement first.
 pub static BUSHING: Row = Row {
     kind: ElementKind::Bushing,
     word: "bushing",

@@ -222,7 +222,8 @@ impl Expression {
         }
     }
 
-    /// How many times π it is, if it is made of `pi` and literals so that this can be seen: `pi`, `-pi / 2`, `3 * pi / 4`.
+    /// How many times π it is, if it is made of `pi` and literals so that this can be seen: `pi`, `-pi / 2`,
+    /// `3 * pi / 4`.
     pub fn turns_of_pi(&self) -> Option<Rational> {
         match &self.kind {
             ExpressionKind::Name(name) if name == "pi" => Some(Rational::one()),

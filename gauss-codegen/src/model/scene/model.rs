@@ -32,16 +32,16 @@ pub struct Model {
     pub wanted: Wanted,
     /// Every field of the struct, in order.
     pub fields: Vec<Field>,
-    /// The chart and the motion of the body without a name, which is then among [`bodies`](Self::bodies) without a place: the
-    /// first coordinates, speeds and components of ψ are those of its chart.
+    /// The chart and the motion of the body without a name, which is then among [`bodies`](Self::bodies) without a
+    /// place: the first coordinates, speeds and components of ψ are those of its chart.
     pub in_chart: Option<InChart>,
     /// The coordinates q, in order; in a chart, those after the chart's.
     pub coordinates: Vec<Coordinate>,
     /// The speeds z, in order; `None` for the rates of the coordinates: ẋ of a scalar, ω (body axes) of a rotation, the
     /// twist (u, ω) (body axes, pole O) of a pose.
     pub speeds: Option<Vec<Speed>>,
-    /// q̇ = ψ(t, q, z) of (3.2): one for each coordinate, in the order of the coordinates; empty without speeds. A scalar
-    /// for a scalar, ω in body axes for a rotation, a call of [`Twist`](super::FunctionName::Twist) for a pose.
+    /// q̇ = ψ(t, q, z) of (3.2): one for each coordinate, in the order of the coordinates; empty without speeds. A
+    /// scalar for a scalar, ω in body axes for a rotation, a call of [`Twist`](super::FunctionName::Twist) for a pose.
     pub kinematics: Vec<(Ident, Expression)>,
     /// The bodies and frames, in the order in which they are written: a parent may come after its child.
     pub bodies: Vec<BodyClause>,

@@ -1,8 +1,9 @@
-//! Dimensions of expressions, as far as they follow from the units of fields and inputs, from roles, from `t` in s, and from the
-//! positions and velocities of bodies. A scene in which no unit is written is not checked.
+//! Dimensions of expressions, as far as they follow from the units of fields and inputs, from roles, from `t` in s, and
+//! from the positions and velocities of bodies. A scene in which no unit is written is not checked.
 //!
-//! What has no unit, such as scalar coordinates and speeds, agrees with everything, and so does its product with anything. A
-//! literal agrees with everything too, in a sum or alone; as a factor it has no dimension, unless it is zero.
+//! What has no unit, such as scalar coordinates and speeds, agrees with everything, and so does its product with
+//! anything. A literal agrees with everything too, in a sum or alone; as a factor it has no dimension, unless it is
+//! zero.
 
 use std::collections::HashMap;
 
@@ -116,8 +117,8 @@ impl Checker<'_> {
         }
     }
 
-    /// The one dimension of several values, component by component; that they have several is noted once, with `what` they
-    /// are and why they have one.
+    /// The one dimension of several values, component by component; that they have several is noted once, with `what`
+    /// they are and why they have one.
     fn agree(&mut self, span: Span, values: &[(&Expression, Dimensions)], what: &str, why: &str) -> Dimensions {
         let mut common = [Found::Zero; 3];
         for (index, common) in common.iter_mut().enumerate() {

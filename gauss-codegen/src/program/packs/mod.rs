@@ -1,8 +1,8 @@
 //! Packs: instructions that are alike and wait for none of one another, done as one on vectors of four.
 //!
 //! After Larsen & Amarasinghe, Exploiting superword level parallelism with multimedia instruction sets (2000): from
-//! outputs that stand side by side packs grow along operands, as long as the whole costs less (`cost`). What is computed
-//! stays the same to the last bit: a lane of a vector is rounded as a number is, and what is fused stays so.
+//! outputs that stand side by side packs grow along operands, as long as the whole costs less (`cost`). What is
+//! computed stays the same to the last bit: a lane of a vector is rounded as a number is, and what is fused stays so.
 //!
 //! | file | what it holds |
 //! |---|---|
@@ -25,8 +25,8 @@ use super::instruction::Operand;
 use graph::Graph;
 pub(crate) use kinds::{LANES, Operation, Place, Step};
 
-/// Instructions of code that is packed. A shorter one is all beginning and end; longer ones, chains of many joints, have
-/// few sums in them that are alike term by term.
+/// Instructions of code that is packed. A shorter one is all beginning and end; longer ones, chains of many joints,
+/// have few sums in them that are alike term by term.
 const LENGTHS: Range<usize> = 24..257;
 
 /// Instructions that are one on vectors.

@@ -43,8 +43,8 @@ impl<'c> Partition<'c> {
         partition
     }
 
-    /// With these instructions as one pack; packs that lie within are taken into it. Nothing where they are not alike, one
-    /// is in another pack, or they wait for one another.
+    /// With these instructions as one pack; packs that lie within are taken into it. Nothing where they are not alike,
+    /// one is in another pack, or they wait for one another.
     pub fn with(&self, lanes: &[usize]) -> Option<Self> {
         if !(2..=LANES).contains(&lanes.len()) || (1..lanes.len()).any(|k| lanes[..k].contains(&lanes[k])) {
             return None;
@@ -143,7 +143,8 @@ impl<'c> Partition<'c> {
         Some(visit.steps)
     }
 
-    /// What it waits for, then itself. Most of a search is spent here, unoptimised in macros: no calls for what is done.
+    /// What it waits for, then itself. Most of a search is spent here, unoptimised in macros: no calls for what is
+    /// done.
     fn visit(&self, k: usize, visit: &mut Visit) -> Option<()> {
         match visit.state[k] {
             State::Done => return Some(()),

@@ -17,8 +17,8 @@ pub(super) fn best(graph: &Graph) -> Option<Partition<'_>> {
     (best.cost * 10 < single.cost * 9).then_some(best)
 }
 
-/// Packs that are tried after one that was taken. What is alike grows with the code; with two and a half times its length in place of
-/// three a vehicle of 236 instructions loses a tenth, with twice its length one of 176 as well.
+/// Packs that are tried after one that was taken. What is alike grows with the code; with two and a half times its
+/// length in place of three a vehicle of 236 instructions loses a tenth, with twice its length one of 176 as well.
 fn patience(graph: &Graph) -> usize {
     graph.nodes.len() * 3
 }

@@ -179,8 +179,8 @@ fn in_this_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>, kept: Kept)
     (in_functions(code, kept, written, dialect), code.outputs.iter().map(|output| operand(output, dialect)).collect())
 }
 
-/// The angles of the sines and cosines in a row from instruction `first` on, none of which waits for another: at most as many as are
-/// computed together, and all in one block.
+/// The angles of the sines and cosines in a row from instruction `first` on, none of which waits for another: at most
+/// as many as are computed together, and all in one block.
 fn row_of_angles<S: Copy>(code: &Code<S>, first: usize) -> Vec<Operand<S>> {
     let left = BLOCK - first % BLOCK;
     let row = code.instructions[first..].iter().take(left.min(TOGETHER)).map_while(|instruction| match instruction {
@@ -319,7 +319,8 @@ fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<Ident>
     handed_on
 }
 
-/// Statements in blocks; of long programs in functions, each with some blocks, which the compiler does not put together again.
+/// Statements in blocks; of long programs in functions, each with some blocks, which the compiler does not put together
+/// again.
 fn in_functions<S: Copy>(
     code: &Code<S>,
     kept: Kept,

@@ -1,4 +1,5 @@
-//! Functions of `f64` that need nothing but the standard library: for files that a build script writes, and for reading.
+//! Functions of `f64` that need nothing but the standard library: for files that a build script writes, and for
+//! reading.
 
 use std::collections::BTreeSet;
 
@@ -11,11 +12,11 @@ use crate::program::{Argument, ArgumentKind, Functions, Input, Instruction, Prog
 use super::super::{header, is_handed_over, only_scalar, snake};
 use super::{Dialect, Kept, statements};
 
-/// A file with all programs of a struct: the constants, then every method. Arguments are arrays, but for the time; those without
-/// components are left out. Results are numbers, arrays, or arrays of rows; several are a tuple.
+/// A file with all programs of a struct: the constants, then every method. Arguments are arrays, but for the time;
+/// those without components are left out. Results are numbers, arrays, or arrays of rows; several are a tuple.
 ///
-/// What the equations call of the user's own is taken from the module above: `lift`, its derivatives `lift_1`, `lift_2`. Parameters
-/// are not checked: what `kernel()` refuses gives infinities or NaN here.
+/// What the equations call of the user's own is taken from the module above: `lift`, its derivatives `lift_1`,
+/// `lift_2`. Parameters are not checked: what `kernel()` refuses gives infinities or NaN here.
 ///
 /// ```
 /// let top = "#[gauss(motion = fixed_point)] struct Top { #[gauss(mass)] m: f64, #[gauss(inertia)] i: Vector3<f64> }";

@@ -1,10 +1,10 @@
-//! How a run begins: with fewer and longer steps of a Runge–Kutta method than are wanted, and states between their ends by
-//! Hermite's polynomial through all of these.
+//! How a run begins: with fewer and longer steps of a Runge–Kutta method than are wanted, and states between their ends
+//! by Hermite's polynomial through all of these.
 //!
-//! A step of an Adams method is a third of what a Runge–Kutta method of order 8 needs for the same error, so two or three are
-//! one of the latter: 12 evaluations, and one for each state between. The polynomial through m + 1 ends and the
-//! derivatives there is wrong by `h^(2m+2) y^(2m+2)/(2m+2)! Π(t − tᵢ)²`: the steps at either end are short, because there
-//! the product is largest.
+//! A step of an Adams method is a third of what a Runge–Kutta method of order 8 needs for the same error, so two or
+//! three are one of the latter: 12 evaluations, and one for each state between. The polynomial through m + 1 ends and
+//! the derivatives there is wrong by `h^(2m+2) y^(2m+2)/(2m+2)! Π(t − tᵢ)²`: the steps at either end are short, because
+//! there the product is largest.
 
 use super::formula::MOST;
 use crate::configuration::Configuration;
@@ -85,7 +85,8 @@ impl<const K: usize> Beginning<K> {
         (all, count)
     };
 
-    /// Of the value and of the slope at an end, in Hermite's polynomial: `(1 − 2(t − tᵢ)ℓᵢ′(tᵢ)) ℓᵢ²` and `(t − tᵢ) ℓᵢ²`.
+    /// Of the value and of the slope at an end, in Hermite's polynomial: `(1 − 2(t − tᵢ)ℓᵢ′(tᵢ)) ℓᵢ²` and
+    /// `(t − tᵢ) ℓᵢ²`.
     const fn weights(at: usize, i: usize) -> (f64, f64) {
         let (t, own) = (at as f64, Self::NODES[i] as f64);
         let (mut lagrange, mut slope, mut j) = (1.0, 0.0, 0);
@@ -199,8 +200,8 @@ pub(super) fn point<S: GaussSystem>(q: &S::Configuration, rates: &Rates<S>) -> P
 mod tests {
     use super::*;
 
-    /// Of powers up to 2m + 1 Hermite's polynomial is all there is; of the next one `Π(t − tᵢ)²` is left. Each weight, of a size up to
-    /// `size`, and each sum is rounded, some hundred times in all.
+    /// Of powers up to 2m + 1 Hermite's polynomial is all there is; of the next one `Π(t − tᵢ)²` is left. Each weight,
+    /// of a size up to `size`, and each sum is rounded, some hundred times in all.
     #[test]
     fn states_between_are_those_of_polynomials() {
         fn check<const K: usize>() -> f64 {

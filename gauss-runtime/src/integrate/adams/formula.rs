@@ -33,15 +33,16 @@ const fn signed(i: usize, value: f64) -> f64 {
     if i.is_multiple_of(2) { value } else { -value }
 }
 
-/// A multiple of 2⁻⁴⁷. Sums of weights such as these are exact: a formula whose weights are 1 together to the last bit leads to what is
-/// as exact as numbers are where derivatives are constant.
+/// A multiple of 2⁻⁴⁷. Sums of weights such as these are exact: a formula whose weights are 1 together to the last bit
+/// leads to what is as exact as numbers are where derivatives are constant.
 const fn short(weight: f64) -> f64 {
     const SHIFTER: f64 = 1.5 * (1_u64 << 52) as f64 / (1_u64 << 47) as f64;
     (weight + SHIFTER) - SHIFTER
 }
 
-/// The explicit formula of K steps, and the implicit one of order K + 1. The weights of the latter as they are, not as a correction by
-/// ∇ᴷf, whose binomials would bring the rounding of derivatives into the result a hundred times as large.
+/// The explicit formula of K steps, and the implicit one of order K + 1. The weights of the latter as they are, not as
+/// a correction by ∇ᴷf, whose binomials would bring the rounding of derivatives into the result a hundred times as
+/// large.
 pub(super) struct Formula<const K: usize>;
 
 impl<const K: usize> Formula<K> {

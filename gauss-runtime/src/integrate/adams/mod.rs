@@ -1,13 +1,16 @@
-//! Adams' methods: each step makes use of the derivatives at the ends of those before, and needs two evaluations, whatever the order.
+//! Adams' methods: each step makes use of the derivatives at the ends of those before, and needs two evaluations,
+//! whatever the order.
 //!
-//! The explicit formula of K steps predicts the end of a step, the implicit one of order K + 1 corrects it once, and the derivatives
-//! there are evaluated again (Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, III.1, "PECE"). Steps are made on
-//! the components of the configuration, as those of [`RungeKutta`] are, and brought back onto the group at their ends: what is remembered
-//! are derivatives of components, which live in one linear space wherever the group was, so that no logarithm is needed between steps.
+//! The explicit formula of K steps predicts the end of a step, the implicit one of order K + 1 corrects it once, and
+//! the derivatives there are evaluated again (Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*,
+//! III.1, "PECE"). Steps are made on the components of the configuration, as those of [`RungeKutta`] are, and brought
+//! back onto the group at their ends: what is remembered are derivatives of components, which live in one linear space
+//! wherever the group was, so that no logarithm is needed between steps.
 //!
-//! Smooth scenes need half of the evaluations that Runge–Kutta methods of order 8 and 9 need between errors of 1e-4 and 1e-12. Steps must
-//! resolve the fastest motion: a longer one is not inaccurate but unstable. The first K − 1 steps of a run, and after a jump, are made by a
-//! Runge–Kutta method of order 8, two or three at once (`beginning`): 53 evaluations for K = 10, 77 for K = 12.
+//! Smooth scenes need half of the evaluations that Runge–Kutta methods of order 8 and 9 need between errors of 1e-4 and
+//! 1e-12. Steps must resolve the fastest motion: a longer one is not inaccurate but unstable. The first K − 1 steps of
+//! a run, and after a jump, are made by a Runge–Kutta method of order 8, two or three at once (`beginning`): 53
+//! evaluations for K = 10, 77 for K = 12.
 
 mod beginning;
 mod formula;
@@ -31,10 +34,11 @@ use crate::system::GaussSystem;
 use beginning::{Ahead, begin, point};
 use formula::Formula;
 
-/// Adams' method of K steps, 2 to 12, with steps of one length: of order K + 1, or 9 for K from 9 on, because of how it begins.
+/// Adams' method of K steps, 2 to 12, with steps of one length: of order K + 1, or 9 for K from 9 on, because of how it
+/// begins.
 ///
-/// The more steps, the fewer evaluations at small errors, and the shorter a step must be to be stable: hλ up to 0.9, 0.5 and 0.3 for
-/// oscillations of frequency λ and 6, 8 and 10 steps. Beyond that results are useless at once.
+/// The more steps, the fewer evaluations at small errors, and the shorter a step must be to be stable: hλ up to 0.9,
+/// 0.5 and 0.3 for oscillations of frequency λ and 6, 8 and 10 steps. Beyond that results are useless at once.
 ///
 /// ```
 /// use gauss_runtime::integrate::Adams;
@@ -57,12 +61,13 @@ impl<T: Real, const K: usize> Adams<T, K> {
     }
 }
 
-/// The derivatives at the ends of the last steps, the newest first, in a window that moves through an array with room for so many.
+/// The derivatives at the ends of the last steps, the newest first, in a window that moves through an array with room
+/// for so many.
 struct History<C, Y, const K: usize, const ROOM: usize> {
     derivatives: [Point<C, Y>; ROOM],
     newest: usize,
-    /// Of the explicit and of the implicit formula. A field, so that compilers need not know their number: where a history is behind a
-    /// pointer, as that of lanes, loops over it stay loops, whose sums are in registers.
+    /// Of the explicit and of the implicit formula. A field, so that compilers need not know their number: where a
+    /// history is behind a pointer, as that of lanes, loops over it stay loops, whose sums are in registers.
     weights: &'static [[f64; 2]],
 }
 
@@ -107,7 +112,8 @@ impl<C: Copy, Y: Copy, const K: usize, const ROOM: usize> History<C, Y, K, ROOM>
         self.newest -= 1;
     }
 
-    /// The change in a step of length 1 by the explicit formula, and what the derivatives known are in the implicit one.
+    /// The change in a step of length 1 by the explicit formula, and what the derivatives known are in the implicit
+    /// one.
     #[inline(always)]
     fn sums<T: Real>(&self, newest: &Point<C, Y>) -> [Point<C, Y>; 2]
     where
@@ -116,8 +122,9 @@ impl<C: Copy, Y: Copy, const K: usize, const ROOM: usize> History<C, Y, K, ROOM>
     {
         let Some(([a, b], weights)) = self.weights.split_first() else { return [Point::zero(); 2] };
         let window = &self.derivatives[self.newest..self.newest + weights.len()];
-        // The newest last: all others are known while it is evaluated. It is not yet in the window, from which it would have to be read
-        // as soon as it is written. Components and variables one after the other, so that sums stay in registers.
+        // The newest last: all others are known while it is evaluated. It is not yet in the window, from which it would
+        // have to be read as soon as it is written. Components and variables one after the other, so that sums stay in
+        // registers.
         let [mut explicit, mut implicit] = [Point::<C, Y>::zero(); 2];
         for ([a, b], known) in weights.iter().zip(window).rev() {
             explicit.components = explicit.components.add_scaled(T::from_f64(*a), &known.components);

@@ -46,8 +46,8 @@ fn runs_end_where_they_should() {
     }
 }
 
-/// One evaluation before the first step, one ahead and one at the end of each; the first nine are four of twelve evaluations, and five
-/// states between.
+/// One evaluation before the first step, one ahead and one at the end of each; the first nine are four of twelve
+/// evaluations, and five states between.
 #[test]
 fn a_step_needs_two_evaluations() {
     const STEPS: u32 = 50;
@@ -64,8 +64,9 @@ fn a_step_needs_two_evaluations() {
     assert_eq!(count.get(), 1 + 4 * 12 + 5 + 2 * (STEPS - 9));
 }
 
-/// The first steps are made two or three at once: what lies between is as good as their ends. With steps of 2⁻⁵ Hermite's polynomial of
-/// K = 10 is off by 87 ε next to the start, in proportion to the tenth power: a thousandth of that is below rounding, which is 64 ε here.
+/// The first steps are made two or three at once: what lies between is as good as their ends. With steps of 2⁻⁵
+/// Hermite's polynomial of K = 10 is off by 87 ε next to the start, in proportion to the tenth power: a thousandth of
+/// that is below rounding, which is 64 ε here.
 #[test]
 fn states_between_the_first_steps_are_those_of_the_motion() {
     fn check<const K: usize>() {

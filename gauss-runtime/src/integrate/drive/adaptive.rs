@@ -23,8 +23,8 @@ use crate::integrate::step::one_step::EstimatingStep;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// Steps that keep the estimated error of each within a tolerance: an embedded pair, or any other [`EstimatingStep`], with a PI
-/// controller (Gustafsson; Hairer, Nørsett & Wanner II.4).
+/// Steps that keep the estimated error of each within a tolerance: an embedded pair, or any other [`EstimatingStep`],
+/// with a PI controller (Gustafsson; Hairer, Nørsett & Wanner II.4).
 ///
 /// Where the tolerance is smaller than the rounding error of a step, the rounding error, measured at the state, is the
 /// tolerance: shorter steps would be no better. [`Summary`](crate::integrate::Summary) counts these steps, and has the
@@ -58,8 +58,8 @@ impl<T: Real, const S: usize> Adaptive<Rkmk<T, S>> {
 }
 
 impl<M> Adaptive<M> {
-    /// Any method that estimates its error, for example `Adaptive::by(RungeKutta(Verner9), 1e-12, 1e-12)`; tolerances as in
-    /// [`Adaptive::new`].
+    /// Any method that estimates its error, for example `Adaptive::by(RungeKutta(Verner9), 1e-12, 1e-12)`; tolerances
+    /// as in [`Adaptive::new`].
     #[must_use]
     pub fn by(method: M, relative: f64, absolute: f64) -> Self {
         Self { method, tolerance: Tolerance { relative, absolute }, first_step: None, largest_step: None }
@@ -313,8 +313,8 @@ impl<M> Adaptive<M> {
         }
     }
 
-    /// A first step from the sizes of the state, of its derivative and of the change of the derivative over an Euler step
-    /// (Hairer, Nørsett & Wanner, II.4), for some lanes together; `ones` is 1 in these and 0 in others.
+    /// A first step from the sizes of the state, of its derivative and of the change of the derivative over an Euler
+    /// step (Hairer, Nørsett & Wanner, II.4), for some lanes together; `ones` is 1 in these and 0 in others.
     pub(in crate::integrate) fn first_length<S, P>(
         &self,
         problem: &P,
@@ -343,8 +343,8 @@ impl<M> Adaptive<M> {
         };
         let speed = scaled_norm(rates);
         let guess = if size < 1e-5 || speed < 1e-5 { 1e-6 } else { 0.01 * size / speed };
-        // A component that is zero and moves has no size for a purely relative tolerance: any short step will do, and the
-        // controller lengthens it.
+        // A component that is zero and moves has no size for a purely relative tolerance: any short step will do, and
+        // the controller lengthens it.
         let guess = if guess > 0.0 && guess.is_finite() { guess } else { 1e-6 };
         // Not beyond a fraction of a turn.
         let turn = S::Configuration::increment_angle(&rates.configuration.scale(*ones));

@@ -41,8 +41,8 @@ fn estimates_go_with_the_power_that_the_control_takes() {
     }
 }
 
-/// Down to rounding, the pairs of orders 8 and 9 stay within a few tolerances and take fewer evaluations than order 5, the
-/// more so the smaller the tolerance.
+/// Down to rounding, the pairs of orders 8 and 9 stay within a few tolerances and take fewer evaluations than order 5,
+/// the more so the smaller the tolerance.
 #[test]
 fn high_orders_keep_the_tolerance_for_less() {
     fn run(method: impl EstimatingStep<FreeTop<f64>>, stages: usize, tolerance: f64) -> (f64, usize, usize) {

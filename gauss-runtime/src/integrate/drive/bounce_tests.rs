@@ -119,7 +119,8 @@ fn a_jump_of_the_wrong_velocity_is_told_and_a_gate_is_passed() {
     let start = (pair(0.0, 1.0), pair(2.0, 0.0));
     let falls = |_: f64, q: &Pair, _: &Pair| q[1] - 0.1 * q[0];
     let run = Simulation::new(&system).event(Crossing::Falling, falls);
-    // The velocity along the level alone, a brake, a push, one along the slope and one nearly so: none of them leads back.
+    // The velocity along the level alone, a brake, a push, one along the slope and one nearly so: none of them leads
+    // back.
     let jumps: [fn(&mut Sample<Particle>); 6] = [
         |s| s.z[0] *= -0.5,
         |s| s.z[1] *= 0.5,
@@ -143,7 +144,8 @@ fn a_jump_of_the_wrong_velocity_is_told_and_a_gate_is_passed() {
         let path = run.then_through(jump).adaptive(1e-9, 1e-9).run(start.0, start.1, 0.0..5.0).expect("passes");
         assert!(path.events().len() == 1 && path.last().q[1] < -50.0);
     }
-    // What no velocity turns back passes: at a time, at a turning point; at a place by its own word, or where no state changes.
+    // What no velocity turns back passes: at a time, at a turning point; at a place by its own word, or where no state
+    // changes.
     let switched = core::cell::Cell::new(false);
     let run = Simulation::new(&system)
         .event(Crossing::Rising, |t, _, _| t - 0.25)

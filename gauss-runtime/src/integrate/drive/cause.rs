@@ -39,8 +39,9 @@ pub(in crate::integrate) struct Place<'a, S: GaussSystem> {
 /// thousand times as large as those of the bodies, or change the coordinates by ten thousand times their size.
 const NEAR_SINGULARITY: f64 = 1e-4;
 
-/// So have those that are nearer than this and come to it within so many steps of the length that fails: where coordinates become
-/// infinite, the iteration of an implicit step is not solved from two steps before on. Farther away it is steps that are too long.
+/// So have those that are nearer than this and come to it within so many steps of the length that fails: where
+/// coordinates become infinite, the iteration of an implicit step is not solved from two steps before on. Farther away
+/// it is steps that are too long.
 const AHEAD: (f64, f64) = (0.1, 4.0);
 
 /// Speeds or momenta that are larger have run away, in whatever units.

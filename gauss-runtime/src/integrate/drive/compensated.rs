@@ -1,12 +1,13 @@
 //! Steps of one length whose rounding errors are carried instead of dropped: for 10⁵ steps and more.
 //!
-//! A state is replaced by state + increment at every step, and rounded. The increments are of size h, so their own errors are of
-//! size h ε; the sum is rounded by ε. Here what is rounded off the sum is kept and added to the next increment, in y and in the
-//! configuration ([`Configuration::retract_carrying`]): after n steps the error of rounding is about √n h ε instead of √n ε.
+//! A state is replaced by state + increment at every step, and rounded. The increments are of size h, so their own
+//! errors are of size h ε; the sum is rounded by ε. Here what is rounded off the sum is kept and added to the next
+//! increment, in y and in the configuration ([`Configuration::retract_carrying`]): after n steps the error of rounding
+//! is about √n h ε instead of √n ε.
 //!
-//! That it grows like √n asks that no step makes the same error again. Explicit methods sum their stages relative to the first
-//! one, so that weights that do not add up to 1 by a rounding do no harm, and have their coefficients in two parts
-//! ([`IncrementStep`]); attitudes are held at norm 1 within the same sum. The example `long_runs` measures it.
+//! That it grows like √n asks that no step makes the same error again. Explicit methods sum their stages relative to
+//! the first one, so that weights that do not add up to 1 by a rounding do no harm, and have their coefficients in two
+//! parts ([`IncrementStep`]); attitudes are held at norm 1 within the same sum. The example `long_runs` measures it.
 
 use crate::configuration::{Configuration, VectorSpace, add_carrying};
 use crate::integrate::drive::control::{Control, StepCallback, one_step};

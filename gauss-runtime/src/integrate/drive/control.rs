@@ -26,8 +26,8 @@ pub struct StepStatistics {
     pub excess: f64,
 }
 
-/// A function that a run calls with each state that it reaches, the derivatives there, and the [`StepStatistics`] of the
-/// step. It breaks to end the run.
+/// A function that a run calls with each state that it reaches, the derivatives there, and the [`StepStatistics`] of
+/// the step. It breaks to end the run.
 pub type StepCallback<'a, S> = dyn FnMut(&State<S>, &Rates<S>, StepStatistics) -> ControlFlow<()> + 'a;
 
 /// A method with its choice of steps, which carries a state to the end of an interval.
@@ -37,9 +37,10 @@ pub type StepCallback<'a, S> = dyn FnMut(&State<S>, &Rates<S>, StepStatistics) -
     note = "add `.adaptive(1e-9, 1e-9)`, `.fixed_step(1e-3)` or `.control(…)` before the run"
 )]
 pub trait Control<S: GaussSystem> {
-    /// Integrates from `start` to the time `end` (before or after it), in at most `limit` steps, rejected ones included. `emit`
-    /// gets every state reached with the derivatives there, the first and the last included. With constraints, all of them
-    /// satisfy these up to rounding. When `emit` breaks, the run ends there, with the state that it got.
+    /// Integrates from `start` to the time `end` (before or after it), in at most `limit` steps, rejected ones
+    /// included. `emit` gets every state reached with the derivatives there, the first and the last included. With
+    /// constraints, all of them satisfy these up to rounding. When `emit` breaks, the run ends there, with the state
+    /// that it got.
     ///
     /// # Errors
     /// An [`IntegrationError`] with the time of the last state emitted.
@@ -52,9 +53,10 @@ pub trait Control<S: GaussSystem> {
         emit: &mut StepCallback<'_, S>,
     ) -> Result<State<S>, IntegrationError>;
 
-    /// The state a time `h` after `state`, where the derivatives are `rates`, with the accuracy of the method: what events
-    /// and states between samples are made of. `h` has the sign of the run and is at most as long as the step that the run made
-    /// from there. It depends continuously on `h` for the controls of this crate, which make one step of that length.
+    /// The state a time `h` after `state`, where the derivatives are `rates`, with the accuracy of the method: what
+    /// events and states between samples are made of. `h` has the sign of the run and is at most as long as the step
+    /// that the run made from there. It depends continuously on `h` for the controls of this crate, which make one step
+    /// of that length.
     ///
     /// # Errors
     /// When the step cannot be made.
@@ -70,8 +72,8 @@ pub trait Control<S: GaussSystem> {
         self.drive(problem, *state, state.t + h, DEFAULT_LIMIT, nobody).map_err(|error| error.kind)
     }
 
-    /// The states within one step, as a function of the time since its start: [`within`](Self::within), with whatever belongs to the
-    /// step as a whole worked out once.
+    /// The states within one step, as a function of the time since its start: [`within`](Self::within), with whatever
+    /// belongs to the step as a whole worked out once.
     fn along<P: Problem<System = S>>(
         &self,
         problem: &P,
@@ -122,8 +124,8 @@ pub(in crate::integrate) fn longest(asked: Option<f64>, span: f64, limit: u64) -
     Ok(length.min(span.abs()))
 }
 
-/// A step of about this length from t that ends at a time which is a number: what is left of it once it has been added, so that
-/// the state goes as far as the time does. Far from zero these differ by a rounding of t in each step.
+/// A step of about this length from t that ends at a time which is a number: what is left of it once it has been added,
+/// so that the state goes as far as the time does. Far from zero these differ by a rounding of t in each step.
 #[inline(always)]
 pub(in crate::integrate) fn to_a_number<T: Real>(t: T, length: f64) -> T {
     let h = T::from_f64(length);
@@ -131,8 +133,8 @@ pub(in crate::integrate) fn to_a_number<T: Real>(t: T, length: f64) -> T {
     T::from_f64(((t + h) - t).lane(0))
 }
 
-/// The length at or below which a step does nothing: a rounding of the time, or of what the span is to a rounding, for runs that
-/// start at zero.
+/// The length at or below which a step does nothing: a rounding of the time, or of what the span is to a rounding, for
+/// runs that start at zero.
 pub(in crate::integrate) fn smallest<T: Real>(t: f64, span: f64) -> f64 {
     let unit = T::EPSILON.max(f64::EPSILON);
     0.5 * unit * t.abs().max(unit * span.abs())
@@ -148,8 +150,8 @@ pub(in crate::integrate) fn unresolved<T: Real>(step: f64, time: f64, span: f64)
     }
 }
 
-/// The span of time in the first lane, the start on the constraints, and the derivatives there: all checks before the first
-/// step.
+/// The span of time in the first lane, the start on the constraints, and the derivatives there: all checks before the
+/// first step.
 #[doc(hidden)]
 pub fn prepare<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,

@@ -3,19 +3,20 @@
 //! **What is an event.** A function passes from one side of zero to zero or to the other side, in the chosen direction
 //! ([`Crossing`]), in the order of integration.
 //!
-//! - *A zero at the start* is none: what starts on zero is on the side to which it leaves zero at first, and passes when it comes
-//!   back. So a run goes on from where another one ended.
-//! - *A touch* without passing is none; where rounding decides, it is two passages or none. A function grazes zero where its
-//!   derivative passes through it: watch that.
-//! - *A jump* of the function over zero is one. *A pole*, where it passes from one side to the other by way of infinity, is none.
+//! - *A zero at the start* is none: what starts on zero is on the side to which it leaves zero at first, and passes
+//!   when it comes back. So a run goes on from where another one ended.
+//! - *A touch* without passing is none; where rounding decides, it is two passages or none. A function grazes zero
+//!   where its derivative passes through it: watch that.
+//! - *A jump* of the function over zero is one. *A pole*, where it passes from one side to the other by way of
+//!   infinity, is none.
 //! - A function that is undefined (NaN) ends the run.
 //!
-//! **How they are found.** After every step the function is looked at between its ends as well: on the cubic through the states and
-//! derivatives there, or on the series of Taylor's method. So passages there and back within one step are seen, as
-//! long as that curve shows them; what is faster than the steps is not, and where that matters steps are to be bounded
-//! ([`Simulation::largest_step`](crate::integrate::Simulation::largest_step)). Then the length of the step is varied until it ends at the
-//! zero: what is found is a state that the method itself reaches from the last one, as accurate as the run, and not a point
-//! of the curve.
+//! **How they are found.** After every step the function is looked at between its ends as well: on the cubic through
+//! the states and derivatives there, or on the series of Taylor's method. So passages there and back within one step
+//! are seen, as long as that curve shows them; what is faster than the steps is not, and where that matters steps are
+//! to be bounded ([`Simulation::largest_step`](crate::integrate::Simulation::largest_step)). Then the length of the
+//! step is varied until it ends at the zero: what is found is a state that the method itself reaches from the last one,
+//! as accurate as the run, and not a point of the curve.
 //!
 //! **Jumps.** [`Simulation::then`](crate::integrate::Simulation::then) changes the state at an event, and the run goes
 //! on from there: a jump of velocities, as at an impact, or of the configuration. After the jump the function is zero
@@ -33,8 +34,8 @@
 //! - *Infinitely many jumps* (a ball that bounces ever lower) pile up at one time. The run ends with `Zeno` as soon as
 //!   the next flight is not higher than some roundings of the numbers that the function depends on, or shorter than
 //!   what times are told apart by. For a ball at 1 m that is 10⁻¹⁴ m, some 10⁻⁷ s before the time of the last impact.
-//! - *A great many jumps* (a ball that keeps nearly all of its speed, low above the floor) may use up the steps of a run
-//!   before they pile up: it ends with `TooManyJumps`, above the floor.
+//! - *A great many jumps* (a ball that keeps nearly all of its speed, low above the floor) may use up the steps of a
+//!   run before they pile up: it ends with `TooManyJumps`, above the floor.
 //! - *Over other zeros.* Where a jump itself leads over the zero of another event, that one happens at once, in the
 //!   state after the jump. Events whose zeros are the same, to the resolution of the time, happen at one time, in their
 //!   order.
@@ -465,7 +466,8 @@ where
         })
     }
 
-    /// The state after the jump of an event, if it has one, and whether it is another; it may be something else that has changed.
+    /// The state after the jump of an event, if it has one, and whether it is another; it may be something else that
+    /// has changed.
     fn jump(&mut self, number: usize, from: &State<S>) -> Result<Option<(State<S>, bool)>, IntegrationErrorKind> {
         let problem = self.problem;
         let given = problem.sample(from);

@@ -49,8 +49,8 @@ impl<T: Real, M> Fixed<T, M> {
 /// The end of a step, and the derivatives there where they came with it.
 pub(in crate::integrate) type Advanced<S> = (State<S>, Option<Rates<S>>);
 
-/// How many steps of a length fill a span of time. A remainder of a few roundings of the count is that of the length and of the
-/// ends, not a step.
+/// How many steps of a length fill a span of time. A remainder of a few roundings of the count is that of the length
+/// and of the ends, not a step.
 fn number_of_steps<T: Real>(span: f64, length: f64) -> f64 {
     let count = span.abs() / length;
     let unit = T::EPSILON.max(f64::EPSILON);

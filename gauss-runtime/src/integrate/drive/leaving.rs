@@ -26,7 +26,8 @@ const SPAN: f64 = 1.0 / 4096.0;
 /// Roundings of every number that a function depends on: states are sums of some rounded terms, and so is the function.
 const ROUNDINGS: f64 = 16.0;
 
-/// A rate that a jump has left is rest where it is less than this part of the one before: rates are measured to [`SPAN`].
+/// A rate that a jump has left is rest where it is less than this part of the one before: rates are measured to
+/// [`SPAN`].
 const DIFFERS: f64 = 1e-6;
 
 /// A function that is on zero, to rounding.
@@ -230,8 +231,8 @@ where
         self.leaves_from(function, &on, (&state, &self.problem.rates(&state)), part)
     }
 
-    /// The rate of a function along the motion at a state, per unit of time in the direction of integration, measured over a part of the
-    /// step.
+    /// The rate of a function along the motion at a state, per unit of time in the direction of integration, measured
+    /// over a part of the step.
     pub(in crate::integrate) fn rate(&self, function: Function<'_, S>, state: &State<S>, rates: &Rates<S>) -> f64 {
         let along = |part: f64| {
             let state = moved(state, rates, self.length() * S::Scalar::from_f64(part));
@@ -242,8 +243,8 @@ where
         if slope.is_finite() { slope } else { 0.0 }
     }
 
-    /// Whether a function changes with the configuration, where time and speeds stay: moved by half of its digits, every one of its
-    /// components by itself.
+    /// Whether a function changes with the configuration, where time and speeds stay: moved by half of its digits,
+    /// every one of its components by itself.
     fn is_of_the_configuration(&self, function: Function<'_, S>, state: &State<S>) -> bool {
         let z = self.problem.speeds(state.t, &state.q, &state.y);
         let at = |q: &S::Configuration| function(state.t, q, &z).lane(self.made.lane);

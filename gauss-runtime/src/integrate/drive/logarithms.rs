@@ -1,8 +1,8 @@
-//! Logarithms and exponentials of the controller of steps, inlined and without branches, so that those of several lanes are formed
-//! side by side. The same bits alone and among others, on every target with the same products and sums.
+//! Logarithms and exponentials of the controller of steps, inlined and without branches, so that those of several lanes
+//! are formed side by side. The same bits alone and among others, on every target with the same products and sums.
 //!
-//! A controller needs two digits of them; they are good to some units in the last place, since shorter series would hardly be
-//! cheaper.
+//! A controller needs two digits of them; they are good to some units in the last place, since shorter series would
+//! hardly be cheaper.
 
 use crate::real::Real;
 

@@ -1,7 +1,7 @@
 //! Whether a run has any prospect of its end.
 
-/// Steps after which the way that they made is looked at: a tenth of a second of a small system. Transients that begin with
-/// short steps are over by then, since steps grow by factors.
+/// Steps after which the way that they made is looked at: a tenth of a second of a small system. Transients that begin
+/// with short steps are over by then, since steps grow by factors.
 const WINDOW: u64 = 100_000;
 
 /// Follows how far a run comes with its steps.
@@ -16,8 +16,8 @@ impl Pace {
         Self { limit, tries: 0, from: start }
     }
 
-    /// Counts a step that is about to be tried at time t, with so much time left. Whether it is too many: `Some(true)` when at the
-    /// present pace all steps that are allowed do not reach the end, `Some(false)` when they are used up.
+    /// Counts a step that is about to be tried at time t, with so much time left. Whether it is too many: `Some(true)`
+    /// when at the present pace all steps that are allowed do not reach the end, `Some(false)` when they are used up.
     pub(in crate::integrate) fn spent(&mut self, t: f64, left: f64) -> Option<bool> {
         if self.tries == self.limit {
             return Some(false);

@@ -1,16 +1,17 @@
 //! States of a run kept on the constraints. Without constraints nothing here does anything, at compile time.
 //!
-//! A step ends off the constraints by its local error. While the constraints are independent, the nearest state on them is no farther
-//! from the solution than about twice that. So projecting after every accepted step keeps the order of the method and nothing
-//! accumulates (Hairer, Lubich & Wanner, *Geometric Numerical Integration*, IV.4). Error estimates are those of the step before it is
-//! projected.
+//! A step ends off the constraints by its local error. While the constraints are independent, the nearest state on them
+//! is no farther from the solution than about twice that. So projecting after every accepted step keeps the order of
+//! the method and nothing accumulates (Hairer, Lubich & Wanner, *Geometric Numerical Integration*, IV.4). Error
+//! estimates are those of the step before it is projected.
 //!
-//! Where constraints become dependent on one another (a singular position of a mechanism) that fails: with a least singular value σ of
-//! the Jacobian, an error e of the positions turns the admissible velocities by e/σ, and beside the singularity the nearest state may be
-//! on another branch of the motion. The projection in the metric of the kinetic energy then takes away whatever it finds across, up to all
-//! of it. So what the projection moves is an error of the step like others, and bounded: by half of the way that the step makes
-//! ([`onto_constraints`]), and for a tolerance by a multiple of it ([`check_move`]). A step that is moved farther is
-//! rejected: a shorter one has a smaller error, or ends elsewhere. Where none will do, the run ends.
+//! Where constraints become dependent on one another (a singular position of a mechanism) that fails: with a least
+//! singular value σ of the Jacobian, an error e of the positions turns the admissible velocities by e/σ, and beside the
+//! singularity the nearest state may be on another branch of the motion. The projection in the metric of the kinetic
+//! energy then takes away whatever it finds across, up to all of it. So what the projection moves is an error of the
+//! step like others, and bounded: by half of the way that the step makes ([`onto_constraints`]), and for a tolerance by
+//! a multiple of it ([`check_move`]). A step that is moved farther is rejected: a shorter one has a smaller error, or
+//! ends elsewhere. Where none will do, the run ends.
 
 use core::ops::Range;
 
@@ -24,15 +25,15 @@ use crate::integrate::step::checks::is_in_range;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// The projection onto the constraints may move the end of a step by so many tolerances. The computed end is within one of them of the
-/// true one, and so is what is nearest to it on independent constraints. But "nearest" is measured by the kinetic energy: a light body
-/// on a short lever moves farther than the heavy one whose error it takes up. Ordinary scenes are moved by a hundredth of a tolerance
-/// and less, because estimates are those of a method of lower order.
+/// The projection onto the constraints may move the end of a step by so many tolerances. The computed end is within one
+/// of them of the true one, and so is what is nearest to it on independent constraints. But "nearest" is measured by
+/// the kinetic energy: a light body on a short lever moves farther than the heavy one whose error it takes up. Ordinary
+/// scenes are moved by a hundredth of a tolerance and less, because estimates are those of a method of lower order.
 const PROJECTED: f64 = 10.0;
 
-/// Brings the end of an accepted step, of which the start is given with the derivatives there, onto the constraints, where there are
-/// any, and gives the derivatives at the end; refuses speeds whose squares overflow. Derivatives that came with the step belong to its end
-/// before it was projected, and serve without constraints only.
+/// Brings the end of an accepted step, of which the start is given with the derivatives there, onto the constraints,
+/// where there are any, and gives the derivatives at the end; refuses speeds whose squares overflow. Derivatives that
+/// came with the step belong to its end before it was projected, and serve without constraints only.
 #[inline(always)]
 pub fn accept<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
@@ -52,12 +53,14 @@ pub fn accept<S: GaussSystem, P: Problem<System = S>>(
     if rates.is_finite() { Ok(rates) } else { Err(IntegrationErrorKind::NonFinite { part: RunPart::Step }) }
 }
 
-/// The end of a step of a constrained system brought onto its constraints, and not farther than half of the way of the step.
+/// The end of a step of a constrained system brought onto its constraints, and not farther than half of the way of the
+/// step.
 ///
-/// The true motion ends on the constraints. If it is farther from there to the computed end than half of what the step changes, then so
-/// is the error of the step: not one binary digit of the change is right. The way is what the step changes, or what the derivatives at
-/// its start do where that is more: a motion that turns back changes nothing. Half of the digits of the state itself are allowed as
-/// they are to an initial state ([`consistent_start`]): at rest nothing changes but by rounding.
+/// The true motion ends on the constraints. If it is farther from there to the computed end than half of what the step
+/// changes, then so is the error of the step: not one binary digit of the change is right. The way is what the step
+/// changes, or what the derivatives at its start do where that is more: a motion that turns back changes nothing. Half
+/// of the digits of the state itself are allowed as they are to an initial state ([`consistent_start`]): at rest
+/// nothing changes but by rounding.
 pub(in crate::integrate) fn onto_constraints<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     (from, rates): (&State<S>, &Rates<S>),
@@ -84,9 +87,9 @@ pub(in crate::integrate) fn onto_constraints<S: GaussSystem, P: Problem<System =
     Ok(projected)
 }
 
-/// Refuses a step that the projection onto the constraints moves by more than [`PROJECTED`] tolerances. `trial` ends where it is moved
-/// to, from where it was computed. What the projection makes of a rounding at the start of the step cannot be told from its rounding at the
-/// end, up to half of the digits.
+/// Refuses a step that the projection onto the constraints moves by more than [`PROJECTED`] tolerances. `trial` ends
+/// where it is moved to, from where it was computed. What the projection makes of a rounding at the start of the step
+/// cannot be told from its rounding at the end, up to half of the digits.
 #[inline(always)]
 pub(in crate::integrate) fn check_move<S: GaussSystem, P: Problem<System = S>>(
     tolerance: &Tolerance,
@@ -139,12 +142,13 @@ fn check_above_rounding<S: GaussSystem, P: Problem<System = S>>(
     worst.1
 }
 
-/// Refuses what the projection makes of a jump where that is farther from the state that was set than the jump itself goes.
+/// Refuses what the projection makes of a jump where that is farther from the state that was set than the jump itself
+/// goes.
 ///
-/// The state before is on the constraints of that time. So the nearest one to what was set is no farther from it than the jump: as
-/// the kinetic energy measures it, and by largest components within [`PROJECTED`]. Where the configuration stays, velocities are projected
-/// onto one linear space, and the kinetic energy of what that takes away is no more than that of the jump. Else it is all rounding of
-/// constraints that depend on one another.
+/// The state before is on the constraints of that time. So the nearest one to what was set is no farther from it than
+/// the jump: as the kinetic energy measures it, and by largest components within [`PROJECTED`]. Where the configuration
+/// stays, velocities are projected onto one linear space, and the kinetic energy of what that takes away is no more
+/// than that of the jump. Else it is all rounding of constraints that depend on one another.
 pub(in crate::integrate) fn check_jump<S: GaussSystem>(
     system: &S,
     before: &Sample<S>,
@@ -182,11 +186,11 @@ pub(in crate::integrate) fn check_jump<S: GaussSystem>(
 /// constraints may have become dependent.
 const TRIALS: u32 = 4;
 
-/// Whether a step that the projection moved too far, so many times shortened, starts next to a position where the constraints are dependent,
-/// so that steps would only shrink towards it.
+/// Whether a step that the projection moved too far, so many times shortened, starts next to a position where the
+/// constraints are dependent, so that steps would only shrink towards it.
 ///
-/// With a least singular value σ the projection makes ε/σ of a rounding, and admissible velocities at positions that are known to that turn
-/// by ε/σ²: half of the digits are lost where the projection makes ε^¾ of ε.
+/// With a least singular value σ the projection makes ε/σ of a rounding, and admissible velocities at positions that
+/// are known to that turn by ε/σ²: half of the digits are lost where the projection makes ε^¾ of ε.
 #[cold]
 pub(in crate::integrate) fn is_hopeless<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,

@@ -73,11 +73,11 @@ fn momenta_are_kept_on_the_constraints_as_well() {
     }
 }
 
-/// The largest errors of a method over eight times up to t = 2, for each number of steps in these 2 s. The reference is the
-/// pendulum by its angle, which has no constraint, to 1e-13.
+/// The largest errors of a method over eight times up to t = 2, for each number of steps in these 2 s. The reference is
+/// the pendulum by its angle, which has no constraint, to 1e-13.
 ///
-/// At one time alone the two leading terms of the error cancel for some step, where its sign changes, and the slope next to
-/// that says nothing of the order.
+/// At one time alone the two leading terms of the error cancel for some step, where its sign changes, and the slope
+/// next to that says nothing of the order.
 fn errors<F: Form<Hand<f64, 2, 1>>, const N: usize>(form: F, tableau: &Tableau<N>, steps: [usize; 2]) -> [f64; 2] {
     let reference = pendulum_by_angle();
     let exact: Vec<(SVector<f64, 2>, SVector<f64, 2>)> = (1..=8)
@@ -105,8 +105,8 @@ fn errors<F: Form<Hand<f64, 2, 1>>, const N: usize>(form: F, tableau: &Tableau<N
 
 #[test]
 fn methods_keep_their_order() {
-    // With errors C hᵖ (1 + c h + …) the slope between h and h/2 differs from p by about c h: for RK4 it is 3.62, 3.84 and 3.93
-    // between 200, 400, 800 and 1600 steps. An order lost would show as 1.
+    // With errors C hᵖ (1 + c h + …) the slope between h and h/2 differs from p by about c h: for RK4 it is 3.62, 3.84
+    // and 3.93 between 200, 400, 800 and 1600 steps. An order lost would show as 1.
     for (name, order, [coarse, fine]) in [
         ("RK4, velocities", 4.0, errors(VelocityForm, &Tableau::RK4, [800, 1600])),
         ("RK4, momenta", 4.0, errors(MomentumForm, &Tableau::RK4, [800, 1600])),
@@ -217,7 +217,8 @@ fn a_constraint_that_can_no_longer_be_met_ends_the_run_in_words() {
     assert!(error.time > 0.999 && error.time <= 1.0 && error.time == trajectory.last().t, "{error}");
 }
 
-/// A jump is on the constraints again no farther from what was set than it went itself; what is farther is not its projection.
+/// A jump is on the constraints again no farther from what was set than it went itself; what is farther is not its
+/// projection.
 #[test]
 fn a_jump_is_not_projected_farther_than_it_goes() {
     let system = pendulum::<f64>(2.0);

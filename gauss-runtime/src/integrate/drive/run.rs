@@ -73,7 +73,8 @@ impl Jumps {
         if self.in_a_row < AT_ONCE { Ok(()) } else { Err(IntegrationErrorKind::Zeno { event, interval }) }
     }
 
-    /// Why a run ended: where steps have been used up, and every other one of them at least ended with a jump, by these.
+    /// Why a run ended: where steps have been used up, and every other one of them at least ended with a jump, by
+    /// these.
     pub(in crate::integrate) fn told(&self, kind: IntegrationErrorKind, summary: &Summary) -> IntegrationErrorKind {
         match kind {
             IntegrationErrorKind::TooManySteps { .. } if summary.jumps > 0 && 2 * summary.jumps >= summary.steps => {
@@ -93,7 +94,8 @@ enum Cut<S: GaussSystem> {
 }
 
 impl<S: GaussSystem> Cut<S> {
-    /// At an event, with the state there and the one that it jumped to; passes on the first, and the second where the run ends.
+    /// At an event, with the state there and the one that it jumped to; passes on the first, and the second where the
+    /// run ends.
     fn at(
         counted: Result<(), IntegrationErrorKind>,
         (state, after): (State<S>, Option<State<S>>),
@@ -162,8 +164,8 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         Ok(End { sample: problem.sample(&state), stopped_by: reached.stopped_by, summary: reached.summary })
     }
 
-    /// Runs the method and passes on the first, every n-th and the last state reached, both sides of jumps, and the events between
-    /// them.
+    /// Runs the method and passes on the first, every n-th and the last state reached, both sides of jumps, and the
+    /// events between them.
     pub(in crate::integrate) fn drive<E: Events<S>>(
         &self,
         events: E,

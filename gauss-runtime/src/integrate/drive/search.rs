@@ -9,8 +9,8 @@ use crate::integrate::problem::state::{Rates, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// Which passages through zero are events, in the order of integration: a run backwards meets a function that grows with time
-/// as falling.
+/// Which passages through zero are events, in the order of integration: a run backwards meets a function that grows
+/// with time as falling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Crossing {
     /// From below zero to zero or above.
@@ -205,7 +205,8 @@ where
         Ok(locate(along, a, b, self.resolution)?.map(zero))
     }
 
-    /// Whether the curve between the ends of the step shows a sign, or comes so near to zero within, that it is worth a search.
+    /// Whether the curve between the ends of the step shows a sign, or comes so near to zero within, that it is worth a
+    /// search.
     fn suspicious(&self, function: Function<'_, S>, from: (f64, f64)) -> Result<bool, IntegrationErrorKind> {
         let (lane, mut glance) = (self.made.lane, self.glances());
         let mut at = |part: f64| value(self.problem, function, lane, &glance(part)?);
@@ -222,7 +223,8 @@ where
         Ok(false)
     }
 
-    /// What [`suspicious`](Self::suspicious) sees of a whole step, in all lanes at once: whether a lane that starts from a value is.
+    /// What [`suspicious`](Self::suspicious) sees of a whole step, in all lanes at once: whether a lane that starts
+    /// from a value is.
     #[cfg(feature = "alloc")]
     pub(in crate::integrate) fn glimpse(
         &self,
@@ -270,8 +272,8 @@ where
     }
 }
 
-/// Whether a part of a step from value to value, with these slopes at its ends where they are asked for, shows a zero or comes near to
-/// one.
+/// Whether a part of a step from value to value, with these slopes at its ends where they are asked for, shows a zero
+/// or comes near to one.
 fn shows_zero(
     [a, b]: [f64; 2],
     slopes: impl FnOnce() -> Result<[f64; 2], IntegrationErrorKind>,
@@ -288,8 +290,8 @@ fn shows_zero(
         && least_of_cubic([sign * a, sign * b], [leaves, comes]) < 0.1 * a.abs().max(b.abs()))
 }
 
-/// The cubic through the states at the ends of a step with the derivatives there: in the algebra at the start, where q is
-/// `q₀ ∘ exp(σ)` and `σ̇ = dexp_inv(σ, V)`.
+/// The cubic through the states at the ends of a step with the derivatives there: in the algebra at the start, where q
+/// is `q₀ ∘ exp(σ)` and `σ̇ = dexp_inv(σ, V)`.
 struct Cubic<'a, S: GaussSystem> {
     made: &'a Made<'a, S>,
     h: S::Scalar,

@@ -64,9 +64,9 @@ assert!((kernel.energy(end.t, &end.q, &end.z) - before).abs() < 1e-7 * before);
 ///
 /// Initial values are always quasi-velocities z, and samples hold both z and p.
 ///
-/// Constraints that coordinates and speeds do not solve by themselves hold up to rounding in every sample, because each step
-/// ends with a projection ([`GaussSystem::project`]). Initial values must satisfy them as well, up to the rounding of
-/// the numbers that were given.
+/// Constraints that coordinates and speeds do not solve by themselves hold up to rounding in every sample, because each
+/// step ends with a projection ([`GaussSystem::project`]). Initial values must satisfy them as well, up to the rounding
+/// of the numbers that were given.
 #[derive(Clone, Copy, Debug)]
 #[must_use = "a simulation does nothing before `run`"]
 pub struct Simulation<P, C = NoControl, O = Unobserved, E = NoEvents> {
@@ -275,14 +275,14 @@ assert!(run.iter().all(|state| state.q[0] > -1e-14)); // some roundings of the t
 }
 
 impl<P, C, O, E> Simulation<P, C, O, E> {
-    /// Steps of one length, by [`RungeKutta`](crate::integrate::RungeKutta) of order 8 (Dormand and Prince); the last step is shortened to end
-    /// in time.
+    /// Steps of one length, by [`RungeKutta`](crate::integrate::RungeKutta) of order 8 (Dormand and Prince); the last
+    /// step is shortened to end in time.
     pub fn fixed_step<T: Real>(self, step: T) -> Simulation<P, Fixed<T>, O, E> {
         self.control(Fixed::new(step))
     }
 
-    /// Steps as long as the tolerances allow, by [`RungeKutta`](crate::integrate::RungeKutta) of order 8 (Dormand and Prince): see
-    /// [`Adaptive::new`].
+    /// Steps as long as the tolerances allow, by [`RungeKutta`](crate::integrate::RungeKutta) of order 8 (Dormand and
+    /// Prince): see [`Adaptive::new`].
     pub fn adaptive(self, relative: f64, absolute: f64) -> Simulation<P, Adaptive, O, E> {
         self.control(Adaptive::new(relative, absolute))
     }
@@ -305,11 +305,11 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
         self
     }
 
-    /// The most steps (rejected ones included) before the run is given up, instead of [`DEFAULT_LIMIT`], or of a tenth of it where
-    /// every one is kept.
+    /// The most steps (rejected ones included) before the run is given up, instead of [`DEFAULT_LIMIT`], or of a tenth
+    /// of it where every one is kept.
     ///
-    /// Runs that cannot reach their end within the limit end as soon as that is seen: steps of one length at once, others when the
-    /// way that a hundred thousand of them made shows it.
+    /// Runs that cannot reach their end within the limit end as soon as that is seen: steps of one length at once,
+    /// others when the way that a hundred thousand of them made shows it.
     pub fn max_steps(mut self, limit: u64) -> Self {
         self.limit = Some(limit);
         self
@@ -379,8 +379,8 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
         }
     }
 
-    /// Like [`run`](Self::run), but gives the trajectory up to the last good state when the end is not reached, with the
-    /// reason.
+    /// Like [`run`](Self::run), but gives the trajectory up to the last good state when the end is not reached, with
+    /// the reason.
     #[cfg(feature = "alloc")]
     pub fn attempt<'t, S: GaussSystem>(
         self,
@@ -401,8 +401,8 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
         (Trajectory::new(kept, problem, control, every == 1), error)
     }
 
-    /// Integrates without keeping anything, and gives the final state with what brought the run there; an observer sees the
-    /// others. Needs no memory.
+    /// Integrates without keeping anything, and gives the final state with what brought the run there; an observer sees
+    /// the others. Needs no memory.
     ///
     /// # Errors
     /// When the run does not reach the end.

@@ -1,12 +1,13 @@
 //! The lengths of adaptive steps, one decision after another.
 //!
-//! Smooth systems are stepped by a PI controller (Gustafsson; Hairer, Nørsett & Wanner II.4), which takes the error of a step
-//! of length h for c·h^k with a c that changes slowly. On a step across a kink or a jump that is not so: the error is of order
-//! h² or h there, whatever the method (Hairer, Nørsett & Wanner II.6), c says nothing about the steps beyond it, and an
-//! estimate that is a difference of two methods of high order sees little of it. Where [`Smoothness`] says that such steps occur,
+//! Smooth systems are stepped by a PI controller (Gustafsson; Hairer, Nørsett & Wanner II.4), which takes the error of
+//! a step of length h for c·h^k with a c that changes slowly. On a step across a kink or a jump that is not so: the
+//! error is of order h² or h there, whatever the method (Hairer, Nørsett & Wanner II.6), c says nothing about the steps
+//! beyond it, and an estimate that is a difference of two methods of high order sees little of it. Where [`Smoothness`]
+//! says that such steps occur,
 //!
-//! - a rejected step is shortened by the order that it has across a kink or a jump, so that one crossing does not take many
-//!   trials, each a little shorter;
+//! - a rejected step is shortened by the order that it has across a kink or a jump, so that one crossing does not take
+//!   many trials, each a little shorter;
 //! - the steps that then lead over the place are held to a smaller error;
 //! - the first step after a rejection is judged by its own error alone: the memory of the controller is from before it;
 //! - steps grow by less at a time, which keeps them from leaping over what the stages have not seen.
@@ -17,12 +18,12 @@ use crate::real::Real;
 use crate::system::Smoothness;
 
 /// The part of the tolerance that an error may take near a kink or a jump. A jump at θ of a step makes the error
-/// `h·jump·(Σ_{c > θ} b − 1 + θ)`, of which the estimate `h·jump·Σ_{c > θ} (b − b̂)` of the pair 5(4) shows 1/8 to 1/170 at
-/// worst, depending on between which stages θ lies.
+/// `h·jump·(Σ_{c > θ} b − 1 + θ)`, of which the estimate `h·jump·Σ_{c > θ} (b − b̂)` of the pair 5(4) shows 1/8 to
+/// 1/170 at worst, depending on between which stages θ lies.
 const NEAR_ROUGHNESS: f64 = 0.02;
 
-/// So many steps lead over the place where one was rejected: with its length cut to r, at least 1/5, they are r, r and, grown
-/// by 5 at most, 5r long.
+/// So many steps lead over the place where one was rejected: with its length cut to r, at least 1/5, they are r, r and,
+/// grown by 5 at most, 5r long.
 const STEPS_ACROSS: u32 = 3;
 
 /// ln 10⁻⁴: smaller errors are remembered as this one.
@@ -72,13 +73,14 @@ impl StepLength {
         }
     }
 
-    /// The part of a step that could not be made for some reason which is tried next. Of one that ends next to a singularity not a half:
-    /// two halves end there again.
+    /// The part of a step that could not be made for some reason which is tried next. Of one that ends next to a
+    /// singularity not a half: two halves end there again.
     pub(in crate::integrate) fn part(reason: &IntegrationErrorKind) -> f64 {
         if matches!(reason, IntegrationErrorKind::ProjectionTooFar { .. }) { 0.7 } else { 0.5 }
     }
 
-    /// A step of this error (in tolerances, within the limit) is accepted: the factor from its length to that of the next.
+    /// A step of this error (in tolerances, within the limit) is accepted: the factor from its length to that of the
+    /// next.
     pub(in crate::integrate) fn accept(&mut self, error: f64) -> f64 {
         let logarithm = logarithm(Self::told(error));
         self.grow(logarithm, exponential(self.exponent(logarithm)))
@@ -101,8 +103,8 @@ impl StepLength {
     /// [`exponent`](Self::exponent).
     pub(in crate::integrate) fn grow(&mut self, logarithm: f64, growth: f64) -> f64 {
         let factor = 0.9 * growth;
-        // No growth right after a rejection. Smooth systems may find their length fast; others keep to the usual 1.5 to 5
-        // (Hairer, Nørsett & Wanner II.4).
+        // No growth right after a rejection. Smooth systems may find their length fast; others keep to the usual 1.5 to
+        // 5 (Hairer, Nørsett & Wanner II.4).
         let most = match (self.rejected, self.smoothness) {
             (true, _) => 1.0,
             (false, Smoothness::Smooth) => 10.0,

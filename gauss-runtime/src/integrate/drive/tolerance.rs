@@ -1,11 +1,12 @@
 //! Errors of steps in units of the tolerance, and the part of them that is rounding.
 //!
-//! **Rounding.** Stages of a step are rounded, so derivatives are evaluated at states that are off by about ε of their sizes: an
-//! error estimate, which is h times a sum of derivatives, never falls below h times what that changes. Where a tolerance asks for
-//! less, shorter steps do not help: the estimate falls with h alone, and steps that follow it become shorter by orders of
-//! magnitude without being any better. So when a step is rejected, or steps have become half as long, the derivatives are evaluated
-//! at states that differ by ε, and what they differ by is tolerated in each component, h·δ with a factor, if that is more than what
-//! was asked for. Where it is less it changes nothing, to the last bit. A kink or a jump is no rounding: it is not within ε of the state.
+//! **Rounding.** Stages of a step are rounded, so derivatives are evaluated at states that are off by about ε of their
+//! sizes: an error estimate, which is h times a sum of derivatives, never falls below h times what that changes. Where
+//! a tolerance asks for less, shorter steps do not help: the estimate falls with h alone, and steps that follow it
+//! become shorter by orders of magnitude without being any better. So when a step is rejected, or steps have become
+//! half as long, the derivatives are evaluated at states that differ by ε, and what they differ by is tolerated in each
+//! component, h·δ with a factor, if that is more than what was asked for. Where it is less it changes nothing, to the
+//! last bit. A kink or a jump is no rounding: it is not within ε of the state.
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
@@ -13,9 +14,9 @@ use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// The error of a step, which is a weighted sum of derivatives with errors δ, in δ times its length: roots of the sums of squares of
-/// the weights of embedded pairs are up to 2, what three samples show of δ may be a part of it, and in between there is to be room
-/// to tell an error from rounding.
+/// The error of a step, which is a weighted sum of derivatives with errors δ, in δ times its length: roots of the sums
+/// of squares of the weights of embedded pairs are up to 2, what three samples show of δ may be a part of it, and in
+/// between there is to be room to tell an error from rounding.
 const AMPLIFICATION: f64 = 4.0;
 
 /// The tolerances of an adaptive method.
@@ -118,7 +119,8 @@ pub(in crate::integrate) struct Trial<'a, S: GaussSystem> {
 }
 
 impl Tolerance {
-    /// The error of a step in tolerances: the root mean square over the components, of the worst lane. NaN when an error is.
+    /// The error of a step in tolerances: the root mean square over the components, of the worst lane. NaN when an
+    /// error is.
     #[inline(always)]
     pub(in crate::integrate) fn error<S: GaussSystem>(
         &self,
@@ -173,7 +175,8 @@ impl Tolerance {
         worst_lane(self.errors_above(floor, states, estimates))
     }
 
-    /// [`errors`](Self::errors) above a floor: from a state to another, and the length of the step; its estimates, fine and coarse.
+    /// [`errors`](Self::errors) above a floor: from a state to another, and the length of the step; its estimates, fine
+    /// and coarse.
     #[cold]
     #[inline(never)]
     pub(in crate::integrate) fn errors_above<S: GaussSystem>(
@@ -185,7 +188,8 @@ impl Tolerance {
         self.errors(&Trial { from, to, length, floor: Some(floor) }, fine, coarse)
     }
 
-    /// How many times the tolerance rounding is where it is more, the largest of the components and lanes; 0 where it is nowhere.
+    /// How many times the tolerance rounding is where it is more, the largest of the components and lanes; 0 where it
+    /// is nowhere.
     #[cold]
     #[inline(never)]
     pub(in crate::integrate) fn excess<S: GaussSystem>(&self, trial: &Trial<'_, S>) -> f64 {
@@ -254,8 +258,8 @@ pub(in crate::integrate) fn worst_lane<T: Real>(errors: T) -> f64 {
     worst
 }
 
-/// The square of `e²/√(e² + ê²/100)` from the squares of e and ê: that of e itself where ê is too large or too small beside it
-/// for the formula to be computed.
+/// The square of `e²/√(e² + ê²/100)` from the squares of e and ê: that of e itself where ê is too large or too small
+/// beside it for the formula to be computed.
 #[inline(always)]
 fn combined<T: Real>(fine: T, coarse: T) -> T {
     let part = fine / (fine + T::from_f64(0.01) * coarse);

@@ -91,8 +91,8 @@ impl<'k, S: GaussSystem> Trajectory<'k, S> {
         Self { samples, events, stopped_by, summary, between }
     }
 
-    /// The events in the order in which they happened. They are states of the run by themselves; only where the state jumps, or the
-    /// run ended, are they samples of the trajectory too.
+    /// The events in the order in which they happened. They are states of the run by themselves; only where the state
+    /// jumps, or the run ended, are they samples of the trajectory too.
     #[must_use]
     pub fn events(&self) -> &[EventSample<S>] {
         &self.events
@@ -156,9 +156,10 @@ impl<'k, S: GaussSystem> Trajectory<'k, S> {
         self.samples
     }
 
-    /// The state at time `t`, which the method reaches from the last sample before it: by a shorter step, or where samples are
-    /// several steps apart by a short run. So it has the error of the samples, whatever their distance, satisfies constraints
-    /// as they do, and costs a step instead of memory. Where the state jumps at `t`, the one after it.
+    /// The state at time `t`, which the method reaches from the last sample before it: by a shorter step, or where
+    /// samples are several steps apart by a short run. So it has the error of the samples, whatever their distance,
+    /// satisfies constraints as they do, and costs a step instead of memory. Where the state jumps at `t`, the one
+    /// after it.
     ///
     /// For packs of numbers the first lane of the times decides from which sample to start.
     ///

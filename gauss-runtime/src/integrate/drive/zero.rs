@@ -2,9 +2,10 @@
 
 use crate::real::Real;
 
-/// The zero of a function on the interval from `a` to `b`, with values of different signs, or zero, at the ends: to a distance of
-/// `resolution`, on the side that has the sign of the value at `b`. Chandrupatla, *A new hybrid quadratic/bisection algorithm for
-/// finding the zero of a nonlinear function without using derivatives*, Advances in Engineering Software 28 (1997).
+/// The zero of a function on the interval from `a` to `b`, with values of different signs, or zero, at the ends: to a
+/// distance of `resolution`, on the side that has the sign of the value at `b`. Chandrupatla, *A new hybrid
+/// quadratic/bisection algorithm for finding the zero of a nonlinear function without using derivatives*, Advances in
+/// Engineering Software 28 (1997).
 ///
 /// `None` where the function changes its sign by way of infinity: at a pole it grows as the interval shrinks.
 pub(in crate::integrate) fn locate<E>(
@@ -51,7 +52,8 @@ pub(in crate::integrate) fn locate<E>(
     Ok(Some(if beyond { a } else { b }))
 }
 
-/// The least value of a cubic between 0 and 1 with these values and slopes at the ends, where it falls from 0 and rises towards 1.
+/// The least value of a cubic between 0 and 1 with these values and slopes at the ends, where it falls from 0 and rises
+/// towards 1.
 pub(in crate::integrate) fn least_of_cubic(values: [f64; 2], slopes: [f64; 2]) -> f64 {
     let ([f0, f1], [s0, s1]) = (values, slopes);
     let (third, second) = (s0 + s1 - 2.0 * (f1 - f0), 3.0 * (f1 - f0) - 2.0 * s0 - s1);
@@ -65,8 +67,8 @@ pub(in crate::integrate) fn least_of_cubic(values: [f64; 2], slopes: [f64; 2]) -
     at(0.5 * (low + high))
 }
 
-/// A point between `a` and `b` at which a function that falls from `a` and rises towards `b` is below zero, if there is one; by the
-/// golden section.
+/// A point between `a` and `b` at which a function that falls from `a` and rises towards `b` is below zero, if there is
+/// one; by the golden section.
 pub(in crate::integrate) fn below_zero<E>(
     mut function: impl FnMut(f64) -> Result<f64, E>,
     mut a: f64,
@@ -75,7 +77,8 @@ pub(in crate::integrate) fn below_zero<E>(
     let golden = 0.5 * (Real::sqrt(5.0_f64) - 1.0);
     let (mut x, mut y) = (b - golden * (b - a), a + golden * (b - a));
     let (mut at_x, mut at_y) = (function(x)?, function(y)?);
-    // Values near a minimum differ by squares of distances: below the root of a rounding there is nothing to tell apart.
+    // Values near a minimum differ by squares of distances: below the root of a rounding there is nothing to tell
+    // apart.
     for _ in 0..40 {
         if at_x < 0.0 {
             return Ok(Some((x, at_x)));

@@ -7,8 +7,8 @@ use super::system::{SingleConfiguration, SingleSpeeds};
 use crate::integrate::drive::summary::Summary;
 use crate::integrate::problem::error::IntegrationErrorKind;
 
-/// A run of an ensemble that has come to its end, in configurations Q and speeds Z of one lane; the state there is among the
-/// `States` of the crate `gauss-batch`.
+/// A run of an ensemble that has come to its end, in configurations Q and speeds Z of one lane; the state there is
+/// among the `States` of the crate `gauss-batch`.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Ended<Q, Z> {

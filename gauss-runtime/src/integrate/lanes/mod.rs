@@ -1,10 +1,9 @@
 //! Lanes with steps of their own: many runs in lockstep, each as if it were alone.
 //!
-//! A step is made in all lanes at once, but its length, its error, and whether it stands are those of each lane; of steps of one
-//! length, only how many are left. So every run takes
-//! the steps that it would take alone, and a lane is handed to the next run as soon as one ends
-//! (`Ensemble` of the crate `gauss-batch`). A common step, that of the most demanding lane, would need none of this and takes more
-//! steps the more the runs differ.
+//! A step is made in all lanes at once, but its length, its error, and whether it stands are those of each lane; of
+//! steps of one length, only how many are left. So every run takes the steps that it would take alone, and a lane is
+//! handed to the next run as soon as one ends (`Ensemble` of the crate `gauss-batch`). A common step, that of the most
+//! demanding lane, would need none of this and takes more steps the more the runs differ.
 
 mod adaptive;
 mod ended;
@@ -28,9 +27,9 @@ use crate::real::Real;
 use crate::sealed::Sealed;
 use crate::simd::Packed;
 
-/// A choice of steps that can be made for every lane by itself: [`Adaptive`](crate::integrate::Adaptive) by any method that estimates
-/// its error, [`Taylor`](crate::integrate::Taylor), [`Fixed`](crate::integrate::Fixed) by any method, and
-/// [`Adams`](crate::integrate::Adams). Its functions are for the runs of this crate, which alone implements it.
+/// A choice of steps that can be made for every lane by itself: [`Adaptive`](crate::integrate::Adaptive) by any method
+/// that estimates its error, [`Taylor`](crate::integrate::Taylor), [`Fixed`](crate::integrate::Fixed) by any method,
+/// and [`Adams`](crate::integrate::Adams). Its functions are for the runs of this crate, which alone implements it.
 pub trait LaneControl<S: BatchSystem>: Control<S> + Sealed {
     /// What is remembered from step to step.
     #[doc(hidden)]

@@ -311,8 +311,8 @@ where
         self.who = who;
     }
 
-    /// Tries a step in some lanes. When it fails it is tried in each of them alone: they are independent, and a step of length zero
-    /// succeeds from every good state.
+    /// Tries a step in some lanes. When it fails it is tried in each of them alone: they are independent, and a step of
+    /// length zero succeeds from every good state.
     fn attempt(&mut self, who: &[bool]) {
         let (control, problem) = (self.all.control, self.all.problem);
         if let Err(kind) = control.attempt(problem, &mut self.group, who, &mut self.memory) {
@@ -368,7 +368,8 @@ where
         }
     }
 
-    /// In which lanes the curve of the step shows that an event may be on it; in others the values at its end are remembered.
+    /// In which lanes the curve of the step shows that an event may be on it; in others the values at its end are
+    /// remembered.
     fn suspicious(&mut self, before: &(State<S>, Rates<S>)) -> Vec<bool> {
         let all = self.all;
         let after = (&self.group.state, &self.group.rates);

@@ -9,8 +9,8 @@ use crate::integrate::step::one_step::{OneStep, Properties, Step};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// The method of order 4 of Celledoni, Marthinsen and Owren (*Commutator-free Lie group methods*, Future Generation Computer
-/// Systems 19, 2003): four stages and five exponentials a step, no dexp⁻¹.
+/// The method of order 4 of Celledoni, Marthinsen and Owren (*Commutator-free Lie group methods*, Future Generation
+/// Computer Systems 19, 2003): four stages and five exponentials a step, no dexp⁻¹.
 ///
 /// With V₁…V₄ the velocities of the stages, seen from the body, the stages are
 /// `q₂ = q∘exp(½hV₁)`, `q₃ = q∘exp(½hV₂)`, `q₄ = q₂∘exp(h(V₃ − ½V₁))`, and the end is
@@ -26,8 +26,8 @@ impl<S: GaussSystem> OneStep<S> for CommutatorFree4 {
         Properties::of_order(4)
     }
 
-    /// Refuses exponentials that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the
-    /// coordinates ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined
+    /// Refuses exponentials that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of
+    /// the coordinates ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined
     /// ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
     fn step<P: Problem<System = S>>(
@@ -53,7 +53,8 @@ pub(in crate::integrate) const STAGE_TIMES: [(i64, i64); 4] = [(0, 1), (1, 2), (
 
 /// The exponentials that a step consists of, and where it ends.
 pub(in crate::integrate) struct Path<S: GaussSystem> {
-    /// From the start to the second stage, to the third, from the second to the fourth; from the start to the end, in two.
+    /// From the start to the second stage, to the third, from the second to the fourth; from the start to the end, in
+    /// two.
     pub(in crate::integrate) increments: [TangentOf<S>; 5],
     pub(in crate::integrate) end: State<S>,
 }

@@ -13,10 +13,12 @@ use crate::linearize::{Linearization, LinearizedSystem};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// The end of a step with an input that is held, and its derivatives. D counts the components of (σ, δz), U those of the input.
+/// The end of a step with an input that is held, and its derivatives. D counts the components of (σ, δz), U those of
+/// the input.
 ///
-/// Ends of neighbouring steps are compared in the same coordinates as their starts, those of [`Linearization`]: `q ∘ exp(σ)`, seen
-/// from the body (for a pose σ moves O along body axes, then turns about them), and `z + δz`. To first order
+/// Ends of neighbouring steps are compared in the same coordinates as their starts, those of [`Linearization`]:
+/// `q ∘ exp(σ)`, seen from the body (for a pose σ moves O along body axes, then turns about them), and `z + δz`. To
+/// first order
 ///
 /// `(σ₁, δz₁) = by_state · (σ₀, δz₀) + by_input · δinput + by_time · δt + by_step · δh`.
 ///
@@ -24,15 +26,15 @@ use crate::system::GaussSystem;
 ///
 /// - A regulator or filter that acts *at every instant*, about a rest or a steady motion, is designed with
 ///   [`error_matrix`](crate::linearize::error_matrix): a Riccati equation in continuous time.
-/// - What is *sampled* wants the derivatives of the step: a regulator in a computer that holds its input until the next sample, a
-///   Kalman filter between two measurements, multiple shooting. `by_state` is its transition matrix, `by_input` its input matrix.
-///   They belong to the very states that the steps make, so that iterations over many steps (Gauss–Newton, smoothers) converge as
-///   they should.
-/// - `1 + h F`, with F of [`error_matrix`](crate::linearize::error_matrix), agrees with them up to h². It will do where a step turns
-///   the body by no more than some hundredths of a radian, and is wrong by ½ θ² where it turns it by θ.
+/// - What is *sampled* wants the derivatives of the step: a regulator in a computer that holds its input until the next
+///   sample, a Kalman filter between two measurements, multiple shooting. `by_state` is its transition matrix,
+///   `by_input` its input matrix. They belong to the very states that the steps make, so that iterations over many
+///   steps (Gauss–Newton, smoothers) converge as they should.
+/// - `1 + h F`, with F of [`error_matrix`](crate::linearize::error_matrix), agrees with them up to h². It will do where
+///   a step turns the body by no more than some hundredths of a radian, and is wrong by ½ θ² where it turns it by θ.
 ///
-/// A random input that is held over each step enters as `by_input · C · by_inputᵀ`, C its covariance: for white noise of spectral
-/// density S that is S/h.
+/// A random input that is held over each step enters as `by_input · C · by_inputᵀ`, C its covariance: for white noise
+/// of spectral density S that is S/h.
 #[non_exhaustive]
 pub struct DiscreteLinearization<S: GaussSystem, const D: usize, const U: usize> {
     /// The time at the end, t + h.
@@ -97,13 +99,15 @@ impl CommutatorFree4 {
     /// [`Fixed`](crate::integrate::Fixed) makes it. They agree with the derivatives of the motion up to the order of
     /// the method.
     ///
-    /// Each exponential of the step passes on what its start moves by (by the adjoint) and what its velocity changes by (by the
-    /// differential of exp), so nothing but the derivatives of the equations at the four stages is needed. It costs four calls of
-    /// [`linearize`](LinearizedSystem::linearize) and products of matrices of that size; nothing is allocated.
+    /// Each exponential of the step passes on what its start moves by (by the adjoint) and what its velocity changes by
+    /// (by the differential of exp), so nothing but the derivatives of the equations at the four stages is needed. It
+    /// costs four calls of [`linearize`](LinearizedSystem::linearize) and products of matrices of that size; nothing is
+    /// allocated.
     ///
-    /// Of a scene with constraints these are the step and the derivatives *before* the state is brought back onto them, as in
-    /// [`OneStep::step`](crate::integrate::step::one_step::OneStep::step): increments that violate the constraints are carried along as the equations
-    /// have it. Make states consistent by [`project`](GaussSystem::project), and use increments that the constraints admit.
+    /// Of a scene with constraints these are the step and the derivatives *before* the state is brought back onto them,
+    /// as in [`OneStep::step`](crate::integrate::step::one_step::OneStep::step): increments that violate the
+    /// constraints are carried along as the equations have it. Make states consistent by
+    /// [`project`](GaussSystem::project), and use increments that the constraints admit.
     ///
     /// # Errors
     /// Those of the step, and [`IntegrationErrorKind::NonFinite`] where a derivative is not finite.
@@ -205,8 +209,8 @@ fn split<S: GaussSystem, const D: usize>(rate: &SVector<S::Scalar, D>) -> Rates<
 }
 
 /// Small changes of the state in C directions at once: a row for each component of (σ, δz).
-// Sums are made in place and row by row: rows fill the registers of the machine, and what closures make of whole matrices is copied
-// about, which takes longer than the sums.
+// Sums are made in place and row by row: rows fill the registers of the machine, and what closures make of whole
+// matrices is copied about, which takes longer than the sums.
 #[derive(Clone, Copy)]
 struct Rows<T, const D: usize, const C: usize>([[T; C]; D]);
 
@@ -254,8 +258,9 @@ impl<T: Real, const D: usize, const C: usize> Rows<T, D, C> {
     }
 }
 
-/// A factor exp(v) of a step. The product `q ∘ exp(σ) ∘ exp(v + δv)` is `q ∘ exp(v) ∘ exp(carried · σ + differential · δv)` to first
-/// order, with `carried = exp(−ad_v) = 1 − dexp_v ad_v` and `differential = dexp_v`.
+/// A factor exp(v) of a step. The product `q ∘ exp(σ) ∘ exp(v + δv)` is
+/// `q ∘ exp(v) ∘ exp(carried · σ + differential · δv)` to first order, with `carried = exp(−ad_v) = 1 − dexp_v ad_v`
+/// and `differential = dexp_v`.
 #[derive(Clone, Copy)]
 struct Exponential<T, const D: usize> {
     /// Rows and columns of both matrices that are used: the components of σ.
@@ -315,8 +320,8 @@ struct Chain<'s, S: GaussSystem, const D: usize, const U: usize> {
 }
 
 impl<T: Real, S: LinearizedSystem<Scalar = T>, const D: usize, const U: usize> Chain<'_, S, D, U> {
-    /// What the end moves by when the start moves by (σ, δz), and h times the rates (V, ż) of each stage change by `forced` of the
-    /// stage and its time over h beside what they change with the state.
+    /// What the end moves by when the start moves by (σ, δz), and h times the rates (V, ż) of each stage change by
+    /// `forced` of the stage and its time over h beside what they change with the state.
     #[inline]
     fn block<const C: usize>(
         &self,

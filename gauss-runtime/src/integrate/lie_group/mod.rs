@@ -1,4 +1,5 @@
-//! Methods in the algebra of the configurations: Runge–Kutta–Munthe-Kaas, commutator-free, and the derivatives of a step.
+//! Methods in the algebra of the configurations: Runge–Kutta–Munthe-Kaas, commutator-free, and the derivatives of a
+//! step.
 
 pub mod commutator_free;
 pub mod discrete;

@@ -1,8 +1,8 @@
 //! Runge–Kutta–Munthe-Kaas methods: a classical Runge–Kutta method in the algebra, one exponential a stage.
 //!
-//! With `q = q₀ ∘ exp(σ)` the kinematics become `σ̇ = dexp_inv(σ, V)` on a linear space, where any Runge–Kutta method keeps
-//! its order (Munthe-Kaas 1999). Each step starts again at σ = 0, far from the singularity of dexp⁻¹ at 2π. On ℝⁿ exp is
-//! addition and dexp⁻¹ the identity: the method is the Runge–Kutta method itself, operation by operation.
+//! With `q = q₀ ∘ exp(σ)` the kinematics become `σ̇ = dexp_inv(σ, V)` on a linear space, where any Runge–Kutta method
+//! keeps its order (Munthe-Kaas 1999). Each step starts again at σ = 0, far from the singularity of dexp⁻¹ at 2π. On ℝⁿ
+//! exp is addition and dexp⁻¹ the identity: the method is the Runge–Kutta method itself, operation by operation.
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
@@ -134,8 +134,9 @@ impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Rkmk<Sys::Scalar, S> {
         Properties::of_order(self.order)
     }
 
-    /// Refuses stages that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the coordinates
-    /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined ([`IntegrationErrorKind::NonFinite`]).
+    /// Refuses stages that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the
+    /// coordinates ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined
+    /// ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
     fn step<P: Problem<System = Sys>>(
         &self,
@@ -175,9 +176,10 @@ impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Rkmk<Sys::Scalar, 
         h: Sys::Scalar,
     ) -> Result<Rates<Sys>, IntegrationErrorKind> {
         let one = <Sys::Scalar as Real>::one();
-        // Rounded coefficients, and rounded products of h with them, would make the same error in every step, which adds up like n
-        // and not like √n. So coefficients come in two parts, h comes last, and Σ b k is k₁ + Σ b (k − k₁). What is left of a
-        // rounded coefficient would be lost in sums that are rounded already; what is left of its first half is not.
+        // Rounded coefficients, and rounded products of h with them, would make the same error in every step, which
+        // adds up like n and not like √n. So coefficients come in two parts, h comes last, and Σ b k is k₁ + Σ b (k −
+        // k₁). What is left of a rounded coefficient would be lost in sums that are rounded already; what is left of
+        // its first half is not.
         let precise = |[head, tail]: [&[Sys::Scalar]; 2], stages: &[Rates<Sys>; S]| {
             let mut sum = combination(one, tail, stages);
             accumulate(&mut sum, one, head, stages);

@@ -45,8 +45,8 @@ impl IntegrationError {
         }
     }
 
-    /// The last good state (at the start: the one handed over), all digits of q and z in words. Empty without an allocator: the
-    /// observer has seen it then.
+    /// The last good state (at the start: the one handed over), all digits of q and z in words. Empty without an
+    /// allocator: the observer has seen it then.
     #[must_use]
     pub fn state(&self) -> &str {
         #[cfg(feature = "alloc")]
@@ -66,8 +66,9 @@ pub enum IntegrationErrorKind {
         /// The part of the step in which the number was seen first.
         part: RunPart,
     },
-    /// Steps shrink until they no longer change the time, and neither the coordinates nor rounding are to blame: the motion itself is
-    /// singular here, or a force jumps where there is no motion that agrees with it, as dry friction at rest.
+    /// Steps shrink until they no longer change the time, and neither the coordinates nor rounding are to blame: the
+    /// motion itself is singular here, or a force jumps where there is no motion that agrees with it, as dry friction
+    /// at rest.
     StepTooSmall {
         /// The step.
         step: f64,
@@ -101,8 +102,8 @@ pub enum IntegrationErrorKind {
         /// The length of steps.
         step: f64,
     },
-    /// The motion has rates at which the end of the run is out of reach of the steps that follow it, or that steps are too long
-    /// for.
+    /// The motion has rates at which the end of the run is out of reach of the steps that follow it, or that steps are
+    /// too long for.
     TooFast {
         /// The largest rate, per unit of time.
         rate: f64,
@@ -117,8 +118,8 @@ pub enum IntegrationErrorKind {
         /// The time from the last of them to the next.
         interval: f64,
     },
-    /// The jump at an event changes the state and does not lead back: the function of the configuration goes on through zero,
-    /// where it would never be seen again. See [`event`](crate::integrate::drive::event).
+    /// The jump at an event changes the state and does not lead back: the function of the configuration goes on through
+    /// zero, where it would never be seen again. See [`event`](crate::integrate::drive::event).
     NotTurnedBack {
         /// The number of the event.
         event: usize,
@@ -158,8 +159,9 @@ pub enum IntegrationErrorKind {
         /// The error of the projection.
         error: ProjectionError,
     },
-    /// The projection onto the constraints would move the end of a step farther than its error can be, or what a jump sets farther than
-    /// the jump goes: the constraints become dependent on one another here (a singular position of a mechanism), or the step is too long.
+    /// The projection onto the constraints would move the end of a step farther than its error can be, or what a jump
+    /// sets farther than the jump goes: the constraints become dependent on one another here (a singular position of a
+    /// mechanism), or the step is too long.
     ProjectionTooFar {
         /// Whether it moves the configuration so far, or the speeds (momenta in the momentum form).
         level: ConstraintLevel,

@@ -1,7 +1,7 @@
 //! The two forms of the equations of motion, seen by an integrator as one: `q̇ = q·V(t, q, y)`, `ẏ = f(t, q, y)`.
 //!
-//! The velocity form takes y = z; the momentum form takes y = p, and keeps what the momenta keep (in the right-invariant
-//! chart without forces ṗ is zero, so every integrator keeps the momentum to the last bit).
+//! The velocity form takes y = z; the momentum form takes y = p, and keeps what the momenta keep (in the
+//! right-invariant chart without forces ṗ is zero, so every integrator keeps the momentum to the last bit).
 
 use super::input::InputSource;
 use super::state::{Rates, State};

@@ -2,18 +2,20 @@
 //!
 //! A configuration consists of numbers: the four of a quaternion, the three of a place in the observer's axes
 //! ([`Configuration::Components`]). Their time derivatives are products of themselves and the velocity
-//! ([`Configuration::component_rates`]), so they are integrated as those of any vector are. The equations continued beside the
-//! group in this way have a flow that stays on the group when it starts there, so the step ends off the group by its local
-//! error at most, and bringing it back (a quaternion to norm 1) changes it by no more: the order is that of the tableau
-//! (Hairer, Lubich & Wanner, *Geometric Numerical Integration*, IV.4, "standard projection method").
+//! ([`Configuration::component_rates`]), so they are integrated as those of any vector are. The equations continued
+//! beside the group in this way have a flow that stays on the group when it starts there, so the step ends off the
+//! group by its local error at most, and bringing it back (a quaternion to norm 1) changes it by no more: the order is
+//! that of the tableau (Hairer, Lubich & Wanner, *Geometric Numerical Integration*, IV.4, "standard projection
+//! method").
 //!
-//! Beside Runge–Kutta–Munthe-Kaas methods ([`rkmk`](crate::integrate::lie_group::rkmk)) of the same tableau a stage needs neither exp nor dexp⁻¹. What is
-//! lost: a rotation of constant angular velocity is not exact, and stages lie off the group by their own error. What the
-//! equations keep everywhere is kept to the last bit, as momenta with ṗ ≡ 0 are; what they keep only because rotation matrices are
-//! orthogonal, as the total momentum of several bodies in the observer's axes, is kept within the tolerance.
+//! Beside Runge–Kutta–Munthe-Kaas methods ([`rkmk`](crate::integrate::lie_group::rkmk)) of the same tableau a stage
+//! needs neither exp nor dexp⁻¹. What is lost: a rotation of constant angular velocity is not exact, and stages lie off
+//! the group by their own error. What the equations keep everywhere is kept to the last bit, as momenta with ṗ ≡ 0 are;
+//! what they keep only because rotation matrices are orthogonal, as the total momentum of several bodies in the
+//! observer's axes, is kept within the tolerance.
 //!
-//! The coefficients are constants of the type, and stages are written out one after the other: null weights leave no trace in
-//! the code, and derivatives stay in registers where there are enough of them.
+//! The coefficients are constants of the type, and stages are written out one after the other: null weights leave no
+//! trace in the code, and derivatives stay in registers where there are enough of them.
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
@@ -26,8 +28,8 @@ use crate::real::Real;
 use crate::system::GaussSystem;
 
 /// The Runge–Kutta method of a tableau of S stages, at most 16, on the components of the configuration:
-/// `RungeKutta(DormandPrince8)`. The tableau is a type, so that its numbers are known when the step is compiled; one of your own
-/// is two lines ([`Coefficients`]).
+/// `RungeKutta(DormandPrince8)`. The tableau is a type, so that its numbers are known when the step is compiled; one of
+/// your own is two lines ([`Coefficients`]).
 ///
 /// Steps need no memory beyond the stack.
 #[derive(Clone, Copy, Debug, Default)]
@@ -80,8 +82,8 @@ fn coefficient<T: Real>(value: f64, (p, q): Rational) -> T {
     T::from_f64(value).omitting(T::from_f64(rounding))
 }
 
-/// Writes its body once for each number of a stage that a method can have, `$i` a constant: from the first stage on, or from the
-/// second.
+/// Writes its body once for each number of a stage that a method can have, `$i` a constant: from the first stage on, or
+/// from the second.
 macro_rules! for_each_stage {
     (first, $i:ident => $body:block) => {
         for_each_stage!(@ $i $body 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
@@ -190,9 +192,10 @@ impl<Sys: GaussSystem, C: Coefficients<S>, const S: usize> OneStep<Sys> for Rung
         Properties::of_order(C::TABLEAU.order)
     }
 
-    /// Refuses steps that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]; the angle is that of the mean of the
-    /// velocities at the start and at the last stage of the result), singularities of the coordinates
-    /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined ([`IntegrationErrorKind::NonFinite`]).
+    /// Refuses steps that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]; the angle is that of the
+    /// mean of the velocities at the start and at the last stage of the result), singularities of the coordinates
+    /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined
+    /// ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
     fn step<P: Problem<System = Sys>>(
         &self,

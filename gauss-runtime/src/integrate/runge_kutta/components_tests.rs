@@ -30,7 +30,8 @@ fn order_on_rotations<C: Coefficients<S>, const S: usize>(method: RungeKutta<C, 
         ("velocities", measured_order(&method, &velocities, &start_by_velocity(), 4.0, counts)),
         ("momenta", measured_order(&method, &momenta, &start_by_momentum(), 4.0, counts)),
     ] {
-        // Verner's errors of order 9 are so small that those of order 10 count beside them wherever they are above rounding.
+        // Verner's errors of order 9 are so small that those of order 10 count beside them wherever they are above
+        // rounding.
         let most = if stated == 9.0 { 1.0 } else { 0.4 };
         assert!(found > stated - 0.3 && found < stated + most, "{form}: {found} instead of {stated}");
     }

@@ -20,8 +20,8 @@ pub struct Tableau<const S: usize> {
     pub order: u32,
     /// The order of the embedded result; 0 when there is none.
     pub embedded_order: u32,
-    /// Weights of a second, coarser estimate, by which the first is divided to make it go with a higher power of the step: see
-    /// [`Adaptive`](crate::integrate::Adaptive). All zero when there is none.
+    /// Weights of a second, coarser estimate, by which the first is divided to make it go with a higher power of the
+    /// step: see [`Adaptive`](crate::integrate::Adaptive). All zero when there is none.
     pub coarse_error: [Rational; S],
     /// The order of the result behind the coarser estimate; 0 when there is none.
     pub coarse_order: u32,
@@ -113,8 +113,8 @@ tableaux! {
     Verner9<16> = VERNER_9, "[`Tableau::VERNER_9`] as a type.";
 }
 
-/// The power of the step that the error estimate of a tableau goes with: that of the embedded method's local error, or where there
-/// are two estimates, e of order p and ê of order r, that of `e²/ê`, 2p − r.
+/// The power of the step that the error estimate of a tableau goes with: that of the embedded method's local error, or
+/// where there are two estimates, e of order p and ê of order r, that of `e²/ê`, 2p − r.
 pub(in crate::integrate) fn estimate_order<const S: usize>(tableau: &Tableau<S>) -> f64 {
     let fine = tableau.embedded_order + 1;
     f64::from(match tableau.coarse_order {
@@ -181,10 +181,12 @@ impl Tableau<7> {
 
 impl Tableau<12> {
     /// Dormand and Prince, order 8: the twelve stages of DOP853, coefficients from Hairer, Nørsett & Wanner, *Solving
-    /// Ordinary Differential Equations I*, 2nd ed. 1993, II.5 and its appendix, to 18 decimals. Four of the times contain √6.
+    /// Ordinary Differential Equations I*, 2nd ed. 1993, II.5 and its appendix, to 18 decimals. Four of the times
+    /// contain √6.
     ///
-    /// The embedded results are of orders 5 and 3. [`Adaptive`](crate::integrate::Adaptive) makes one estimate of them that goes like h⁸, as
-    /// DOP853 does; the one of order 5 by itself is cautious: below a tolerance δ the result is good to about δ^(3/2).
+    /// The embedded results are of orders 5 and 3. [`Adaptive`](crate::integrate::Adaptive) makes one estimate of them
+    /// that goes like h⁸, as DOP853 does; the one of order 5 by itself is cautious: below a tolerance δ the result is
+    /// good to about δ^(3/2).
     pub const DORMAND_PRINCE_8: Self = Self {
         a: [
             [O; 12],
@@ -300,11 +302,12 @@ impl Tableau<12> {
 }
 
 impl Tableau<16> {
-    /// Verner, order 9 with an embedded order 8: the pair that he calls most efficient (J. H. Verner, *Numerically optimal
-    /// Runge–Kutta pairs with interpolants*, Numer. Algorithms 53, 2010), from his published decimals, to 18 of them. Some of
-    /// the times contain √6.
+    /// Verner, order 9 with an embedded order 8: the pair that he calls most efficient (J. H. Verner, *Numerically
+    /// optimal Runge–Kutta pairs with interpolants*, Numer. Algorithms 53, 2010), from his published decimals, to 18 of
+    /// them. Some of the times contain √6.
     ///
-    /// For tolerances of 1e-10 and less, where it takes fewer evaluations than [`Tableau::DORMAND_PRINCE_8`] for the same error.
+    /// For tolerances of 1e-10 and less, where it takes fewer evaluations than [`Tableau::DORMAND_PRINCE_8`] for the
+    /// same error.
     pub const VERNER_9: Self = Self {
         a: [
             [O; 16],
@@ -492,9 +495,9 @@ mod tests {
         }
     }
 
-    /// All conditions of order `Σ b Φ(τ) = 1/γ(τ)`, τ a rooted tree with as many vertices as the order at most (Hairer, Nørsett
-    /// & Wanner II.2), for the result and the embedded ones, and row sums: to the rounding of each coefficient on the way and of
-    /// the sums. Returns the number of conditions for the result.
+    /// All conditions of order `Σ b Φ(τ) = 1/γ(τ)`, τ a rooted tree with as many vertices as the order at most (Hairer,
+    /// Nørsett & Wanner II.2), for the result and the embedded ones, and row sums: to the rounding of each coefficient
+    /// on the way and of the sums. Returns the number of conditions for the result.
     fn check<const S: usize>(tableau: &Tableau<S>) -> usize {
         let a = tableau.a.map(|row| row.map(value));
         let magnitudes = a.map(|row| row.map(f64::abs));

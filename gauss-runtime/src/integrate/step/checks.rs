@@ -6,7 +6,8 @@ use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// Coordinates that become infinite and lose no digits are not followed by a step in which they grow or shrink by more than this.
+/// Coordinates that become infinite and lose no digits are not followed by a step in which they grow or shrink by more
+/// than this.
 const GROWTH: f64 = 32.0;
 
 /// Refuses steps that touch a singularity of the coordinates or pass over one: they would go on with numbers that mean
@@ -34,8 +35,8 @@ pub(in crate::integrate) fn check_chart<S: GaussSystem>(
     Ok(())
 }
 
-/// Whether all components are finite and their squares are as well: those of speeds are in every equation of motion, and where
-/// they overflow nothing that follows means anything, finite or not.
+/// Whether all components are finite and their squares are as well: those of speeds are in every equation of motion,
+/// and where they overflow nothing that follows means anything, finite or not.
 #[inline(always)]
 pub(in crate::integrate) fn is_in_range<T: Real, V: VectorSpace<T>>(variables: &V) -> bool {
     (0..V::DIM).all(|i| (variables.component(i) * variables.component(i)).is_finite())

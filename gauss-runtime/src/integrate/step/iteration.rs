@@ -3,12 +3,12 @@
 use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::real::Real;
 
-/// Sweeps after which an iteration is given up: 53 gain a binary digit each, and where a sweep gains less a shorter step is
-/// cheaper.
+/// Sweeps after which an iteration is given up: 53 gain a binary digit each, and where a sweep gains less a shorter
+/// step is cheaper.
 const MOST_SWEEPS: u32 = 64;
 
-/// Sweeps without progress after which only rounding is left: any iteration that would converge in time gains a digit in as
-/// many.
+/// Sweeps without progress after which only rounding is left: any iteration that would converge in time gains a digit
+/// in as many.
 const IDLE_SWEEPS: u32 = 4;
 
 /// A sweep that still changes so much of the state is not near a solution.
@@ -29,8 +29,8 @@ impl Progress {
 
     /// Takes the change of one more sweep; whether it was the last one.
     ///
-    /// What is infinite or undefined at once, or where sweeps changed little, is [`IntegrationErrorKind::NonFinite`]; where they changed
-    /// much, [`IntegrationErrorKind::NotConverged`].
+    /// What is infinite or undefined at once, or where sweeps changed little, is [`IntegrationErrorKind::NonFinite`];
+    /// where they changed much, [`IntegrationErrorKind::NotConverged`].
     ///
     /// To rounding, and until that gets no better: an iteration that stops earlier leaves an error of one sign.
     pub(in crate::integrate) fn finished<T: Real>(&mut self, residual: f64) -> Result<bool, IntegrationErrorKind> {

@@ -73,15 +73,15 @@ pub trait OneStep<S: GaussSystem> {
     ) -> Result<Step<S>, IntegrationErrorKind>;
 }
 
-/// A method that estimates the error of its steps: with [`Adaptive`](crate::integrate::Adaptive) an integrator whose steps are as long as
-/// a tolerance allows.
+/// A method that estimates the error of its steps: with [`Adaptive`](crate::integrate::Adaptive) an integrator whose
+/// steps are as long as a tolerance allows.
 pub trait EstimatingStep<S: GaussSystem>: OneStep<S> {
     /// The power of the step that the estimate goes with where the motion is smooth.
     fn estimate_order(&self) -> f64;
 
-    /// The step that [`OneStep::step`] makes, with its estimate in [`Step::error`], and a second, coarser estimate ê where the
-    /// method has one: the error of a step is then taken for `e²/√(e² + ê²/100)`, which goes with a higher power of the step than
-    /// e (Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.10).
+    /// The step that [`OneStep::step`] makes, with its estimate in [`Step::error`], and a second, coarser estimate ê
+    /// where the method has one: the error of a step is then taken for `e²/√(e² + ê²/100)`, which goes with a higher
+    /// power of the step than e (Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.10).
     ///
     /// # Errors
     /// When the step cannot be made; the state given is untouched.
@@ -100,8 +100,8 @@ pub trait EstimatingStep<S: GaussSystem>: OneStep<S> {
 /// A method whose step is one increment, `q₁ = q₀ ∘ exp(σ)` and `y₁ = y₀ + Δy`. It can be run with the rounding error
 /// of each sum carried to the next step ([`Compensated`](crate::integrate::drive::compensated::Compensated)).
 pub trait IncrementStep<S: GaussSystem>: OneStep<S> {
-    /// (σ, Δy) of the step that [`OneStep::step`] makes, up to rounding that is relative to the increment. What it is added to, and
-    /// the result, are not checked.
+    /// (σ, Δy) of the step that [`OneStep::step`] makes, up to rounding that is relative to the increment. What it is
+    /// added to, and the result, are not checked.
     ///
     /// # Errors
     /// When the step cannot be made.

@@ -1,17 +1,17 @@
 //! Gauss–Legendre collocation on the group: implicit, symmetric, of orders 2, 4 and 6.
 //!
-//! The equations are written in the chart `q = m ∘ exp(σ)` about the middle m of the step,
-//! `σ̇ = dexp_inv(σ, V)`, and solved by Gauss' method with s stages. The end of the step is `m ∘ exp(σ₁)`, its start
-//! `m ∘ exp(−σ₁)`: which m that is, is found together with the stages. About the start instead of the middle the method would
-//! not be symmetric, because a step back uses another chart than the step there (Zanna, Engø & Munthe-Kaas, *Adjoint and
-//! selfadjoint Lie-group methods*, BIT 41, 2001). About the middle both use the same one, where Gauss' method itself is
-//! symmetric. The order is 2s, that of Gauss' method in any one chart.
+//! The equations are written in the chart `q = m ∘ exp(σ)` about the middle m of the step, `σ̇ = dexp_inv(σ, V)`, and
+//! solved by Gauss' method with s stages. The end of the step is `m ∘ exp(σ₁)`, its start `m ∘ exp(−σ₁)`: which m that
+//! is, is found together with the stages. About the start instead of the middle the method would not be symmetric,
+//! because a step back uses another chart than the step there (Zanna, Engø & Munthe-Kaas, *Adjoint and selfadjoint
+//! Lie-group methods*, BIT 41, 2001). About the middle both use the same one, where Gauss' method itself is symmetric.
+//! The order is 2s, that of Gauss' method in any one chart.
 //!
 //! The stages are `σ_i = Σ_j ω_ij F_j` with `F_j = h b_j σ̇_j`, and `σ₁ = ½ΣF_j`; those of y likewise about the middle
-//! `y₀ + ½ΣG_j`, `G_j = h b_j ẏ_j`. Here `ω_ij = a_ij/b_j − ½`, which is skew for Gauss' methods, and that is why they keep
-//! quadratic integrals. Skew numbers stay skew when they are rounded, so coefficients that are not exact cost nothing, and
-//! weights are exact fractions: no error is the same in every step, and so none grows in proportion to time (Hairer, McLachlan &
-//! Razakarivony, *Achieving Brouwer's law with implicit Runge–Kutta methods*, BIT 48, 2008).
+//! `y₀ + ½ΣG_j`, `G_j = h b_j ẏ_j`. Here `ω_ij = a_ij/b_j − ½`, which is skew for Gauss' methods, and that is why they
+//! keep quadratic integrals. Skew numbers stay skew when they are rounded, so coefficients that are not exact cost
+//! nothing, and weights are exact fractions: no error is the same in every step, and so none grows in proportion to
+//! time (Hairer, McLachlan & Razakarivony, *Achieving Brouwer's law with implicit Runge–Kutta methods*, BIT 48, 2008).
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
@@ -25,14 +25,15 @@ use crate::system::GaussSystem;
 
 /// Gauss' method of S stages and order 2S on the group: 1, 2 or 3 stages.
 ///
-/// Symmetric. In the momentum form it keeps every quadratic integral of equations for the momenta alone up to rounding: T
-/// and |π|² of the free body, T, p², p·π and the integrals of Clebsch and Steklov of a body in fluid. It is not symplectic on
-/// the cotangent bundle, so energies with a potential are kept to the error of the method alone; where the motion is reversible, as a
-/// top's, that does not drift, elsewhere (a body in a fluid with weight) it does.
+/// Symmetric. In the momentum form it keeps every quadratic integral of equations for the momenta alone up to rounding:
+/// T and |π|² of the free body, T, p², p·π and the integrals of Clebsch and Steklov of a body in fluid. It is not
+/// symplectic on the cotangent bundle, so energies with a potential are kept to the error of the method alone; where
+/// the motion is reversible, as a top's, that does not drift, elsewhere (a body in a fluid with weight) it does.
 ///
-/// The stages are found by fixed-point iteration down to rounding. Where the equations change little in a step that takes 10 to
-/// 15 sweeps of S evaluations. It takes more the longer the step, and beyond a step times the steepest derivative of the
-/// equations (for a spring, its angular frequency) of about 1, 1.8 and 2.8 with one, two and three stages the step ends with
+/// The stages are found by fixed-point iteration down to rounding. Where the equations change little in a step that
+/// takes 10 to 15 sweeps of S evaluations. It takes more the longer the step, and beyond a step times the steepest
+/// derivative of the equations (for a spring, its angular frequency) of about 1, 1.8 and 2.8 with one, two and three
+/// stages the step ends with
 /// [`IntegrationErrorKind::NotConverged`]: a shorter one will do.
 ///
 #[cfg_attr(
@@ -143,9 +144,10 @@ impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Collocation<Sys::Scalar,
         Properties { symmetric: true, ..Properties::of_order(2 * S as u32) }
     }
 
-    /// Refuses steps whose iteration does not converge ([`IntegrationErrorKind::NotConverged`]), that turn by more than π
-    /// ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the coordinates
-    /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined ([`IntegrationErrorKind::NonFinite`]).
+    /// Refuses steps whose iteration does not converge ([`IntegrationErrorKind::NotConverged`]), that turn by more than
+    /// π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the coordinates
+    /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined
+    /// ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
     fn step<P: Problem<System = Sys>>(
         &self,
@@ -189,7 +191,8 @@ impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Collocation<Sys::S
             let middle = state.q.retract(&sum.configuration.scale(half));
             let y = state.y.add_scaled(half, &sum.variables);
             let mut residual = 0.0_f64;
-            // Each stage with the latest values of those before it: fewer sweeps, and the result is the same up to rounding.
+            // Each stage with the latest values of those before it: fewer sweeps, and the result is the same up to
+            // rounding.
             for i in 0..S {
                 let mut sigma: Rates<Sys> = null();
                 for j in 0..S {
@@ -236,8 +239,8 @@ fn total<S: GaussSystem, const N: usize>(parts: &[Rates<S>; N]) -> Rates<S> {
     sum
 }
 
-/// How much a part of the increment changes, relative to the state and its increment: angles to 1 rad, translations to the distance
-/// from the origin, variables to the largest of them.
+/// How much a part of the increment changes, relative to the state and its increment: angles to 1 rad, translations to
+/// the distance from the origin, variables to the largest of them.
 fn change<S: GaussSystem>(state: &State<S>, sum: &Rates<S>, old: &Rates<S>, new: &Rates<S>) -> f64 {
     let mut result = 0.0_f64;
     let mut see = |old, new, size| result = worst(result, relative_change(old, new, size));

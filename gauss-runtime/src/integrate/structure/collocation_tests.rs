@@ -117,9 +117,9 @@ fn quadratic_integrals_of_the_free_body_are_kept_to_rounding() {
     assert!(energy > 1e6 * walk, "{energy:e}");
 }
 
-/// A symmetric top under a weight: the motion is integrable and reversible, so symmetric methods keep its energy within a
-/// bound and do not let it drift: through some hundreds of its oscillations, cut anywhere, the line rises by less than a
-/// hundredth of them.
+/// A symmetric top under a weight: the motion is integrable and reversible, so symmetric methods keep its energy within
+/// a bound and do not let it drift: through some hundreds of its oscillations, cut anywhere, the line rises by less
+/// than a hundredth of them.
 #[test]
 fn energy_of_a_heavy_top_stays_within_a_bound() {
     const LAGRANGE: Top = FreeTop { inertia: [0.5, 0.5, 1.0] };
@@ -152,7 +152,8 @@ fn the_iteration_takes_few_evaluations() {
     let problem = SystemProblem { system: &TOP, form: VelocityForm, input: counted };
     let start = start_by_velocity();
     let (two, four, six) = methods();
-    // Derivatives of the equations are about 1, those of dexp⁻¹ ½: each sweep gains a digit, and one more sees that none is left.
+    // Derivatives of the equations are about 1, those of dexp⁻¹ ½: each sweep gains a digit, and one more sees that
+    // none is left.
     let check = |method: &dyn Fn(), stages: u32| {
         evaluations.set(0);
         method();

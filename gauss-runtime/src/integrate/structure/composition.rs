@@ -11,8 +11,8 @@ use crate::system::GaussSystem;
 
 /// The lengths of N steps in one, as parts of it: they read the same backwards, and their sum is exactly 1.
 ///
-/// The order is that which a symmetric method of order 2 gets. Errors are smaller with more steps than are needed for the
-/// order: the 9 of Kahan and Li rather than Yoshida's 7.
+/// The order is that which a symmetric method of order 2 gets. Errors are smaller with more steps than are needed for
+/// the order: the 9 of Kahan and Li rather than Yoshida's 7.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Composition<const N: usize> {
     /// γ₁…γ_N.
@@ -77,8 +77,8 @@ impl Composition<17> {
 
 /// A method composed with itself: N of its steps, of the lengths γ₁h…γ_Nh, are one step.
 ///
-/// What the method keeps is kept. A symmetric method reaches the order of the composition (or stays at its own where that is
-/// higher); one that is not symmetric is not promised more than it has.
+/// What the method keeps is kept. A symmetric method reaches the order of the composition (or stays at its own where
+/// that is higher); one that is not symmetric is not promised more than it has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Composed<M, T, const N: usize> {
     method: M,
@@ -135,8 +135,8 @@ mod tests {
     /// One of a user's own: γ₁ = γ₂ = 1/(4 − ∛4), M. Suzuki, Phys. Lett. A 146 (1990).
     const SUZUKI_4: Composition<5> = symmetric(&[414_490_771_794_375_737; 2], 4);
 
-    /// The sum is 1 in integers; the sums of powers that every method of the order needs vanish (Hairer, Lubich & Wanner,
-    /// *Geometric Numerical Integration*, V.3.2): `Σγ³ = 0` for order 4, `Σγ⁵ = 0` for 6, `Σγ⁷ = 0` for 8.
+    /// The sum is 1 in integers; the sums of powers that every method of the order needs vanish (Hairer, Lubich &
+    /// Wanner, *Geometric Numerical Integration*, V.3.2): `Σγ³ = 0` for order 4, `Σγ⁵ = 0` for 6, `Σγ⁷ = 0` for 8.
     fn check<const N: usize>(composition: &Composition<N>) {
         let one = 10_i64.pow(18);
         assert_eq!(composition.weights.iter().map(|&(p, _)| p).sum::<i64>(), one);

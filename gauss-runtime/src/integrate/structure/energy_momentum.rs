@@ -1,18 +1,20 @@
 //! An energy–momentum method on the group, for bodies in the left-invariant chart.
 //!
-//! With Z the mean of the velocities at both ends, `Z = ½(z₀ + z₁)`, the step is the screw motion `q(s) = q₀ ∘ exp(s h Z)`,
-//! `0 ≤ s ≤ 1`, and momenta in space change by the mean of the wrench along it:
+//! With Z the mean of the velocities at both ends, `Z = ½(z₀ + z₁)`, the step is the screw motion
+//! `q(s) = q₀ ∘ exp(s h Z)`, `0 ≤ s ≤ 1`, and momenta in space change by the mean of the wrench along it:
 //!
-//! `p₁ = Ad*(hZ) p₀ + h ∫ Ad*((1−s) h Z) f(q(s)) ds`, where `Ad*(σ)` takes the components of one momentum in space from the
-//! axes and pole of q to those of q ∘ exp(σ).
+//! `p₁ = Ad*(hZ) p₀ + h ∫ Ad*((1−s) h Z) f(q(s)) ds`, where `Ad*(σ)` takes the components of one momentum in space from
+//! the axes and pole of q to those of q ∘ exp(σ).
 //!
-//! *Momentum*: whatever component of momentum in space the wrench leaves alone is kept, since means of wrenches that do not have it
-//! do not have it. *Energy*: `T₁ − T₀ = Z·(p₁ − p₀)`, A being symmetric and constant; Z is not moved by Ad(hZ), so the free part
-//! contributes nothing, and the rest is `∫ hZ·f(q(s)) ds = V(q₀) − V(q₁)`: the mean of the force is a discrete gradient.
+//! *Momentum*: whatever component of momentum in space the wrench leaves alone is kept, since means of wrenches that do
+//! not have it do not have it. *Energy*: `T₁ − T₀ = Z·(p₁ − p₀)`, A being symmetric and constant; Z is not moved by
+//! Ad(hZ), so the free part contributes nothing, and the rest is `∫ hZ·f(q(s)) ds = V(q₀) − V(q₁)`: the mean of the
+//! force is a discrete gradient.
 //!
-//! With the Cayley map instead of exp and forces at fixed places this is the method of Simo & Wong (Int. J. Numer. Meth. Eng.
-//! 31, 1991) and Lewis & Simo (J. Nonlinear Sci. 4, 1994); discrete gradients: O. Gonzalez (J. Nonlinear Sci. 6, 1996), as means:
-//! McLachlan, Quispel & Robidoux (Phil. Trans. R. Soc. A 357, 1999). With exp the proof is the same on every group.
+//! With the Cayley map instead of exp and forces at fixed places this is the method of Simo & Wong (Int. J. Numer.
+//! Meth. Eng. 31, 1991) and Lewis & Simo (J. Nonlinear Sci. 4, 1994); discrete gradients: O. Gonzalez (J. Nonlinear
+//! Sci. 6, 1996), as means: McLachlan, Quispel & Robidoux (Phil. Trans. R. Soc. A 357, 1999). With exp the proof is the
+//! same on every group.
 
 use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
 
@@ -34,8 +36,8 @@ use crate::triple::{Triple, add, cross, dot, quaternion, rotate_back, scaled, su
 ///
 /// Momenta are dual to body twists: Γ_O, (Q, Γ_O), or (Q₁, Q₂, Γ_O), body axes, pole O.
 pub trait CoadjointAction: Configuration {
-    /// What is added to the components of a momentum in space when they are taken in q ∘ exp(σ) instead of q: the change, so that
-    /// its rounding is relative to it.
+    /// What is added to the components of a momentum in space when they are taken in q ∘ exp(σ) instead of q: the
+    /// change, so that its rounding is relative to it.
     fn coadjoint_change(momentum: &Self::Tangent, sigma: &Self::Tangent) -> Self::Tangent;
 
     /// The same per unit of time for a body with the twist z: ad*_z p, which is ṗ without forces.
@@ -118,24 +120,24 @@ impl<T: Real> CoadjointAction for Isometry2<T> {
     }
 }
 
-/// The energy–momentum method of order 2 for one body in the left-invariant chart: held at a point, free or in the plane, added mass
-/// and all. Where forces have a potential it keeps the energy, and with it the momenta of the scene's symmetries. The mean of the
-/// force is taken at N points of each step:
+/// The energy–momentum method of order 2 for one body in the left-invariant chart: held at a point, free or in the
+/// plane, added mass and all. Where forces have a potential it keeps the energy, and with it the momenta of the scene's
+/// symmetries. The mean of the force is taken at N points of each step:
 ///
-/// - [`new`](Self::new), N = 2: exactly for no forces and for weight and buoyancy, whatever their points of attack. The two points
-///   are those of Gauss, moved so that what turns with the body is integrated exactly. For other potentials momenta are kept to
-///   rounding all the same, and energy to order h⁴, without drift.
-/// - [`with_points`](Self::with_points): Gauss' rule, whose error in energy is of order h^(2N): from four to six points on it
-///   is below rounding for steps that turn the body by half a radian.
+/// - [`new`](Self::new), N = 2: exactly for no forces and for weight and buoyancy, whatever their points of attack. The
+///   two points are those of Gauss, moved so that what turns with the body is integrated exactly. For other potentials
+///   momenta are kept to rounding all the same, and energy to order h⁴, without drift.
+/// - [`with_points`](Self::with_points): Gauss' rule, whose error in energy is of order h^(2N): from four to six points
+///   on it is below rounding for steps that turn the body by half a radian.
 ///
 /// Symmetric; [`Composed`](crate::integrate::Composed) raises the order, and keeps the same integrals. Not symplectic.
 /// Forces of any other kind are taken at the mean velocity of the step: their work over the step is that of their mean.
 /// Run it in the momentum form, or by [`Compensated`](crate::integrate::Compensated), where every digit of a long run
 /// counts.
 ///
-/// z₁ is found by fixed-point iteration down to rounding; beyond a turn of about 2 rad in a step, less for slender bodies, that ends with
-/// [`IntegrationErrorKind::NotConverged`]. Other charts, where momenta are not those of the group, are refused when the
-/// program is compiled.
+/// z₁ is found by fixed-point iteration down to rounding; beyond a turn of about 2 rad in a step, less for slender
+/// bodies, that ends with [`IntegrationErrorKind::NotConverged`]. Other charts, where momenta are not those of the
+/// group, are refused when the program is compiled.
 ///
 #[cfg_attr(
     feature = "derive",
@@ -223,7 +225,8 @@ impl<T: Real, const N: usize> EnergyMomentum<T, N> {
 
     /// The factor of the offsets for a step that turns the body by the angle whose square is given.
     ///
-    /// Two points at ½ ± c integrate 1, s and, with `cos θc = sin(θ/2)/(θ/2)`, what turns by θ: for small angles Gauss' c = 1/√12.
+    /// Two points at ½ ± c integrate 1, s and, with `cos θc = sin(θ/2)/(θ/2)`, what turns by θ: for small angles Gauss'
+    /// c = 1/√12.
     #[inline(always)]
     fn spread(&self, square: T) -> T {
         if !self.fitted {
@@ -302,8 +305,9 @@ where
         Properties { symmetric: true, keeps_momentum: true, keeps_energy: true, ..Properties::of_order(2) }
     }
 
-    /// Refuses steps whose iteration does not converge ([`IntegrationErrorKind::NotConverged`]), that turn by more than π
-    /// ([`IntegrationErrorKind::IncrementTooLarge`]), and what overflows or is undefined ([`IntegrationErrorKind::NonFinite`]).
+    /// Refuses steps whose iteration does not converge ([`IntegrationErrorKind::NotConverged`]), that turn by more than
+    /// π ([`IntegrationErrorKind::IncrementTooLarge`]), and what overflows or is undefined
+    /// ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
     fn step<P: Problem<System = S>>(
         &self,

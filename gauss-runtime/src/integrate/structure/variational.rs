@@ -11,20 +11,22 @@ use crate::integrate::step::one_step::{OneStep, Properties, Step};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// The variational method of order 2 of the discrete Lagrangian `h T(ξ) − ½h V(q₀) − ½h V(q₁)`, `q₁ = q₀ ∘ exp(hξ)`, for one body
-/// in the left-invariant chart: held at a point or free, added mass and all (J. E. Marsden & M. West, Acta Numerica 10, 2001;
-/// N. Bou-Rabee & J. E. Marsden, *Hamilton–Pontryagin integrators on Lie groups*, Found. Comput. Math. 9, 2009).
+/// The variational method of order 2 of the discrete Lagrangian `h T(ξ) − ½h V(q₀) − ½h V(q₁)`, `q₁ = q₀ ∘ exp(hξ)`,
+/// for one body in the left-invariant chart: held at a point or free, added mass and all (J. E. Marsden & M. West, Acta
+/// Numerica 10, 2001; N. Bou-Rabee & J. E. Marsden, *Hamilton–Pontryagin integrators on Lie groups*, Found. Comput.
+/// Math. 9, 2009).
 ///
 /// With p the momenta and f the generalised forces, both in body axes, and D± the maps `w ↦ dexp_inv(±hξ, w)`, a step
 /// is `p⁺ = p₀ + ½h f(q₀, p₀)`, ξ from `D₋ᵀ M ξ = p⁺`, `q₁ = q₀ ∘ exp(hξ)`, `p₁ = D₊ᵀ M ξ + ½h f(q₁, p₁)`.
 ///
-/// Where forces have a potential it is symplectic and keeps the momenta of the scene's symmetries to rounding: P and L in space
-/// without forces, the angular momentum about the vertical of a top. Energy oscillates and does not drift. Forces of any
-/// other kind are taken as they are, and the method stays symmetric and of order 2; [`Composed`](crate::integrate::Composed) raises that.
+/// Where forces have a potential it is symplectic and keeps the momenta of the scene's symmetries to rounding: P and L
+/// in space without forces, the angular momentum about the vertical of a top. Energy oscillates and does not drift.
+/// Forces of any other kind are taken as they are, and the method stays symmetric and of order 2;
+/// [`Composed`](crate::integrate::Composed) raises that.
 ///
-/// ξ, and p₁ where forces depend on velocity, are found by fixed-point iteration down to rounding. Beyond a turn of about 2 rad in a
-/// step, less for slender bodies, that ends with [`IntegrationErrorKind::NotConverged`]. Other charts, where momenta are not
-/// those of the group, are refused when the program is compiled.
+/// ξ, and p₁ where forces depend on velocity, are found by fixed-point iteration down to rounding. Beyond a turn of
+/// about 2 rad in a step, less for slender bodies, that ends with [`IntegrationErrorKind::NotConverged`]. Other charts,
+/// where momenta are not those of the group, are refused when the program is compiled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Variational;
 
@@ -36,8 +38,9 @@ where
         Properties { symmetric: true, symplectic: true, keeps_momentum: true, ..Properties::of_order(2) }
     }
 
-    /// Refuses steps whose iteration does not converge ([`IntegrationErrorKind::NotConverged`]), that turn by more than π
-    /// ([`IntegrationErrorKind::IncrementTooLarge`]), and what overflows or is undefined ([`IntegrationErrorKind::NonFinite`]).
+    /// Refuses steps whose iteration does not converge ([`IntegrationErrorKind::NotConverged`]), that turn by more than
+    /// π ([`IntegrationErrorKind::IncrementTooLarge`]), and what overflows or is undefined
+    /// ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
     fn step<P: Problem<System = S>>(
         &self,

@@ -1,5 +1,5 @@
-//! Reference solutions of one rigid body reproduced by derived kernels: every scene in every chart that can express it, in
-//! velocity form and in momentum form, and the errors reached as a table.
+//! Reference solutions of one rigid body reproduced by derived kernels: every scene in every chart that can express it,
+//! in velocity form and in momentum form, and the errors reached as a table.
 //!
 //! `cargo test -p gauss-long-runs --test reference -- --nocapture` prints the table; it is also written to
 //! `reference_errors.md` among the temporary files of the build.
@@ -19,9 +19,9 @@ use gauss_tests::scene::Scene;
 
 type Rows = fn(&Scene, Order8) -> Vec<Row>;
 
-/// Scene, motion, and the body that it is computed with. Free tops both held at O and not held; the needle also with the
-/// inertia as a full matrix and with a centre of mass that happens to be zero; drag and a push by the clauses that are made for
-/// them and by formulas.
+/// Scene, motion, and the body that it is computed with. Free tops both held at O and not held; the needle also with
+/// the inertia as a full matrix and with a centre of mass that happens to be zero; drag and a push by the clauses that
+/// are made for them and by formulas.
 const SCENES: [(&str, &str, Rows); 24] = [
     ("free_asym_top", "fixed point", bodies::free_top::rows),
     ("free_asym_top", "free", bodies::free_body::rows),
@@ -54,16 +54,16 @@ const TOLERANCE: f64 = 1e-12;
 
 /// What a run may be off by, from what is known about the scene and not from what was seen:
 ///
-/// - three times the published error of an established integrator (DOP853, relative tolerance 1e-13) on textbook equations,
-///   because it is one sample of such errors: in body velocities, or for the right-invariant chart and for momenta the
-///   worse of that and the one in space momenta. Where the latter gave up, rounding decides alone.
+/// - three times the published error of an established integrator (DOP853, relative tolerance 1e-13) on textbook
+///   equations, because it is one sample of such errors: in body velocities, or for the right-invariant chart and for
+///   momenta the worse of that and the one in space momenta. Where the latter gave up, rounding decides alone.
 /// - rounding: each of the N steps commits about 8 to the state (twelve stages in a few sums, exponential, product,
-///   normalisation), of random sign, so 8√N of them count; parameters, and constants made of them, are rounded once, which
-///   turns the body at a wrong rate, so 8Θ with Θ = max |ω| T count too. Each changes the final state by the scene's
-///   `sensitivity` to one rounding, and by a rounding at least (the sensitivity far from Ω is relative to b).
-/// - Both grow by the stretch of the chart, and rounding of momenta by the ratio of the inertias that they are divided by.
-///   Modified Rodrigues parameters stretch, but equally in all directions (σ̇ = ¼(1 + |σ|²) × rotation × ω), so that what is
-///   relative to their size is not blown up.
+///   normalisation), of random sign, so 8√N of them count; parameters, and constants made of them, are rounded once,
+///   which turns the body at a wrong rate, so 8Θ with Θ = max |ω| T count too. Each changes the final state by the
+///   scene's `sensitivity` to one rounding, and by a rounding at least (the sensitivity far from Ω is relative to b).
+/// - Both grow by the stretch of the chart, and rounding of momenta by the ratio of the inertias that they are divided
+///   by. Modified Rodrigues parameters stretch, but equally in all directions (σ̇ = ¼(1 + |σ|²) × rotation × ω), so
+///   that what is relative to their size is not blown up.
 fn allowed(scene: &Scene, row: &Row, outcome: &Outcome) -> f64 {
     let space = matches!(row.chart, Chart::RightInvariant) || row.momentum;
     let known = scene.published.iter().take(if space { 2 } else { 1 }).flatten();
@@ -90,9 +90,10 @@ fn run(name: &str, motion: &str) -> (Scene, Vec<Row>) {
     (scene, rows)
 }
 
-/// Whether a run had to be refused: a jet chart, at a singularity of its coordinates. The initial state may be one; else
-/// steps shrink in front of it until they no longer change the time or there are too many. The angle left is what a path
-/// that meets it head-on can still go: the momentum form of the needle, stiff with rounding (I₃ = 1e-6), stops earliest.
+/// Whether a run had to be refused: a jet chart, at a singularity of its coordinates. The initial state may be one;
+/// else steps shrink in front of it until they no longer change the time or there are too many. The angle left is what
+/// a path that meets it head-on can still go: the momentum form of the needle, stiff with rounding (I₃ = 1e-6), stops
+/// earliest.
 fn refused_at_singularity(row: &Row, refusal: &Refusal) -> bool {
     match refusal {
         Refusal::Chart(error) => {
@@ -110,10 +111,10 @@ fn refused_at_singularity(row: &Row, refusal: &Refusal) -> bool {
     }
 }
 
-/// Scenes whose path meets a singularity of a chart, where a refusal is the right answer. The Rodrigues vector is infinite
-/// at half a turn, a surface in SO(3) that nearly every path crosses: only the short motion of `full_added_mass` stays on
-/// one side. Euler angles and the modified Rodrigues vector are singular on a curve and at a point, which a path meets by
-/// design only.
+/// Scenes whose path meets a singularity of a chart, where a refusal is the right answer. The Rodrigues vector is
+/// infinite at half a turn, a surface in SO(3) that nearly every path crosses: only the short motion of
+/// `full_added_mass` stays on one side. Euler angles and the modified Rodrigues vector are singular on a curve and at a
+/// point, which a path meets by design only.
 fn may_be_refused(scene: &str, chart: Chart) -> bool {
     match chart.to_string().as_str() {
         "jet(rodrigues)" => scene != "full_added_mass",
@@ -196,8 +197,8 @@ fn order_of_the_integrator() {
             assert!(points.len() >= 6, "{name}, {chart}: {points:?}");
             let slope = slope(points);
             println!("{name}, {chart}: order {slope:.2} from {} steps", points.len());
-            // From below: a method of order 7 or one that loses its order on the group stays below. From above the line may
-            // be steeper: the free top in the right-invariant chart hides its h⁸ term behind the next one.
+            // From below: a method of order 7 or one that loses its order on the group stays below. From above the line
+            // may be steeper: the free top in the right-invariant chart hides its h⁸ term behind the next one.
             assert!((7.6..9.5).contains(&slope), "{name}, {chart}: {slope}");
         }
     }
@@ -212,8 +213,8 @@ fn slope(points: &[(f64, f64)]) -> f64 {
 }
 
 /// A top whose axis passes through the upright, where the first and the third angle of zxz are one: the other charts do
-/// not notice, and zxz either says that it cannot go on, there, or gets across with the accuracy that the design aims at.
-/// Never a number that is not one.
+/// not notice, and zxz either says that it cannot go on, there, or gets across with the accuracy that the design aims
+/// at. Never a number that is not one.
 #[test]
 fn gimbal_lock_is_refused_or_crossed() {
     let (scene, rows) = run("gimbal_crossing_top", "fixed point");
@@ -231,9 +232,9 @@ fn gimbal_lock_is_refused_or_crossed() {
     }
 }
 
-/// At |b| = 3.7e6 the right-invariant chart, whose pole is Ω, loses what b swallows: u = ξ̂ + ω̂×b and Γ_O = Γ_Ω − b×Q̂ are
-/// small differences of numbers of the size |b||ω| and |b||Q|. It is a weakness of the chart, and moving Ω to the body is
-/// the remedy; the others must not suffer.
+/// At |b| = 3.7e6 the right-invariant chart, whose pole is Ω, loses what b swallows: u = ξ̂ + ω̂×b and Γ_O = Γ_Ω − b×Q̂
+/// are small differences of numbers of the size |b||ω| and |b||Q|. It is a weakness of the chart, and moving Ω to the
+/// body is the remedy; the others must not suffer.
 #[test]
 fn far_from_the_origin() {
     let (scene, rows) = run("free_far_from_Omega", "free");
@@ -248,8 +249,8 @@ fn far_from_the_origin() {
                 let achieved = f64::EPSILON * far * turn;
                 assert!(outcome.state <= achieved, "{:e} > {achieved:e}", outcome.state);
             }
-            // Γ_O is rounded to ε|b||Q|, and differently at every stage: noise that the step control takes for error and
-            // answers with short steps. So ω is noise over I, summed as a random walk over the steps.
+            // Γ_O is rounded to ε|b||Q|, and differently at every stage: noise that the step control takes for error
+            // and answers with short steps. So ω is noise over I, summed as a random walk over the steps.
             (Chart::RightInvariant, true) => {
                 let least = scene.parameters.inertia.diagonal().min();
                 let noise = f64::EPSILON * far * momentum / least;

@@ -1,5 +1,5 @@
-//! How rounding grows over tens of thousands of steps and more, on the bodies typed by hand that the tests of the runtime have: a kernel
-//! would add rounding of its own.
+//! How rounding grows over tens of thousands of steps and more, on the bodies typed by hand that the tests of the
+//! runtime have: a kernel would add rounding of its own.
 
 // Modules that the included ones know as those of their crate.
 use gauss_runtime::{chart, configuration, constraint, description, forces, integrate, real, system};

@@ -9,8 +9,8 @@ use crate::mechanics::scene::{Coordinate, SystemScene};
 use super::FreeLink;
 
 impl<'g> FreeLink<'g> {
-    /// The wrench of an element on this link, without what is a uniform field: by what is known of it, by the derivatives of a potential along the pose, else as the dual
-    /// of its generalised forces.
+    /// The wrench of an element on this link, without what is a uniform field: by what is known of it, by the
+    /// derivatives of a potential along the pose, else as the dual of its generalised forces.
     pub fn wrench_of(&self, scene: &SystemScene<'g>, element: &Element<'g>) -> Wrench<'g> {
         let nothing = Wrench::zero(scene.graph);
         if let Some((link, wrench)) = &element.on_link.filter(|_| !matches!(element.action, Action::Field(_))) {
@@ -68,7 +68,8 @@ impl<'g> FreeLink<'g> {
         }
     }
 
-    /// The wrench of a potential, where the pose of the link is a coordinate: `−∂U/∂b`, and −∂U along the turns about the body's axes.
+    /// The wrench of a potential, where the pose of the link is a coordinate: `−∂U/∂b`, and −∂U along the turns about
+    /// the body's axes.
     fn along_pose(&self, scene: &SystemScene<'g>, potential: Expr<'g>) -> Option<Wrench<'g>> {
         let frame = &self.kinematics.frame;
         scene.coordinates.iter().find(|coordinate| self.is_placed_by(coordinate))?;

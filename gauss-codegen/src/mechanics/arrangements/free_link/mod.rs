@@ -1,6 +1,7 @@
-//! A link that nothing else moves with: what its matter amounts to is constant in body axes, and its speeds determine its twist.
-//! With V = W z, `A = Wᵀ M W`, so that `A⁻¹ = W⁻¹ M⁻¹ W⁻ᵀ`: the balance is solved in body axes and the accelerations are carried
-//! back by the rate of the kinematics, ż = W⁻¹(V̇ − Ẇ z). One body in a chart is the plainest case.
+//! A link that nothing else moves with: what its matter amounts to is constant in body axes, and its speeds determine
+//! its twist. With V = W z, `A = Wᵀ M W`, so that `A⁻¹ = W⁻¹ M⁻¹ W⁻ᵀ`: the balance is solved in body axes and the
+//! accelerations are carried back by the rate of the kinematics, ż = W⁻¹(V̇ − Ẇ z). One body in a chart is the plainest
+//! case.
 
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -108,8 +109,9 @@ fn rows<'g>(kinematics: &Kinematics<'g>, velocity: &Vector<'g>, axes: &[usize]) 
     }
 }
 
-/// Whether twists with the given components (u, ω) are those of a group of motions: with every axis of rotation and every other
-/// axis they have the axis across the two. Only then does the balance along these components say nothing of the others.
+/// Whether twists with the given components (u, ω) are those of a group of motions: with every axis of rotation and
+/// every other axis they have the axis across the two. Only then does the balance along these components say nothing of
+/// the others.
 fn is_group(active: &[usize]) -> bool {
     let across = |i: usize, j: usize| 3 - i - j;
     let turns = active.iter().filter(|&&k| k >= 3).map(|k| k - 3);
@@ -282,10 +284,10 @@ impl<'g> FreeLink<'g> {
 
     /// A numerator, and the square of what it is divided by; `None` where the coordinates have no singularity.
     ///
-    /// Where the volume that the columns of ∂ω/∂q̇ span is a power D⁻ᵏ of one sum, coordinates become infinite where it vanishes: those
-    /// of Rodrigues with D = 1 + |g|² and k = 2, the modified ones with D = 1 + |σ|² and k = 3. D then grows as the square of
-    /// their size, and that as the reciprocal of the distance from the singularity: it is 1/√D. Else it is the volume over the lengths
-    /// of the columns, 0 where these lie in a plane.
+    /// Where the volume that the columns of ∂ω/∂q̇ span is a power D⁻ᵏ of one sum, coordinates become infinite where it
+    /// vanishes: those of Rodrigues with D = 1 + |g|² and k = 2, the modified ones with D = 1 + |σ|² and k = 3. D then
+    /// grows as the square of their size, and that as the reciprocal of the distance from the singularity: it is 1/√D.
+    /// Else it is the volume over the lengths of the columns, 0 where these lie in a plane.
     pub fn regularity(&self) -> Option<Vec<Expr<'g>>> {
         let columns: Vec<&Triple<'g>> = self.angular_rows.iter().filter(|column| !is_zero(column)).collect();
         let [a, b, c] = columns[..] else { return None };

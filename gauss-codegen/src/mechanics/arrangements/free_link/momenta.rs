@@ -64,8 +64,8 @@ impl<'g> FreeLink<'g> {
         [Arrangement::Structured].into_iter().chain(coupled.then_some(Arrangement::Eliminated))
     }
 
-    /// ṗ_α = Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α + R·a_α + M_O·o_α, a function of (q, p), in the ways that are worth trying: `others` are the
-    /// other speeds of the system in terms of their momenta.
+    /// ṗ_α = Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α + R·a_α + M_O·o_α, a function of (q, p), in the ways that are worth trying:
+    /// `others` are the other speeds of the system in terms of their momenta.
     pub fn momentum_rates(&self, others: &Map<u32, Expr<'g>>) -> Vec<Vec<Expr<'g>>> {
         // The bracket is formed with formal Q, Γ and z, which are then replaced by what they are in terms of p.
         let graph = self.kinematics.frame.graph;

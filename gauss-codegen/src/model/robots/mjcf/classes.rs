@@ -24,8 +24,9 @@ pub struct Classes<'a> {
 }
 
 impl<'a> Classes<'a> {
-    /// Every `<default>` in the root adds to one class, `main`, in the order of the file. A class in it begins with what that
-    /// is then, as MuJoCo's `mjXReader::Default` has it: elements of a `<default>` come before the classes in it.
+    /// Every `<default>` in the root adds to one class, `main`, in the order of the file. A class in it begins with
+    /// what that is then, as MuJoCo's `mjXReader::Default` has it: elements of a `<default>` come before the classes in
+    /// it.
     pub fn read(root: Node<'a, 'a>, reading: &mut Reading<'a>) -> Self {
         let main = Class { parent: None, elements: Vec::new() };
         let mut classes = Self { all: vec![main], names: vec![(MAIN, 0)] };

@@ -1,8 +1,8 @@
 //! What actuators do with their controls: gains, biases, ranges.
 //!
-//! All elements of actuators, and of their defaults, set the same values, one after another, whatever they are called: so MuJoCo's
-//! `mjXReader::OneActuator` and `mjs_setToPosition` and the like have it (3.9): `<position>` without `kp` has the first gain
-//! that a class set, be it as `kv` of a `<velocity>`. Version 4 begins anew where the kinds differ.
+//! All elements of actuators, and of their defaults, set the same values, one after another, whatever they are called:
+//! so MuJoCo's `mjXReader::OneActuator` and `mjs_setToPosition` and the like have it (3.9): `<position>` without `kp`
+//! has the first gain that a class set, be it as `kv` of a `<velocity>`. Version 4 begins anew where the kinds differ.
 
 use roxmltree::Node;
 
@@ -153,8 +153,8 @@ impl<'a> Gains<'a> {
         [gain, if bias == "affine" { self.bias } else { [0.0; 3] }]
     }
 
-    /// The ratio of damping of a servo, which stands in place of a rate's bias; MuJoCo's `mj_setConst` takes a positive one
-    /// for that.
+    /// The ratio of damping of a servo, which stands in place of a rate's bias; MuJoCo's `mj_setConst` takes a positive
+    /// one for that.
     pub fn ratio(&self) -> Option<f64> {
         let [gain, bias] = self.acting();
         (gain[0] == -bias[1] && bias[2] > 0.0).then_some(bias[2])

@@ -15,8 +15,8 @@ fn sizes(kind: JointKind) -> [usize; 2] {
     }
 }
 
-/// Numbers that say where a joint is, with a quaternion of length one; that of no length is none, as `mju_normalize4` of
-/// MuJoCo's `src/engine/engine_util_blas.c` has it.
+/// Numbers that say where a joint is, with a quaternion of length one; that of no length is none, as `mju_normalize4`
+/// of MuJoCo's `src/engine/engine_util_blas.c` has it.
 fn with_turn(kind: JointKind, numbers: &[f64]) -> Vec<f64> {
     const LEAST: f64 = 1e-15;
     let count = if matches!(kind, JointKind::Floating | JointKind::Ball) { 4 } else { 0 };

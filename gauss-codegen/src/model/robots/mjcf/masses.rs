@@ -133,7 +133,8 @@ impl<'a> File<'a> {
     }
 }
 
-/// The volume of a shape, and its central moments by mass; `half` its length along the third axis, where its ends say it.
+/// The volume of a shape, and its central moments by mass; `half` its length along the third axis, where its ends say
+/// it.
 pub fn volume_and_moments(kind: &str, size: &[f64], half: Option<f64>) -> Option<(f64, Triple)> {
     let round = || Some((*size.first()?, half.or(size.get(1).copied())?));
     let three = || match half {
@@ -208,7 +209,8 @@ mod tests {
                 squares[1] += part * b * b / share;
                 squares[2] += part * z * z;
             }
-            // The rule of the middle: an error of the order of the square of the width, at a round end of its power 3/2.
+            // The rule of the middle: an error of the order of the square of the width, at a round end of its power
+            // 3/2.
             assert!((sum / volume - 1.0).abs() < 1e-5, "{kind}: {sum} {volume}");
             for i in 0..3 {
                 let moment = (squares[(i + 1) % 3] + squares[(i + 2) % 3]) / sum;

@@ -228,8 +228,8 @@ impl<'a> File<'a> {
         }
     }
 
-    /// Elements of some names in a body, and in frames of it: each with the class around it and its frame, in the axes of
-    /// the body.
+    /// Elements of some names in a body, and in frames of it: each with the class around it and its frame, in the axes
+    /// of the body.
     fn framed(&mut self, node: Node<'a, 'a>, class: Option<&'a str>, names: &[&str]) -> Vec<Framed<'a>> {
         let mut all = Vec::new();
         self.gather((node, class, ([0.0; 3], Rotation::none().matrix)), names, &mut all);

@@ -9,9 +9,10 @@ use crate::model::robots::structure::{Structure, placed};
 use crate::model::robots::xml::shown;
 
 impl<'a> File<'a> {
-    /// The damping 2 r √(k m), a ratio r of that at which what has this stiffness does not overshoot. As m MuJoCo 3 has the sum of
-    /// the inertias of the joints at rest, each by itself, by the squares of what the length changes by them
-    /// (`mj_setConst`); 4 has the inertia along the length while all joints are free, which is the same of a joint alone.
+    /// The damping 2 r √(k m), a ratio r of that at which what has this stiffness does not overshoot. As m MuJoCo 3 has
+    /// the sum of the inertias of the joints at rest, each by itself, by the squares of what the length changes by them
+    /// (`mj_setConst`); 4 has the inertia along the length while all joints are free, which is the same of a joint
+    /// alone.
     pub fn damping(
         &mut self,
         node: Node<'a, 'a>,
@@ -40,8 +41,8 @@ impl<'a> File<'a> {
         Some(damping)
     }
 
-    /// `springdamper="T r"`: the stiffness m/(T r)² and the damping 2 m/T, with the inertia m of the joint at rest while all
-    /// others are free, as `AutoSpringDamper` of MuJoCo's `src/user/user_model.cc` has it.
+    /// `springdamper="T r"`: the stiffness m/(T r)² and the damping 2 m/T, with the inertia m of the joint at rest
+    /// while all others are free, as `AutoSpringDamper` of MuJoCo's `src/user/user_model.cc` has it.
     pub fn tune(&mut self) {
         if self.tuned.is_empty() {
             return;
@@ -71,8 +72,8 @@ fn chain(structure: &Structure, link: usize) -> impl Iterator<Item = usize> {
     std::iter::successors(Some(link), |&link| structure.parent_of[link])
 }
 
-/// The inertia of the rate of a joint with one coordinate while no joint is turned or moved: of all that hangs on it, about or
-/// along its axis, with its own.
+/// The inertia of the rate of a joint with one coordinate while no joint is turned or moved: of all that hangs on it,
+/// about or along its axis, with its own.
 fn inertia_at_rest(structure: &Structure, description: &Description, joint: usize) -> f64 {
     let Some(child) = structure.joint_of.iter().position(|own| *own == Some(joint)) else { return 0.0 };
     let joint = &description.joints[joint];

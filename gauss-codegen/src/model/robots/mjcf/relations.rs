@@ -129,8 +129,8 @@ impl<'a> File<'a> {
         }
     }
 
-    /// The stiffness, the damping, and the lengths without force; none where they are those that joints have where their
-    /// springs have no force.
+    /// The stiffness, the damping, and the lengths without force; none where they are those that joints have where
+    /// their springs have no force.
     fn law(&mut self, node: Node<'a, 'a>) -> ([f64; 2], Option<[f64; 2]>) {
         let tags = &["tendon"];
         let factors = ["stiffness", "damping"]

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use crate::model::robots::rotation::Triple;
 
-/// The area of a shape, and its central moments by mass; `half` its length along the third axis, where its ends say it. `None` of
-/// an ellipsoid, whose area is no closed form.
+/// The area of a shape, and its central moments by mass; `half` its length along the third axis, where its ends say it.
+/// `None` of an ellipsoid, whose area is no closed form.
 pub fn area_and_moments(kind: &str, size: &[f64], half: Option<f64>) -> Option<(f64, Triple)> {
     let r = *size.first()?;
     let long = || half.or(size.get(1).copied());

@@ -1,4 +1,5 @@
-//! What becomes of every attribute of MJCF: no attribute of MuJoCo's is missing from the table, and its verdicts are true.
+//! What becomes of every attribute of MJCF: no attribute of MuJoCo's is missing from the table, and its verdicts are
+//! true.
 
 use std::path::{Path, PathBuf};
 
@@ -88,7 +89,8 @@ fn classes_have_names_of_their_own() {
     );
 }
 
-/// `jnt_pos`, `jnt_axis`, `dof_damping`, `body_ipos` and `body_mass` of MuJoCo 4.0; 3.3 leaves out the frame of <inertial>.
+/// `jnt_pos`, `jnt_axis`, `dof_damping`, `body_ipos` and `body_mass` of MuJoCo 4.0; 3.3 leaves out the frame of
+/// <inertial>.
 #[test]
 fn joints_and_masses_in_frames() {
     let read = described(

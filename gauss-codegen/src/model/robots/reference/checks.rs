@@ -8,8 +8,8 @@ use crate::model::robots::text::{Text, Written};
 pub struct Format {
     pub elements: &'static [Element],
     pub read: fn(&Text) -> Result<Description, Vec<Fault>>,
-    /// With places `@body/joint{…}` where the attributes of an element stand, those in the braces unless others are tried, and
-    /// `@in/body{}` where an element comes into another.
+    /// With places `@body/joint{…}` where the attributes of an element stand, those in the braces unless others are
+    /// tried, and `@in/body{}` where an element comes into another.
     pub file: &'static str,
     /// Of every attribute that acts: its element, other attributes that it needs, itself.
     pub samples: &'static [(&'static str, &'static str, &'static str)],

@@ -365,7 +365,8 @@ fn laws_of_balls_and_free_joints() {
     assert!(read.described.unwrap().remarks.iter().all(|remark| !remark.ignored));
 }
 
-/// What is in the root of an included file stands where it is included; mistakes are in the file where they are written.
+/// What is in the root of an included file stands where it is included; mistakes are in the file where they are
+/// written.
 #[test]
 fn files_that_include_others() {
     let part = |inside: &str| Scratch::called(&format!("<mujocoinclude>\n{inside}\n</mujocoinclude>"), "xml");
