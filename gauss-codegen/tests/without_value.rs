@@ -165,6 +165,14 @@ fn constraints_on_huge_numbers() {
     }
 }
 
+/// No coordinate changes what is under it, and it has a value nowhere.
+#[test]
+fn constraints_that_nothing_moves() {
+    let follows = "this constraint follows from the coordinates, the speeds and the constraints before it, so its \
+                   multiplier is undetermined; remove it";
+    check(&scene("constraint(position = acos(y + m + 3 - y))"), &[("acos", follows)]);
+}
+
 #[test]
 fn fields_of_one_name() {
     check(

@@ -55,7 +55,11 @@ pub fn dependencies<'a, 'g, N: Number + 'a>(
             && witness.partials(&constraints.on_velocities).into_iter().all(finite)
     };
     let mut usable = states.filter(usable);
-    let Some(witness) = usable.next() else { return Vec::new() };
+    // What no coordinate and no speed changes needs no state to be seen, and may have a value at none.
+    let Some(witness) = usable.next() else {
+        let still = constraints.on_velocities.iter().enumerate().filter(|(_, rate)| rate.is_zero());
+        return still.map(|(number, _)| Dependency { number, constant: false, contradicts: false }).collect();
+    };
     let mut dependent = dependent_rows(&witness, negligible);
     if dependent.is_empty() {
         return Vec::new();
