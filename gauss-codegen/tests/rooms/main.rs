@@ -139,7 +139,7 @@ fn syn_is_named_where_structs_are_read() {
 }
 
 /// What `emit` takes from `model`: names of things, shapes of fields, and what is written down as it is.
-const WRITTEN_DOWN: [&str; 17] = [
+const WRITTEN_DOWN: [&str; 18] = [
     "BodyClause",
     "BodyOfFile",
     "Described",
@@ -149,6 +149,7 @@ const WRITTEN_DOWN: [&str; 17] = [
     "GenericsOfImpl",
     "InputKind",
     "InputName",
+    "LawKind",
     "Model",
     "Remark",
     "Role",
