@@ -6,12 +6,14 @@
 
 mod picture;
 mod scene;
+mod slide;
 
 use gauss_examples::plots::{write, write_page};
 use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 
-use scene::{Pendulum, PendulumKernel, PendulumState, Slider, Sliding, slide};
+use scene::{Pendulum, PendulumKernel, PendulumState, Slider};
+use slide::{Sliding, slide};
 
 /// Length of the run of the pendulum, s.
 const DURATION: f64 = 12.0;

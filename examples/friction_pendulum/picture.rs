@@ -8,7 +8,8 @@ use gauss_playback::{Playback, Shape};
 use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 
-use crate::scene::{LENGTH, Pendulum, PendulumFrame, PendulumKernel, Slider, Sliding, slide};
+use crate::scene::{LENGTH, Pendulum, PendulumFrame, PendulumKernel, Slider};
+use crate::slide::{Sliding, slide};
 
 /// Lower end of the axis of powers, W: what the buffer takes is far below it.
 const LEAST_POWER: f64 = -0.2;
