@@ -1,7 +1,6 @@
 //! What is changed: every scene of this project, scenes that once were too much, files of robots; and scenes of random
 //! expressions.
 
-#[allow(dead_code)]
 #[allow(dead_code, reason = "names of scenes are for tables")]
 #[path = "../operations/sources.rs"]
 mod sources;
