@@ -372,7 +372,8 @@ fn joined() -> Joined {
 /// The place of the third body relative to the second: displacement and Cardan angles in the axes of the second; and
 /// the twist about their third axes, of the quaternion. By nalgebra alone.
 fn relative_place(q: &Eight) -> (Vector6<f64>, f64) {
-    let about = |axis: nalgebra::Unit<Vector3<f64>>, angle: f64| UnitQuaternion::from_axis_angle(&axis, angle);
+    let about =
+        |axis: gauss_runtime::nalgebra::Unit<Vector3<f64>>, angle: f64| UnitQuaternion::from_axis_angle(&axis, angle);
     let (x, y, z) = (Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis());
     let one = about(z, q[0]) * about(x, q[1]);
     let two = one * about(z, q[2]);
