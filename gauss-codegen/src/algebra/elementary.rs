@@ -51,6 +51,9 @@ pub fn sine_cosine<N: ManyDigits>(angle: N) -> (N, N) {
     // Angles of more than 2⁵³ quarter turns lose 53 digits a time.
     for _ in 0..3 {
         let turns = (x.to_f64() / QUARTER_TURN[0]).round();
+        if turns == 0.0 {
+            break;
+        }
         x = without(x, turns, &QUARTER_TURN);
         quarters += turns.rem_euclid(4.0);
     }

@@ -204,24 +204,31 @@ impl Div for Precise {
 
 impl PartialEq for Precise {
     fn eq(&self, other: &Self) -> bool {
-        self.partial_cmp(other) == Some(Ordering::Equal)
+        // A number has one form.
+        let form = |p: &Self| (p.defined, p.negative, p.exponent, p.mantissa);
+        self.defined && form(self) == form(other)
     }
 }
 
 impl PartialOrd for Precise {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        let difference = *self - *other;
-        match (difference.defined, difference.is_zero(), difference.negative) {
-            (false, ..) => None,
-            (_, true, _) => Some(Ordering::Equal),
-            (_, _, true) => Some(Ordering::Less),
-            (_, _, false) => Some(Ordering::Greater),
-        }
+        let sign = |p: &Self| if p.is_zero() { 0 } else { 1 - 2 * i32::from(p.negative) };
+        let [a, b, c, d] = self.mantissa;
+        let [e, f, g, h] = other.mantissa;
+        let sizes = (self.exponent, d, c, b, a).cmp(&(other.exponent, h, g, f, e));
+        let order = match sign(self).cmp(&sign(other)) {
+            Ordering::Equal if self.negative => sizes.reverse(),
+            Ordering::Equal => sizes,
+            signs => signs,
+        };
+        (self.defined && other.defined).then_some(order)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::cmp::Ordering;
+
     use num_bigint::{BigInt, BigUint, Sign};
 
     use super::super::evaluate::{Number, Scalar};
@@ -319,6 +326,10 @@ mod tests {
             holds(a * b, nearest(&(signed(a) * signed(b)), a.exponent + b.exponent));
             holds(a / b, nearest(&((signed(a) << (DIGITS + 2)) / signed(b)), a.exponent - b.exponent - DIGITS - 2));
             let least = a.exponent.min(b.exponent);
+            let difference = a - b;
+            let order = if difference.negative { Ordering::Less } else { Ordering::Greater };
+            let order = if difference.is_zero() { Ordering::Equal } else { order };
+            assert_eq!((a.partial_cmp(&b), a == b), (Some(order), difference.is_zero()));
             if (a.exponent - b.exponent).abs() <= 2 * DIGITS {
                 let sum = (signed(a) << (a.exponent - least)) + (signed(b) << (b.exponent - least));
                 holds(a + b, nearest(&sum, least));
