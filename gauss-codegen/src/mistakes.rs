@@ -8,7 +8,7 @@ use crate::algebra::{Function, Graph, Notation, Number, Precise, Scalar as _, de
 use crate::error::{Error, Mistakes, Result};
 use crate::kernel::Kernel;
 use crate::mechanics::{
-    Coordinate, Elimination, InertialParameter, Method, Obstacle, System, SystemFault, SystemScene,
+    Coordinate, Elimination, InertialParameter, Method, Obstacle, System, SystemFault, SystemScene, has_values,
 };
 use crate::methods::DerivativeKind;
 use crate::model::{FunctionKind, Model, Scalar};
@@ -238,7 +238,17 @@ pub fn system_faults<'g>(given: &Given<'_, 'g>, system: &System<'g>, faults: &[S
 
 /// A check that failed: what in the scene is the cause, or a mistake of this crate.
 pub fn failed<'g>(given: &Given<'_, 'g>, system: &System<'g>, what: &impl Display) -> Error {
-    given.cause_of_failure(&system.scene.tree).unwrap_or_else(|| bug(&given.model.ident, what))
+    given.cause_of_failure(&system.scene.tree).unwrap_or_else(|| match has_values(system) {
+        true => bug(&given.model.ident, what),
+        false => Error::new(
+            given.model.ident.span(),
+            format!(
+                "the mass matrix has a value at none of the states that were tried, so its pivots are not known to \
+                 differ from zero ({what}); see whether roots, logarithms and arcs in positions and kinematics are \
+                 inside their domains, and whether every speed moves something"
+            ),
+        ),
+    })
 }
 
 /// A mistake of this crate, said as such at the name of the struct.

@@ -205,3 +205,14 @@ fn everywhere_and_all_at_once() {
         &[("-", ZERO), ("-", ZERO)],
     );
 }
+
+/// Where no state gives the mass matrix a value, nothing tells that it is singular until something divides by it.
+#[test]
+fn masses_beyond_the_domain_of_a_root() {
+    let source = "#[gauss(coordinates(x, y), particle(mass = m, position = [sqrt(-1 - x.powi(2) - y.powi(2)), 0, 0]))] \
+                  struct Scene { m: f64 }";
+    let message = "the mass matrix has a value at none of the states that were tried, so its pivots are not known to \
+                   differ from zero (the equations divide by zero); see whether roots, logarithms and arcs in positions \
+                   and kinematics are inside their domains, and whether every speed moves something";
+    check(source, &[("Scene", message)]);
+}

@@ -48,7 +48,7 @@ mod whole;
 
 pub use arrangements::balance::KineticMatrix;
 pub use check::dependent::needless_constraints;
-pub use check::faults::{Claims, SystemFault, check_system_against_definition};
+pub use check::faults::{Claims, SystemFault, check_system_against_definition, has_values};
 #[cfg(test)]
 pub use check::witness::acceleration_by_definition;
 pub use constraints::constraint::{Constraint, ConstraintKind};

@@ -85,6 +85,20 @@ pub fn check_system_against_definition<'g>(
     }
 }
 
+/// Whether the mass matrix has a value at any of the states that are tried. Where it has none, as beyond the domains of
+/// roots and arcs, nothing is known of its pivots: one may be zero.
+pub fn has_values(system: &System<'_>) -> bool {
+    states::<Precise>(system).any(|witness| is_regular(&witness))
+}
+
+fn states<'a, 'g, N: Number>(system: &'a System<'g>) -> impl Iterator<Item = Witness<'a, 'g, N>> + use<'a, 'g, N> {
+    (0..16).map(move |shift| Witness::new(system, sample_state(system, shift)))
+}
+
+fn is_regular<N: Number>(witness: &Witness<'_, '_, N>) -> bool {
+    witness.values(witness.system.matrix.iter().flatten()).iter().all(is_in_range)
+}
+
 fn check_in<'g, N: Number>(system: &System<'g>, claims: &Claims<'_, 'g>) -> Result<(), Vec<SystemFault>> {
     let n = system.scene.speeds.len();
     let matrix: Vec<Expr<'g>> = system.matrix.iter().flatten().copied().collect();
@@ -95,10 +109,9 @@ fn check_in<'g, N: Number>(system: &System<'g>, claims: &Claims<'_, 'g>) -> Resu
         let values = witness.values(matrix.iter().chain(claims.accelerations.iter().flatten()));
         values.iter().chain(&witness.stationarity(&arbitrary)).all(is_in_range)
     };
-    let states = || (0..16).map(|shift| Witness::new(system, sample_state(system, shift)));
+    let states = || states::<N>(system);
     // A singular A, or dependent constraints, have no finite accelerations, so they are looked for first.
-    let regular = |witness: &Witness<'_, 'g, N>| witness.values(&matrix).iter().all(is_in_range);
-    let singular = states().find(regular).map(|witness| vanishing_pivots(witness.values(&matrix), n));
+    let singular = states().find(is_regular).map(|witness| vanishing_pivots(witness.values(&matrix), n));
     let mut faults: Vec<SystemFault> =
         singular.unwrap_or_default().into_iter().map(SystemFault::DependentSpeed).collect();
     faults.extend(dependencies(system, states(), 100.0 * N::NEGLIGIBLE).into_iter().map(SystemFault::of));
