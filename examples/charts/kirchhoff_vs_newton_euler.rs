@@ -1,13 +1,13 @@
 //! One vehicle, four charts: the equations, what they cost, and how well they agree.
 //!
 //! `cargo run --release --example kirchhoff_vs_newton_euler [-- FOLDER]` writes its files into `FOLDER`, by default
-//! `target/kirchhoff_vs_newton_euler`.
+//! `target/kirchhoff_vs_newton_euler`. With `--features png` the picture in pixels too.
 
 use std::env;
 use std::path::PathBuf;
 
 use gauss_charts::measure::{Comparison, Fleet};
-use gauss_charts::{drawing, figure, report, timing};
+use gauss_charts::{figure, report, timing};
 
 /// Length of the runs, s.
 const DURATION: f64 = 30.0;
@@ -29,7 +29,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let page = figure::page(&fleet.kirchhoff, &comparison).html()?;
     let files = [
         ("kirchhoff_vs_newton_euler.svg", svg.clone().into_bytes(), "the picture"),
-        ("kirchhoff_vs_newton_euler.png", drawing::png(&svg)?, "the same in pixels"),
+        #[cfg(feature = "png")]
+        ("kirchhoff_vs_newton_euler.png", gauss_charts::drawing::png(&svg)?, "the same in pixels"),
         ("kirchhoff_vs_newton_euler.html", page.into_bytes(), "the motion, as a page that plays"),
         (
             "equations.txt",

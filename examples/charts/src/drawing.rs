@@ -1,10 +1,7 @@
 //! What pictures of all examples have in common: colours, text, and the way from SVG to pixels.
 
-use std::error::Error;
-
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use resvg::{tiny_skia, usvg};
 
 /// A part of the picture.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -28,7 +25,10 @@ pub fn text_style(size: u32, colour: RGBColor) -> TextStyle<'static> {
 ///
 /// # Errors
 /// When the SVG is not one.
-pub fn png(svg: &str) -> Result<Vec<u8>, Box<dyn Error>> {
+#[cfg(feature = "png")]
+pub fn png(svg: &str) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
+    use resvg::{tiny_skia, usvg};
+
     let mut options = usvg::Options::default();
     let fonts = options.fontdb_mut();
     fonts.load_font_data(dejavu::sans::regular().to_vec());

@@ -11,7 +11,7 @@
 //! | [`timing`] | nanoseconds per evaluation |
 //! | [`report`] | the text |
 //! | [`figure`] | the picture, its panels in [`panels`], and the page that plays |
-//! | [`drawing`] | colours, text, from SVG to pixels |
+//! | [`drawing`] | colours, text, with the feature `png` from SVG to pixels |
 //! | [`statistics`] | random numbers, quartiles |
 
 pub mod drawing;

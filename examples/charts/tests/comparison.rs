@@ -92,8 +92,11 @@ fn text_and_picture_show_every_chart() {
     }
     assert!(!text.contains("NaN") && !svg.contains("NaN"));
 
-    let png = gauss_charts::drawing::png(&svg).unwrap();
-    // The signature, then the first chunk with width and height.
-    assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
-    assert_eq!(png[16..24], [0, 0, 6, 64, 0, 0, 5, 20]);
+    #[cfg(feature = "png")]
+    {
+        let png = gauss_charts::drawing::png(&svg).unwrap();
+        // The signature, then the first chunk with width and height.
+        assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
+        assert_eq!(png[16..24], [0, 0, 6, 64, 0, 0, 5, 20]);
+    }
 }
