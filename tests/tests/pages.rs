@@ -25,6 +25,7 @@ const FOLDERS: [&str; 18] = [
     "crates/gauss-files",
     "crates/gauss-playback",
     "crates/gauss-rerun",
+    "crates/gauss-robots",
     "crates/gauss-tables",
     "crates/gauss-tune",
     "tools/cargo-gauss",

@@ -20,6 +20,7 @@ mod checks;
 mod language;
 mod names;
 mod parse;
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
 mod robots;
 mod scene;
 #[cfg(test)]
@@ -27,9 +28,8 @@ mod tests;
 mod units;
 
 pub use language::arithmetic::{LARGEST_EXPONENT, too_many_factors};
-pub use language::number::exact as literal;
+pub use language::number::{exact as literal, of_double as exact};
 pub use parse::{item, parse, struct_in};
-pub use robots::exact;
 pub use scene::charts::{Chart, InChart, Motion, RotationChart};
 pub use scene::clauses::{
     BodyClause, Coefficients, ConstraintKind, Coordinate, CoordinateKind, FunctionClause, FunctionKind, InputKind,

@@ -2,9 +2,14 @@
 
 use crate::model::assembly;
 use crate::model::language::context::Context;
+use crate::model::language::fields::Reader;
+use crate::model::language::robots::{Format, RobotClauses};
+use crate::model::language::statements::Statements;
 use crate::model::language::{fields, nesting, struct_clauses};
 use crate::model::names::inputs;
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
 use crate::model::robots;
+use crate::model::scene::described::Described;
 use crate::model::scene::model::Model;
 use proc_macro2::TokenStream;
 use syn::ext::IdentExt;
@@ -35,12 +40,41 @@ pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
     let without = clauses.robot.file.is_some().then_some(&none);
     let model = named_fields(input, without, &mut context).and_then(|named| {
         let reader = fields::read(named, &input.generics, clauses.own, &mut context);
-        let described = robots::compose(&clauses.robot, &reader, &mut clauses.statements, &mut context);
+        let described = robot_of_file(&clauses.robot, &reader, &mut clauses.statements, &mut context);
         inputs::name(&mut clauses.statements, &reader.fields, &mut context);
         let model = assembly::model(input, clauses, reader, &mut context)?;
         Some(Model { described, ..model })
     });
     context.finish(model)
+}
+
+/// Puts the clauses of a robot's file before those of the struct. `None` without a file, or where it has a mistake, which
+/// is noted.
+fn robot_of_file(
+    robot: &RobotClauses,
+    reader: &Reader<'_>,
+    statements: &mut Statements,
+    context: &mut Context,
+) -> Option<Described> {
+    let file = robot.file.as_ref()?;
+    let (feature, is_read) = match file.format {
+        Format::Urdf => ("urdf", cfg!(feature = "urdf")),
+        Format::Mjcf => ("mjcf", cfg!(feature = "mjcf")),
+    };
+    if !is_read {
+        // Whatever else seems to be missing is what the file was to say.
+        statements.missed = true;
+        let remedy = format!("such files are read with the feature `{feature}` of gauss-runtime; add it in Cargo.toml");
+        context.error(file.span, format!("{}: {remedy}", file.path));
+        return None;
+    }
+    #[cfg(any(feature = "urdf", feature = "mjcf"))]
+    return robots::compose(file, robot, reader, statements, context);
+    #[cfg(not(any(feature = "urdf", feature = "mjcf")))]
+    {
+        let _ = reader;
+        None
+    }
 }
 
 /// The fields of a struct with named fields, or none of a unit struct where it can be `without`; anything else is a

@@ -20,6 +20,7 @@ pub struct Names<N> {
 }
 
 /// Puts names before those of a clause, which is called `word` where there is none.
+#[cfg_attr(not(any(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "files of robots are not read"))]
 pub fn before<N>(clause: &mut Option<Names<N>>, names: Vec<N>, word: &str, span: Span) {
     let empty = || Names { clause: Ident::new(word, span), names: Vec::new(), complete: true };
     clause.get_or_insert_with(empty).names.splice(0..0, names);

@@ -59,6 +59,7 @@ pub enum Inputs {
 }
 
 /// What becomes of dry friction.
+#[cfg_attr(not(any(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "files of robots are not read"))]
 pub enum Friction {
     /// Force times v/√(v² + w²), with this w.
     Smooth(Expression),
@@ -66,6 +67,7 @@ pub enum Friction {
 }
 
 /// What becomes of the limits of joints.
+#[cfg_attr(not(any(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "files of robots are not read"))]
 pub enum Limits {
     Stop { stiffness: Expression, width: Expression, damping: Option<Expression> },
     None,

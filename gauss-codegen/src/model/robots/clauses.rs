@@ -4,14 +4,13 @@ use proc_macro2::Ident;
 use quote::format_ident;
 use syn::ext::IdentExt;
 
-use super::description::{Description, Fault, Inertial, Joint, JointKind, Note};
 use super::drives::{self, Input};
 use super::joints::Writer;
-use super::mimic::Coupling;
+use gauss_robots::description::{Description, Fault, Inertial, Joint, JointKind, Note};
+
 use super::names::Names;
 use super::source;
-use super::structure::Structure;
-use super::text::Text;
+
 use crate::model::language::context::Context;
 use crate::model::language::declarations;
 use crate::model::language::fields::{ReadField, Reader};
@@ -23,25 +22,25 @@ use crate::model::scene::clauses::{
 use crate::model::scene::described::{Described, Remark};
 use crate::model::scene::expression::{Expression, FunctionName, Property};
 use crate::model::scene::roles::{Role, Shape};
+use gauss_robots::{Coupling, Structure, Text, all_located, located};
 
 /// What the free root of a robot moves by.
 const BASE: &str = "base";
 
-/// Puts the clauses made from the file before those of the struct. `None` without a file, or where the file has a
-/// mistake, which is noted.
+/// Puts the clauses made from the file before those of the struct. `None` where the file has a mistake, which is noted.
 pub fn compose(
+    file: &File,
     clauses: &RobotClauses,
     reader: &Reader<'_>,
     statements: &mut Statements,
     context: &mut Context,
 ) -> Option<Described> {
-    let file = clauses.file.as_ref()?;
     if file.format == Format::Mjcf && clauses.base.is_some() {
         context.error(file.span, "in an MJCF file <freejoint/> marks bodies that move freely; remove `base`");
     }
     let path = source::path(file);
     let read = source::text(file, &path).and_then(|text| {
-        let faults = |faults: Vec<Fault>| source::all_located(&text.names(), &faults);
+        let faults = |faults: Vec<Fault>| all_located(&text.names(), &faults);
         let description = source::read(file.format, &text).map_err(faults)?;
         let structure = Structure::new(&description).map_err(faults)?;
         let robot = Robot::new(file, clauses, reader, &description, &structure);
@@ -229,7 +228,7 @@ impl<'a> Robot<'a> {
         let known = |what: &String| self.clauses.ignored.iter().any(|word| word == what.as_str());
         let names = text.names();
         let remark = |note: &Note| Remark {
-            text: source::located(&names, note.at, &note.text),
+            text: located(&names, note.at, &note.text),
             ignored: note.ignored.as_ref().is_some_and(|what| !known(what)),
         };
         let links = self.links.iter().zip(&self.description.links);

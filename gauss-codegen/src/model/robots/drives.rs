@@ -3,10 +3,10 @@
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
-use super::description::{Description, Drive, JointKind, Note};
 use super::names::Names;
 use crate::model::language::robots::Inputs;
 use crate::model::scene::clauses::{Coordinate, InputKind, InputName};
+use gauss_robots::description::{Description, Drive, JointKind, Note};
 
 /// An input, and what it drives.
 pub struct Input {

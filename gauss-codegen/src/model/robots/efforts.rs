@@ -5,13 +5,13 @@ use std::collections::HashMap;
 use proc_macro2::Ident;
 
 use super::clauses::Robot;
-use super::description::Drive;
 use super::drives::{Driven, Input};
-use super::rotation::Triple;
 use crate::model::scene::elements::WRENCH;
 use crate::model::scene::elements::argument::{BODY, FORCE, TORQUE};
 use crate::model::scene::expression::{Expression, FunctionName, Property};
 use crate::model::scene::forces::ForceClause;
+use gauss_robots::description::Drive;
+use gauss_robots::rotation::Triple;
 
 impl Robot<'_> {
     /// Generalised forces on coordinates.

@@ -4,8 +4,8 @@ use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
 use super::clauses::Robot;
-use super::description::{Fault, Inertial};
-use super::rotation::principal;
+use gauss_robots::description::{Fault, Inertial};
+use gauss_robots::rotation::principal;
 
 /// What the largest moment may exceed the sum of the others by, as part of all.
 const SLACK: f64 = 16.0 * f64::EPSILON;

@@ -4,19 +4,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use proc_macro2::{Ident, Span};
 
-use super::description::{Joint, JointKind};
-use super::mimic::Coupling;
-use super::rotation::{Rotation, Triple, turned};
-use crate::algebra::Rational;
-use crate::model::language::number;
+use crate::model::language::number::of_double;
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
-
-/// The shortest decimal fraction that is read as a number. What is too small for a normal one is none that a file
-/// means.
-pub fn exact(value: f64) -> Rational {
-    let size = number::exact(&format!("{:e}", value.abs())).unwrap_or_else(Rational::zero);
-    if value < 0.0 { -size } else { size }
-}
+use gauss_robots::Coupling;
+use gauss_robots::description::{Joint, JointKind};
+use gauss_robots::rotation::{Rotation, Triple, turned};
 
 /// Writes expressions, all of them at one token.
 #[derive(Clone, Copy)]
@@ -31,7 +23,7 @@ impl Writer {
 
     /// A number as it would be written: the shortest decimal fraction that is read as it.
     pub fn number(self, value: f64) -> Expression {
-        let number = self.expression(ExpressionKind::Number { value: exact(value.abs()) });
+        let number = self.expression(ExpressionKind::Number { value: of_double(value.abs()) });
         if value < 0.0 { self.negative(number) } else { number }
     }
 
@@ -200,7 +192,7 @@ fn in_plane(normal: &Triple) -> [Triple; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::robots::rotation::direction;
+    use gauss_robots::rotation::direction;
 
     /// The turns bring the axis of the frame to the direction.
     #[test]

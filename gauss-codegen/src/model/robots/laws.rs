@@ -5,13 +5,13 @@ use quote::format_ident;
 use syn::ext::IdentExt;
 
 use super::clauses::Robot;
-use super::description::{Joint, JointKind, Note};
 use crate::model::language::robots::{Friction, Limits};
 use crate::model::scene::clauses::{RoleClause, RoleValue};
 use crate::model::scene::elements::argument::{ALONG, AT, AXES, BODY, DAMPING, LEAST, MOST, STIFFNESS, VALUE, WIDTH};
 use crate::model::scene::elements::{FORCE, STOP};
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 use crate::model::scene::forces::{ForceAxes, ForceClause};
+use gauss_robots::description::{Joint, JointKind, Note};
 
 impl Robot<'_> {
     /// What acts in the joints.

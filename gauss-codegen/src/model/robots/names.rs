@@ -4,9 +4,9 @@ use std::collections::HashSet;
 
 use proc_macro2::{Ident, Span};
 
-use super::description::{At, Note};
-use crate::model::language::words::{self, UNNAMED};
+use crate::model::language::words::UNNAMED;
 use crate::model::names::naming::is_reserved;
+use gauss_robots::description::{At, Note};
 
 /// Identifiers that are taken.
 pub struct Names {
@@ -55,15 +55,6 @@ pub fn free(name: &str, noun: &str, is_free: impl Fn(&str) -> bool) -> String {
     let candidates = [word.clone(), format!("{word}_{noun}")].into_iter().chain(numbered);
     let is_word = |word: &String| syn::parse_str::<Ident>(word).is_ok();
     candidates.into_iter().find(|word| is_word(word) && is_free(word)).unwrap_or_default()
-}
-
-/// `` `elbw`, which is no joint; did you mean `elbow`? ``
-pub fn unknown<'a>(noun: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
-    let table: Vec<(&str, ())> = known.map(|name| (name, ())).collect();
-    match words::nearest(name, &table) {
-        Some((near, ())) => format!("`{name}`, which is no {noun}; did you mean `{near}`?"),
-        None => format!("`{name}`, which is no {noun} of this file"),
-    }
 }
 
 #[cfg(test)]

@@ -3,10 +3,10 @@
 use std::collections::HashSet;
 
 use super::clauses::Robot;
-use super::description::Note;
 use super::drives::Driven;
 use crate::model::language::robots::Saturation;
 use crate::model::scene::expression::{Expression, FunctionName};
+use gauss_robots::description::Note;
 
 impl Robot<'_> {
     pub fn is_clamped(&self) -> bool {

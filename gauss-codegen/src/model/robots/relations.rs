@@ -1,11 +1,11 @@
 //! Relations of links besides the tree: points and rotations in common, coordinates that are polynomials of others.
 
 use super::clauses::Robot;
-use super::description::{At, Closure, Polynomial, Turn};
-use super::rotation::{Rotation, Triple};
-use super::source::located;
 use crate::model::scene::clauses::{ConstraintClause, ConstraintKind};
 use crate::model::scene::expression::{BinaryOperator, Expression, FunctionName, Property};
+use gauss_robots::description::{At, Closure, Polynomial, Turn};
+use gauss_robots::located;
+use gauss_robots::rotation::{Rotation, Triple};
 
 impl Robot<'_> {
     /// Links that have a point in common, or a place; coordinates that others determine.

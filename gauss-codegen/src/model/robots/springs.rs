@@ -5,14 +5,14 @@ use quote::format_ident;
 use syn::ext::IdentExt;
 
 use super::clauses::Robot;
-use super::description::{Cable, Joint, JointKind, Note, Tendon};
-use super::rotation::{Rotation, Triple};
 use crate::model::scene::elements::argument::{
     ALONG, AXES, BODY, DAMPING, FROM, LENGTH, REACTION, STIFFNESS, TO, VALUE,
 };
 use crate::model::scene::elements::{FORCE, SPRING, TORQUE};
 use crate::model::scene::expression::{BinaryOperator, Expression, FunctionName, Property};
 use crate::model::scene::forces::{ForceAxes, ForceClause};
+use gauss_robots::description::{Cable, Joint, JointKind, Note, Tendon};
+use gauss_robots::rotation::{Rotation, Triple};
 
 /// The square of the sine of an angle below which the angle is its sine, in double precision.
 const SMALL: f64 = 1e-32;

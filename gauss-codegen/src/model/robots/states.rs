@@ -5,11 +5,11 @@ use quote::format_ident;
 use syn::ext::IdentExt;
 
 use super::clauses::Robot;
-use super::description::{JointKind, Posture};
 use super::drives::{Driven, Input};
-use super::rotation::{Matrix, Rotation, Triple, turned};
 use crate::model::scene::clauses::CoordinateKind;
 use crate::model::scene::described::{BodyOfFile, StateOfFile, ValueOfState};
+use gauss_robots::description::{JointKind, Posture};
+use gauss_robots::rotation::{Matrix, Rotation, Triple, turned};
 
 /// The state of the file while nothing is turned or moved.
 const START: &str = "start";

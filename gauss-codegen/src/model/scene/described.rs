@@ -42,6 +42,7 @@ pub struct StateOfFile {
     pub inputs: Vec<(Ident, f64)>,
 }
 
+#[cfg_attr(not(any(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "files of robots are not read"))]
 #[derive(Clone, Copy)]
 pub enum ValueOfState {
     Scalar(f64),

@@ -1,0 +1,159 @@
+//! Actuators: controls along joints and tendons, and of wrenches at sites.
+
+use roxmltree::Node;
+
+use super::File;
+use super::gains::{ACTUATOR, Gains};
+use crate::description::Drive;
+use crate::names::unknown;
+use crate::rotation::Triple;
+use crate::xml::shown;
+
+/// What an actuator acts on.
+enum ActsOn {
+    /// With what its length changes by each.
+    Joints(Vec<(String, f64)>),
+    /// With the force and the torque there.
+    Link(String, [Triple; 2]),
+}
+
+impl<'a> File<'a> {
+    pub fn actuators(&mut self, section: Node<'a, 'a>) {
+        for node in self.reading.elements(section) {
+            let drive = self.drive(node);
+            // Keyframes count those that are not read as well.
+            self.controls.push(drive.as_ref().map(|_| self.description.drives.len()));
+            self.description.drives.extend(drive);
+        }
+    }
+
+    fn drive(&mut self, node: Node<'a, 'a>) -> Option<Drive> {
+        let gains = self.gains(node);
+        if self.disabled.actuation || self.disabled.groups.contains(&gains.group) {
+            self.reading.note(node, format!("{} is switched off by <option>", shown(node)));
+            self.reading.pass(node);
+            return None;
+        }
+        if !gains.is_affine() {
+            self.ignored(node, "it is not linear in its control, or has a state of its own");
+            return None;
+        }
+        let (along, at_link) = match self.acts_on(node, &gains.gear)? {
+            ActsOn::Joints(along) => (along, None),
+            ActsOn::Link(link, wrench) => (Vec::new(), Some((link, wrench))),
+        };
+        let named = self.reading.text(node, "name").map(str::to_owned);
+        let first = along.first().map(|(joint, _)| joint).or(at_link.as_ref().map(|(link, _)| link)).cloned();
+        let [gain, mut bias] = gains.acting();
+        if let Some(ratio) = gains.ratio() {
+            bias[2] = -self.damping(node, &along, (gain[0], ratio))?;
+        }
+        let [controls, forces] = self.ranges(node, &gains, &along);
+        let at = self.reading.at(node);
+        Some(Drive { name: named.or(first)?, at, along, at_link, gain, bias, controls, forces })
+    }
+
+    /// What defaults and an element say.
+    fn gains(&mut self, node: Node<'a, 'a>) -> Gains<'a> {
+        let mut said: Vec<Node<'a, 'a>> = self.classes.nearest((node, ACTUATOR), None, &self.reading).collect();
+        said.reverse();
+        let gains = Gains::of(&said, &mut self.reading);
+        // Of elements of one kind all versions of MuJoCo make the same.
+        let tag = node.tag_name().name();
+        let strange = |element: &Node<'a, 'a>| !["general", tag].contains(&element.tag_name().name());
+        if tag != "general" && said.iter().any(strange) {
+            let other = said.iter().copied().find(strange).map_or("", |element| element.tag_name().name());
+            said.retain(|element| !strange(element));
+            let own = Gains::of(&said, &mut self.reading);
+            if own.law() != gains.law() {
+                let text = format!(
+                    "{} has defaults of <{other}>, of which versions of MuJoCo make different things; write its gains \
+                     in itself",
+                    shown(node)
+                );
+                self.reading.ignored(node, text);
+            }
+        }
+        gains
+    }
+
+    /// Those of the control, and of the force, that limit.
+    fn ranges(&mut self, node: Node<'a, 'a>, gains: &Gains<'a>, along: &[(String, f64)]) -> [Option<[f64; 2]>; 2] {
+        let mut ranges = gains.ranges;
+        if gains.inherited() > 0.0 {
+            let of_joint = match along {
+                [(name, _)] => self.description.joints.iter().find(|joint| joint.name == *name),
+                _ => None,
+            };
+            match of_joint.map(|joint| joint.limits) {
+                Some([Some(least), Some(most)]) => {
+                    let (mean, half) = ((least + most) / 2.0, (most - least) / 2.0 * gains.inherited());
+                    ranges[0].0 = [mean - half, mean + half];
+                }
+                _ => self.ignored(node, "`inheritrange` is read of joints with limits"),
+            }
+        }
+        let ranges = ranges.map(|(range, word)| self.limited(node, range, word));
+        [ranges[0].filter(|_| !self.disabled.clamps), ranges[1]]
+    }
+
+    /// A range, if it limits. Without `limited` a range limits if it is not empty; MuJoCo takes one with exchanged ends
+    /// for empty, too (`islimited` of `src/user/user_objects.cc`).
+    pub fn limited(&mut self, node: Node<'a, 'a>, range: [f64; 2], word: Option<&str>) -> Option<[f64; 2]> {
+        let limits = match word {
+            Some("true") => true,
+            Some("false") => false,
+            _ => self.automatic && range[0] != range[1],
+        };
+        if limits && range[0] >= range[1] {
+            let [least, most] = range;
+            self.reading.fault(node, format!("a range is from its least to its most, found {least} to {most}"));
+        }
+        limits.then_some(range)
+    }
+
+    fn acts_on(&mut self, node: Node<'a, 'a>, gear: &[f64; 6]) -> Option<ActsOn> {
+        let Some(site) = self.reading.text(node, "site") else {
+            return self.along(node, gear[0]).map(ActsOn::Joints);
+        };
+        if self.reading.text(node, "refsite").is_some() {
+            self.ignored(node, "a `refsite` is not read; of sites alone the wrench at `site` is");
+            return None;
+        }
+        let Some(link) = self.link_of_site(site) else {
+            let message = unknown("site", site, self.sites.iter().map(|(name, _)| name.as_str()));
+            self.reading.fault(node, format!("it acts at {message}"));
+            return None;
+        };
+        Some(ActsOn::Link(link, [[0, 1, 2], [3, 4, 5]].map(|part| part.map(|k| gear[k]))))
+    }
+
+    /// What a site is called among links.
+    pub fn link_of_site(&self, site: &str) -> Option<String> {
+        self.sites.iter().find(|(name, _)| name == site).map(|(_, link)| link.clone())
+    }
+
+    /// The joints that an actuator acts on, with what its length changes by those.
+    fn along(&mut self, node: Node<'a, 'a>, gear: f64) -> Option<Vec<(String, f64)>> {
+        let named = |name: &str| self.description.tendons.iter().find(|tendon| tendon.name.as_deref() == Some(name));
+        let joint = self.reading.text(node, "joint").or(self.reading.text(node, "jointinparent"));
+        let along = match (joint, self.reading.text(node, "tendon")) {
+            (Some(joint), _) => vec![(joint.to_owned(), gear)],
+            (None, Some(tendon)) if named(tendon).is_some() => {
+                let along = named(tendon).map(|tendon| tendon.along.clone()).unwrap_or_default();
+                along.into_iter().map(|(joint, factor)| (joint, gear * factor)).collect()
+            }
+            _ => {
+                self.ignored(node, "it acts on no joint, no site, and no tendon that is read");
+                return None;
+            }
+        };
+        let several =
+            |joint: &str| self.description.joints.iter().any(|other| other.name == joint && !other.kind.is_scalar());
+        if along.iter().any(|(joint, _)| several(joint)) {
+            self.ignored(node, "its joint has not one coordinate; `wrench(…)` of the struct can act on the body");
+            return None;
+        }
+        Some(along)
+    }
+}
