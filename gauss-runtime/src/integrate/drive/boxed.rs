@@ -6,23 +6,21 @@ use core::ops::Range;
 use alloc::boxed::Box;
 use alloc::rc::Rc;
 
-use crate::configuration::Configuration;
-use crate::integrate::drive::control::{Control, DEFAULT_LIMIT};
+use crate::integrate::drive::control::Control;
 use crate::integrate::drive::event::Events;
 use crate::integrate::drive::observer::Observer;
-use crate::integrate::drive::run::{Run, limit_of_kept};
+use crate::integrate::drive::run::Run;
 use crate::integrate::drive::summary::End;
 use crate::integrate::drive::trajectory::{Maker, Trajectory};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationError;
-use crate::integrate::problem::state::State;
 use crate::system::GaussSystem;
 
 /// A [`Simulation`](crate::integrate::Simulation) of a system, whatever its input, steps, observer and events: made by
 /// [`Simulation::boxed`](crate::integrate::Simulation::boxed).
 ///
-/// It borrows the kernel and can be run many times. Each run begins anew; observers and jumps keep what they have
-/// gathered. Its runs have the bits of those of the simulation.
+/// It borrows the kernel and can be run many times. Each run begins anew; observers and jumps keep their
+/// data from run to run. Its runs have the bits of those of the simulation.
 ///
 #[cfg_attr(
     feature = "derive",
@@ -95,7 +93,7 @@ impl<'k, S: GaussSystem> BoxedSimulation<'k, S> {
     /// A run whose samples are kept: see [`Simulation::run`](crate::integrate::Simulation::run).
     ///
     /// # Errors
-    /// When the run does not reach the end; [`attempt`](Self::attempt) then gives what there is.
+    /// When the run does not reach the end; [`attempt`](Self::attempt) then gives the part that was made.
     pub fn run(
         &mut self,
         q0: S::Configuration,
@@ -164,18 +162,6 @@ struct Parts<P, C, O, E> {
     limit: Option<u64>,
 }
 
-impl<P, C, O, E> Parts<P, C, O, E> {
-    /// The first state of a run, whose events are all ahead.
-    fn begin<S: GaussSystem>(&mut self, q0: S::Configuration, z0: &S::Speeds, t: S::Scalar) -> State<S>
-    where
-        P: Problem<System = S>,
-        E: Events<S>,
-    {
-        self.events.each(&mut |_, mark| mark.renew());
-        self.maker.problem.state(t, q0.renormalise(), z0)
-    }
-}
-
 impl<'k, S, P, C, O, E> Prepared<'k, S> for Parts<P, C, O, E>
 where
     S: GaussSystem,
@@ -190,12 +176,11 @@ where
         z0: S::Speeds,
         interval: Range<S::Scalar>,
     ) -> (Trajectory<'k, S>, Option<IntegrationError>) {
-        let start = self.begin(q0, &z0, interval.start);
-        let Self { maker, observer, events, every, limit } = self;
-        let Maker { problem, control, .. } = &**maker;
-        let run = Run { control, problem, every: *every, limit: limit_of_kept(*limit, *every) };
-        let (kept, error) = run.keep(events, observer, start, interval.end);
-        (Trajectory::made_by(kept, Rc::clone(maker) as _), error)
+        self.events.each(&mut |_, mark| mark.renew());
+        let Maker { problem, control, .. } = &*self.maker;
+        let run = Run::kept(problem, control, self.every, self.limit);
+        let (kept, error) = run.keep(&mut self.events, &mut self.observer, (q0, z0), interval);
+        (Trajectory::made_by(kept, Rc::clone(&self.maker) as _), error)
     }
 
     fn run_to_end(
@@ -204,10 +189,10 @@ where
         z0: S::Speeds,
         interval: Range<S::Scalar>,
     ) -> Result<End<S>, IntegrationError> {
-        let start = self.begin(q0, &z0, interval.start);
+        self.events.each(&mut |_, mark| mark.renew());
         let Maker { problem, control, .. } = &*self.maker;
-        let run = Run { control, problem, every: self.every, limit: self.limit.unwrap_or(DEFAULT_LIMIT) };
-        run.to_end(&mut self.events, &mut self.observer, start, interval.end)
+        let run = Run::new(problem, control, self.every, self.limit);
+        run.to_end(&mut self.events, &mut self.observer, (q0, z0), interval)
     }
 }
 

@@ -1,10 +1,9 @@
-//! One run: the method is driven from jump to jump, and what it passes is handed out.
+//! One run: the method is driven from jump to jump, and its samples and events are passed on.
 
-use core::ops::ControlFlow;
+use core::ops::{ControlFlow, Range};
 
-#[cfg(feature = "alloc")]
-use crate::integrate::drive::control::DEFAULT_LIMIT;
-use crate::integrate::drive::control::{Control, StepStatistics};
+use crate::configuration::Configuration;
+use crate::integrate::drive::control::{Control, DEFAULT_LIMIT, StepStatistics};
 use crate::integrate::drive::event::{Events, Outcome, Watch};
 use crate::integrate::drive::observer::Observer;
 use crate::integrate::drive::pace::Pace;
@@ -26,16 +25,24 @@ pub(in crate::integrate) enum Seen<'a, S: GaussSystem> {
 
 /// The data of a run that stay the same during it.
 pub(in crate::integrate) struct Run<'a, P, C> {
-    pub(in crate::integrate) control: &'a C,
-    pub(in crate::integrate) problem: &'a P,
-    pub(in crate::integrate) every: u64,
-    pub(in crate::integrate) limit: u64,
+    control: &'a C,
+    problem: &'a P,
+    every: u64,
+    limit: u64,
 }
 
-/// The most steps of a run whose every n-th sample is kept, unless another limit is given.
-#[cfg(feature = "alloc")]
-pub(in crate::integrate) fn limit_of_kept(limit: Option<u64>, every: u64) -> u64 {
-    limit.unwrap_or((DEFAULT_LIMIT / 10).saturating_mul(every).min(DEFAULT_LIMIT))
+impl<'a, P, C> Run<'a, P, C> {
+    /// A run whose end alone is kept; `limit` is the user's.
+    pub(in crate::integrate) fn new(problem: &'a P, control: &'a C, every: u64, limit: Option<u64>) -> Self {
+        Self { control, problem, every, limit: limit.unwrap_or(DEFAULT_LIMIT) }
+    }
+
+    /// A run whose every n-th sample is kept.
+    #[cfg(feature = "alloc")]
+    pub(in crate::integrate) fn kept(problem: &'a P, control: &'a C, every: u64, limit: Option<u64>) -> Self {
+        let most = (DEFAULT_LIMIT / 10).saturating_mul(every).min(DEFAULT_LIMIT);
+        Self { control, problem, every, limit: limit.unwrap_or(most) }
+    }
 }
 
 /// How far a run came.
@@ -123,12 +130,13 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         &self,
         events: E,
         mut observer: O,
-        start: State<S>,
-        end: S::Scalar,
+        (q0, z0): (S::Configuration, S::Speeds),
+        interval: Range<S::Scalar>,
     ) -> (Kept<S>, Option<IntegrationError>) {
         let problem = self.problem;
+        let start = problem.state(interval.start, q0.renormalise(), &z0);
         let (mut samples, mut found) = (alloc::vec::Vec::new(), alloc::vec::Vec::new());
-        let (reached, outcome) = self.drive(events, start, end, &mut |seen| match seen {
+        let (reached, outcome) = self.drive(events, start, interval.end, &mut |seen| match seen {
             Seen::Sample(state) => {
                 let sample = problem.sample(state);
                 samples.push(sample);
@@ -152,11 +160,12 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         &self,
         events: E,
         mut observer: O,
-        start: State<S>,
-        end: S::Scalar,
+        (q0, z0): (S::Configuration, S::Speeds),
+        interval: Range<S::Scalar>,
     ) -> Result<End<S>, IntegrationError> {
         let problem = self.problem;
-        let (reached, outcome) = self.drive(events, start, end, &mut |seen| match seen {
+        let start = problem.state(interval.start, q0.renormalise(), &z0);
+        let (reached, outcome) = self.drive(events, start, interval.end, &mut |seen| match seen {
             Seen::Sample(state) => observer.see(&problem.sample(state)),
             Seen::Event(number, state) => observer.event(number, &problem.sample(state)),
         });

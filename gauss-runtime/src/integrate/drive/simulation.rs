@@ -1,18 +1,15 @@
-//! The front of the integrators: say what, in which form and how accurately, then run.
+//! The front of the integrators: choose the problem, the form of its equations and the accuracy, then run.
 
 use core::ops::Range;
 
-use crate::configuration::Configuration;
 use crate::integrate::drive::adaptive::Adaptive;
 #[cfg(feature = "alloc")]
 use crate::integrate::drive::boxed::BoxedSimulation;
-use crate::integrate::drive::control::{Control, DEFAULT_LIMIT};
+use crate::integrate::drive::control::Control;
 use crate::integrate::drive::event::{Events, JumpFunction, NoEvents, Watched};
 use crate::integrate::drive::fixed::Fixed;
 use crate::integrate::drive::observer::{Callback, Observer, Unobserved};
 use crate::integrate::drive::run::Run;
-#[cfg(feature = "alloc")]
-use crate::integrate::drive::run::limit_of_kept;
 use crate::integrate::drive::search::Crossing;
 use crate::integrate::drive::summary::End;
 #[cfg(feature = "alloc")]
@@ -21,7 +18,7 @@ use crate::integrate::problem::equations::{Problem, SystemProblem};
 use crate::integrate::problem::error::IntegrationError;
 use crate::integrate::problem::form::{Form, MomentumForm};
 use crate::integrate::problem::input::{Feedback, InputSource};
-use crate::integrate::problem::state::{Sample, State};
+use crate::integrate::problem::state::Sample;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -79,7 +76,8 @@ pub struct Simulation<P, C = NoControl, O = Unobserved, E = NoEvents> {
 }
 
 impl<'k, S: GaussSystem> Simulation<SystemProblem<'k, S>> {
-    /// A run of a kernel, in velocity form and without inputs unless said otherwise.
+    /// A run of a kernel, in velocity form and without inputs; [`form`](Self::form) and
+    /// [`input`](Self::input) change that.
     pub fn new(system: &'k S) -> Self {
         Self::of(SystemProblem::new(system))
     }
@@ -305,8 +303,8 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
         self
     }
 
-    /// The most steps (rejected ones included) before the run is given up, instead of [`DEFAULT_LIMIT`], or of a tenth
-    /// of it where every one is kept.
+    /// The most steps (rejected ones included) before the run is given up, instead of
+    /// [`DEFAULT_LIMIT`](crate::integrate::DEFAULT_LIMIT), or of a tenth of it where every one is kept.
     ///
     /// Runs that cannot reach their end within the limit end as soon as that is seen: steps of one length at once,
     /// others when the way that a hundred thousand of them made shows it.
@@ -359,7 +357,7 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
     /// borrows the kernel.
     ///
     /// # Errors
-    /// When the run does not reach the end; [`attempt`](Self::attempt) then gives what there is.
+    /// When the run does not reach the end; [`attempt`](Self::attempt) then gives the part that was made.
     #[cfg(feature = "alloc")]
     pub fn run<'t, S: GaussSystem>(
         self,
@@ -394,15 +392,14 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
         O: Observer<S>,
         E: Events<S>,
     {
-        let start = self.start(q0, &z0, interval.start);
         let Self { problem, control, observer, events, every, limit } = self;
-        let run = Run { control: &control, problem: &problem, every, limit: limit_of_kept(limit, every) };
-        let (kept, error) = run.keep(events, observer, start, interval.end);
+        let run = Run::kept(&problem, &control, every, limit);
+        let (kept, error) = run.keep(events, observer, (q0, z0), interval);
         (Trajectory::new(kept, problem, control, every == 1), error)
     }
 
-    /// Integrates without keeping anything, and gives the final state with what brought the run there; an observer sees
-    /// the others. Needs no memory.
+    /// Integrates without keeping anything, and gives the final state with the summary of the run; an observer sees the
+    /// other states. Needs no memory.
     ///
     /// # Errors
     /// When the run does not reach the end.
@@ -418,10 +415,8 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
         O: Observer<S>,
         E: Events<S>,
     {
-        let start = self.start(q0, &z0, interval.start);
         let Self { problem, control, observer, events, every, limit } = self;
-        let run = Run { control: &control, problem: &problem, every, limit: limit.unwrap_or(DEFAULT_LIMIT) };
-        run.to_end(events, observer, start, interval.end)
+        Run::new(&problem, &control, every, limit).to_end(events, observer, (q0, z0), interval)
     }
 
     /// The same simulation in a type that can be written, for a field of a struct. It can be run many times.
@@ -435,12 +430,5 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
     {
         let Self { problem, control, observer, events, every, limit } = self;
         BoxedSimulation::new((problem, control), (observer, events), every, limit)
-    }
-
-    fn start<S: GaussSystem>(&self, q0: S::Configuration, z0: &S::Speeds, t: S::Scalar) -> State<S>
-    where
-        P: Problem<System = S>,
-    {
-        self.problem.state(t, q0.renormalise(), z0)
     }
 }
