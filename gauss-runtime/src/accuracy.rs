@@ -35,8 +35,15 @@ impl Loss {
 }
 
 impl fmt::Display for Loss {
+    /// Both numbers, from 10⁴ on with an exponent.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} (median {})", self.worst, self.median)
+        let figure = |f: &mut fmt::Formatter<'_>, loss: f64| {
+            if loss < 1e4 { write!(f, "{loss}") } else { write!(f, "{loss:e}") }
+        };
+        figure(f, self.worst)?;
+        f.write_str(" (median ")?;
+        figure(f, self.median)?;
+        f.write_str(")")
     }
 }
 
@@ -115,8 +122,8 @@ mod tests {
     #[test]
     fn methods_that_were_tried_are_listed() {
         let accuracy =
-            Accuracy { acceleration: Loss::new(5.0, 0.2), velocity: Loss::new(1000.0, 1.0), ..Accuracy::NONE };
-        let rows = ["acceleration        5 (median 0.2)", "velocity            1000 (median 1)"];
+            Accuracy { acceleration: Loss::new(1e13, 0.2), velocity: Loss::new(5000.0, 2e4), ..Accuracy::NONE };
+        let rows = ["acceleration        1e13 (median 0.2)", "velocity            5000 (median 2e4)"];
         assert_eq!(accuracy.to_string(), rows.join("\n"));
         assert_eq!(Accuracy::NONE.to_string(), "");
     }
