@@ -72,6 +72,9 @@ pub enum Rule {
         /// Column of the entry, from 0.
         col: usize,
     },
+    /// The stiffness matrix of a bushing has no negative eigenvalue. The value is its smallest eigenvalue, in the units
+    /// given.
+    SemidefiniteStiffness,
     /// The kinetic energy of body and fluid is positive for every motion. The value is the smallest eigenvalue of the
     /// mass matrix scaled to a unit diagonal, or the diagonal entry that is not positive.
     PositiveDefiniteKineticMatrix,
@@ -180,6 +183,11 @@ impl fmt::Display for Violation {
                 "`{field}`: entries ({row}, {col}) and ({col}, {row}) differ by {value}: a stiffness has a potential energy, \
                  and a damping a dissipation function, where it is symmetric; use the symmetric part"
             ),
+            Rule::SemidefiniteStiffness => write!(
+                f,
+                "`{field}` has the eigenvalue {value}: a stiffness matrix has none below 0, and pulls back along every \
+                 direction; check its signs, or write what pushes away as a `potential`"
+            ),
             Rule::PositiveDefiniteKineticMatrix => write!(
                 f,
                 "`{field}` makes the kinetic energy of body and fluid indefinite (smallest scaled eigenvalue {value}): it \
@@ -269,6 +277,9 @@ pub enum Finding {
     /// The damping of a spring or a stop, or a Rayleigh dissipation function, delivers energy. The value is the
     /// coefficient, or the value of the function at the state where it was found to be negative.
     DampingFeedsEnergy,
+    /// The damping of a bushing delivers energy. The value is the smallest eigenvalue of its matrix, in the units
+    /// given.
+    BushingFeedsEnergy,
     /// A gravity of one number is negative: bodies fall upward. The value is that number.
     GravityUpward,
     /// A centre pushes away. The value is its gravitational parameter.
@@ -309,6 +320,11 @@ impl fmt::Display for ParameterWarning {
                 f,
                 "damping feeds energy: `{field}` is {value}, and damping takes energy out where that is positive; \
                  check its sign"
+            ),
+            Finding::BushingFeedsEnergy => write!(
+                f,
+                "damping feeds energy: `{field}` has the eigenvalue {value}, and a damping matrix takes energy out where \
+                 none is below 0; check its signs"
             ),
             Finding::GravityUpward => write!(
                 f,

@@ -448,13 +448,28 @@ fn torsional_springs_and_bushings_act_by_the_relative_place() {
 }
 
 #[test]
-fn bushings_are_symmetric() {
+fn matrices_of_bushings_are_checked() {
     let mut scene = joined();
     scene.stiffness[(1, 4)] += 0.5;
     let error = scene.kernel().err().unwrap().to_string();
     assert!(error.contains("`stiffness`: entries (1, 4) and (4, 1) differ by 0.4999"), "{error}");
+    // A coupling that is larger than both coefficients.
     scene = joined();
-    scene.damping[(2, 2)] = -1.0;
+    (scene.stiffness[(0, 1)], scene.stiffness[(1, 0)]) = (20.0, 20.0);
+    let error = scene.kernel().err().unwrap().to_string();
+    assert!(error.contains("`stiffness` has the eigenvalue -"), "{error}");
+    // Of the diagonal [3, 4, 5, 6, 7, k].
+    scene = joined();
+    scene.k = -2.5;
+    let error = scene.kernel().err().unwrap().to_string();
+    assert!(error.contains("`mounted.stiffness` has the eigenvalue -2.5:"), "{error}");
+    scene = joined();
+    (scene.damping[(0, 1)], scene.damping[(1, 0)]) = (20.0, 20.0);
     assert!(scene.kernel().is_ok());
-    assert!(scene.warnings().to_string().contains("damping feeds energy: `damping` is -1"), "{}", scene.warnings());
+    let warnings = scene.warnings().to_string();
+    assert!(warnings.contains("damping feeds energy: `damping` has the eigenvalue -"), "{warnings}");
+    scene = joined();
+    scene.c = -0.7;
+    let warnings = scene.warnings().to_string();
+    assert!(warnings.contains("damping feeds energy: `mounted.damping` has the eigenvalue -0.7"), "{warnings}");
 }

@@ -40,7 +40,8 @@ fn written(
             LawKind::Limits => quote!(limits),
             LawKind::NonNegative => quote!(non_negative),
             LawKind::MassInSum => quote!(mass_in_sum),
-            LawKind::Symmetric => quote!(symmetric_coefficients),
+            LawKind::StiffnessMatrix => quote!(stiffness_matrix),
+            LawKind::DampingMatrix => quote!(damping_matrix),
             LawKind::Damping | LawKind::Attraction => quote!(finite),
             LawKind::Dissipation => return None,
         };
@@ -50,14 +51,20 @@ fn written(
                 quote!({ #compute __check.#check(#label, #(#values)*); })
             }
             LawKind::Limits => quote!({ #compute __check.#check(#label, [#(#values),*]); }),
-            LawKind::Symmetric => {
-                let rows = values.chunks(6).map(|row| quote!([#(#row),*]));
-                quote!({ #compute __check.#check(#label, &[#(#rows),*]); })
+            LawKind::StiffnessMatrix | LawKind::DampingMatrix => {
+                let rows = rows_of(&values);
+                quote!({ #compute __check.#check(#label, #rows); })
             }
             _ => quote!({ #compute __check.#check(#label, &[#(#values),*]); }),
         })
     };
     derived.laws.iter().filter(|law| of_kind(law.kind)).filter_map(check).collect()
+}
+
+/// A matrix of six columns.
+fn rows_of(entries: &[TokenStream]) -> TokenStream {
+    let rows = entries.chunks(6).map(|row| quote!([#(#row),*]));
+    quote!(&[#(#rows),*])
 }
 
 /// `warnings()`.
@@ -86,11 +93,11 @@ fn drags(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStr
     let private = derived.private();
     let check = |drag: &crate::translate::DragMatrix<'_>| {
         let (compute, outputs) = of_parameters(derived, symbols, &drag.entries.concat())?;
-        let rows = outputs.chunks(6).map(|row| quote!([#(#row),*]));
+        let rows = rows_of(&outputs);
         let (label, kind) = (&drag.label, if drag.quadratic { quote!(Quadratic) } else { quote!(Linear) });
         Some(quote!({
             #compute
-            __warnings.drag(#label, #private::DragKind::#kind, &[#(#rows),*]);
+            __warnings.drag(#label, #private::DragKind::#kind, #rows);
         }))
     };
     derived.drags.iter().filter_map(check).collect()
@@ -103,12 +110,13 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
         let (check, values) = match law.kind {
             LawKind::Damping => (quote!(damping), law.values.clone()),
             LawKind::Attraction => (quote!(center), law.values.clone()),
+            LawKind::DampingMatrix => (quote!(damping_matrix), law.values.clone()),
             LawKind::Dissipation => (quote!(dissipation), in_states(law.values[0], symbols)),
             LawKind::Stiffness
             | LawKind::Width
             | LawKind::Limits
             | LawKind::NonNegative
-            | LawKind::Symmetric
+            | LawKind::StiffnessMatrix
             | LawKind::MassInSum => {
                 return None;
             }
@@ -116,6 +124,10 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
         let (compute, values) = of_parameters(derived, symbols, &values)?;
         Some(match law.kind {
             LawKind::Dissipation => quote!({ #compute __warnings.#check(#label, &[#(#values),*]); }),
+            LawKind::DampingMatrix => {
+                let rows = rows_of(&values);
+                quote!({ #compute __warnings.#check(#label, #rows); })
+            }
             _ => quote!({ #compute __warnings.#check(#label, #(#values)*); }),
         })
     };

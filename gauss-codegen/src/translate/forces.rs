@@ -352,7 +352,7 @@ impl<'g> Translator<'_, 'g> {
         form
     }
 
-    /// The symmetric matrix `word` of the element `name`, of which note is taken: of its diagonal as its row says.
+    /// The symmetric matrix `word` of the element `name`; notes the check that its row names.
     fn symmetric(
         &self,
         name: &str,
@@ -366,12 +366,9 @@ impl<'g> Translator<'_, 'g> {
             Coefficients::Field(field) => field.unraw().to_string(),
             Coefficients::Diagonal(_) => format!("{name}.{word}"),
         };
-        let mut notes = self.notes.add();
         if let Some(Takes::Matrix { law, .. }) = clause.find(word).map(|given| given.argument.takes) {
-            let diagonal = (0..6).map(|i| Law { label: label.clone(), kind: law, values: vec![rows[i][i]] });
-            notes.laws.extend(diagonal);
+            self.notes.add().laws.push(Law { label, kind: law, values: rows.concat() });
         }
-        notes.laws.push(Law { label, kind: LawKind::Symmetric, values: rows.concat() });
         Ok(Some(rows))
     }
 

@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::eigenvalues::eigenvalues;
+use super::eigenvalues::{eigenvalues, negative_eigenvalue};
 use crate::error::{BoundedList, ParameterError, Rule, Violation};
 use crate::real::Real;
 
@@ -212,8 +212,19 @@ impl<T: Real> ParameterCheck<T> {
         self.symmetric_so_far(field, matrix, |row, col| Rule::SymmetricAddedMass { row, col });
     }
 
-    /// The stiffness or the damping of a bushing: finite and symmetric up to rounding.
-    pub fn symmetric_coefficients(&mut self, field: &'static str, matrix: &[[T; 6]; 6]) {
+    /// The stiffness matrix of a bushing: finite, symmetric, and without a negative eigenvalue, up to rounding.
+    pub fn stiffness_matrix(&mut self, field: &'static str, matrix: &[[T; 6]; 6]) {
+        self.damping_matrix(field, matrix);
+        if !self.has_violation(field) {
+            self.each_lane(field, |lane| {
+                let negative = negative_eigenvalue(&in_lane(matrix, lane), Self::UNIT);
+                negative.map(|value| (value, Rule::SemidefiniteStiffness))
+            });
+        }
+    }
+
+    /// The damping matrix of a bushing: finite and symmetric up to rounding.
+    pub fn damping_matrix(&mut self, field: &'static str, matrix: &[[T; 6]; 6]) {
         self.symmetric_so_far(field, matrix, |row, col| Rule::SymmetricCoefficients { row, col });
     }
 

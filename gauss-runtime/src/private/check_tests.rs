@@ -107,12 +107,37 @@ fn inertia_about_another_point() {
 }
 
 #[test]
+fn stiffness_of_bushings() {
+    assert!(found(|check| check.stiffness_matrix("k", &identity())).is_empty());
+    // No stiffness along one direction, here the sum of the first two displacements, is allowed.
+    let mut matrix = identity::<6>();
+    (matrix[0][1], matrix[1][0]) = (-1.0, -1.0);
+    assert!(found(|check| check.stiffness_matrix("k", &matrix)).is_empty());
+    // A coupling larger than both coefficients: [[1, −2], [−2, 1]] has −1 and 3, up to some roundings of 3.
+    (matrix[0][1], matrix[1][0]) = (-2.0, -2.0);
+    let violation = only(|check| check.stiffness_matrix("k", &matrix));
+    assert!((violation.value + 1.0).abs() < 16.0 * f64::EPSILON, "{violation:?}");
+    assert_eq!(violation.rule, Rule::SemidefiniteStiffness);
+    assert!(violation.to_string().contains("a stiffness matrix has none below 0"), "{violation}");
+    matrix = identity();
+    matrix[5][5] = -0.5;
+    let violation = only(|check| check.stiffness_matrix("k", &matrix));
+    assert_eq!((violation.value, violation.rule), (-0.5, Rule::SemidefiniteStiffness));
+    // Reported once, by the first rule that is broken.
+    matrix[0][1] = 0.5;
+    let violation = only(|check| check.stiffness_matrix("k", &matrix));
+    assert_eq!(violation.rule, Rule::SymmetricCoefficients { row: 0, col: 1 });
+    matrix[0][1] = f64::NAN;
+    assert_eq!(only(|check| check.stiffness_matrix("k", &matrix)).rule, Rule::Finite);
+}
+
+#[test]
 fn added_mass_and_the_matrix_of_body_and_fluid() {
     let mut added = identity::<6>();
     added[1][4] = 0.25;
     let violation = only(|check| check.symmetric("added", &added));
     assert_eq!(violation.rule, Rule::SymmetricAddedMass { row: 1, col: 4 });
-    let violation = only(|check| check.symmetric_coefficients("added", &added));
+    let violation = only(|check| check.damping_matrix("added", &added));
     assert_eq!(violation.rule, Rule::SymmetricCoefficients { row: 1, col: 4 });
 
     let mut matrix = identity::<6>();

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use super::check::{ParameterCheck, in_lane};
-use super::eigenvalues::eigenvalues;
+use super::eigenvalues::negative_eigenvalue;
 use crate::error::{BoundedList, DragKind, Finding, ParameterWarning, ParameterWarnings};
 use crate::real::Real;
 
@@ -33,17 +33,17 @@ impl<T: Real> WarningCheck<T> {
     ///
     /// Silent where an entry is not finite: the kernel is refused then.
     pub fn drag(&mut self, field: &'static str, kind: DragKind, matrix: &[[T; 6]; 6]) {
-        let found =
-            (0..T::LANES).find_map(|lane| negative_eigenvalue(&in_lane(matrix, lane), ParameterCheck::<T>::UNIT));
-        if let Some(value) = found {
-            let finding = Finding::DragFeedsEnergy { kind };
-            self.warnings.push(ParameterWarning { field, value, finding });
-        }
+        self.eigenvalue(field, matrix, Finding::DragFeedsEnergy { kind });
     }
 
     /// The damping coefficient of a spring or a stop.
     pub fn damping(&mut self, field: &'static str, coefficient: T) {
         self.negative(field, &[coefficient], Finding::DampingFeedsEnergy);
+    }
+
+    /// The damping matrix of a bushing, symmetric: no eigenvalue is negative.
+    pub fn damping_matrix(&mut self, field: &'static str, matrix: &[[T; 6]; 6]) {
+        self.eigenvalue(field, matrix, Finding::BushingFeedsEnergy);
     }
 
     /// A dissipation function in a few states of general position: in one of them it is not negative.
@@ -77,57 +77,20 @@ impl<T: Real> WarningCheck<T> {
         }
     }
 
+    /// The smallest eigenvalue of the symmetric part, in the first lane where it is negative.
+    fn eigenvalue(&mut self, field: &'static str, matrix: &[[T; 6]; 6], finding: Finding) {
+        let found =
+            (0..T::LANES).find_map(|lane| negative_eigenvalue(&in_lane(matrix, lane), ParameterCheck::<T>::UNIT));
+        if let Some(value) = found {
+            self.warnings.push(ParameterWarning { field, value, finding });
+        }
+    }
+
     /// All findings, in the order of the checks.
     #[must_use]
     pub fn finish(self) -> ParameterWarnings {
         ParameterWarnings { list: self.warnings }
     }
-}
-
-/// The smallest eigenvalue of the symmetric part, where it is negative beyond rounding.
-///
-/// Rows and columns carry different units, but the sign of the smallest eigenvalue is invariant under congruence
-/// (Sylvester), so it is decided after scaling to a unit diagonal, which takes the units out.
-fn negative_eigenvalue<const N: usize>(matrix: &[[f64; N]; N], unit: f64) -> Option<f64> {
-    if !matrix.iter().flatten().all(|entry| entry.is_finite()) {
-        return None;
-    }
-    let symmetric: [[f64; N]; N] =
-        core::array::from_fn(|i| core::array::from_fn(|j| 0.5 * matrix[i][j] + 0.5 * matrix[j][i]));
-    let scaled_eigenvalue = if let Some(i) = (0..N).find(|&i| symmetric[i][i] < 0.0) {
-        // A diagonal entry is as it was given: its sign is beyond doubt.
-        symmetric[i][i]
-    } else {
-        // Next to a zero on the diagonal any entry makes the part indefinite; the row is scaled to the size of its
-        // entries then.
-        let scale: [f64; N] = core::array::from_fn(|i| {
-            let size = if symmetric[i][i] > 0.0 {
-                symmetric[i][i]
-            } else {
-                symmetric[i].iter().fold(0.0_f64, |largest, entry| largest.max(entry.abs()))
-            };
-            if size > 0.0 { 1.0 / Real::sqrt(size) } else { 0.0 }
-        });
-        let scaled: [[f64; N]; N] =
-            core::array::from_fn(|i| core::array::from_fn(|j| (symmetric[i][j] * scale[i]) * scale[j]));
-        // Each entry is rounded when it is given, in the mean, and four times by scaling; these six ε of each move an
-        // eigenvalue by 6 ε of the Frobenius norm at most. Jacobi's rotations are orthogonal up to rounding and add
-        // about as much.
-        let norm = Real::sqrt(scaled.iter().flatten().map(|entry| entry * entry).sum::<f64>());
-        let smallest = least(&eigenvalues(&scaled));
-        if smallest >= -16.0 * unit * norm {
-            return None;
-        }
-        smallest
-    };
-    // What is reported is in the units given. Where these are so far apart that rounding hides its sign there, the
-    // scaled one.
-    let smallest = least(&eigenvalues(&symmetric));
-    Some(if smallest < 0.0 { smallest } else { scaled_eigenvalue })
-}
-
-fn least<const N: usize>(values: &[f64; N]) -> f64 {
-    values.iter().fold(f64::INFINITY, |least, &value| least.min(value))
 }
 
 #[cfg(test)]
@@ -216,6 +179,24 @@ mod tests {
         assert_eq!(warnings.iter().count(), 2);
         let none = WarningCheck::<f64>::new().finish();
         assert!(none.is_empty() && none.to_string().is_empty());
+    }
+
+    #[test]
+    fn damping_of_a_bushing_that_feeds_energy_is_found() {
+        // A negative coefficient, and a coupling larger than both coefficients: [[1, 2], [2, 1]] has −1 and 3.
+        let mut coupled = diagonal([1.0; 6]);
+        (coupled[0][1], coupled[1][0]) = (2.0, 2.0);
+        for matrix in [diagonal([1.0, 1.0, -1.0, 1.0, 1.0, 1.0]), coupled] {
+            let mut check = WarningCheck::<f64>::new();
+            check.damping_matrix("c", &matrix);
+            check.damping_matrix("fine", &diagonal([0.0, 1.0, 2.0, 0.0, 1.0, 1e9]));
+            let warnings = check.finish();
+            assert_eq!(warnings.as_slice().len(), 1);
+            let ParameterWarning { field, value, finding } = warnings.as_slice()[0];
+            assert_eq!((field, finding), ("c", Finding::BushingFeedsEnergy));
+            // Some roundings of eigenvalues up to 3.
+            assert!((value + 1.0).abs() < 16.0 * f64::EPSILON, "{value}");
+        }
     }
 
     #[test]

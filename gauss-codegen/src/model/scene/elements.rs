@@ -94,14 +94,15 @@ impl Argument {
         Argument::optional(word, Takes::Constant { called, unit, law: None }, example)
     }
 
-    /// What `kernel()` checks of it.
-    const fn law(self, law: LawKind) -> Argument {
-        match self.takes {
-            Takes::Constant { called, unit, .. } => {
-                Argument { takes: Takes::Constant { called, unit, law: Some(law) }, ..self }
-            }
-            _ => self,
-        }
+    /// A constant that `kernel()` checks.
+    const fn checked(
+        word: &'static str,
+        called: &'static str,
+        unit: Unit,
+        example: &'static str,
+        law: LawKind,
+    ) -> Argument {
+        Argument::optional(word, Takes::Constant { called, unit, law: Some(law) }, example)
     }
 
     /// It may not be left out.
@@ -178,8 +179,10 @@ pub enum LawKind {
     NonNegative,
     /// The mass of a particle.
     MassInSum,
-    /// A symmetric matrix, row by row.
-    Symmetric,
+    /// Of a bushing, row by row.
+    StiffnessMatrix,
+    /// Of a bushing, row by row.
+    DampingMatrix,
     /// A whole dissipation function, of the state too.
     Dissipation,
     /// A gravitational parameter.
@@ -240,8 +243,8 @@ const IN_AXES: Argument = Argument::optional(AXES, Takes::Axes, "body");
 const FROM_POINT: Argument = Argument::optional(FROM, Takes::End, "arm.position");
 const TO_POINT: Argument = Argument::optional(TO, Takes::End, "[0, 0, h]");
 const ALONG_SCALAR: Argument = Argument::optional(ALONG, Takes::Along, "theta");
-const STIFF: Argument = Argument::constant(STIFFNESS, "stiffness", Unit::ForceByExtent, "k").law(LawKind::Stiffness);
-const DAMPED: Argument = Argument::constant(DAMPING, "damping", Unit::ForceByRate, "c").law(LawKind::Damping);
+const STIFF: Argument = Argument::checked(STIFFNESS, "stiffness", Unit::ForceByExtent, "k", LawKind::Stiffness);
+const DAMPED: Argument = Argument::checked(DAMPING, "damping", Unit::ForceByRate, "c", LawKind::Damping);
 
 /// All elements that are force clauses, in the order in which messages list them.
 pub static ELEMENTS: [&Row; 12] = [
@@ -366,8 +369,7 @@ pub static STOP: Row = Row {
         Argument::constant(LEAST, "lower limit", Unit::Extent, "a"),
         Argument::constant(MOST, "upper limit", Unit::Extent, "b"),
         STIFF.needed("its force by distance beyond the limit"),
-        Argument::constant(WIDTH, "width", Unit::Extent, "e")
-            .law(LawKind::Width)
+        Argument::checked(WIDTH, "width", Unit::Extent, "e", LawKind::Width)
             .needed("the distance over which it sets in smoothly"),
         DAMPED,
     ],
@@ -404,9 +406,9 @@ pub static FRICTION: Row = Row {
         FROM_POINT,
         TO_POINT,
         ALONG_SCALAR,
-        Argument::constant(VISCOUS, "viscous part", Unit::ForceByRate, "d").law(LawKind::Damping),
-        Argument::constant(DRY, "dry part", Unit::Force, "f").law(LawKind::NonNegative),
-        Argument::constant(WIDTH, "width", Unit::Rate, "w").law(LawKind::Width),
+        Argument::checked(VISCOUS, "viscous part", Unit::ForceByRate, "d", LawKind::Damping),
+        Argument::checked(DRY, "dry part", Unit::Force, "f", LawKind::NonNegative),
+        Argument::checked(WIDTH, "width", Unit::Rate, "w", LawKind::Width),
     ],
     rules: &[
         Rule::Extent,
@@ -428,8 +430,7 @@ pub static COUPLING: Row = Row {
     arguments: &[
         ON_BODY,
         ON_OTHER,
-        Argument::constant(VISCOUS, "coefficient", Unit::Is("N m s"), "c")
-            .law(LawKind::Damping)
+        Argument::checked(VISCOUS, "coefficient", Unit::Is("N m s"), "c", LawKind::Damping)
             .needed("its torque by relative angular velocity"),
     ],
     rules: &[],
@@ -448,11 +449,10 @@ pub static TORSIONAL_SPRING: Row = Row {
     arguments: &[
         ON_BODY,
         ON_OTHER,
-        Argument::constant(STIFFNESS, "stiffness", Unit::Is("N m"), "k")
-            .law(LawKind::Stiffness)
+        Argument::checked(STIFFNESS, "stiffness", Unit::Is("N m"), "k", LawKind::Stiffness)
             .needed("its torque by twist"),
         Argument::constant(ANGLE, "angle", Unit::Is("rad"), "a"),
-        Argument::constant(DAMPING, "damping", Unit::Is("N m s"), "c").law(LawKind::Damping),
+        Argument::checked(DAMPING, "damping", Unit::Is("N m s"), "c", LawKind::Damping),
     ],
     rules: &[],
     refused: &[],
@@ -473,12 +473,12 @@ pub static BUSHING: Row = Row {
         ON_OTHER,
         Argument::optional(
             STIFFNESS,
-            Takes::Matrix { called: "stiffness", units: ["N/m", "N m"], law: LawKind::Stiffness },
+            Takes::Matrix { called: "stiffness", units: ["N/m", "N m"], law: LawKind::StiffnessMatrix },
             SIX,
         ),
         Argument::optional(
             DAMPING,
-            Takes::Matrix { called: "damping", units: ["N s/m", "N m s"], law: LawKind::Damping },
+            Takes::Matrix { called: "damping", units: ["N s/m", "N m s"], law: LawKind::DampingMatrix },
             SIX,
         ),
     ],
@@ -508,8 +508,7 @@ pub static ATTRACTION: Row = Row {
     noun: "attraction",
     form: Form::Arguments,
     arguments: &[
-        Argument::constant(MU, "gravitational parameter", Unit::Is("m^3/s^2"), "gm")
-            .law(LawKind::Attraction)
+        Argument::checked(MU, "gravitational parameter", Unit::Is("m^3/s^2"), "gm", LawKind::Attraction)
             .needed("its gravitational parameter"),
         Argument::optional(CENTER, Takes::Center, "[x, y, z]"),
     ],
