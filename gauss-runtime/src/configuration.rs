@@ -28,7 +28,7 @@ pub use check::{StateError, check};
 pub(crate) use crate::vector_space::add_carrying;
 pub use crate::vector_space::{Product, VectorSpace};
 
-/// A point of a configuration space that is a Lie group: what a geometric integrator needs to move it.
+/// A point of a configuration space that is a Lie group, with the functions that integrators move it by.
 ///
 /// With `exp` the exponential map of the group and increments seen from the body,
 /// `q.retract(σ) = q ∘ exp(σ)` and `p.difference(q) = log(p⁻¹ ∘ q)`.

@@ -55,8 +55,8 @@ pub trait InverseLinearizedSystem: GaussSystem<Input: VectorSpace<<Self as Gauss
     /// [`InverseLinearization`] of this system's sizes.
     type InverseLinearization: Copy + Debug;
 
-    /// [`GaussSystem::inverse_dynamics`] and all its derivatives, exact up to rounding. What is said of kinks and roots
-    /// at [`LinearizedSystem::linearize`](crate::linearize::LinearizedSystem::linearize) holds here, too. Non-finite
+    /// [`GaussSystem::inverse_dynamics`] and all its derivatives, exact up to rounding. At kinks
+    /// and roots as [`LinearizedSystem::linearize`](crate::linearize::LinearizedSystem::linearize) has them. Non-finite
     /// input gives non-finite output.
     fn linearize_inverse(
         &self,

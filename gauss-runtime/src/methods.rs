@@ -1,4 +1,4 @@
-//! Tables with a value for each method of a kernel: what it costs, what it loses.
+//! Tables with a value for each method of a kernel: its cost, its loss.
 
 /// A struct with a value for each method, nothing as a constant, and its rows: one list of methods serves all three.
 macro_rules! by_method {

@@ -66,7 +66,7 @@ pub trait Real:
     /// `value` in every lane, rounded to the precision of a lane.
     fn from_f64(value: f64) -> Self;
 
-    /// The rational number `p/q` in every lane. `q = 0` gives what a division by zero gives.
+    /// The rational number `p/q` in every lane. `q = 0` gives the result of a division by zero.
     ///
     /// Correctly rounded where lanes can hold p and q, if division is; plain floats round other ratios once as well,
     /// the function provided here p and q first.

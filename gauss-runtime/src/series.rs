@@ -1,4 +1,4 @@
-//! Power series of motions in time: what the clause `taylor` of the derive generates, and the arrays that it works on.
+//! Power series of motions in time: the traits of the clause `taylor`, and the arrays that its code works on.
 //!
 //! The equations of motion are products, quotients, roots and functions of series; coefficient by coefficient each is a
 //! sum over products of earlier coefficients (Knuth, TAOCP 2, 4.7; Moore 1966; Jorba & Zou 2005). All of these sums of

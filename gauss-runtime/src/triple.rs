@@ -6,7 +6,7 @@ use nalgebra::{Quaternion, SVector, Unit, UnitQuaternion};
 
 use crate::real::Real;
 
-/// A vector of ordinary space; its frame is said where it is used.
+/// A vector of ordinary space; its frame is named where it is used.
 pub type Triple<T> = [T; 3];
 
 /// The components of a vector.

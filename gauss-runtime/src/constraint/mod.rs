@@ -214,7 +214,7 @@ impl<T: Real, R, C, M, F> Search<T, R, C, M, F> {
         })
     }
 
-    /// The largest of the halved corrections that helps, and what it leaves.
+    /// The largest of the halved corrections that helps, and the violation that it leaves.
     fn damped<X, L: VectorSpace<T>, K: VectorSpace<T>>(&self, point: &X, step: &K, left: &L) -> Option<(X, L)>
     where
         R: Fn(&X) -> L,

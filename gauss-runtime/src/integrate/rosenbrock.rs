@@ -118,7 +118,7 @@ impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
     }
 
     /// Refuses stages that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the
-    /// coordinates ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined, as with a singular
+    /// coordinates ([`IntegrationErrorKind::SingularChart`]), and overflowing or undefined results, as with a singular
     /// matrix ([`IntegrationErrorKind::NonFinite`]).
     fn step<P: Problem<System = S>>(
         &self,

@@ -205,7 +205,7 @@ impl Shortened {
         self.reason.map_or(1.0, |(part, _)| part)
     }
 
-    /// What is said where no shorter step can be made.
+    /// The error where no shorter step can be made.
     pub(in crate::integrate) fn reason(&self) -> Option<IntegrationErrorKind> {
         self.reason.map(|(_, kind)| kind)
     }

@@ -1,4 +1,4 @@
-//! Elements of the groups known beyond the precision of their components: what long runs sum up in.
+//! Elements of the groups known beyond the precision of their components: the sums of long runs.
 //!
 //! An element is meant that differs from the stored one by a carried increment, seen from the body:
 //! `meant = stored ∘ exp(carried)`, where `carried` is of the size of a rounding. Then `meant ∘ exp(σ)` is stored to

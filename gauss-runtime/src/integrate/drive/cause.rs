@@ -1,4 +1,4 @@
-//! Why a run cannot go on: what a step that fails, or steps without end, are a sign of.
+//! Why a run cannot go on: the causes of a step that fails, or of steps without end.
 
 use core::ops::Range;
 
@@ -17,7 +17,7 @@ pub enum Gave {
     Step(IntegrationErrorKind),
     /// No step can be made, however short.
     AnyStep(IntegrationErrorKind),
-    /// So many steps were made, and there is no prospect of an end, or the limit was asked for.
+    /// This number of steps was made: the limit that the user set, or one at which no end is in prospect.
     Out { limit: u64, hopeless: bool },
 }
 

@@ -92,7 +92,7 @@ pub(in crate::integrate) struct OneLength<S: GaussSystem> {
     /// How many steps there are, and how many are made.
     pub steps: u64,
     pub made: u64,
-    /// Whether the method is stable where steps are long beside what decays.
+    /// Whether the method is stable where steps are longer than the fastest decay.
     stiff: bool,
 }
 

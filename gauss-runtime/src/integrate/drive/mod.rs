@@ -1,4 +1,4 @@
-//! What drives a method over an interval: the choice of steps, events, constraints, and what is kept of a run.
+//! Runs over an interval: the choice of steps, events, constraints, and the record of a run.
 
 pub mod adaptive;
 #[cfg(feature = "alloc")]

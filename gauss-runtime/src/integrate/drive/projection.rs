@@ -6,7 +6,7 @@
 //! estimates are those of the step before it is projected.
 //!
 //! Where constraints become dependent on one another (a singular position of a mechanism) that fails: with a least
-//! singular value σ of the Jacobian, an error e of the positions turns the admissible velocities by e/σ, and beside the
+//! singular value σ of the Jacobian, an error e of the positions turns the admissible velocities by e/σ, and near the
 //! singularity the nearest state may be on another branch of the motion. The projection in the metric of the kinetic
 //! energy then takes away whatever it finds across, up to all of it. So what the projection moves is an error of the
 //! step like others, and bounded: by half of the way that the step makes ([`onto_constraints`]), and for a tolerance by
@@ -244,7 +244,7 @@ fn size_of_configuration<S: GaussSystem>(q: &S::Configuration, lane: usize) -> f
     (0..TangentOf::<S>::DIM).map(|i| q.magnitudes(i).lane(lane)).fold(0.0, f64::max)
 }
 
-/// √ε of a size, and beside it 64 ε for numbers of order 1 that cancel where the state itself is zero.
+/// √ε of a size, and in addition 64 ε for numbers of order 1 that cancel where the state itself is zero.
 fn half_of_the_digits<S: GaussSystem>(size: f64) -> f64 {
     Real::sqrt(S::Scalar::EPSILON) * size + 64.0 * S::Scalar::EPSILON
 }

@@ -272,7 +272,7 @@ where
     }
 }
 
-/// Whether a part of a step from value to value, with these slopes at its ends where they are asked for, shows a zero
+/// Whether a part of a step from value to value, with these slopes at its ends where they are needed, shows a zero
 /// or comes near to one.
 fn shows_zero(
     [a, b]: [f64; 2],

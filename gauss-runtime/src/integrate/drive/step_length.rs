@@ -4,7 +4,7 @@
 //! a step of length h for c·h^k with a c that changes slowly. On a step across a kink or a jump that is not so: the
 //! error is of order h² or h there, whatever the method (Hairer, Nørsett & Wanner II.6), c says nothing about the steps
 //! beyond it, and an estimate that is a difference of two methods of high order sees little of it. Where [`Smoothness`]
-//! says that such steps occur,
+//! names kinks or jumps,
 //!
 //! - a rejected step is shortened by the order that it has across a kink or a jump, so that one crossing does not take
 //!   many trials, each a little shorter;

@@ -1,4 +1,4 @@
-//! What a run came to: its steps, where it ended, and by what.
+//! The end of a run: its state, its steps, and the event that ended it.
 
 use core::fmt;
 use core::ops::Deref;
@@ -50,7 +50,7 @@ impl fmt::Display for Summary {
     }
 }
 
-/// The end of a run: a [`Sample`], with what brought the run there.
+/// The end of a run: a [`Sample`], with the summary of the run and the event that ended it.
 #[non_exhaustive]
 pub struct End<S: GaussSystem> {
     /// The last state.

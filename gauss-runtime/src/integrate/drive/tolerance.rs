@@ -1,12 +1,12 @@
 //! Errors of steps in units of the tolerance, and the part of them that is rounding.
 //!
 //! **Rounding.** Stages of a step are rounded, so derivatives are evaluated at states that are off by about ε of their
-//! sizes: an error estimate, which is h times a sum of derivatives, never falls below h times what that changes. Where
+//! sizes: an error estimate, which is h times a sum of derivatives, never falls below h times their change. Where
 //! a tolerance asks for less, shorter steps do not help: the estimate falls with h alone, and steps that follow it
 //! become shorter by orders of magnitude without being any better. So when a step is rejected, or steps have become
-//! half as long, the derivatives are evaluated at states that differ by ε, and what they differ by is tolerated in each
-//! component, h·δ with a factor, if that is more than what was asked for. Where it is less it changes nothing, to the
-//! last bit. A kink or a jump is no rounding: it is not within ε of the state.
+//! half as long, the derivatives are evaluated at states that differ by ε, and their difference δ is tolerated in each
+//! component, h·δ with a factor, where that is more than the user's tolerance. Elsewhere nothing changes, to the last
+//! bit. A kink or a jump is no rounding: it is not within ε of the state.
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
@@ -259,7 +259,7 @@ pub(in crate::integrate) fn worst_lane<T: Real>(errors: T) -> f64 {
 }
 
 /// The square of `e²/√(e² + ê²/100)` from the squares of e and ê: that of e itself where ê is too large or too small
-/// beside it for the formula to be computed.
+/// for the formula to be computed.
 #[inline(always)]
 fn combined<T: Real>(fine: T, coarse: T) -> T {
     let part = fine / (fine + T::from_f64(0.01) * coarse);

@@ -37,7 +37,7 @@ copy_and_debug!(EventSample { number, sample });
 
 /// Samples in the order of integration, at least one, and by [`at`](Self::at) any state between them.
 ///
-/// It keeps the samples and borrows what made them: the kernel, and what the input refers to.
+/// It owns the samples, and borrows the kernel and all that the input refers to.
 /// [`into_samples`](Self::into_samples) and tables (crate `gauss-tables`) stand alone.
 pub struct Trajectory<'k, S: GaussSystem> {
     samples: Vec<Sample<S>>,
@@ -66,7 +66,7 @@ impl<S: GaussSystem> fmt::Debug for Trajectory<'_, S> {
     }
 }
 
-/// What is kept of a run.
+/// The record of a run.
 pub(in crate::integrate) struct Kept<S: GaussSystem> {
     pub(in crate::integrate) samples: Vec<Sample<S>>,
     pub(in crate::integrate) events: Vec<EventSample<S>>,
@@ -213,7 +213,7 @@ pub(in crate::integrate) trait Between<S: GaussSystem> {
     fn refuse(&self, near: &Sample<S>, kind: IntegrationErrorKind) -> IntegrationError;
 }
 
-/// What made a run.
+/// The problem and the control of a run, from which states between samples are made.
 pub(in crate::integrate) struct Maker<P, C> {
     pub(in crate::integrate) problem: P,
     pub(in crate::integrate) control: C,

@@ -27,7 +27,7 @@ impl<S: GaussSystem> OneStep<S> for CommutatorFree4 {
     }
 
     /// Refuses exponentials that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of
-    /// the coordinates ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined
+    /// the coordinates ([`IntegrationErrorKind::SingularChart`]), and overflowing or undefined results
     /// ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
     fn step<P: Problem<System = S>>(

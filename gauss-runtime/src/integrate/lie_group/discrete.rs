@@ -1,4 +1,4 @@
-//! Exact derivatives of a step: what filters and regulators in discrete time are made of.
+//! Exact derivatives of a step, for filters and regulators in discrete time.
 
 use core::fmt;
 

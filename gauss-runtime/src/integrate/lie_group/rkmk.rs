@@ -135,7 +135,7 @@ impl<Sys: GaussSystem, const S: usize> OneStep<Sys> for Rkmk<Sys::Scalar, S> {
     }
 
     /// Refuses stages that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]), singularities of the
-    /// coordinates ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined
+    /// coordinates ([`IntegrationErrorKind::SingularChart`]), and overflowing or undefined results
     /// ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
     fn step<P: Problem<System = Sys>>(

@@ -53,7 +53,7 @@ pub trait Problem {
     }
 }
 
-/// The problem of a kernel: its equations in a form, with what its input is.
+/// The problem of a kernel: its equations in one of two forms, with the source of its input.
 #[derive(Debug)]
 pub struct SystemProblem<'k, S, F = VelocityForm, I = NoInput> {
     /// The kernel.

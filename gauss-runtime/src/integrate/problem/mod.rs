@@ -1,4 +1,4 @@
-//! What is integrated: a system in one of two forms, under an input; states, their derivatives, and what can go wrong.
+//! The problem that is integrated: a system in one of two forms, under an input; states, their derivatives, errors.
 
 pub(in crate::integrate) mod called;
 pub mod equations;

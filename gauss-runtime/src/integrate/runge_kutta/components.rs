@@ -3,16 +3,16 @@
 //! A configuration consists of numbers: the four of a quaternion, the three of a place in the observer's axes
 //! ([`Configuration::Components`]). Their time derivatives are products of themselves and the velocity
 //! ([`Configuration::component_rates`]), so they are integrated as those of any vector are. The equations continued
-//! beside the group in this way have a flow that stays on the group when it starts there, so the step ends off the
+//! off the group in this way have a flow that stays on the group when it starts there, so the step ends off the
 //! group by its local error at most, and bringing it back (a quaternion to norm 1) changes it by no more: the order is
 //! that of the tableau (Hairer, Lubich & Wanner, *Geometric Numerical Integration*, IV.4, "standard projection
 //! method").
 //!
-//! Beside Runge–Kutta–Munthe-Kaas methods ([`rkmk`](crate::integrate::lie_group::rkmk)) of the same tableau a stage
-//! needs neither exp nor dexp⁻¹. What is lost: a rotation of constant angular velocity is not exact, and stages lie off
-//! the group by their own error. What the equations keep everywhere is kept to the last bit, as momenta with ṗ ≡ 0 are;
-//! what they keep only because rotation matrices are orthogonal, as the total momentum of several bodies in the
-//! observer's axes, is kept within the tolerance.
+//! Compared with Runge–Kutta–Munthe-Kaas methods ([`rkmk`](crate::integrate::lie_group::rkmk)) of the same tableau a
+//! stage needs neither exp nor dexp⁻¹. What is lost: a rotation of constant angular velocity is not exact, and stages
+//! lie off the group by their own error. What the equations keep everywhere is kept to the last bit, as momenta with ṗ
+//! ≡ 0 are; what they keep only because rotation matrices are orthogonal, as the total momentum of several bodies in
+//! the observer's axes, is kept within the tolerance.
 //!
 //! The coefficients are constants of the type, and stages are written out one after the other: null weights leave no
 //! trace in the code, and derivatives stay in registers where there are enough of them.
@@ -194,7 +194,7 @@ impl<Sys: GaussSystem, C: Coefficients<S>, const S: usize> OneStep<Sys> for Rung
 
     /// Refuses steps that turn by more than π ([`IntegrationErrorKind::IncrementTooLarge`]; the angle is that of the
     /// mean of the velocities at the start and at the last stage of the result), singularities of the coordinates
-    /// ([`IntegrationErrorKind::SingularChart`]), and what overflows or is undefined
+    /// ([`IntegrationErrorKind::SingularChart`]), and overflowing or undefined results
     /// ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
     fn step<P: Problem<System = Sys>>(

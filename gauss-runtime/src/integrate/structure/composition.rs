@@ -101,7 +101,7 @@ impl<S: GaussSystem, M: OneStep<S>, const N: usize> OneStep<S> for Composed<M, S
         Properties { order: if method.symmetric { method.order.max(self.order) } else { method.order }, ..method }
     }
 
-    /// Refuses what the method refuses, in any of its steps.
+    /// The errors of the method, in any of its steps.
     #[inline]
     fn step<P: Problem<System = S>>(
         &self,

@@ -306,7 +306,7 @@ where
     }
 
     /// Refuses steps whose iteration does not converge ([`IntegrationErrorKind::NotConverged`]), that turn by more than
-    /// π ([`IntegrationErrorKind::IncrementTooLarge`]), and what overflows or is undefined
+    /// π ([`IntegrationErrorKind::IncrementTooLarge`]), and overflowing or undefined results
     /// ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
     fn step<P: Problem<System = S>>(
@@ -331,7 +331,7 @@ where
     }
 }
 
-/// What acts on a body with the velocity z, in body axes: ṗ without what the turning of the axes contributes.
+/// The loads on a body with the velocity z, in body axes: ṗ without the term of the rotating axes.
 #[inline(always)]
 fn force<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,

@@ -1,4 +1,4 @@
-//! Methods that keep what the motion keeps: symmetry in time, the symplectic form, momenta, the energy.
+//! Methods that preserve the structure of the motion: symmetry in time, the symplectic form, momenta, the energy.
 
 pub mod collocation;
 pub mod composition;

@@ -39,7 +39,7 @@ where
     }
 
     /// Refuses steps whose iteration does not converge ([`IntegrationErrorKind::NotConverged`]), that turn by more than
-    /// π ([`IntegrationErrorKind::IncrementTooLarge`]), and what overflows or is undefined
+    /// π ([`IntegrationErrorKind::IncrementTooLarge`]), and overflowing or undefined results
     /// ([`IntegrationErrorKind::NonFinite`]).
     #[inline]
     fn step<P: Problem<System = S>>(
@@ -96,7 +96,7 @@ where
     }
 }
 
-/// What acts, in body axes: `ṗ − ad*_z p`, that is ṗ without what the turning of the axes contributes.
+/// The loads in body axes: `ṗ − ad*_z p`, that is ṗ without the term of the rotating axes.
 #[inline(always)]
 fn force<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
