@@ -6,7 +6,7 @@ mod structures;
 use crate::sources::{self, Scene};
 
 pub fn all() -> Vec<Scene> {
-    [bodies(), loads(), one_link(), chains(), written_out(), in_macros()].into_iter().flatten().collect()
+    [bodies(), loads(), between(), one_link(), chains(), written_out(), in_macros()].into_iter().flatten().collect()
 }
 
 /// Charts of each motion.
@@ -119,6 +119,44 @@ fn loads() -> Vec<Scene> {
             let source =
                 format!("#[gauss(chart = {chart}, {wanted})] struct Body {{ {MASS} {FULL} {CENTER} {VERTICAL} }}");
             scenes.push(Scene { name: format!("wanted {chart} {wanted}"), source });
+        }
+    }
+    scenes
+}
+
+/// Elements between two bodies: clause, fields.
+const BETWEEN: [(&str, &str, &str); 3] = [
+    ("coupling", "coupling(body = lower, other = upper, viscous = c)", "c: f64"),
+    (
+        "torsional spring",
+        "torsional_spring(body = lower, other = upper, stiffness = k, angle = a, damping = c)",
+        "k: f64, a: f64, c: f64",
+    ),
+    ("bushing", "bushing(body = lower, other = upper, stiffness = k, damping = c)", "k: Matrix6<f64>, c: Vector6<f64>"),
+];
+
+/// Two bodies on hinges, and two free bodies, with one element between them.
+fn between() -> Vec<Scene> {
+    let pairs = [
+        (
+            "hinged",
+            "coordinates(alpha, beta), body(upper, rotation = rotation_y(alpha)), \
+             body(lower, parent = upper, position = [0, 0, -1], rotation = rotation_z(beta))",
+        ),
+        (
+            "free",
+            "coordinates(one: Pose, two: Pose), body(upper, position = one.position, rotation = one.rotation), \
+             body(lower, position = two.position, rotation = two.rotation)",
+        ),
+    ];
+    let mut scenes = Vec::new();
+    for (pair, bodies) in pairs {
+        for (element, clause, fields) in BETWEEN {
+            let source = format!(
+                "#[gauss({bodies}, {clause})] struct Pair {{ #[gauss(body)] upper: RigidBody<f64>, \
+                 #[gauss(body)] lower: RigidBody<f64>, {fields} }}"
+            );
+            scenes.push(Scene { name: format!("between two {pair} bodies: {element}"), source });
         }
     }
     scenes
