@@ -247,7 +247,7 @@ const STIFF: Argument = Argument::checked(STIFFNESS, "stiffness", Unit::ForceByE
 const DAMPED: Argument = Argument::checked(DAMPING, "damping", Unit::ForceByRate, "c", LawKind::Damping);
 
 /// All elements that are force clauses, in the order in which messages list them.
-pub static ELEMENTS: [&Row; 12] = [
+pub static ELEMENTS: &[&Row] = &[
     &FORCE,
     &TORQUE,
     &WRENCH,
