@@ -256,7 +256,7 @@ impl<'a> Reading<'a> {
         if let Some(Kind { first, .. }) = quiet.kinds.first() {
             let names: Vec<String> =
                 quiet.kinds.iter().map(|kind| format!("{} ({})", kind.key, kind.places.len())).collect();
-            let text = format!("not read, as it says nothing of the motion, how many times: {}", names.join(", "));
+            let text = format!("not read, as it has no part in the motion, how many times: {}", names.join(", "));
             self.notes.push(Note::told(*first, text));
         }
     }

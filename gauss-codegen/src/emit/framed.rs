@@ -51,7 +51,7 @@ fn names(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
     let (name, frames) = (name_of_frames(derived), derived.frames());
     let words: Vec<String> = frames.iter().map(|frame| word(derived, frame)).collect();
     let label = words.iter().map(|word| format!("The body or frame `{word}`."));
-    let documentation = format!("Frames of [`{}`] whose motion its kernel says.", derived.item().ident);
+    let documentation = format!("Frames of [`{}`] whose motion its kernel computes.", derived.item().ident);
     let places = 0..frames.len();
     let names = quote! {
         #[doc = #documentation]

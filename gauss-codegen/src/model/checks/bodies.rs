@@ -101,7 +101,7 @@ fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, cont
             context.error(
                 claim.span,
                 format!(
-                    "the field `{name}` is a body, but no clause says where it is; \
+                    "the field `{name}` is a body, but no clause gives its place; \
                      add `body({name}, position = […], rotation = …)` above `struct`"
                 ),
             );

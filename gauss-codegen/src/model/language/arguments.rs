@@ -18,12 +18,11 @@ pub fn brackets<'a>(clause: &'a Clause, example: &str, context: &mut Context) ->
         Content::Malformed => None,
         Content::Brackets(group) if !group.stream().is_empty() => Some(group),
         Content::Brackets(group) => {
-            context
-                .error(group.span_open(), format!("`{name}()` says nothing; write `{name}({example})` or remove it"));
+            context.error(group.span_open(), format!("`{name}()` is empty; write `{name}({example})` or remove it"));
             None
         }
         Content::Absent => {
-            context.error(name.span(), format!("`{name}` says nothing; write `{name}({example})`"));
+            context.error(name.span(), format!("`{name}` is empty; write `{name}({example})`"));
             None
         }
         Content::Equals(tokens) => {

@@ -215,13 +215,12 @@ pub fn clauses(attributes: &[Attribute], place: Owner, context: &mut Context) ->
             }
             Meta::List(list) if !list.tokens.is_empty() => split(list.tokens.clone(), place, &mut clauses, context),
             Meta::List(list) => {
-                context
-                    .error_at(&list.path, format!("`#[gauss()]` says nothing; write {} or remove it", place.example()));
+                context.error_at(&list.path, format!("`#[gauss()]` is empty; write {} or remove it", place.example()));
             }
             Meta::Path(path) => {
                 context.error_at(
                     path,
-                    format!("`#[gauss]` says nothing; write `#[gauss(…)]` with {} or remove it", place.example()),
+                    format!("`#[gauss]` is empty; write `#[gauss(…)]` with {} or remove it", place.example()),
                 );
             }
             Meta::NameValue(pair) => {

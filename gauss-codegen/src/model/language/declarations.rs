@@ -252,7 +252,7 @@ fn read_kind<K: Copy>(
 ) -> Option<K> {
     let Language { noun, kinds, scalar, .. } = language;
     if kinds.is_empty() {
-        context.error(colon, format!("the kind of {} is said where it is declared; write `{ident}`", words::a(noun)));
+        context.error(colon, format!("the kind of {} is given where it is declared; write `{ident}`", words::a(noun)));
         return Some(*scalar);
     }
     let ty = attributes::flat(ty.iter().cloned().collect());

@@ -242,10 +242,7 @@ fn read_law(clause: &Clause, table: &Table<bool>, example: &str, context: &mut C
             Some(Some(group))
         }
         (true, _) => {
-            context.error(
-                word.ident.span(),
-                format!("`{}` says nothing; write `{} = {example}`", word.ident, clause.name),
-            );
+            context.error(word.ident.span(), format!("`{}` is empty; write `{} = {example}`", word.ident, clause.name));
             None
         }
     }

@@ -305,7 +305,7 @@ impl Statements {
         if self.in_chart && body.name.is_none() {
             context.error(
                 body.span,
-                "the body without a name moves in the chart, which says where it is; give another body a name, \
+                "the body without a name moves in the chart, which gives its place; give another body a name, \
                  `body(name, …)`, write mass data as clauses of the struct, or remove `chart` and `motion`",
             );
             return;

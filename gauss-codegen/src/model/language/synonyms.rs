@@ -61,7 +61,7 @@ const ROTOR: &str = "a wheel is a body that a coordinate turns: `coordinates(ang
 const ENERGY: &str = "the kinetic energy follows from what has mass; a potential is `potential = …`";
 const INTEGRATOR: &str = "the integrator is chosen at run time: `Simulation::new(&kernel).adaptive(1e-9, 1e-12)`";
 const PARAMETER: &str = "the fields of the struct are its parameters, by their names";
-const DAMPED: &str = "a robot's joints are damped as its file says; others by `friction(along = angle, viscous = c)`";
+const DAMPED: &str = "a robot's joints are damped as in its file; others by `friction(along = angle, viscous = c)`";
 const DERIVATIVES: &str = "derivatives of the equations are `linearize`; Jacobians of bodies and frames `frames(…)`";
 const POSITION: &str = "where something is belongs into its clause: `body(arm, position = […], rotation = …)`";
 const UNITS: &str = "units are those of fields and inputs: `#[gauss(unit = \"N\")]`, `input(thrust = \"N\")`";

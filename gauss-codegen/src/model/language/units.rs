@@ -163,7 +163,9 @@ pub fn read(text: &str) -> Result<Dimension, String> {
     let mut reader = Reader { text, rest: text.chars().peekable(), depth: 0 };
     reader.skip_spaces();
     if reader.rest.peek().is_none() {
-        return Err("an empty unit says nothing; write `1` for numbers without dimension, or leave the unit out".into());
+        return Err(
+            "an empty unit has no meaning; write `1` for numbers without dimension, or leave the unit out".into()
+        );
     }
     let dimension = reader.quotient()?;
     match reader.rest.next() {
@@ -430,7 +432,7 @@ mod tests {
     #[test]
     fn what_is_no_unit() {
         for (text, start) in [
-            ("", "an empty unit says nothing"),
+            ("", "an empty unit has no meaning"),
             ("Nm", "unknown unit `Nm`; did you mean `N m`?"),
             ("Nms", "unknown unit `Nms`; did you mean `N m s`?"),
             ("newtons", "unknown unit `newtons`; did you mean `N`?"),

@@ -107,7 +107,7 @@ fn refuse_second(name: &Ident, (earlier, noun): (&str, &str), is_element: bool, 
         // Two bodies are refused with their fields.
         ("body", "body") => return,
         ("field", "frame") if is_body => format!(
-            "`{word}` is a body, because its field says so, and a frame has no field; write `body({word}, …)`, or remove \
+            "`{word}` is a body by its field, and a frame has no field; write `body({word}, …)`, or remove \
              the field"
         ),
         ("field", "input") => format!(

@@ -44,7 +44,7 @@ fn what_the_chart_says_already() {
         &[
             (
                 "body",
-                "the body without a name moves in the chart, which says where it is; give another body a name, \
+                "the body without a name moves in the chart, which gives its place; give another body a name, \
                  `body(name, …)`, write mass data as clauses of the struct, or remove `chart` and `motion`",
             ),
             (

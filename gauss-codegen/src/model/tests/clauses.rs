@@ -56,10 +56,7 @@ fn linearize_stands_alone_or_names_more() {
     check_body("#[gauss(linearize(inverted))]", &[("inverted", near)]);
     let twice = "`inverse` is named twice; keep one of the two";
     check_body("#[gauss(linearize(inverse, parameters, inverse))]", &[("inverse", twice)]);
-    check_body(
-        "#[gauss(linearize())]",
-        &[("(", "`linearize()` says nothing; write `linearize(inverse)` or remove it")],
-    );
+    check_body("#[gauss(linearize())]", &[("(", "`linearize()` is empty; write `linearize(inverse)` or remove it")]);
     check_body("#[gauss(linearize(3))]", &[("3", "expected the name of a kind of derivative, found the literal `3`")]);
     check_body("#[gauss(linearise)]", &[("linearise", "unknown clause `linearise`; did you mean `linearize`?")]);
     check_body(
@@ -216,14 +213,11 @@ fn struct_clauses() {
 fn attribute_forms() {
     check_body(
         "#[gauss()]",
-        &[("gauss", "`#[gauss()]` says nothing; write a clause such as `chart = hybrid` or remove it")],
+        &[("gauss", "`#[gauss()]` is empty; write a clause such as `chart = hybrid` or remove it")],
     );
     check_body(
         "#[gauss]",
-        &[(
-            "gauss",
-            "`#[gauss]` says nothing; write `#[gauss(…)]` with a clause such as `chart = hybrid` or remove it",
-        )],
+        &[("gauss", "`#[gauss]` is empty; write `#[gauss(…)]` with a clause such as `chart = hybrid` or remove it")],
     );
     check_body(
         "#[gauss = \"chart = hybrid\"]",
@@ -239,10 +233,7 @@ fn attribute_forms() {
         &[("\"chart\"", "`gauss` takes words, found \"chart\"; write `#[gauss(chart)]` without quotes")],
     );
     check_body("#[gauss(7)]", &[("7", "`gauss` takes words, found 7; write a clause such as `chart = hybrid`")]);
-    check(
-        &with("#[gauss()] k: f64"),
-        &[("gauss", "`#[gauss()]` says nothing; write a role such as `mass` or remove it")],
-    );
+    check(&with("#[gauss()] k: f64"), &[("gauss", "`#[gauss()]` is empty; write a role such as `mass` or remove it")]);
 }
 
 /// What acts makes no system of what it stands in, and is said above the struct.

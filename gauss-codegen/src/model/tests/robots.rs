@@ -236,7 +236,7 @@ fn what_is_not_read() {
         told("3:112: the attribute `yaw` of <origin> is not read", true),
         told("3:143: the attribute `backlash` of <dynamics> is not read", true),
         told("5:1: <gazebo> does not act: what Gazebo adds is not read; likewise in lines 6, 7", true),
-        told("8:20: not read, as it says nothing of the motion, how many times: visual (2), collision (1)", false),
+        told("8:20: not read, as it has no part in the motion, how many times: visual (2), collision (1)", false),
     ];
     assert_eq!(remarks(&text, ""), all);
     let known = remarks(&text, ", ignore(gazebo, backlash)");
@@ -392,7 +392,7 @@ fn mistakes_of_clauses() {
     let cases = [
         (", base = flaoting", "unknown `base` `flaoting`; did you mean `floating`?"),
         (", bsae = fixed", "unknown clause `bsae`; did you mean `base`?"),
-        (", joint_friction = smooth", "`smooth` says nothing; write `joint_friction = smooth(0.01)`"),
+        (", joint_friction = smooth", "`smooth` is empty; write `joint_friction = smooth(0.01)`"),
         (
             ", limits = stop(stiffness = 1.0)",
             "stops at limits need `width`; write `limits = stop(stiffness = 1e4, width = 0.01)`",

@@ -28,7 +28,7 @@ fn names() {
             ("upper", "two bodies are called `upper`; each has a field of its own: rename one of the two"),
             (
                 "body",
-                "the field `lower` is a body, but no clause says where it is; \
+                "the field `lower` is a body, but no clause gives its place; \
                  add `body(lower, position = […], rotation = …)` above `struct`",
             ),
         ],
@@ -74,7 +74,7 @@ fn fields() {
             ),
             (
                 "body",
-                "the field `arm` is a body, but no clause says where it is; \
+                "the field `arm` is a body, but no clause gives its place; \
                  add `body(arm, position = […], rotation = …)` above `struct`",
             ),
         ],

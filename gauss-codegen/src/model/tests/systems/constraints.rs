@@ -55,8 +55,8 @@ fn clauses() {
              constraint(position = x, velocity = v), constraint(position), constraint(positin: x), constraint([v, w, s])",
         ),
         &[
-            ("constraint", "`constraint` says nothing; write `constraint(velocity = …)`"),
-            ("(", "`constraint()` says nothing; write `constraint(velocity = …)` or remove it"),
+            ("constraint", "`constraint` is empty; write `constraint(velocity = …)`"),
+            ("(", "`constraint()` is empty; write `constraint(velocity = …)` or remove it"),
             (
                 "x",
                 "a constraint is one of positions or of velocities; write `constraint(position = x-y)` or \
@@ -197,7 +197,7 @@ fn independent() {
     mistake(
         &format!("{constraint}, independent(v: Vector3)"),
         ":",
-        "the kind of a speed is said where it is declared; write `v`",
+        "the kind of a speed is given where it is declared; write `v`",
     );
     check(
         &particle("constraint(position = x - y), independent(x)", ""),

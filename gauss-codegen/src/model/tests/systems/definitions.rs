@@ -165,8 +165,8 @@ fn kinds_and_names() {
     mistakes(
         "define, define(), define(u), define(u = ), define(3), define(if = x), define(v = x) ",
         &[
-            ("define", "`define` says nothing; write `define(name = …)`"),
-            ("(", "`define()` says nothing; write `define(name = …)` or remove it"),
+            ("define", "`define` is empty; write `define(name = …)`"),
+            ("(", "`define()` is empty; write `define(name = …)` or remove it"),
             ("u", "`u` needs a value; write `u = …`"),
             ("=", "nothing follows `u =`; write a value or remove the clause"),
             ("3", "`define` takes words, found 3; write a definition such as `u = body.relative_velocity`"),

@@ -330,9 +330,9 @@ fn media() {
             ("medium", "`medium` is given twice; keep one of the two"),
             ("speed", "unknown argument of `medium`: `speed`; write `velocity`"),
             ("medium", "`medium` is given twice; keep one of the two"),
-            ("(", "`medium()` says nothing; write `medium(velocity = [cx, cy, cz])` or remove it"),
+            ("(", "`medium()` is empty; write `medium(velocity = [cx, cy, cz])` or remove it"),
             ("medium", "`medium` is given twice; keep one of the two"),
-            ("medium", "`medium` says nothing; write `medium(velocity = [cx, cy, cz])`"),
+            ("medium", "`medium` is empty; write `medium(velocity = [cx, cy, cz])`"),
             (
                 "theta",
                 "`theta` moves with the system, and there is no added mass in a stream that varies with the place; \

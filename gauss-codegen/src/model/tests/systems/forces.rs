@@ -77,8 +77,8 @@ fn forces() {
     mistakes(
         "force, force(), force(pull), force(value = c), force(at = tip), force(positon, value = c)",
         &[
-            ("force", "`force` says nothing; write `force(at = …, value = [fx, fy, fz])`"),
-            ("(", "`force()` says nothing; write `force(at = …, value = [fx, fy, fz])` or remove it"),
+            ("force", "`force` is empty; write `force(at = …, value = [fx, fy, fz])`"),
+            ("(", "`force()` is empty; write `force(at = …, value = [fx, fy, fz])` or remove it"),
             ("force", pointless),
             ("force", components),
             ("force", pointless),

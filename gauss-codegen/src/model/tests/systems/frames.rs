@@ -48,7 +48,7 @@ fn clauses() {
         ),
         &[
             ("frame", "a frame needs a name to be referred to by; write `frame(name, …)`"),
-            ("(", "`frame()` says nothing; write `frame(name, position = […], rotation = …)` or remove it"),
+            ("(", "`frame()` is empty; write `frame(name, position = […], rotation = …)` or remove it"),
             ("3", "`frame` takes brackets, not `=`; write `frame(name, position = […], rotation = …)`"),
             ("mass", "a frame has no mass; what has mass is a `body` or a `particle`"),
             ("rotaton", "unknown argument of `frame`: `rotaton`; did you mean `rotation`?"),
@@ -124,7 +124,7 @@ fn names() {
         &[
             (
                 "hand",
-                "`hand` is a body, because its field says so, and a frame has no field; write `body(hand, …)`, or remove \
+                "`hand` is a body by its field, and a frame has no field; write `body(hand, …)`, or remove \
                  the field",
             ),
             ("l", "`l` names a field and a frame; rename one of the two"),

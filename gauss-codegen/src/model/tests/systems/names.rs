@@ -33,7 +33,7 @@ fn declarations() {
     check(&moving("coordinates(x, y, if)"), &[("if", "`if` is a keyword and cannot name a coordinate")]);
     check(
         &moving("coordinates()"),
-        &[("(", "`coordinates()` says nothing; write `coordinates(x, y, theta)` or remove it")],
+        &[("(", "`coordinates()` is empty; write `coordinates(x, y, theta)` or remove it")],
     );
     check(
         &moving("coordinates = x"),
@@ -63,7 +63,7 @@ fn missing() {
         "#[gauss(coordinates(x), particle(), particle(mass = m), particle(position = [x, 0, 0], mas = m))] \
          struct Scene { m: f64 }",
         &[
-            ("(", "`particle()` says nothing; write `particle(mass = m, position = [x, y, z])` or remove it"),
+            ("(", "`particle()` is empty; write `particle(mass = m, position = [x, y, z])` or remove it"),
             ("particle", "a particle needs its position; add `position = [x, y, z]`"),
             ("mas", "unknown argument of `particle`: `mas`; did you mean `mass`?"),
         ],
