@@ -71,7 +71,7 @@ pub fn refuse_idle_speeds(given: &Given<'_, '_>, system: &System<'_>) -> Result<
         let SpeedName { text: name, span } = &given.speeds[k];
         mistakes.push(
             *span,
-            format!("no velocity depends on `{name}`: its row of the mass matrix is zero; give what it moves a mass, or leave it out"),
+            format!("no velocity depends on `{name}`: its row of the mass matrix is zero; give a mass to the bodies that it moves, or leave it out"),
         );
     }
     mistakes.finish()

@@ -123,7 +123,7 @@ fn parameters_that_kinematics_divide_by() {
 #[test]
 fn inertias_that_no_body_has() {
     let about_o = "no body has this `inertia`: about its centre of mass a moment of inertia is negative; `inertia` is about \
-                   O, m (|c|² 1 − c cᵀ) more; what is about the centre of mass is written \
+                   O, m (|c|² 1 − c cᵀ) more; an inertia about the centre of mass is written \
                    `inertia_about_center_of_mass`";
     let own = |inertia: &str| format!("mass = 1, center_of_mass = [1, 0, 0], inertia = {inertia}");
     for inertia in ["[1, 1, 0.5]", "0"] {

@@ -57,7 +57,7 @@ impl<'g> Given<'_, 'g> {
         let rule = match word == Role::CentralInertia.word() {
             true => String::new(),
             false => format!(
-                "; `{word}` is about O, m (|c|² 1 − c cᵀ) more; what is about the centre of mass is written \
+                "; `{word}` is about O, m (|c|² 1 − c cᵀ) more; an inertia about the centre of mass is written \
                  `{}`",
                 Role::CentralInertia.word()
             ),

@@ -50,7 +50,7 @@ impl<'a> File<'a> {
         }
         let is_free = |joint: &Joint| joint.kind == JointKind::Floating;
         if parent != WORLD && other.description.joints.iter().any(is_free) {
-            return Err("what moves freely hangs in the world, not on another body".to_owned());
+            return Err("a body that moves freely hangs in the world, not on another body".to_owned());
         }
         let own = &mut self.description;
         own.links.extend(other.description.links.into_iter().filter(|link| link.name != WORLD));
@@ -343,7 +343,7 @@ mod tests {
         assert_eq!(toe.start, ([0.0; 3], Rotation::none()));
         let on_body = format!("{ASSET}<worldbody><body><joint/><geom size=\"1\"/>{attach}</body></worldbody>");
         let faults = folder.read(&on_body).map(|_| ()).expect_err("a body that moves");
-        assert_eq!(faults[0].message, "<attach>: what moves freely hangs in the world, not on another body");
+        assert_eq!(faults[0].message, "<attach>: a body that moves freely hangs in the world, not on another body");
     }
 
     /// A model that attaches one itself: both prefixes, the outer one first.

@@ -33,7 +33,7 @@ impl<'a> File<'a> {
             if is_free || self.text(element, JOINT, "type", class) == Some("free") {
                 // Its pose is that in the world, whatever frames it stands in.
                 if parent != WORLD {
-                    self.reading.fault(element, "what moves freely hangs in the world, not on another body");
+                    self.reading.fault(element, "a body that moves freely hangs in the world, not on another body");
                 }
                 self.hang(element, own, (&parent, name), JointKind::Floating, ([0.0; 3], Rotation::none()));
                 // `<freejoint>` has no defaults.

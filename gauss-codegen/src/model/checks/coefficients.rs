@@ -44,7 +44,7 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], scope: &Scope, s
             Some(field) => match field.reading.kind {
                 TypeKind::Known(Shape::Vector6 | Shape::Matrix6) => continue,
                 TypeKind::Alias => format!(
-                    "what the field `{name}` is cannot be read from {}; write `Vector6<{scalar}>` or `Matrix6<{scalar}>` \
+                    "the kind of the field `{name}` cannot be read from {}; write `Vector6<{scalar}>` or `Matrix6<{scalar}>` \
                      for its type",
                     field.reading.name
                 ),

@@ -75,14 +75,14 @@ fn check_drive(
             Some(CoordinateKind::Rotation) => context.error(
                 name.span(),
                 format!(
-                    "`{name}` is a rotation, and what drives its angular velocity is a torque; \
+                    "`{name}` is a rotation, and its angular velocity is driven by a torque; \
                      write `torque(body = …, value = …)`"
                 ),
             ),
             Some(CoordinateKind::Pose) => context.error(
                 name.span(),
                 format!(
-                    "`{name}` is a pose, and what drives its twist are forces and torques; \
+                    "`{name}` is a pose, and its twist is driven by forces and torques; \
                      write `force(body = …, value = …)` and `torque(body = …, value = …)`"
                 ),
             ),

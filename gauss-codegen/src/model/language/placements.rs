@@ -58,7 +58,7 @@ pub fn read_body(clause: &Clause, massless: bool, context: &mut Context) -> Opti
         }
         let mut role = role_clauses::role(&word);
         if massless && role.is_some() {
-            context.error(argument.name.span(), "a frame has no mass; what has mass is a `body` or a `particle`");
+            context.error(argument.name.span(), "a frame has no mass; matter is a `body` or a `particle`");
             continue;
         }
         if !known(argument, noun, BODY, &mut names, context) {

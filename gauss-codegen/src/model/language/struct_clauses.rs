@@ -224,7 +224,7 @@ fn refuse(clause: &Clause, word: &str, beside_file: bool, context: &mut Context)
             .into()
     } else if ROLES.iter().any(|(name, _)| *name == word) {
         format!(
-            "`{word}` is the role of a field; write `#[gauss({word})]` on that field, or say here what it is: `{word} = …`"
+            "`{word}` is the role of a field; write `#[gauss({word})]` on that field, or give it here: `{word} = …`"
         )
     } else if CHARTS.iter().any(|(name, _)| *name == word) {
         let chart = match &clause.value {

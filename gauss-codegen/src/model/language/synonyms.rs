@@ -17,7 +17,7 @@ pub fn argument<T: Copy>(word: &str, table: &Table<T>) -> Option<(&'static str, 
     Some((name, NOTES.iter().find(|(noted, _)| *noted == name).map_or("", |(_, note)| note)))
 }
 
-const STATES: &str = "what the configuration is made of is declared by `coordinates(x, pose: Pose)`";
+const STATES: &str = "the configuration is declared by `coordinates(x, pose: Pose)`";
 const RATES: &str = "speeds of one's own are `speeds(v), kinematics(x = v)`; without them the rates are taken";
 const LINK: &str = "a rigid body is `body(arm, parent = other, position = […], rotation = …)`";
 const HINGE: &str = "a hinge is a body that a coordinate turns: `coordinates(angle), \
@@ -26,14 +26,14 @@ const SLIDER: &str = "a slider is a body that a coordinate moves: `coordinates(x
                       position = [x, 0, 0])`";
 const BALL: &str = "a ball joint is a coordinate that is a rotation: `coordinates(turn: Rotation), \
                     body(arm, parent = other, rotation = turn)`";
-const FIXED: &str = "what is fixed in a body is `frame(name, parent = other, position = […])`, or `point(…)`";
+const FIXED: &str = "a place fixed in a body is `frame(name, parent = other, position = […])`, or `point(…)`";
 const POINT_MASS: &str = "a point with mass is `particle(mass = m, position = […])`";
 const MOMENT: &str = "a moment is `torque(body = other, value = [0, 0, m])`";
-const THRUST: &str = "what arrives at run time is an input, and acts by a clause: `input(thrust), force(body = hull, at = […], \
+const THRUST: &str = "a value that arrives at run time is an input, and acts by a clause: `input(thrust), force(body = hull, at = […], \
                       value = [thrust, 0, 0])`";
 const MOTOR: &str = "a motor is an input with a torque and its reaction: `input(motor), torque(body = wheel, \
                      value = [0, 0, motor], reaction = hull)`, or `drive(angle = motor)`";
-const INPUT: &str = "what arrives at run time is declared by `input(name)`, and acts where `force(…)`, `torque(…)` or \
+const INPUT: &str = "a value that arrives at run time is declared by `input(name)`, and acts where `force(…)`, `torque(…)` or \
                      `drive(…)` names it";
 const LOAD: &str = "a force is `force(body = hull, at = […], value = […])`";
 const WEIGHT: &str = "weight is `gravity = 9.81` here, or a field with `#[gauss(gravity)]`; it acts on all mass";
@@ -50,7 +50,7 @@ const BUSHING: &str = "a bushing between two bodies is `bushing(body = arm, othe
 const TORSION: &str = "a torsional spring between two bodies is `torsional_spring(body = arm, other = hull, stiffness = k)`, \
                        about their third axes; along a coordinate `spring(along = angle, stiffness = k)`";
 const COUPLING: &str = "a viscous coupling of two bodies is `coupling(body = wheel, other = hull, viscous = c)`";
-const ROLLING: &str = "what rolls or does not slip is `constraint(velocity = …)`; a loop is `constraint(position = …)`";
+const ROLLING: &str = "rolling without slip is `constraint(velocity = …)`; a loop is `constraint(position = …)`";
 const CONTACT: &str =
     "a contact is `stop(along = height, least = 0, stiffness = k, width = e)`; friction is `force(…)`";
 const RANGE: &str = "limits of a coordinate are `stop(along = x, least = a, most = b, stiffness = k, width = e)`";
@@ -58,15 +58,14 @@ const GEAR: &str = "a gear is one coordinate for both: `rotation = rotation_z(n 
                     it is `armature(angle = a)`";
 const ROTOR: &str = "a wheel is a body that a coordinate turns: `coordinates(angle), body(wheel, parent = hull, \
                      rotation = rotation_z(angle), mass = m, inertia = [a, a, c])`";
-const ENERGY: &str = "the kinetic energy follows from what has mass; a potential is `potential = …`";
+const ENERGY: &str = "the kinetic energy follows from bodies and particles; a potential is `potential = …`";
 const INTEGRATOR: &str = "the integrator is chosen at run time: `Simulation::new(&kernel).adaptive(1e-9, 1e-12)`";
 const PARAMETER: &str = "the fields of the struct are its parameters, by their names";
 const DAMPED: &str = "a robot's joints are damped as in its file; others by `friction(along = angle, viscous = c)`";
 const DERIVATIVES: &str = "derivatives of the equations are `linearize`; Jacobians of bodies and frames `frames(…)`";
 const POSITION: &str = "where something is belongs into its clause: `body(arm, position = […], rotation = …)`";
 const UNITS: &str = "units are those of fields and inputs: `#[gauss(unit = \"N\")]`, `input(thrust = \"N\")`";
-const REFERENCE: &str =
-    "the observer needs no clause; what moves in a way that is known is `frame(name, position = …)`";
+const REFERENCE: &str = "the observer needs no clause; a frame with a known motion is `frame(name, position = …)`";
 
 /// In the place of a clause of the struct.
 pub const FOR_CLAUSES: &Table<&'static str> = &[

@@ -84,7 +84,7 @@ fn meaning(field: &ReadField<'_>, shape: Shape, scalar: &str) -> Meaning {
              `body({name}, …)`"
         )),
         (Shape::Other, TypeKind::Alias) => Meaning::Unusable(format!(
-            "what the field `{name}` is cannot be read from {found}; write `{scalar}` or `Vector3<{scalar}>` for its type"
+            "the kind of the field `{name}` cannot be read from {found}; write `{scalar}` or `Vector3<{scalar}>` for its type"
         )),
         _ => Meaning::Unusable(format!(
             "the type of the field `{name}` is {found}, and expressions name scalars and vectors only: \

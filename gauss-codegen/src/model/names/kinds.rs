@@ -251,7 +251,7 @@ impl Checker<'_> {
             Err(order) => {
                 let message = match order {
                     Ordering::Greater => format!("`{name}` is defined later; move its definition up"),
-                    _ => format!("`{name}` is defined by itself; say what it is without `{name}`"),
+                    _ => format!("`{name}` is defined by itself; define it without `{name}`"),
                 };
                 self.note(name.span(), message)
             }

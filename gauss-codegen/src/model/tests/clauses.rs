@@ -197,10 +197,7 @@ fn struct_clauses() {
     );
     check_body(
         "#[gauss(mass)]",
-        &[(
-            "mass",
-            "`mass` is the role of a field; write `#[gauss(mass)]` on that field, or say here what it is: `mass = …`",
-        )],
+        &[("mass", "`mass` is the role of a field; write `#[gauss(mass)]` on that field, or give it here: `mass = …`")],
     );
     check_body(
         "#[gauss(coordinate(x))]",

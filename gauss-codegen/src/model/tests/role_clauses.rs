@@ -117,6 +117,6 @@ fn bodies_of_systems() {
     );
     check(
         &system("body(rotation = rotation_x(a), mass = 1, inertia = 1), frame(f, mass = 2)", ""),
-        &[("mass", "a frame has no mass; what has mass is a `body` or a `particle`")],
+        &[("mass", "a frame has no mass; matter is a `body` or a `particle`")],
     );
 }

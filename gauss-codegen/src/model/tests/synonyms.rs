@@ -16,7 +16,7 @@ fn clauses_beside_a_chart() {
         "#[gauss(Thruster = 3)]",
         &[(
             "Thruster",
-            "unknown clause `Thruster`; what arrives at run time is an input, and acts by a clause: `input(thrust), \
+            "unknown clause `Thruster`; a value that arrives at run time is an input, and acts by a clause: `input(thrust), \
              force(body = hull, at = […], value = [thrust, 0, 0])`",
         )],
     );

@@ -323,12 +323,12 @@ fn functions() {
             ),
             (
                 "min",
-                "`min` of `l` (m) and `g` (m/s^2): what it takes has one unit; multiply the latter by a coefficient in \
+                "`min` of `l` (m) and `g` (m/s^2): its arguments have one unit; multiply the latter by a coefficient in \
                  s^2",
             ),
             (
                 "clamp",
-                "`clamp` of a product (N) and `t` (s): what it takes has one unit; multiply the latter by a coefficient \
+                "`clamp` of a product (N) and `t` (s): its arguments have one unit; multiply the latter by a coefficient \
                  in kg m/s^3",
             ),
             (
@@ -338,12 +338,12 @@ fn functions() {
             ),
             (
                 "smooth_step",
-                "`smooth_step` of `l` (m) and `t` (s): what it takes has one unit; multiply the latter by a coefficient \
+                "`smooth_step` of `l` (m) and `t` (s): its arguments have one unit; multiply the latter by a coefficient \
                  in m/s",
             ),
             (
                 "atan2",
-                "`atan2` of `l` (m) and `t` (s): what it takes has one unit; multiply the latter by a coefficient in m/s",
+                "`atan2` of `l` (m) and `t` (s): its arguments have one unit; multiply the latter by a coefficient in m/s",
             ),
             (
                 "*",

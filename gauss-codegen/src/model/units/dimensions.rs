@@ -296,10 +296,10 @@ impl Checker<'_> {
             FunctionName::Rate => first.change(|part| part.change(|dimension| dimension.over(Dimension::TIME))),
             FunctionName::Twist => Dimensions::UNKNOWN,
             FunctionName::Min | FunctionName::Max | FunctionName::Clamp | FunctionName::Hypot => {
-                self.agree(span, &all, &format!("`{word}` of"), "what it takes has one unit")
+                self.agree(span, &all, &format!("`{word}` of"), "its arguments have one unit")
             }
             FunctionName::Atan2 | FunctionName::SmoothStep => self
-                .agree(span, &all, &format!("`{word}` of"), "what it takes has one unit")
+                .agree(span, &all, &format!("`{word}` of"), "its arguments have one unit")
                 .change(Found::without_dimension),
             FunctionName::Dot => {
                 let terms = product(first, second).parts();

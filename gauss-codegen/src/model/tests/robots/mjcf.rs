@@ -57,7 +57,7 @@ fn what_is_told_and_refused() {
         (
             "<joint/><body><freejoint/></body></body></worldbody>".to_owned(),
             "",
-            Some("3:15: <freejoint>: what moves freely hangs in the world, not on another body"),
+            Some("3:15: <freejoint>: a body that moves freely hangs in the world, not on another body"),
         ),
         (
             "<site name=\"arm\"/><joint type=\"ball\" frictionloss=\"1\"/></body></worldbody>".to_owned(),

@@ -59,7 +59,7 @@ fn order_and_use() {
                  `theta`), a speed (`v` or `w`), a definition (`a`, `b` or `d`), a field (`l` or `k`), a body (`cart` or \
                  `rod`) or `t`",
             ),
-            ("d", "`d` is defined by itself; say what it is without `d`"),
+            ("d", "`d` is defined by itself; define it without `d`"),
         ],
     );
     mistakes(
@@ -138,7 +138,7 @@ fn definitions_of_themselves() {
     for expression in expressions {
         mistakes(
             &format!("define(u = {expression}), potential = k * x"),
-            &[("u", "`u` is defined by itself; say what it is without `u`")],
+            &[("u", "`u` is defined by itself; define it without `u`")],
         );
     }
 }

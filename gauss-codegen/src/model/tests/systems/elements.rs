@@ -205,7 +205,7 @@ fn drags() {
             ),
             (
                 "alias",
-                "what the field `alias` is cannot be read from `Damping`; write `Vector6<f64>` or `Matrix6<f64>` \
+                "the kind of the field `alias` cannot be read from `Damping`; write `Vector6<f64>` or `Matrix6<f64>` \
                  for its type",
             ),
             ("dd", "no field is called `dd`; did you mean `d`?"),

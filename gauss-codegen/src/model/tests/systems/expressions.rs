@@ -152,7 +152,10 @@ fn names() {
     );
     check_potential(
         "s * x",
-        &[("s", "what the field `s` is cannot be read from `Stiffness`; write `f64` or `Vector3<f64>` for its type")],
+        &[(
+            "s",
+            "the kind of the field `s` cannot be read from `Stiffness`; write `f64` or `Vector3<f64>` for its type",
+        )],
     );
     check(
         &particle("potential = k * x", "k: f32"),

@@ -179,12 +179,12 @@ fn drives() {
             ("x", "`x` is driven twice in one clause; write the sum of the two"),
             (
                 "phi",
-                "`phi` is a rotation, and what drives its angular velocity is a torque; \
+                "`phi` is a rotation, and its angular velocity is driven by a torque; \
                  write `torque(body = …, value = …)`",
             ),
             (
                 "pose",
-                "`pose` is a pose, and what drives its twist are forces and torques; \
+                "`pose` is a pose, and its twist is driven by forces and torques; \
                  write `force(body = …, value = …)` and `torque(body = …, value = …)`",
             ),
         ],

@@ -50,7 +50,7 @@ fn clauses() {
             ("frame", "a frame needs a name to be referred to by; write `frame(name, …)`"),
             ("(", "`frame()` is empty; write `frame(name, position = […], rotation = …)` or remove it"),
             ("3", "`frame` takes brackets, not `=`; write `frame(name, position = […], rotation = …)`"),
-            ("mass", "a frame has no mass; what has mass is a `body` or a `particle`"),
+            ("mass", "a frame has no mass; matter is a `body` or a `particle`"),
             ("rotaton", "unknown argument of `frame`: `rotaton`; did you mean `rotation`?"),
             ("point", "a point needs a name to be referred to by; write `point(name, …)`"),
             ("point", "a point needs the body that it is fixed in; add `body = name`"),
