@@ -10,10 +10,10 @@ mod threads;
 
 use std::time::Instant;
 
-use gauss_batch::{Batch, BatchSystem, States};
+use gauss_batch::{Batch, BatchSystem, LaneControl, States};
 use gauss_benches::packs::{free_top, immersed, symmetric_top};
 use gauss_exact::{FreeFlow, Scheme, Splitting};
-use gauss_runtime::integrate::{Adams, Adaptive, Fixed, LaneControl, Taylor, Verner9};
+use gauss_runtime::integrate::{Adams, Adaptive, Fixed, Taylor, Verner9};
 use gauss_runtime::prelude::*;
 use wide::f64x8;
 

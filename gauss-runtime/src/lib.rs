@@ -119,11 +119,6 @@ use __private_0_1_0 as private;
 #[doc(hidden)]
 pub mod __crates_0_1_0 {
     pub use crate::__packs_of_one_0_1_0 as packs_of_one;
-    pub use crate::integrate::drive::control::prepare;
-    pub use crate::integrate::drive::fixed::{further, steps_within};
-    pub use crate::integrate::drive::projection::accept;
-    #[cfg(feature = "alloc")]
-    pub use crate::integrate::lanes::run::{InLanes, Runs};
     pub use crate::lie::carried::two_sum;
     pub use crate::lie::se3::{join, split};
     pub use crate::lie::so3::turned;

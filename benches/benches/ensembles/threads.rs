@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use gauss_batch::{Batch, BatchSystem, States};
+use gauss_batch::{Batch, BatchSystem, LaneControl, States};
 use gauss_benches::packs::{free_top, immersed, symmetric_top};
-use gauss_runtime::integrate::{Adams, LaneControl, Taylor};
+use gauss_runtime::integrate::{Adams, Taylor};
 use gauss_runtime::simd::Packed;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use wide::f64x8;

@@ -3,12 +3,15 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use gauss_runtime::__crates_0_1_0::{accept, further, prepare, steps_within};
 use gauss_runtime::configuration::Configuration;
-use gauss_runtime::integrate::lanes::{BatchSystem, RunError, SingleConfiguration, SingleSpeeds};
+use gauss_runtime::integrate::drive::control::prepare;
+use gauss_runtime::integrate::drive::fixed::{further, steps_within};
+use gauss_runtime::integrate::drive::projection::accept;
 use gauss_runtime::integrate::{DEFAULT_LIMIT, IntegrationErrorKind, OneStep, Problem, Rates, State};
 use gauss_runtime::real::Real;
 use gauss_runtime::simd::Packed;
+
+use crate::lanes::{BatchSystem, RunError, SingleConfiguration, SingleSpeeds};
 
 /// The interval of time of a run, and the length of its steps.
 pub(crate) struct Interval {

@@ -3,15 +3,13 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use gauss_runtime::__crates_0_1_0::{InLanes, Runs};
 use gauss_runtime::integrate::drive::event::{Events, JumpFunction, NoEvents, Watched};
-use gauss_runtime::integrate::lanes::{BatchSystem, RunOutcome, SingleConfiguration, SingleSpeeds};
-use gauss_runtime::integrate::{
-    Adaptive, Crossing, DEFAULT_LIMIT, Form, InputSource, LaneControl, Sample, SystemProblem, Taylor,
-};
+use gauss_runtime::integrate::{Adaptive, Crossing, DEFAULT_LIMIT, Form, InputSource, Sample, SystemProblem, Taylor};
 use gauss_runtime::simd::Packed;
 use gauss_runtime::system::GaussSystem;
 
+use crate::lanes::run::{InLanes, Runs};
+use crate::lanes::{BatchSystem, LaneControl, RunOutcome, SingleConfiguration, SingleSpeeds};
 use crate::packs::States;
 use crate::{Batch, Borrowed, Kernels};
 

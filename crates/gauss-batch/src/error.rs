@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use gauss_runtime::integrate::lanes::RunError;
+use crate::lanes::RunError;
 
 /// Some states of a batch did not reach the end; all others did.
 #[derive(Clone, Debug, PartialEq)]

@@ -78,6 +78,7 @@ extern crate alloc;
 mod advance;
 mod ensemble;
 mod error;
+mod lanes;
 mod packs;
 
 use alloc::vec::Vec;
@@ -93,9 +94,7 @@ use gauss_runtime::system::GaussSystem;
 use advance::Interval;
 pub use ensemble::Ensemble;
 pub use error::BatchError;
-pub use gauss_runtime::integrate::lanes::{
-    BatchSystem, Ended, EventState, RunError, RunOutcome, SingleConfiguration, SingleSpeeds,
-};
+pub use lanes::{BatchSystem, Ended, EventState, LaneControl, RunError, RunOutcome, SingleConfiguration, SingleSpeeds};
 pub use packs::{Packs, States};
 
 /// The kernels of a batch: one for all blocks, or a slice with one for each.

@@ -3,9 +3,10 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use gauss_runtime::integrate::lanes::{BatchSystem, SingleConfiguration, SingleSpeeds};
 use gauss_runtime::simd::Packed;
 use gauss_runtime::system::GaussSystem;
+
+use crate::lanes::{BatchSystem, SingleConfiguration, SingleSpeeds};
 
 /// Values of many states: blocks of as many as there are lanes, each block in structure-of-arrays layout, one after
 /// another.

@@ -10,13 +10,10 @@
 //! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
 //! | [`adams`] | multistep methods: from the derivatives of earlier steps |
 //! | [`taylor`] | power series of the solution, where the derive gives them |
-//! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with `step_length`: how steps grow and shrink, and `tolerance`: errors, and what rounding does to them; `pace`, `cause`: when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; `projection`: constraints; [`event`](drive::event), [`search`](drive::search), `zero`: zeros of functions, jumps; `run`: from jump to jump; [`trajectory`](drive::trajectory), [`summary`](drive::summary): what is kept; [`simulation`](drive::simulation): [`Simulation`], the front; `boxed`: in a type for fields of structs |
-//! | `lanes` | many runs in lockstep, each with steps of its own |
+//! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with [`step_length`](drive::step_length): how steps grow and shrink, and [`tolerance`](drive::tolerance): errors, and what rounding does to them; [`pace`](drive::pace), [`cause`](drive::cause): when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; [`projection`](drive::projection): constraints; [`event`](drive::event), [`search`](drive::search), `zero`: zeros of functions, jumps; [`run`](drive::run): from jump to jump; [`trajectory`](drive::trajectory), [`summary`](drive::summary): what is kept; [`simulation`](drive::simulation): [`Simulation`], the front; `boxed`: in a type for fields of structs |
 
 pub mod adams;
 pub mod drive;
-#[cfg(feature = "alloc")]
-pub mod lanes;
 pub mod lie_group;
 pub mod problem;
 pub mod rosenbrock;
@@ -38,8 +35,6 @@ pub use drive::simulation::Simulation;
 pub use drive::summary::{End, Summary};
 #[cfg(feature = "alloc")]
 pub use drive::trajectory::{EventSample, Trajectory};
-#[cfg(feature = "alloc")]
-pub use lanes::LaneControl;
 pub use lie_group::commutator_free::CommutatorFree4;
 pub use lie_group::discrete::DiscreteLinearization;
 pub use lie_group::rkmk::Rkmk;

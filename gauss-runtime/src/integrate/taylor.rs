@@ -29,11 +29,16 @@ use crate::series::{MAX_ORDER, PowerSeries, TaylorSystem, state_of};
 ///
 /// The momentum form is integrated as the velocity form is, from and to momenta at the ends of steps.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Taylor {
-    pub(in crate::integrate) relative: f64,
-    pub(in crate::integrate) absolute: f64,
-    pub(in crate::integrate) order: Option<usize>,
-    pub(in crate::integrate) largest_step: Option<f64>,
+    /// The relative tolerance.
+    pub relative: f64,
+    /// The absolute tolerance.
+    pub absolute: f64,
+    /// The order of the series; chosen on the way where there is none.
+    pub order: Option<usize>,
+    /// The longest step.
+    pub largest_step: Option<f64>,
 }
 
 /// Orders per e-fold of the tolerance, to begin with. At order p steps are as long as ρ ε^(1/p): ½ is best where the
@@ -86,7 +91,8 @@ impl Taylor {
         (LEFT_OUT * self.relative.max(self.absolute)).clamp(1e-18, 0.1)
     }
 
-    pub(in crate::integrate) fn first_order(&self) -> usize {
+    /// The order of the first series of a run.
+    pub fn first_order(&self) -> usize {
         let order = -Real::ln(self.tolerance()) * ORDERS + 2.0;
         self.order.unwrap_or((order as usize).clamp(LOWEST, MAX_ORDER))
     }
@@ -103,7 +109,7 @@ impl Taylor {
     /// long, for the sizes.
     ///
     /// Beside them, how many times the tolerance rounding is where it is more: less than that cannot be left out.
-    pub(in crate::integrate) fn lengths<S: TaylorSystem>(
+    pub fn lengths<S: TaylorSystem>(
         &self,
         series: &S::Series,
         judged: [(usize, f64); 2],
@@ -153,7 +159,7 @@ fn cost(order: usize) -> f64 {
 }
 
 /// The order of the series, and what goes with it.
-pub(in crate::integrate) struct Order {
+pub struct Order {
     /// Orders to judge steps at: [`APART`] lower, and the present one, with their tails.
     judged: [(usize, f64); 2],
     /// ln of the least gain in length that makes up for the lower order's lower cost, and for a higher order's higher
@@ -162,7 +168,8 @@ pub(in crate::integrate) struct Order {
 }
 
 impl Order {
-    pub(in crate::integrate) fn new(control: &Taylor, order: usize) -> Self {
+    /// Series of this order, from 2 on.
+    pub fn new(control: &Taylor, order: usize) -> Self {
         let lower = order.saturating_sub(APART).max(2);
         let worth = |from: usize, to: usize| Real::ln(cost(to) / cost(from));
         Self {
@@ -171,17 +178,18 @@ impl Order {
         }
     }
 
-    #[cfg(feature = "alloc")]
-    pub(in crate::integrate) fn judged(&self) -> [(usize, f64); 2] {
+    /// The orders at which the length of a step is judged, with what the remainder of their series is of the last term.
+    pub fn judged(&self) -> [(usize, f64); 2] {
         self.judged
     }
 
-    pub(in crate::integrate) fn value(&self) -> usize {
+    /// The order.
+    pub fn value(&self) -> usize {
         self.judged[1].0
     }
 
     /// The order that makes more way for its cost, from ln of the lengths of steps.
-    pub(in crate::integrate) fn better(&self, [short, long]: [f64; 2]) -> usize {
+    pub fn better(&self, [short, long]: [f64; 2]) -> usize {
         let ([(lower, _), (order, _)], gain) = (self.judged, long - short);
         if gain < self.worth[0] {
             return (order - 2).max(LOWEST.min(order));
@@ -194,30 +202,31 @@ impl Order {
 
 /// A step that the projection onto the constraints would move farther than its error, and that is tried again.
 #[derive(Clone, Copy, Default)]
-pub(in crate::integrate) struct Shortened {
+pub struct Shortened {
     /// The part of the length that the series allows, and why it is not all of it.
     reason: Option<(f64, IntegrationErrorKind)>,
     rejected: u32,
 }
 
 impl Shortened {
-    pub(in crate::integrate) fn part(&self) -> f64 {
+    /// The part of the length that is tried.
+    pub fn part(&self) -> f64 {
         self.reason.map_or(1.0, |(part, _)| part)
     }
 
     /// The error where no shorter step can be made.
-    pub(in crate::integrate) fn reason(&self) -> Option<IntegrationErrorKind> {
+    pub fn reason(&self) -> Option<IntegrationErrorKind> {
         self.reason.map(|(_, kind)| kind)
     }
 
     /// How the step was taken at last.
-    pub(in crate::integrate) fn taken(&mut self, excess: f64) -> StepStatistics {
+    pub fn taken(&mut self, excess: f64) -> StepStatistics {
         StepStatistics { rejected: core::mem::take(self).rejected, excess }
     }
 
     /// After a step from a state that failed in some lanes: whether a shorter one may do.
     #[cold]
-    pub(in crate::integrate) fn again<S: TaylorSystem, P: Problem<System = S>>(
+    pub fn again<S: TaylorSystem, P: Problem<System = S>>(
         &mut self,
         (problem, state): (&P, &State<S>),
         lanes: Range<usize>,
@@ -234,13 +243,7 @@ impl Shortened {
 }
 
 /// The state a time h after the one that the series starts from.
-pub(in crate::integrate) fn summed<S, P>(
-    problem: &P,
-    t: S::Scalar,
-    series: &S::Series,
-    order: usize,
-    h: S::Scalar,
-) -> State<S>
+pub fn summed<S, P>(problem: &P, t: S::Scalar, series: &S::Series, order: usize, h: S::Scalar) -> State<S>
 where
     S: TaylorSystem,
     P: Problem<System = S>,
@@ -249,7 +252,8 @@ where
     problem.state(t + h, q.renormalise(), &z)
 }
 
-pub(in crate::integrate) fn expanded<S: TaylorSystem, P: Problem<System = S>>(
+/// The series from a state, to this order.
+pub fn expanded<S: TaylorSystem, P: Problem<System = S>>(
     problem: &P,
     state: &State<S>,
     order: usize,
@@ -260,8 +264,11 @@ pub(in crate::integrate) fn expanded<S: TaylorSystem, P: Problem<System = S>>(
 }
 
 impl Taylor {
-    /// What the end of a step must keep to; it is brought onto the constraints, and the derivatives there are given.
-    pub(in crate::integrate) fn accepted<S: TaylorSystem, P: Problem<System = S>>(
+    /// Checks the end of a step and brings it onto the constraints; gives the derivatives there.
+    ///
+    /// # Errors
+    /// When the step is to be refused.
+    pub fn accepted<S: TaylorSystem, P: Problem<System = S>>(
         &self,
         problem: &P,
         from: (&State<S>, &Rates<S>),

@@ -2,8 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use gauss_batch::{Ended, RunOutcome};
-use gauss_runtime::integrate::LaneControl;
+use gauss_batch::{Ended, LaneControl, RunOutcome};
 
 use super::*;
 

@@ -106,11 +106,11 @@ impl<const K: usize> Beginning<K> {
 type Known<S> = (State<S>, Rates<S>);
 
 /// The first K − 1 states of a run, and the derivatives there.
-pub(super) struct Ahead<S: GaussSystem, const K: usize>([Known<S>; MOST]);
+pub struct Ahead<S: GaussSystem, const K: usize>([Known<S>; MOST]);
 
 impl<S: GaussSystem, const K: usize> Ahead<S, K> {
     /// Whether a run of so many steps begins so.
-    pub(super) fn serves(steps: u64) -> bool {
+    pub fn serves(steps: u64) -> bool {
         !S::CONSTRAINED && !Beginning::<K>::LENGTHS.is_empty() && steps >= K as u64
     }
 
@@ -118,7 +118,7 @@ impl<S: GaussSystem, const K: usize> Ahead<S, K> {
     ///
     /// # Errors
     /// Where long steps lead nowhere. Short ones may, or tell how far one gets.
-    pub(super) fn of<P: Problem<System = S>>(
+    pub fn of<P: Problem<System = S>>(
         problem: &P,
         start: &State<S>,
         rates: &Rates<S>,
@@ -128,7 +128,7 @@ impl<S: GaussSystem, const K: usize> Ahead<S, K> {
     }
 
     /// The end of one more step after so many.
-    pub(super) fn after(&self, made: usize) -> Known<S> {
+    pub fn after(&self, made: usize) -> Known<S> {
         self.0[made]
     }
 }
@@ -176,7 +176,10 @@ fn ahead<S: GaussSystem, P: Problem<System = S>, const K: usize>(
 }
 
 /// A step by the method that begins runs, of at least the order that K needs as far as there is one.
-pub(super) fn begin<S: GaussSystem, P: Problem<System = S>, const K: usize>(
+///
+/// # Errors
+/// When it cannot be made.
+pub fn begin<S: GaussSystem, P: Problem<System = S>, const K: usize>(
     problem: &P,
     state: &State<S>,
     rates: &Rates<S>,
@@ -192,7 +195,7 @@ pub(super) fn begin<S: GaussSystem, P: Problem<System = S>, const K: usize>(
 
 /// The derivatives at a state in the space of steps.
 #[inline(always)]
-pub(super) fn point<S: GaussSystem>(q: &S::Configuration, rates: &Rates<S>) -> Point<ComponentsOf<S>, S::Speeds> {
+pub fn point<S: GaussSystem>(q: &S::Configuration, rates: &Rates<S>) -> Point<ComponentsOf<S>, S::Speeds> {
     Point { components: q.component_rates(&rates.configuration), variables: rates.variables }
 }
 

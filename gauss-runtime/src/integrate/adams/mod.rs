@@ -14,8 +14,6 @@
 
 mod beginning;
 mod formula;
-#[cfg(feature = "alloc")]
-mod lanes;
 
 use core::ops::ControlFlow;
 
@@ -31,7 +29,7 @@ use crate::integrate::runge_kutta::tableau::DormandPrince8;
 use crate::integrate::step::checks::{check_chart, check_turn};
 use crate::real::Real;
 use crate::system::GaussSystem;
-use beginning::{Ahead, begin, point};
+pub use beginning::{Ahead, begin, point};
 use formula::Formula;
 
 /// Adams' method of K steps, 2 to 12, with steps of one length: of order K + 1, or 9 for K from 9 on, because of how it
@@ -49,8 +47,10 @@ use formula::Formula;
 ///
 /// It goes into [`Simulation::control`](crate::integrate::Simulation::control).
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Adams<T, const K: usize> {
-    step: T,
+    /// The length of the steps, of either sign.
+    pub step: T,
 }
 
 impl<T: Real, const K: usize> Adams<T, K> {
@@ -63,7 +63,7 @@ impl<T: Real, const K: usize> Adams<T, K> {
 
 /// The derivatives at the ends of the last steps, the newest first, in a window that moves through an array with room
 /// for so many.
-struct History<C, Y, const K: usize, const ROOM: usize> {
+pub struct History<C, Y, const K: usize, const ROOM: usize> {
     derivatives: [Point<C, Y>; ROOM],
     newest: usize,
     /// Of the explicit and of the implicit formula. A field, so that compilers need not know their number: where a
@@ -72,7 +72,8 @@ struct History<C, Y, const K: usize, const ROOM: usize> {
 }
 
 impl<C: Copy, Y: Copy, const K: usize, const ROOM: usize> History<C, Y, K, ROOM> {
-    fn new<T: Real>() -> Self
+    /// Before the first step.
+    pub fn new<T: Real>() -> Self
     where
         C: VectorSpace<T>,
         Y: VectorSpace<T>,
@@ -83,7 +84,7 @@ impl<C: Copy, Y: Copy, const K: usize, const ROOM: usize> History<C, Y, K, ROOM>
 
     /// Puts a derivative before the newest one: after [`step`](Self::step) it is the newest itself.
     #[inline(always)]
-    fn put<T: Real>(&mut self, derivative: &Point<C, Y>)
+    pub fn put<T: Real>(&mut self, derivative: &Point<C, Y>)
     where
         C: VectorSpace<T>,
         Y: VectorSpace<T>,
@@ -99,8 +100,7 @@ impl<C: Copy, Y: Copy, const K: usize, const ROOM: usize> History<C, Y, K, ROOM>
     }
 
     /// Lets each derivative of the window that is to come be what is chosen of it and of the one in its place now.
-    #[cfg(feature = "alloc")]
-    fn put_back(&mut self, choose: impl Fn(&Point<C, Y>, &Point<C, Y>) -> Point<C, Y>) {
+    pub fn put_back(&mut self, choose: impl Fn(&Point<C, Y>, &Point<C, Y>) -> Point<C, Y>) {
         for i in self.newest - 1..(self.newest + K).min(ROOM) - 1 {
             self.derivatives[i] = choose(&self.derivatives[i], &self.derivatives[i + 1]);
         }
@@ -108,14 +108,14 @@ impl<C: Copy, Y: Copy, const K: usize, const ROOM: usize> History<C, Y, K, ROOM>
 
     /// The window moves on.
     #[inline(always)]
-    fn step(&mut self) {
+    pub fn step(&mut self) {
         self.newest -= 1;
     }
 
     /// The change in a step of length 1 by the explicit formula, and what the derivatives known are in the implicit
     /// one.
     #[inline(always)]
-    fn sums<T: Real>(&self, newest: &Point<C, Y>) -> [Point<C, Y>; 2]
+    pub fn sums<T: Real>(&self, newest: &Point<C, Y>) -> [Point<C, Y>; 2]
     where
         C: VectorSpace<T>,
         Y: VectorSpace<T>,
@@ -138,9 +138,13 @@ impl<C: Copy, Y: Copy, const K: usize, const ROOM: usize> History<C, Y, K, ROOM>
     }
 }
 
-/// Prediction, evaluation, correction.
+/// A step: prediction, evaluation, correction. From a state, the derivatives there, and what is known of the step by
+/// [`History::sums`].
+///
+/// # Errors
+/// When it cannot be made.
 #[inline(always)]
-fn multistep<S: GaussSystem, P: Problem<System = S>, const K: usize>(
+pub fn multistep<S: GaussSystem, P: Problem<System = S>, const K: usize>(
     problem: &P,
     state: &State<S>,
     rates: &Rates<S>,

@@ -30,11 +30,16 @@ use crate::system::GaussSystem;
 /// tolerance: shorter steps would be no better. [`Summary`](crate::integrate::Summary) counts these steps, and has the
 /// largest ratio of the two.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Adaptive<M = RungeKutta<DormandPrince8, 12>> {
-    pub(in crate::integrate) method: M,
-    pub(in crate::integrate) tolerance: Tolerance,
-    pub(crate) first_step: Option<f64>,
-    pub(crate) largest_step: Option<f64>,
+    /// The method.
+    pub method: M,
+    /// What the error of a step is measured against.
+    pub tolerance: Tolerance,
+    /// The length of the first step; an estimate where there is none.
+    pub first_step: Option<f64>,
+    /// The longest step.
+    pub largest_step: Option<f64>,
 }
 
 impl Adaptive {
@@ -79,7 +84,7 @@ impl<M> Adaptive<M> {
 }
 
 /// The error, in tolerances, for which one that is but rounding is taken: steps then grow by a sixth.
-pub(in crate::integrate) const ROUNDED: f64 = 1e-3;
+pub const ROUNDED: f64 = 1e-3;
 
 /// A run on its way.
 struct Drive<'a, S: GaussSystem, P, M> {
@@ -315,7 +320,7 @@ impl<M> Adaptive<M> {
 
     /// A first step from the sizes of the state, of its derivative and of the change of the derivative over an Euler
     /// step (Hairer, Nørsett & Wanner, II.4), for some lanes together; `ones` is 1 in these and 0 in others.
-    pub(in crate::integrate) fn first_length<S, P>(
+    pub fn first_length<S, P>(
         &self,
         problem: &P,
         (start, rates): (&State<S>, &Rates<S>),

@@ -18,21 +18,28 @@ pub enum Gave {
     /// No step can be made, however short.
     AnyStep(IntegrationErrorKind),
     /// This number of steps was made: the limit that the user set, or one at which no end is in prospect.
-    Out { limit: u64, hopeless: bool },
+    Out {
+        /// The limit.
+        limit: u64,
+        /// Whether there is no prospect of an end.
+        hopeless: bool,
+    },
 }
 
 /// Where a run came to its end.
-pub(in crate::integrate) struct Place<'a, S: GaussSystem> {
-    pub(in crate::integrate) state: &'a State<S>,
-    pub(in crate::integrate) rates: &'a Rates<S>,
+pub struct Place<'a, S: GaussSystem> {
+    /// The last state that it reached.
+    pub state: &'a State<S>,
+    /// The derivatives there.
+    pub rates: &'a Rates<S>,
     /// The length of its steps, or of those that were tried.
-    pub(in crate::integrate) length: f64,
+    pub length: f64,
     /// The time that is left.
-    pub(in crate::integrate) left: f64,
+    pub left: f64,
     /// Whether the method passes over what decays fast.
-    pub(in crate::integrate) stiff: bool,
+    pub stiff: bool,
     /// The lanes that are to blame.
-    pub(in crate::integrate) lanes: Range<usize>,
+    pub lanes: Range<usize>,
 }
 
 /// Coordinates that are nearer to a singularity than this have to do with what fails there: velocities in them are ten
@@ -51,7 +58,7 @@ const RUN_AWAY: f64 = 1e12;
 const OUT_OF_REACH: f64 = 1e10;
 
 /// What is behind the end of a run.
-pub(in crate::integrate) fn cause<S: GaussSystem, P: Problem<System = S>>(
+pub fn cause<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     place: &Place<'_, S>,
     gave: Gave,
@@ -156,7 +163,7 @@ fn fastest<S: GaussSystem, P: Problem<System = S>>(
 }
 
 /// How fast the state changes relative to its own size, per unit of time: the largest of the components.
-pub(in crate::integrate) fn change<S: GaussSystem>(state: &State<S>, rates: &Rates<S>, lanes: &Range<usize>) -> f64 {
+pub fn change<S: GaussSystem>(state: &State<S>, rates: &Rates<S>, lanes: &Range<usize>) -> f64 {
     let relative = scaled(rates, &sizes(state, lanes), |rate, size| rate / size);
     largest(&relative.configuration, lanes).max(largest(&relative.variables, lanes))
 }

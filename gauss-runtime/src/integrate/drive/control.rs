@@ -26,6 +26,14 @@ pub struct StepStatistics {
     pub excess: f64,
 }
 
+impl StepStatistics {
+    /// A step after so many rejected trials, with this ratio of rounding to tolerance.
+    #[must_use]
+    pub const fn new(rejected: u32, excess: f64) -> Self {
+        Self { rejected, excess }
+    }
+}
+
 /// A function that a run calls with each state that it reaches, the derivatives there, and the [`StepStatistics`] of
 /// the step. It breaks to end the run.
 pub type StepCallback<'a, S> = dyn FnMut(&State<S>, &Rates<S>, StepStatistics) -> ControlFlow<()> + 'a;
@@ -102,7 +110,10 @@ pub(in crate::integrate) fn one_step<S: GaussSystem, M: OneStep<S>, P: Problem<S
 }
 
 /// Refuses tolerances that are negative, not finite, or both zero.
-pub(in crate::integrate) fn check_tolerances(relative: f64, absolute: f64) -> Result<(), IntegrationErrorKind> {
+///
+/// # Errors
+/// [`IntegrationErrorKind::InvalidTolerance`].
+pub fn check_tolerances(relative: f64, absolute: f64) -> Result<(), IntegrationErrorKind> {
     let usable = |tolerance: f64| tolerance.is_finite() && tolerance >= 0.0;
     if usable(relative) && usable(absolute) && relative + absolute > 0.0 {
         Ok(())
@@ -113,7 +124,10 @@ pub(in crate::integrate) fn check_tolerances(relative: f64, absolute: f64) -> Re
 
 /// The longest step of a run over a span: the length that the user set, or the whole span. A length with which the run
 /// could not reach its end within the limit of steps is refused before the first step.
-pub(in crate::integrate) fn longest(asked: Option<f64>, span: f64, limit: u64) -> Result<f64, IntegrationErrorKind> {
+///
+/// # Errors
+/// [`IntegrationErrorKind::InvalidStep`], [`IntegrationErrorKind::TooManySteps`].
+pub fn longest(asked: Option<f64>, span: f64, limit: u64) -> Result<f64, IntegrationErrorKind> {
     let length = asked.unwrap_or(span.abs());
     if length.is_nan() || length <= 0.0 {
         return Err(IntegrationErrorKind::InvalidStep { step: length });
@@ -127,7 +141,7 @@ pub(in crate::integrate) fn longest(asked: Option<f64>, span: f64, limit: u64) -
 /// A step of about this length from t that ends at a time which is a number: what is left of it once it has been added,
 /// so that the state goes as far as the time does. Far from zero these differ by a rounding of t in each step.
 #[inline(always)]
-pub(in crate::integrate) fn to_a_number<T: Real>(t: T, length: f64) -> T {
+pub fn to_a_number<T: Real>(t: T, length: f64) -> T {
     let h = T::from_f64(length);
     // As a plain number: bounds and derivatives of t are none of the step's.
     T::from_f64(((t + h) - t).lane(0))
@@ -135,14 +149,14 @@ pub(in crate::integrate) fn to_a_number<T: Real>(t: T, length: f64) -> T {
 
 /// The length at or below which a step does nothing: a rounding of the time, or of what the span is to a rounding, for
 /// runs that start at zero.
-pub(in crate::integrate) fn smallest<T: Real>(t: f64, span: f64) -> f64 {
+pub fn smallest<T: Real>(t: f64, span: f64) -> f64 {
     let unit = T::EPSILON.max(f64::EPSILON);
     0.5 * unit * t.abs().max(unit * span.abs())
 }
 
 /// The error for a step that does not change the time t. A run whose span is so short compared with t that less than
 /// half of the digits of t resolve it gets [`IntegrationErrorKind::TimeTooCoarse`].
-pub(in crate::integrate) fn unresolved<T: Real>(step: f64, time: f64, span: f64) -> IntegrationErrorKind {
+pub fn unresolved<T: Real>(step: f64, time: f64, span: f64) -> IntegrationErrorKind {
     if span.abs() < Real::sqrt(T::EPSILON) * time.abs() {
         IntegrationErrorKind::TimeTooCoarse { step, time }
     } else {
@@ -152,7 +166,9 @@ pub(in crate::integrate) fn unresolved<T: Real>(step: f64, time: f64, span: f64)
 
 /// The span of time in the first lane, the start on the constraints, and the derivatives there: all checks before the
 /// first step.
-#[doc(hidden)]
+///
+/// # Errors
+/// When the interval or the start is not finite, or the start is not on the constraints.
 pub fn prepare<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     start: &State<S>,

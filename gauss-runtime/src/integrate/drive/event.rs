@@ -210,7 +210,7 @@ where
 }
 
 /// What the events of a step come to.
-pub(in crate::integrate) enum Outcome<S: GaussSystem> {
+pub enum Outcome<S: GaussSystem> {
     /// The step stands as it is.
     On,
     /// The run ends within the step or goes on from there in another state.
@@ -311,7 +311,7 @@ impl Mark {
 }
 
 /// Looks for events at the start of a run and within its steps.
-pub(in crate::integrate) struct Watch<'a, P, C, E> {
+pub struct Watch<'a, P, C, E> {
     control: &'a C,
     problem: &'a P,
     events: E,
@@ -326,7 +326,8 @@ where
     C: Control<S>,
     E: Events<S>,
 {
-    pub(in crate::integrate) fn new(control: &'a C, problem: &'a P, events: E, lanes: Range<usize>) -> Self {
+    /// Of a run in some of the numbers of a pack.
+    pub fn new(control: &'a C, problem: &'a P, events: E, lanes: Range<usize>) -> Self {
         Self { control, problem, events, lanes }
     }
 
@@ -346,18 +347,16 @@ where
     }
 
     /// Takes the values at the start of a run, or where it goes on after a jump.
-    pub(in crate::integrate) fn begin(&mut self, start: &State<S>) -> Result<(), IntegrationErrorKind> {
+    ///
+    /// # Errors
+    /// When a function is not a number there.
+    pub fn begin(&mut self, start: &State<S>) -> Result<(), IntegrationErrorKind> {
         let (problem, lane) = (self.problem, self.lanes.start);
         self.each(|_, function, mark| mark.begin((problem, lane), function, start))
     }
 
     /// Whether the event with this number may lie in the step, judged by its function from the last value on.
-    #[cfg(feature = "alloc")]
-    pub(in crate::integrate) fn may_pass(
-        &mut self,
-        number: usize,
-        shows: impl Fn(f64) -> Result<bool, IntegrationErrorKind>,
-    ) -> bool {
+    pub fn may_pass(&mut self, number: usize, shows: impl Fn(f64) -> Result<bool, IntegrationErrorKind>) -> bool {
         let (mut n, mut may) = (0, false);
         self.events.each(&mut |_, mark| {
             // What leaves zero, or has no value, is for the search to tell.
@@ -369,8 +368,7 @@ where
     }
 
     /// The value of the event of this number at the end of a step that had none.
-    #[cfg(feature = "alloc")]
-    pub(in crate::integrate) fn remember(&mut self, number: usize, value: f64) {
+    pub fn remember(&mut self, number: usize, value: f64) {
         let mut n = 0;
         self.events.each(&mut |_, mark| {
             if n == number {
@@ -381,7 +379,10 @@ where
     }
 
     /// Reports the events of a step, with their numbers, in the order in which they happen.
-    pub(in crate::integrate) fn step(
+    ///
+    /// # Errors
+    /// When a function is not a number, a state within the step cannot be made, or a jump is refused.
+    pub fn step(
         &mut self,
         made: &Made<'_, S>,
         report: &mut dyn FnMut(usize, &State<S>),

@@ -17,9 +17,12 @@ use crate::system::GaussSystem;
 
 /// Steps of one length, by any method of one step. The last one ends where it should.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Fixed<T, M = RungeKutta<DormandPrince8, 12>> {
-    pub(in crate::integrate) method: M,
-    pub(in crate::integrate) step: T,
+    /// The method.
+    pub method: M,
+    /// The length of the steps, of either sign.
+    pub step: T,
 }
 
 impl<T: Real> Fixed<T> {
@@ -47,7 +50,7 @@ impl<T: Real, M> Fixed<T, M> {
 }
 
 /// The end of a step, and the derivatives there where they came with it.
-pub(in crate::integrate) type Advanced<S> = (State<S>, Option<Rates<S>>);
+pub type Advanced<S> = (State<S>, Option<Rates<S>>);
 
 /// How many steps of a length fill a span of time. A remainder of a few roundings of the count is that of the length
 /// and of the ends, not a step.
@@ -61,7 +64,9 @@ fn number_of_steps<T: Real>(span: f64, length: f64) -> f64 {
 /// How many steps of a length fill a span of time that comes as far from zero as `time`, where these are no more than
 /// the limit and follow one another: neighbouring times are numbers that differ where a step is no less than their
 /// distance there.
-#[doc(hidden)]
+///
+/// # Errors
+/// [`IntegrationErrorKind::TooManySteps`], [`IntegrationErrorKind::TimeTooCoarse`].
 pub fn steps_within<T: Real>(span: f64, time: f64, length: f64, limit: u64) -> Result<u64, IntegrationErrorKind> {
     let steps = number_of_steps::<T>(span, length);
     if steps > limit as f64 {
@@ -74,7 +79,6 @@ pub fn steps_within<T: Real>(span: f64, time: f64, length: f64, limit: u64) -> R
 }
 
 /// The one of two times that is further from zero.
-#[doc(hidden)]
 #[inline]
 pub fn further(a: f64, b: f64) -> f64 {
     if a.abs() > b.abs() { a } else { b }

@@ -17,7 +17,7 @@ const SHIFTER: f64 = 6_755_399_441_055_744.0;
 
 /// ln x of a positive normal number.
 #[inline(always)]
-pub(in crate::integrate) fn logarithm(x: f64) -> f64 {
+pub fn logarithm(x: f64) -> f64 {
     let bits = x.to_bits();
     let exponent = (bits.wrapping_sub(LEAST) as i64) >> 52;
     let mantissa = f64::from_bits(bits.wrapping_sub((exponent << 52) as u64));
@@ -34,7 +34,7 @@ pub(in crate::integrate) fn logarithm(x: f64) -> f64 {
 
 /// eˣ, |x| below 700.
 #[inline(always)]
-pub(in crate::integrate) fn exponential(x: f64) -> f64 {
+pub fn exponential(x: f64) -> f64 {
     let shifted = x * core::f64::consts::LOG2_E + SHIFTER;
     let whole = shifted - SHIFTER;
     let rest = Real::fma(-whole, LN_2[1], Real::fma(-whole, LN_2[0], x));

@@ -5,20 +5,21 @@
 const WINDOW: u64 = 100_000;
 
 /// Follows how far a run comes with its steps.
-pub(in crate::integrate) struct Pace {
+pub struct Pace {
     limit: u64,
     tries: u64,
     from: f64,
 }
 
 impl Pace {
-    pub(in crate::integrate) fn new(start: f64, limit: u64) -> Self {
+    /// From this time on, with so many steps allowed.
+    pub fn new(start: f64, limit: u64) -> Self {
         Self { limit, tries: 0, from: start }
     }
 
     /// Counts a step that is about to be tried at time t, with so much time left. Whether it is too many: `Some(true)`
     /// when at the present pace all steps that are allowed do not reach the end, `Some(false)` when they are used up.
-    pub(in crate::integrate) fn spent(&mut self, t: f64, left: f64) -> Option<bool> {
+    pub fn spent(&mut self, t: f64, left: f64) -> Option<bool> {
         if self.tries == self.limit {
             return Some(false);
         }
@@ -27,7 +28,7 @@ impl Pace {
     }
 
     /// Counts all steps up to a jump; whether there is no prospect of the end, as for single steps.
-    pub(in crate::integrate) fn jumped(&mut self, t: f64, left: f64, tries: u64) -> bool {
+    pub fn jumped(&mut self, t: f64, left: f64, tries: u64) -> bool {
         let since = tries - self.tries;
         if since < WINDOW {
             return false;

@@ -9,7 +9,7 @@
 //! singular value σ of the Jacobian, an error e of the positions turns the admissible velocities by e/σ, and near the
 //! singularity the nearest state may be on another branch of the motion. The projection in the metric of the kinetic
 //! energy then takes away whatever it finds across, up to all of it. So what the projection moves is an error of the
-//! step like others, and bounded: by half of the way that the step makes ([`onto_constraints`]), and for a tolerance by
+//! step like others, and bounded: by half of the way that the step makes, and for a tolerance by
 //! a multiple of it ([`check_move`]). A step that is moved farther is rejected: a shorter one has a smaller error, or
 //! ends elsewhere. Where none will do, the run ends.
 
@@ -34,6 +34,9 @@ const PROJECTED: f64 = 10.0;
 /// Brings the end of an accepted step, of which the start is given with the derivatives there, onto the constraints,
 /// where there are any, and gives the derivatives at the end; refuses speeds whose squares overflow. Derivatives that
 /// came with the step belong to its end before it was projected, and serve without constraints only.
+///
+/// # Errors
+/// When speeds or derivatives are not finite, or the projection fails or moves the state too far.
 #[inline(always)]
 pub fn accept<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
@@ -87,11 +90,14 @@ pub(in crate::integrate) fn onto_constraints<S: GaussSystem, P: Problem<System =
     Ok(projected)
 }
 
-/// Refuses a step that the projection onto the constraints moves by more than [`PROJECTED`] tolerances. `trial` ends
-/// where it is moved to, from where it was computed. What the projection makes of a rounding at the start of the step
-/// cannot be told from its rounding at the end, up to half of the digits.
+/// Refuses a step that the projection onto the constraints moves by more than ten tolerances. `trial` ends where the
+/// state is moved to, `computed` is where it was before. What the projection makes of a rounding at the start of the
+/// step cannot be told from its rounding at the end, up to half of the digits.
+///
+/// # Errors
+/// [`IntegrationErrorKind::ProjectionTooFar`].
 #[inline(always)]
-pub(in crate::integrate) fn check_move<S: GaussSystem, P: Problem<System = S>>(
+pub fn check_move<S: GaussSystem, P: Problem<System = S>>(
     tolerance: &Tolerance,
     problem: &P,
     trial: &Trial<'_, S>,
@@ -192,7 +198,7 @@ const TRIALS: u32 = 4;
 /// With a least singular value σ the projection makes ε/σ of a rounding, and admissible velocities at positions that
 /// are known to that turn by ε/σ²: half of the digits are lost where the projection makes ε^¾ of ε.
 #[cold]
-pub(in crate::integrate) fn is_hopeless<S: GaussSystem, P: Problem<System = S>>(
+pub fn is_hopeless<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     state: &State<S>,
     lanes: Range<usize>,

@@ -56,7 +56,7 @@ pub(in crate::integrate) struct Reached {
 const AT_ONCE: u32 = 3;
 
 /// Jumps, as they follow each other.
-pub(in crate::integrate) struct Jumps {
+pub struct Jumps {
     /// Times nearer than this are the same.
     resolution: f64,
     last: Option<f64>,
@@ -67,13 +67,17 @@ pub(in crate::integrate) struct Jumps {
 }
 
 impl Jumps {
-    pub(in crate::integrate) fn new<T: Real>(start: f64, end: f64) -> Self {
+    /// Before any, in a run between these times.
+    pub fn new<T: Real>(start: f64, end: f64) -> Self {
         let unit = T::EPSILON.max(f64::EPSILON);
         Self { resolution: 64.0 * unit * start.abs().max(end.abs()), last: None, in_a_row: 0, event: 0, interval: 0.0 }
     }
 
-    /// Takes one more: an error when they pile up.
-    pub(in crate::integrate) fn count(&mut self, t: f64, event: usize) -> Result<(), IntegrationErrorKind> {
+    /// Takes one more.
+    ///
+    /// # Errors
+    /// [`IntegrationErrorKind::Zeno`] when they pile up.
+    pub fn count(&mut self, t: f64, event: usize) -> Result<(), IntegrationErrorKind> {
         let interval = self.last.map_or(f64::INFINITY, |last| (t - last).abs());
         self.in_a_row = if interval <= self.resolution { self.in_a_row + 1 } else { 0 };
         (self.last, self.event, self.interval) = (Some(t), event, interval);
@@ -82,7 +86,7 @@ impl Jumps {
 
     /// Why a run ended: where steps have been used up, and every other one of them at least ended with a jump, by
     /// these.
-    pub(in crate::integrate) fn told(&self, kind: IntegrationErrorKind, summary: &Summary) -> IntegrationErrorKind {
+    pub fn told(&self, kind: IntegrationErrorKind, summary: &Summary) -> IntegrationErrorKind {
         match kind {
             IntegrationErrorKind::TooManySteps { .. } if summary.jumps > 0 && 2 * summary.jumps >= summary.steps => {
                 let Self { event, interval, .. } = *self;

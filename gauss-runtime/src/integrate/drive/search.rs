@@ -35,7 +35,7 @@ impl Crossing {
 }
 
 /// A function of time, configuration and quasi-velocities.
-pub(in crate::integrate) type Function<'a, S> = &'a dyn Fn(
+pub type Function<'a, S> = &'a dyn Fn(
     <S as GaussSystem>::Scalar,
     &<S as GaussSystem>::Configuration,
     &<S as GaussSystem>::Speeds,
@@ -52,7 +52,7 @@ pub(in crate::integrate) fn value<S: GaussSystem, P: Problem<System = S>>(
 }
 
 /// An event's function in all lanes.
-pub(in crate::integrate) fn values<S: GaussSystem, P: Problem<System = S>>(
+pub fn values<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     function: Function<'_, S>,
     state: &State<S>,
@@ -77,10 +77,13 @@ pub(in crate::integrate) fn side(value: f64) -> f64 {
 }
 
 /// A step with the derivatives at its ends, of which one lane is looked at.
-pub(in crate::integrate) struct Made<'a, S: GaussSystem> {
-    pub(in crate::integrate) lane: usize,
-    pub(in crate::integrate) before: (&'a State<S>, &'a Rates<S>),
-    pub(in crate::integrate) after: (&'a State<S>, &'a Rates<S>),
+pub struct Made<'a, S: GaussSystem> {
+    /// The lane.
+    pub lane: usize,
+    /// The start of the step, and the derivatives there.
+    pub before: (&'a State<S>, &'a Rates<S>),
+    /// Its end, and the derivatives there.
+    pub after: (&'a State<S>, &'a Rates<S>),
 }
 
 /// The parts into which a step is divided where the cubic between its ends is looked at, and where a series is.
@@ -90,7 +93,7 @@ const PARTS: (usize, usize) = (2, 32);
 pub(in crate::integrate) const SHORT: f64 = 1.0 / 1024.0;
 
 /// A step that is searched.
-pub(in crate::integrate) struct Looking<'a, S: GaussSystem, P, C> {
+pub struct Looking<'a, S: GaussSystem, P, C> {
     control: &'a C,
     pub(in crate::integrate) problem: &'a P,
     pub(in crate::integrate) made: &'a Made<'a, S>,
@@ -105,7 +108,8 @@ where
     P: Problem<System = S>,
     C: Control<S>,
 {
-    pub(in crate::integrate) fn of(control: &'a C, problem: &'a P, made: &'a Made<'a, S>) -> Self {
+    /// A step that a control has made.
+    pub fn of(control: &'a C, problem: &'a P, made: &'a Made<'a, S>) -> Self {
         let (from, to) = (made.before.0.t.lane(made.lane), made.after.0.t.lane(made.lane));
         let unit = S::Scalar::EPSILON.max(f64::EPSILON);
         // The part of a step that changes its end by four roundings of the time, at least of the step itself.
@@ -223,10 +227,13 @@ where
         Ok(false)
     }
 
-    /// What [`suspicious`](Self::suspicious) sees of a whole step, in all lanes at once: whether a lane that starts
-    /// from a value is.
+    /// Looks at a whole step in all lanes at once: whether the curve in a lane that starts from a value shows a zero,
+    /// or comes so near to one that the step is worth a search.
+    ///
+    /// # Errors
+    /// When a state within the step cannot be made.
     #[cfg(feature = "alloc")]
-    pub(in crate::integrate) fn glimpse(
+    pub fn glimpse(
         &self,
         function: Function<'_, S>,
     ) -> Result<impl Fn(usize, f64) -> Result<bool, IntegrationErrorKind>, IntegrationErrorKind> {

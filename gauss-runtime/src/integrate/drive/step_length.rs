@@ -31,7 +31,7 @@ const LEAST_REMEMBERED: f64 = -9.210_340_371_976_182;
 
 /// The factors by which an adaptive method changes the length of its steps.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::integrate) struct StepLength {
+pub struct StepLength {
     /// k: the power of the step that the error estimate goes with where all is smooth.
     estimate_order: f64,
     smoothness: Smoothness,
@@ -43,17 +43,18 @@ pub(in crate::integrate) struct StepLength {
 }
 
 impl StepLength {
-    pub(in crate::integrate) fn new(estimate_order: f64, smoothness: Smoothness) -> Self {
+    /// Before the first step, of a method whose error estimate goes with this power of the step.
+    pub fn new(estimate_order: f64, smoothness: Smoothness) -> Self {
         Self { estimate_order, smoothness, previous: Some(LEAST_REMEMBERED), rejected: false, across: 0 }
     }
 
     /// The largest error, in tolerances, with which a step is accepted.
-    pub(in crate::integrate) fn limit(&self) -> f64 {
+    pub fn limit(&self) -> f64 {
         if self.across > 0 { NEAR_ROUGHNESS } else { 1.0 }
     }
 
     /// A step of this error (in tolerances, above the limit) is tried again: the factor for its length.
-    pub(in crate::integrate) fn reject(&mut self, error: f64) -> f64 {
+    pub fn reject(&mut self, error: f64) -> f64 {
         let excess = error / self.limit();
         self.fail();
         let order = match self.smoothness {
@@ -65,7 +66,7 @@ impl StepLength {
     }
 
     /// A step could not be made at all and is tried again.
-    pub(in crate::integrate) fn fail(&mut self) {
+    pub fn fail(&mut self) {
         self.rejected = true;
         if self.smoothness != Smoothness::Smooth {
             self.previous = None;
@@ -75,24 +76,24 @@ impl StepLength {
 
     /// The part of a step that could not be made for some reason which is tried next. Of one that ends next to a
     /// singularity not a half: two halves end there again.
-    pub(in crate::integrate) fn part(reason: &IntegrationErrorKind) -> f64 {
+    pub fn part(reason: &IntegrationErrorKind) -> f64 {
         if matches!(reason, IntegrationErrorKind::ProjectionTooFar { .. }) { 0.7 } else { 0.5 }
     }
 
     /// A step of this error (in tolerances, within the limit) is accepted: the factor from its length to that of the
     /// next.
-    pub(in crate::integrate) fn accept(&mut self, error: f64) -> f64 {
+    pub fn accept(&mut self, error: f64) -> f64 {
         let logarithm = logarithm(Self::told(error));
         self.grow(logarithm, exponential(self.exponent(logarithm)))
     }
 
     /// What the controller makes of an error: logarithms have no zero, and steps that are far too short grow no faster.
-    pub(in crate::integrate) fn told(error: f64) -> f64 {
+    pub fn told(error: f64) -> f64 {
         error.max(1e-10)
     }
 
     /// The logarithm of the factor, but for bounds and margin, after a step with this logarithm of its error.
-    pub(in crate::integrate) fn exponent(&self, logarithm: f64) -> f64 {
+    pub fn exponent(&self, logarithm: f64) -> f64 {
         match self.previous {
             Some(previous) => (0.4 * previous - 0.7 * logarithm) / self.estimate_order,
             None => -logarithm / self.estimate_order,
@@ -101,7 +102,7 @@ impl StepLength {
 
     /// [`accept`](Self::accept) with what lanes work out together: the logarithm of the error, and the exponential of
     /// [`exponent`](Self::exponent).
-    pub(in crate::integrate) fn grow(&mut self, logarithm: f64, growth: f64) -> f64 {
+    pub fn grow(&mut self, logarithm: f64, growth: f64) -> f64 {
         let factor = 0.9 * growth;
         // No growth right after a rejection. Smooth systems may find their length fast; others keep to the usual 1.5 to
         // 5 (Hairer, Nørsett & Wanner II.4).

@@ -24,7 +24,8 @@ pub struct Summary {
 }
 
 impl Summary {
-    pub(in crate::integrate) fn count(&mut self, taken: StepStatistics) {
+    /// Counts one more step.
+    pub fn count(&mut self, taken: StepStatistics) {
         self.steps += 1;
         self.rejected += u64::from(taken.rejected);
         if taken.excess > 0.0 {

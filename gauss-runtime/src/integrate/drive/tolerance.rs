@@ -21,13 +21,15 @@ const AMPLIFICATION: f64 = 4.0;
 
 /// The tolerances of an adaptive method.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::integrate) struct Tolerance {
-    pub(in crate::integrate) relative: f64,
-    pub(in crate::integrate) absolute: f64,
+pub struct Tolerance {
+    /// Of the size of a component.
+    pub relative: f64,
+    /// For components near zero.
+    pub absolute: f64,
 }
 
 /// What rounding does to a step of some length from a state, component by component: at least so much is tolerated.
-pub(in crate::integrate) struct Floor<S: GaussSystem> {
+pub struct Floor<S: GaussSystem> {
     /// What derivatives differ by within a rounding of the state.
     derivatives: Rates<S>,
     /// What the state itself is rounded by at the end of a step, relatively; 0 in lanes without a floor.
@@ -36,15 +38,13 @@ pub(in crate::integrate) struct Floor<S: GaussSystem> {
 
 impl<S: GaussSystem> Floor<S> {
     /// Nothing is known in any lane.
-    #[cfg(feature = "alloc")]
-    pub(in crate::integrate) fn none() -> Self {
+    pub fn none() -> Self {
         let derivatives = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
         Self { derivatives, unit: S::Scalar::zero() }
     }
 
     /// That of `other` in lanes where `of_other` is 1, else this one.
-    #[cfg(feature = "alloc")]
-    pub(in crate::integrate) fn or(&self, of_other: S::Scalar, other: &Self) -> Self {
+    pub fn or(&self, of_other: S::Scalar, other: &Self) -> Self {
         let choose = |mine: S::Scalar, other: S::Scalar| S::Scalar::select_lt(S::Scalar::zero(), of_other, other, mine);
         let mut derivatives = self.derivatives;
         for i in 0..TangentOf::<S>::DIM {
@@ -61,7 +61,7 @@ impl<S: GaussSystem> Floor<S> {
     /// Measured at a state with its derivatives.
     #[cold]
     #[inline(never)]
-    pub(in crate::integrate) fn at<P: Problem<System = S>>(problem: &P, state: &State<S>, rates: &Rates<S>) -> Self {
+    pub fn at<P: Problem<System = S>>(problem: &P, state: &State<S>, rates: &Rates<S>) -> Self {
         let mut derivatives: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
         let unit = S::Scalar::from_f64(S::Scalar::EPSILON);
         for pattern in PATTERNS {
@@ -111,29 +111,28 @@ pub(in crate::integrate) fn rounded<S: GaussSystem>(state: &State<S>, pattern: f
 }
 
 /// A step, of which errors are to be judged.
-pub(in crate::integrate) struct Trial<'a, S: GaussSystem> {
-    pub(in crate::integrate) from: &'a State<S>,
-    pub(in crate::integrate) to: &'a State<S>,
-    pub(in crate::integrate) length: S::Scalar,
-    pub(in crate::integrate) floor: Option<&'a Floor<S>>,
+pub struct Trial<'a, S: GaussSystem> {
+    /// Its start.
+    pub from: &'a State<S>,
+    /// Its end.
+    pub to: &'a State<S>,
+    /// How long it takes, without a sign.
+    pub length: S::Scalar,
+    /// What rounding does to it, where that is known.
+    pub floor: Option<&'a Floor<S>>,
 }
 
 impl Tolerance {
     /// The error of a step in tolerances: the root mean square over the components, of the worst lane. NaN when an
     /// error is.
     #[inline(always)]
-    pub(in crate::integrate) fn error<S: GaussSystem>(
-        &self,
-        trial: &Trial<'_, S>,
-        fine: &Rates<S>,
-        coarse: Option<&Rates<S>>,
-    ) -> f64 {
+    pub fn error<S: GaussSystem>(&self, trial: &Trial<'_, S>, fine: &Rates<S>, coarse: Option<&Rates<S>>) -> f64 {
         worst_lane(self.errors(trial, fine, coarse))
     }
 
     /// The error of a step in tolerances: the root mean square over the components, lane by lane. NaN when an error is.
     #[inline(always)]
-    pub(in crate::integrate) fn errors<S: GaussSystem>(
+    pub fn errors<S: GaussSystem>(
         &self,
         trial: &Trial<'_, S>,
         fine: &Rates<S>,
@@ -166,7 +165,7 @@ impl Tolerance {
     /// [`error`](Self::error) above a floor. Runs that stay above rounding hold no copy of it.
     #[cold]
     #[inline(never)]
-    pub(in crate::integrate) fn error_above<S: GaussSystem>(
+    pub fn error_above<S: GaussSystem>(
         &self,
         floor: &Floor<S>,
         states: (&State<S>, &State<S>, S::Scalar),
@@ -179,7 +178,7 @@ impl Tolerance {
     /// and coarse.
     #[cold]
     #[inline(never)]
-    pub(in crate::integrate) fn errors_above<S: GaussSystem>(
+    pub fn errors_above<S: GaussSystem>(
         &self,
         floor: &Floor<S>,
         (from, to, length): (&State<S>, &State<S>, S::Scalar),
@@ -192,7 +191,7 @@ impl Tolerance {
     /// is nowhere.
     #[cold]
     #[inline(never)]
-    pub(in crate::integrate) fn excess<S: GaussSystem>(&self, trial: &Trial<'_, S>) -> f64 {
+    pub fn excess<S: GaussSystem>(&self, trial: &Trial<'_, S>) -> f64 {
         let largest = worst_lane(self.excesses(trial));
         if largest > 1.0 { largest } else { 0.0 }
     }
@@ -200,7 +199,7 @@ impl Tolerance {
     /// How many times the tolerance rounding is, at least 1, the largest of the components, lane by lane.
     #[cold]
     #[inline(never)]
-    pub(in crate::integrate) fn excesses<S: GaussSystem>(&self, trial: &Trial<'_, S>) -> S::Scalar {
+    pub fn excesses<S: GaussSystem>(&self, trial: &Trial<'_, S>) -> S::Scalar {
         let bare = Trial { floor: None, ..*trial };
         let mut largest = S::Scalar::one();
         for i in 0..TangentOf::<S>::DIM {
@@ -248,7 +247,7 @@ pub(in crate::integrate) fn larger<T: Real>(a: T, b: T) -> T {
 
 /// The largest of the lanes; NaN where one of them is.
 #[inline(always)]
-pub(in crate::integrate) fn worst_lane<T: Real>(errors: T) -> f64 {
+pub fn worst_lane<T: Real>(errors: T) -> f64 {
     let mut worst = 0.0;
     for lane in 0..T::LANES {
         let error = errors.lane(lane);

@@ -7,7 +7,7 @@ use crate::system::GaussSystem;
 /// Equations that each stage of a step calls. Put into every stage, those of vectors make a step longer than the
 /// nearest cache of instructions; what a call costs is shared by the lanes. And where steps are few, those that are
 /// made often are left as the only ones into which compilers put the equations.
-pub(in crate::integrate) struct Called<'a, P>(pub(in crate::integrate) &'a P);
+pub struct Called<'a, P>(pub &'a P);
 
 type Scalar<P> = <<P as Problem>::System as GaussSystem>::Scalar;
 type Configuration<P> = <<P as Problem>::System as GaussSystem>::Configuration;

@@ -38,18 +38,21 @@ where
     C: Coefficients<S>;
 
 /// The components of a system's configuration.
-pub(in crate::integrate) type ComponentsOf<S> = <<S as GaussSystem>::Configuration as Configuration>::Components;
+pub type ComponentsOf<S> = <<S as GaussSystem>::Configuration as Configuration>::Components;
 
 /// A point of the linear space in which a step is made, or a derivative there.
 #[derive(Clone, Copy)]
-pub(in crate::integrate) struct Point<C, Y> {
-    pub(in crate::integrate) components: C,
-    pub(in crate::integrate) variables: Y,
+pub struct Point<C, Y> {
+    /// Of the components of the configuration.
+    pub components: C,
+    /// Of the quasi-velocities, or of the momenta.
+    pub variables: Y,
 }
 
 impl<C, Y> Point<C, Y> {
+    /// Zero.
     #[inline(always)]
-    pub(in crate::integrate) fn zero<T: Real>() -> Self
+    pub fn zero<T: Real>() -> Self
     where
         C: VectorSpace<T>,
         Y: VectorSpace<T>,
@@ -59,7 +62,7 @@ impl<C, Y> Point<C, Y> {
 
     /// `self + a·x`.
     #[inline(always)]
-    pub(in crate::integrate) fn add_scaled<T: Real>(&self, a: T, x: &Self) -> Self
+    pub fn add_scaled<T: Real>(&self, a: T, x: &Self) -> Self
     where
         C: VectorSpace<T>,
         Y: VectorSpace<T>,

@@ -3,29 +3,29 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use gauss_runtime::integrate::drive::cause::Gave;
+use gauss_runtime::integrate::drive::control::StepStatistics;
+use gauss_runtime::integrate::drive::fixed::{Advanced, Fixed, further, steps_within};
+use gauss_runtime::integrate::drive::projection::accept;
+use gauss_runtime::integrate::problem::called::Called;
+use gauss_runtime::integrate::problem::equations::Problem;
+use gauss_runtime::integrate::problem::error::IntegrationErrorKind;
+use gauss_runtime::integrate::problem::state::{Rates, State};
+use gauss_runtime::integrate::step::one_step::OneStep;
+use gauss_runtime::real::Real;
+use gauss_runtime::simd::Packed;
+
 use super::system::BatchSystem;
-use super::{Group, LaneControl, Verdict, chosen_state, number, ones_in};
-use crate::integrate::drive::cause::Gave;
-use crate::integrate::drive::control::StepStatistics;
-use crate::integrate::drive::fixed::{Advanced, Fixed, further, steps_within};
-use crate::integrate::drive::projection::accept;
-use crate::integrate::problem::called::Called;
-use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::IntegrationErrorKind;
-use crate::integrate::problem::state::{Rates, State};
-use crate::integrate::step::one_step::OneStep;
-use crate::real::Real;
-use crate::sealed::Sealed;
-use crate::simd::Packed;
+use super::{Group, LaneControl, Sealed, Verdict, chosen_state, number, ones_in};
 
 /// Where a lane is on its way.
 #[derive(Clone, Copy, Default)]
-pub(in crate::integrate) struct Lane {
+pub(super) struct Lane {
     /// Steps that it has made since it began, and how many there are.
-    pub(in crate::integrate) made: u64,
-    pub(in crate::integrate) all: u64,
+    pub(super) made: u64,
+    pub(super) all: u64,
     /// Whether it makes the present one.
-    pub(in crate::integrate) steps: bool,
+    pub(super) steps: bool,
 }
 
 impl Lane {
@@ -35,15 +35,15 @@ impl Lane {
 }
 
 /// A step that some lanes make; the others stand still.
-pub(in crate::integrate) struct Trial<T> {
+pub(super) struct Trial<T> {
     /// Its length, with the sign of the direction; 0 in lanes that stand still.
-    pub(in crate::integrate) h: T,
+    pub(super) h: T,
     /// 1 in lanes that make it, where not all of the pack do.
-    pub(in crate::integrate) some: Option<T>,
+    pub(super) some: Option<T>,
     /// The fewest steps that any of them has made.
-    pub(in crate::integrate) fewest: u64,
+    pub(super) fewest: u64,
     /// Whether it is the last one in any of them.
-    pub(in crate::integrate) last: bool,
+    pub(super) last: bool,
     /// How many steps have been made, where it is the same in all lanes that make this one.
     together: Option<u64>,
     /// The times at which the lanes began.
@@ -54,7 +54,7 @@ pub(in crate::integrate) struct Trial<T> {
 }
 
 /// What makes steps of one length.
-pub(in crate::integrate) trait Advance<S: BatchSystem> {
+pub(super) trait Advance<S: BatchSystem> {
     /// Whether all lanes go on in the same way once they have made so many steps, but for the last one.
     fn settled(&self, made: u64) -> bool;
 
@@ -81,7 +81,7 @@ pub struct March<S: BatchSystem> {
 
 impl<S: BatchSystem> March<S> {
     /// With steps of length |step|, in the direction of the span.
-    pub(in crate::integrate) fn new(step: S::Scalar, span: f64) -> Result<Self, IntegrationErrorKind> {
+    pub(super) fn new(step: S::Scalar, span: f64) -> Result<Self, IntegrationErrorKind> {
         let first = step.lane(0);
         if !(first.is_finite() && first != 0.0) {
             return Err(IntegrationErrorKind::InvalidStep { step: first });
@@ -90,17 +90,12 @@ impl<S: BatchSystem> March<S> {
         Ok(Self { lanes: vec![Lane::default(); S::Scalar::WIDTH], starts: S::Scalar::zero(), length })
     }
 
-    pub(in crate::integrate) fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         self.length.lane(0).abs()
     }
 
     /// A lane has got a state to start from, and may make so many steps.
-    pub(in crate::integrate) fn begin(
-        &mut self,
-        group: &Group<S>,
-        lane: usize,
-        limit: u64,
-    ) -> Result<(), IntegrationErrorKind> {
+    pub(super) fn begin(&mut self, group: &Group<S>, lane: usize, limit: u64) -> Result<(), IntegrationErrorKind> {
         let time = further(number(group.state.t, lane), number(group.end, lane));
         let all = steps_within::<S::Scalar>(group.left(lane), time, self.length(), limit)?;
         self.lanes[lane] = Lane { made: 0, all, steps: false };
@@ -148,7 +143,7 @@ impl<S: BatchSystem> March<S> {
 
     /// A step, or as many as all lanes make in the same way, where nobody looks at the states between.
     #[inline(always)]
-    pub(in crate::integrate) fn attempt<P: Problem<System = S>>(
+    pub(super) fn attempt<P: Problem<System = S>>(
         &mut self,
         method: &mut impl Advance<S>,
         problem: &P,

@@ -3,22 +3,23 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use gauss_runtime::configuration::Configuration;
+use gauss_runtime::integrate::drive::cause::{Gave, Place, cause};
+use gauss_runtime::integrate::drive::control::prepare;
+use gauss_runtime::integrate::drive::event::{Events, Outcome, Watch};
+use gauss_runtime::integrate::drive::pace::Pace;
+use gauss_runtime::integrate::drive::run::Jumps;
+use gauss_runtime::integrate::drive::search::{Looking, Made};
+use gauss_runtime::integrate::drive::summary::Summary;
+use gauss_runtime::integrate::problem::equations::Problem;
+use gauss_runtime::integrate::problem::error::IntegrationErrorKind;
+use gauss_runtime::integrate::problem::state::{Rates, State};
+use gauss_runtime::real::Real;
+use gauss_runtime::simd::Packed;
+
 use super::ended::{Ended, EventState, RunError, RunOutcome};
 use super::system::{BatchSystem, SingleConfiguration, SingleSpeeds};
 use super::{Group, LaneControl, Verdict, chosen_rates, number, numbers_of, ones_in};
-use crate::configuration::Configuration;
-use crate::integrate::drive::cause::{Gave, Place, cause};
-use crate::integrate::drive::control::prepare;
-use crate::integrate::drive::event::{Events, Outcome, Watch};
-use crate::integrate::drive::pace::Pace;
-use crate::integrate::drive::run::Jumps;
-use crate::integrate::drive::search::{Looking, Made};
-use crate::integrate::drive::summary::Summary;
-use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::IntegrationErrorKind;
-use crate::integrate::problem::state::{Rates, State};
-use crate::real::Real;
-use crate::simd::Packed;
 
 /// A run by its number, and its start.
 type First<S> = (usize, SingleConfiguration<S>, SingleSpeeds<S>);
@@ -393,7 +394,7 @@ where
         });
         let mut event = 0;
         watched.each(&mut |function, _| {
-            let values = crate::integrate::drive::search::values(all.problem, function, after.0);
+            let values = gauss_runtime::integrate::drive::search::values(all.problem, function, after.0);
             for (lane, running) in self.running.iter_mut().enumerate().filter(|(lane, _)| !suspicious[*lane]) {
                 if let (Some(running), Verdict::Taken(..)) = (running, &self.group.verdicts[lane]) {
                     running.watch.remember(event, values.lane(numbers_of::<S::Scalar>(lane).start));

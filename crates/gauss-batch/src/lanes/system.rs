@@ -1,8 +1,8 @@
 //! What is asked of a system of which there are many states.
 
-use crate::real::Real;
-use crate::simd::Packed;
-use crate::system::GaussSystem;
+use gauss_runtime::real::Real;
+use gauss_runtime::simd::Packed;
+use gauss_runtime::system::GaussSystem;
 
 /// A system whose states can be kept in blocks: every one whose scalar is a float, a pack of them or a dual number.
 pub trait BatchSystem: GaussSystem<Scalar: Packed<Single: Real>, Configuration: Packed, Speeds: Packed> {}

@@ -3,22 +3,24 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use gauss_runtime::integrate::drive::adaptive::{Adaptive, ROUNDED};
+use gauss_runtime::integrate::drive::cause::{Gave, change};
+use gauss_runtime::integrate::drive::control::{
+    StepStatistics, check_tolerances, longest, smallest, to_a_number, unresolved,
+};
+use gauss_runtime::integrate::drive::logarithms::{exponential, logarithm};
+use gauss_runtime::integrate::drive::projection::{accept, check_move, is_hopeless};
+use gauss_runtime::integrate::drive::step_length::StepLength;
+use gauss_runtime::integrate::drive::tolerance::{Floor, Trial};
+use gauss_runtime::integrate::problem::called::Called;
+use gauss_runtime::integrate::problem::equations::Problem;
+use gauss_runtime::integrate::problem::error::IntegrationErrorKind;
+use gauss_runtime::integrate::step::one_step::EstimatingStep;
+use gauss_runtime::real::Real;
+use gauss_runtime::simd::Packed;
+
 use super::system::BatchSystem;
-use super::{Group, LaneControl, Verdict, chosen_state, largest, number, numbers_of, ones_in};
-use crate::integrate::drive::adaptive::{Adaptive, ROUNDED};
-use crate::integrate::drive::cause::{Gave, change};
-use crate::integrate::drive::control::{StepStatistics, check_tolerances, longest, smallest, to_a_number, unresolved};
-use crate::integrate::drive::logarithms::{exponential, logarithm};
-use crate::integrate::drive::projection::{accept, check_move, is_hopeless};
-use crate::integrate::drive::step_length::StepLength;
-use crate::integrate::drive::tolerance::{Floor, Trial};
-use crate::integrate::problem::called::Called;
-use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::IntegrationErrorKind;
-use crate::integrate::step::one_step::EstimatingStep;
-use crate::real::Real;
-use crate::sealed::Sealed;
-use crate::simd::Packed;
+use super::{Group, LaneControl, Sealed, Verdict, chosen_state, largest, number, numbers_of, ones_in};
 
 /// What one lane remembers: the fields of the same names of a run of its own.
 #[derive(Clone, Copy)]
@@ -127,7 +129,7 @@ impl<S: BatchSystem> Memory<S> {
                 }
                 lane.looked = lane.looked.max(lane.length);
                 let rejected = core::mem::take(&mut lane.rejected);
-                *verdict = Verdict::Taken(StepStatistics { rejected, excess }, lane.last);
+                *verdict = Verdict::Taken(StepStatistics::new(rejected, excess), lane.last);
                 // For those that are asked for below.
                 lane.used = if again { f64::INFINITY } else { lane.used };
             }

@@ -2,12 +2,13 @@
 //!
 //! A step is made in all lanes at once, but its length, its error, and whether it stands are those of each lane; of
 //! steps of one length, only how many are left. So every run takes the steps that it would take alone, and a lane is
-//! handed to the next run as soon as one ends (`Ensemble` of the crate `gauss-batch`). A common step, that of the most
+//! handed to the next run as soon as one ends ([`Ensemble`](crate::Ensemble)). A common step, that of the most
 //! demanding lane, would need none of this and takes more steps the more the runs differ.
 
+mod adams;
 mod adaptive;
 mod ended;
-pub(in crate::integrate) mod fixed;
+mod fixed;
 pub(crate) mod run;
 mod system;
 mod taylor;
@@ -17,19 +18,20 @@ pub use system::{BatchSystem, SingleConfiguration, SingleSpeeds};
 
 use alloc::vec::Vec;
 
-use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::drive::cause::Gave;
-use crate::integrate::drive::control::{Control, StepStatistics};
-use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::IntegrationErrorKind;
-use crate::integrate::problem::state::{Rates, State};
-use crate::real::Real;
-use crate::sealed::Sealed;
-use crate::simd::Packed;
+use gauss_runtime::configuration::{Configuration, VectorSpace};
+use gauss_runtime::integrate::drive::cause::Gave;
+use gauss_runtime::integrate::drive::control::{Control, StepStatistics};
+use gauss_runtime::integrate::drive::tolerance::worst_lane;
+use gauss_runtime::integrate::problem::equations::Problem;
+use gauss_runtime::integrate::problem::error::IntegrationErrorKind;
+use gauss_runtime::integrate::problem::state::{Rates, State};
+use gauss_runtime::real::Real;
+use gauss_runtime::simd::Packed;
 
-/// A choice of steps that can be made for every lane by itself: [`Adaptive`](crate::integrate::Adaptive) by any method
-/// that estimates its error, [`Taylor`](crate::integrate::Taylor), [`Fixed`](crate::integrate::Fixed) by any method,
-/// and [`Adams`](crate::integrate::Adams). Its functions are for the runs of this crate, which alone implements it.
+/// A choice of steps that can be made for every lane by itself:
+/// [`Adaptive`](gauss_runtime::integrate::Adaptive) by any method that estimates its error,
+/// [`Taylor`](gauss_runtime::integrate::Taylor), [`Fixed`](gauss_runtime::integrate::Fixed) by any method, and
+/// [`Adams`](gauss_runtime::integrate::Adams). Its functions are for the runs of this crate, which alone implements it.
 pub trait LaneControl<S: BatchSystem>: Control<S> + Sealed {
     /// What is remembered from step to step.
     #[doc(hidden)]
@@ -84,6 +86,9 @@ pub trait LaneControl<S: BatchSystem>: Control<S> + Sealed {
     #[doc(hidden)]
     fn passes_over_decay(&self) -> bool;
 }
+
+/// The bound that makes [`LaneControl`] a trait of this crate alone: its path is private.
+pub trait Sealed {}
 
 /// What became of a step in a lane.
 #[derive(Clone, Copy, Debug)]
@@ -142,7 +147,7 @@ pub(crate) fn number<T: Real + Packed<Single: Real>>(pack: T, lane: usize) -> f6
 /// The largest number in a lane; NaN where one is.
 #[inline(always)]
 fn largest<T: Real + Packed<Single: Real>>(pack: T, lane: usize) -> f64 {
-    crate::integrate::drive::tolerance::worst_lane(pack.extract(lane))
+    worst_lane(pack.extract(lane))
 }
 
 /// The numbers that a lane is made of: one, but where lanes are packs themselves.

@@ -3,12 +3,13 @@
 use alloc::vec::Vec;
 use core::fmt;
 
+use gauss_runtime::integrate::drive::summary::Summary;
+use gauss_runtime::integrate::problem::error::IntegrationErrorKind;
+
 use super::system::{SingleConfiguration, SingleSpeeds};
-use crate::integrate::drive::summary::Summary;
-use crate::integrate::problem::error::IntegrationErrorKind;
 
 /// A run of an ensemble that has come to its end, in configurations Q and speeds Z of one lane; the state there is
-/// among the `States` of the crate `gauss-batch`.
+/// among the [`States`](crate::States).
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Ended<Q, Z> {
@@ -54,7 +55,7 @@ pub struct RunError {
 impl RunError {
     /// The state of this number stopped at `time`.
     #[must_use]
-    pub const fn new(state: usize, time: f64, kind: IntegrationErrorKind) -> Self {
+    pub(crate) const fn new(state: usize, time: f64, kind: IntegrationErrorKind) -> Self {
         Self { state, time, kind }
     }
 }

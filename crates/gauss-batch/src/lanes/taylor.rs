@@ -4,17 +4,17 @@ use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
+use gauss_runtime::integrate::drive::cause::Gave;
+use gauss_runtime::integrate::drive::control::{check_tolerances, longest, smallest, to_a_number, unresolved};
+use gauss_runtime::integrate::problem::equations::Problem;
+use gauss_runtime::integrate::problem::error::{IntegrationErrorKind, RunPart};
+use gauss_runtime::integrate::taylor::{Order, Shortened, Taylor, expanded, summed};
+use gauss_runtime::real::Real;
+use gauss_runtime::series::{PowerSeries, TaylorSystem};
+use gauss_runtime::simd::Packed;
+
 use super::system::BatchSystem;
-use super::{Group, LaneControl, Verdict, chosen_state, number, numbers_of, ones_in};
-use crate::integrate::drive::cause::Gave;
-use crate::integrate::drive::control::{check_tolerances, longest, smallest, to_a_number, unresolved};
-use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
-use crate::integrate::taylor::{Order, Shortened, Taylor, expanded, summed};
-use crate::real::Real;
-use crate::sealed::Sealed;
-use crate::series::{PowerSeries, TaylorSystem};
-use crate::simd::Packed;
+use super::{Group, LaneControl, Sealed, Verdict, chosen_state, number, numbers_of, ones_in};
 
 /// What one lane remembers.
 #[derive(Clone, Copy)]

@@ -4,25 +4,25 @@ use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::beginning::{Ahead, begin, point};
-use super::{Adams, History, multistep};
-use crate::integrate::drive::cause::Gave;
-use crate::integrate::drive::fixed::Advanced;
-use crate::integrate::lanes::BatchSystem;
-use crate::integrate::lanes::fixed::{Advance, Lane, March, Trial};
-use crate::integrate::lanes::{Group, LaneControl, Verdict, chosen, chosen_rates, chosen_state, number, ones_in};
-use crate::integrate::problem::called::Called;
-use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::IntegrationErrorKind;
-use crate::integrate::problem::state::{Rates, State};
-use crate::integrate::runge_kutta::components::{ComponentsOf, Point};
-use crate::sealed::Sealed;
-use crate::simd::Packed;
+use gauss_runtime::integrate::adams::{Adams, Ahead, History, begin, multistep, point};
+use gauss_runtime::integrate::drive::cause::Gave;
+use gauss_runtime::integrate::drive::fixed::Advanced;
+use gauss_runtime::integrate::problem::called::Called;
+use gauss_runtime::integrate::problem::equations::Problem;
+use gauss_runtime::integrate::problem::error::IntegrationErrorKind;
+use gauss_runtime::integrate::problem::state::{Rates, State};
+use gauss_runtime::integrate::runge_kutta::components::{ComponentsOf, Point};
+use gauss_runtime::simd::Packed;
+use gauss_runtime::system::GaussSystem;
+
+use super::fixed::{Advance, Lane, March, Trial};
+use super::system::BatchSystem;
+use super::{Group, LaneControl, Sealed, Verdict, chosen, chosen_rates, chosen_state, number, ones_in};
 
 /// Room for so many derivatives: with those of a vector the nearest cache is not full.
 const ROOM: usize = 32;
 
-type PointOf<S> = Point<ComponentsOf<S>, <S as crate::system::GaussSystem>::Speeds>;
+type PointOf<S> = Point<ComponentsOf<S>, <S as GaussSystem>::Speeds>;
 
 /// The vectors of one point in lanes where `ones` is 1, of the other elsewhere.
 fn chosen_point<S: BatchSystem>(ones: S::Scalar, new: &PointOf<S>, old: &PointOf<S>) -> PointOf<S> {
