@@ -1,6 +1,8 @@
 //! How long the derive takes, as its users meet it:
 //! `cargo run --profile unoptimised --example expansion_time [-- RUNS]`.
 //!
+//! With `RUSTFLAGS=-Ctarget-cpu=native` methods are written with vectors as well, as the derive then does.
+//!
 //! First every size of structure beside what is aimed at, then one body in every chart. Cargo compiles macros without
 //! optimisation unless told otherwise, so the figures are taken on an unoptimised build of `gauss-codegen`.
 //!
@@ -28,19 +30,25 @@ fn computed(begun: Instant) -> Duration {
     nanoseconds.map_or_else(|| begun.elapsed(), Duration::from_nanos)
 }
 
+/// What the derive does, which is compiled with the flags of this program.
+fn expand(input: &syn::DeriveInput) -> proc_macro2::TokenStream {
+    let vectors = cfg!(all(target_feature = "avx", target_feature = "fma"));
+    let expanded = if vectors { gauss_codegen::expand(input) } else { gauss_codegen::expand_without_vectors(input) };
+    std::hint::black_box(expanded.expect("the sources are systems"))
+}
+
 /// Median, fastest and slowest expansion in milliseconds.
 fn expansion(source: &str) -> [f64; 3] {
     let input: syn::DeriveInput = syn::parse_str(source).expect("the sources are structs");
-    let expand = || std::hint::black_box(gauss_codegen::expand(&input).expect("the sources are systems"));
     let begun = Instant::now();
-    expand();
+    expand(&input);
     // Systems count in steps of some milliseconds: short ones are timed several at once.
     let together = (100.0 / (begun.elapsed().as_secs_f64() * 1e3)).ceil().min(20.0);
     let mut times = Vec::new();
     while times.len() < runs() && (times.len() < 3 || begun.elapsed() < PATIENCE) {
         let start = computed(begun);
         for _ in 0..together as usize {
-            expand();
+            expand(&input);
         }
         times.push((computed(begun) - start).as_secs_f64() * 1e3 / together);
     }
@@ -68,7 +76,7 @@ fn named(name: &str) -> String {
 fn main() {
     if let Some(name) = std::env::args().nth(1).filter(|word| word.parse::<usize>().is_err()) {
         let input = syn::parse_str(&named(&name)).expect("the sources are structs");
-        std::hint::black_box(gauss_codegen::expand(&input).expect("the sources are systems"));
+        expand(&input);
         return;
     }
     let build = if cfg!(debug_assertions) { "unoptimised" } else { "optimised" };

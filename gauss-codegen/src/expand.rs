@@ -19,9 +19,23 @@ use crate::translate::translate;
 /// Every mistake of the struct, each at the token that is wrong.
 pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     derive(input, |derived| {
-        let (code, file) = (emit(derived, &Equations::of(derived)), file(derived));
-        Ok(quote!(#code #file))
+        derived.pack();
+        Ok(written(derived))
     })
+}
+
+/// Expands one struct whose code is compiled for processors without vectors of products that are rounded once: methods
+/// are written number by number alone.
+///
+/// # Errors
+/// Every mistake of the struct, each at the token that is wrong.
+pub fn expand_without_vectors(input: &DeriveInput) -> syn::Result<TokenStream> {
+    derive(input, |derived| Ok(written(derived)))
+}
+
+fn written(derived: &Derived<'_, '_>) -> TokenStream {
+    let (code, file) = (emit(derived, &Equations::of(derived)), file(derived));
+    quote!(#code #file)
 }
 
 /// Derives one struct, and hands everything that is known of it to whoever writes it down.

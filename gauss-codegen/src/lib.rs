@@ -25,6 +25,6 @@ mod words;
 pub use algebra::Notation;
 pub use derivation::Derivation;
 pub use emit::fallback;
-pub use expand::expand;
+pub use expand::{expand, expand_without_vectors};
 pub use model::item;
 pub use scene::{Clause, Field, Mistake, Scene, Value};

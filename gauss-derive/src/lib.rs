@@ -297,5 +297,16 @@ pub fn derive_gauss_dynamics(input: proc_macro::TokenStream) -> proc_macro::Toke
         Ok(input) => input,
         Err(mistake) => return mistake.into_compile_error().into(),
     };
-    gauss_codegen::expand(&input).unwrap_or_else(|mistakes| gauss_codegen::fallback(&input, &mistakes)).into()
+    let expand = if may_have_vectors() { gauss_codegen::expand } else { gauss_codegen::expand_without_vectors };
+    expand(&input).unwrap_or_else(|mistakes| gauss_codegen::fallback(&input, &mistakes)).into()
+}
+
+/// Whether the code may be compiled for processors with vectors of products that are rounded once.
+///
+/// Without `--target` Cargo compiles macros with the flags of all else, so this crate knows them by its own. With it
+/// macros have other flags: then code is written with vectors as well, and the runtime, which has the flags of the
+/// code, takes one form of it.
+fn may_have_vectors() -> bool {
+    cfg!(all(target_feature = "avx", target_feature = "fma"))
+        || std::env::args_os().any(|argument| argument.as_encoded_bytes().starts_with(b"--target"))
 }

@@ -45,8 +45,8 @@ pub struct Derived<'a, 'g> {
     pub printed: &'a [Printed; 2],
     /// The parameters in which the forces of inertia are linear, where the regressor is wanted.
     pub inertial_parameters: &'a [InertialParameter<'g>],
-    /// Methods that are written with vectors.
-    pub packs: Packs<'g>,
+    /// Methods that are written with vectors, once these have been looked for.
+    packs: OnceCell<Packs<'g>>,
     /// Asked for by every method: see `private`, `arguments`.
     private: TokenStream,
     arguments: OnceCell<Vec<Argument<'g>>>,
@@ -98,7 +98,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             links: &given.links,
             quaternions: &formulation.quaternions,
         };
-        let mut derived = Self {
+        Self {
             subject,
             drags: &given.drags,
             laws: &given.laws,
@@ -107,15 +107,13 @@ impl<'a, 'g> Derived<'a, 'g> {
             parameters: &given.parameters,
             printed: &formulation.printed,
             inertial_parameters: &formulation.inertial_parameters,
-            packs: Packs::default(),
+            packs: OnceCell::new(),
             private: {
                 let (runtime, module) = (&model.runtime, Ident::new(PRIVATE, Span::call_site()));
                 quote!(#runtime::#module)
             },
             arguments: OnceCell::new(),
-        };
-        derived.packs = derived.packed();
-        derived
+        }
     }
 
     pub fn item(&self) -> Item<'a> {
@@ -262,7 +260,16 @@ impl<'a, 'g> Derived<'a, 'g> {
         arguments
     }
 
-    /// Packs of the methods in which they win.
+    /// Looks for packs: methods in which they win are written with vectors, too.
+    pub fn pack(&self) {
+        self.packs.get_or_init(|| self.packed());
+    }
+
+    /// The packs that were looked for.
+    pub fn packs(&self) -> Option<&Packs<'g>> {
+        self.packs.get()
+    }
+
     fn packed(&self) -> Packs<'g> {
         let (mut packs, arguments, scalar) = (Packs::default(), self.arguments(), self.scalar());
         let methods = self.kernel.functions.iter().filter(|(method, _)| are_wanted(*method, scalar.scalar));
@@ -280,7 +287,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         let constants = self.kernel.constant_symbols.iter().map(|symbol| symbol.key());
         let mut names: Map<u32, TokenStream> = constants.zip(values.iter().cloned()).collect();
         names.extend(self.kernel.known_constants.iter().map(|(symbol, value)| (symbol.key(), scalar.literal(*value))));
-        self.packs.rows(&self.private(), &scalar, &names)
+        self.packs()?.rows(&self.private(), &scalar, &names)
     }
 
     /// Arguments taken apart and the instructions of a method; its outputs. With packs in both forms.
@@ -289,7 +296,9 @@ impl<'a, 'g> Derived<'a, 'g> {
         let (mut written, names) = self.named(program, arguments);
         let single = statements(program, &names, &scalar);
         let sources = Sources { kernel: self.kernel, arguments, names: &names };
-        let in_both_forms = self.packs.in_both_forms(method, &single, &sources, (&self.private(), &scalar));
+        let in_both_forms =
+            |packs: &Packs<'g>| packs.in_both_forms(method, &single, &sources, (&self.private(), &scalar));
+        let in_both_forms = self.packs().and_then(in_both_forms);
         let (instructions, outputs) = in_both_forms.unwrap_or(single);
         written.extend(instructions);
         Some((written, outputs))

@@ -14,7 +14,7 @@ use crate::model::{FunctionClause, FunctionKind, GenericsOfImpl};
 pub fn kernel_struct(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let (visibility, name, fields) = (derived.item().visibility, derived.kernel_name(), derived.constant_fields());
     let (ty, KernelGenerics { declared, .. }) = (derived.scalar().ty(), derived.kernel_generics());
-    let rows = derived.packs.field(&derived.private()).into_iter();
+    let rows = derived.packs().and_then(|packs| packs.field(&derived.private())).into_iter();
     let Documentation { before, text, formulas, after } = rustdoc(derived, equations);
     let equations = match formulas {
         // Editors show what is compiled, and HTML as it is written.

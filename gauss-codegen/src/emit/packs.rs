@@ -1,7 +1,8 @@
 //! Methods that are written with vectors as well, and the rows of constants that these load.
 //!
 //! Only where the scalar is `f64`: others have no vectors, or are vectors. Which of the two forms is compiled is chosen
-//! by the runtime, `with_vectors!`.
+//! by the runtime, `with_vectors!`. Where it is known beforehand that there are no vectors, none of this is done
+//! (`expand_without_vectors`).
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};

@@ -3,7 +3,7 @@
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use quote::quote;
 
-use crate::expand::expand;
+use crate::expand::{expand, expand_without_vectors};
 use crate::model::Scalar;
 
 use super::derived::PRIVATE;
@@ -107,6 +107,20 @@ fn words(tokens: TokenStream, found: &mut Vec<String>) {
             TokenTree::Punct(_) | TokenTree::Literal(_) => {}
         }
     }
+}
+
+/// Where there are no vectors their form is not written, nor looked for; all else is the same.
+#[test]
+fn without_vectors_there_is_one_form() {
+    let input = syn::parse_str(VEHICLE).expect("a struct");
+    let [mut both, mut one] = [Vec::new(), Vec::new()];
+    words(expand(&input).expect("a body"), &mut both);
+    words(expand_without_vectors(&input).expect("a body"), &mut one);
+    for word in ["with_vectors", "Rows", "rows", "packs"] {
+        assert!(both.iter().any(|found| found == word) && one.iter().all(|found| found != word), "{word}");
+    }
+    let functions = |words: &[String]| words.iter().filter(|word| *word == "fn").count();
+    assert_eq!(functions(&both), functions(&one));
 }
 
 #[test]
