@@ -51,7 +51,7 @@ pub fn lower<'g>(formulation: &Formulation<'_, 'g>) -> Result<Kernel<'g>> {
         Ok(kernel)
     };
     let mut kernel = lowered(&[])?;
-    let deciding = kernel.seek_losses(&samples, Some(&functions));
+    let deciding = kernel.seek_losses(&samples, Some((&functions, &wanted)));
     if !deciding.is_empty() {
         kernel = lowered(&deciding)?;
         kernel.seek_losses(&samples, None);

@@ -20,6 +20,6 @@ mod tests;
 mod trial;
 
 pub use figure::Figure;
-pub use seek::{Found, Sought};
+pub use seek::{Forms, Found, Sought};
 pub use states::{Names, Samples, States};
 pub use trial::{Deciding, Loss, Trial, Tried};

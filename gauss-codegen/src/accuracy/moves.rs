@@ -24,6 +24,8 @@ const SYMBOLS: usize = 8;
 /// Sums are near zero by the square of that, of which double precision still has four digits.
 const LEANING: [f64; 2] = [-6.0, -3.0];
 const QUARTERS: [f64; 2] = [0.0, 1.0];
+/// By how many powers of ten places are smaller than those that they are added to.
+const APART: f64 = -9.0;
 /// By how many powers of ten all coordinates are smaller together.
 const SMALLER: [f64; 2] = [-8.0, -4.0];
 /// Steps of the secant method: one is enough for what is linear.
@@ -34,8 +36,9 @@ const SECANTS: usize = 6;
 pub struct Draft<'n> {
     pub values: Values<'n>,
     pub masses: Vec<(u64, f64)>,
-    /// How it was made from a sample state.
+    /// How it was made from a sample state, and the number of that.
     pub moves: Vec<Move>,
+    pub sample: usize,
 }
 
 /// A change of a state. Closeness is a power of ten.
@@ -55,6 +58,9 @@ pub enum Move {
     Faster(f64),
     /// All coordinates are so many powers of ten smaller.
     Smaller(f64),
+    /// The first or the last of two places or more that are added is small, in all such sums: bodies near each other
+    /// and far away.
+    Apart(usize),
     /// An angle is near that many quarter turns, and a sum of fast rates that depends on it near zero: a wheel that
     /// spins nearly flat has an energy that is small beside the terms of which it is the sum.
     Spin(usize, f64, f64),
@@ -114,6 +120,8 @@ pub struct Moves<'s, 'a, 'g> {
     angles: Vec<usize>,
     scalars: Vec<usize>,
     speeds: Vec<usize>,
+    /// The first and the last of places that are added.
+    apart: [Vec<usize>; 2],
     sums: Vec<Sum<'g>>,
     spins: Vec<Spin>,
     bodies: usize,
@@ -142,7 +150,8 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
         };
         let scalars = scene.coordinates.iter().filter_map(scalar).collect();
         let spins = spins(&sums, &angles, &speeds);
-        Self { states, free, angles, scalars, speeds, sums, spins, bodies: states.bodies().count() }
+        let apart = apart(&seen.sums, &places, &free);
+        Self { states, free, angles, scalars, speeds, apart, sums, spins, bodies: states.bodies().count() }
     }
 
     #[cfg(test)]
@@ -183,18 +192,19 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
         let smaller = SMALLER.into_iter().filter(|_| !self.scalars.is_empty()).map(Move::Smaller);
         let leaning = LEANING.into_iter().flat_map(|closeness| QUARTERS.map(|turns| (turns, closeness)));
         let spin = |(turns, closeness)| (0..self.spins.len()).map(move |k| Move::Spin(k, turns, closeness));
-        smaller.chain(leaning.flat_map(spin))
+        let apart = [1, 0].into_iter().filter(|&k| !self.apart[k].is_empty()).map(Move::Apart);
+        smaller.chain(apart).chain(leaning.flat_map(spin))
     }
 
-    /// Whether they are changes of what moves alone: a run may come by such a state whatever its parameters are.
-    pub fn are_of_motion(&self, moves: &[Move]) -> bool {
+    /// Whether it is a change of what moves alone: a run may come by such a state whatever its parameters are.
+    pub fn is_of_motion(&self, change: &Move) -> bool {
         let moving = |k: usize| !self.free[k].parameter;
-        moves.iter().all(|change| match *change {
+        match *change {
             Move::Scale(k, _) | Move::Quarter(k, ..) | Move::Near(_, k, _) => moving(k),
             Move::AllNear(sum, seed, _) => self.together(sum, seed).all(|(_, by)| moving(by)),
             Move::Body(..) => false,
-            Move::Faster(_) | Move::Smaller(_) | Move::Spin(..) => true,
-        })
+            Move::Faster(_) | Move::Smaller(_) | Move::Apart(_) | Move::Spin(..) => true,
+        }
     }
 
     /// The sums of [`Move::AllNear`], each with the number that is moved.
@@ -221,6 +231,10 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
                 Move::Faster(decades) if decades > 0.0 => "high speeds".to_owned(),
                 Move::Faster(_) => "low speeds".to_owned(),
                 Move::Smaller(_) => "small coordinates".to_owned(),
+                Move::Apart(k) => {
+                    let names: Vec<String> = self.apart[k].iter().take(TOGETHER).map(|&k| name(k)).collect();
+                    format!("small {}", names.join(" and "))
+                }
                 Move::Spin(k, turns, _) => {
                     let Spin { angle, sum, .. } = self.spins[k];
                     let near = if turns == 0.0 { "0" } else { "quarter turns" };
@@ -257,6 +271,7 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
                 }
             }
             Move::Smaller(decades) => self.scalars.iter().for_each(|&k| self.scale(k, decades, draft)),
+            Move::Apart(k) => self.apart[k].iter().for_each(|&k| self.scale(k, APART, draft)),
             Move::Spin(k, turns, closeness) => {
                 let Spin { angle, sum, by } = self.spins[k];
                 let sum = &self.sums[sum];
@@ -329,6 +344,25 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
         let allowed = (least..=most).contains(&x.abs()) && (x > 0.0 || !positive);
         self.put(by, if nearer && allowed { x } else { begun }, draft);
     }
+}
+
+/// The first and the last of two coordinates or more that are lengths and added.
+fn apart(sums: &[Vec<(Rational, Expr<'_>)>], places: &Map<u32, usize>, free: &[Free<'_>]) -> [Vec<usize>; 2] {
+    let is_place = |k: &usize| !free[*k].parameter && !free[*k].angle;
+    let added = sums.iter().map(|sum| {
+        let mut added: Vec<usize> =
+            sum.iter().filter_map(|(_, e)| places.get(&e.key())).copied().filter(is_place).collect();
+        added.sort_unstable();
+        added
+    });
+    let added: Vec<Vec<usize>> = added.filter(|added| added.len() > 1).collect();
+    let mut apart =
+        [0, 1].map(|last| -> Vec<usize> { added.iter().map(|added| added[last * (added.len() - 1)]).collect() });
+    for own in &mut apart {
+        own.sort_unstable();
+        own.dedup();
+    }
+    apart
 }
 
 /// Sums of two rates or more with the angles they depend on, the innermost first. The last rate is most likely the one

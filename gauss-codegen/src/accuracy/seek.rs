@@ -26,7 +26,7 @@ pub struct Sought<'a, 'g> {
     pub measured: Vec<&'a Loss>,
     /// Which of them gives p.
     pub momentum: Option<usize>,
-    /// Programs that are tried at the states that are found, without a search of their own.
+    /// All functions in one program, which is tried at the states that are found, and derivatives.
     pub besides: Vec<&'a Code<Expr<'g>>>,
 }
 
@@ -37,6 +37,13 @@ pub struct Found {
     pub besides: Vec<Option<Figure>>,
 }
 
+/// What could be taken in place of a program, by its number in the lists of [`Sought`].
+pub struct Forms<'f, 'g> {
+    pub of_function: &'f dyn Fn(usize) -> Vec<Vec<Expr<'g>>>,
+    /// Of derivatives, as programs that read parameters, not constants.
+    pub of_derivative: &'f dyn Fn(usize) -> Vec<Code<Expr<'g>>>,
+}
+
 /// The largest loss so far, and where.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Best {
@@ -44,7 +51,8 @@ pub(super) struct Best {
     pub state: usize,
 }
 
-/// Steps that all states together may take, and the least and the largest number of states.
+/// Steps that all states together may take, of functions and then of derivatives, and the least and the largest number
+/// of states; those of derivatives may be fewer.
 const STEPS: usize = 100_000;
 const LEAST: usize = 24;
 const MOST: usize = 96;
@@ -59,6 +67,12 @@ const LESS: f64 = 32.0;
 /// What is smaller than its error, or than other components, by that factor at every sample state vanishes identically.
 const NOTHING: f64 = (1_u64 << 40) as f64;
 
+/// Programs whose losses are sought: their outputs, and the steps that they take, once p is known.
+struct Goal<'l> {
+    lists: &'l [Vec<Slot>],
+    steps: Range<usize>,
+}
+
 pub(super) struct Search<'s, 'a, 'g> {
     states: &'s States<'a, 'g>,
     moves: Moves<'s, 'a, 'g>,
@@ -68,48 +82,35 @@ pub(super) struct Search<'s, 'a, 'g> {
     momenta: Vec<(Slot, Slot)>,
     pub outputs: Vec<Vec<Slot>>,
     pub besides: Vec<Vec<Slot>>,
+    /// The steps of each of these.
+    spans: Vec<Range<usize>>,
     /// Whether what is in a slot is a component that vanishes identically.
     vanishing: Vec<bool>,
 }
 
 impl<'s, 'g> Samples<'s, '_, 'g> {
-    /// Looks for the states where functions lose most; those of them where another form would keep what is lost.
-    /// `forms` gives the forms of a function.
-    pub fn seek(&self, sought: &Sought<'_, 'g>, forms: &dyn Fn(usize) -> Vec<Vec<Expr<'g>>>) -> (Found, Vec<Deciding>) {
+    /// Looks for the states where functions and derivatives lose most; those of them where another form would keep what
+    /// is lost.
+    pub fn seek(&self, sought: &Sought<'_, 'g>, forms: &Forms<'_, 'g>) -> (Found, Vec<Deciding>) {
         let mut search = Search::new(self, sought);
-        let mut trace = search.flat.room(0);
-        let (mut drafts, mut best) = search.searched(self, &mut trace);
         // Of many results at many states one is hardly changed by chance, and said to lose much: changed in other ways
         // as well, it is not.
-        let mut again = search.flat.room(1);
-        let sampled = drafts.iter().filter(|draft| draft.moves.is_empty()).count();
+        let mut traces = [0, 1].map(|changes| search.flat.room(changes));
+        let (mut drafts, mut best) = search.searched(self, &mut traces[0]);
+        let sampled = sampled(&drafts);
         let mut ordinary: Vec<Vec<f64>> = vec![Vec::new(); search.outputs.len()];
         let mut besides: Vec<Vec<Best>> = vec![Vec::new(); search.besides.len()];
-        for state in search.states_for_others(&mut drafts, sampled, &best) {
-            search.try_all_at(&drafts[state], &mut trace);
-            let lists = || search.outputs.iter().chain(&search.besides);
-            let mut losses: Vec<Option<f64>> = lists().map(|outputs| search.loss(&trace, outputs)).collect();
-            if losses.iter().flatten().any(|loss| *loss > ORDINARY) {
-                search.try_all_at(&drafts[state], &mut again);
-                losses = lists().map(|outputs| search.loss_as_of(&[&trace, &again], outputs, outputs)).collect();
-            }
-            let (of_functions, of_besides) = losses.split_at(best.len());
+        for state in search.states_for_others(drafts.len(), sampled, &best) {
+            let (of_functions, of_besides) = search.losses_at(&drafts[state], &mut traces);
             for ((losses, best), loss) in ordinary.iter_mut().zip(&mut best).zip(of_functions) {
                 losses.extend(loss.filter(|_| state < sampled));
                 best.loss = loss.filter(|_| state == best.state).map_or(best.loss, |loss| loss.min(NO_DIGIT));
             }
-            let mut exact = None;
-            for ((losses, outputs), loss) in besides.iter_mut().zip(&search.besides).zip(of_besides) {
-                // What has no value in double precision may have one.
-                let loss = loss.or_else(|| {
-                    let exact = exact.get_or_insert_with(|| {
-                        search.exact(&drafts[state], &trace, search.ends[2], |_| Doubled::number(1.0))
-                    });
-                    is_finite(exact, outputs).then_some(NO_DIGIT)
-                });
-                losses.extend(loss.map(|loss| Best { loss: loss.min(NO_DIGIT), state }));
+            for (losses, loss) in besides.iter_mut().zip(of_besides) {
+                losses.extend(loss.map(|loss| Best { loss, state }));
             }
         }
+        search.seek_for_derivatives(&mut drafts, &mut besides, &mut traces);
         let at = |state: usize| drafts.get(state).map_or(Vec::new(), |draft| search.moves.described(&draft.moves));
         let functions = best.iter().zip(ordinary).zip(&sought.measured).map(|((best, ordinary), measured)| {
             match (ordinary.is_empty(), measured.0.is_empty()) {
@@ -119,23 +120,29 @@ impl<'s, 'g> Samples<'s, '_, 'g> {
                 _ => Some(Figure { worst: best.loss, median: Loss(ordinary).median(), at: at(best.state) }),
             }
         });
-        let besides = besides.into_iter().map(|losses| {
+        let worst: Vec<Option<Best>> = besides.iter().map(|losses| worst(losses)).collect();
+        let of_besides = besides.iter().zip(&worst).map(|(losses, worst)| {
             let ordinary = losses.iter().filter(|best| best.state < sampled).map(|best| best.loss).collect();
-            let worst = losses.iter().max_by(|a, b| a.loss.total_cmp(&b.loss))?;
-            Some(Figure { worst: worst.loss, median: Loss(ordinary).median(), at: at(worst.state) })
+            let Best { loss, state } = (*worst)?;
+            Some(Figure { worst: loss, median: Loss(ordinary).median(), at: at(state) })
         });
-        let found = Found { functions: functions.collect(), besides: besides.collect() };
-        let of_motion = |best: &Best| best.loss > MUCH && search.moves.are_of_motion(&drafts[best.state].moves);
-        let losing: Vec<(usize, &Best)> = best.iter().enumerate().filter(|(_, best)| of_motion(best)).collect();
-        let decided =
-            losing.into_iter().filter(|&(k, best)| search.is_decided_at(k, best.loss, &drafts[best.state], &forms(k)));
-        let deciding = decided.map(|(function, best)| {
-            let mut values = drafts[best.state].values.clone();
+        let found = Found { functions: functions.collect(), besides: of_besides.collect() };
+        let deciding = search.deciding(&drafts, &best, &worst, forms).into_iter().map(|(function, draft)| {
+            let mut values = draft.values;
             self.states.finish(&mut values);
             Deciding { function, point: self.states.point(&values) }
         });
         (found, deciding.collect())
     }
+}
+
+/// How many of the first states are sample states.
+fn sampled(drafts: &[Draft<'_>]) -> usize {
+    drafts.iter().take_while(|draft| draft.moves.is_empty()).count()
+}
+
+fn worst(losses: &[Best]) -> Option<Best> {
+    losses.iter().copied().max_by(|a, b| a.loss.total_cmp(&b.loss))
 }
 
 fn is_finite(exact: &[Doubled], outputs: &[Slot]) -> bool {
@@ -193,12 +200,16 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         });
         let outputs = outputs.collect();
         let functions = flat.len();
-        let besides = sought.besides.iter().map(|program| flat.program(program)).collect();
+        let besides = sought.besides.iter().map(|program| {
+            let begun = flat.len();
+            (flat.program(program), begun..flat.len())
+        });
+        let (besides, spans) = besides.unzip();
         let momenta = of_momentum.into_iter().flat_map(|(_, outputs)| outputs).zip(&states.system.scene.momenta);
         let momenta = momenta.filter_map(|(from, p)| Some((from, flat.input(*p)?))).collect();
         let ends = [known, functions, flat.len()];
         let vanishing = vec![false; flat.slots()];
-        Self { states, moves: Moves::new(states, seen), flat, ends, momenta, outputs, besides, vanishing }
+        Self { states, moves: Moves::new(states, seen), flat, ends, momenta, outputs, besides, spans, vanishing }
     }
 
     /// States and the worst of them for each function: physical samples, then those that were found.
@@ -207,22 +218,138 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
             values: values.clone(),
             masses: vec![(k as u64 ^ 1 << 50, profile.decades); self.states.bodies().count()],
             moves: Vec::new(),
+            sample: 0,
         });
         let mut drafts: Vec<Draft<'s>> = drafts.filter(|draft| self.states.is_physical(draft)).collect();
+        drafts.iter_mut().enumerate().for_each(|(k, draft)| draft.sample = k);
         self.find_vanishing(&drafts, trace);
         let mut best: Vec<Best> = vec![Best::default(); self.outputs.len()];
+        let goal = self.functions();
         for (k, draft) in drafts.iter().enumerate() {
-            self.try_at(draft, trace);
-            self.note(trace, draft, k, &mut best);
+            self.try_at(&goal.steps, draft, trace);
+            self.note(&goal, trace, draft, k, &mut best);
         }
-        if !drafts.is_empty() && !self.moves.are_none() && self.outputs.iter().any(|outputs| !outputs.is_empty()) {
-            let tries = (STEPS / self.ends[1].max(1)).clamp(LEAST, MOST);
-            self.climb(tries, &mut drafts, &mut best, trace);
-            for change in self.moves.of_many().take(tries / OF_MANY) {
-                self.try_change(0, change, &mut drafts, &mut best, trace);
+        let tries = (STEPS / self.ends[1].max(1)).clamp(LEAST, MOST);
+        self.search(&goal, tries, &mut drafts, &mut best, trace);
+        (drafts, best)
+    }
+
+    fn functions(&self) -> Goal<'_> {
+        Goal { lists: &self.outputs, steps: self.ends[0]..self.ends[1] }
+    }
+
+    /// Looks for states where programs lose more than at those that are known, so many and some.
+    fn search<'n>(
+        &self,
+        goal: &Goal<'_>,
+        tries: usize,
+        drafts: &mut Vec<Draft<'n>>,
+        best: &mut [Best],
+        trace: &mut Trace,
+    ) {
+        if drafts.is_empty() || self.moves.are_none() || goal.lists.iter().all(Vec::is_empty) {
+            return;
+        }
+        self.climb(goal, tries, drafts, best, trace);
+        for change in self.moves.of_many().take(tries / OF_MANY) {
+            self.try_change(goal, (0, change), drafts, best, trace);
+        }
+    }
+
+    /// Looks for states where derivatives lose more than where functions do: where digits cancel in derivatives alone.
+    fn seek_for_derivatives<'n>(
+        &self,
+        drafts: &mut Vec<Draft<'n>>,
+        besides: &mut [Vec<Best>],
+        traces: &mut [Trace; 2],
+    ) {
+        for k in 1..self.besides.len() {
+            let goal = Goal { lists: &self.besides[k..=k], steps: self.spans[k].clone() };
+            let known = drafts.len();
+            let mut best = [worst(&besides[k]).unwrap_or_default()];
+            let tries = (STEPS / (self.ends[0] + goal.steps.len()).max(1)).min(MOST);
+            self.search(&goal, tries, drafts, &mut best, &mut traces[0]);
+            let [Best { state, .. }] = best;
+            if state >= known {
+                let (_, losses) = self.losses_at(&drafts[state], traces);
+                for (known, loss) in besides.iter_mut().zip(losses).skip(1) {
+                    known.extend(loss.map(|loss| Best { loss, state }));
+                }
             }
         }
-        (drafts, best)
+    }
+
+    /// What functions lose at a state, and what is written besides; what has no value in double precision may have one
+    /// besides.
+    fn losses_at(&self, draft: &Draft<'_>, traces: &mut [Trace; 2]) -> (Vec<Option<f64>>, Vec<Option<f64>>) {
+        let [trace, again] = traces;
+        self.try_to(self.ends[2], draft, trace);
+        let lists = || self.outputs.iter().chain(&self.besides);
+        let mut losses: Vec<Option<f64>> = lists().map(|outputs| self.loss(trace, outputs)).collect();
+        if losses.iter().flatten().any(|loss| *loss > ORDINARY) {
+            self.try_to(self.ends[2], draft, again);
+            losses = lists().map(|outputs| self.loss_as_of(&[trace, again], outputs, outputs)).collect();
+        }
+        let of_besides = losses.split_off(self.outputs.len());
+        let mut exact = None;
+        let of_besides = self.besides.iter().zip(of_besides).map(|(outputs, loss)| {
+            let loss = loss.or_else(|| {
+                let exact =
+                    exact.get_or_insert_with(|| self.exact(draft, trace, self.ends[2], |_| Doubled::number(1.0)));
+                is_finite(exact, outputs).then_some(NO_DIGIT)
+            });
+            loss.map(|loss| loss.min(NO_DIGIT))
+        });
+        let of_besides = of_besides.collect();
+        (losses, of_besides)
+    }
+
+    /// Where another form would keep what a function or a derivative (`None`) loses by its motion alone.
+    fn deciding<'n>(
+        &mut self,
+        drafts: &[Draft<'n>],
+        best: &[Best],
+        besides: &[Option<Best>],
+        forms: &Forms<'_, 'g>,
+    ) -> Vec<(Option<usize>, Draft<'n>)> {
+        let mut deciding = Vec::new();
+        for (k, best) in best.iter().enumerate().filter(|(_, best)| best.loss > MUCH) {
+            let draft = &drafts[best.state];
+            if draft.moves.iter().all(|change| self.moves.is_of_motion(change)) {
+                let outputs = (forms.of_function)(k);
+                let form = |flat: &mut Flat, form: &Vec<Expr<'g>>| form.iter().map(|e| flat.expression(*e)).collect();
+                let outputs = outputs.iter().map(|outputs| form(&mut self.flat, outputs)).collect::<Vec<_>>();
+                if self.is_decided_at(&self.outputs[k], best.loss, draft, &outputs) {
+                    deciding.push((Some(k), draft.clone()));
+                }
+            }
+        }
+        for (k, best) in besides.iter().enumerate().skip(1) {
+            let Some(best) = best.filter(|best| best.loss > MUCH) else { continue };
+            let draft = self.of_motion(&drafts[best.state], drafts);
+            let mut trace = self.flat.room(0);
+            self.try_to(self.ends[2], &draft, &mut trace);
+            let loss = self.loss(&trace, &self.besides[k]).unwrap_or(NO_DIGIT);
+            if loss > MUCH {
+                let outputs: Vec<Vec<Slot>> =
+                    (forms.of_derivative)(k - 1).iter().map(|program| self.flat.program(program)).collect();
+                if self.is_decided_at(&self.besides[k], loss, &draft, &outputs) {
+                    deciding.push((None, draft));
+                }
+            }
+        }
+        deciding
+    }
+
+    /// A state without what parameters were changed by.
+    fn of_motion<'n>(&self, draft: &Draft<'n>, drafts: &[Draft<'n>]) -> Draft<'n> {
+        if draft.moves.iter().all(|change| self.moves.is_of_motion(change)) {
+            return draft.clone();
+        }
+        let mut other = drafts[draft.sample].clone();
+        let moves = draft.moves.iter().filter(|change| self.moves.is_of_motion(change));
+        moves.for_each(|change| self.moves.apply(*change, &mut other));
+        other
     }
 
     /// The first of the numbers that can be moved of which something holds.
@@ -232,35 +359,21 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
     }
 
     /// Sample states and the worst ones of functions; of the others that were found, which are worse than those before
-    /// them, the latest, as many as are worth their time; those where several numbers change.
-    fn states_for_others<'n>(&self, drafts: &mut Vec<Draft<'n>>, sampled: usize, best: &[Best]) -> Vec<usize> {
-        let (end, latest) = (drafts.len(), self.latest());
+    /// them, the latest, as many as are worth their time.
+    fn states_for_others(&self, end: usize, sampled: usize, best: &[Best]) -> Vec<usize> {
+        let latest = (STEPS / self.ends[2].max(1)).min(LEAST);
         let is_worth =
             |state: usize| state < sampled || state + latest >= end || best.iter().any(|best| best.state == state);
-        (0..end).filter(|&state| is_worth(state)).chain(self.states_of_many(drafts)).collect()
+        (0..end).filter(|&state| is_worth(state)).collect()
     }
 
-    /// States where several numbers of a sample state change at once, which are added to the others: derivatives may
-    /// lose digits there that functions keep.
-    fn states_of_many<'n>(&self, drafts: &mut Vec<Draft<'n>>) -> Range<usize> {
-        let end = drafts.len();
-        let Some(sample) = drafts.first().filter(|_| self.besides.len() > 1).cloned() else { return end..end };
-        let changed = self.moves.of_many().take(self.latest() / OF_MANY).map(|change| {
-            let mut draft = sample.clone();
-            self.moves.apply(change, &mut draft);
-            draft
-        });
-        drafts.extend(changed.filter(|draft| self.states.is_physical(draft)));
-        end..drafts.len()
+    /// Runs all programs at a state up to a step.
+    fn try_to(&self, end: usize, draft: &Draft<'_>, trace: &mut Trace) {
+        self.try_at(&(self.ends[0]..end), draft, trace);
     }
 
-    /// How many of the states that were found are worth their time for what is written besides.
-    fn latest(&self) -> usize {
-        (STEPS / self.ends[2].max(1)).min(LEAST)
-    }
-
-    /// Runs all functions at a state.
-    pub fn try_at(&self, draft: &Draft<'_>, trace: &mut Trace) {
+    /// Computes p at a state, and carries out steps.
+    fn try_at(&self, steps: &Range<usize>, draft: &Draft<'_>, trace: &mut Trace) {
         for (key, slot) in self.flat.inputs() {
             trace.give(*slot, draft.values.map.get(key).copied().unwrap_or(f64::NAN));
         }
@@ -268,27 +381,23 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         for &(from, p) in &self.momenta {
             trace.give(p, trace.slots()[from as usize].value);
         }
-        trace.run(&self.flat, self.ends[0], self.ends[1]);
+        trace.run(&self.flat, steps.start, steps.end);
     }
 
-    /// The same, and what is written besides.
+    /// Runs functions and what is written besides.
+    #[cfg(test)]
     pub fn try_all_at(&self, draft: &Draft<'_>, trace: &mut Trace) {
-        self.try_at(draft, trace);
-        trace.run(&self.flat, self.ends[1], self.ends[2]);
+        self.try_to(self.ends[2], draft, trace);
     }
 
-    /// Whether another form of a function loses much less at a state.
-    fn is_decided_at(&mut self, function: usize, loss: f64, draft: &Draft<'_>, forms: &[Vec<Expr<'g>>]) -> bool {
+    /// Whether another form of what has that loss at a state loses much less there.
+    fn is_decided_at(&self, own: &[Slot], loss: f64, draft: &Draft<'_>, forms: &[Vec<Slot>]) -> bool {
         if forms.len() < 2 {
             return false;
         }
-        let mut slots = |form: &Vec<Expr<'g>>| form.iter().map(|e| self.flat.expression(*e)).collect();
-        let outputs: Vec<Vec<Slot>> = forms.iter().map(&mut slots).collect();
         let mut trace = self.flat.room(0);
-        self.try_at(draft, &mut trace);
-        trace.run(&self.flat, self.ends[2], self.flat.len());
-        let own = &self.outputs[function];
-        let least = outputs.iter().filter_map(|outputs| self.loss_as_of(&[&trace], outputs, own)).fold(loss, f64::min);
+        self.try_to(self.flat.len(), draft, &mut trace);
+        let least = forms.iter().filter_map(|outputs| self.loss_as_of(&[&trace], outputs, own)).fold(loss, f64::min);
         LESS * least.max(1.0) < loss
     }
 
@@ -344,7 +453,7 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         let slots: Vec<Slot> = self.outputs.iter().chain(&self.besides).flatten().copied().collect();
         let mut vanish = vec![true; slots.len()];
         for draft in drafts {
-            self.try_all_at(draft, trace);
+            self.try_to(self.ends[2], draft, trace);
             let mut vanish = vanish.iter_mut();
             for outputs in self.outputs.iter().chain(&self.besides) {
                 let traced = || outputs.iter().map(|&slot| &trace.slots()[slot as usize]);
@@ -359,16 +468,16 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         }
     }
 
-    /// Notes where functions lose more than at the states before; whether one of them loses much more.
-    fn note(&self, trace: &Trace, draft: &Draft<'_>, state: usize, best: &mut [Best]) -> bool {
+    /// Notes where programs lose more than at the states before; whether one of them loses much more.
+    fn note(&self, goal: &Goal<'_>, trace: &Trace, draft: &Draft<'_>, state: usize, best: &mut [Best]) -> bool {
         let (mut much, mut exact) = (false, None);
-        for (outputs, best) in self.outputs.iter().zip(best) {
+        for (outputs, best) in goal.lists.iter().zip(best) {
             if outputs.is_empty() || best.loss >= NO_DIGIT {
                 continue;
             }
             let loss = self.loss(trace, outputs).unwrap_or_else(|| {
                 let exact =
-                    exact.get_or_insert_with(|| self.exact(draft, trace, self.ends[1], |_| Doubled::number(1.0)));
+                    exact.get_or_insert_with(|| self.exact(draft, trace, goal.steps.end, |_| Doubled::number(1.0)));
                 if is_finite(exact, outputs) { NO_DIGIT } else { 0.0 }
             });
             if loss > best.loss {
@@ -390,34 +499,41 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         self.flat.run(|key, slot| Doubled::number(of(key, slot)) * factor(slot), to)
     }
 
-    fn climb<'n>(&self, tries: usize, drafts: &mut Vec<Draft<'n>>, best: &mut [Best], trace: &mut Trace) {
-        let sampled = drafts.len();
+    fn climb<'n>(
+        &self,
+        goal: &Goal<'_>,
+        tries: usize,
+        drafts: &mut Vec<Draft<'n>>,
+        best: &mut [Best],
+        trace: &mut Trace,
+    ) {
+        let sampled = sampled(drafts);
         let mut random = Random::new(26);
-        let functions: Vec<usize> = (0..self.outputs.len()).filter(|&k| !self.outputs[k].is_empty()).collect();
+        let lists: Vec<usize> = (0..goal.lists.len()).filter(|&k| !goal.lists[k].is_empty()).collect();
         let mut again: Option<(usize, Move)> = None;
         for n in 0..tries {
             if n == tries / 2 && best.iter().all(|best| best.loss < ORDINARY) {
                 return;
             }
-            let (base, change) = again.take().unwrap_or_else(|| {
-                let best = best[functions[n % functions.len()]].state;
+            let from = again.take().unwrap_or_else(|| {
+                let best = best[lists[n % lists.len()]].state;
                 let base = if random.below(4) == 0 { random.below(sampled) } else { best };
                 let further = drafts[base].moves.last().filter(|_| random.below(3) == 0);
                 (base, further.map_or_else(|| self.moves.any(&mut random), |last| last.further()))
             });
             let state = drafts.len();
-            if self.try_change(base, change, drafts, best, trace) {
-                again = Some((state, change.further()));
+            if self.try_change(goal, from, drafts, best, trace) {
+                again = Some((state, from.1.further()));
             }
         }
     }
 
-    /// Tries all functions at a changed state, which is kept where one of them loses more than before; whether one
-    /// loses much more.
+    /// Tries all programs at a state that is changed, which is kept where one of them loses more than before; whether
+    /// one loses much more.
     fn try_change<'n>(
         &self,
-        base: usize,
-        change: Move,
+        goal: &Goal<'_>,
+        (base, change): (usize, Move),
         drafts: &mut Vec<Draft<'n>>,
         best: &mut [Best],
         trace: &mut Trace,
@@ -427,9 +543,9 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         if !self.states.is_physical(&draft) {
             return false;
         }
-        self.try_at(&draft, trace);
+        self.try_at(&goal.steps, &draft, trace);
         let state = drafts.len();
-        let much = self.note(trace, &draft, state, best);
+        let much = self.note(goal, trace, &draft, state, best);
         if best.iter().any(|best| best.state == state) {
             drafts.push(draft);
         }

@@ -7,9 +7,9 @@ use crate::program::Code;
 use super::random::Random;
 use super::tape::Tape;
 
-/// A state where a function loses much that another form of it keeps. Derivatives are tried there as well.
+/// A state where a function, or a derivative (`None`), loses much that another form of it keeps.
 pub struct Deciding {
-    pub function: usize,
+    pub function: Option<usize>,
     pub point: Point,
 }
 
@@ -105,9 +105,8 @@ impl Loss {
 #[derive(Default)]
 pub struct Trial {
     points: Vec<Point>,
-    /// The only functions that are tried at the last of them, one each, and which of the functions is tried; `None` of
-    /// derivatives, which are tried at all of them.
-    deciding: Vec<usize>,
+    /// The only functions that are tried at the last of them, `None` of derivatives, and which of them is tried now.
+    deciding: Vec<Option<usize>>,
     function: Option<usize>,
     /// How many constants have their values.
     defined: usize,
@@ -128,6 +127,17 @@ impl Trial {
     /// From here on programs of that function are tried, or those of derivatives.
     pub fn begin(&mut self, function: Option<usize>) {
         self.function = function;
+    }
+
+    /// Whether a state that was sought for a function or for derivatives decides for what is tried now: derivatives
+    /// have the states of all functions where they have none of their own.
+    fn decides(&self, sought: Option<usize>) -> bool {
+        sought == self.function || self.function.is_none() && !self.deciding.contains(&None)
+    }
+
+    /// Whether derivatives are tried, also at states that were sought.
+    pub fn decides_derivatives(&self) -> bool {
+        self.function.is_none() && !self.deciding.is_empty()
     }
 
     /// Computes constants, symbols and what they stand for, beyond those that are known.
@@ -176,8 +186,7 @@ impl Trial {
         let mut tried = Tried { losses: vec![Loss::default(); tapes.len()], there: Vec::new(), samples: 0 };
         let samples = self.points.len() - self.deciding.len();
         for (k, point) in self.points.iter().enumerate() {
-            let is_of_another = |function| k >= samples && function != self.deciding[k - samples];
-            if self.function.is_some_and(is_of_another) {
+            if k >= samples && !self.decides(self.deciding[k - samples]) {
                 continue;
             }
             let found: Vec<Vec<f64>> = tapes.iter().map(|tape| tape.run(&point.given, |_| None)).collect();
@@ -207,9 +216,9 @@ pub struct Tried {
 }
 
 impl Tried {
-    /// Which programs may be taken by the sample states, and which by all.
-    pub fn usable(&self) -> [Vec<bool>; 2] {
-        [usable(&self.sampled()), usable(&self.losses)]
+    /// Which programs may be taken.
+    pub fn usable(&self) -> Vec<bool> {
+        usable(&self.losses)
     }
 
     /// Without the programs that are not among those.
@@ -219,11 +228,6 @@ impl Tried {
         self
     }
 
-    /// Of programs with their costs the one that is taken by sample states alone.
-    pub fn taken_by_samples(&self, costs: &[u32]) -> usize {
-        taken(&self.sampled(), costs)
-    }
-
     fn sampled(&self) -> Vec<Loss> {
         self.losses.iter().map(|loss| Loss(loss.0[..self.samples].to_vec())).collect()
     }
@@ -231,7 +235,7 @@ impl Tried {
     /// Of programs with their costs the one that is taken: by all states, unless that costs more than [`DEAR`] times
     /// what is taken by the sample states.
     pub fn taken(&self, costs: &[u32]) -> usize {
-        let ordinary = self.taken_by_samples(costs);
+        let ordinary = taken(&self.sampled(), costs);
         if self.samples == self.there.len() {
             return ordinary;
         }

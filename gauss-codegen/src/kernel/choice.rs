@@ -60,19 +60,10 @@ impl<'g> Candidates<'g> {
         Self { arrangements, aim: Aim::Values }
     }
 
-    /// Everything that could be taken in place of a program of so many instructions.
-    pub(super) fn forms(&self, instructions: usize) -> Vec<Vec<Expr<'g>>> {
-        let mut forms = self.arrangements.clone();
-        if instructions <= LONG {
-            forms.extend(self.arrangements.iter().flat_map(|outputs| without_differences(outputs)));
-        }
-        forms
-    }
-
     /// The arrangement that is taken.
     pub(super) fn taken(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Taken<'g> {
         let Pool { mut lowered, tried, best } = Pool::of(&self.arrangements, self.aim, hoister, Hoister::hoist, trial);
-        let first = Some(lowered[0].outputs.clone()).filter(|_| tried.usable()[1][0]);
+        let first = Some(lowered[0].outputs.clone()).filter(|_| tried.usable()[0]);
         let Lowered { outputs, program, .. } = lowered.swap_remove(best);
         let loss = tried.losses[best].clone();
         // A power series has a recurrence for every product, and takes a negation of an addend for an instruction like
@@ -92,9 +83,25 @@ impl<'g> Candidates<'g> {
     }
 }
 
+/// Everything that could be taken in place of a program of so many instructions.
+pub(super) fn forms<'g>(arrangements: &[Vec<Expr<'g>>], instructions: usize) -> Vec<Vec<Expr<'g>>> {
+    let mut forms = arrangements.to_vec();
+    if instructions <= LONG {
+        forms.extend(arrangements.iter().flat_map(|outputs| without_differences(outputs)));
+    }
+    forms
+}
+
+/// The same as programs of constants that are not computed before.
+pub(super) fn programs_of<'g>(arrangements: &[Vec<Expr<'g>>]) -> Vec<Program<'g>> {
+    let Some(first) = arrangements.first() else { return Vec::new() };
+    let length = Program::lower(first).instructions.len();
+    forms(arrangements, length).iter().map(|outputs| Program::lower(outputs)).collect()
+}
+
 impl<'g> Pool<'g> {
-    /// Of equal outputs, hoisted in one way or the other. Where the best loses much, each is tried without its
-    /// differences of like functions as well.
+    /// Of equal outputs, hoisted in one way or the other. Where the best loses much, or derivatives do somewhere, each
+    /// is tried without its differences of like functions as well.
     pub fn of<'a>(
         arrangements: &[Vec<Expr<'g>>],
         aim: Aim,
@@ -102,6 +109,7 @@ impl<'g> Pool<'g> {
         hoist: fn(&mut Hoister<'a, 'g>, &[Expr<'g>]) -> Vec<Expr<'g>>,
         trial: &mut Trial,
     ) -> Self {
+        let of_derivatives = trial.decides_derivatives();
         let mut lowered = Vec::new();
         let mut add = |arrangements: &[Vec<Expr<'g>>], lowered: &mut Vec<Lowered<'g>>| {
             for outputs in arrangements {
@@ -120,7 +128,8 @@ impl<'g> Pool<'g> {
             (tried, best)
         };
         let (mut tried, mut best) = add(arrangements, &mut lowered);
-        if tried.losses[best].worst() > SUSPECT && lowered[best].program.instructions.len() <= LONG {
+        let is_suspect = of_derivatives || tried.losses[best].worst() > SUSPECT;
+        if is_suspect && lowered[best].program.instructions.len() <= LONG {
             let others: Vec<Vec<Expr<'g>>> =
                 lowered.iter().flat_map(|candidate| without_differences(&candidate.outputs)).collect();
             if !others.is_empty() {

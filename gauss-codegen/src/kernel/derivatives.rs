@@ -3,7 +3,7 @@
 use crate::accuracy::Trial;
 use crate::algebra::Expr;
 
-use super::choice::{Aim, Lowered as Arranged, Pool};
+use super::choice::{Aim, Lowered as Arranged, Pool, programs_of};
 use super::columns::{Columns, LoweredColumns};
 use super::expected::{Expected, Kept};
 use super::hoist::Hoister;
@@ -46,9 +46,9 @@ impl<'g> Differentiated<'g> {
         let differentiate = if kept == Kept::ValuesToo { with_tangents } else { tangents_alone };
         let Pool { lowered, tried, .. } =
             Pool::of(&self.arrangements, Aim::Values, hoister, Hoister::hoist_undefined, trial);
-        // What loses digits at sample states loses them in its derivatives, too.
-        let [by_samples, by_all] = tried.usable();
-        let usable: Vec<bool> = by_samples.into_iter().zip(by_all).map(|(sampled, all)| sampled || all).collect();
+        // What loses digits at sample states loses them in its derivatives, too. At states that were sought derivatives
+        // may keep what their functions lose, or lose what these keep: there they are tried themselves.
+        let usable = if trial.decides_derivatives() { vec![true; lowered.len()] } else { tried.usable() };
         let tried = tried.only(&usable);
         let of_usable = lowered.into_iter().zip(usable).filter(|(_, usable)| *usable);
         let of_usable = of_usable.map(|(Arranged { outputs, program, .. }, _)| {
@@ -56,23 +56,29 @@ impl<'g> Differentiated<'g> {
         });
         let mut of_usable: Vec<_> = of_usable.collect();
         let costs: Vec<u32> = of_usable.iter().map(|(program, _)| program.cost().total()).collect();
-        let [sampled, all] = [tried.taken_by_samples(&costs), tried.taken(&costs)];
-        // Where a state that was sought decides otherwise, derivatives may keep digits that their functions lose; of
-        // the functions themselves there are programs of their own.
-        let best = if sampled == all {
-            all
-        } else {
+        // Of the functions themselves there are programs of their own.
+        let best = if trial.decides_derivatives() {
             let values = if kept == Kept::ValuesToo { self.arrangements[0].len() } else { 0 };
-            let alone = |k: usize| {
-                let Program { instructions, outputs } = &of_usable[k].0;
-                Program { instructions: instructions.clone(), outputs: outputs[values..].to_vec() }
-            };
-            let tried = trial.tried(&[&alone(sampled), &alone(all)]);
-            [sampled, all][tried.taken(&[costs[sampled], costs[all]])]
+            let alone = of_usable.iter().map(|(Program { instructions, outputs }, _)| Program {
+                instructions: instructions.clone(),
+                outputs: outputs[values..].to_vec(),
+            });
+            let alone: Vec<Program<'g>> = alone.collect();
+            trial.tried(&alone.iter().collect::<Vec<_>>()).taken(&costs)
+        } else {
+            tried.taken(&costs)
         };
         let (program, outputs) = of_usable.swap_remove(best);
         let (program, columns) = self.cheaper(program, hoister, trial);
         ((program.carried_out(), columns), Expected::along(outputs, &self.directions, kept))
+    }
+
+    /// What could be taken: programs whose constants are not computed before.
+    pub(super) fn forms(&self, kept: Kept) -> Vec<Program<'g>> {
+        let definitions = Program::lower(&self.defined);
+        let differentiate = if kept == Kept::ValuesToo { with_tangents } else { tangents_alone };
+        let programs = programs_of(&self.arrangements).into_iter();
+        programs.map(|program| differentiate(&program, (&self.defined, &definitions), &self.directions)).collect()
     }
 
     /// A program of derivatives, or what has a form of its own and costs less. Of roots, whose slope may be infinite,

@@ -4,7 +4,7 @@ use crate::accuracy::Trial;
 use crate::algebra::{Dual, Evaluation, Expr, Map, Number, Rational, Tangents};
 
 use super::adjoint::gradient;
-use super::choice::{Aim, Pool};
+use super::choice::{Aim, Pool, programs_of};
 use super::hoist::Hoister;
 use super::tangent::{Direction, with_outputs, with_tangents};
 use super::write::{Operand, Operation, Program};
@@ -42,16 +42,26 @@ impl<'g> Curved<'g> {
         let Pool { lowered, tried, .. } =
             Pool::of(&arrangements, Aim::Values, hoister, Hoister::hoist_undefined, trial);
         let cost = |k: &usize| lowered[*k].program.cost().total();
-        let cheapest = |usable: Vec<bool>| (0..usable.len()).filter(|&k| usable[k]).min_by_key(cost);
-        let mut cheapest = tried.usable().map(cheapest).to_vec();
-        cheapest.dedup();
+        let cheapest = |usable: &[bool]| (0..usable.len()).filter(|&k| usable[k]).min_by_key(cost);
+        let those: Vec<usize> = if trial.decides_derivatives() {
+            (0..lowered.len()).collect()
+        } else {
+            cheapest(&tried.usable()).into_iter().collect()
+        };
         let mut ways: Vec<Program<'g>> =
             self.derived.iter().map(|e| Program::lower(&hoister.hoist(e)).with_signs_led_back()).collect();
-        ways.extend(cheapest.into_iter().flatten().map(|k| self.of_program(&lowered[k].program, &definitions)));
+        ways.extend(those.into_iter().map(|k| self.of_program(&lowered[k].program, &definitions)));
         trial.define(hoister.constants());
         let tried = trial.tried(&ways.iter().collect::<Vec<_>>());
         let costs: Vec<u32> = ways.iter().map(|program| program.cost().total()).collect();
         ways.swap_remove(tried.taken(&costs)).carried_out()
+    }
+
+    /// What could be taken: programs whose constants are not computed before.
+    pub(super) fn forms(&self) -> Vec<Program<'g>> {
+        let definitions = Program::lower(&self.defined);
+        let arrangements: Vec<Vec<Expr<'g>>> = self.arrangements.iter().map(|e| vec![*e]).collect();
+        programs_of(&arrangements).iter().map(|program| self.of_program(program, &definitions)).collect()
     }
 
     /// The gradient by backward differentiation, and its tangents.

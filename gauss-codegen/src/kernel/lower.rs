@@ -1,11 +1,11 @@
 //! The functions of a kernel, lowered together: shared constants, of each the arrangement that is taken.
 
-use crate::accuracy::{Deciding, Figure, Found, Loss, Samples, Sought, Trial};
+use crate::accuracy::{Deciding, Figure, Forms, Found, Loss, Samples, Sought, Trial};
 use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::methods::{DerivativeKind, Method, Methods};
 
 use super::check::{Checked, Miscompiled, Sample};
-use super::choice::{Candidates, Taken};
+use super::choice::{Candidates, Taken, forms};
 use super::constants::{Constants, Hoisted, Source};
 use super::expected::Expected;
 use super::hoist::Hoister;
@@ -48,6 +48,9 @@ pub struct Derivatives<'a, 'g> {
     /// accelerations with the help of that, so points at which derivatives are checked must have it, too.
     pub units: &'a [Vec<Expr<'g>>],
 }
+
+/// The instructions up to which other forms of a derivative are looked for.
+const LONG: usize = 4000;
 
 /// Symbols that stand for literal numbers. Where the scalar is not known before run time, there is no value to fold.
 pub type Literals<'a, 'g> = Option<&'a [(Rational, Expr<'g>)]>;
@@ -123,18 +126,26 @@ impl<'g> Kernel<'g> {
         functions.chain(self.derivatives.iter().map(Derivative::written)).chain([&self.constants])
     }
 
-    /// Looks for the states where the functions lose most, and tries what is written besides there: `joined` and the
-    /// derivatives. Gives those states where another form of a function, if others are given, loses much less.
+    /// Looks for the states where functions and derivatives lose most, and tries `joined` there. Gives those states
+    /// where another form of one of them, if others are given, loses much less.
     pub fn seek_losses(
         &mut self,
         samples: &Samples<'_, '_, 'g>,
-        others: Option<&Methods<Candidates<'g>>>,
+        others: Option<(&Methods<Candidates<'g>>, &Derivatives<'_, 'g>)>,
     ) -> Vec<Deciding> {
-        let forms = |k: usize| {
+        let of_function = |k: usize| {
             let (_, function) = self.functions.iter().nth(k)?;
-            Some(others?.iter().nth(k)?.1.forms(function.program.instructions.len()))
+            Some(forms(&others?.0.iter().nth(k)?.1.arrangements, function.program.instructions.len()))
         };
-        let forms = |k: usize| forms(k).unwrap_or_default();
+        let of_derivative = |k: usize| {
+            let Derivative { kind, .. } =
+                self.derivatives.get(k).filter(|own| own.program.instructions.len() <= LONG)?;
+            Some(others?.1.list.iter().find(|wanted| wanted.kind == *kind)?.forms())
+        };
+        let forms = Forms {
+            of_function: &|k| of_function(k).unwrap_or_default(),
+            of_derivative: &|k| of_derivative(k).unwrap_or_default(),
+        };
         let (Found { functions, besides }, deciding) = samples.seek(&self.sought(), &forms);
         for ((_, function), figure) in self.functions.each_mut().into_iter().zip(functions) {
             function.figure = figure;

@@ -66,6 +66,16 @@ impl<'g> Wanted<'g> {
         Some(Lowered { kind: self.kind, program, columns, expected })
     }
 
+    /// What could be taken in place of its program; nothing of derivatives by parameters, which follow the functions.
+    pub(super) fn forms(&self) -> Vec<Program<'g>> {
+        match &self.differentiation {
+            Differentiation::WithValues(functions) => functions.forms(Kept::ValuesToo),
+            Differentiation::Alone(functions) => functions.forms(Kept::DerivativesAlone),
+            Differentiation::ByParameters(_) => Vec::new(),
+            Differentiation::Twice(curved) => curved.forms(),
+        }
+    }
+
     pub(super) fn by_parameters(&self) -> Option<&ByParameters<'g>> {
         match &self.differentiation {
             Differentiation::ByParameters(by_parameters) => Some(by_parameters),
