@@ -42,13 +42,13 @@ fn written(derived: &Derived<'_, '_>) -> TokenStream {
 pub fn derive<R>(input: &DeriveInput, write: impl FnOnce(&Derived<'_, '_>) -> Result<R>) -> syn::Result<R> {
     let model = model::parse(input)?;
     let graph = Graph::new();
-    graph.allow(most_operations(&model));
+    graph.allow(most_operations(&model.item));
     // Every body and particle has partial velocities, a row for each speed.
     graph.spend((model.bodies.len() + model.particles.len()).saturating_mul(model.coordinates.len()));
-    refuse_exhausted(&model, &graph)?;
+    refuse_exhausted(&model.item, &graph)?;
     let derived = derive_model(&graph, &model, write);
     // Whatever else was found then means nothing.
-    refuse_exhausted(&model, &graph)?;
+    refuse_exhausted(&model.item, &graph)?;
     Ok(derived?)
 }
 
@@ -128,7 +128,7 @@ mod tests {
                 let graph = Graph::new();
                 graph.restrict(size);
                 let derived = derive_model(&graph, &model, |derived| Ok(emit(derived, &Equations::of(derived))));
-                assert!(refuse_exhausted(&model, &graph).is_err() || derived.is_ok(), "{size}: {source}");
+                assert!(refuse_exhausted(&model.item, &graph).is_err() || derived.is_ok(), "{size}: {source}");
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use proc_macro2::Ident;
 
-use crate::algebra::{Expr, Graph, Map, Notation, Rational, Substitution};
+use crate::algebra::{Expr, Graph, Map, Notation, Substitution};
 use crate::error::Result;
 use crate::kernel::{Differentiation, Wanted};
 use crate::mechanics::{
@@ -14,12 +14,12 @@ use crate::methods::DerivativeKind;
 use crate::mistakes::{
     eliminate, not_linear, refuse_curved_kinematics, refuse_exhausted, refuse_idle_speeds, system_faults,
 };
-use crate::model::{self, Model, WantedMethod};
+use crate::terms::{self, WantedMethod};
 use crate::translate::{Given, Parameter, Translated};
 
 /// A system with its formulas.
-pub struct Formulation<'a, 'g> {
-    pub given: Given<'a, 'g>,
+pub struct Formulation<'g> {
+    pub given: Given<'g>,
     pub system: System<'g>,
     /// How its speeds were found, where constraints are solved for the others.
     pub elimination: Option<Elimination<'g>>,
@@ -40,17 +40,16 @@ pub struct Formulation<'a, 'g> {
     pub units: Vec<Vec<Expr<'g>>>,
 }
 
-impl<'a, 'g> Formulation<'a, 'g> {
+impl<'g> Formulation<'g> {
     /// # Errors
     /// What only the derivation finds wrong with a system.
-    pub fn of(translated: Translated<'a, 'g>) -> Result<Self> {
+    pub fn of(translated: Translated<'g>) -> Result<Self> {
         let Reduced { given, mut system, elimination } = Reduced::of(translated)?;
-        let model = given.model;
-        let graph = system.scene.graph;
+        let (wanted_of, graph) = (&given.item.wanted, system.scene.graph);
         let printed = printed(&mut system);
-        refuse_exhausted(model, graph)?;
+        refuse_exhausted(&given.item, graph)?;
         let mut formulas = system.formulas();
-        refuse_exhausted(model, graph)?;
+        refuse_exhausted(&given.item, graph)?;
         check_system_against_definition(&system, &Claims::of(&formulas))
             .map_err(|faults| system_faults(&given, &system, &faults))?;
         formulas.extend(system.formulas_of_one_body().into_iter().flatten());
@@ -59,14 +58,14 @@ impl<'a, 'g> Formulation<'a, 'g> {
             formulas.extend(elimination.formulas());
         }
         let (quaternions, definitions) = system_rotations(system.scene.graph, &system);
-        let (mut derivatives, weights) = derivatives(&model.wanted, &system, &formulas, &given.parameters);
-        let clause = model.wanted.regressor.as_ref();
+        let (mut derivatives, weights) = derivatives(wanted_of, &system, &formulas, &given.parameters);
+        let clause = wanted_of.regressor.as_ref();
         let regressor = clause.map(|clause| regressor(clause, &system, &given.parameters)).transpose()?;
-        if model.wanted.taylor.is_some() {
+        if wanted_of.taylor.is_some() {
             formulas.extend([system.component_rates(&quaternions, &formulas.acceleration)]);
         }
         formulas.extend(system.frame_formulas(&given.frames));
-        for method in &model.wanted.methods {
+        for method in &wanted_of.methods {
             match method {
                 WantedMethod::Centroidal => formulas.extend(system.centroidal_formulas()),
                 WantedMethod::NonlinearEffects => formulas.extend([system.nonlinear_effects(&formulas.gauss_residual)]),
@@ -133,7 +132,7 @@ impl<'a, 'g> Formulation<'a, 'g> {
 
 /// Whatever is derived from the system as it is, and λ.
 fn derivatives<'g>(
-    wanted_of: &model::Wanted,
+    wanted_of: &terms::Wanted,
     system: &System<'g>,
     formulas: &Formulas<'g>,
     parameters: &[Parameter<'g>],
@@ -196,25 +195,24 @@ fn printed(system: &mut System<'_>) -> [Printed; 2] {
 }
 
 /// A system with the speeds that are left.
-struct Reduced<'a, 'g> {
-    given: Given<'a, 'g>,
+struct Reduced<'g> {
+    given: Given<'g>,
     system: System<'g>,
     elimination: Option<Elimination<'g>>,
 }
 
-impl<'a, 'g> Reduced<'a, 'g> {
-    fn of(Translated { scene, mut given }: Translated<'a, 'g>) -> Result<Self> {
-        let model = given.model;
-        refuse_exhausted(model, scene.graph)?;
-        refuse_curved_kinematics(model, &scene)?;
+impl<'g> Reduced<'g> {
+    fn of(Translated { scene, mut given }: Translated<'g>) -> Result<Self> {
+        refuse_exhausted(&given.item, scene.graph)?;
+        refuse_curved_kinematics(&given, &scene)?;
         let mut whole = System::new(scene);
-        refuse_exhausted(model, whole.scene.graph)?;
-        leave_out_needless(model, &given.literals, &mut whole);
+        refuse_exhausted(&given.item, whole.scene.graph)?;
+        leave_out_needless(&given, &mut whole);
         refuse_idle_speeds(&given, &whole)?;
         let Some(independent) = &given.independent else {
             return Ok(Self { given, system: whole, elimination: None });
         };
-        let elimination = eliminate(model, whole, independent)?;
+        let elimination = eliminate(&given.constraints, whole, independent)?;
         let system = System::new(elimination.reduced());
         given.substitute(&Substitution::new(elimination.replacement()));
         Ok(Self { given, system, elimination: Some(elimination) })
@@ -222,10 +220,10 @@ impl<'a, 'g> Reduced<'a, 'g> {
 }
 
 /// Components of vectors that follow from others, and what a file says twice: nobody has written those one by one.
-fn leave_out_needless<'g>(model: &Model, literals: &[(Rational, Expr<'g>)], system: &mut System<'g>) {
-    let together = |clause: usize| model.constraints[clause].vector || model.constraints[clause].place.is_some();
+fn leave_out_needless<'g>(given: &Given<'g>, system: &mut System<'g>) {
+    let together = |clause: usize| given.constraints[clause].is_vector || given.constraints[clause].in_file.is_some();
     if system.scene.constraints.iter().any(|constraint| together(constraint.clause)) {
-        let mut needless = system.scene.graph.aside(|| needless_constraints(system, literals));
+        let mut needless = system.scene.graph.aside(|| needless_constraints(system, &given.literals));
         needless.retain(|&k| together(system.scene.constraints[k].clause));
         if !needless.is_empty() {
             system.leave_out(&needless);

@@ -19,6 +19,7 @@ mod model;
 pub mod program;
 pub mod scene;
 pub mod targets;
+mod terms;
 mod translate;
 mod words;
 

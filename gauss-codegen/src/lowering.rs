@@ -12,7 +12,7 @@ use crate::methods::DerivativeKind;
 use crate::mistakes::{
     failed, refuse_lost, refuse_regressor, refuse_series, refuse_too_much, refuse_unknown_derivatives,
 };
-use crate::model::Scalar;
+use crate::terms::Scalar;
 use crate::translate::Given;
 
 /// The programs of all formulas and of the derivatives that are wanted.
@@ -20,8 +20,8 @@ use crate::translate::Given;
 /// # Errors
 /// More code than is wanted, masses that are something else besides, motions without a power series; mistakes of this
 /// crate.
-pub fn lower<'g>(formulation: &Formulation<'_, 'g>) -> Result<Kernel<'g>> {
-    let Given { model, literals, .. } = &formulation.given;
+pub fn lower<'g>(formulation: &Formulation<'g>) -> Result<Kernel<'g>> {
+    let Given { item, literals, .. } = &formulation.given;
     let graph = formulation.system.scene.graph;
     let failed = |what: &dyn Display| failed(&formulation.given, &formulation.system, &what);
     let undefined = || failed(&"the equations divide by zero");
@@ -33,7 +33,7 @@ pub fn lower<'g>(formulation: &Formulation<'_, 'g>) -> Result<Kernel<'g>> {
     let by_state = formulation.derivatives.iter().any(|derivative| derivative.kind == DerivativeKind::ByState);
     let units: &[Vec<Expr<'g>>] = if by_state { &formulation.units } else { &[] };
     let wanted = Derivatives { list: &formulation.derivatives, units };
-    let known = foldable(&model.scalar, literals);
+    let known = foldable(&item.scalar, literals);
     let states = states(formulation);
     let samples = states.samples();
     let lowered = |deciding: &[Deciding]| {
@@ -43,11 +43,11 @@ pub fn lower<'g>(formulation: &Formulation<'_, 'g>) -> Result<Kernel<'g>> {
         if graph.is_undefined() {
             return Err(undefined());
         }
-        refuse_unknown_derivatives(model, &kernel)?;
-        refuse_too_much(model, &kernel)?;
+        refuse_unknown_derivatives(&item.functions, &kernel)?;
+        refuse_too_much(item, &kernel)?;
         refuse_lost(&formulation.given, &kernel)?;
-        refuse_regressor(model.wanted.regressor.as_ref(), &formulation.inertial_parameters, &kernel)?;
-        refuse_series(model.wanted.taylor.as_ref(), !model.inputs.is_empty(), &kernel)?;
+        refuse_regressor(item.wanted.regressor.as_ref(), &formulation.inertial_parameters, &kernel)?;
+        refuse_series(item.wanted.taylor.as_ref(), !item.inputs.is_empty(), &kernel)?;
         Ok(kernel)
     };
     let mut kernel = lowered(&[])?;
@@ -60,7 +60,7 @@ pub fn lower<'g>(formulation: &Formulation<'_, 'g>) -> Result<Kernel<'g>> {
 }
 
 /// What states are made from at which the programs are tried.
-pub fn states<'a, 'g>(formulation: &'a Formulation<'_, 'g>) -> States<'a, 'g> {
+pub fn states<'a, 'g>(formulation: &'a Formulation<'g>) -> States<'a, 'g> {
     let Formulation { given, system, formulas, definitions, units, .. } = formulation;
     let parameters = given.parameters.iter();
     States {

@@ -11,25 +11,25 @@ use crate::mechanics::{
     Coordinate, Elimination, InertialParameter, Method, Obstacle, System, SystemFault, SystemScene, has_values,
 };
 use crate::methods::DerivativeKind;
-use crate::model::{FunctionKind, Model, Scalar};
 use crate::program::{Instruction, Operand};
-use crate::translate::{Given, SpeedName};
+use crate::terms::{FunctionKind, Item, Scalar, UserFunction};
+use crate::translate::{ConstraintPlace, Given, Independent, Named};
 
 /// Operations up to which code is generated unless the user says otherwise: some seconds of the compiler's time.
 const LIMIT: usize = 50_000;
 
 /// Rates that are not affine in the speeds.
-pub fn refuse_curved_kinematics(model: &Model, scene: &SystemScene<'_>) -> Result<()> {
+pub fn refuse_curved_kinematics(given: &Given<'_>, scene: &SystemScene<'_>) -> Result<()> {
     let mut mistakes = Mistakes::default();
     let mut curved: Vec<usize> =
         scene.rates_not_affine().into_iter().map(|k| Coordinate::of_component(&scene.coordinates, k)).collect();
     curved.dedup();
     for k in curved {
         // ψ of a chart is affine; the declared coordinates come after its own.
-        let before = scene.coordinates.len() - model.coordinates.len();
-        let (coordinate, rate) = &model.kinematics[k - before];
+        let before = scene.coordinates.len() - given.rates.len();
+        let Named { text: coordinate, span } = &given.rates[k - before];
         mistakes.push(
-            rate.span,
+            *span,
             format!(
                 "the rate of `{coordinate}` is not affine in the speeds, so velocities would not be linear in them; \
                  choose speeds in which every rate is a sum of terms with one speed each"
@@ -65,10 +65,10 @@ pub fn refuse_series(taylor: Option<&Ident>, has_inputs: bool, kernel: &Kernel<'
 }
 
 /// Speeds that nothing with mass moves with.
-pub fn refuse_idle_speeds(given: &Given<'_, '_>, system: &System<'_>) -> Result<()> {
+pub fn refuse_idle_speeds(given: &Given<'_>, system: &System<'_>) -> Result<()> {
     let mut mistakes = Mistakes::default();
     for k in system.idle_speeds() {
-        let SpeedName { text: name, span } = &given.speeds[k];
+        let Named { text: name, span } = &given.speeds[k];
         mistakes.push(
             *span,
             format!("no velocity depends on `{name}`: its row of the mass matrix is zero; give a mass to the bodies that it moves, or leave it out"),
@@ -78,9 +78,9 @@ pub fn refuse_idle_speeds(given: &Given<'_, '_>, system: &System<'_>) -> Result<
 }
 
 /// Derivatives of functions of the user's own that no clause says.
-pub fn refuse_unknown_derivatives(model: &Model, kernel: &Kernel<'_>) -> Result<()> {
+pub fn refuse_unknown_derivatives(functions: &[UserFunction], kernel: &Kernel<'_>) -> Result<()> {
     let mut mistakes = Mistakes::default();
-    for (index, clause) in model.functions.iter().enumerate() {
+    for (index, clause) in functions.iter().enumerate() {
         let orders =
             kernel.written().flat_map(|program| &program.instructions).filter_map(|instruction| match instruction {
                 Instruction::Call(Function::Own(own), _) if usize::from(own.index) == index => Some(own.order),
@@ -104,35 +104,35 @@ pub fn refuse_unknown_derivatives(model: &Model, kernel: &Kernel<'_>) -> Result<
 }
 
 /// Operations that the code of a struct may have.
-pub fn most_operations(model: &Model) -> usize {
-    model.limit.unwrap_or(LIMIT)
+pub fn most_operations(item: &Item) -> usize {
+    item.limit.unwrap_or(LIMIT)
 }
 
 /// Equations of more expressions than memory and patience are enough for.
-pub fn refuse_exhausted(model: &Model, graph: &Graph) -> Result<()> {
+pub fn refuse_exhausted(item: &Item, graph: &Graph) -> Result<()> {
     if !graph.is_exhausted() {
         return Ok(());
     }
     Err(Error::new(
-        model.ident.span(),
+        item.ident.span(),
         format!(
             "the equations are made of more expressions than {} operations can come of; model less: fewer bodies, shorter \
              expressions, coordinates relative to a parent; or write a larger `limit`",
-            most_operations(model)
+            most_operations(item)
         ),
     ))
 }
 
 /// More code than the compiler should be given without being asked.
-pub fn refuse_too_much(model: &Model, kernel: &Kernel<'_>) -> Result<()> {
+pub fn refuse_too_much(item: &Item, kernel: &Kernel<'_>) -> Result<()> {
     let operations = kernel.written().map(|program| program.instructions.len()).sum::<usize>();
-    let limit = most_operations(model);
+    let limit = most_operations(item);
     if operations <= limit {
         return Ok(());
     }
     let rounded = operations.div_ceil(1000) * 1000;
     Err(Error::new(
-        model.ident.span(),
+        item.ident.span(),
         format!(
             "the generated code has {operations} operations, more than {limit}; write `limit = {rounded}` to have it all \
              the same, or model less: fewer bodies, or coordinates relative to a parent"
@@ -168,12 +168,13 @@ pub fn not_linear(clause: &Ident, mass: &str) -> Error {
 }
 
 /// Solves the constraints for the speeds that are not named.
-pub fn eliminate<'g>(model: &Model, whole: System<'g>, kept: &[usize]) -> Result<Elimination<'g>> {
-    let clauses: Vec<Span> =
-        whole.scene.constraints.iter().map(|c| model.constraints[c.clause].expression.span).collect();
-    let (total, count) = (whole.scene.speeds.len(), clauses.len());
-    let named = model.independent.iter().flatten().next();
-    let named = named.map_or(model.ident.span(), |speed| speed.ident.span());
+pub fn eliminate<'g>(
+    places: &[ConstraintPlace],
+    whole: System<'g>,
+    Independent { kept, span: named }: &Independent,
+) -> Result<Elimination<'g>> {
+    let clauses: Vec<Span> = whole.scene.constraints.iter().map(|c| places[c.clause].expression).collect();
+    let (total, count, named) = (whole.scene.speeds.len(), clauses.len(), *named);
     Elimination::new(whole, kept).map_err(|obstacle| match obstacle {
         Obstacle::NotAffine(k) => Error::new(
             clauses[k],
@@ -197,18 +198,17 @@ pub fn eliminate<'g>(model: &Model, whole: System<'g>, kept: &[usize]) -> Result
 }
 
 /// What the check of a system finds, each at the token that is wrong.
-pub fn system_faults<'g>(given: &Given<'_, 'g>, system: &System<'g>, faults: &[SystemFault]) -> Error {
-    let model = given.model;
+pub fn system_faults<'g>(given: &Given<'g>, system: &System<'g>, faults: &[SystemFault]) -> Error {
     let clause = |k: usize, text: &str| {
-        let clause = &model.constraints[system.scene.constraints[k].clause];
-        (clause.span, format!("{}{text}", clause.place.as_deref().unwrap_or_default()))
+        let place = &given.constraints[system.scene.constraints[k].clause];
+        (place.word, format!("{}{text}", place.in_file.as_deref().unwrap_or_default()))
     };
     let mut mistakes = Mistakes::default();
     for fault in faults {
         match fault {
             SystemFault::Disagreement(error) => return failed(given, system, error),
             SystemFault::DependentSpeed(k) => {
-                let SpeedName { text: name, span } = &given.speeds[*k];
+                let Named { text: name, span } = &given.speeds[*k];
                 let message = format!(
                     "`{name}` moves nothing that the speeds before it do not move: the mass matrix is singular; \
                      leave one of them out, or give what it moves a mass"
@@ -233,15 +233,15 @@ pub fn system_faults<'g>(given: &Given<'_, 'g>, system: &System<'g>, faults: &[S
             }
         }
     }
-    mistakes.finish().err().unwrap_or_else(|| bug(&model.ident, &"a fault without a name"))
+    mistakes.finish().err().unwrap_or_else(|| bug(&given.item.ident, &"a fault without a name"))
 }
 
 /// A check that failed: what in the scene is the cause, or a mistake of this crate.
-pub fn failed<'g>(given: &Given<'_, 'g>, system: &System<'g>, what: &impl Display) -> Error {
+pub fn failed<'g>(given: &Given<'g>, system: &System<'g>, what: &impl Display) -> Error {
     given.cause_of_failure(&system.scene.tree).unwrap_or_else(|| match has_values(system) {
-        true => bug(&given.model.ident, what),
+        true => bug(&given.item.ident, what),
         false => Error::new(
-            given.model.ident.span(),
+            given.item.ident.span(),
             format!(
                 "the mass matrix has a value at none of the states that were tried, so its pivots are not known to \
                  differ from zero ({what}); see whether roots, logarithms and arcs in positions and kinematics are \
@@ -261,8 +261,8 @@ pub fn bug(ident: &Ident, what: &impl Display) -> Error {
 ///
 /// # Errors
 /// The first of the extreme numbers, or the name of the struct where there are none.
-pub fn refuse_lost<'g>(given: &Given<'_, 'g>, kernel: &Kernel<'g>) -> Result<()> {
-    let single = matches!(given.model.scalar, Scalar::F32);
+pub fn refuse_lost<'g>(given: &Given<'g>, kernel: &Kernel<'g>) -> Result<()> {
+    let single = matches!(given.item.scalar, Scalar::F32);
     let [least, most] = match single {
         true => [f32::MIN_POSITIVE, f32::MAX].map(f64::from),
         false => [f64::MIN_POSITIVE, f64::MAX],
@@ -284,7 +284,7 @@ pub fn refuse_lost<'g>(given: &Given<'_, 'g>, kernel: &Kernel<'g>) -> Result<()>
     if !of_literals && !in_programs() {
         return Ok(());
     }
-    let span = given.extreme.first().map_or(given.model.ident.span(), |(span, _)| *span);
+    let span = given.extreme.first().map_or(given.item.ident.span(), |(span, _)| *span);
     let of = given.extreme.first().map(|(_, value)| format!(" with `{}`", decimal(*value, Notation::Text)));
     let (of, precision) = (of.unwrap_or_default(), if single { "single" } else { "double" });
     let message = format!(

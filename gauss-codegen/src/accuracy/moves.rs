@@ -2,7 +2,7 @@
 
 use crate::algebra::{Expr, Map, NodeView, Notation, Rational, print, print_short};
 use crate::mechanics::Coordinate;
-use crate::model::Role;
+use crate::terms::Role;
 
 use super::random::Random;
 use super::states::{Seen, States, Values};

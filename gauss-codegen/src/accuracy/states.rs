@@ -6,7 +6,7 @@ use std::cell::RefCell;
 
 use crate::algebra::{Evaluation, Expr, Function, Map, NodeView, Notation, Rational, print};
 use crate::mechanics::{Action, Body, Coordinate, Force, Matter, System};
-use crate::model::Role;
+use crate::terms::Role;
 
 use super::random::Random;
 use super::trial::Point;

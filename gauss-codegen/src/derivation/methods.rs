@@ -86,7 +86,7 @@ fn of_derivative<'g>(
             (OF_EQUATIONS, vec![Results::new("rate", states, 1), by_state, by_time, by_input])
         }
         DerivativeKind::ByParameters => {
-            (OF_EQUATIONS, vec![Results::new("by_parameters", states, derived.parameters.len())])
+            (OF_EQUATIONS, vec![Results::new("by_parameters", states, derived.subject.given.parameters.len())])
         }
         DerivativeKind::OfInverse => (
             OF_RESIDUAL,

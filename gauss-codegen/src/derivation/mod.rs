@@ -65,7 +65,7 @@ impl Derivation {
     }
 
     fn of(derived: &Derived<'_, '_>) -> Result<Self> {
-        let ident = derived.item().ident;
+        let ident = &derived.item().ident;
         let signature = Signature::new(derived);
         let refused = |malformed: &dyn fmt::Display| bug(ident, &malformed);
         let constants = signature.constants(derived).map_err(|malformed| refused(&malformed))?;
@@ -73,7 +73,7 @@ impl Derivation {
         let equations = Equations::of(derived);
         let rust = emit(derived, &equations);
         let accuracy = figures(derived).map(|(_, name, figure)| (name.to_owned(), figure.rounded())).collect();
-        let described = derived.subject.model.described.iter();
+        let described = derived.item().described.iter();
         let remarks = described.flat_map(|file| &file.remarks).map(|remark| remark.text.clone()).collect();
         let Equations { text, latex } = equations;
         let functions = Functions { name: ident.unraw().to_string(), equations: text, constants, methods: programs };

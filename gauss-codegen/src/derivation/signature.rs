@@ -43,7 +43,7 @@ impl<'g> Signature<'g> {
             .into_iter()
             .flat_map(|argument| argument.symbols)
             .collect();
-        let parameters = derived.parameters.iter();
+        let parameters = derived.subject.given.parameters.iter();
         let (names, symbols) = parameters.map(|parameter| (parameter.name.clone(), parameter.symbol)).unzip();
         let constants = &derived.kernel.constant_symbols;
         let arguments = vec![
@@ -61,7 +61,7 @@ impl<'g> Signature<'g> {
         ];
         let known = derived.kernel.known_constants.iter().map(|(symbol, value)| (symbol.key(), *value));
         let literals = derived.literals().iter().map(|(value, symbol)| (symbol.key(), *value));
-        let functions = derived.subject.model.functions.iter().map(|function| function.name.unraw().to_string());
+        let functions = derived.item().functions.iter().map(|function| function.name.unraw().to_string());
         Self { arguments, literals: literals.collect(), known: known.collect(), functions: functions.collect() }
     }
 

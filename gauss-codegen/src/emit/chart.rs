@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::model::{Chart, Motion, RotationChart};
+use crate::terms::{Chart, Motion, RotationChart};
 
 pub fn chart_name(chart: Chart) -> String {
     match chart {

@@ -9,9 +9,8 @@ use crate::algebra::{Expr, Map, Rational, Set};
 use crate::formulation::{Formulation, Printed};
 use crate::kernel::{Counts, Function, Kernel, Program, Smoothness};
 use crate::mechanics::{Account, InertialParameter, Method};
-use crate::model::{GenericsOfImpl, Scalar};
 use crate::program::ArgumentKind;
-use crate::translate::{DragMatrix, Law, Parameter};
+use crate::terms::{Item, Scalar};
 use crate::words::Unraw;
 
 use super::arguments::{Argument, arguments_of, declare, declared, variable};
@@ -32,15 +31,9 @@ pub const PRIVATE: &str = concat!(
 /// Everything known about one derive when code is written.
 pub struct Derived<'a, 'g> {
     pub subject: Subject<'a, 'g>,
-    /// Matrices of drag.
-    pub drags: &'a [DragMatrix<'g>],
-    /// Constants of springs, stops and other elements.
-    pub laws: &'a [Law<'g>],
     pub kernel: &'a Kernel<'g>,
     /// λ of the second derivatives, where these are wanted.
     pub weights: &'a [Expr<'g>],
-    /// The numbers of fields.
-    pub parameters: &'a [Parameter<'g>],
     /// The equations for people, as text and in LaTeX.
     pub printed: &'a [Printed; 2],
     /// The parameters in which the forces of inertia are linear, where the regressor is wanted.
@@ -50,15 +43,6 @@ pub struct Derived<'a, 'g> {
     /// Asked for by every method: see `private`, `arguments`.
     private: TokenStream,
     arguments: OnceCell<Vec<Argument<'g>>>,
-}
-
-/// What the struct says of itself, whatever it describes.
-pub struct Item<'a> {
-    pub ident: &'a Ident,
-    pub visibility: &'a dyn ToTokens,
-    pub generics: GenericsOfImpl,
-    pub scalar: &'a Scalar,
-    pub runtime: &'a dyn ToTokens,
 }
 
 /// Type parameters of the kernel; nothing where the scalar is a type.
@@ -82,49 +66,32 @@ pub struct Formal<'a, 'g> {
 }
 
 impl<'a, 'g> Derived<'a, 'g> {
-    pub fn new(formulation: &'a Formulation<'_, 'g>, kernel: &'a Kernel<'g>) -> Self {
+    pub fn new(formulation: &'a Formulation<'g>, kernel: &'a Kernel<'g>) -> Self {
         let given = &formulation.given;
-        let model = given.model;
         let subject = Subject {
-            model,
+            given,
             system: &formulation.system,
             constraints: formulation.constraints(),
             can_drift: formulation.can_drift(),
-            sources: &given.sources,
-            literals: &given.literals,
-            values: &given.mass_data.unnamed,
-            body_values: &given.mass_data.named,
-            state: &given.state,
-            links: &given.links,
             quaternions: &formulation.quaternions,
         };
         Self {
             subject,
-            drags: &given.drags,
-            laws: &given.laws,
             kernel,
             weights: &formulation.weights,
-            parameters: &given.parameters,
             printed: &formulation.printed,
             inertial_parameters: &formulation.inertial_parameters,
             packs: OnceCell::new(),
             private: {
-                let (runtime, module) = (&model.runtime, Ident::new(PRIVATE, Span::call_site()));
+                let (runtime, module) = (&given.item.runtime, Ident::new(PRIVATE, Span::call_site()));
                 quote!(#runtime::#module)
             },
             arguments: OnceCell::new(),
         }
     }
 
-    pub fn item(&self) -> Item<'a> {
-        let Subject { model, .. } = &self.subject;
-        Item {
-            ident: &model.ident,
-            visibility: &model.visibility,
-            generics: model.generics_of_impl(),
-            scalar: &model.scalar,
-            runtime: &model.runtime,
-        }
+    pub fn item(&self) -> &'a Item {
+        &self.subject.given.item
     }
 
     pub fn formal(&self) -> Formal<'a, 'g> {
@@ -145,7 +112,7 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     pub fn scalar(&self) -> ScalarTokens<'a> {
-        let (private, scalar) = (self.private(), self.item().scalar);
+        let (private, scalar) = (self.private(), &self.item().scalar);
         let fma = match scalar {
             Scalar::F64 => quote!(#private::fma_f64),
             Scalar::F32 => quote!(#private::fma_f32),
@@ -156,7 +123,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             real: quote!(#private::Real),
             fma,
             apart: quote!(#private::apart),
-            functions: &self.subject.model.functions,
+            functions: &self.item().functions,
         }
     }
 
@@ -183,7 +150,7 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     /// The names of the frames that are asked for.
     pub fn frames(&self) -> &'a [Ident] {
-        &self.subject.model.wanted.frames
+        &self.item().wanted.frames
     }
 
     /// How many components an increment of the configuration has.
@@ -221,7 +188,7 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     /// Literal numbers that symbols stand for.
     pub fn literals(&self) -> &[(Rational, Expr<'g>)] {
-        self.subject.literals
+        &self.subject.given.literals
     }
 
     /// The symbol of the time.

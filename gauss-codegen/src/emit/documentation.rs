@@ -6,7 +6,7 @@ use crate::formulation::Printed;
 use crate::kernel::{Counts, Function};
 use crate::mathml;
 use crate::mechanics::Method;
-use crate::model::{InChart, InputKind, Role};
+use crate::terms::{InChart, InputKind, Role};
 use crate::words::Unraw;
 
 use super::chart::{chart_name, motion_name};
@@ -85,7 +85,7 @@ fn latex(printed: &Printed) -> String {
 
 /// What the letters of the equations stand for: (letter, field, what its author says of it).
 fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
-    let fields = derived.subject.model.fields.iter().map(|f| (f.role, &f.ident, &f.documentation, &f.unit));
+    let fields = derived.item().fields.iter().map(|f| (f.role, &f.ident, &f.documentation, &f.unit));
     fields
         .filter_map(|(role, ident, documentation, unit)| role.map(|role| (role, ident, documentation, unit)))
         .filter(|(role, ..)| *role != Role::Body)
@@ -296,7 +296,7 @@ fn states(derived: &Derived<'_, '_>) -> String {
     }
     let nested = factors.iter().rev().cloned().reduce(|inner, outer| format!("({outer}, {inner})")).unwrap_or_default();
     let idents = coordinates.iter().chain(&speeds).map(|part| part.ident.to_string()).collect::<Vec<_>>().join(", ");
-    let input = if derived.subject.model.inputs.is_empty() { "()" } else { "input" };
+    let input = if derived.item().inputs.is_empty() { "()" } else { "input" };
     format!(
         "\n# State\n{}\nThe configuration q is `{nested}`, the speeds z are one vector. By name both are [`{name}`]:\n\n\
          ```text\nlet state = {name} {{ {idents} }};\nlet rates = kernel.acceleration(t, &state.q(), &state.z(), \
@@ -309,7 +309,7 @@ fn states(derived: &Derived<'_, '_>) -> String {
 fn input(derived: &Derived<'_, '_>) -> String {
     let mut next = 0;
     let mut rows = Vec::new();
-    for input in &derived.subject.model.inputs {
+    for input in &derived.item().inputs {
         let (count, what) = match input.kind {
             InputKind::Scalar => (1, ""),
             InputKind::Vector => (3, ": a vector"),
@@ -317,7 +317,7 @@ fn input(derived: &Derived<'_, '_>) -> String {
         };
         let range = if count == 1 { next.to_string() } else { format!("{next}–{}", next + count - 1) };
         let unit = input.unit.clone().unwrap_or_default();
-        let (called, ident) = (input.called().unraw().to_string(), input.ident.unraw().to_string());
+        let (called, ident) = (input.called.unraw().to_string(), input.ident.unraw().to_string());
         let inside = if called == ident { String::new() } else { format!(", `{ident}` in expressions") };
         rows.push(vec![range, format!("`{called}`{what}{inside}"), unit]);
         next += count;

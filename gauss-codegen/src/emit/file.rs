@@ -3,14 +3,14 @@
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 
-use crate::model::{Described, Remark};
+use crate::terms::{Described, Remark};
 
 use super::derived::Derived;
 
 /// Beside what is derived, where it is compiled: the file as a constant that nobody reads, and a warning for
 /// everything that acts in it and not in the equations.
 pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
-    let Some(Described { paths, span, remarks, .. }) = &derived.subject.model.described else {
+    let Some(Described { paths, span, remarks, .. }) = &derived.item().described else {
         return TokenStream::new();
     };
     // The compiler warns of what is deprecated, in the words of its note; macros have no other way to. Only at a
@@ -31,7 +31,7 @@ pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
 
 /// What is to be known of the file, for the page of the kernel.
 pub fn documentation(derived: &Derived<'_, '_>) -> String {
-    let Some(Described { file, remarks, .. }) = &derived.subject.model.described else { return String::new() };
+    let Some(Described { file, remarks, .. }) = &derived.item().described else { return String::new() };
     let mut out = format!("\n# The file\n\nBodies, joints and inputs are those of `{file}`.\n\n");
     remarks.iter().for_each(|remark| out.push_str(&format!("- {}\n", remark.text)));
     out

@@ -47,7 +47,7 @@ fn jacobian_rates(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 }
 
 fn names(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
-    let (private, visibility) = (derived.private(), derived.item().visibility);
+    let (private, visibility) = (derived.private(), &derived.item().visibility);
     let (name, frames) = (name_of_frames(derived), derived.frames());
     let words: Vec<String> = frames.iter().map(|frame| word(derived, frame)).collect();
     let label = words.iter().map(|word| format!("The body or frame `{word}`."));
@@ -78,7 +78,7 @@ fn names(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
 
 /// What a frame is called in the file that it comes from, or in the scene.
 fn word(derived: &Derived<'_, '_>, frame: &Ident) -> String {
-    let mut called = derived.subject.model.described.iter().flat_map(|file| &file.called);
+    let mut called = derived.item().described.iter().flat_map(|file| &file.called);
     let own = called.find(|(ident, _)| ident.unraw() == frame.unraw());
     own.map_or_else(|| frame.unraw().to_string(), |(_, word)| word.clone())
 }

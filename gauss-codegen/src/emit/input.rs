@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use super::derived::{Derived, KernelGenerics};
 use super::record::{Part, PartKind, from_numbers, record, to_numbers};
-use crate::model::{InputKind, InputName};
+use crate::terms::{InputKind, InputName};
 use crate::words::Unraw;
 
 /// The name of the type.
@@ -16,7 +16,7 @@ pub fn input_name(derived: &Derived<'_, '_>) -> Ident {
 /// In their order: one number, a vector, or of a wrench two.
 fn parts(derived: &Derived<'_, '_>) -> Vec<Part> {
     let part = |input: &InputName| {
-        let ident = input.called();
+        let ident = input.called.clone();
         let unit = input.unit.as_deref().map(|unit| format!(", in {unit}")).unwrap_or_default();
         let of_wrench =
             |end: &str, label: &str| Part::new(format_ident!("{}_{}", ident.unraw(), end), PartKind::Vector(3), label);
@@ -26,7 +26,7 @@ fn parts(derived: &Derived<'_, '_>) -> Vec<Part> {
             InputKind::Wrench => vec![of_wrench("force", "input, in N"), of_wrench("torque", "input, in N m")],
         }
     };
-    derived.subject.model.inputs.iter().flat_map(part).collect()
+    derived.item().inputs.iter().flat_map(part).collect()
 }
 
 /// The type, and what it implements; nothing without inputs.
@@ -43,7 +43,7 @@ pub fn input(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
     let [declaration, traits] =
         record(derived, &name, [&documentation, "All zero."], &parts.iter().collect::<Vec<_>>());
     let KernelGenerics { bounded, used, .. } = derived.kernel_generics();
-    let (visibility, input) = (derived.item().visibility, quote!(<#kernel #used as #private::GaussSystem>::Input));
+    let (visibility, input) = (&derived.item().visibility, quote!(<#kernel #used as #private::GaussSystem>::Input));
     let (fields, numbers) = (from_numbers(&private, &parts, |k| quote!(__all[#k])), to_numbers(&private, &parts));
     let conversions = quote! {
         #[allow(clippy::all, clippy::pedantic)]

@@ -3,16 +3,16 @@
 use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
 
-use super::derived::{Derived, Item, KernelGenerics};
+use super::derived::{Derived, KernelGenerics};
 use super::documentation::{Documentation, Equations, rustdoc};
 use super::laws::warnings;
 use super::parameters::kernel_body;
 use super::program::table_name;
-use crate::model::{FunctionClause, FunctionKind, GenericsOfImpl};
+use crate::terms::{FunctionKind, Generics, Item, UserFunction};
 
 /// The struct: the constants that `kernel()` computes.
 pub fn kernel_struct(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
-    let (visibility, name, fields) = (derived.item().visibility, derived.kernel_name(), derived.constant_fields());
+    let (visibility, name, fields) = (&derived.item().visibility, derived.kernel_name(), derived.constant_fields());
     let (ty, KernelGenerics { declared, .. }) = (derived.scalar().ty(), derived.kernel_generics());
     let rows = derived.packs().and_then(|packs| packs.field(&derived.private())).into_iter();
     let Documentation { before, text, formulas, after } = rustdoc(derived, equations);
@@ -36,7 +36,7 @@ pub fn constructor(derived: &Derived<'_, '_>) -> TokenStream {
     let Item { ident, visibility, generics, .. } = derived.item();
     let private = derived.private();
     let (name, KernelGenerics { used, .. }) = (derived.kernel_name(), derived.kernel_generics());
-    let GenericsOfImpl { declared, used: own, predicates } = generics;
+    let Generics { declared, used: own, predicates } = generics;
     let bound = bound(derived);
     let documentation = format!(
         "Checks the parameters and computes once whatever depends on them alone: the kernel of [`{ident}`].\n\n\
@@ -60,7 +60,7 @@ pub fn constructor(derived: &Derived<'_, '_>) -> TokenStream {
 /// Constants that hold the tables.
 pub fn tables(derived: &Derived<'_, '_>) -> TokenStream {
     let private = derived.private();
-    let table = |(index, clause): (usize, &FunctionClause)| {
+    let table = |(index, clause): (usize, &UserFunction)| {
         let (points, kind) = match &clause.kind {
             FunctionKind::Rust(_) => return None,
             FunctionKind::Linear(points) => (points, quote!(Linear)),
@@ -68,10 +68,10 @@ pub fn tables(derived: &Derived<'_, '_>) -> TokenStream {
         };
         let name = table_name(index as u16);
         // What is wrong with the points is shown where they are named.
-        let at = clause.kind.span().resolved_at(Span::mixed_site());
+        let at = clause.span.resolved_at(Span::mixed_site());
         Some(quote_spanned!(at=> const #name: #private::#kind<{ #points.len() }> = #private::#kind::through(&#points);))
     };
-    derived.subject.model.functions.iter().enumerate().filter_map(table).collect()
+    derived.item().functions.iter().enumerate().filter_map(table).collect()
 }
 
 /// What the scalar must be, where it is a type parameter.

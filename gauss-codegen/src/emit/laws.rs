@@ -6,8 +6,8 @@ use quote::quote;
 
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::Program;
-use crate::model::{LawKind, Role, Shape};
-use crate::translate::Law;
+use crate::terms::{LawKind, Role, Shape};
+use crate::translate::{BodyData, DragMatrix, Law};
 use crate::words::Unraw;
 
 use super::derived::Derived;
@@ -58,7 +58,7 @@ fn written(
             _ => quote!({ #compute __check.#check(#label, &[#(#values),*]); }),
         })
     };
-    derived.laws.iter().filter(|law| of_kind(law.kind)).filter_map(check).collect()
+    derived.subject.given.laws.iter().filter(|law| of_kind(law.kind)).filter_map(check).collect()
 }
 
 /// A matrix of six columns.
@@ -70,7 +70,7 @@ fn rows_of(entries: &[TokenStream]) -> TokenStream {
 /// `warnings()`.
 pub fn warnings(derived: &Derived<'_, '_>) -> TokenStream {
     let (private, ty) = (derived.private(), derived.scalar().ty());
-    let visibility = derived.item().visibility;
+    let visibility = &derived.item().visibility;
     let symbols = symbols_of_parameters(derived);
     let read = parameters_read(derived, &symbols);
     let findings =
@@ -91,7 +91,7 @@ pub fn warnings(derived: &Derived<'_, '_>) -> TokenStream {
 /// Matrices of drag. Coefficients that depend on the state are no matrix that could be judged here.
 fn drags(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     let private = derived.private();
-    let check = |drag: &crate::translate::DragMatrix<'_>| {
+    let check = |drag: &DragMatrix<'_>| {
         let (compute, outputs) = of_parameters(derived, symbols, &drag.entries.concat())?;
         let rows = rows_of(&outputs);
         let (label, kind) = (&drag.label, if drag.quadratic { quote!(Quadratic) } else { quote!(Linear) });
@@ -100,7 +100,7 @@ fn drags(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStr
             __warnings.drag(#label, #private::DragKind::#kind, #rows);
         }))
     };
-    derived.drags.iter().filter_map(check).collect()
+    derived.subject.given.drags.iter().filter_map(check).collect()
 }
 
 /// Damping and attraction.
@@ -131,7 +131,7 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
             _ => quote!({ #compute __warnings.#check(#label, #(#values)*); }),
         })
     };
-    derived.laws.iter().filter_map(find).collect()
+    derived.subject.given.laws.iter().filter_map(find).collect()
 }
 
 /// A function of the state at a few states of general position: small fractions in place of what is no parameter.
@@ -152,26 +152,26 @@ fn in_states<'g>(function: Expr<'g>, symbols: &Map<u32, TokenStream>) -> Vec<Exp
 
 /// A gravity of one number.
 fn gravity(derived: &Derived<'_, '_>) -> TokenStream {
-    let model = derived.subject.model;
-    let Some((Shape::Scalar, name)) = model.shape(Role::Gravity).zip(local_of(model, Role::Gravity)) else {
+    let given = derived.subject.given;
+    let Some((Shape::Scalar, name)) = given.shape(Role::Gravity).zip(local_of(given, Role::Gravity)) else {
         return TokenStream::new();
     };
-    let label = model.field(Role::Gravity).map_or_else(|| "gravity".to_owned(), |f| f.ident.unraw().to_string());
+    let label = given.item.field(Role::Gravity).map_or_else(|| "gravity".to_owned(), |f| f.ident.unraw().to_string());
     quote!(__warnings.gravity(#label, #name);)
 }
 
 /// Diagonals of added masses.
 fn added_masses(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     let subject = &derived.subject;
-    let find = |(clause, written): (usize, &crate::model::BodyClause)| {
-        let link = &subject.system.scene.tree.links[subject.links[clause]];
+    let find = |written: &BodyData<'_>| {
+        let link = &subject.system.scene.tree.links[written.link];
         let matrix = link.body()?.added_mass.as_ref()?;
         let label = subject.role_name(written, Role::AddedMass);
         let diagonal: Vec<Expr<'_>> = (0..6).map(|i| matrix[i][i]).collect();
         let (compute, values) = of_parameters(derived, symbols, &diagonal)?;
         Some(quote!({ #compute __warnings.added_mass(#label, &[#(#values),*]); }))
     };
-    subject.model.bodies.iter().enumerate().filter_map(find).collect()
+    subject.given.mass_data.bodies.iter().filter_map(find).collect()
 }
 
 /// The values of expressions of parameters; `None` where the state enters.

@@ -4,12 +4,11 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::algebra::Map;
-use crate::model::{Field, Model, Role, Shape};
-use crate::translate::{Part, Source};
+use crate::terms::{Field, Role, Shape};
+use crate::translate::{ClauseValue, Given, Part, Source};
 
 use super::derived::Derived;
 use super::role_clauses::clause_local;
-use super::subject::Subject;
 
 /// The local that holds a field, or one part of a rigid body.
 pub fn local(field: usize, part: &str) -> Ident {
@@ -45,25 +44,27 @@ pub fn element(source: &Source<'_>) -> TokenStream {
 
 /// How the symbols of parameters are written, where they are read.
 pub fn symbols_of_parameters(derived: &Derived<'_, '_>) -> Map<u32, TokenStream> {
-    let (Subject { sources, literals, .. }, scalar) = (&derived.subject, derived.scalar());
-    let mut symbols: Map<u32, TokenStream> = sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
-    symbols.extend(literals.iter().map(|(value, symbol)| (symbol.key(), scalar.number(value))));
+    let (given, scalar) = (derived.subject.given, derived.scalar());
+    let mut symbols: Map<u32, TokenStream> = given.sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
+    symbols.extend(given.literals.iter().map(|(value, symbol)| (symbol.key(), scalar.number(value))));
     symbols
 }
 
 /// The locals of all parameters: fields, and what clauses say of the body without a name and of gravity.
 pub fn parameters_read(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
-    let Subject { model, values, .. } = &derived.subject;
-    let fields = model.fields.iter().enumerate().filter(|(k, _)| is_read(derived, *k));
+    let given = derived.subject.given;
+    let fields = given.item.fields.iter().enumerate().filter(|(k, _)| is_read(derived, *k));
     let mut read: TokenStream = fields.map(|(k, field)| read_field(derived, k, field)).collect();
-    let clauses = model.role_clauses.iter().zip(values.iter());
-    read.extend(clauses.map(|(clause, value)| clause_local(derived, &local_of_clause(clause.role), value, symbols)));
+    let clauses = given.mass_data.unnamed.iter();
+    read.extend(
+        clauses.map(|ClauseValue { own, .. }| clause_local(derived, &local_of_clause(own.quantity), own, symbols)),
+    );
     read
 }
 
 /// Whether the equations read the field.
 pub fn is_read(derived: &Derived<'_, '_>, field: usize) -> bool {
-    derived.subject.sources.iter().any(|source| source.field == field)
+    derived.subject.given.sources.iter().any(|source| source.field == field)
 }
 
 /// The local of what a clause says.
@@ -92,7 +93,7 @@ fn read_field(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream
 }
 
 /// The local of what plays a role of the body without a name.
-pub fn local_of(model: &Model, role: Role) -> Option<Ident> {
-    let field = model.fields.iter().position(|f| f.role == Some(role)).map(|k| local(k, ""));
-    field.or_else(|| model.role_clauses.iter().any(|clause| clause.role == role).then(|| local_of_clause(role)))
+pub fn local_of(given: &Given<'_>, role: Role) -> Option<Ident> {
+    let field = given.item.fields.iter().position(|f| f.role == Some(role)).map(|k| local(k, ""));
+    field.or_else(|| given.mass_data.unnamed(role).map(|_| local_of_clause(role)))
 }

@@ -3,17 +3,18 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use crate::model::{BodyOfFile, Field, GenericsOfImpl, Scalar, Shape, StateOfFile, ValueOfState, exact};
+use crate::terms::number::shortest;
+use crate::terms::{BodyOfFile, Field, Generics, Item, Scalar, Shape, StateOfFile, ValueOfState};
 use crate::words::Unraw;
 
-use super::derived::{Derived, Item, KernelGenerics};
+use super::derived::{Derived, KernelGenerics};
 use super::input::input_name;
 use super::kernel::bound;
 use super::state::{parts, state_name};
 
 /// `Name::from_file(…)` where fields are bodies of the file, and a function of `NameState` for each state of the file.
 pub fn of_file(derived: &Derived<'_, '_>) -> TokenStream {
-    let Some(file) = &derived.subject.model.described else { return TokenStream::new() };
+    let Some(file) = &derived.item().described else { return TokenStream::new() };
     let constructor = (!file.bodies.is_empty()).then(|| constructor(derived, &file.bodies));
     let states = (!file.states.is_empty()).then(|| states(derived, &file.states));
     let inputs = inputs(derived, &file.states);
@@ -23,18 +24,18 @@ pub fn of_file(derived: &Derived<'_, '_>) -> TokenStream {
 /// The struct with the mass data of the file; what it does not say are arguments.
 fn constructor(derived: &Derived<'_, '_>, bodies: &[BodyOfFile]) -> TokenStream {
     let Item { ident, visibility, generics, .. } = derived.item();
-    let GenericsOfImpl { declared, used, predicates } = generics;
+    let Generics { declared, used, predicates } = generics;
     let bound = bound(derived);
     let of_field = |field: &Field| bodies.iter().find(|body| body.field.unraw() == field.ident.unraw());
     let (own, others): (Vec<&Field>, Vec<&Field>) =
-        derived.subject.model.fields.iter().partition(|field| of_field(field).is_some());
+        derived.item().fields.iter().partition(|field| of_field(field).is_some());
     let values = own.iter().filter_map(|field| Some((field, of_field(field)?))).map(|(field, body)| {
         let (name, value) = (&field.ident, body_value(derived, body, field.shape));
         quote!(#name: #value)
     });
     let (names, types) = (others.iter().map(|field| &field.ident), others.iter().map(|field| &field.ty));
     let arguments = names.clone().zip(types).map(|(name, ty)| quote!(#name: #ty));
-    let file = derived.subject.model.described.as_ref().map(|file| file.file.clone()).unwrap_or_default();
+    let file = derived.item().described.as_ref().map(|file| file.file.clone()).unwrap_or_default();
     let documentation = format!("The bodies as `{file}` has them, with the other fields.");
     quote! {
         #[allow(clippy::all, clippy::pedantic)]
@@ -51,13 +52,13 @@ fn constructor(derived: &Derived<'_, '_>, bodies: &[BodyOfFile]) -> TokenStream 
 fn number(derived: &Derived<'_, '_>, value: f64) -> TokenStream {
     let scalar = derived.scalar();
     match scalar.scalar {
-        Scalar::Parameter(_) => scalar.number(&exact(value)),
+        Scalar::Parameter(_) => scalar.number(&shortest(value)),
         _ => scalar.literal(value),
     }
 }
 
 fn body_value(derived: &Derived<'_, '_>, body: &BodyOfFile, shape: Shape) -> TokenStream {
-    let (private, runtime) = (derived.private(), derived.item().runtime);
+    let (private, runtime) = (derived.private(), &derived.item().runtime);
     let number = |value: f64| number(derived, value);
     let c = body.center;
     let square: f64 = c.iter().map(|c| c * c).sum();
@@ -85,7 +86,7 @@ fn body_value(derived: &Derived<'_, '_>, body: &BodyOfFile, shape: Shape) -> Tok
 
 /// Functions of the state, as its coordinates and speeds are called there.
 fn states(derived: &Derived<'_, '_>, states: &[StateOfFile]) -> TokenStream {
-    let (name, visibility) = (state_name(derived), derived.item().visibility);
+    let (name, visibility) = (state_name(derived), &derived.item().visibility);
     let KernelGenerics { bounded, used, .. } = derived.kernel_generics();
     let known: Vec<Ident> = parts(derived).iter().flatten().map(|part| part.ident.clone()).collect();
     let functions = states.iter().map(|state| {
@@ -113,7 +114,7 @@ fn states(derived: &Derived<'_, '_>, states: &[StateOfFile]) -> TokenStream {
 
 /// Functions of the inputs, of the states of the file that have some.
 fn inputs(derived: &Derived<'_, '_>, states: &[StateOfFile]) -> Option<TokenStream> {
-    let (name, visibility) = (input_name(derived), derived.item().visibility);
+    let (name, visibility) = (input_name(derived), &derived.item().visibility);
     let KernelGenerics { bounded, used, .. } = derived.kernel_generics();
     let functions = states.iter().filter(|state| !state.inputs.is_empty()).map(|state| {
         let values = state.inputs.iter().map(|(field, value)| {

@@ -10,10 +10,10 @@ use quote::{format_ident, quote};
 use crate::algebra::{Expr, Map};
 use crate::kernel::{Kernel, Program};
 use crate::mechanics::Method;
-use crate::model::Scalar;
 use crate::program::{LANES, Operand, Packed, Place};
 use crate::targets::rust::operand;
 use crate::targets::rust::packed::{self, Vectors};
+use crate::terms::Scalar;
 
 use super::arguments::Argument;
 use super::program::{KernelDialect, ScalarTokens};

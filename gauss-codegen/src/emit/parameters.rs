@@ -5,7 +5,7 @@ use quote::quote;
 
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::Program;
-use crate::model::{Field, Model, Role, Shape};
+use crate::terms::{Field, Role, Shape};
 use crate::words::Unraw;
 
 use super::derived::{Derived, KernelGenerics};
@@ -18,15 +18,15 @@ use super::subject::Subject;
 
 /// The body of `kernel()`.
 pub fn kernel_body(derived: &Derived<'_, '_>) -> TokenStream {
-    let Subject { model, sources, .. } = &derived.subject;
+    let given = derived.subject.given;
     let (private, ty) = (derived.private(), derived.scalar().ty());
     let symbols = symbols_of_parameters(derived);
     let read = parameters_read(derived, &symbols);
-    let fields = model.fields.iter().enumerate().filter(|(k, _)| is_read(derived, *k));
+    let fields = given.item.fields.iter().enumerate().filter(|(k, _)| is_read(derived, *k));
     let mut checks: TokenStream = fields.map(|(k, field)| field_check(derived, k, field)).collect();
-    checks.extend(model.role_clauses.iter().map(|clause| {
-        let (label, name) = (clause.role.word(), local_of_clause(clause.role));
-        role_check(derived, model, clause.role, clause.shape, label, &name)
+    checks.extend(given.mass_data.unnamed.iter().map(|value| {
+        let role = value.own.quantity;
+        role_check(derived, role, value.shape, role.word(), &local_of_clause(role))
     }));
     checks.extend(body_clauses(derived, &symbols));
     checks.extend(laws::masses(derived, &symbols));
@@ -34,7 +34,7 @@ pub fn kernel_body(derived: &Derived<'_, '_>) -> TokenStream {
     checks.extend(kinetic_matrix(derived, &symbols));
     checks.extend(laws::checked(derived, &symbols));
     // The first field that the equations read speaks for all of them.
-    let label = sources.first().map(|s| model.fields[s.field].ident.unraw().to_string()).unwrap_or_default();
+    let label = given.sources.first().map(|s| given.item.fields[s.field].ident.unraw().to_string()).unwrap_or_default();
     let kernel = constants(derived, &symbols, &label);
     quote! {
         #read
@@ -54,9 +54,7 @@ fn field_check(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStrea
             let central = field.shape == Shape::CentralBody;
             named_body(derived, &field.ident, "inertia", [&mass, &center, &inertia], central)
         }
-        (Some(role), shape) => {
-            role_check(derived, derived.subject.model, role, shape, &field.ident.unraw().to_string(), &local(k, ""))
-        }
+        (Some(role), shape) => role_check(derived, role, shape, &field.ident.unraw().to_string(), &local(k, "")),
         _ => finite(derived, k, field),
     }
 }
@@ -96,21 +94,14 @@ fn sum(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 }
 
 /// What must hold of mass data and gravity, from fields or clauses.
-fn role_check(
-    derived: &Derived<'_, '_>,
-    model: &Model,
-    role: Role,
-    shape: Shape,
-    label: &str,
-    name: &Ident,
-) -> TokenStream {
+fn role_check(derived: &Derived<'_, '_>, role: Role, shape: Shape, label: &str, name: &Ident) -> TokenStream {
     match (role, shape) {
         (Role::Mass, _) if derived.subject.system.scene.chart().is_some() => quote!(__check.mass(#label, #name);),
         (Role::Mass, _) => quote!(__check.mass_in_sum(#label, #name);),
         (Role::DisplacedMass, _) => quote!(__check.non_negative(#label, #name);),
         (Role::Inertia | Role::CentralInertia, shape) => {
             let rows = inertia_rows(&derived.scalar().ty(), derived, shape, name);
-            let checks = inertia_check(derived, model, role, label);
+            let checks = inertia_check(derived, role, label);
             quote!({
                 let __inertia = #rows;
                 #checks
@@ -122,9 +113,9 @@ fn role_check(
 }
 
 /// What must hold of the inertia of the body without a name, which is `__inertia`.
-fn inertia_check(derived: &Derived<'_, '_>, model: &Model, role: Role, label: &str) -> TokenStream {
+fn inertia_check(derived: &Derived<'_, '_>, role: Role, label: &str) -> TokenStream {
     let zero = derived.scalar().number(&Rational::zero());
-    let local = |role: Role| local_of(model, role).map(|name| quote!(#name));
+    let local = |role: Role| local_of(derived.subject.given, role).map(|name| quote!(#name));
     let (scene, link) = (&derived.subject.system.scene, derived.subject.link(None));
     // Where O is held at Ω only m·c and I_O enter, and m by itself says nothing.
     let held = link.is_some_and(|link| scene.is_held(link));
@@ -158,7 +149,7 @@ fn inertia_check(derived: &Derived<'_, '_>, model: &Model, role: Role, label: &s
 /// What must hold of a field without a role.
 fn finite(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream {
     let (label, name) = (field.ident.unraw().to_string(), local(k, ""));
-    if field.shape == Shape::Matrix6 && derived.subject.model.is_added_mass(&field.ident) {
+    if field.shape == Shape::Matrix6 && derived.subject.given.mass_data.added_masses.contains(&k) {
         return quote!(__check.symmetric(#label, &#name););
     }
     finite_value(field.shape, &label, &name)
@@ -175,18 +166,18 @@ fn finite_value(shape: Shape, label: &str, name: &Ident) -> TokenStream {
 /// The matrix of the kinetic energy of the body without a name, on the axes of its motion: with a centre of mass off O
 /// its parts can be fine one by one, and not together.
 fn kinetic_matrix(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> Option<TokenStream> {
-    let Subject { model, system, links, .. } = &derived.subject;
-    let clause = model.bodies.iter().position(|body| body.name.is_none())?;
-    let free = system.free.iter().find(|free| free.link == links[clause])?;
+    let Subject { given, system, .. } = &derived.subject;
+    let link = derived.subject.link(None)?;
+    let free = system.free.iter().find(|free| free.link == link)?;
     let active = &free.kinematics.active;
     let fluid = system.scene.tree.links[free.link].body()?.added_mass.is_some();
     // About the centre of mass no part speaks against another.
-    let alone = model.shape(Role::CenterOfMass).is_none() || model.shape(Role::CentralInertia).is_some();
+    let alone = given.shape(Role::CenterOfMass).is_none() || given.shape(Role::CentralInertia).is_some();
     if fluid || active.iter().all(|&k| k >= 3) || alone {
         return None;
     }
     let role = Role::Inertia;
-    let label = model.field(role).map_or_else(|| role.word().to_owned(), |field| field.ident.unraw().to_string());
+    let label = given.item.field(role).map_or_else(|| role.word().to_owned(), |field| field.ident.unraw().to_string());
     let entries = active.iter().flat_map(|&i| active.iter().map(move |&j| (i, j)));
     let entries: Vec<Expr<'_>> = entries.map(|(i, j)| free.matrix.entries[i][j]).collect();
     let (compute, outputs) = statements(&Program::lower(&entries), symbols, &derived.scalar());

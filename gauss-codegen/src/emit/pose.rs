@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::mechanics::Coordinate;
-use crate::model::{InChart, Motion};
+use crate::terms::{InChart, Motion};
 
 use super::chart::rotation_chart_tokens;
 use super::derived::Derived;

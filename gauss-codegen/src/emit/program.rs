@@ -5,8 +5,8 @@ use quote::{format_ident, quote};
 
 use crate::algebra::{Expr, Map, OwnFunction, Rational};
 use crate::kernel::Program;
-use crate::model::{FunctionClause, FunctionKind, Scalar};
 use crate::targets::rust::{self, Dialect, Kept};
+use crate::terms::{FunctionKind, Scalar, UserFunction};
 
 /// How numbers are written for a scalar type.
 pub struct ScalarTokens<'a> {
@@ -19,7 +19,7 @@ pub struct ScalarTokens<'a> {
     /// `::gauss_runtime::__private::apart`.
     pub apart: TokenStream,
     /// Functions of the user's own.
-    pub functions: &'a [FunctionClause],
+    pub functions: &'a [UserFunction],
 }
 
 impl ScalarTokens<'_> {

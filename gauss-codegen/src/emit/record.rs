@@ -53,7 +53,7 @@ pub fn record(
     [documentation, rest]: [&str; 2],
     parts: &[&Part],
 ) -> [TokenStream; 2] {
-    let (private, ty, visibility) = (derived.private(), derived.scalar().ty(), derived.item().visibility);
+    let (private, ty, visibility) = (derived.private(), derived.scalar().ty(), &derived.item().visibility);
     let KernelGenerics { declared, .. } = derived.kernel_generics();
     let fields = parts.iter().map(|part| {
         let (ident, ty, label) = (&part.ident, part.ty(&private, &ty), &part.label);

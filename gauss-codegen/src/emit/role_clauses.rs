@@ -6,7 +6,8 @@ use quote::{format_ident, quote};
 use crate::algebra::Map;
 use crate::kernel::Program;
 use crate::mechanics::{KineticMatrix, QuantityValues};
-use crate::model::{Role, Shape};
+use crate::terms::{Role, Shape};
+use crate::translate::ClauseValue;
 
 use super::derived::Derived;
 use super::inertia::{inertia_rows, named_body, own_matrix};
@@ -43,22 +44,21 @@ pub fn clause_local(
 /// added mass together have a positive definite kinetic energy in every motion that the body can have.
 pub fn fluid(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     let subject = &derived.subject;
-    let model = subject.model;
     let mut checks = TokenStream::new();
-    for (clause, written) in model.bodies.iter().enumerate() {
-        let own = written.name.iter().flat_map(|_| written.role_clauses.iter().zip(&subject.body_values[clause]));
-        for (clause, values) in own.filter(|(clause, _)| !clause.is_of_matter()) {
+    for written in &subject.given.mass_data.bodies {
+        let of_fluid = |value: &&ClauseValue<'_>| !value.own.quantity.is_of_matter();
+        for ClauseValue { own, shape, .. } in written.values.iter().filter(of_fluid) {
             let (label, local) =
-                (subject.role_name(written, clause.role), format_ident!("__fluid", span = Span::mixed_site()));
-            let value = clause_local(derived, &local, values, symbols);
-            let check = match (clause.role, clause.shape) {
+                (subject.role_name(written, own.quantity), format_ident!("__fluid", span = Span::mixed_site()));
+            let value = clause_local(derived, &local, own, symbols);
+            let check = match (own.quantity, shape) {
                 (Role::DisplacedMass, _) => quote!(__check.non_negative(#label, #local);),
                 (_, Shape::Matrix6) => continue,
                 _ => quote!(__check.finite(#label, &#local);),
             };
             checks.extend(quote!({ #value #check }));
         }
-        let (scene, number) = (&subject.system.scene, subject.links[clause]);
+        let (scene, number) = (&subject.system.scene, written.link);
         let link = &scene.tree.links[number];
         let Some(body) = link.body().filter(|body| body.added_mass.is_some()) else { continue };
         let active = scene.twist_of(number);
@@ -80,10 +80,10 @@ pub fn fluid(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> Toke
 pub fn body_clauses(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     let (ty, real, subject) = (derived.scalar().ty(), derived.scalar().real, &derived.subject);
     let mut checks = TokenStream::new();
-    for (clause, body) in subject.model.bodies.iter().enumerate() {
+    for body in &subject.given.mass_data.bodies {
         let Some(name) = &body.name else { continue };
-        let own = &subject.body_values[clause];
-        let value_of = |quantity: Role| own.iter().find(|values| values.quantity == quantity);
+        let own = body.values.iter().map(|value| &value.own);
+        let value_of = |quantity: Role| own.clone().find(|own| own.quantity == quantity);
         let central = value_of(Role::CentralInertia);
         let inertia = central.or_else(|| value_of(Role::Inertia));
         let (Some(mass), Some(inertia)) = (value_of(Role::Mass), inertia) else { continue };

@@ -15,7 +15,7 @@ pub fn state_name(derived: &Derived<'_, '_>) -> Ident {
 
 /// Coordinates, then speeds, each in their order, with different names.
 pub fn parts(derived: &Derived<'_, '_>) -> [Vec<Part>; 2] {
-    let mut all = derived.subject.state.clone();
+    let mut all = derived.subject.given.state.clone();
     let mut taken: Vec<String> = Vec::new();
     for part in all.iter_mut().flatten() {
         let word = part.ident.unraw().to_string();
@@ -56,7 +56,7 @@ pub fn state(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
 fn conversions(derived: &Derived<'_, '_>, all: &[Vec<Part>; 2]) -> TokenStream {
     let (private, name, kernel) = (derived.private(), state_name(derived), derived.kernel_name());
     let KernelGenerics { bounded, used, .. } = derived.kernel_generics();
-    let visibility = derived.item().visibility;
+    let visibility = &derived.item().visibility;
     let system = quote!(<#kernel #used as #private::GaussSystem>);
     let of = conversion_from(derived, all);
     let (q, z) = (configuration_of(derived, &all[0]), speeds_of(derived, &all[1]));

@@ -3,10 +3,10 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use crate::algebra::{Expr, Rational};
-use crate::mechanics::{Constraints, Coordinate, Method, QuantityValues, System};
-use crate::model::{BodyClause, Model, Role};
-use crate::translate::{Quantity, Source};
+use crate::algebra::Expr;
+use crate::mechanics::{Constraints, Coordinate, Method, System};
+use crate::terms::Role;
+use crate::translate::{BodyData, Given};
 use crate::words::Unraw;
 
 use super::arguments::Argument;
@@ -14,22 +14,12 @@ use super::chart::chart_tokens;
 
 /// What is derived.
 pub struct Subject<'a, 'g> {
-    pub model: &'a Model,
+    /// What is only written down.
+    pub given: &'a Given<'g>,
     pub system: &'a System<'g>,
     /// The constraints, and whether a run can drift away from them.
     pub constraints: &'a Constraints<'g>,
     pub can_drift: bool,
-    /// Where the symbols of fields are read.
-    pub sources: &'a [Source<'g>],
-    /// Literal numbers that symbols stand for.
-    pub literals: &'a [(Rational, Expr<'g>)],
-    /// Mass data that are written in clauses: of the body without a name, and of each of the others.
-    pub values: &'a [QuantityValues<'g>],
-    pub body_values: &'a [Vec<QuantityValues<'g>>],
-    /// Coordinates and speeds, as their author calls them.
-    pub state: &'a [Vec<Quantity>; 2],
-    /// Which link each clause of a body or frame became.
-    pub links: &'a [usize],
     /// Components x, y, z, w of the unit quaternions behind rotations, one for each coordinate.
     pub quaternions: &'a [Option<[Expr<'g>; 4]>],
 }
@@ -186,8 +176,7 @@ impl<'g> Subject<'_, 'g> {
 
     /// The link of the body of that name (the unnamed one).
     pub fn link(&self, name: Option<&Ident>) -> Option<usize> {
-        let clause = self.model.bodies.iter().position(|body| body.name.as_ref() == name)?;
-        Some(self.links[clause])
+        self.given.mass_data.bodies.iter().find(|body| body.name.as_ref() == name).map(|body| body.link)
     }
 
     /// The only body axis that the body of that name (the unnamed one) turns about.
@@ -196,8 +185,8 @@ impl<'g> Subject<'_, 'g> {
     }
 
     /// What a role of a body is called: by its field, or by its word after the name of the body.
-    pub fn role_name(&self, body: &BodyClause, role: Role) -> String {
-        match (&body.name, self.model.field(role)) {
+    pub fn role_name(&self, body: &BodyData<'_>, role: Role) -> String {
+        match (&body.name, self.given.item.field(role)) {
             (Some(name), _) => format!("{}.{}", name.unraw(), role.word()),
             (None, Some(field)) => field.ident.unraw().to_string(),
             (None, None) => role.word().to_owned(),

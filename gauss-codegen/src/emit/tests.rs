@@ -4,7 +4,7 @@ use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use quote::quote;
 
 use crate::expand::{expand, expand_without_vectors};
-use crate::model::Scalar;
+use crate::terms::Scalar;
 
 use super::derived::PRIVATE;
 use super::program::ScalarTokens;

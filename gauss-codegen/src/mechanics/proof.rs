@@ -3,7 +3,7 @@
 
 use crate::algebra::ideal::Ideal;
 use crate::algebra::{Expr, Graph};
-use crate::model::{Chart, Motion, Shape};
+use crate::terms::{Chart, Motion, Shape};
 
 use crate::mechanics::check::definition::{gauss_condition, pairing, stationarity, velocity_field};
 use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, scale};

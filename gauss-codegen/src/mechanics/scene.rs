@@ -1,7 +1,7 @@
 //! A system as it is given: coordinates, speeds, ψ, links, constraints and loads, in symbols.
 
 use crate::algebra::{Expr, Graph, Map, Substitution};
-use crate::model::{InChart, Motion};
+use crate::terms::{InChart, Motion};
 
 use crate::mechanics::constraints::constraint::Constraint;
 use crate::mechanics::kinematics::vector::{Triple, is_zero};

@@ -2,7 +2,7 @@
 //! four bodies.
 
 use crate::algebra::{Graph, Notation};
-use crate::model::{Chart, Motion, RotationChart, Shape};
+use crate::terms::{Chart, Motion, RotationChart, Shape};
 
 use crate::mechanics::matter::body::BodyShape;
 use crate::mechanics::tests::Charted;

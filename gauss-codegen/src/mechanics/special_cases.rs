@@ -3,7 +3,7 @@
 //! motion.
 
 use crate::algebra::{Expr, Graph};
-use crate::model::{Chart, Motion};
+use crate::terms::{Chart, Motion};
 
 use crate::mechanics::check::definition::stationarity;
 use crate::mechanics::kinematics::motion::Kinematics;

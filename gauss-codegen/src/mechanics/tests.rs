@@ -1,7 +1,7 @@
 //! Every formula of every chart, motion and body against the literal Gauss condition at random states.
 
 use crate::algebra::{Evaluation, Expr, Graph, Map};
-use crate::model::{Chart, InChart, Motion, Role, RotationChart, Shape};
+use crate::terms::{Chart, InChart, Motion, Role, RotationChart, Shape};
 
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::check::definition::gauss_condition;

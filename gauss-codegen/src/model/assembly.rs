@@ -10,13 +10,13 @@ use crate::model::language::words::{same, word};
 use crate::model::names::expressions;
 use crate::model::names::places::Place;
 use crate::model::names::{declared, definitions, kinds, naming};
-use crate::model::scene::charts::InChart;
 use crate::model::scene::clauses::BodyClause;
 use crate::model::scene::expression::Expression;
-use crate::model::scene::model::{Field, Model, Scalar, Wanted};
-use crate::model::scene::roles::{Role, Shape};
+use crate::model::scene::model::Model;
 use crate::model::units::needs;
+use crate::terms::{Field, Generics, InChart, Item, Role, Scalar, Shape, Wanted};
 use proc_macro2::{Ident, Span};
+use quote::{ToTokens, quote};
 use syn::{DeriveInput, Path};
 
 /// The checked scene; `None` when something is wrong, which is then noted.
@@ -127,7 +127,7 @@ fn check_effect(statements: &Statements, unused: &[Ident], owners: &[(Role, usiz
 fn fields(reader: &Reader<'_>, shapes: &[Shape]) -> Vec<Field> {
     let field = |(field, &shape): (&ReadField<'_>, &Shape)| Field {
         ident: field.ident.clone(),
-        ty: field.ty.clone(),
+        ty: field.ty.to_token_stream(),
         role: field.role.as_ref().map(|claim| claim.role),
         shape,
         unit: field.unit.clone(),
@@ -156,13 +156,19 @@ fn assembled(
         }
     }
     Some(Model {
-        ident: input.ident.clone(),
-        visibility: input.vis.clone(),
-        generics: input.generics.clone(),
-        scalar,
-        runtime,
-        wanted,
-        fields,
+        item: Item {
+            ident: input.ident.clone(),
+            visibility: input.vis.to_token_stream(),
+            generics: generics(&input.generics),
+            scalar,
+            runtime: runtime.to_token_stream(),
+            wanted,
+            fields,
+            inputs: statements.inputs.map_or_else(Vec::new, |inputs| inputs.names),
+            functions: statements.functions,
+            limit: statements.limit.and_then(|(_, limit)| limit),
+            described: None,
+        },
         in_chart,
         coordinates,
         speeds: statements.speeds.map(|speeds| speeds.names),
@@ -172,18 +178,22 @@ fn assembled(
         points: statements.points,
         constraints: statements.constraints,
         independent: statements.independent.map(|independent| independent.names),
-        limit: statements.limit.and_then(|(_, limit)| limit),
         potential: statements.potential.and_then(|(_, potential)| potential),
-        inputs: statements.inputs.map_or_else(Vec::new, |inputs| inputs.names),
         role_clauses: statements.role_clauses,
         medium: statements.medium.and_then(|(_, velocity)| velocity),
         attractions: statements.attractions,
         forces: statements.forces,
         armatures: statements.armatures,
-        functions: statements.functions,
         formal: statements.formal,
-        described: None,
     })
+}
+
+/// Type parameters as an `impl` writes them.
+fn generics(written: &syn::Generics) -> Generics {
+    let (declared, used, clause) = written.split_for_impl();
+    let predicates = clause.iter().flat_map(|clause| &clause.predicates);
+    let predicates = quote!(#(#predicates,)*);
+    Generics { declared: quote!(#declared), used: quote!(#used), predicates }
 }
 
 /// Fields that expressions name are computed with, as those with roles are.

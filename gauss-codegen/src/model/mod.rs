@@ -7,7 +7,7 @@
 //! | room | what it holds |
 //! |---|---|
 //! | `parse` | the whole way |
-//! | `scene` | what comes out: [`Model`], its clauses, the table of force elements, expressions with spans, charts, roles |
+//! | `scene` | what comes out: [`Model`], its clauses, the table of force elements, expressions with spans |
 //! | `language` | tokens → clauses: `attributes` cuts them, `struct_clauses` and `statements` read those of the struct, `fields` those of the fields, `arithmetic` expressions |
 //! | `names` | `declared` names and their meanings, the `places` of expressions and the `kinds` of their values, definitions written out |
 //! | `units` | dimensions of expressions, and which are needed where |
@@ -28,16 +28,12 @@ mod tests;
 mod units;
 
 pub use language::arithmetic::{LARGEST_EXPONENT, too_many_factors};
-pub use language::number::{exact as literal, of_double as exact};
 pub use parse::{item, parse, struct_in};
-pub use scene::charts::{Chart, InChart, Motion, RotationChart};
 pub use scene::clauses::{
-    BodyClause, Coefficients, ConstraintKind, Coordinate, CoordinateKind, FunctionClause, FunctionKind, InputKind,
-    InputName, RoleClause, RoleValue, SpeedKind, SpeedPart,
+    BodyClause, Coefficients, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, RoleClause, RoleValue,
+    SpeedKind, SpeedPart,
 };
-pub use scene::described::{BodyOfFile, Described, Remark, StateOfFile, ValueOfState};
-pub use scene::elements::{ElementKind, LawKind, Takes, argument};
+pub use scene::elements::{ElementKind, Takes, argument};
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 pub use scene::forces::{ForceAxes, ForceClause};
-pub use scene::model::{Field, GenericsOfImpl, Model, Scalar, Wanted, WantedMethod};
-pub use scene::roles::{Role, Shape};
+pub use scene::model::Model;

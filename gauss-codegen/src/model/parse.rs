@@ -9,8 +9,8 @@ use crate::model::language::{fields, nesting, struct_clauses};
 use crate::model::names::inputs;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 use crate::model::robots;
-use crate::model::scene::described::Described;
 use crate::model::scene::model::Model;
+use crate::terms::Described;
 use proc_macro2::TokenStream;
 use syn::ext::IdentExt;
 use syn::punctuated::Punctuated;
@@ -42,8 +42,9 @@ pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
         let reader = fields::read(named, &input.generics, clauses.own, &mut context);
         let described = robot_of_file(&clauses.robot, &reader, &mut clauses.statements, &mut context);
         inputs::name(&mut clauses.statements, &reader.fields, &mut context);
-        let model = assembly::model(input, clauses, reader, &mut context)?;
-        Some(Model { described, ..model })
+        let mut model = assembly::model(input, clauses, reader, &mut context)?;
+        model.item.described = described;
+        Some(model)
     });
     context.finish(model)
 }

@@ -3,7 +3,7 @@
 use crate::algebra::{Expr, Notation, Number, Precise, Scalar, decimal};
 use crate::error::Error;
 use crate::mechanics::{Body, Tree};
-use crate::model::Role;
+use crate::terms::Role;
 
 use super::domains::value_of_literals;
 use super::translated::Given;
@@ -25,7 +25,7 @@ fn is_indefinite(a: &[[Precise; 3]; 3]) -> bool {
         || negative(determinant, 3)
 }
 
-impl<'g> Given<'_, 'g> {
+impl<'g> Given<'g> {
     /// Why a check fails that no mistake of this crate makes fail: bodies that none can be, numbers out of its reach.
     pub fn cause_of_failure(&self, tree: &Tree<'g>) -> Option<Error> {
         self.impossible_body(tree).or_else(|| {
@@ -46,14 +46,14 @@ impl<'g> Given<'_, 'g> {
 
     /// A body whose mass data are literals and that has a negative moment of inertia about its centre of mass.
     fn impossible_body(&self, tree: &Tree<'g>) -> Option<Error> {
-        let clauses = self.model.bodies.iter().zip(&self.links);
-        let (clause, _) = clauses.into_iter().find(|(_, link)| {
-            let body = tree.links.get(**link).and_then(|link| link.body());
+        let clause = self.mass_data.bodies.iter().find(|clause| {
+            let body = tree.links.get(clause.link).and_then(|link| link.body());
             body.and_then(|body| self.central_moments(body)).is_some_and(|moments| is_indefinite(&moments))
         })?;
-        let own = if clause.name.is_some() { &clause.role_clauses } else { &self.model.role_clauses };
-        let inertia = own.iter().find(|own| matches!(own.role, Role::Inertia | Role::CentralInertia));
-        let (span, word) = inertia.map_or((clause.span, Role::Inertia.word()), |own| (own.span, own.role.word()));
+        let own = if clause.name.is_some() { &clause.values } else { &self.mass_data.unnamed };
+        let mut roles = own.iter().map(|value| (value.span, value.own.quantity));
+        let inertia = roles.find(|(_, role)| matches!(role, Role::Inertia | Role::CentralInertia));
+        let (span, word) = inertia.map_or((clause.span, Role::Inertia.word()), |(span, role)| (span, role.word()));
         let rule = match word == Role::CentralInertia.word() {
             true => String::new(),
             false => format!(

@@ -17,8 +17,9 @@ use crate::model::argument::{
 };
 use crate::model::{
     BinaryOperator, Coefficients, CoordinateKind, ElementKind, Expression, ExpressionKind, ForceAxes, ForceClause,
-    LawKind, Property, Takes,
+    Property, Takes,
 };
+use crate::terms::LawKind;
 use crate::words::Unraw;
 
 use super::drag::DragMatrix;
@@ -73,7 +74,7 @@ impl<'g> Translator<'_, 'g> {
         }
         let entrained = self.medium(tree)?;
         if !entrained.is_empty() {
-            let span = model.medium.as_ref().map_or(model.ident.span(), |velocity| velocity.span);
+            let span = model.medium.as_ref().map_or(model.item.ident.span(), |velocity| velocity.span);
             elements.push((span, Element::new(names.of(None, "medium"), Action::Forces(entrained))));
         }
         for clause in &model.forces {
@@ -232,7 +233,7 @@ impl<'g> Translator<'_, 'g> {
 
     /// Takes note of what the argument `word` of the element `name` is.
     fn note(&self, kind: LawKind, (name, word): (&str, &str), e: &Expression, values: Vec<Expr<'g>>) {
-        let field = |ident: &Ident| self.model.fields.iter().any(|field| field.ident.unraw() == ident.unraw());
+        let field = |ident: &Ident| self.model.item.fields.iter().any(|field| field.ident.unraw() == ident.unraw());
         let label = match &e.kind {
             ExpressionKind::Name(ident) if field(ident) => ident.unraw().to_string(),
             _ if word.is_empty() => name.to_owned(),

@@ -2,7 +2,7 @@
 //! finds.
 
 use crate::algebra::Expr;
-use crate::model::LawKind;
+use crate::terms::LawKind;
 
 /// Constants of an element, and what they are.
 #[derive(Clone)]

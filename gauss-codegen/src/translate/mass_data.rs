@@ -3,16 +3,20 @@
 use crate::algebra::Expr;
 use crate::error::Result;
 use crate::mechanics::{Body, QuantityValues};
-use crate::model::{Role, RoleClause, RoleValue, Shape};
+use crate::model::{Model, RoleClause, RoleValue};
+use crate::terms::{Role, Shape};
 
 use super::symbols::free_fall;
-use super::translated::MassData;
+use super::translated::{BodyData, ClauseValue, MassData};
 use super::translator::{Translator, bug};
 use super::value::Value;
 
 /// What follows from mass data in clauses.
 pub(super) struct Assigned<'g> {
-    pub mass_data: MassData<'g>,
+    /// Of the body without a name, and gravity.
+    pub unnamed: Vec<ClauseValue<'g>>,
+    /// Clause by clause of the bodies with names.
+    pub named: Vec<Vec<ClauseValue<'g>>>,
     /// Acceleration of free fall, observer's axes.
     pub gravity: Option<[Expr<'g>; 3]>,
     /// One for each clause; none for a frame.
@@ -27,9 +31,9 @@ impl<'g> Translator<'_, 'g> {
     pub(super) fn mass_data(&self) -> Result<Assigned<'g>> {
         let model = self.model;
         let unnamed = self.quantity_values(&model.role_clauses)?;
-        let gravity = match unnamed.iter().find(|values| values.quantity == Role::Gravity) {
+        let gravity = match unnamed.iter().find(|value| value.own.quantity == Role::Gravity) {
             None => self.declared.gravity,
-            Some(gravity) => match gravity.values.as_slice() {
+            Some(gravity) => match gravity.own.values.as_slice() {
                 &[x, y, z] => Some([x, y, z]),
                 values => values.first().map(|&g| free_fall(model, self.graph.zero(), g)),
             },
@@ -40,19 +44,19 @@ impl<'g> Translator<'_, 'g> {
             let own = self.quantity_values(&clause.role_clauses)?;
             if let Some(body) = body {
                 let values = if clause.name.is_some() { &own } else { &unnamed };
-                values.iter().for_each(|values| body.assign(values));
+                values.iter().for_each(|value| body.assign(&value.own));
                 body.gravity = gravity;
             }
             named.push(own);
         }
-        Ok(Assigned { mass_data: MassData { unnamed, named }, gravity, bodies })
+        Ok(Assigned { unnamed, named, gravity, bodies })
     }
 
     /// The values of mass data in clauses.
     ///
     /// # Errors
     /// Only what the model should have refused: a bug of this crate.
-    fn quantity_values(&self, clauses: &[RoleClause]) -> Result<Vec<QuantityValues<'g>>> {
+    fn quantity_values(&self, clauses: &[RoleClause]) -> Result<Vec<ClauseValue<'g>>> {
         let nothing = self.no_links();
         let value = |clause: &RoleClause| {
             let values = match &clause.value {
@@ -71,9 +75,25 @@ impl<'g> Translator<'_, 'g> {
                     }
                 }
             };
-            let quantity = clause.role;
-            Ok(QuantityValues { quantity, values })
+            let own = QuantityValues { quantity: clause.role, values };
+            Ok(ClauseValue { own, shape: clause.shape, span: clause.span })
         };
         clauses.iter().map(value).collect()
+    }
+}
+
+impl<'g> Assigned<'g> {
+    /// With the bodies that have them.
+    pub(super) fn of_bodies(self, model: &Model, links: &[usize]) -> MassData<'g> {
+        let bodies = model.bodies.iter().zip(links).zip(self.named).map(|((clause, &link), values)| BodyData {
+            name: clause.name.clone(),
+            span: clause.span,
+            link,
+            is_formal: model.waives_triangle_inequality(clause.name.as_ref()),
+            values,
+        });
+        let is_added_mass = |&field: &usize| model.is_added_mass(&model.item.fields[field].ident);
+        let added_masses = (0..model.item.fields.len()).filter(is_added_mass).collect();
+        MassData { unnamed: self.unnamed, bodies: bodies.collect(), added_masses }
     }
 }

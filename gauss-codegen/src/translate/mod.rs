@@ -36,5 +36,5 @@ pub use laws::Law;
 pub use parameters::Parameter;
 pub use state::{Quantity, QuantityKind};
 pub use symbols::{Part, Source};
-pub use translated::{Given, SpeedName, Translated};
+pub use translated::{BodyData, ClauseValue, ConstraintPlace, Given, Independent, Named, Translated};
 pub use translator::translate;

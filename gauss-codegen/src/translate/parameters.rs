@@ -1,7 +1,7 @@
 //! The parameters of a scene, number by number: the symbol of each, and what its author calls it.
 
 use crate::algebra::Expr;
-use crate::model::{Field, Role};
+use crate::terms::{Field, Role};
 use crate::words::Unraw;
 
 use super::symbols::{Part, Source};

@@ -3,7 +3,8 @@
 use proc_macro2::{Ident, Span};
 use quote::format_ident;
 
-use crate::model::{Chart, CoordinateKind, InChart, Model, Motion, SpeedKind};
+use crate::model::{CoordinateKind, Model, SpeedKind};
+use crate::terms::{Chart, InChart, Motion};
 use crate::words::Unraw;
 
 /// A number, a vector or an element of a group that has a name.

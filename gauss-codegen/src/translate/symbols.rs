@@ -4,7 +4,8 @@ use proc_macro2::Ident;
 
 use crate::algebra::{Expr, Graph, Rational};
 use crate::mechanics::{Body, BodyShape, ChartedBody, Coordinate, Name, ParameterSymbol};
-use crate::model::{self, BodyClause, CoordinateKind, Field, InputKind, Model, Motion, Role, Shape, SpeedKind};
+use crate::model::{self, BodyClause, CoordinateKind, Model, SpeedKind};
+use crate::terms::{Field, InputKind, InputName, Motion, Role, Shape, number};
 use crate::words::Unraw;
 
 use super::value::Value;
@@ -96,7 +97,7 @@ fn named(all: &[(&Ident, SpeedKind)]) -> Vec<Name> {
     names.flatten().collect()
 }
 
-fn input_names(input: &model::InputName) -> Vec<Name> {
+fn input_names(input: &InputName) -> Vec<Name> {
     let name = name_of(&input.ident);
     match input.kind {
         InputKind::Scalar => vec![name],
@@ -168,7 +169,8 @@ impl<'g> Declared<'g> {
         declared.momentum_names.extend(named("p"));
         declared.force_names.extend(named("F"));
         declared.momenta = declared.momentum_names.iter().map(|name| symbol(graph, name, false)).collect();
-        declared.inputs = model.inputs.iter().flat_map(input_names).map(|name| symbol(graph, &name, false)).collect();
+        declared.inputs =
+            model.item.inputs.iter().flat_map(input_names).map(|name| symbol(graph, &name, false)).collect();
         declared.chart = chart;
         declared
     }
@@ -214,7 +216,7 @@ impl<'g> Declared<'g> {
 
     /// Symbols for gravity and for every field without a role that expressions can name; the acceleration of free fall.
     fn plain_fields(&mut self, model: &Model) {
-        for (field, Field { ident, role, shape, .. }) in model.fields.iter().enumerate() {
+        for (field, Field { ident, role, shape, .. }) in model.item.fields.iter().enumerate() {
             // Of a body without a name gravity is among its symbols.
             let known = role.is_some() && self.gravity.is_some();
             let unread = role.is_none() && model.chart_of_all().is_some() && !model.has_expressions();
@@ -282,8 +284,8 @@ impl<'g> Declared<'g> {
         let mut body = match &clause.name {
             Some(name) if clause.has_matter() => Body::named(self.graph, body_shape(given), 2, name_of(name)),
             Some(name) => {
-                let field = model.fields.iter().position(|f| f.ident == *name).unwrap_or_default();
-                let inertia = match model.fields[field].shape {
+                let field = model.item.fields.iter().position(|f| f.ident == *name).unwrap_or_default();
+                let inertia = match model.item.fields[field].shape {
                     Shape::CentralBody => Role::CentralInertia,
                     _ => Role::Inertia,
                 };
@@ -306,7 +308,7 @@ impl<'g> Declared<'g> {
     }
 
     fn unnamed_body(&mut self, model: &Model) -> Body<'g> {
-        let fields = &model.fields;
+        let fields = &model.item.fields;
         let field = |role: Role| fields.iter().position(|f| f.role == Some(role));
         let given =
             |role: Role| model.role_clauses.iter().find(|clause| clause.role == role).map(|clause| clause.shape);
@@ -377,7 +379,7 @@ pub fn body_shape(shape_of: impl Fn(Role) -> Option<Shape>) -> BodyShape {
 pub fn pi() -> Rational {
     const DIGITS: &str =
         "3.14159265358979323846264338327950288419716939937510582097494459230781640628620899862803482534211707";
-    model::literal(DIGITS).unwrap_or_else(Rational::zero)
+    number::exact(DIGITS).unwrap_or_else(Rational::zero)
 }
 
 fn name_of(ident: &Ident) -> Name {

@@ -1,10 +1,10 @@
 //! What comes out of the translation: plain data.
 
-use proc_macro2::Span;
+use proc_macro2::{Ident, Span};
 
 use crate::algebra::{Expr, Rational, Substitution};
 use crate::mechanics::{QuantityValues, SystemScene};
-use crate::model::Model;
+use crate::terms::{Item, Role, Shape};
 
 use super::drag::DragMatrix;
 use super::laws::Law;
@@ -13,14 +13,14 @@ use super::state::Quantity;
 use super::symbols::Source;
 
 /// A system in symbols.
-pub struct Translated<'a, 'g> {
+pub struct Translated<'g> {
     pub scene: SystemScene<'g>,
-    pub given: Given<'a, 'g>,
+    pub given: Given<'g>,
 }
 
 /// What is known of a scene beside its equations: what is only written down, and where things were written.
-pub struct Given<'a, 'g> {
-    pub model: &'a Model,
+pub struct Given<'g> {
+    pub item: Item,
     /// Where the symbols of parameters are read.
     pub sources: Vec<Source<'g>>,
     /// The numbers of fields.
@@ -33,35 +33,90 @@ pub struct Given<'a, 'g> {
     pub drags: Vec<DragMatrix<'g>>,
     /// Constants of elements.
     pub laws: Vec<Law<'g>>,
-    /// Mass data that are written in clauses.
+    /// Mass data and gravity.
     pub mass_data: MassData<'g>,
-    /// Which link each clause of a body or frame became.
-    pub links: Vec<usize>,
     /// The links of the frames that are asked for, in their order.
     pub frames: Vec<usize>,
     /// What the speeds are called.
-    pub speeds: Vec<SpeedName>,
+    pub speeds: Vec<Named>,
     /// Coordinates and speeds of a state.
     pub state: [Vec<Quantity>; 2],
-    /// Indices of the speeds that stay where constraints are solved for the others.
-    pub independent: Option<Vec<usize>>,
+    /// The declared coordinates, where their rates are written. Those of a chart come before them.
+    pub rates: Vec<Named>,
+    /// Clause by clause.
+    pub constraints: Vec<ConstraintPlace>,
+    /// The speeds that stay where constraints are solved for the others.
+    pub independent: Option<Independent>,
 }
 
-/// Values of mass data that are written in clauses.
+/// Mass data and gravity that are written in clauses, and the bodies that have them.
 pub struct MassData<'g> {
     /// Of the body without a name, and gravity.
-    pub unnamed: Vec<QuantityValues<'g>>,
-    /// Clause by clause of the bodies with names.
-    pub named: Vec<Vec<QuantityValues<'g>>>,
+    pub unnamed: Vec<ClauseValue<'g>>,
+    /// Bodies and frames, clause by clause.
+    pub bodies: Vec<BodyData<'g>>,
+    /// Indices of fields that clauses name as an added mass.
+    pub added_masses: Vec<usize>,
 }
 
-/// The name of a speed, and where it is written.
-pub struct SpeedName {
+/// A body or a frame.
+pub struct BodyData<'g> {
+    pub name: Option<Ident>,
+    /// The word of its clause.
+    pub span: Span,
+    pub link: usize,
+    /// Its principal moments need not obey the triangle inequality.
+    pub is_formal: bool,
+    /// What its clause says of a body with a name.
+    pub values: Vec<ClauseValue<'g>>,
+}
+
+/// A quantity of a body that is written in a clause.
+pub struct ClauseValue<'g> {
+    pub own: QuantityValues<'g>,
+    pub shape: Shape,
+    /// The word of the role.
+    pub span: Span,
+}
+
+/// A name, and where it is written.
+pub struct Named {
     pub text: String,
     pub span: Span,
 }
 
-impl<'g> Given<'_, 'g> {
+/// Where a constraint is written.
+pub struct ConstraintPlace {
+    /// The word `constraint`.
+    pub word: Span,
+    pub expression: Span,
+    /// In the file of a robot.
+    pub in_file: Option<String>,
+    /// It is a vector.
+    pub is_vector: bool,
+}
+
+/// The speeds that stay where constraints are solved for the others.
+pub struct Independent {
+    pub kept: Vec<usize>,
+    /// The first of their names.
+    pub span: Span,
+}
+
+impl<'g> MassData<'g> {
+    /// The values of a role in clauses of the body without a name.
+    pub fn unnamed(&self, role: Role) -> Option<&ClauseValue<'g>> {
+        self.unnamed.iter().find(|value| value.own.quantity == role)
+    }
+}
+
+impl<'g> Given<'g> {
+    /// The shape of the field or the clause that plays a role of the body without a name; `None` where neither does.
+    pub fn shape(&self, role: Role) -> Option<Shape> {
+        let clause = || self.mass_data.unnamed(role).map(|value| value.shape);
+        self.item.field(role).map(|field| field.shape).or_else(clause)
+    }
+
     /// Puts expressions in the place of symbols, as of speeds that constraints determine.
     pub fn substitute(&mut self, replacement: &Substitution<'g>) {
         let values = self.laws.iter_mut().map(|law| &mut law.values);

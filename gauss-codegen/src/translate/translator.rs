@@ -11,7 +11,8 @@ use crate::mechanics::{
     Charted, ChartedBody, Constraint, ConstraintKind, Coordinate, Element, Matter, Observed, Placement, SystemScene,
     Tree, Turn,
 };
-use crate::model::{self, ExpressionKind, FunctionClause, InChart, LawKind, Model, SpeedPart};
+use crate::model::{self, ExpressionKind, Model, SpeedPart};
+use crate::terms::{InChart, InputKind, LawKind, UserFunction};
 use crate::words::Unraw;
 
 use super::laws::Law;
@@ -19,52 +20,69 @@ use super::notes::Notes;
 use super::parameters::parameters;
 use super::state::quantities;
 use super::symbols::{self, Declared};
-use super::translated::{Given, SpeedName, Translated};
+use super::translated::{ConstraintPlace, Given, Independent, Named, Translated};
 use super::value::{Piece, Value};
 
 /// Translates a checked system.
 ///
 /// # Errors
 /// Expressions without a value, each where it stands; what the model should have refused: a bug of this crate.
-pub fn translate<'a, 'g>(graph: &'g Graph, model: &'a Model) -> Result<Translated<'a, 'g>> {
+pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> {
     let mut declared = Declared::new(graph, model);
-    let function = |clause: &FunctionClause| {
+    let function = |clause: &UserFunction| {
         let name = clause.name.unraw().to_string();
         let index = graph.declare_function(name.clone());
         (name, OwnFunction::new(index, clause.kind.continuous()))
     };
-    let functions: HashMap<String, OwnFunction> = model.functions.iter().map(function).collect();
+    let functions: HashMap<String, OwnFunction> = model.item.functions.iter().map(function).collect();
     let pi = graph.symbol("π", "\\pi", true);
     let notes = Notes::new(vec![(symbols::pi(), pi)]);
-    let assigned = Translator::new(graph, model, &declared, &functions, pi, &notes).mass_data()?;
-    (declared.gravity, declared.bodies) = (assigned.gravity, assigned.bodies);
+    let mut assigned = Translator::new(graph, model, &declared, &functions, pi, &notes).mass_data()?;
+    (declared.gravity, declared.bodies) = (assigned.gravity, std::mem::take(&mut assigned.bodies));
     let mut translator = Translator::new(graph, model, &declared, &functions, pi, &notes);
     let scene = translator.scene()?;
     translator.refuse_mistakes()?;
-    let independent = model.independent.as_ref().map(|names| translator.indices_of_speeds(names));
+    let independent = model.independent.as_ref().map(|names| Independent {
+        kept: translator.indices_of_speeds(names),
+        span: names.first().map_or(model.item.ident.span(), |first| first.ident.span()),
+    });
     let speeds = translator.speed_names();
-    let frames = model.wanted.frames.iter();
+    let frames = model.item.wanted.frames.iter();
     let frames = frames.filter_map(|name| translator.links.get(&name.unraw().to_string()).copied()).collect();
-    let links = translator.links_of_clauses;
+    let mass_data = assigned.of_bodies(model, &translator.links_of_clauses);
     let noted = notes.into_inner();
     Ok(Translated {
         scene,
         given: Given {
-            model,
-            parameters: parameters(&model.fields, &declared.sources),
+            parameters: parameters(&model.item.fields, &declared.sources),
             sources: declared.sources,
             literals: noted.literals,
             extreme: noted.extreme,
             drags: noted.drags,
             laws: noted.laws,
-            mass_data: assigned.mass_data,
-            links,
+            mass_data,
             frames,
             speeds,
-            state: quantities(model, independent.as_deref()),
+            state: quantities(model, independent.as_ref().map(|independent| &independent.kept[..])),
+            rates: model.kinematics.iter().map(rate).collect(),
+            constraints: model.constraints.iter().map(place).collect(),
             independent,
+            item: model.item.clone(),
         },
     })
+}
+
+fn rate((coordinate, rate): &(Ident, model::Expression)) -> Named {
+    Named { text: coordinate.to_string(), span: rate.span }
+}
+
+fn place(clause: &model::ConstraintClause) -> ConstraintPlace {
+    ConstraintPlace {
+        word: clause.span,
+        expression: clause.expression.span,
+        in_file: clause.place.clone(),
+        is_vector: clause.vector,
+    }
 }
 
 /// ḃ and ω̂, where they are known.
@@ -133,15 +151,15 @@ impl<'a, 'g> Translator<'a, 'g> {
     }
 
     /// The name of each speed, and where it is written: without `speeds` at its coordinate.
-    fn speed_names(&self) -> Vec<SpeedName> {
+    fn speed_names(&self) -> Vec<Named> {
         let idents = self.speed_idents();
         let name = |k: usize| match idents.get(k) {
-            Some(ident) => SpeedName { text: ident.to_string(), span: ident.span() },
+            Some(ident) => Named { text: ident.to_string(), span: ident.span() },
             None => {
                 let coordinate = Coordinate::of_component(&self.declared.coordinates, k);
                 let own = coordinate.checked_sub(self.declared.before).and_then(|k| self.model.coordinates.get(k));
-                let ident = own.map_or(&self.model.ident, |own| &own.ident);
-                SpeedName { text: format!("d{ident}/dt"), span: ident.span() }
+                let ident = own.map_or(&self.model.item.ident, |own| &own.ident);
+                Named { text: format!("d{ident}/dt"), span: ident.span() }
             }
         };
         (0..self.declared.speeds.len()).map(name).collect()
@@ -229,7 +247,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             return Ok(Vec::new());
         }
         let observed = Observed::new(self.graph, self.declared.time);
-        let body = self.declared.bodies.first().cloned().flatten().ok_or_else(|| bug(self.model.ident.span()))?;
+        let body = self.declared.bodies.first().cloned().flatten().ok_or_else(|| bug(self.model.item.ident.span()))?;
         let placement = Placement {
             matter: Matter::Body(Box::new(body)),
             parent: None,
@@ -264,7 +282,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         // Angular velocities are known once the kinematics are.
         self.name_rotations(&vec![self.graph.zero(); self.declared.size()]);
         let mut inputs = self.declared.inputs.iter().copied();
-        for input in &self.model.inputs {
+        for input in &self.model.item.inputs {
             let value = self.input(input.kind, &mut inputs);
             self.names.insert(input.ident.unraw().to_string(), value);
         }
@@ -289,12 +307,12 @@ impl<'a, 'g> Translator<'a, 'g> {
         }
     }
 
-    fn input(&self, kind: model::InputKind, symbols: &mut dyn Iterator<Item = Expr<'g>>) -> Value<'g> {
+    fn input(&self, kind: InputKind, symbols: &mut dyn Iterator<Item = Expr<'g>>) -> Value<'g> {
         let mut next = || symbols.next().unwrap_or_else(|| self.graph.zero());
         match kind {
-            model::InputKind::Scalar => self.components(model::SpeedKind::Scalar, symbols),
-            model::InputKind::Vector => self.components(model::SpeedKind::Vector, symbols),
-            model::InputKind::Wrench => Value::Twist([next(), next(), next()], [next(), next(), next()]),
+            InputKind::Scalar => self.components(model::SpeedKind::Scalar, symbols),
+            InputKind::Vector => self.components(model::SpeedKind::Vector, symbols),
+            InputKind::Wrench => Value::Twist([next(), next(), next()], [next(), next(), next()]),
         }
     }
 

@@ -83,7 +83,7 @@ fn lowered_for<'g>(derived: &Derived<'_, 'g>, values: &[(u32, f64)]) -> Kernel<'
     let mut trial = Trial::new(vec![Point::new(&named, &units, &definitions)]);
     let functions = derived.subject.system.formulas().map(|_, arrangements| Candidates::of_values(arrangements));
     let wanted = Derivatives { units: &units, ..Derivatives::default() };
-    let literals = Some(derived.subject.literals);
+    let literals = Some(&derived.subject.given.literals[..]);
     Kernel::lower(scene.graph, &functions, &definitions, &wanted, literals, &mut trial)
         .unwrap_or_else(|error| panic!("{error}"))
 }

@@ -97,7 +97,7 @@ fn values_of(
 ) -> Vec<(u32, f64)> {
     let subject = &derived.subject;
     let mut values: Vec<(u32, f64)> =
-        subject.literals.iter().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
+        subject.given.literals.iter().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
     values.push((derived.time().key(), 0.3));
     for ((coordinate, quaternion), value) in
         subject.system.scene.coordinates.iter().zip(subject.quaternions).zip(configuration)

@@ -2,7 +2,7 @@
 //! link.
 
 use crate::algebra::{Expr, Graph, Map};
-use crate::model::{Chart, Motion, RotationChart};
+use crate::terms::{Chart, Motion, RotationChart};
 
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::rotation::{coordinate_names, rotation_of};

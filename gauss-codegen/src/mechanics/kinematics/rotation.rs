@@ -1,7 +1,7 @@
 //! Rotations: the matrix of a unit quaternion's components, and R as a function of each rotation chart's coordinates.
 
 use crate::algebra::{Expr, Graph};
-use crate::model::RotationChart;
+use crate::terms::RotationChart;
 
 use crate::mechanics::kinematics::vector::{Axes, Triple, cross, cross_matrix, dot};
 use crate::mechanics::print::names::Name;

@@ -1,7 +1,7 @@
 //! The body's parameters as symbols, and integrals over the body as moments.
 
 use crate::algebra::{Expr, Graph, Map};
-use crate::model::{Role, Shape};
+use crate::terms::{Role, Shape};
 
 use crate::mechanics::kinematics::vector::Triple;
 use crate::mechanics::print::names::Name;

@@ -2,7 +2,7 @@
 
 use crate::mechanics::constraints::constraint::ConstraintKind;
 use crate::mechanics::tests::Random;
-use crate::model::Shape;
+use crate::terms::Shape;
 
 use super::numbers::{Number, Smooth, below};
 

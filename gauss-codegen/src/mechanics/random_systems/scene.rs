@@ -11,7 +11,7 @@ use crate::mechanics::loads::forces::{Action, Element};
 use crate::mechanics::matter::body::{Body, BodyShape};
 use crate::mechanics::print::names::Name;
 use crate::mechanics::scene::{Coordinate, SystemScene};
-use crate::model::{Role, Shape};
+use crate::terms::{Role, Shape};
 
 use super::plan::{ConstraintPlan, CoordinateKind, LinkPlan, MatterPlan, Place, Plan, Solid, TurnPlan};
 

@@ -7,7 +7,7 @@ use crate::model::language::statements::{Statement, Statements};
 use crate::model::language::words::{self, UNNAMED, same, word};
 use crate::model::scene::clauses::BodyClause;
 use crate::model::scene::elements::Argument;
-use crate::model::scene::roles::Role;
+use crate::terms::Role;
 use proc_macro2::Ident;
 use std::collections::{HashMap, HashSet};
 use syn::ext::IdentExt;

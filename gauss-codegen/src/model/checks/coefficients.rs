@@ -8,7 +8,7 @@ use crate::model::language::words::{self, same, word};
 use crate::model::names::scope::Scope;
 use crate::model::scene::clauses::{Coefficients, RoleValue};
 use crate::model::scene::forces::Value;
-use crate::model::scene::roles::Shape;
+use crate::terms::Shape;
 use proc_macro2::Ident;
 
 /// The fields that are six by six or the diagonal of that, with what they are: the coefficients of drags, and added

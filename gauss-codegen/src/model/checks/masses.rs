@@ -13,7 +13,7 @@ use crate::model::names::places::Place;
 use crate::model::names::scope::Scope;
 use crate::model::scene::clauses::{BodyClause, Coefficients, RoleClause, RoleValue};
 use crate::model::scene::expression::{Expression, ExpressionKind};
-use crate::model::scene::roles::{Role, Shape};
+use crate::terms::{Role, Shape};
 use proc_macro2::{Ident, Span};
 use syn::DeriveInput;
 

@@ -6,9 +6,10 @@
 use super::context::Context;
 use super::functions::{FUNCTIONS, Function, PROPERTIES};
 use super::words::{self, INPUT};
-use super::{attributes, chains, nesting, number};
+use super::{attributes, chains, nesting};
 use crate::model::scene::clauses::Coefficients;
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName};
+use crate::terms::number;
 use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::ext::IdentExt;

@@ -6,9 +6,9 @@ use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
 use super::placements;
 use super::words::{self, Table};
-use crate::model::scene::clauses::{Coordinate, CoordinateKind, InputKind, InputName, Speed, SpeedKind, SpeedPart};
+use crate::model::scene::clauses::{Coordinate, CoordinateKind, Speed, SpeedKind, SpeedPart};
 use crate::model::scene::expression::Expression;
-use crate::model::scene::model::WantedMethod;
+use crate::terms::{InputKind, InputName, WantedMethod};
 use proc_macro2::{Ident, Span, TokenTree};
 
 /// What a clause declares, in brackets.
@@ -153,7 +153,8 @@ pub fn read_inputs(clause: &Clause, context: &mut Context) -> Names<InputName> {
         if let (InputKind::Wrench, Some((_, span))) = (kind, &unit) {
             of_wrenches.push((ident.clone(), *span));
         }
-        InputName { ident, kind, unit: unit.map(|(text, _)| text).filter(|_| kind != InputKind::Wrench), field: None }
+        let unit = unit.map(|(text, _)| text).filter(|_| kind != InputKind::Wrench);
+        InputName { called: ident.clone(), ident, kind, unit }
     };
     let names = read_names(clause, &language, make, context);
     for (ident, span) in of_wrenches {

@@ -8,7 +8,7 @@ use super::shapes::{self, Reading, TypeKind};
 use super::statements::{self, STATEMENTS};
 use super::struct_clauses::CLAUSES;
 use super::{synonyms, units, words};
-use crate::model::scene::roles::{Role, Shape};
+use crate::terms::{Role, Shape};
 use proc_macro2::{Ident, Span};
 use syn::{Attribute, Data, DeriveInput, Expr, ExprLit, FieldsNamed, Generics, Lit, Meta, Type};
 

@@ -11,7 +11,6 @@ pub mod fields;
 pub mod functions;
 pub mod kind;
 pub mod nesting;
-pub mod number;
 pub mod own_functions;
 pub mod placements;
 pub mod robots;

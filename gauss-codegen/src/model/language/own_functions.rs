@@ -5,10 +5,12 @@ use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
 use super::placements::may_be_name;
 use super::words::{self, Table};
-use crate::model::scene::clauses::{FunctionClause, FunctionKind};
+use crate::terms::{FunctionKind, UserFunction};
 use proc_macro2::{Ident, TokenTree};
+use quote::ToTokens;
 use syn::Path;
 use syn::parse::Parser;
+use syn::spanned::Spanned;
 
 const FUNCTION: &Table<()> = &[("derivative", ()), ("second", ()), ("third", ())];
 const TABLE: &Table<()> = &[("points", ()), ("kind", ())];
@@ -19,7 +21,7 @@ const IN_TABLE: Owner = Owner::Action { word: "table", example: "an argument suc
 
 /// `function(lift, derivative = lift_slope)`, or
 /// `function(lift = aero::lift, derivative = aero::lift_slope, second = …)`.
-pub fn read_function(clause: &Clause, context: &mut Context) -> Option<FunctionClause> {
+pub fn read_function(clause: &Clause, context: &mut Context) -> Option<UserFunction> {
     let group = brackets(clause, "lift, derivative = lift_slope", context)?;
     let (arguments, _) = arguments::arguments(group, IN_FUNCTION, context);
     let (first, further) = named(clause, &arguments, FUNCTION, "function", "derivative = …", context)?;
@@ -48,11 +50,13 @@ pub fn read_function(clause: &Clause, context: &mut Context) -> Option<FunctionC
             None => {}
         }
     }
-    Some(FunctionClause { name, kind: FunctionKind::Rust(paths) })
+    let span = paths[0].span();
+    let kind = FunctionKind::Rust(paths.iter().map(Path::to_token_stream).collect());
+    Some(UserFunction { name, kind, span })
 }
 
 /// `table(lift, points = POINTS)`, or `table(lift, points = POINTS, kind = cubic)`.
-pub fn read_table(clause: &Clause, context: &mut Context) -> Option<FunctionClause> {
+pub fn read_table(clause: &Clause, context: &mut Context) -> Option<UserFunction> {
     let group = brackets(clause, "lift, points = POINTS", context)?;
     let (arguments, complete) = arguments::arguments(group, IN_TABLE, context);
     let (first, further) = named(clause, &arguments, TABLE, "table", "points = …", context)?;
@@ -76,7 +80,8 @@ pub fn read_table(clause: &Clause, context: &mut Context) -> Option<FunctionClau
         );
     }
     let kind = if cubic? { FunctionKind::Cubic } else { FunctionKind::Linear };
-    Some(FunctionClause { name, kind: kind(points??) })
+    let points = points??;
+    Some(UserFunction { name, kind: kind(points.to_token_stream()), span: points.span() })
 }
 
 /// The first argument, which names the function, and the others.

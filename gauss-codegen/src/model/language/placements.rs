@@ -7,7 +7,7 @@ use super::role_clauses;
 use super::words::{Table, UNNAMED};
 use crate::model::scene::clauses::{BodyClause, ParticleClause, PointClause};
 use crate::model::scene::expression::{Expression, ExpressionKind, Property};
-use crate::model::scene::roles::Role;
+use crate::terms::Role;
 use proc_macro2::{Ident, TokenTree};
 
 const BODY: &Table<()> = &[

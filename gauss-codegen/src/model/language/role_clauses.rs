@@ -7,7 +7,7 @@ use super::context::Context;
 use super::role_words::ROLES;
 use super::{arguments, arithmetic};
 use crate::model::scene::clauses::{RoleClause, RoleValue};
-use crate::model::scene::roles::{Role, Shape};
+use crate::terms::{Role, Shape};
 
 /// The role that a word of a clause means.
 pub fn role(word: &str) -> Option<Role> {

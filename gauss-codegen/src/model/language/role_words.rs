@@ -2,7 +2,7 @@
 
 use super::units::Dimension;
 use super::words::Table;
-use crate::model::scene::roles::{Role, Shape};
+use crate::terms::{Role, Shape};
 
 /// Every role by its word.
 pub const ROLES: &Table<Role> = &[
@@ -30,21 +30,6 @@ pub const SYSTEM_ROLES: &Table<Role> = &[
 ];
 
 impl Role {
-    /// The word in `#[gauss(word)]`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Role::Mass => "mass",
-            Role::CenterOfMass => "center_of_mass",
-            Role::Inertia => "inertia",
-            Role::CentralInertia => "inertia_about_center_of_mass",
-            Role::AddedMass => "added_mass",
-            Role::Gravity => "gravity",
-            Role::DisplacedMass => "displaced_mass",
-            Role::CenterOfBuoyancy => "center_of_buoyancy",
-            Role::Body => "body",
-        }
-    }
-
     /// The words after `=` that choose among the shapes of a role; none where there is nothing to choose.
     pub fn forms(self) -> &'static Table<Shape> {
         match self {

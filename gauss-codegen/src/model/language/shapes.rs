@@ -3,8 +3,8 @@
 //! A derive sees tokens, not types, so the last segment of the path decides: `nalgebra::Vector3<f64>` is a vector of
 //! three whatever `nalgebra` is. An unknown name is taken for an alias, and the word of the role must give the shape.
 
-use crate::model::scene::model::Scalar;
-use crate::model::scene::roles::Shape;
+use crate::terms::Scalar;
+use crate::terms::Shape;
 use proc_macro2::Span;
 use quote::ToTokens;
 use syn::ext::IdentExt;

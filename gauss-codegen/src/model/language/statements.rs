@@ -8,12 +8,12 @@ use super::declarations::{self, Definition, Kinematics, Names};
 use super::words::{self, Table, same};
 use super::{actions, own_functions, placements, role_clauses};
 use crate::model::scene::clauses::{
-    BodyClause, ConstraintClause, ConstraintKind, Coordinate, FunctionClause, InputName, ParticleClause, PointClause,
-    RoleClause, Speed, SpeedPart,
+    BodyClause, ConstraintClause, ConstraintKind, Coordinate, ParticleClause, PointClause, RoleClause, Speed, SpeedPart,
 };
 use crate::model::scene::elements::{ATTRACTION, ELEMENTS, Form, Row};
 use crate::model::scene::expression::{Expression, ExpressionKind};
 use crate::model::scene::forces::ForceClause;
+use crate::terms::{InputName, UserFunction};
 use proc_macro2::{Group, Ident, TokenTree};
 use syn::LitInt;
 
@@ -51,7 +51,7 @@ pub struct Statements {
     pub medium: Option<(Ident, Option<Expression>)>,
     /// Mass data of the body without a name, and gravity.
     pub role_clauses: Vec<RoleClause>,
-    pub functions: Vec<FunctionClause>,
+    pub functions: Vec<UserFunction>,
     /// Bodies whose moments need not obey the triangle inequality; `None`: all.
     pub formal: Vec<Option<Ident>>,
     /// `damping = …` is written.

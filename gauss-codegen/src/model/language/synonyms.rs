@@ -1,7 +1,7 @@
 //! Words of the field that the language does not have, and the clauses of the language with the same meaning.
 
 use super::words::Table;
-use crate::model::scene::roles::Role;
+use crate::terms::Role;
 
 /// What is written in the place of `word`, if it is a word of this table; case and underscores count for nothing.
 pub fn instead<T: Copy>(word: &str, table: &Table<T>) -> Option<T> {

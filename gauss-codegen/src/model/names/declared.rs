@@ -5,7 +5,7 @@ use crate::model::language::fields::ReadField;
 use crate::model::language::shapes::TypeKind;
 use crate::model::language::statements::{Statement, Statements};
 use crate::model::language::words::UNNAMED;
-use crate::model::scene::roles::Shape;
+use crate::terms::Shape;
 use proc_macro2::{Ident, Span};
 
 /// What expressions may name.

@@ -7,7 +7,7 @@ use crate::model::scene::clauses::{RoleClause, RoleValue};
 use crate::model::scene::elements::{Argument, Takes};
 use crate::model::scene::expression::Expression;
 use crate::model::scene::forces::{ForceClause, Value};
-use crate::model::scene::roles::Role;
+use crate::terms::Role;
 
 /// Every expression, with its place; those of constraints come after the others.
 pub fn all(statements: &Statements) -> Vec<(Place, &Expression)> {

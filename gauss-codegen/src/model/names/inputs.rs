@@ -18,7 +18,7 @@ pub fn name(statements: &mut Statements, fields: &[ReadField<'_>], context: &mut
         .inputs
         .iter()
         .flat_map(|names| &names.names)
-        .map(|input| (input.called().unraw().to_string(), input.ident.clone()))
+        .map(|input| (input.called.unraw().to_string(), input.ident.clone()))
         .collect();
     let mut unknown: Vec<Ident> = Vec::new();
     let mut change = |expression: &mut Expression| replace(expression, &inputs, own_meaning, &mut unknown);

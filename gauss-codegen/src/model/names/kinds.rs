@@ -4,8 +4,9 @@ use super::places::Place;
 use super::scope::{Meaning, Scope};
 use crate::model::language::context::Context;
 use crate::model::language::kind::Kind;
-use crate::model::scene::clauses::{CoordinateKind, InputKind, SpeedKind};
+use crate::model::scene::clauses::{CoordinateKind, SpeedKind};
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
+use crate::terms::InputKind;
 use proc_macro2::{Ident, Span};
 use std::cmp::Ordering;
 

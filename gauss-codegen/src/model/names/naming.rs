@@ -5,7 +5,7 @@ use crate::model::language::fields::ReadField;
 use crate::model::language::functions::FUNCTIONS;
 use crate::model::language::statements::Statements;
 use crate::model::language::words::{self, PI, TIME, UNNAMED, same, word};
-use crate::model::scene::roles::Role;
+use crate::terms::Role;
 use proc_macro2::Ident;
 use std::collections::{HashMap, HashSet};
 use syn::ext::IdentExt;

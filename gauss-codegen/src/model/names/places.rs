@@ -6,7 +6,7 @@ use crate::model::language::words;
 use crate::model::scene::clauses::{ConstraintKind, CoordinateKind};
 use crate::model::scene::elements::Row;
 use crate::model::scene::expression::FunctionName;
-use crate::model::scene::roles::{Role, Shape};
+use crate::terms::{Role, Shape};
 use proc_macro2::Ident;
 
 /// What has ends, an extent, constants or coefficients.

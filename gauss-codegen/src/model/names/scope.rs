@@ -2,8 +2,9 @@
 
 use crate::model::language::functions::FUNCTIONS;
 use crate::model::language::words::{self, PI, TIME};
-use crate::model::scene::clauses::{CoordinateKind, InputKind, SpeedKind};
+use crate::model::scene::clauses::{CoordinateKind, SpeedKind};
 use crate::model::scene::expression::{Expression, Property};
+use crate::terms::InputKind;
 use proc_macro2::Ident;
 use std::cell::RefCell;
 use std::cmp::Ordering;

@@ -19,9 +19,9 @@ use crate::model::language::statements::Statements;
 use crate::model::scene::clauses::{
     BodyClause, Coefficients, Coordinate, CoordinateKind, RoleClause, RoleValue, Speed, SpeedKind,
 };
-use crate::model::scene::described::{Described, Remark};
 use crate::model::scene::expression::{Expression, FunctionName, Property};
-use crate::model::scene::roles::{Role, Shape};
+use crate::terms::{Described, Remark};
+use crate::terms::{Role, Shape};
 use gauss_robots::{Coupling, Structure, Text, all_located, located};
 
 /// What the free root of a robot moves by.

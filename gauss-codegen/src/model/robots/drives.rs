@@ -5,7 +5,8 @@ use syn::ext::IdentExt;
 
 use super::names::Names;
 use crate::model::language::robots::Inputs;
-use crate::model::scene::clauses::{Coordinate, InputKind, InputName};
+use crate::model::scene::clauses::Coordinate;
+use crate::terms::{InputKind, InputName};
 use gauss_robots::description::{Description, Drive, JointKind, Note};
 
 /// An input, and what it drives.
@@ -77,8 +78,9 @@ fn unit(kind: JointKind) -> &'static str {
 }
 
 fn input(ident: Ident, field: &str, unit: Option<&str>, of: Driven) -> Input {
-    let name =
-        InputName { ident, kind: InputKind::Scalar, unit: unit.map(str::to_owned), field: Some(field.to_owned()) };
+    let word = syn::parse_str::<Ident>(field);
+    let called = word.map_or_else(|_| ident.clone(), |word| Ident::new(&word.to_string(), ident.span()));
+    let name = InputName { ident, kind: InputKind::Scalar, unit: unit.map(str::to_owned), called };
     Input { name, of }
 }
 

@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use proc_macro2::{Ident, Span};
 
-use crate::model::language::number::of_double;
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
+use crate::terms::number::shortest;
 use gauss_robots::Coupling;
 use gauss_robots::description::{Joint, JointKind};
 use gauss_robots::rotation::{Rotation, Triple, turned};
@@ -23,7 +23,7 @@ impl Writer {
 
     /// A number as it would be written: the shortest decimal fraction that is read as it.
     pub fn number(self, value: f64) -> Expression {
-        let number = self.expression(ExpressionKind::Number { value: of_double(value.abs()) });
+        let number = self.expression(ExpressionKind::Number { value: shortest(value.abs()) });
         if value < 0.0 { self.negative(number) } else { number }
     }
 

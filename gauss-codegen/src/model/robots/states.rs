@@ -7,7 +7,7 @@ use syn::ext::IdentExt;
 use super::clauses::Robot;
 use super::drives::{Driven, Input};
 use crate::model::scene::clauses::CoordinateKind;
-use crate::model::scene::described::{BodyOfFile, StateOfFile, ValueOfState};
+use crate::terms::{BodyOfFile, StateOfFile, ValueOfState};
 use gauss_robots::description::{JointKind, Posture};
 use gauss_robots::rotation::{Matrix, Rotation, Triple, turned};
 
@@ -63,7 +63,8 @@ impl Robot<'_> {
             Driven::Drive(drive) => posture.controls.iter().find(|(of, _)| *of == drive).map(|(_, value)| *value),
             Driven::Joint(_) => None,
         };
-        let inputs = self.inputs.iter().filter_map(|input| Some((input.name.called(), control(input)?))).collect();
+        let inputs =
+            self.inputs.iter().filter_map(|input| Some((input.name.called.clone(), control(input)?))).collect();
         StateOfFile { name: Ident::new(&free, self.writer.span), written: posture.name.clone(), values, inputs }
     }
 

@@ -1,10 +1,9 @@
 //! The clauses of a scene, checked: coordinates and speeds, bodies and particles, constraints, functions and inputs.
 
 use super::expression::Expression;
-use super::roles::{Role, Shape};
+use crate::terms::{Role, Shape};
 use proc_macro2::Span;
-use syn::spanned::Spanned;
-use syn::{Ident, Path};
+use syn::Ident;
 
 /// One coordinate, or three or six that are an element of a group.
 #[derive(Clone)]
@@ -85,7 +84,7 @@ pub struct BodyClause {
 impl BodyClause {
     /// Its mass data are said in the clause.
     pub fn has_matter(&self) -> bool {
-        self.role_clauses.iter().any(RoleClause::is_of_matter)
+        self.role_clauses.iter().any(|clause| clause.role.is_of_matter())
     }
 }
 
@@ -140,86 +139,6 @@ pub enum ConstraintKind {
     Velocity,
 }
 
-/// `function(lift, derivative = …)` or `table(lift, points = …)`: a function of one number.
-#[derive(Clone)]
-pub struct FunctionClause {
-    /// Its name in expressions.
-    pub name: Ident,
-    /// What it is.
-    pub kind: FunctionKind,
-}
-
-/// A function of one number that the user gives.
-#[derive(Clone)]
-pub enum FunctionKind {
-    /// Functions of the user's own: itself, its derivative, and so on.
-    Rust(Vec<Path>),
-    /// A constant array of points [x, y], joined by straight lines.
-    Linear(Path),
-    /// The same, joined by the natural cubic spline.
-    Cubic(Path),
-}
-
-impl FunctionKind {
-    /// Where the function or its points are named.
-    pub fn span(&self) -> Span {
-        match self {
-            FunctionKind::Rust(paths) => paths.first().map_or_else(Span::call_site, Spanned::span),
-            FunctionKind::Linear(points) | FunctionKind::Cubic(points) => points.span(),
-        }
-    }
-
-    /// How often it can be differentiated: of a table, until nothing is left.
-    pub fn derivatives(&self) -> u8 {
-        match self {
-            FunctionKind::Rust(paths) => paths.len().saturating_sub(1) as u8,
-            FunctionKind::Linear(_) => 1,
-            FunctionKind::Cubic(_) => 3,
-        }
-    }
-
-    /// How many derivatives are continuous; `None`: it is smooth.
-    pub fn continuous(&self) -> Option<u8> {
-        match self {
-            FunctionKind::Rust(_) => None,
-            FunctionKind::Linear(_) => Some(0),
-            FunctionKind::Cubic(_) => Some(2),
-        }
-    }
-}
-
-/// One value that arrives at run time, or several under one name.
-#[derive(Clone)]
-pub struct InputName {
-    /// Its name.
-    pub ident: Ident,
-    /// How many it stands for.
-    pub kind: InputKind,
-    /// The unit, if one is written; a wrench is in N and N m.
-    pub unit: Option<String>,
-    /// What it is called outside of expressions, where that differs from its name.
-    pub field: Option<String>,
-}
-
-impl InputName {
-    /// What it is called outside of expressions.
-    pub fn called(&self) -> Ident {
-        let word = self.field.as_deref().and_then(|word| syn::parse_str::<Ident>(word).ok());
-        word.map_or_else(|| self.ident.clone(), |word| Ident::new(&word.to_string(), self.ident.span()))
-    }
-}
-
-/// How many values are under one name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InputKind {
-    /// One.
-    Scalar,
-    /// Three.
-    Vector,
-    /// Six: a force, then a torque, each a vector of its own in expressions.
-    Wrench,
-}
-
 /// Coefficients of a drag, or an added mass, in body axes, pole O, order (u, ω).
 #[derive(Clone)]
 pub enum Coefficients {
@@ -265,11 +184,4 @@ pub enum RoleValue {
     Expression(Expression),
     /// An added mass.
     Coefficients(Coefficients),
-}
-
-impl RoleClause {
-    /// It is of the body itself, not of the fluid about it.
-    pub fn is_of_matter(&self) -> bool {
-        matches!(self.role, Role::Mass | Role::CenterOfMass | Role::Inertia | Role::CentralInertia)
-    }
 }

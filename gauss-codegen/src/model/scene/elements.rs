@@ -1,6 +1,8 @@
 //! The table of force elements: of each its words, and of each argument what stands there, in which unit, and whether
 //! it is required. Clauses are read, checked and listed by this table; `translate` makes forces of them.
 
+use crate::terms::LawKind;
+
 /// What an element is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ElementKind {
@@ -162,31 +164,6 @@ pub enum Unit {
     Force,
     /// That of the rate of the extent.
     Rate,
-}
-
-/// What `kernel()` checks of constants, and `warnings()` finds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LawKind {
-    /// Of a spring or a stop.
-    Stiffness,
-    /// Of a stop.
-    Width,
-    /// Of a stop, both of them.
-    Limits,
-    /// A coefficient of a spring or a stop.
-    Damping,
-    /// An armature, or the level of dry friction.
-    NonNegative,
-    /// The mass of a particle.
-    MassInSum,
-    /// Of a bushing, row by row.
-    StiffnessMatrix,
-    /// Of a bushing, row by row.
-    DampingMatrix,
-    /// A whole dissipation function, of the state too.
-    Dissipation,
-    /// A gravitational parameter.
-    Attraction,
 }
 
 /// What must hold among the arguments of an element.

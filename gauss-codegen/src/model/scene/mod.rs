@@ -1,10 +1,7 @@
 //! What comes out: the scene as the user wrote it, checked; plain data.
 
-pub mod charts;
 pub mod clauses;
-pub mod described;
 pub mod elements;
 pub mod expression;
 pub mod forces;
 pub mod model;
-pub mod roles;

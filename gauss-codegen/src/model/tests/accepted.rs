@@ -1,7 +1,7 @@
 //! What the language accepts, and the model that comes out.
 
 use super::{body, model, with};
-use crate::model::{Chart, InChart, Motion, Role, RotationChart, Scalar, Shape};
+use crate::terms::{Chart, InChart, Motion, Role, RotationChart, Scalar, Shape};
 use quote::ToTokens;
 
 fn in_chart(attributes: &str) -> InChart {
@@ -12,11 +12,14 @@ fn in_chart(attributes: &str) -> InChart {
 fn defaults() {
     let model = model(&body(""));
     assert_eq!(model.in_chart, Some(InChart { chart: Chart::LeftInvariant, motion: Motion::Free }));
-    assert_eq!(model.scalar, Scalar::F64);
-    assert_eq!(model.runtime.to_token_stream().to_string(), ":: gauss_runtime");
-    assert_eq!([Role::Mass, Role::Inertia].map(|role| model.shape(role)), [Some(Shape::Scalar), Some(Shape::Vector3)]);
+    assert_eq!(model.item.scalar, Scalar::F64);
+    assert_eq!(model.item.runtime.to_token_stream().to_string(), ":: gauss_runtime");
+    assert_eq!(
+        [Role::Mass, Role::Inertia].map(|role| model.item.field(role).map(|field| field.shape)),
+        [Some(Shape::Scalar), Some(Shape::Vector3)]
+    );
     let optional = [Role::CenterOfMass, Role::AddedMass, Role::Gravity, Role::DisplacedMass, Role::CenterOfBuoyancy];
-    assert_eq!(optional.map(|role| model.shape(role)), [None; 5]);
+    assert_eq!(optional.map(|role| model.item.field(role).map(|field| field.shape)), [None; 5]);
 }
 
 #[test]
@@ -46,22 +49,22 @@ fn every_chart() {
 fn clauses_merge() {
     let merged = model(&body("#[gauss(motion = fixed_point,)] #[gauss(chart = hybrid, crate = ::a::b)]"));
     assert_eq!(merged.in_chart, Some(InChart { chart: Chart::Hybrid, motion: Motion::FixedPoint }));
-    assert_eq!(merged.runtime.to_token_stream().to_string(), ":: a :: b");
+    assert_eq!(merged.item.runtime.to_token_stream().to_string(), ":: a :: b");
     // `jet` may come before the motion that it needs.
     assert_eq!(in_chart("#[gauss(chart = jet)] #[gauss(motion = planar)]").motion, Motion::Planar);
-    assert_eq!(model(&body("#[gauss(crate = crate)]")).runtime.to_token_stream().to_string(), "crate");
+    assert_eq!(model(&body("#[gauss(crate = crate)]")).item.runtime.to_token_stream().to_string(), "crate");
 }
 
 #[test]
 fn derivatives_only_where_they_are_asked_for() {
-    assert!(!model(&body("#[gauss(chart = hybrid)]")).wanted.linearize);
-    let state = model(&body("#[gauss(chart = hybrid, linearize)]")).wanted;
+    assert!(!model(&body("#[gauss(chart = hybrid)]")).item.wanted.linearize);
+    let state = model(&body("#[gauss(chart = hybrid, linearize)]")).item.wanted;
     assert!(state.linearize && !state.by_parameters && state.regressor.is_none());
-    let all = model(&body("#[gauss(linearize(parameters), regressor)]")).wanted;
+    let all = model(&body("#[gauss(linearize(parameters), regressor)]")).item.wanted;
     assert!(all.linearize && all.by_parameters && !all.inverse && all.regressor.is_some());
-    let both = model(&body("#[gauss(linearize(inverse, parameters, hessian))]")).wanted;
+    let both = model(&body("#[gauss(linearize(inverse, parameters, hessian))]")).item.wanted;
     assert!(both.linearize && both.by_parameters && both.inverse && both.hessian);
-    assert!(model(&body("#[gauss(linearize, drag(linear = [1, 1, 1, 1, 1, 1]))]")).wanted.linearize);
+    assert!(model(&body("#[gauss(linearize, drag(linear = [1, 1, 1, 1, 1, 1]))]")).item.wanted.linearize);
 }
 
 #[test]
@@ -81,7 +84,7 @@ fn every_role_and_shape() {
                 if role.starts_with("displaced") { "" } else { "#[gauss(displaced_mass)] d: f64," },
             ),
         };
-        model(&source).fields[0].shape
+        model(&source).item.fields[0].shape
     };
     assert_eq!(shape("mass", "f64"), Shape::Scalar);
     assert_eq!(shape("mass", "::core::primitive::f64"), Shape::Scalar);
@@ -108,7 +111,7 @@ fn every_role_and_shape() {
 
 #[test]
 fn scalars() {
-    let scalar = |source: &str| model(source).scalar.to_string();
+    let scalar = |source: &str| model(source).item.scalar.to_string();
     assert_eq!(scalar("struct Body { #[gauss(mass)] m: f32, #[gauss(inertia)] j: Vector3<f32> }"), "f32");
     assert_eq!(scalar("struct Body<T> { #[gauss(mass)] m: T, #[gauss(inertia)] j: Matrix3<T> }"), "T");
     assert_eq!(scalar("struct Body<T> { #[gauss(mass)] m: Kg, #[gauss(inertia = full)] j: Tensor<T> }"), "T");
@@ -120,16 +123,16 @@ fn scalars() {
 fn a_hidden_dimension_still_shows_the_scalar() {
     let source = "struct Body { #[gauss(mass)] m: Kg, #[gauss(inertia = principal)] j: SVector<f32, N> }";
     let model = model(source);
-    assert_eq!((model.scalar, model.fields[1].shape), (Scalar::F32, Shape::Vector3));
+    assert_eq!((model.item.scalar, model.item.fields[1].shape), (Scalar::F32, Shape::Vector3));
 }
 
 #[test]
 fn plain_parameters() {
     let source = with("k: f64, v: Vector3<f64>, single: f32, name: String, r: &'static str, n: usize");
-    let shapes: Vec<Shape> = model(&source).fields.iter().skip(2).map(|parameter| parameter.shape).collect();
+    let shapes: Vec<Shape> = model(&source).item.fields.iter().skip(2).map(|parameter| parameter.shape).collect();
     let expected = [Shape::Scalar, Shape::Vector3, Shape::Other, Shape::Other, Shape::Other, Shape::Other];
     assert_eq!(shapes, expected);
-    assert!(model(&source).fields.iter().skip(2).all(|parameter| parameter.role.is_none()));
+    assert!(model(&source).item.fields.iter().skip(2).all(|parameter| parameter.role.is_none()));
 }
 
 #[test]
@@ -138,10 +141,10 @@ fn documentation_and_order() {
         "pub struct Body { plain: u8, \
          #[doc = \" Mass in kg,\"] #[doc = \"   dry. \"] #[doc(hidden)] #[gauss(mass)] m: f64, #[gauss(inertia)] j: f64 }",
     );
-    let name = |role: Role| model.field(role).map(|field| field.ident.to_string());
+    let name = |role: Role| model.item.field(role).map(|field| field.ident.to_string());
     assert_eq!([Role::Mass, Role::Inertia].map(name), [Some("m".into()), Some("j".into())]);
-    assert_eq!(model.ident, "Body");
-    assert_eq!(model.fields[1].documentation, "Mass in kg,\ndry.");
-    assert_eq!(model.fields[0].documentation, "");
-    assert_eq!(model.fields[1].role, Some(Role::Mass));
+    assert_eq!(model.item.ident, "Body");
+    assert_eq!(model.item.fields[1].documentation, "Mass in kg,\ndry.");
+    assert_eq!(model.item.fields[0].documentation, "");
+    assert_eq!(model.item.fields[1].role, Some(Role::Mass));
 }

@@ -2,7 +2,8 @@
 
 use super::systems::{show, shown};
 use super::{Mistake, check, model};
-use crate::model::{Chart, Model, RotationChart, Shape};
+use crate::model::Model;
+use crate::terms::{Chart, RotationChart, Shape};
 
 /// A body in a chart with `clauses` and more fields.
 fn body(clauses: &str) -> String {
@@ -57,8 +58,8 @@ fn the_same_body_as_a_system() {
     assert!(only.name.is_none() && !only.massless && only.parent.is_none());
     assert!(model.is_in_chart(only) && only.position.is_none() && only.rotation.is_none());
     assert_eq!(model.potential.as_ref().map(show), Some("(Multiply k tail[2])".into()));
-    assert_eq!(model.limit, Some(5000));
-    let shapes: Vec<Shape> = model.fields.iter().map(|field| field.shape).collect();
+    assert_eq!(model.item.limit, Some(5000));
+    let shapes: Vec<Shape> = model.item.fields.iter().map(|field| field.shape).collect();
     let scalar = Shape::Scalar;
     assert_eq!(shapes, [scalar, Shape::Vector3, scalar, scalar, Shape::Vector3, Shape::Matrix6, Shape::Other]);
 }
@@ -102,7 +103,7 @@ fn what_systems_alone_have() {
              `torque(…)`, or `coordinates(…)` of what else moves",
         )],
     );
-    assert_eq!(model(&body("limit = 10")).limit, Some(10));
+    assert_eq!(model(&body("limit = 10")).item.limit, Some(10));
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! Charts beside everything else that a scene can have, and what the fluid does to any body.
 
 use super::{check, model};
-use crate::model::{Chart, CoordinateKind, InChart, Motion, Role, Shape};
+use crate::model::CoordinateKind;
+use crate::terms::{Chart, InChart, Motion, Role, Shape};
 
 /// A body in a chart under clauses, with more fields.
 fn body(clauses: &str) -> String {
@@ -25,7 +26,7 @@ fn a_chart_with_all_that_systems_have() {
     assert_eq!(kinds, [CoordinateKind::Scalar, CoordinateKind::Rotation]);
     let own: Vec<bool> = model.bodies.iter().map(|body| model.is_in_chart(body)).collect();
     assert_eq!(own, [true, false, false]);
-    assert_eq!((model.particles.len(), model.constraints.len(), model.limit), (1, 1, Some(1000)));
+    assert_eq!((model.particles.len(), model.constraints.len(), model.item.limit), (1, 1, Some(1000)));
     assert_eq!(model.points[0].body, "body");
 }
 

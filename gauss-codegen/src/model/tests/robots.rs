@@ -91,7 +91,7 @@ fn tree(links: usize) -> String {
 #[test]
 fn a_hundred_links() {
     let read = model(&tree(100), "", "");
-    assert_eq!((read.bodies.len(), read.coordinates.len(), read.inputs.len()), (101, 100, 100));
+    assert_eq!((read.bodies.len(), read.coordinates.len(), read.item.inputs.len()), (101, 100, 100));
     let broken = tree(100).replace("child link=\"l57\"", "child link=\"l58\"");
     let found = mistakes(&broken, "", "");
     assert!(
@@ -101,7 +101,7 @@ fn a_hundred_links() {
 }
 
 fn remarks(text: &str, clauses: &str) -> Vec<(String, bool)> {
-    let described = model(text, clauses, "").described.expect("a file");
+    let described = model(text, clauses, "").item.described.expect("a file");
     let place = format!("{}:", described.file);
     described.remarks.into_iter().map(|remark| (remark.text.replace(&place, ""), remark.ignored)).collect()
 }
@@ -112,15 +112,15 @@ fn joints_become_coordinates_inputs_and_bodies() {
     let read = model(&text, "", "");
     let names: Vec<String> = read.coordinates.iter().map(|q| q.ident.to_string()).collect();
     assert_eq!(names, ["elbow"]);
-    assert_eq!(read.inputs[0].ident, "elbow_effort");
-    assert_eq!(read.inputs[0].unit.as_deref(), Some("N m"));
-    assert_eq!(read.inputs[0].field.as_deref(), Some("elbow"));
+    assert_eq!(read.item.inputs[0].ident, "elbow_effort");
+    assert_eq!(read.item.inputs[0].unit.as_deref(), Some("N m"));
+    assert_eq!(read.item.inputs[0].called, "elbow");
     let bodies: Vec<(String, bool)> =
         read.bodies.iter().map(|body| (body.name.as_ref().unwrap().to_string(), body.massless)).collect();
     assert_eq!(bodies, [("base".to_owned(), true), ("arm".to_owned(), false)]);
     assert_eq!(read.forces.len(), 2);
-    assert!(model(&text, ", inputs = none", "").inputs.is_empty());
-    assert!(model(&text, ", inputs = transmissions", "").inputs.is_empty());
+    assert!(model(&text, ", inputs = none", "").item.inputs.is_empty());
+    assert!(model(&text, ", inputs = transmissions", "").item.inputs.is_empty());
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn every_kind_of_joint() {
     let names: Vec<String> = read.coordinates.iter().map(|q| q.ident.to_string()).collect();
     assert_eq!(names, ["continuous", "prismatic", "planar_x", "planar_y", "planar_theta", "floating"]);
     assert_eq!(read.coordinates[5].kind, CoordinateKind::Pose);
-    let inputs: Vec<String> = read.inputs.iter().map(|input| input.ident.to_string()).collect();
+    let inputs: Vec<String> = read.item.inputs.iter().map(|input| input.ident.to_string()).collect();
     assert_eq!(inputs, ["continuous_effort", "prismatic_effort"]);
     // What is fixed to a root that is held has no mass that matters.
     assert!(read.bodies.last().is_some_and(|body| body.massless));
@@ -154,7 +154,7 @@ fn clauses_of_the_struct_come_after_those_of_the_file() {
     let read = model(&text, clauses, "k: f64");
     let names: Vec<String> = read.coordinates.iter().map(|q| q.ident.to_string()).collect();
     assert_eq!(names, ["elbow", "slider"]);
-    assert_eq!((read.bodies.len(), read.inputs.len(), read.forces.len()), (3, 2, 3));
+    assert_eq!((read.bodies.len(), read.item.inputs.len(), read.forces.len()), (3, 2, 3));
     let own =
         ", coordinates(slider), speeds(v), kinematics(slider = v), particle(mass = 1.0, position = [slider, 0, 0])";
     let read = model(&text, own, "");
@@ -210,8 +210,8 @@ fn what_is_told() {
         assert!(remarks(&limited, &format!(", limits = none, {known}")).iter().all(|(_, ignored)| !ignored), "{known}");
     }
     let blank = model(&robot(&(joint("left knee", "revolute", "base", "arm", "") + &link("arm"))), "", "");
-    let (q, input) = (&blank.coordinates[0].ident, &blank.inputs[0]);
-    assert_eq!((q.to_string().as_str(), input.field.as_deref()), ("left_knee", Some("left_knee")));
+    let (q, input) = (&blank.coordinates[0].ident, &blank.item.inputs[0]);
+    assert_eq!((q.to_string(), input.called.to_string()), ("left_knee".to_owned(), "left_knee".to_owned()));
     assert_eq!(input.ident, "left_knee_effort");
     let named = robot(&(joint("arm", "revolute", "base", "arm", "") + &link("arm") + "<antenna/>"));
     assert_eq!(
@@ -340,7 +340,7 @@ fn followers_of_fixed_joints() {
     );
     let read = model(&text, "", "");
     assert_eq!(read.coordinates.len(), 1);
-    let remarks = read.described.expect("a file").remarks;
+    let remarks = read.item.described.expect("a file").remarks;
     assert!(remarks[0].text.ends_with("the joint `finger` mimics `wrist`, which is fixed: it is held at its offset"));
 }
 

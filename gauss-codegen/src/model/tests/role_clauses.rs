@@ -1,27 +1,33 @@
 //! Mass data in clauses: `mass = 2.0`.
 
 use super::{check, model};
-use crate::model::{Role, Scalar, Shape};
+use crate::model::Model;
+use crate::terms::{Role, Scalar, Shape};
 
 /// A struct under clauses.
 fn under(clauses: &str, fields: &str) -> String {
     format!("#[gauss({clauses})] struct Body {{ {fields} }}")
 }
 
+fn shape(model: &Model, role: Role) -> Option<Shape> {
+    let clause = model.role_clauses.iter().find(|clause| clause.role == role).map(|clause| clause.shape);
+    model.item.field(role).map(|field| field.shape).or(clause)
+}
+
 #[test]
 fn a_body_without_fields() {
     let model = model(&under("mass = 2.0, inertia = [0.1, 0.1, 0.2], center_of_mass = [0, 0, 0.3]", ""));
-    assert_eq!(model.scalar, Scalar::F64);
-    assert!(!model.is_acted_upon() && model.fields.is_empty());
-    let shapes = [Role::Mass, Role::Inertia, Role::CenterOfMass, Role::Gravity].map(|role| model.shape(role));
+    assert_eq!(model.item.scalar, Scalar::F64);
+    assert!(!model.is_acted_upon() && model.item.fields.is_empty());
+    let shapes = [Role::Mass, Role::Inertia, Role::CenterOfMass, Role::Gravity].map(|role| shape(&model, role));
     assert_eq!(shapes, [Some(Shape::Scalar), Some(Shape::Vector3), Some(Shape::Vector3), None]);
 }
 
 #[test]
 fn fields_and_clauses_together() {
     let model = model(&under("inertia = a * [1, 1, r], gravity = 9.81", "#[gauss(mass)] m: f32, a: f32, r: f32"));
-    assert_eq!(model.scalar, Scalar::F32);
-    let shapes = [Role::Mass, Role::Inertia, Role::Gravity].map(|role| model.shape(role));
+    assert_eq!(model.item.scalar, Scalar::F32);
+    let shapes = [Role::Mass, Role::Inertia, Role::Gravity].map(|role| shape(&model, role));
     assert_eq!(shapes, [Some(Shape::Scalar), Some(Shape::Vector3), Some(Shape::Scalar)]);
 }
 

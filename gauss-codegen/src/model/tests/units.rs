@@ -33,9 +33,9 @@ fn units_are_kept_as_they_are_written() {
          force(at = [l, 0, 0], value = [thrust, c * wind.x * wind.x * rudder, plain]), \
          force(body = body, value = gust.force)",
     ));
-    let units: Vec<Option<&str>> = model.fields.iter().map(|field| field.unit.as_deref()).collect();
+    let units: Vec<Option<&str>> = model.item.fields.iter().map(|field| field.unit.as_deref()).collect();
     assert_eq!(units, [Some("kg"), None, None, Some("m"), Some("N/m"), Some("N s²/m²"), Some("m/s"), None, None]);
-    let of_inputs: Vec<Option<&str>> = model.inputs.iter().map(|input| input.unit.as_deref()).collect();
+    let of_inputs: Vec<Option<&str>> = model.item.inputs.iter().map(|input| input.unit.as_deref()).collect();
     assert_eq!(of_inputs, [Some("N"), Some("rad"), Some("m/s"), None, None]);
 }
 

@@ -13,7 +13,7 @@ use crate::model::scene::clauses::CoordinateKind;
 use crate::model::scene::elements::{Argument, ElementKind, Takes, Unit};
 use crate::model::scene::expression::{Expression, ExpressionKind, FunctionName};
 use crate::model::scene::forces::ForceClause;
-use crate::model::scene::roles::Role;
+use crate::terms::Role;
 use proc_macro2::Ident;
 
 /// Notes where dimensions disagree with one another or with what is needed. Names and kinds are right.

@@ -13,14 +13,15 @@ const TRANSMISSION: &str = "<transmission name=\"t\"><joint name=\"elbow\"/><act
 fn motors_behind_gears() {
     let text = geared(TRANSMISSION);
     let read = model(&text, ", inputs = actuators", "");
-    let inputs: Vec<_> = read.inputs.iter().map(|input| (input.ident.to_string(), input.field.clone())).collect();
-    assert_eq!(inputs, [("motor_1".to_owned(), Some("motor 1".to_owned()))]);
+    let inputs: Vec<_> =
+        read.item.inputs.iter().map(|input| (input.ident.to_string(), input.called.to_string())).collect();
+    assert_eq!(inputs, [("motor_1".to_owned(), "motor_1".to_owned())]);
     let rates: Vec<_> = read.forces[0].rates().collect();
     assert_eq!(rates[0].0, "elbow");
     // 50² · 1e-4.
     assert_eq!(read.armatures.len(), 1);
     let both = model(&text, ", armature(elbow = 2.0)", "");
-    assert_eq!((both.armatures.len(), both.inputs[0].ident.to_string()), (1, "elbow_effort".to_owned()));
+    assert_eq!((both.armatures.len(), both.item.inputs[0].ident.to_string()), (1, "elbow_effort".to_owned()));
     let told = remarks(&text, "");
     assert!(told[0].0.starts_with("5:1: the input of `motor 1` is the effort of its joint"), "{told:?}");
     assert!(remarks(&text, ", inputs = actuators").iter().all(|(text, _)| text.contains("is called")));
@@ -53,10 +54,10 @@ fn inputs_by_the_names_of_the_file() {
     let text = arm("");
     for value in ["[input.elbow, 0, 0]", "rotation_x(0.1) * [0, 2 * input.elbow, 0]"] {
         let whole = format!("{}, torque(body = arm, value = input.push.torque)", torque(value));
-        assert_eq!(model(&text, &whole, "").inputs.len(), 2);
+        assert_eq!(model(&text, &whole, "").item.inputs.len(), 2);
     }
     let defined = ", define(pushed = 2 * input.elbow), drive(elbow = pushed)";
-    assert_eq!(model(&text, defined, "").inputs.len(), 1);
+    assert_eq!(model(&text, defined, "").item.inputs.len(), 1);
     let found = |value: &str| mistakes(&text, &torque(value), "");
     assert_eq!(found("[input.elbw, 0, 0]"), ["there is no input `elbw`; did you mean `input.elbow`?"]);
     assert_eq!(found("[input.gravity, 0, 0]"), ["there is no input `gravity`; `input(gravity)` declares one"]);

@@ -4,7 +4,8 @@ use super::{Scratch, read};
 use crate::model::argument::{AT, FORCE, TORQUE, VALUE};
 use crate::model::scene::clauses::{RoleClause, RoleValue};
 use crate::model::tests::systems::show;
-use crate::model::{ConstraintKind, ElementKind, ForceClause, Model, Role, ValueOfState};
+use crate::model::{ConstraintKind, ElementKind, ForceClause, Model};
+use crate::terms::{Role, ValueOfState};
 
 const INERTIAL: &str = "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>";
 
@@ -14,7 +15,7 @@ fn reported(inside: &str, clauses: &str) -> Vec<String> {
     let file = Scratch::called(&text, "xml");
     let place = format!("{}:", file.0.to_string_lossy());
     let texts: Vec<String> = match read(&file.of(clauses, "")) {
-        Ok(model) => model.described.expect("a file").remarks.into_iter().map(|remark| remark.text).collect(),
+        Ok(model) => model.item.described.expect("a file").remarks.into_iter().map(|remark| remark.text).collect(),
         Err(error) => error.into_iter().map(|mistake| mistake.to_string()).collect(),
     };
     texts.into_iter().map(|text| text.replace(&place, "")).collect()
@@ -142,15 +143,22 @@ fn tendons_and_actuators() {
          <general name=\"m\" joint=\"a\" dyntype=\"integrator\"/></actuator>"
     );
     let read = model(&rest, ", inputs = actuators");
-    let inputs: Vec<String> = read.inputs.iter().map(|input| input.ident.to_string()).collect();
+    let inputs: Vec<String> = read.item.inputs.iter().map(|input| input.ident.to_string()).collect();
     assert_eq!(inputs, ["p", "b_control"]);
     assert_eq!(read.forces[0].rates().map(|(q, _)| q.to_string()).collect::<Vec<_>>(), ["a", "b"]);
     assert!(read.forces.iter().any(|force| force.row.kind == ElementKind::Spring));
-    let ignored: Vec<String> =
-        read.described.unwrap().remarks.into_iter().filter(|remark| remark.ignored).map(|remark| remark.text).collect();
+    let ignored: Vec<String> = read
+        .item
+        .described
+        .unwrap()
+        .remarks
+        .into_iter()
+        .filter(|remark| remark.ignored)
+        .map(|remark| remark.text)
+        .collect();
     assert!(ignored[0].ends_with("it is not linear in its control, or has a state of its own"), "{ignored:?}");
     assert_eq!(ignored.len(), 1);
-    assert_eq!(model(&rest, "").inputs.len(), 2);
+    assert_eq!(model(&rest, "").item.inputs.len(), 2);
 }
 
 #[test]
@@ -183,7 +191,7 @@ fn equalities() {
 /// The place of a free body, references of joints, and keyframes.
 #[test]
 fn states_with_names() {
-    let states = |inside: &str| model(inside, "").described.unwrap().states;
+    let states = |inside: &str| model(inside, "").item.described.unwrap().states;
     assert!(states(TWO).is_empty());
     let rest = TWO.replace("name=\"a\"", "name=\"a\" ref=\"90\"");
     let keys = "<keyframe><key name=\"home pose\" qpos=\"0.1 0.2\" qvel=\"3 4\"/><key qpos=\"5 6\"/></keyframe>";
@@ -257,7 +265,7 @@ fn actuators_at_sites() {
                   <actuator><motor name=\"lift\" site=\"s\" gear=\"0 0 3 0 0 -0.1\"/><motor joint=\"a\"/>\
                   <velocity site=\"arm\" kv=\"2\"/></actuator><keyframe><key name=\"up\" ctrl=\"4 5 6\"/></keyframe>";
     let read = model(inside, "");
-    let inputs: Vec<String> = read.inputs.iter().map(|input| input.ident.to_string()).collect();
+    let inputs: Vec<String> = read.item.inputs.iter().map(|input| input.ident.to_string()).collect();
     assert_eq!(inputs, ["a_effort", "lift", "arm_site_control"]);
     let wrench = |clause: &ForceClause| {
         let has = |word| clause.expression(word).is_some();
@@ -267,7 +275,7 @@ fn actuators_at_sites() {
     let wrenches: Vec<_> = wrenches.collect();
     assert_eq!(wrenches, [("s".to_owned(), true, true), ("arm_site".to_owned(), true, false)]);
     let controls = |read: Model| -> Vec<(String, f64)> {
-        let up = read.described.unwrap().states.remove(0);
+        let up = read.item.described.unwrap().states.remove(0);
         up.inputs.into_iter().map(|(name, value)| (name.to_string(), value)).collect()
     };
     assert_eq!(controls(read), [("lift".to_owned(), 4.0), ("arm_site".to_owned(), 6.0)]);
@@ -282,7 +290,7 @@ fn ranges_of_inputs() {
                   <motor name=\"m\" joint=\"a\" gear=\"3\" ctrlrange=\"-1 1\"/>\
                   <position name=\"p\" joint=\"b\" kp=\"2\" forcerange=\"-3 4\"/></actuator>";
     let warned = |clauses: &str| -> Vec<String> {
-        let remarks = model(inside, clauses).described.unwrap().remarks.into_iter();
+        let remarks = model(inside, clauses).item.described.unwrap().remarks.into_iter();
         remarks
             .filter(|remark| remark.ignored)
             .map(|remark| remark.text.split_once(": ").unwrap().1.to_owned())
@@ -350,7 +358,7 @@ fn held_weights_and_springs_over_ranges() {
     let force =
         format!("(Add (Multiply (-2) (Subtract {along} (clamp {along} (-1) 1))) (Multiply (-3) (rate {along})))");
     assert_eq!(show(drive.unwrap().1), format!("(Multiply 4 {force})"));
-    assert!(read.described.unwrap().remarks.iter().all(|remark| !remark.ignored));
+    assert!(read.item.described.unwrap().remarks.iter().all(|remark| !remark.ignored));
 }
 
 /// Armatures and dampers of joints whose coordinates are rotations and poses.
@@ -362,7 +370,7 @@ fn laws_of_balls_and_free_joints() {
     let read = model(inside, "");
     assert_eq!(read.armatures.iter().map(|(q, _)| q.to_string()).collect::<Vec<_>>(), ["a", "f"]);
     assert!(read.forces.iter().any(|force| force.row.kind == ElementKind::Dissipation));
-    assert!(read.described.unwrap().remarks.iter().all(|remark| !remark.ignored));
+    assert!(read.item.described.unwrap().remarks.iter().all(|remark| !remark.ignored));
 }
 
 /// What is in the root of an included file stands where it is included; mistakes are in the file where they are
@@ -386,7 +394,7 @@ fn files_that_include_others() {
     let (read, mistakes) = whole(&include(&both));
     let read = read.unwrap_or_else(|| panic!("{mistakes}"));
     assert_eq!((read.coordinates.len(), read.bodies.len()), (1, 4));
-    assert_eq!(read.described.unwrap().paths.len(), 3);
+    assert_eq!(read.item.described.unwrap().paths.len(), 3);
 
     let wrong = part("<joint\n name=\"a\" type=\"hing\"/>");
     let text = format!("{}:2:1: <joint name=\"a\">: a joint is free, ball, slide or hinge, found `hing`", name(&wrong));
@@ -424,7 +432,7 @@ fn included_files_in_folders() {
     write("parts/joint.xml", "<mujoco><joint name=\"beside\"/></mujoco>");
     let name = |main: &std::path::Path| {
         let read = read(&format!("#[gauss(mjcf = {main:?})] struct Robot;")).unwrap();
-        (read.coordinates[0].ident.to_string(), read.described.unwrap().paths.len())
+        (read.coordinates[0].ident.to_string(), read.item.described.unwrap().paths.len())
     };
     assert_eq!(name(&main), ("beside".to_owned(), 3));
     write("joint.xml", "<mujoco><joint name=\"first\"/></mujoco>");
@@ -451,7 +459,7 @@ fn copies() {
     let read = read(&file.of(", inputs = actuators", "")).unwrap_or_else(|error| panic!("{error}"));
     let names = |all: &mut dyn Iterator<Item = String>| all.collect::<Vec<_>>().join(" ");
     assert_eq!(names(&mut read.coordinates.iter().map(|q| q.ident.to_string())), "z j0 j1 j2 j3");
-    assert_eq!(names(&mut read.inputs.iter().map(|input| input.ident.to_string())), "y m0 n0 m1 n1 m2 n2 m3 n3");
+    assert_eq!(names(&mut read.item.inputs.iter().map(|input| input.ident.to_string())), "y m0 n0 m1 n1 m2 n2 m3 n3");
     assert_eq!(read.constraints.len(), 4);
 }
 

@@ -1,7 +1,7 @@
 //! What is accepted, and the model that comes out.
 
 use super::{potential, show, system};
-use crate::model::{Role, Scalar, Shape};
+use crate::terms::{Role, Scalar, Shape};
 
 fn words<'a>(idents: impl IntoIterator<Item = &'a syn::Ident>) -> Vec<String> {
     idents.into_iter().map(ToString::to_string).collect()
@@ -16,7 +16,7 @@ fn chaplygin_sleigh() {
          pub struct ChaplyginSleigh { #[gauss(mass)] m: f64, #[gauss(center_of_mass)] a: Vector3<f64>, \
          #[gauss(inertia)] j: Vector3<f64> }",
     );
-    assert_eq!(model.ident, "ChaplyginSleigh");
+    assert_eq!(model.item.ident, "ChaplyginSleigh");
     assert_eq!(words(model.coordinates.iter().map(|q| &q.ident)), ["x", "y", "theta"]);
     assert_eq!(words(model.speeds.iter().flatten().map(|z| &z.ident)), ["v", "omega"]);
     // In the order of the coordinates, whatever the order in which they are written.
@@ -27,7 +27,7 @@ fn chaplygin_sleigh() {
     assert!(body.name.is_none() && body.parent.is_none());
     assert_eq!(body.position.as_ref().map(show).as_deref(), Some("[x y 0]"));
     assert_eq!(body.rotation.as_ref().map(show).as_deref(), Some("(rotation_z theta)"));
-    let roles: Vec<_> = model.fields.iter().map(|field| (field.role, field.shape)).collect();
+    let roles: Vec<_> = model.item.fields.iter().map(|field| (field.role, field.shape)).collect();
     assert_eq!(
         roles,
         [
@@ -48,9 +48,9 @@ fn named_bodies_with_parents() {
          struct Pendulum<T> { l: T, #[gauss(gravity)] g: T, \
          /// The first.\n #[gauss(body)] upper: RigidBody<T>, #[gauss(body)] lower: Link }",
     );
-    assert_eq!(model.scalar.to_string(), "T");
-    assert!(matches!(model.scalar, Scalar::Parameter(_)));
-    assert_eq!(model.runtime.segments.len(), 2);
+    assert_eq!(model.item.scalar.to_string(), "T");
+    assert!(matches!(model.item.scalar, Scalar::Parameter(_)));
+    assert_eq!(model.item.runtime.to_string(), "my :: runtime");
     assert!(model.speeds.is_none() && model.kinematics.is_empty());
     let [lower, upper] = model.bodies.as_slice() else { panic!("two bodies") };
     assert_eq!(lower.name.as_ref().map(ToString::to_string).as_deref(), Some("lower"));
@@ -58,10 +58,10 @@ fn named_bodies_with_parents() {
     assert_eq!(lower.position.as_ref().map(show).as_deref(), Some("[0 0 (-l)]"));
     assert!(upper.parent.is_none() && upper.position.is_none());
     assert_eq!(upper.rotation.as_ref().map(show).as_deref(), Some("(Multiply (rotation_z t) (rotation_x a))"));
-    assert_eq!(model.fields[2].documentation, "The first.");
-    assert_eq!((model.fields[2].role, model.fields[2].shape), (Some(Role::Body), Shape::RigidBody));
+    assert_eq!(model.item.fields[2].documentation, "The first.");
+    assert_eq!((model.item.fields[2].role, model.item.fields[2].shape), (Some(Role::Body), Shape::RigidBody));
     // Behind an alias the role says what it is.
-    assert_eq!(model.fields[3].shape, Shape::RigidBody);
+    assert_eq!(model.item.fields[3].shape, Shape::RigidBody);
 }
 
 #[test]
@@ -85,7 +85,7 @@ fn expressions() {
 
 #[test]
 fn scalars() {
-    let scalar = |source: &str| system(source).scalar;
+    let scalar = |source: &str| system(source).item.scalar;
     // Fields that nothing names do not count.
     assert_eq!(
         scalar(

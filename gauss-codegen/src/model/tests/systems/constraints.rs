@@ -40,7 +40,7 @@ fn accepted() {
     );
     let independent: Vec<_> = model.independent.iter().flatten().map(ToString::to_string).collect();
     assert_eq!(independent, ["s", "v"]);
-    assert_eq!(model.limit, Some(1000));
+    assert_eq!(model.item.limit, Some(1000));
     // Coordinates that only constraints name are for the derivation to judge.
     system(
         "#[gauss(coordinates(x, y), particle(mass = 1, position = [x, 0, 0]), constraint(position = x - y))] struct Scene {}",

@@ -2,8 +2,8 @@
 
 use super::super::{Mistake, check};
 use super::{show, shown, system};
-use crate::model::InputKind;
 use crate::model::argument::{CENTER, MU};
+use crate::terms::InputKind;
 
 /// A boat with a mast that is hinged on it, with more `clauses`.
 fn boat(clauses: &str) -> String {
@@ -35,7 +35,7 @@ fn accepted() {
          stop(along = theta, least = -1, most = 1, stiffness = k, width = 0.1, damping = l), \
          stop(shroud, from = top, to = quay.position, most = l, stiffness = 1, width = l)",
     ));
-    let inputs: Vec<_> = model.inputs.iter().map(|input| (input.ident.to_string(), input.kind)).collect();
+    let inputs: Vec<_> = model.item.inputs.iter().map(|input| (input.ident.to_string(), input.kind)).collect();
     assert_eq!(inputs, [("gust".into(), InputKind::Wrench), ("rudder".into(), InputKind::Scalar)]);
     assert_eq!(model.medium.as_ref().map(show), Some("(Multiply (Multiply k (sin t)) c)".into()));
     let attractions = model.attractions.iter().map(|a| {

@@ -2,7 +2,7 @@
 
 use super::super::{Mistake, check};
 use super::{particle, shown, system};
-use crate::model::InputKind;
+use crate::terms::InputKind;
 
 /// A body on a turning arm, a base at rest in the observer's frame, a particle and an attitude, with more `clauses`.
 fn acted_on(clauses: &str) -> String {
@@ -42,7 +42,7 @@ fn accepted() {
          spring(damper, from = [0, 0, 0], to = tip, stiffness = 2 * k, length = l, damping = 1), \
          damping = k * v * v / 2 + rate(theta) * w",
     ));
-    let inputs: Vec<_> = model.inputs.iter().map(|input| (input.ident.to_string(), input.kind)).collect();
+    let inputs: Vec<_> = model.item.inputs.iter().map(|input| (input.ident.to_string(), input.kind)).collect();
     assert_eq!(inputs, [("thrust".into(), InputKind::Scalar), ("wind".into(), InputKind::Vector)]);
     let forces: Vec<String> = model.forces.iter().map(shown).collect();
     assert_eq!(

@@ -50,3 +50,25 @@ pub enum Role {
     /// A body, named like the field.
     Body,
 }
+
+impl Role {
+    /// It is of the body itself, not of the fluid about it.
+    pub fn is_of_matter(self) -> bool {
+        matches!(self, Role::Mass | Role::CenterOfMass | Role::Inertia | Role::CentralInertia)
+    }
+
+    /// The word in `#[gauss(word)]`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Role::Mass => "mass",
+            Role::CenterOfMass => "center_of_mass",
+            Role::Inertia => "inertia",
+            Role::CentralInertia => "inertia_about_center_of_mass",
+            Role::AddedMass => "added_mass",
+            Role::Gravity => "gravity",
+            Role::DisplacedMass => "displaced_mass",
+            Role::CenterOfBuoyancy => "center_of_buoyancy",
+            Role::Body => "body",
+        }
+    }
+}

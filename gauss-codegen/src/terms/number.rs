@@ -27,7 +27,7 @@ pub fn exact(digits: &str) -> Option<Rational> {
 
 /// The shortest decimal fraction that is read as a number. What is too small for a normal one is none that a file
 /// means.
-pub fn of_double(value: f64) -> Rational {
+pub fn shortest(value: f64) -> Rational {
     let size = exact(&format!("{:e}", value.abs())).unwrap_or_else(Rational::zero);
     if value < 0.0 { -size } else { size }
 }

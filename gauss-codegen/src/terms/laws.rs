@@ -1,0 +1,26 @@
+//! What constants must obey.
+
+/// What `kernel()` checks of constants, and `warnings()` finds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LawKind {
+    /// Of a spring or a stop.
+    Stiffness,
+    /// Of a stop.
+    Width,
+    /// Of a stop, both of them.
+    Limits,
+    /// A coefficient of a spring or a stop.
+    Damping,
+    /// An armature, or the level of dry friction.
+    NonNegative,
+    /// The mass of a particle.
+    MassInSum,
+    /// Of a bushing, row by row.
+    StiffnessMatrix,
+    /// Of a bushing, row by row.
+    DampingMatrix,
+    /// A whole dissipation function, of the state too.
+    Dissipation,
+    /// A gravitational parameter.
+    Attraction,
+}

@@ -1,0 +1,37 @@
+//! What a kernel has on request.
+
+use proc_macro2::Ident;
+
+/// The methods and derivatives that a kernel has on request.
+#[derive(Clone, Default)]
+pub struct Wanted {
+    /// `taylor`, where it is written: power series of the motion.
+    pub taylor: Option<Ident>,
+    /// `linearize`: the derivatives of the equations by the state.
+    pub linearize: bool,
+    /// `linearize(parameters)`: by the parameters, too.
+    pub by_parameters: bool,
+    /// `linearize(inverse)`: those of inverse dynamics, too.
+    pub inverse: bool,
+    /// `linearize(hessian)`: second derivatives along given weights, too.
+    pub hessian: bool,
+    /// `regressor`, where it is written: the coefficients of the inertial parameters.
+    pub regressor: Option<Ident>,
+    /// `frames(…)`: bodies and frames whose poses and velocities are methods, by their names, each once.
+    pub frames: Vec<Ident>,
+    /// `methods(…)`: quantities of the system as a whole, each once.
+    pub methods: Vec<WantedMethod>,
+}
+
+/// A method, or several that belong together, that a kernel has on request.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WantedMethod {
+    /// Momenta about the centre of mass.
+    Centroidal,
+    /// Inverse dynamics at ż = 0.
+    NonlinearEffects,
+    /// The generalised forces that balance weight and buoyancy.
+    GravityTorques,
+    /// d/dt of the Jacobians of the frames in `frames(…)`.
+    JacobianRates,
+}
