@@ -54,12 +54,9 @@ pub fn derive<R>(input: &DeriveInput, write: impl FnOnce(&Derived<'_, '_>) -> Re
 
 fn derive_model<R>(graph: &Graph, model: &Model, write: impl FnOnce(&Derived<'_, '_>) -> Result<R>) -> Result<R> {
     let translated = translate(graph, model)?;
-    let mut formulation = Formulation::of(translated)?;
-    let mut kernel = lower(&formulation)?;
-    if !kernel.functions.acceleration.loss.is_tolerable() && formulation.with_squares()? {
-        kernel = lower(&formulation)?;
-    }
-    write(&Derived::new(&formulation, &kernel))
+    let formulation = Formulation::of(translated)?;
+    let lowered = lower(formulation)?;
+    write(&Derived::new(&lowered))
 }
 
 #[cfg(test)]

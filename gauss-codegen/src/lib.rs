@@ -11,6 +11,7 @@ mod expand;
 mod formulation;
 mod kernel;
 mod lowering;
+mod mass_laws;
 pub mod mathml;
 mod mechanics;
 mod methods;

@@ -7,6 +7,7 @@ use crate::algebra::{Expr, Rational};
 use crate::error::Result;
 use crate::formulation::Formulation;
 use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals};
+use crate::mass_laws::MassLaws;
 use crate::mechanics::{Arrangements, Method};
 use crate::methods::DerivativeKind;
 use crate::mistakes::{
@@ -15,12 +16,34 @@ use crate::mistakes::{
 use crate::terms::Scalar;
 use crate::translate::Given;
 
+/// A system with its programs.
+pub struct Lowered<'g> {
+    pub formulation: Formulation<'g>,
+    pub kernel: Kernel<'g>,
+    pub mass_laws: MassLaws<'g>,
+}
+
+/// The programs of all formulas and of the derivatives that are wanted; where the accelerations lose much, from forms
+/// with squares as well.
+///
+/// # Errors
+/// More code than is wanted, masses that are something else besides, motions without a power series; mistakes of this
+/// crate.
+pub fn lower<'g>(mut formulation: Formulation<'g>) -> Result<Lowered<'g>> {
+    let mut kernel = programs(&formulation)?;
+    if !kernel.functions.acceleration.loss.is_tolerable() && formulation.with_squares()? {
+        kernel = programs(&formulation)?;
+    }
+    let mass_laws = MassLaws::new(&formulation.given, &formulation.system);
+    Ok(Lowered { formulation, kernel, mass_laws })
+}
+
 /// The programs of all formulas and of the derivatives that are wanted.
 ///
 /// # Errors
 /// More code than is wanted, masses that are something else besides, motions without a power series; mistakes of this
 /// crate.
-pub fn lower<'g>(formulation: &Formulation<'g>) -> Result<Kernel<'g>> {
+fn programs<'g>(formulation: &Formulation<'g>) -> Result<Kernel<'g>> {
     let Given { item, literals, .. } = &formulation.given;
     let graph = formulation.system.scene.graph;
     let failed = |what: &dyn Display| failed(&formulation.given, &formulation.system, &what);

@@ -6,8 +6,10 @@ use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 use crate::algebra::{Expr, Map, Rational, Set};
-use crate::formulation::{Formulation, Printed};
+use crate::formulation::Printed;
 use crate::kernel::{Counts, Function, Kernel, Program, Smoothness};
+use crate::lowering::Lowered;
+use crate::mass_laws::MassLaws;
 use crate::mechanics::{Account, InertialParameter, Method};
 use crate::program::ArgumentKind;
 use crate::terms::{Item, Scalar};
@@ -32,6 +34,7 @@ pub const PRIVATE: &str = concat!(
 pub struct Derived<'a, 'g> {
     pub subject: Subject<'a, 'g>,
     pub kernel: &'a Kernel<'g>,
+    pub mass_laws: &'a MassLaws<'g>,
     /// λ of the second derivatives, where these are wanted.
     pub weights: &'a [Expr<'g>],
     /// The equations for people, as text and in LaTeX.
@@ -66,7 +69,7 @@ pub struct Formal<'a, 'g> {
 }
 
 impl<'a, 'g> Derived<'a, 'g> {
-    pub fn new(formulation: &'a Formulation<'g>, kernel: &'a Kernel<'g>) -> Self {
+    pub fn new(Lowered { formulation, kernel, mass_laws }: &'a Lowered<'g>) -> Self {
         let given = &formulation.given;
         let subject = Subject {
             given,
@@ -78,6 +81,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         Self {
             subject,
             kernel,
+            mass_laws,
             weights: &formulation.weights,
             printed: &formulation.printed,
             inertial_parameters: &formulation.inertial_parameters,

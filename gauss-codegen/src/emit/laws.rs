@@ -8,7 +8,6 @@ use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::Program;
 use crate::terms::{LawKind, Role, Shape};
 use crate::translate::{BodyData, DragMatrix, Law};
-use crate::words::Unraw;
 
 use super::derived::Derived;
 use super::locals::{local_of, parameters_read, symbols_of_parameters};
@@ -156,7 +155,7 @@ fn gravity(derived: &Derived<'_, '_>) -> TokenStream {
     let Some((Shape::Scalar, name)) = given.shape(Role::Gravity).zip(local_of(given, Role::Gravity)) else {
         return TokenStream::new();
     };
-    let label = given.item.field(Role::Gravity).map_or_else(|| "gravity".to_owned(), |f| f.ident.unraw().to_string());
+    let label = given.role_name(None, Role::Gravity);
     quote!(__warnings.gravity(#label, #name);)
 }
 
@@ -166,7 +165,7 @@ fn added_masses(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> T
     let find = |written: &BodyData<'_>| {
         let link = &subject.system.scene.tree.links[written.link];
         let matrix = link.body()?.added_mass.as_ref()?;
-        let label = subject.role_name(written, Role::AddedMass);
+        let label = subject.given.role_name(written.name.as_ref(), Role::AddedMass);
         let diagonal: Vec<Expr<'_>> = (0..6).map(|i| matrix[i][i]).collect();
         let (compute, values) = of_parameters(derived, symbols, &diagonal)?;
         Some(quote!({ #compute __warnings.added_mass(#label, &[#(#values),*]); }))

@@ -4,11 +4,13 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::algebra::Map;
+use crate::kernel::Program;
+use crate::mechanics::QuantityValues;
 use crate::terms::{Field, Role, Shape};
 use crate::translate::{ClauseValue, Given, Part, Source};
 
 use super::derived::Derived;
-use super::role_clauses::clause_local;
+use super::program::statements;
 
 /// The local that holds a field, or one part of a rigid body.
 pub fn local(field: usize, part: &str) -> Ident {
@@ -16,7 +18,7 @@ pub fn local(field: usize, part: &str) -> Ident {
 }
 
 /// The word of a part of a rigid body: the field of `RigidBody` and the end of the local.
-fn word(quantity: Role) -> &'static str {
+pub fn part(quantity: Role) -> &'static str {
     match quantity {
         Role::Mass => "mass",
         Role::CenterOfMass => "center_of_mass",
@@ -32,7 +34,7 @@ pub fn element(source: &Source<'_>) -> TokenStream {
         Part::Component(i) => quote!(#plain[#i]),
         Part::Entry(i, j) => quote!(#plain[#i][#j]),
         Part::Body(quantity, i, j) => {
-            let name = local(source.field, word(quantity));
+            let name = local(source.field, part(quantity));
             match quantity {
                 Role::Mass => quote!(#name),
                 Role::CenterOfMass => quote!(#name[#i]),
@@ -53,18 +55,13 @@ pub fn symbols_of_parameters(derived: &Derived<'_, '_>) -> Map<u32, TokenStream>
 /// The locals of all parameters: fields, and what clauses say of the body without a name and of gravity.
 pub fn parameters_read(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     let given = derived.subject.given;
-    let fields = given.item.fields.iter().enumerate().filter(|(k, _)| is_read(derived, *k));
+    let fields = given.item.fields.iter().enumerate().filter(|(k, _)| given.is_read(*k));
     let mut read: TokenStream = fields.map(|(k, field)| read_field(derived, k, field)).collect();
     let clauses = given.mass_data.unnamed.iter();
     read.extend(
         clauses.map(|ClauseValue { own, .. }| clause_local(derived, &local_of_clause(own.quantity), own, symbols)),
     );
     read
-}
-
-/// Whether the equations read the field.
-pub fn is_read(derived: &Derived<'_, '_>, field: usize) -> bool {
-    derived.subject.given.sources.iter().any(|source| source.field == field)
 }
 
 /// The local of what a clause says.
@@ -96,4 +93,31 @@ fn read_field(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream
 pub fn local_of(given: &Given<'_>, role: Role) -> Option<Ident> {
     let field = given.item.fields.iter().position(|f| f.role == Some(role)).map(|k| local(k, ""));
     field.or_else(|| given.mass_data.unnamed(role).map(|_| local_of_clause(role)))
+}
+
+/// `let name = …;`: the value, or the array of components.
+pub fn clause_local(
+    derived: &Derived<'_, '_>,
+    name: &Ident,
+    own: &QuantityValues<'_>,
+    symbols: &Map<u32, TokenStream>,
+) -> TokenStream {
+    let (compute, values) = statements(&Program::lower(&own.values), symbols, &derived.scalar());
+    match values.as_slice() {
+        [value] => quote!(let #name = { #compute #value };),
+        // Half of a symmetric matrix, column by column.
+        values if values.len() == 21 => {
+            let place = |i: usize, j: usize| 6 * i - i * (i + 1) / 2 + j;
+            let rows = (0..6).map(|i: usize| {
+                let row = (0..6).map(|j: usize| &values[place(i.min(j), i.max(j))]);
+                quote!([#(#row),*])
+            });
+            quote!(let #name = { #compute [#(#rows),*] };)
+        }
+        // The upper triangle of an inertia, row by row.
+        [xx, xy, xz, yy, yz, zz] if own.quantity != Role::AddedMass => {
+            quote!(let #name = { #compute [[#xx, #xy, #xz], [#xy, #yy, #yz], [#xz, #yz, #zz]] };)
+        }
+        values => quote!(let #name = { #compute [#(#values),*] };),
+    }
 }

@@ -1,13 +1,11 @@
 //! What is derived: its configuration as a product, its constraints, and where what its author wrote is read.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::algebra::Expr;
 use crate::mechanics::{Constraints, Coordinate, Method, System};
-use crate::terms::Role;
-use crate::translate::{BodyData, Given};
-use crate::words::Unraw;
+use crate::translate::Given;
 
 use super::arguments::Argument;
 use super::chart::chart_tokens;
@@ -171,25 +169,6 @@ impl<'g> Subject<'_, 'g> {
         match self.system.scene.chart() {
             Some(own) => chart_tokens(private, own.chart),
             None => quote!(#private::Chart::Own),
-        }
-    }
-
-    /// The link of the body of that name (the unnamed one).
-    pub fn link(&self, name: Option<&Ident>) -> Option<usize> {
-        self.given.mass_data.bodies.iter().find(|body| body.name.as_ref() == name).map(|body| body.link)
-    }
-
-    /// The only body axis that the body of that name (the unnamed one) turns about.
-    pub fn only_axis(&self, name: Option<&Ident>) -> Option<usize> {
-        self.system.scene.tree.links[self.link(name)?].only_axis()
-    }
-
-    /// What a role of a body is called: by its field, or by its word after the name of the body.
-    pub fn role_name(&self, body: &BodyData<'_>, role: Role) -> String {
-        match (&body.name, self.given.item.field(role)) {
-            (Some(name), _) => format!("{}.{}", name.unraw(), role.word()),
-            (None, Some(field)) => field.ident.unraw().to_string(),
-            (None, None) => role.word().to_owned(),
         }
     }
 

@@ -5,6 +5,7 @@ use proc_macro2::{Ident, Span};
 use crate::algebra::{Expr, Rational, Substitution};
 use crate::mechanics::{QuantityValues, SystemScene};
 use crate::terms::{Item, Role, Shape};
+use crate::words::Unraw;
 
 use super::drag::DragMatrix;
 use super::laws::Law;
@@ -111,6 +112,25 @@ impl<'g> MassData<'g> {
 }
 
 impl<'g> Given<'g> {
+    /// The body of that name (the unnamed one).
+    pub fn body(&self, name: Option<&Ident>) -> Option<&BodyData<'g>> {
+        self.mass_data.bodies.iter().find(|body| body.name.as_ref() == name)
+    }
+
+    /// Whether the equations read the field.
+    pub fn is_read(&self, field: usize) -> bool {
+        self.sources.iter().any(|source| source.field == field)
+    }
+
+    /// What a role of a body is called: by its field, or by its word after the name of the body.
+    pub fn role_name(&self, body: Option<&Ident>, role: Role) -> String {
+        match (body, self.item.field(role)) {
+            (Some(name), _) => format!("{}.{}", name.unraw(), role.word()),
+            (None, Some(field)) => field.ident.unraw().to_string(),
+            (None, None) => role.word().to_owned(),
+        }
+    }
+
     /// The shape of the field or the clause that plays a role of the body without a name; `None` where neither does.
     pub fn shape(&self, role: Role) -> Option<Shape> {
         let clause = || self.mass_data.unnamed(role).map(|value| value.shape);

@@ -6,7 +6,7 @@ use crate::accuracy::moves::Draft;
 use crate::accuracy::seek::Search;
 use crate::algebra::{Doubled, Graph, Notation, Number, Scalar, print};
 use crate::formulation::Formulation;
-use crate::lowering::{lower, states};
+use crate::lowering::{Lowered, lower, states};
 use crate::model;
 use crate::translate::translate;
 
@@ -75,7 +75,7 @@ fn seen(clauses: &str, fields: &str, given: &[(&str, f64)]) -> Vec<Seen> {
     let graph = Graph::new();
     let translated = translate(&graph, &model).expect("a scene");
     let formulation = Formulation::of(translated).expect("equations");
-    let kernel = lower(&formulation).expect("a kernel");
+    let Lowered { formulation, kernel, .. } = lower(formulation).expect("a kernel");
     let states = states(&formulation);
     let samples = states.samples();
     let sought = kernel.sought();

@@ -1,0 +1,134 @@
+//! Checks of mass data in `kernel()`, as the laws say.
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::algebra::{Map, Rational};
+use crate::kernel::Program;
+use crate::mass_laws::{Datum, Group, InertiaRule, InertiaRules, MassLaw, MassRule};
+use crate::terms::{Role, Shape};
+
+use super::derived::Derived;
+use super::locals::{clause_local, local, local_of_clause, part};
+use super::program::statements;
+
+/// Checks, group by group; a group with values of its own has them as locals of a block.
+pub fn checked<'g>(derived: &Derived<'_, 'g>, groups: &[Group<'g>], symbols: &Map<u32, TokenStream>) -> TokenStream {
+    let group = |Group { values, laws }: &Group<'g>| {
+        let read = values.iter().map(|own| clause_local(derived, &own_local(own.quantity), own, symbols));
+        let checks: TokenStream = laws.iter().map(|law| check(derived, law, symbols)).collect();
+        match values.is_empty() {
+            true => checks,
+            false => quote!({ #(#read)* #checks }),
+        }
+    };
+    groups.iter().map(group).collect()
+}
+
+fn check<'g>(derived: &Derived<'_, 'g>, law: &MassLaw<'g>, symbols: &Map<u32, TokenStream>) -> TokenStream {
+    let label = &law.label;
+    match &law.rule {
+        MassRule::Mass(mass) => {
+            let mass = read(*mass);
+            quote!(__check.mass(#label, #mass);)
+        }
+        MassRule::MassInSum(mass) => {
+            let mass = read(*mass);
+            quote!(__check.mass_in_sum(#label, #mass);)
+        }
+        MassRule::NonNegative(number) => {
+            let number = read(*number);
+            quote!(__check.non_negative(#label, #number);)
+        }
+        MassRule::Finite(datum, shape) => {
+            let name = read(*datum);
+            match shape {
+                Shape::Scalar => quote!(__check.finite(#label, &[#name]);),
+                Shape::Vector3 | Shape::Vector6 => quote!(__check.finite(#label, &#name);),
+                _ => quote!(for __row in &#name { __check.finite(#label, __row); }),
+            }
+        }
+        MassRule::Symmetric(matrix) => {
+            let matrix = read(*matrix);
+            quote!(__check.symmetric(#label, &#matrix);)
+        }
+        MassRule::Inertia(rules) => inertia(derived, label, rules),
+        MassRule::KineticMatrix(rows) => {
+            let (compute, outputs) = statements(&Program::lower(&rows.concat()), symbols, &derived.scalar());
+            let rows = outputs.chunks(rows.len()).map(|row| quote!([#(#row),*]));
+            let check = quote!({ #compute __check.kinetic_matrix(#label, &[#(#rows),*]); });
+            // Of one among several it says nothing where others make up for what it lacks: their sum is checked then.
+            match derived.mass_laws.in_sum {
+                true => quote!(if __check.massless().is_none() #check),
+                false => check,
+            }
+        }
+    }
+}
+
+/// The local of what a law is about.
+fn read(datum: Datum) -> Ident {
+    match datum {
+        Datum::Field(field) => local(field, ""),
+        Datum::Part(field, role) => local(field, part(role)),
+        Datum::Clause(role) => local_of_clause(role),
+        Datum::Own(role) => own_local(role),
+    }
+}
+
+fn own_local(role: Role) -> Ident {
+    format_ident!("__b{}", role.word(), span = Span::mixed_site())
+}
+
+fn inertia(derived: &Derived<'_, '_>, label: &str, rules: &InertiaRules) -> TokenStream {
+    let zero = derived.scalar().number(&Rational::zero());
+    let mass = rules.mass.map_or_else(|| zero.clone(), quote_local);
+    let center = rules.center.map_or_else(|| quote!([#zero; 3]), quote_local);
+    let (name, rows) = match rules.tensor {
+        Datum::Part(..) => (read(rules.tensor), None),
+        tensor => (Ident::new("__inertia", Span::call_site()), Some(rows(derived, rules.shape, &read(tensor)))),
+    };
+    let check = |rule: &InertiaRule| match rule {
+        InertiaRule::Alone => quote!(__check.inertia(#label, &#name);),
+        InertiaRule::Central => quote!(__check.central_inertia(#label, #mass, #center, &#name);),
+        InertiaRule::Planar => quote! {
+            let __moment = #name[2usize][2usize];
+            __check.inertia(#label, &[[__moment, #zero, #zero], [#zero, __moment, #zero], [#zero, #zero, __moment]]);
+        },
+        InertiaRule::AboutAxis(axis) => quote!(__check.inertia_about_axis(#label, #axis, (#mass, #center), &#name);),
+        InertiaRule::InSum => quote!(__check.inertia_in_sum(#label, #mass, #center, &#name);),
+    };
+    let mut checks: TokenStream = rules.rules.iter().map(check).collect();
+    if rules.is_formal {
+        checks = quote! {
+            __check.waive_triangle_inequality(true);
+            #checks
+            __check.waive_triangle_inequality(false);
+        };
+    }
+    match rows {
+        Some(rows) => quote!({ let #name = #rows; #checks }),
+        None => checks,
+    }
+}
+
+fn quote_local(datum: Datum) -> TokenStream {
+    let name = read(datum);
+    quote!(#name)
+}
+
+/// An inertia as a matrix, from its shape.
+fn rows(derived: &Derived<'_, '_>, shape: Shape, name: &Ident) -> TokenStream {
+    let (ty, real) = (derived.scalar().ty(), derived.scalar().real);
+    let zero = quote!(<#ty as #real>::zero());
+    let rows = (0..3usize).map(|i| {
+        let row = (0..3usize).map(|j| match shape {
+            Shape::Scalar if i == j => quote!(#name),
+            Shape::Vector3 if i == j => quote!(#name[#i]),
+            Shape::Matrix3 => quote!(#name[#i][#j]),
+            _ => zero.clone(),
+        });
+        quote!([#(#row),*])
+    });
+    quote!([#(#rows),*])
+}

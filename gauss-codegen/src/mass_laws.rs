@@ -1,0 +1,265 @@
+//! What must hold of mass data and gravity: laws that `kernel()` checks, in their order.
+
+use proc_macro2::Ident;
+
+use crate::algebra::Expr;
+use crate::mechanics::{KineticMatrix, QuantityValues, System, SystemScene};
+use crate::terms::{Field, Role, Shape};
+use crate::translate::{BodyData, ClauseValue, Given};
+use crate::words::Unraw;
+
+/// What must hold of mass data.
+pub struct MassLaws<'g> {
+    /// Of fields and clauses, one by one.
+    pub of_data: Vec<Group<'g>>,
+    /// Of fluids, and of bodies in all motions that they can have.
+    pub of_motions: Vec<Group<'g>>,
+    /// Bodies without mass may move with others; then the mass matrix of all is checked.
+    pub in_sum: bool,
+}
+
+/// Laws, and the values in clauses that they alone are about.
+pub struct Group<'g> {
+    pub values: Vec<QuantityValues<'g>>,
+    pub laws: Vec<MassLaw<'g>>,
+}
+
+/// A rule for what is called `label`.
+pub struct MassLaw<'g> {
+    pub label: String,
+    pub rule: MassRule<'g>,
+}
+
+pub enum MassRule<'g> {
+    /// The mass of a body alone.
+    Mass(Datum),
+    /// The mass of one of several bodies.
+    MassInSum(Datum),
+    NonNegative(Datum),
+    Finite(Datum, Shape),
+    /// Six by six.
+    Symmetric(Datum),
+    Inertia(InertiaRules),
+    /// The matrix of the kinetic energy on the axes of a motion is positive definite.
+    KineticMatrix(Vec<Vec<Expr<'g>>>),
+}
+
+/// Where numbers are read.
+#[derive(Clone, Copy)]
+pub enum Datum {
+    Field(usize),
+    /// A part of a field that is a body.
+    Part(usize, Role),
+    /// A clause of the body without a name.
+    Clause(Role),
+    /// Among the values of the group.
+    Own(Role),
+}
+
+/// What must hold of an inertia.
+pub struct InertiaRules {
+    pub rules: Vec<InertiaRule>,
+    pub tensor: Datum,
+    pub shape: Shape,
+    /// Zero where there is none, or where it does not enter.
+    pub mass: Option<Datum>,
+    pub center: Option<Datum>,
+    /// The triangle inequality is waived.
+    pub is_formal: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum InertiaRule {
+    /// About O.
+    Alone,
+    /// About the centre of mass.
+    Central,
+    /// The moment about the third axis alone.
+    Planar,
+    /// Of a body that turns about one axis.
+    AboutAxis(usize),
+    /// Of a body that moves with others.
+    InSum,
+}
+
+impl<'g> MassLaws<'g> {
+    pub fn new(given: &Given<'g>, system: &System<'g>) -> Self {
+        let laws = Laws { given, scene: &system.scene };
+        let bodies = &given.mass_data.bodies;
+        let of_one = |laws: Vec<MassLaw<'g>>| Group { values: Vec::new(), laws };
+        let fields = given.item.fields.iter().enumerate().filter(|(k, _)| given.is_read(*k));
+        let mut of_data: Vec<Group<'g>> = fields.map(|(k, field)| of_one(laws.of_field(k, field))).collect();
+        of_data.extend(given.mass_data.unnamed.iter().map(|value| {
+            let role = value.own.quantity;
+            let rule = laws.of_role(role, value.shape, Datum::Clause(role));
+            of_one(vec![MassLaw { label: role.word().to_owned(), rule }])
+        }));
+        of_data.extend(bodies.iter().filter_map(|body| laws.of_clauses(body)));
+        let of_fluid = bodies.iter().flat_map(|body| laws.of_fluid(body));
+        let of_motions = of_fluid.chain(laws.of_motion(system)).collect();
+        Self { of_data, of_motions, in_sum: !laws.is_alone() }
+    }
+}
+
+/// The laws of a scene.
+struct Laws<'a, 'g> {
+    given: &'a Given<'g>,
+    scene: &'a SystemScene<'g>,
+}
+
+impl<'g> Laws<'_, 'g> {
+    /// Whether one body is all there is.
+    fn is_alone(&self) -> bool {
+        self.scene.chart().is_some()
+    }
+
+    fn of_field(&self, k: usize, field: &Field) -> Vec<MassLaw<'g>> {
+        let (label, datum) = (field.ident.unraw().to_string(), Datum::Field(k));
+        let rule = match (field.role, field.shape) {
+            (_, Shape::Other) => return Vec::new(),
+            (_, shape @ (Shape::RigidBody | Shape::CentralBody)) => {
+                let [mass, center, tensor] =
+                    [Role::Mass, Role::CenterOfMass, Role::Inertia].map(|role| Datum::Part(k, role));
+                let (word, is_central) = (Role::Inertia.word(), shape == Shape::CentralBody);
+                return self.of_body(&field.ident, word, (mass, Some(center)), (tensor, Shape::Matrix3), is_central);
+            }
+            (Some(role), shape) => self.of_role(role, shape, datum),
+            (None, Shape::Matrix6) if self.given.mass_data.added_masses.contains(&k) => MassRule::Symmetric(datum),
+            (None, shape) => MassRule::Finite(datum, shape),
+        };
+        vec![MassLaw { label, rule }]
+    }
+
+    /// Of mass data of the body without a name, and of gravity.
+    fn of_role(&self, role: Role, shape: Shape, datum: Datum) -> MassRule<'g> {
+        match (role, shape) {
+            (Role::Mass, _) if self.is_alone() => MassRule::Mass(datum),
+            (Role::Mass, _) => MassRule::MassInSum(datum),
+            (Role::DisplacedMass, _) => MassRule::NonNegative(datum),
+            (Role::Inertia | Role::CentralInertia, _) => MassRule::Inertia(self.of_inertia(role, shape, datum)),
+            (Role::AddedMass, Shape::Matrix6) => MassRule::Symmetric(datum),
+            _ => MassRule::Finite(datum, shape),
+        }
+    }
+
+    /// Of the inertia of the body without a name.
+    fn of_inertia(&self, role: Role, shape: Shape, tensor: Datum) -> InertiaRules {
+        let body = self.given.body(None);
+        let given = |role: Role| {
+            let field = self.given.item.fields.iter().position(|field| field.role == Some(role)).map(Datum::Field);
+            field.or_else(|| self.given.mass_data.unnamed(role).map(|_| Datum::Clause(role)))
+        };
+        // Where O is held at Ω only m·c and I_O enter, and m by itself says nothing.
+        let is_held = body.is_some_and(|body| self.scene.is_held(body.link));
+        let is_central = role == Role::CentralInertia;
+        let mut mass = given(Role::Mass).filter(|_| !is_held);
+        let mut center = given(Role::CenterOfMass).filter(|_| !is_held && !is_central);
+        let twist = body.map(|body| self.scene.twist_of(body.link)).unwrap_or_default();
+        let rules = match twist.as_slice() {
+            _ if !self.is_alone() => vec![self.in_sum(body)],
+            // In the plane only the moment about k₃ enters, but all that is given is that of a body.
+            [0, 1, 5] => vec![InertiaRule::Planar, InertiaRule::AboutAxis(2)],
+            _ if is_central => {
+                (mass, center) = (given(Role::Mass), None);
+                vec![InertiaRule::Central]
+            }
+            _ if !is_held && given(Role::CenterOfMass).is_some() => vec![InertiaRule::Alone, InertiaRule::Central],
+            _ => vec![InertiaRule::Alone],
+        };
+        InertiaRules { rules, tensor, shape, mass, center, is_formal: body.is_some_and(|body| body.is_formal) }
+    }
+
+    /// Of a body that moves with others.
+    fn in_sum(&self, body: Option<&BodyData<'g>>) -> InertiaRule {
+        let axis = body.and_then(|body| self.scene.tree.links[body.link].only_axis());
+        axis.map_or(InertiaRule::InSum, InertiaRule::AboutAxis)
+    }
+
+    /// Of a body with a name: mass, centre of mass from O, inertia about O or about the centre of mass (`is_central`),
+    /// which is called `word`.
+    fn of_body(
+        &self,
+        name: &Ident,
+        word: &str,
+        (mass, center): (Datum, Option<Datum>),
+        (tensor, shape): (Datum, Shape),
+        is_central: bool,
+    ) -> Vec<MassLaw<'g>> {
+        let body = self.given.body(Some(name));
+        let law = |part: &str, rule| MassLaw { label: format!("{}.{part}", name.unraw()), rule };
+        let inertia = InertiaRules {
+            rules: vec![self.in_sum(body)],
+            tensor,
+            shape,
+            mass: Some(mass),
+            // About the centre of mass there is no lever.
+            center: center.filter(|_| !is_central),
+            is_formal: body.is_some_and(|body| body.is_formal),
+        };
+        let mut laws = vec![law(Role::Mass.word(), MassRule::MassInSum(mass))];
+        laws.extend(center.map(|c| law(Role::CenterOfMass.word(), MassRule::Finite(c, Shape::Vector3))));
+        laws.push(law(word, MassRule::Inertia(inertia)));
+        laws
+    }
+
+    /// Of a body with a name whose mass data stand in its clause.
+    fn of_clauses(&self, body: &BodyData<'g>) -> Option<Group<'g>> {
+        let name = body.name.as_ref()?;
+        let value_of = |role: Role| body.values.iter().find(|value| value.own.quantity == role);
+        let central = value_of(Role::CentralInertia);
+        let (mass, inertia) = (value_of(Role::Mass)?, central.or_else(|| value_of(Role::Inertia))?);
+        let center = value_of(Role::CenterOfMass);
+        let role = inertia.own.quantity;
+        let lever = (Datum::Own(Role::Mass), center.map(|_| Datum::Own(Role::CenterOfMass)));
+        let laws = self.of_body(name, role.word(), lever, (Datum::Own(role), inertia.shape), central.is_some());
+        let values = [Some(mass), center, Some(inertia)].into_iter().flatten().map(|value| value.own.clone());
+        Some(Group { values: values.collect(), laws })
+    }
+
+    /// What clauses of a body with a name say of the fluid about it, and that the body and its added mass together have
+    /// a positive definite kinetic energy in every motion that the body can have.
+    fn of_fluid(&self, body: &BodyData<'g>) -> Vec<Group<'g>> {
+        let name = body.name.as_ref();
+        let of_clause = |ClauseValue { own, shape, .. }: &ClauseValue<'g>| {
+            let datum = Datum::Own(own.quantity);
+            let rule = match (own.quantity, shape) {
+                (Role::DisplacedMass, _) => MassRule::NonNegative(datum),
+                (_, Shape::Matrix6) => return None,
+                _ => MassRule::Finite(datum, *shape),
+            };
+            let law = MassLaw { label: self.given.role_name(name, own.quantity), rule };
+            Some(Group { values: vec![own.clone()], laws: vec![law] })
+        };
+        let of_fluid = body.values.iter().filter(|value| name.is_some() && !value.own.quantity.is_of_matter());
+        let mut groups: Vec<Group<'g>> = of_fluid.filter_map(of_clause).collect();
+        let link = &self.scene.tree.links[body.link];
+        if let Some(matter) = link.body().filter(|matter| matter.added_mass.is_some()) {
+            let matrix = KineticMatrix::new(link.frame.graph, matter, &[0, 1, 2], &[3, 4, 5]);
+            let label = self.given.role_name(name, Role::AddedMass);
+            groups.push(kinetic_matrix(label, &matrix, &self.scene.twist_of(body.link)));
+        }
+        groups
+    }
+
+    /// Of the kinetic energy of the body without a name, on the axes of its motion: with a centre of mass off O its
+    /// parts can be fine one by one, and not together.
+    fn of_motion(&self, system: &System<'g>) -> Option<Group<'g>> {
+        let body = self.given.body(None)?;
+        let free = system.free.iter().find(|free| free.link == body.link)?;
+        let active = &free.kinematics.active;
+        let in_fluid = self.scene.tree.links[free.link].body()?.added_mass.is_some();
+        // About the centre of mass no part speaks against another.
+        let given = |role: Role| self.given.shape(role).is_some();
+        let is_well = !given(Role::CenterOfMass) || given(Role::CentralInertia);
+        if in_fluid || active.iter().all(|&k| k >= 3) || is_well {
+            return None;
+        }
+        Some(kinetic_matrix(self.given.role_name(None, Role::Inertia), &free.matrix, active))
+    }
+}
+
+fn kinetic_matrix<'g>(label: String, matrix: &KineticMatrix<'g>, active: &[usize]) -> Group<'g> {
+    let row = |&i: &usize| active.iter().map(|&j| matrix.entries[i][j]).collect();
+    let rule = MassRule::KineticMatrix(active.iter().map(row).collect());
+    Group { values: Vec::new(), laws: vec![MassLaw { label, rule }] }
+}
