@@ -68,7 +68,7 @@ pub struct InertiaRules {
     pub is_formal: bool,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InertiaRule {
     /// About O.
     Alone,
@@ -262,4 +262,58 @@ fn kinetic_matrix<'g>(label: String, matrix: &KineticMatrix<'g>, active: &[usize
     let row = |&i: &usize| active.iter().map(|&j| matrix.entries[i][j]).collect();
     let rule = MassRule::KineticMatrix(active.iter().map(row).collect());
     Group { values: Vec::new(), laws: vec![MassLaw { label, rule }] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Group, MassLaw, MassRule};
+    use crate::expand::derive;
+
+    /// Each law with what it is called.
+    fn laws(source: &str) -> Vec<String> {
+        let written = |MassLaw { label, rule }: &MassLaw<'_>| match rule {
+            MassRule::Mass(_) => format!("{label}: positive"),
+            MassRule::MassInSum(_) => format!("{label}: in sum"),
+            MassRule::NonNegative(_) => format!("{label}: not negative"),
+            MassRule::Finite(..) => format!("{label}: finite"),
+            MassRule::Symmetric(_) => format!("{label}: symmetric"),
+            MassRule::Inertia(inertia) => {
+                let known = [inertia.mass, inertia.center].map(|datum| datum.is_some());
+                format!("{label}: {:?} {known:?}", inertia.rules)
+            }
+            MassRule::KineticMatrix(rows) => format!("{label}: {} rows", rows.len()),
+        };
+        let all = |groups: &[Group<'_>]| -> Vec<String> { groups.iter().flat_map(|g| &g.laws).map(written).collect() };
+        let input = syn::parse_str(source).expect("a struct");
+        let found = derive(&input, |derived| {
+            let laws = derived.mass_laws;
+            Ok([all(&laws.of_data), all(&laws.of_motions)].concat())
+        });
+        found.unwrap_or_else(|error| panic!("{error}: {source}"))
+    }
+
+    #[test]
+    fn the_motion_of_a_body_decides_what_must_hold_of_its_inertia() {
+        let fields =
+            "#[gauss(mass)] m: f64, #[gauss(center_of_mass)] c: Vector3<f64>, #[gauss(inertia)] i: Matrix3<f64>";
+        let of_one = |motion: &str| laws(&format!("#[gauss(motion = {motion})] struct Body {{ {fields} }}"));
+        let free = ["m: positive", "c: finite", "i: [Alone, Central] [true, true]", "i: 6 rows"];
+        assert_eq!(of_one("free"), free);
+        // Where O is held the mass enters by m c and I_O alone.
+        assert_eq!(of_one("fixed_point"), ["m: positive", "c: finite", "i: [Alone] [false, false]"]);
+        let planar = ["m: positive", "c: finite", "i: [Planar, AboutAxis(2)] [true, true]", "i: 3 rows"];
+        assert_eq!(of_one("planar"), planar);
+    }
+
+    #[test]
+    fn bodies_that_move_together_are_checked_together() {
+        let found = laws(
+            "#[gauss(coordinates(a, b), body(one, rotation = rotation_z(a)), body(two, parent = one, \
+                 position = [1, 0, 0], rotation = rotation_x(b), mass = m, inertia = [m, m, m]))] \
+             struct Arms { #[gauss(body)] one: RigidBody<f64>, m: f64 }",
+        );
+        let one = ["one.mass: in sum", "one.center_of_mass: finite", "one.inertia: [AboutAxis(2)] [true, true]"];
+        let two = ["m: finite", "two.mass: in sum", "two.inertia: [InSum] [true, false]"];
+        assert_eq!(found, [one, two].concat());
+    }
 }
