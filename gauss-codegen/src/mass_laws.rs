@@ -16,6 +16,10 @@ pub struct MassLaws<'g> {
     pub of_motions: Vec<Group<'g>>,
     /// Bodies without mass may move with others; then the mass matrix of all is checked.
     pub in_sum: bool,
+    /// Gravity of one number, which is expected to point down, and what it is called.
+    pub gravity: Option<(String, Datum)>,
+    /// Diagonals of added masses, which are expected to be positive.
+    pub added_masses: Vec<(String, Vec<Expr<'g>>)>,
 }
 
 /// Laws, and the values in clauses that they alone are about.
@@ -97,7 +101,10 @@ impl<'g> MassLaws<'g> {
         of_data.extend(bodies.iter().filter_map(|body| laws.of_clauses(body)));
         let of_fluid = bodies.iter().flat_map(|body| laws.of_fluid(body));
         let of_motions = of_fluid.chain(laws.of_motion(system)).collect();
-        Self { of_data, of_motions, in_sum: !laws.is_alone() }
+        let gravity = laws.datum(Role::Gravity).filter(|_| given.shape(Role::Gravity) == Some(Shape::Scalar));
+        let gravity = gravity.map(|gravity| (given.role_name(None, Role::Gravity), gravity));
+        let added_masses = bodies.iter().filter_map(|body| laws.of_added_mass(body)).collect();
+        Self { of_data, of_motions, in_sum: !laws.is_alone(), gravity, added_masses }
     }
 }
 
@@ -111,6 +118,18 @@ impl<'g> Laws<'_, 'g> {
     /// Whether one body is all there is.
     fn is_alone(&self) -> bool {
         self.scene.chart().is_some()
+    }
+
+    /// What plays a role of the body without a name.
+    fn datum(&self, role: Role) -> Option<Datum> {
+        let field = self.given.item.fields.iter().position(|field| field.role == Some(role)).map(Datum::Field);
+        field.or_else(|| self.given.mass_data.unnamed(role).map(|_| Datum::Clause(role)))
+    }
+
+    fn of_added_mass(&self, body: &BodyData<'g>) -> Option<(String, Vec<Expr<'g>>)> {
+        let matrix = self.scene.tree.links[body.link].body()?.added_mass.as_ref()?;
+        let label = self.given.role_name(body.name.as_ref(), Role::AddedMass);
+        Some((label, (0..6).map(|i| matrix[i][i]).collect()))
     }
 
     fn of_field(&self, k: usize, field: &Field) -> Vec<MassLaw<'g>> {
@@ -145,25 +164,21 @@ impl<'g> Laws<'_, 'g> {
     /// Of the inertia of the body without a name.
     fn of_inertia(&self, role: Role, shape: Shape, tensor: Datum) -> InertiaRules {
         let body = self.given.body(None);
-        let given = |role: Role| {
-            let field = self.given.item.fields.iter().position(|field| field.role == Some(role)).map(Datum::Field);
-            field.or_else(|| self.given.mass_data.unnamed(role).map(|_| Datum::Clause(role)))
-        };
         // Where O is held at Ω only m·c and I_O enter, and m by itself says nothing.
         let is_held = body.is_some_and(|body| self.scene.is_held(body.link));
         let is_central = role == Role::CentralInertia;
-        let mut mass = given(Role::Mass).filter(|_| !is_held);
-        let mut center = given(Role::CenterOfMass).filter(|_| !is_held && !is_central);
+        let mut mass = self.datum(Role::Mass).filter(|_| !is_held);
+        let mut center = self.datum(Role::CenterOfMass).filter(|_| !is_held && !is_central);
         let twist = body.map(|body| self.scene.twist_of(body.link)).unwrap_or_default();
         let rules = match twist.as_slice() {
             _ if !self.is_alone() => vec![self.in_sum(body)],
             // In the plane only the moment about k₃ enters, but all that is given is that of a body.
             [0, 1, 5] => vec![InertiaRule::Planar, InertiaRule::AboutAxis(2)],
             _ if is_central => {
-                (mass, center) = (given(Role::Mass), None);
+                (mass, center) = (self.datum(Role::Mass), None);
                 vec![InertiaRule::Central]
             }
-            _ if !is_held && given(Role::CenterOfMass).is_some() => vec![InertiaRule::Alone, InertiaRule::Central],
+            _ if !is_held && self.datum(Role::CenterOfMass).is_some() => vec![InertiaRule::Alone, InertiaRule::Central],
             _ => vec![InertiaRule::Alone],
         };
         InertiaRules { rules, tensor, shape, mass, center, is_formal: body.is_some_and(|body| body.is_formal) }

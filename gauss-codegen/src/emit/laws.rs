@@ -6,11 +6,11 @@ use quote::quote;
 
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::Program;
-use crate::terms::{LawKind, Role, Shape};
-use crate::translate::{BodyData, DragMatrix, Law};
+use crate::terms::LawKind;
+use crate::translate::{DragMatrix, Law};
 
 use super::derived::Derived;
-use super::locals::{local_of, parameters_read, symbols_of_parameters};
+use super::locals::{local_of_datum, parameters_read, symbols_of_parameters};
 use super::program::statements;
 
 /// States at which a dissipation function is looked at.
@@ -72,8 +72,8 @@ pub fn warnings(derived: &Derived<'_, '_>) -> TokenStream {
     let visibility = &derived.item().visibility;
     let symbols = symbols_of_parameters(derived);
     let read = parameters_read(derived, &symbols);
-    let findings =
-        [drags(derived, &symbols), laws(derived, &symbols), gravity(derived), added_masses(derived, &symbols)];
+    let of_elements = [drags(derived, &symbols), laws(derived, &symbols)];
+    let of_mass_data = [gravity(derived).unwrap_or_default(), added_masses(derived, &symbols)];
     quote! {
         /// What is likely not meant, although a kernel can be made of it: drag and damping that feed energy, gravity
         /// that points upward, added mass with the sign of hydrodynamic derivatives.
@@ -81,7 +81,8 @@ pub fn warnings(derived: &Derived<'_, '_>) -> TokenStream {
         #visibility fn warnings(&self) -> #private::ParameterWarnings {
             #read
             let mut __warnings = #private::WarningCheck::<#ty>::new();
-            #(#findings)*
+            #(#of_elements)*
+            #(#of_mass_data)*
             __warnings.finish()
         }
     }
@@ -150,27 +151,19 @@ fn in_states<'g>(function: Expr<'g>, symbols: &Map<u32, TokenStream>) -> Vec<Exp
 }
 
 /// A gravity of one number.
-fn gravity(derived: &Derived<'_, '_>) -> TokenStream {
-    let given = derived.subject.given;
-    let Some((Shape::Scalar, name)) = given.shape(Role::Gravity).zip(local_of(given, Role::Gravity)) else {
-        return TokenStream::new();
-    };
-    let label = given.role_name(None, Role::Gravity);
-    quote!(__warnings.gravity(#label, #name);)
+fn gravity(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let (label, gravity) = derived.mass_laws.gravity.as_ref()?;
+    let name = local_of_datum(*gravity);
+    Some(quote!(__warnings.gravity(#label, #name);))
 }
 
 /// Diagonals of added masses.
 fn added_masses(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
-    let subject = &derived.subject;
-    let find = |written: &BodyData<'_>| {
-        let link = &subject.system.scene.tree.links[written.link];
-        let matrix = link.body()?.added_mass.as_ref()?;
-        let label = subject.given.role_name(written.name.as_ref(), Role::AddedMass);
-        let diagonal: Vec<Expr<'_>> = (0..6).map(|i| matrix[i][i]).collect();
-        let (compute, values) = of_parameters(derived, symbols, &diagonal)?;
+    let find = |(label, diagonal): &(String, Vec<Expr<'_>>)| {
+        let (compute, values) = of_parameters(derived, symbols, diagonal)?;
         Some(quote!({ #compute __warnings.added_mass(#label, &[#(#values),*]); }))
     };
-    subject.given.mass_data.bodies.iter().filter_map(find).collect()
+    derived.mass_laws.added_masses.iter().filter_map(find).collect()
 }
 
 /// The values of expressions of parameters; `None` where the state enters.

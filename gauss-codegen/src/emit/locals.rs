@@ -5,9 +5,10 @@ use quote::{format_ident, quote};
 
 use crate::algebra::Map;
 use crate::kernel::Program;
+use crate::mass_laws::Datum;
 use crate::mechanics::QuantityValues;
 use crate::terms::{Field, Role, Shape};
-use crate::translate::{ClauseValue, Given, Part, Source};
+use crate::translate::{ClauseValue, Part, Source};
 
 use super::derived::Derived;
 use super::program::statements;
@@ -18,7 +19,7 @@ pub fn local(field: usize, part: &str) -> Ident {
 }
 
 /// The word of a part of a rigid body: the field of `RigidBody` and the end of the local.
-pub fn part(quantity: Role) -> &'static str {
+fn part(quantity: Role) -> &'static str {
     match quantity {
         Role::Mass => "mass",
         Role::CenterOfMass => "center_of_mass",
@@ -89,10 +90,14 @@ fn read_field(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream
     }
 }
 
-/// The local of what plays a role of the body without a name.
-pub fn local_of(given: &Given<'_>, role: Role) -> Option<Ident> {
-    let field = given.item.fields.iter().position(|f| f.role == Some(role)).map(|k| local(k, ""));
-    field.or_else(|| given.mass_data.unnamed(role).map(|_| local_of_clause(role)))
+/// The local of what a law is about.
+pub fn local_of_datum(datum: Datum) -> Ident {
+    match datum {
+        Datum::Field(field) => local(field, ""),
+        Datum::Part(field, role) => local(field, part(role)),
+        Datum::Clause(role) => local_of_clause(role),
+        Datum::Own(role) => format_ident!("__b{}", role.word(), span = Span::mixed_site()),
+    }
 }
 
 /// `let name = …;`: the value, or the array of components.

@@ -1,21 +1,22 @@
 //! Checks of mass data in `kernel()`, as the laws say.
 
 use proc_macro2::{Ident, Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
 use crate::algebra::{Map, Rational};
 use crate::kernel::Program;
 use crate::mass_laws::{Datum, Group, InertiaRule, InertiaRules, MassLaw, MassRule};
-use crate::terms::{Role, Shape};
+use crate::terms::Shape;
 
 use super::derived::Derived;
-use super::locals::{clause_local, local, local_of_clause, part};
+use super::locals::{clause_local, local_of_datum};
 use super::program::statements;
 
 /// Checks, group by group; a group with values of its own has them as locals of a block.
 pub fn checked<'g>(derived: &Derived<'_, 'g>, groups: &[Group<'g>], symbols: &Map<u32, TokenStream>) -> TokenStream {
     let group = |Group { values, laws }: &Group<'g>| {
-        let read = values.iter().map(|own| clause_local(derived, &own_local(own.quantity), own, symbols));
+        let read =
+            values.iter().map(|own| clause_local(derived, &local_of_datum(Datum::Own(own.quantity)), own, symbols));
         let checks: TokenStream = laws.iter().map(|law| check(derived, law, symbols)).collect();
         match values.is_empty() {
             true => checks,
@@ -29,19 +30,19 @@ fn check<'g>(derived: &Derived<'_, 'g>, law: &MassLaw<'g>, symbols: &Map<u32, To
     let label = &law.label;
     match &law.rule {
         MassRule::Mass(mass) => {
-            let mass = read(*mass);
+            let mass = local_of_datum(*mass);
             quote!(__check.mass(#label, #mass);)
         }
         MassRule::MassInSum(mass) => {
-            let mass = read(*mass);
+            let mass = local_of_datum(*mass);
             quote!(__check.mass_in_sum(#label, #mass);)
         }
         MassRule::NonNegative(number) => {
-            let number = read(*number);
+            let number = local_of_datum(*number);
             quote!(__check.non_negative(#label, #number);)
         }
         MassRule::Finite(datum, shape) => {
-            let name = read(*datum);
+            let name = local_of_datum(*datum);
             match shape {
                 Shape::Scalar => quote!(__check.finite(#label, &[#name]);),
                 Shape::Vector3 | Shape::Vector6 => quote!(__check.finite(#label, &#name);),
@@ -49,7 +50,7 @@ fn check<'g>(derived: &Derived<'_, 'g>, law: &MassLaw<'g>, symbols: &Map<u32, To
             }
         }
         MassRule::Symmetric(matrix) => {
-            let matrix = read(*matrix);
+            let matrix = local_of_datum(*matrix);
             quote!(__check.symmetric(#label, &#matrix);)
         }
         MassRule::Inertia(rules) => inertia(derived, label, rules),
@@ -66,27 +67,15 @@ fn check<'g>(derived: &Derived<'_, 'g>, law: &MassLaw<'g>, symbols: &Map<u32, To
     }
 }
 
-/// The local of what a law is about.
-fn read(datum: Datum) -> Ident {
-    match datum {
-        Datum::Field(field) => local(field, ""),
-        Datum::Part(field, role) => local(field, part(role)),
-        Datum::Clause(role) => local_of_clause(role),
-        Datum::Own(role) => own_local(role),
-    }
-}
-
-fn own_local(role: Role) -> Ident {
-    format_ident!("__b{}", role.word(), span = Span::mixed_site())
-}
-
 fn inertia(derived: &Derived<'_, '_>, label: &str, rules: &InertiaRules) -> TokenStream {
     let zero = derived.scalar().number(&Rational::zero());
     let mass = rules.mass.map_or_else(|| zero.clone(), quote_local);
     let center = rules.center.map_or_else(|| quote!([#zero; 3]), quote_local);
     let (name, rows) = match rules.tensor {
-        Datum::Part(..) => (read(rules.tensor), None),
-        tensor => (Ident::new("__inertia", Span::call_site()), Some(rows(derived, rules.shape, &read(tensor)))),
+        Datum::Part(..) => (local_of_datum(rules.tensor), None),
+        tensor => {
+            (Ident::new("__inertia", Span::call_site()), Some(rows(derived, rules.shape, &local_of_datum(tensor))))
+        }
     };
     let check = |rule: &InertiaRule| match rule {
         InertiaRule::Alone => quote!(__check.inertia(#label, &#name);),
@@ -113,7 +102,7 @@ fn inertia(derived: &Derived<'_, '_>, label: &str, rules: &InertiaRules) -> Toke
 }
 
 fn quote_local(datum: Datum) -> TokenStream {
-    let name = read(datum);
+    let name = local_of_datum(datum);
     quote!(#name)
 }
 
