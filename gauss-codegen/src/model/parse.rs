@@ -49,8 +49,8 @@ pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
     context.finish(model)
 }
 
-/// Puts the clauses of a robot's file before those of the struct. `None` without a file, or where it has a mistake, which
-/// is noted.
+/// Puts the clauses of a robot's file before those of the struct. `None` without a file, or where it has a mistake,
+/// which is noted.
 fn robot_of_file(
     robot: &RobotClauses,
     reader: &Reader<'_>,

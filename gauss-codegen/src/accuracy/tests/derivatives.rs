@@ -81,7 +81,7 @@ fn losses_there(scene: &str, fields: &[(&str, f64)], configuration: &[f64], spee
     let configuration: Vec<Vec<f64>> = configuration.iter().map(|number| vec![*number]).collect();
     let values = |derived: &Derived<'_, '_>| {
         let of_field = |name: &str| fields.iter().find(|(field, _)| *field == name).map(|(_, value)| *value);
-        let sources = derived.subject.sources.iter();
+        let sources = derived.subject.given.sources.iter();
         let of_fields = sources.map(|source| (source.symbol.key(), of_field(&print(source.symbol, Notation::Text))));
         let mut values = values_of(derived, &configuration, speeds.iter().copied());
         values.extend(of_fields.map(|(key, value)| (key, value.expect("a value of every field"))));
