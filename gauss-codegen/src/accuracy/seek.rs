@@ -51,8 +51,8 @@ pub(super) struct Best {
     pub state: usize,
 }
 
-/// Steps that all states together may take, of functions and then of derivatives, and the least and the largest number
-/// of states; those of derivatives may be fewer.
+/// Steps that all states together may take, of functions and then of all derivatives, and the least and the largest
+/// number of states; those of derivatives may be fewer.
 const STEPS: usize = 100_000;
 const LEAST: usize = 24;
 const MOST: usize = 96;
@@ -263,11 +263,12 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         besides: &mut [Vec<Best>],
         traces: &mut [Trace; 2],
     ) {
-        for k in 1..self.besides.len() {
+        let derivatives = 1..self.besides.len();
+        for k in derivatives.clone() {
             let goal = Goal { lists: &self.besides[k..=k], steps: self.spans[k].clone() };
             let known = drafts.len();
             let mut best = [worst(&besides[k]).unwrap_or_default()];
-            let tries = (STEPS / (self.ends[0] + goal.steps.len()).max(1)).min(MOST);
+            let tries = (STEPS / (self.ends[0] + goal.steps.len()).max(1)).min(MOST) / derivatives.len();
             self.search(&goal, tries, drafts, &mut best, &mut traces[0]);
             let [Best { state, .. }] = best;
             if state >= known {
