@@ -216,3 +216,13 @@ fn masses_beyond_the_domain_of_a_root() {
                    and kinematics are inside their domains, and whether every speed moves something";
     check(source, &[("Scene", message)]);
 }
+
+/// Moments of inertia that no body has at any state that is tried: what cannot be measured is still derived.
+#[test]
+fn bodies_that_no_sample_can_have() {
+    let source = "#[gauss(linearize, regressor, coordinates(a), \
+        body(arm, rotation = rotation_y(a), mass = m, center_of_mass = [0, 0, -c], inertia = [m * c, k / 1000, 1000 * k]))] \
+        struct Scene { m: f64, c: f64, k: f64 }";
+    let input: syn::DeriveInput = syn::parse_str(source).expect("the source is a struct");
+    assert!(gauss_codegen::expand(&input).is_ok());
+}

@@ -271,8 +271,9 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
             let tries = (STEPS / (self.ends[0] + goal.steps.len()).max(1)).min(MOST) / derivatives.len();
             self.search(&goal, tries, drafts, &mut best, &mut traces[0]);
             let [Best { state, .. }] = best;
-            if state >= known {
-                let (_, losses) = self.losses_at(&drafts[state], traces);
+            // None of them is one that the scene can be in where no sample is.
+            if let Some(draft) = drafts.get(state).filter(|_| state >= known) {
+                let (_, losses) = self.losses_at(draft, traces);
                 for (known, loss) in besides.iter_mut().zip(losses).skip(1) {
                     known.extend(loss.map(|loss| Best { loss, state }));
                 }
