@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use gauss_tests::pages::{keep, repository};
 
 /// Folders whose Markdown pages are read.
-const FOLDERS: [&str; 18] = [
+const FOLDERS: &[&str] = &[
     "",
     "docs",
     "guide/src",
@@ -42,7 +42,7 @@ struct PageOfRepository {
 
 fn pages() -> Vec<PageOfRepository> {
     let mut pages = Vec::new();
-    for folder in FOLDERS {
+    for folder in FOLDERS.iter().copied() {
         let entries = fs::read_dir(repository().join(folder)).unwrap_or_else(|error| panic!("{folder}: {error}"));
         for entry in entries {
             let path = entry.expect("an entry").path();
