@@ -6,6 +6,10 @@ use proc_macro2::TokenStream;
 /// A mistake that blames this library, or code that is no Rust. Panics are left to whoever calls.
 pub fn fault(tokens: TokenStream) -> Option<String> {
     let input = item(tokens).ok()?;
+    // Which syn reads and rustc refuses, before it asks any derive.
+    if input.generics.type_params().any(|parameter| parameter.ident == "_") {
+        return None;
+    }
     let code = match expand(&input) {
         Ok(code) => code,
         Err(mistakes) => {
