@@ -2,11 +2,11 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::function::{BinaryFunction, Function};
-use super::graph::{Expr, NodeView};
-use super::map::Map;
-use super::node::{Id, Node};
-use super::rational::Rational;
+use crate::algebra::expressions::function::{BinaryFunction, Function};
+use crate::algebra::expressions::graph::{Expr, NodeView};
+use crate::algebra::expressions::node::{Id, Node};
+use crate::algebra::map::Map;
+use crate::algebra::rational::Rational;
 
 /// What expressions are evaluated in, and a program can be run on: `f64`, `f32`, and with a few lines dual numbers,
 /// intervals or numbers of more digits.

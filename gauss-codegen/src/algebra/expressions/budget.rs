@@ -15,7 +15,7 @@ const TERMS: u64 = 1_000_000;
 
 /// What is left.
 #[derive(Clone)]
-pub(super) struct Budget {
+pub(in crate::algebra) struct Budget {
     /// Nodes and edges, and how many there may be.
     size: Cell<usize>,
     most: Cell<usize>,
@@ -61,12 +61,12 @@ impl Budget {
     }
 
     /// Takes the work of multiplying terms; false when nothing is left.
-    pub(super) fn may_multiply(&self, work: u64) -> bool {
+    pub(in crate::algebra) fn may_multiply(&self, work: u64) -> bool {
         spend(&self.terms, work)
     }
 
     /// Takes the work of rewriting a term; false when nothing is left.
-    pub(super) fn may_rewrite(&self, work: u64) -> bool {
+    pub(in crate::algebra) fn may_rewrite(&self, work: u64) -> bool {
         spend(&self.rewritings, work)
     }
 }

@@ -3,8 +3,8 @@
 
 use std::cmp::Ordering;
 
-use super::evaluate::Number;
-use super::function::{BinaryFunction, Function};
+use crate::algebra::expressions::function::{BinaryFunction, Function};
+use crate::algebra::numbers::evaluate::Number;
 
 /// Numbers in base two of more digits than a double.
 pub trait ManyDigits: Number {

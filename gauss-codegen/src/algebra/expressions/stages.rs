@@ -2,9 +2,9 @@
 
 use std::cell::RefCell;
 
-use super::graph::{Expr, Graph};
-use super::map::Set;
-use super::node::Id;
+use crate::algebra::expressions::graph::{Expr, Graph};
+use crate::algebra::expressions::node::Id;
+use crate::algebra::map::Set;
 
 /// Levels that recursions go down at once.
 const BAND: u32 = 400;
@@ -33,7 +33,7 @@ impl Graph {
     }
 
     /// All that expressions are made of, they too; parts come before what is made of them.
-    pub(super) fn reached(&self, roots: &[Id], parts: impl Fn(&Self, Id) -> Vec<Id>) -> Vec<Id> {
+    pub(in crate::algebra) fn reached(&self, roots: &[Id], parts: impl Fn(&Self, Id) -> Vec<Id>) -> Vec<Id> {
         let (mut seen, mut found, mut open) = (Set::default(), Vec::new(), roots.to_vec());
         while let Some(id) = open.pop() {
             if seen.insert(id) {

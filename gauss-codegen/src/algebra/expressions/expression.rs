@@ -1,9 +1,9 @@
 //! Properties of an expression, and expressions made from it.
 
-use super::function::{BinaryFunction, Function};
-use super::graph::{Expr, Graph, NodeView, ZERO};
-use super::node::{Id, Node};
-use super::rational::Rational;
+use crate::algebra::expressions::function::{BinaryFunction, Function};
+use crate::algebra::expressions::graph::{Expr, Graph, NodeView, ZERO};
+use crate::algebra::expressions::node::{Id, Node};
+use crate::algebra::rational::Rational;
 
 impl<'g> Expr<'g> {
     pub fn graph(self) -> &'g Graph {

@@ -4,12 +4,12 @@
 //! as another one, or as a length, and a small rest: `√u = l + (u − l²)/(√u + l)`, with the difference under it
 //! multiplied out (for two central fields that is the form of Encke).
 
-use super::function::Function;
-use super::graph::{Expr, Graph, NodeView};
-use super::map::Map;
-use super::node::{Id, Node};
-use super::polynomial::{Expander, Monomial, Polynomial};
-use super::rational::Rational;
+use crate::algebra::expressions::function::Function;
+use crate::algebra::expressions::graph::{Expr, Graph, NodeView};
+use crate::algebra::expressions::node::{Id, Node};
+use crate::algebra::map::Map;
+use crate::algebra::normal_form::polynomial::{Expander, Monomial, Polynomial};
+use crate::algebra::rational::Rational;
 
 /// Terms of a sum in which roots are brought together, and on the way there.
 const TERMS: usize = 64;

@@ -1,10 +1,10 @@
 //! Derivatives: one recursion serves partial derivatives and derivatives along a flow alike.
 
-use super::function::{BinaryFunction, Function};
-use super::graph::{Expr, NodeView};
-use super::map::Map;
+use crate::algebra::expressions::function::{BinaryFunction, Function};
+use crate::algebra::expressions::graph::{Expr, NodeView};
+use crate::algebra::map::Map;
 
-use super::rational::Rational;
+use crate::algebra::rational::Rational;
 
 /// Derivatives of many expressions along one flow, with what has been differentiated so far.
 pub struct Along<'a, 'g> {

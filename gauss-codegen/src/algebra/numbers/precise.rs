@@ -7,11 +7,11 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use num_bigint::{BigInt, BigUint};
 use num_traits::Signed;
 
-use super::elementary::{self, ManyDigits};
-use super::evaluate::{Number, Scalar};
-use super::function::{BinaryFunction, Function};
-use super::limbs;
-use super::rational::Rational;
+use crate::algebra::expressions::function::{BinaryFunction, Function};
+use crate::algebra::numbers::elementary::{self, ManyDigits};
+use crate::algebra::numbers::evaluate::{Number, Scalar};
+use crate::algebra::numbers::limbs;
+use crate::algebra::rational::Rational;
 
 /// Binary digits of a number.
 const DIGITS: i64 = 256;
@@ -231,9 +231,9 @@ mod tests {
 
     use num_bigint::{BigInt, BigUint, Sign};
 
-    use super::super::evaluate::{Number, Scalar};
-    use super::super::{BinaryFunction, Function, Rational};
     use super::{DIGITS, Precise};
+    use crate::algebra::numbers::evaluate::{Number, Scalar};
+    use crate::algebra::{BinaryFunction, Function, Rational};
 
     const POINTS: [f64; 9] = [1e-30, 3.7e-9, 0.02, 0.7, 1.0, 2.5, 31.4, 690.0, 1.234e8];
 

@@ -3,11 +3,11 @@
 use std::cell::{Cell, Ref, RefCell};
 use std::rc::Rc;
 
-use super::budget::Budget;
-use super::function::{BinaryFunction, Function, OwnFunction};
-use super::map::{Key, Places};
-use super::node::{Id, Node};
-use super::rational::Rational;
+use crate::algebra::expressions::budget::Budget;
+use crate::algebra::expressions::function::{BinaryFunction, Function, OwnFunction};
+use crate::algebra::expressions::node::{Id, Node};
+use crate::algebra::map::{Key, Places};
+use crate::algebra::rational::Rational;
 
 /// What a symbol stands for, as far as algebra cares: its names, and whether it is fixed once the parameters are known.
 #[derive(Clone, Debug)]
@@ -53,7 +53,7 @@ pub struct Graph {
     nodes: RefCell<Vec<Node>>,
     traits: RefCell<Vec<Traits>>,
     /// How much more may be made of it.
-    pub(super) budget: Budget,
+    pub(in crate::algebra) budget: Budget,
     index: RefCell<Places>,
     symbols: RefCell<Vec<Symbol>>,
     /// Names of functions of the user's own.
@@ -64,8 +64,8 @@ pub struct Graph {
 /// An expression: a node of a graph. Copies are free and equality is structural.
 #[derive(Clone, Copy)]
 pub struct Expr<'g> {
-    pub(super) graph: &'g Graph,
-    pub(super) id: Id,
+    pub(in crate::algebra) graph: &'g Graph,
+    pub(in crate::algebra) id: Id,
 }
 
 impl Graph {
@@ -120,16 +120,16 @@ impl Graph {
         (0..nodes.len() as Id).filter(|&id| matches!(nodes[id as usize], Node::Symbol(_))).collect()
     }
 
-    pub(super) fn with_symbol<R>(&self, symbol: u32, read: impl FnOnce(&Symbol) -> R) -> R {
+    pub(in crate::algebra) fn with_symbol<R>(&self, symbol: u32, read: impl FnOnce(&Symbol) -> R) -> R {
         read(&self.symbols.borrow()[symbol as usize])
     }
 
-    pub(super) fn any_symbol(&self, holds: impl FnMut(&Symbol) -> bool) -> bool {
+    pub(in crate::algebra) fn any_symbol(&self, holds: impl FnMut(&Symbol) -> bool) -> bool {
         self.symbols.borrow().iter().any(holds)
     }
 
     /// What a group is a group of.
-    pub(super) fn ungrouped(&self, mut id: Id) -> Id {
+    pub(in crate::algebra) fn ungrouped(&self, mut id: Id) -> Id {
         while let Node::Group(inner) | Node::Opaque(inner) = self.node(id) {
             id = inner;
         }
@@ -229,20 +229,20 @@ impl Graph {
     }
 
     /// True when every symbol in it is constant.
-    pub(super) fn is_constant(&self, id: Id) -> bool {
+    pub(in crate::algebra) fn is_constant(&self, id: Id) -> bool {
         self.traits.borrow()[id as usize].constant
     }
 
-    pub(super) fn node(&self, id: Id) -> Node {
+    pub(in crate::algebra) fn node(&self, id: Id) -> Node {
         self.nodes.borrow()[id as usize].clone()
     }
 
     /// All nodes there are; none can be made meanwhile.
-    pub(super) fn nodes(&self) -> Ref<'_, Vec<Node>> {
+    pub(in crate::algebra) fn nodes(&self) -> Ref<'_, Vec<Node>> {
         self.nodes.borrow()
     }
 
-    pub(super) fn expr(&self, id: Id) -> Expr<'_> {
+    pub(in crate::algebra) fn expr(&self, id: Id) -> Expr<'_> {
         Expr { graph: self, id }
     }
 
@@ -390,7 +390,7 @@ impl Graph {
     }
 
     /// The rational content of a sum: greatest common divisor of the coefficients, with the sign of the first.
-    pub(super) fn content(&self, terms: &[(Rational, Id)]) -> Rational {
+    pub(in crate::algebra) fn content(&self, terms: &[(Rational, Id)]) -> Rational {
         let mut content = Rational::zero();
         for &(c, _) in terms {
             content = content.common_divisor(c);

@@ -3,8 +3,8 @@
 use std::iter::Sum;
 use std::ops::{Add, Mul, Neg, Sub};
 
-use super::graph::{Expr, ONE, ZERO};
-use super::rational::Rational;
+use crate::algebra::expressions::graph::{Expr, ONE, ZERO};
+use crate::algebra::rational::Rational;
 
 impl<'g> Add for Expr<'g> {
     type Output = Self;

@@ -3,9 +3,9 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::evaluate::{Number, Scalar};
-use super::function::{BinaryFunction, Function};
-use super::rational::Rational;
+use crate::algebra::expressions::function::{BinaryFunction, Function};
+use crate::algebra::numbers::evaluate::{Number, Scalar};
+use crate::algebra::rational::Rational;
 
 /// A value and its rate along a direction.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]

@@ -1,16 +1,16 @@
 //! Numbers of two doubles, of 106 binary digits: what the results of programs in double precision are compared with.
-//! Twenty operations of the machine each, where [`Precise`](super::Precise) allocates.
+//! Twenty operations of the machine each, where [`Precise`] allocates.
 //!
 //! Sums and products after Dekker (1971) and Joldes, Muller & Popescu, Tight and rigorous error bounds for basic
 //! building blocks of double-word arithmetic (2017): the error is some units of 2⁻¹⁰⁴.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::elementary::{self, ManyDigits};
-use super::evaluate::{Number, Scalar};
-use super::function::{BinaryFunction, Function};
-use super::precise::Precise;
-use super::rational::Rational;
+use crate::algebra::expressions::function::{BinaryFunction, Function};
+use crate::algebra::numbers::elementary::{self, ManyDigits};
+use crate::algebra::numbers::evaluate::{Number, Scalar};
+use crate::algebra::numbers::precise::Precise;
+use crate::algebra::rational::Rational;
 
 /// The unevaluated sum of a double and of another one below half a unit in its last place.
 #[derive(Clone, Copy, Debug)]
@@ -161,9 +161,9 @@ impl PartialOrd for Doubled {
 
 #[cfg(test)]
 mod tests {
-    use super::super::evaluate::{Number, Scalar};
-    use super::super::{BinaryFunction, Function, Rational};
     use super::{Doubled, Precise};
+    use crate::algebra::numbers::evaluate::{Number, Scalar};
+    use crate::algebra::{BinaryFunction, Function, Rational};
 
     fn exact(x: Doubled) -> Precise {
         Precise::number(x.high) + Precise::number(x.low)

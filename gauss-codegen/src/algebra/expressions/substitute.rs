@@ -2,10 +2,10 @@
 
 use std::cell::RefCell;
 
-use super::graph::Expr;
-use super::map::Map;
-use super::node::{Id, Node};
-use super::rational::Rational;
+use crate::algebra::expressions::graph::Expr;
+use crate::algebra::expressions::node::{Id, Node};
+use crate::algebra::map::Map;
+use crate::algebra::rational::Rational;
 
 impl<'g> Expr<'g> {
     /// Rebuilds the expression with some symbols replaced. Groups stay groups.

@@ -1,11 +1,11 @@
 //! Normal forms with squares of cosines in the place of `1 − sin²`, whose digits cancel near quarter turns.
 
-use super::function::Function;
-use super::graph::{Expr, Graph, NodeView};
-use super::map::Map;
-use super::node::{Id, Node};
-use super::polynomial::{Monomial, Polynomial};
-use super::rational::Rational;
+use crate::algebra::expressions::function::Function;
+use crate::algebra::expressions::graph::{Expr, Graph, NodeView};
+use crate::algebra::expressions::node::{Id, Node};
+use crate::algebra::map::Map;
+use crate::algebra::normal_form::polynomial::{Monomial, Polynomial};
+use crate::algebra::rational::Rational;
 
 impl<'g> Polynomial<'g> {
     /// Back to an expression as [`collect`](Self::collect), with `cos²` for `1 − sin²` in sums and in denominators.

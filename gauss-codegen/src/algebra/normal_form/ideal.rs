@@ -1,9 +1,9 @@
 //! Normal forms modulo an ideal, for proofs: with a Gröbner basis of a rotation matrix's relations two expressions in R
 //! are equal exactly when their normal forms are.
 
-use super::graph::{Expr, Graph};
-use super::polynomial::{Monomial, Polynomial};
-use super::rational::Rational;
+use crate::algebra::expressions::graph::{Expr, Graph};
+use crate::algebra::normal_form::polynomial::{Monomial, Polynomial};
+use crate::algebra::rational::Rational;
 
 /// A Gröbner basis (graded lexicographic order).
 pub struct Ideal<'g> {

@@ -2,15 +2,15 @@
 
 use std::rc::Rc;
 
-use super::function::{BinaryFunction, Function};
-use super::map::{Key, joined};
-use super::rational::Rational;
+use crate::algebra::expressions::function::{BinaryFunction, Function};
+use crate::algebra::map::{Key, joined};
+use crate::algebra::rational::Rational;
 
 /// Index of a node in its graph. Children always have smaller indices than their parents.
-pub(super) type Id = u32;
+pub(in crate::algebra) type Id = u32;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Node {
+pub(in crate::algebra) enum Node {
     Number(Rational),
     Symbol(u32),
     /// Σ cᵢ eᵢ, sorted by index, coefficients nonzero; a constant term is a multiple of the number one.
@@ -65,7 +65,7 @@ impl Key for Node {
 
 impl Node {
     /// What it is made of.
-    pub(super) fn children(&self) -> Vec<Id> {
+    pub(in crate::algebra) fn children(&self) -> Vec<Id> {
         match self {
             Node::Number(_) | Node::Symbol(_) => Vec::new(),
             Node::Sum(terms) => terms.iter().map(|&(_, id)| id).collect(),

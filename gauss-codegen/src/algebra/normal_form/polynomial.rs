@@ -9,11 +9,11 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::function::Function;
-use super::graph::{Expr, Graph, NodeView};
-use super::map::Map;
-use super::node::{Id, Node};
-use super::rational::Rational;
+use crate::algebra::expressions::function::Function;
+use crate::algebra::expressions::graph::{Expr, Graph, NodeView};
+use crate::algebra::expressions::node::{Id, Node};
+use crate::algebra::map::Map;
+use crate::algebra::rational::Rational;
 
 /// Π atomᵢ^nᵢ, sorted by atom, exponents nonzero.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
