@@ -15,10 +15,10 @@ use crate::program::ArgumentKind;
 use crate::terms::{Item, Scalar};
 use crate::words::Unraw;
 
-use super::arguments::{Argument, arguments_of, declare, declared, variable};
-use super::packs::{Packs, Sources, are_wanted};
-use super::program::{ScalarTokens, statements};
-use super::subject::Subject;
+use crate::emit::dialect::arguments::{Argument, arguments_of, declare, declared, variable};
+use crate::emit::dialect::packs::{Packs, Sources, are_wanted};
+use crate::emit::dialect::program::{ScalarTokens, statements};
+use crate::emit::subject::Subject;
 
 /// `__private_` and the version of this crate, which is that of the runtime.
 pub const PRIVATE: &str = concat!(
