@@ -104,7 +104,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             speeds: &system.scene.speeds,
             speed_rates: &system.scene.speed_rates,
             momenta: &system.scene.momenta,
-            twist: system.rigid_body().map_or(&[], |body| &body.twist),
+            twist: system.twist(),
             residuals: &constraints.residuals,
             inputs: &system.scene.inputs,
             weights: self.weights,

@@ -79,7 +79,7 @@ impl<'g> System<'g> {
         let at_rest = system.at_rest();
         let mut velocities = system.constraints.on_velocities.clone();
         // The velocities of a free link are homogeneous in its speeds.
-        if system.lone_link().is_none() {
+        if system.balance_of_all().is_none() {
             velocities.extend(system.momentum());
             velocities.push(system.scene.tree.twice_kinetic_energy());
         }
@@ -97,7 +97,7 @@ impl<'g> System<'g> {
     }
 
     fn mass_matrix(&self) -> Vec<Vec<Expr<'g>>> {
-        if let Some(body) = self.lone_link().filter(|_| self.constraints.is_empty()) {
+        if let Some(body) = self.balance_of_all().filter(|_| self.constraints.is_empty()) {
             let entries = body.mass_matrix(&body.momentum());
             return entries.chunks(self.scene.speeds.len()).map(<[Expr<'g>]>::to_vec).collect();
         }
@@ -109,36 +109,23 @@ impl<'g> System<'g> {
         self.free.iter_mut().for_each(FreeLink::forget);
     }
 
-    /// The free link that is all of the system.
-    pub fn lone_link(&self) -> Option<&FreeLink<'g>> {
+    /// The free link whose balance is that of the whole system: its only link, moved by all speeds. Equations are then
+    /// formed in its body axes, and not as sums over links.
+    pub fn balance_of_all(&self) -> Option<&FreeLink<'g>> {
         match self.free.as_slice() {
             [body] if body.block.len() == self.scene.speeds.len() && self.scene.tree.links.len() == 1 => Some(body),
             _ => None,
         }
     }
 
-    /// The body that is all of the system, where the configuration is known to be its pose: in a chart, or with the
-    /// pose or the rotation for its only coordinate.
-    pub fn rigid_body(&self) -> Option<&FreeLink<'g>> {
-        let body = self.lone_link().filter(|_| self.constraints.is_empty())?;
-        let placed = match self.scene.coordinates.as_slice() {
-            [coordinate] => body.is_placed_by(coordinate),
-            _ => false,
-        };
-        (placed || self.scene.chart().is_some()).then_some(body)
+    /// Whether ∂C/∂ż is the sum over links and nothing else: without multipliers, and not the balance of one free link.
+    pub fn is_sum_over_links(&self) -> bool {
+        self.constraints.is_empty() && self.balance_of_all().is_none()
     }
 
     pub fn formulas(&self) -> Formulas<'g> {
-        let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
         let mut formulas = self.arranged();
-        if let Some(body) = self.rigid_body() {
-            formulas.extend([
-                single(Method::BodyTwist, body.kinematics.body_twist().to_vec()),
-                single(Method::Speeds, body.speeds_of_twist()),
-                single(Method::BodyMomentum, body.body_momentum()),
-            ]);
-            formulas.extend(body.regularity().map(|outputs| single(Method::Regularity, outputs)));
-        }
+        formulas.extend(self.formulas_by_pose());
         if !self.constraints.is_empty() {
             formulas.extend(self.constraint_formulas());
         }
@@ -238,7 +225,7 @@ impl<'g> System<'g> {
 
     /// `∫∂v_P/∂z·dF` of the elements alone.
     pub fn element_forces(&self) -> Vec<Expr<'g>> {
-        if let Some(body) = self.lone_link() {
+        if let Some(body) = self.balance_of_all() {
             return body.load_forces();
         }
         self.element_forces_in_general()
@@ -250,7 +237,7 @@ impl<'g> System<'g> {
 
     /// ∂C/∂ż of the unconstrained C without the elements of what acts: inertia, weight and buoyancy.
     pub fn inertial_residuals(&self) -> Vec<Vec<Expr<'g>>> {
-        if let Some(body) = self.lone_link() {
+        if let Some(body) = self.balance_of_all() {
             return body.inertial_residuals();
         }
         let tree = self.tree();
@@ -386,7 +373,7 @@ impl<'g> System<'g> {
     }
 
     fn elements_of<'a>(&self, tree: &'a Tree<'g>) -> Option<Elements<'a, 'g>> {
-        let several = self.scene.speeds.len() > 1 && self.lone_link().is_none();
+        let several = self.scene.speeds.len() > 1 && self.balance_of_all().is_none();
         let lengths = if several { self.lengths() } else { Vec::new() };
         let far = |a: &Vector<'g>| {
             let mut parts = a.body.iter().chain(&a.space);

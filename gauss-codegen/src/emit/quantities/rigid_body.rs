@@ -19,11 +19,10 @@ pub fn rigid_body_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     Some(derived.implementation(quote!(RigidBodySystem), quote!(#placed #twist #momentum)))
 }
 
-/// Of one body in a chart, or where its pose is the only coordinate: both ways are known.
+/// Of one body whose pose is the configuration: both ways are known.
 fn placed_by_chart(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    let system = derived.subject.system;
-    system.rigid_body()?;
-    let (pose, configuration) = pose_bodies(derived, system.scene.chart())?;
+    derived.program(Method::Speeds)?;
+    let (pose, configuration) = pose_bodies(derived, derived.subject.system.scene.chart())?;
     let private = derived.private();
     let speeds = derived.function(Method::Speeds, quote!(Self::Speeds));
     let pose = pose_function(derived, pose);
@@ -41,7 +40,7 @@ fn placed_by_chart(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     })
 }
 
-/// Of one body with coordinates of its own: the way back is found, by what these do to the pose.
+/// Of one body whose pose is a function of the configuration: the inverse is found by its derivatives.
 fn placed_by_coordinates(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (private, speeds) = (derived.private(), derived.degrees_of_freedom());
     let start = derived.subject.unmoved(&derived.private());

@@ -101,7 +101,7 @@ impl<'g> System<'g> {
         directions: &[Rates<'g>],
         right: Option<&[Expr<'g>]>,
     ) -> Vec<AccelerationsWithDerivatives<'g>> {
-        if !self.constraints.is_empty() || self.lone_link().is_some() || !self.rotors_are_plain() {
+        if !self.is_sum_over_links() || !self.rotors_are_plain() {
             return Vec::new();
         }
         let acting = self.acting();
@@ -134,7 +134,7 @@ impl<'g> System<'g> {
         directions: &[Rates<'g>],
         pairs: &[(usize, usize)],
     ) -> Vec<Vec<Expr<'g>>> {
-        if !self.constraints.is_empty() || self.lone_link().is_some() {
+        if !self.is_sum_over_links() {
             return Vec::new();
         }
         let tree = &self.scene.tree;
@@ -160,7 +160,7 @@ impl<'g> System<'g> {
     /// None where the residual is not that of links alone: under constraints it has multipliers that depend on
     /// everything.
     pub fn residuals_with_derivatives(&self, directions: &[Rates<'g>]) -> Vec<Vec<Vec<Expr<'g>>>> {
-        if !self.constraints.is_empty() || self.lone_link().is_some() {
+        if !self.is_sum_over_links() {
             return Vec::new();
         }
         let (tree, beside) = (&self.scene.tree, self.beside());

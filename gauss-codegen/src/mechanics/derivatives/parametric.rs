@@ -42,7 +42,7 @@ impl<'g> System<'g> {
     /// The derivatives of ż along directions of parameters, one after the other, in the ways that are worth trying.
     /// None where the residual is not that of links alone.
     pub fn accelerations_by_parameters(&self, directions: &[Rates<'g>]) -> Vec<Vec<Expr<'g>>> {
-        if !self.constraints.is_empty() || self.lone_link().is_some() || !self.rotors_are_plain() {
+        if !self.is_sum_over_links() || !self.rotors_are_plain() {
             return Vec::new();
         }
         let Some(&inertia) = self.scene.tree.inertias(self.is_long()).first() else { return Vec::new() };

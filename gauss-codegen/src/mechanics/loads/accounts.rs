@@ -53,7 +53,7 @@ impl<'g> System<'g> {
             let outside = (!conservative).then_some(power);
             Account { name: name.to_owned(), conservative, forces: body.project_wrench(wrench), power, outside }
         };
-        let body = self.lone_link();
+        let body = self.balance_of_all();
         let mut accounts = Vec::new();
         if let Some((body, wrench)) = body.and_then(|body| Some((body, body.weight_wrench()?))) {
             accounts.push(by_wrench(body, GRAVITY, true, &wrench));
