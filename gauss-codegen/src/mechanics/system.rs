@@ -281,7 +281,7 @@ impl<'g> System<'g> {
 
     /// ż link by link, with what acts gathered together with what the motion asks for.
     pub(in crate::mechanics) fn gathered_accelerations(&self) -> Vec<Vec<Expr<'g>>> {
-        let articulated = if self.is_long() { Articulated::new(self.tree()) } else { None };
+        let articulated = if self.is_long() { Articulated::eliminated(self.tree()) } else { None };
         let of = |articulated: &Articulated<'_, 'g>, inertia: Inertia| {
             let [relative, taken] = self.gathered(articulated, inertia);
             sums(&relative, &taken)
@@ -327,7 +327,7 @@ impl<'g> System<'g> {
 
     /// A x = right in the ways that are worth trying, with A arranged as given.
     fn solutions(&self, matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Vec<Vec<Expr<'g>>> {
-        let articulated = if self.is_long() { Articulated::new(self.tree()) } else { None };
+        let articulated = if self.is_long() { Articulated::eliminated(self.tree()) } else { None };
         let mut solutions: Vec<Vec<Expr<'g>>> = articulated.iter().map(|a| a.solve(right)).collect();
         if solutions.is_empty() || right.len() <= DENSE {
             solutions.push(solve_symmetric(matrix, right));

@@ -20,8 +20,8 @@ pub(super) enum Factors<'g> {
 impl<'g> Factors<'g> {
     /// The ways that are worth trying.
     pub(super) fn of(system: &System<'g>) -> Vec<Self> {
-        let articulated = if system.is_long() { Articulated::new(&system.scene.tree) } else { None };
-        let mut ways: Vec<Self> = articulated.iter().map(|a| Self::Joints(a.factored())).collect();
+        let articulated = if system.is_long() { Articulated::eliminated(&system.scene.tree) } else { None };
+        let mut ways: Vec<Self> = articulated.iter().map(|a| Self::Joints(a.joint_factors())).collect();
         if ways.is_empty() || system.scene.speeds.len() <= DENSE {
             ways.push(Self::Dense(Factored::new(&system.matrix)));
         }
