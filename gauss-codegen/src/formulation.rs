@@ -1,4 +1,4 @@
-//! From a scene to formulas: the system, checked against the definition, and all that is asked of it.
+//! From a scene to formulas: the system, checked against the definition, and all methods that are wanted.
 
 use proc_macro2::Ident;
 

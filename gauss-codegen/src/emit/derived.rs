@@ -64,7 +64,7 @@ pub struct Formal<'a, 'g> {
     pub twist: &'a [Expr<'g>],
     pub residuals: &'a [Expr<'g>],
     pub inputs: &'a [Expr<'g>],
-    /// Only where second derivatives are asked for.
+    /// Only where second derivatives are wanted.
     pub weights: &'a [Expr<'g>],
 }
 
@@ -152,7 +152,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         }
     }
 
-    /// The names of the frames that are asked for.
+    /// The names of the frames that are wanted.
     pub fn frames(&self) -> &'a [Ident] {
         &self.item().wanted.frames
     }
@@ -206,7 +206,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         Argument { array: quote!(#private::components(#name)), symbols: symbols.to_vec() }
     }
 
-    /// What methods read beside constants and time.
+    /// The arguments of methods other than constants and time.
     pub fn arguments(&self) -> &[Argument<'g>] {
         self.arguments.get_or_init(|| self.all_arguments())
     }

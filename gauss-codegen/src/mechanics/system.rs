@@ -32,7 +32,7 @@ pub struct System<'g> {
     /// Of all elements together.
     pub potential: Option<Expr<'g>>,
     pub forces: Vec<Force<'g>>,
-    /// What acts on links, fields among it.
+    /// Loads on links, fields among them.
     pub(in crate::mechanics) loads: Loads<'g>,
     /// By other poles, where that is shorter.
     working: Option<Working<'g>>,
@@ -134,7 +134,7 @@ impl<'g> System<'g> {
         formulas
     }
 
-    /// What the kernel says of its constraints.
+    /// The methods for constraints: multipliers, residuals, corrections.
     pub fn constraint_formulas(&self) -> Vec<Formula<'g>> {
         let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
         let multipliers = self.arrangements().iter().map(|a| self.acceleration(a).1).collect();
@@ -166,7 +166,7 @@ impl<'g> System<'g> {
         self.scene.is_long()
     }
 
-    /// The links as the sums over them are formed, and what acts on them.
+    /// The links by the poles and in the axes in which sums over them are formed.
     pub(in crate::mechanics) fn tree(&self) -> &Tree<'g> {
         self.working.as_ref().map_or(&self.scene.tree, |working| &working.tree)
     }
@@ -235,7 +235,7 @@ impl<'g> System<'g> {
         sums(&self.tree().loads(self.loads()), &self.other_forces())
     }
 
-    /// ∂C/∂ż of the unconstrained C without the elements of what acts: inertia, weight and buoyancy.
+    /// ∂C/∂ż of the unconstrained C without the elements of the loads: inertia, weight and buoyancy.
     pub fn inertial_residuals(&self) -> Vec<Vec<Expr<'g>>> {
         if let Some(body) = self.balance_of_all() {
             return body.inertial_residuals();
@@ -246,7 +246,7 @@ impl<'g> System<'g> {
         residuals.flat_map(|residual| self.with_tidied(residual)).collect()
     }
 
-    /// Of the potential, and of what acts elsewhere than on links.
+    /// Generalised forces of the potential, and of the forces that are not on links.
     pub(in crate::mechanics) fn other_forces(&self) -> Vec<Expr<'g>> {
         let scene = &self.scene;
         let acting =
@@ -279,7 +279,7 @@ impl<'g> System<'g> {
         (0..self.scene.speeds.len()).map(|speed| held(speed) || geared(speed)).collect()
     }
 
-    /// ż link by link, with what acts gathered together with what the motion asks for.
+    /// ż link by link, with loads gathered together with the forces of inertia.
     pub(in crate::mechanics) fn gathered_accelerations(&self) -> Vec<Vec<Expr<'g>>> {
         let articulated = if self.is_long() { Articulated::eliminated(self.tree()) } else { None };
         let of = |articulated: &Articulated<'_, 'g>, inertia: Inertia| {

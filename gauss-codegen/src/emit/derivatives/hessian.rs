@@ -9,7 +9,7 @@ use crate::methods::DerivativeKind;
 use crate::emit::derived::Derived;
 use crate::emit::dialect::arguments::OF_HESSIAN;
 
-/// The implementation, where it is asked for.
+/// The implementation, where it is wanted.
 pub fn hessian_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let Derivative { program, .. } = derived.kernel.derivative(DerivativeKind::Hessian)?;
     let (private, ty) = (derived.private(), derived.scalar().ty());

@@ -10,7 +10,7 @@ use crate::emit::derivatives::linearized;
 use crate::emit::derived::Derived;
 use crate::emit::dialect::arguments::OF_RESIDUAL;
 
-/// The implementation, where it is asked for.
+/// The implementation, where it is wanted.
 pub fn inverse_linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let Derivative { program, .. } = derived.kernel.derivative(DerivativeKind::OfInverse)?;
     let (private, ty) = (derived.private(), derived.scalar().ty());

@@ -13,7 +13,7 @@ use crate::emit::derivatives::columns::solved_together;
 use crate::emit::derived::Derived;
 use crate::emit::dialect::arguments::OF_EQUATIONS;
 
-/// The implementation, where it is asked for.
+/// The implementation, where it is wanted.
 pub fn linearized_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let Derivative { program, columns: solved, .. } = derived.kernel.derivative(DerivativeKind::ByState)?;
     let (private, ty) = (derived.private(), derived.scalar().ty());

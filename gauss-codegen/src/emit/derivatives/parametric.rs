@@ -10,7 +10,7 @@ use crate::emit::derivatives::linearized::{columns, pattern};
 use crate::emit::derived::Derived;
 use crate::emit::dialect::arguments::OF_EQUATIONS;
 
-/// The derivatives by parameters, where they are asked for.
+/// The derivatives by parameters, where they are wanted.
 pub fn parametric_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let Derivative { program, .. } = derived.kernel.derivative(DerivativeKind::ByParameters)?;
     let (private, ty) = (derived.private(), derived.scalar().ty());

@@ -10,7 +10,7 @@ use crate::emit::derivatives::linearized::{columns, pattern};
 use crate::emit::derived::Derived;
 use crate::emit::dialect::arguments::{OF_REGRESSOR, arguments_of};
 
-/// The regressor, where it is asked for.
+/// The regressor, where it is wanted.
 pub fn inertial_regressor(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let Derivative { program, .. } = derived.kernel.derivative(DerivativeKind::Regressor)?;
     let (private, ty) = (derived.private(), derived.scalar().ty());

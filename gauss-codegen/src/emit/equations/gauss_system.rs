@@ -43,7 +43,7 @@ fn types(derived: &Derived<'_, '_>) -> TokenStream {
     }
 }
 
-/// Of what acts alone: kinematics are smooth where they are regular.
+/// Of the loads alone: kinematics are smooth where they are regular.
 fn smoothness(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let word = match derived.smoothness() {
         Smoothness::Smooth => return None,

@@ -1,4 +1,4 @@
-//! `ForcedSystem`: power and generalised forces of what acts, element by element.
+//! `ForcedSystem`: power and generalised forces of the loads, element by element.
 
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -1,4 +1,4 @@
-//! `FramedSystem`: poses, twists, Jacobians and accelerations of the frames that are asked for, and their names;
+//! `FramedSystem`: poses, twists, Jacobians and accelerations of the frames that are wanted, and their names;
 //! `JacobianRates`.
 
 use proc_macro2::{Ident, TokenStream};

@@ -1,4 +1,4 @@
-//! `CentroidalSystem` and `GravityTorques`: what is asked of the system as a whole.
+//! `CentroidalSystem` and `GravityTorques`: quantities of the system as a whole.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -7,7 +7,7 @@ use crate::mechanics::Method;
 
 use crate::emit::derived::Derived;
 
-/// The implementations, where they are asked for.
+/// The implementations, where they are wanted.
 pub fn of_the_whole(derived: &Derived<'_, '_>) -> TokenStream {
     let centroidal = centroidal(derived);
     let torques = derived.function(Method::GravityTorques, quote!(Self::Speeds));

@@ -206,7 +206,7 @@ fn letters(derived: &Derived<'_, '_>, equations: &str) -> String {
     const HAT: char = '\u{302}';
     let has = |text: &str| equations.contains(text);
     let mut sentences = Vec::new();
-    // Every page of one body says how points are carried to the observer.
+    // Every page of one body has the map of points to the observer.
     if equations.replace(&format!("x{HAT} = R x + b"), "").contains(HAT) {
         sentences.push("Components with a hat are in the observer's axes k, those without in body axes e.".to_owned());
     }
@@ -345,7 +345,7 @@ fn acting(derived: &Derived<'_, '_>) -> String {
     format!("{heading}{}", table(["element", ""], rows))
 }
 
-/// What is asked by the name of a frame.
+/// The quantities of a frame by its name.
 fn frames(derived: &Derived<'_, '_>) -> String {
     let names: Vec<String> = derived.frames().iter().map(|frame| frame.unraw().to_string()).collect();
     let Some(first) = names.first() else { return String::new() };

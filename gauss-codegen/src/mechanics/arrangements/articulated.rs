@@ -23,7 +23,7 @@ use crate::mechanics::matter::moments::Moments;
 
 type Matrix<'g> = [Triple<'g>; 3];
 
-/// `F = linear·a + mixed·α`, `N = mixedᵀ·a + angular·α`: what a motion (a, α) of O asks for.
+/// `F = linear·a + mixed·α`, `N = mixedᵀ·a + angular·α`: the wrench about O that a motion (a, α) of O needs.
 #[derive(Clone, Copy)]
 struct ArticulatedInertia<'g> {
     linear: Matrix<'g>,
@@ -41,7 +41,8 @@ struct JointSpeed<'g> {
     combination: Vec<(usize, Rational)>,
 }
 
-/// A speed of a joint when it is eliminated: its partial velocity, what that asks for, and the reciprocal of the pivot.
+/// A speed of a joint when it is eliminated: its partial velocity, the wrench that this needs, and the reciprocal of
+/// the pivot.
 struct Pivot<'g> {
     speed: usize,
     row: Pair<'g>,
@@ -91,10 +92,10 @@ impl<'a, 'g> Articulated<'a, 'g> {
         self.combinations().solve(right, |right| self.joint_rates(right, nothing.clone(), |_| None))
     }
 
-    /// x with A x = right less what wrenches on the links ask of the speeds: on the way to the root they are gathered
-    /// together with what the motion asks for. Along the axis of a hinge that is then known, and of its motion what is
-    /// relative to the parent is found last; in [`solve`](Self::solve) it is first, since that of all links is wanted
-    /// besides.
+    /// x with A x = right less the wrenches on the links along the speeds: on the way to the root they are gathered
+    /// together with the wrenches that the motion needs. Along the axis of a hinge the sum is then known, and the
+    /// motion relative to the parent is found last; in [`solve`](Self::solve) it is first, since the motion of all
+    /// links is wanted besides.
     pub fn solve_under(&self, wrenches: &Pairs<'g>, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let links = self.tree.links.iter().zip(wrenches);
         let wrenches: Vec<Pair<'g>> =
@@ -349,8 +350,8 @@ impl<'g> Pivot<'g> {
         Self { speed, row, response, armature, inverse }
     }
 
-    /// The component of a motion that the speed is, where it is one and nothing but the links resists: what is asked
-    /// along it is then what acts along it, and the response there the pivot.
+    /// The component of a motion that the speed is, where it is one and nothing but the links resists: the force needed
+    /// along it is then the applied one, and the response there the pivot.
     fn axis(&self) -> Option<usize> {
         let mut there = self.row.0.iter().chain(&self.row.1).enumerate().filter(|(_, e)| !e.is_zero());
         let (axis, value) = there.next()?;

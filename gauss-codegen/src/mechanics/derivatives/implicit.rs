@@ -118,7 +118,7 @@ impl<'g> System<'g> {
         ways.filter_map(way).collect()
     }
 
-    /// What ∂C/∂ż has beside the inertia of links.
+    /// The terms of ∂C/∂ż other than the inertia of links: rotors and loads.
     pub(super) fn beside(&self) -> Vec<Expr<'g>> {
         let (tree, speeds, zero) = (&self.scene.tree, &self.scene.speeds, self.scene.graph.zero());
         let rotors = add_projected(&tree.rotors, speeds, vec![zero; speeds.len()], |rotor| rotor.force(&self.along));
@@ -149,7 +149,7 @@ impl<'g> System<'g> {
         tree.inertias(self.is_long()).iter().filter_map(way).collect()
     }
 
-    /// Generalised forces of what acts but fields, which are accelerations of the observer.
+    /// Generalised forces of the loads without fields, which are accelerations of the observer.
     fn acting(&self) -> Vec<Expr<'g>> {
         let (tree, zero) = (&self.scene.tree, self.scene.graph.zero());
         let nothing = tree.links.iter().map(|link| (link.frame.zero(), [zero; 3])).collect();

@@ -1,4 +1,4 @@
-//! Every method in the arrangements that are worth trying: each says when it applies, and gives candidates.
+//! Every method in the arrangements that are worth trying: each decides whether it applies, and gives candidates.
 
 use crate::algebra::{Expr, Map};
 
@@ -12,7 +12,7 @@ use super::{System, tidied};
 trait Arrangement<'g> {
     fn applies(&self, system: &System<'g>) -> bool;
 
-    /// Candidates of each method, beside those of the arrangements before; none of a method that is not formed so.
+    /// Candidates of each method, added to those of the arrangements before; none of a method that is not formed so.
     fn candidates(&self, system: &System<'g>, before: &Formulas<'g>) -> Formulas<'g>;
 
     /// Whether its candidates are listed first, as those are from which others take rows.
