@@ -1,4 +1,4 @@
-//! From a scene to formulas: the system, checked against the definition, and all that is asked of it.
+//! From a scene to formulas: the system, checked against the definition, and all methods that are wanted.
 
 use proc_macro2::Ident;
 
@@ -52,7 +52,7 @@ impl<'g> Formulation<'g> {
         refuse_exhausted(&given.item, graph)?;
         check_system_against_definition(&system, &Claims::of(&formulas))
             .map_err(|faults| system_faults(&given, &system, &faults))?;
-        formulas.extend(system.formulas_of_one_body().into_iter().flatten());
+        formulas.extend(system.formulas_by_coordinates().into_iter().flatten());
         if let Some(elimination) = &elimination {
             formulas.acceleration.extend(elimination.accelerations());
             formulas.extend(elimination.formulas());

@@ -104,7 +104,7 @@ impl<'g> MassLaws<'g> {
         let gravity = laws.datum(Role::Gravity).filter(|_| given.shape(Role::Gravity) == Some(Shape::Scalar));
         let gravity = gravity.map(|gravity| (given.role_name(None, Role::Gravity), gravity));
         let added_masses = bodies.iter().filter_map(|body| laws.of_added_mass(body)).collect();
-        Self { of_data, of_motions, in_sum: !laws.is_alone(), gravity, added_masses }
+        Self { of_data, of_motions, in_sum: !laws.is_charted_body(), gravity, added_masses }
     }
 }
 
@@ -115,8 +115,9 @@ struct Laws<'a, 'g> {
 }
 
 impl<'g> Laws<'_, 'g> {
-    /// Whether one body is all there is.
-    fn is_alone(&self) -> bool {
+    /// Whether the configuration is the pose of one body in a chart: its mass data then stand by themselves, and are in
+    /// no sum with those of others.
+    fn is_charted_body(&self) -> bool {
         self.scene.chart().is_some()
     }
 
@@ -152,7 +153,7 @@ impl<'g> Laws<'_, 'g> {
     /// Of mass data of the body without a name, and of gravity.
     fn of_role(&self, role: Role, shape: Shape, datum: Datum) -> MassRule<'g> {
         match (role, shape) {
-            (Role::Mass, _) if self.is_alone() => MassRule::Mass(datum),
+            (Role::Mass, _) if self.is_charted_body() => MassRule::Mass(datum),
             (Role::Mass, _) => MassRule::MassInSum(datum),
             (Role::DisplacedMass, _) => MassRule::NonNegative(datum),
             (Role::Inertia | Role::CentralInertia, _) => MassRule::Inertia(self.of_inertia(role, shape, datum)),
@@ -171,7 +172,7 @@ impl<'g> Laws<'_, 'g> {
         let mut center = self.datum(Role::CenterOfMass).filter(|_| !is_held && !is_central);
         let twist = body.map(|body| self.scene.twist_of(body.link)).unwrap_or_default();
         let rules = match twist.as_slice() {
-            _ if !self.is_alone() => vec![self.in_sum(body)],
+            _ if !self.is_charted_body() => vec![self.in_sum(body)],
             // In the plane only the moment about k₃ enters, but all that is given is that of a body.
             [0, 1, 5] => vec![InertiaRule::Planar, InertiaRule::AboutAxis(2)],
             _ if is_central => {

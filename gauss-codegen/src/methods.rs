@@ -15,7 +15,7 @@ pub enum Method {
     ConstraintFunction,
     /// λ; only with constraints.
     Multipliers,
-    /// One for each element of what acts, as are the columns of the generalised forces; dE/dt. Only where there are
+    /// One for each element of the loads, as are the columns of the generalised forces; dE/dt. Only where there are
     /// elements.
     Powers,
     ElementForces,
@@ -27,7 +27,7 @@ pub enum Method {
     /// makes. Only where the configuration is not that pose in a chart of its own.
     Pose,
     PoseByConfiguration,
-    /// A numerator and the square of what it is divided by; only in charts with a singularity.
+    /// A numerator and the square of its denominator; only in charts with a singularity.
     Regularity,
     /// φ of positions, and on the level of velocities; what cancels them to first order. Only with constraints.
     PositionResidual,
@@ -39,7 +39,7 @@ pub enum Method {
     /// π, and the generalised forces that are no part of Y π; only where the regressor is wanted.
     InertialParameters,
     OtherForces,
-    /// Of one frame that is asked for, by its number; of all of them, one after the other.
+    /// Of one frame that is wanted, by its number; of all of them, one after the other.
     OfFrame(FrameQuantity, usize),
     Frames,
     /// Of all matter, by words of `methods(…)`: its mass and centre, momenta about that, and what they depend on.
@@ -53,7 +53,7 @@ pub enum Method {
     GravityTorques,
 }
 
-/// What is asked of a frame. Components are in its own axes, the pole is its origin.
+/// A quantity of a frame. Components are in its own axes, the pole is its origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FrameQuantity {
     /// b and R, row by row, in observer's axes.
@@ -69,7 +69,7 @@ pub enum FrameQuantity {
 }
 
 impl FrameQuantity {
-    /// Those that every frame has which is asked for, in their order.
+    /// Those of every frame that is wanted, in their order.
     pub const ALL: [Self; 4] = [Self::Pose, Self::Twist, Self::Jacobian, Self::Bias];
 
     fn name(self) -> &'static str {

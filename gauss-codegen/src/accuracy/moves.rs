@@ -420,7 +420,7 @@ fn free<'g>(states: &States<'_, 'g>, seen: &Seen<'g>) -> Vec<Free<'g>> {
         }
     }
     free.extend(states.units.iter().flatten().map(|x| of(x, [ANGLES[0], 0.0])));
-    let twist = states.system.rigid_body().map_or(&[][..], |body| &body.twist);
+    let twist = states.system.twist();
     let lists = [&scene.speeds[..], twist, &scene.speed_rates, &scene.inputs, states.weights];
     free.extend(lists.into_iter().flatten().map(|z| of(z, SIZES)));
     free

@@ -171,7 +171,7 @@ impl<'g> States<'_, 'g> {
                 values.put(*b, random.signed(profile.decades) * 10.0_f64.powf(profile.far));
             }
         }
-        let twist = self.system.rigid_body().map_or(&[][..], |body| &body.twist);
+        let twist = self.system.twist();
         let residuals = &self.system.constraints.residuals;
         for symbol in [&scene.speed_rates[..], &scene.inputs, residuals, self.weights].into_iter().flatten() {
             values.put(*symbol, values.random_of(*symbol, seed).signed(profile.decades));

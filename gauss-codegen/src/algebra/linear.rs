@@ -1,7 +1,7 @@
 //! Small linear systems with symbolic entries.
 
-use super::graph::{Expr, NodeView};
-use super::map::Map;
+use crate::algebra::expressions::graph::{Expr, NodeView};
+use crate::algebra::map::Map;
 
 /// Terms that an entry may have while a determinant is brought to normal form.
 const LIMIT: usize = 400;

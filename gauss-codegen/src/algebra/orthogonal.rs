@@ -1,6 +1,6 @@
 //! Least squares with weights that differ by many powers of ten.
 
-use super::graph::Expr;
+use crate::algebra::expressions::graph::Expr;
 
 /// `½ Σ_i w_i (Σ_j B_ij x_j + a_i)² + g_i Σ_j B_ij x_j − f·x` with positive weights, to be minimised without ever
 /// forming `Bᵀ W B`: modified Gram–Schmidt on the columns, those with the fewest entries first, which for trees fills

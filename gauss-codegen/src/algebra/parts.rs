@@ -1,8 +1,8 @@
 //! Common parts of long expressions, under names, so that what is printed is no longer than the graph.
 
-use super::graph::{Expr, Graph};
-use super::map::Map;
-use super::node::{Id, Node};
+use crate::algebra::expressions::graph::{Expr, Graph};
+use crate::algebra::expressions::node::{Id, Node};
+use crate::algebra::map::Map;
 
 /// Leaves up to which an expression is printed as it is.
 const LONG: u64 = 200;

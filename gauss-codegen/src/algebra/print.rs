@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use super::function::{BinaryFunction, Function};
-use super::graph::{Expr, NodeView};
-use super::parts::{Parts, leaves_of};
-use super::rational::Rational;
+use crate::algebra::expressions::function::{BinaryFunction, Function};
+use crate::algebra::expressions::graph::{Expr, NodeView};
+use crate::algebra::parts::{Parts, leaves_of};
+use crate::algebra::rational::Rational;
 
 /// How to write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

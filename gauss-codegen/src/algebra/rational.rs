@@ -9,8 +9,8 @@ use num_bigint::BigInt;
 use num_rational::{BigRational, Ratio};
 use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed, ToPrimitive, Zero};
 
-use super::large;
-use super::map::Key;
+use crate::algebra::large;
+use crate::algebra::map::Key;
 
 /// A fraction. Arithmetic never panics and never overflows; it rounds nothing up to a thousand bits, and by 2⁻²⁵⁶
 /// beyond (see `large.rs`). What has no value, as a quotient by zero, becomes `0/0`, which stays `0/0` and is noticed

@@ -15,10 +15,10 @@ use crate::program::ArgumentKind;
 use crate::terms::{Item, Scalar};
 use crate::words::Unraw;
 
-use super::arguments::{Argument, arguments_of, declare, declared, variable};
-use super::packs::{Packs, Sources, are_wanted};
-use super::program::{ScalarTokens, statements};
-use super::subject::Subject;
+use crate::emit::dialect::arguments::{Argument, arguments_of, declare, declared, variable};
+use crate::emit::dialect::packs::{Packs, Sources, are_wanted};
+use crate::emit::dialect::program::{ScalarTokens, statements};
+use crate::emit::subject::Subject;
 
 /// `__private_` and the version of this crate, which is that of the runtime.
 pub const PRIVATE: &str = concat!(
@@ -64,7 +64,7 @@ pub struct Formal<'a, 'g> {
     pub twist: &'a [Expr<'g>],
     pub residuals: &'a [Expr<'g>],
     pub inputs: &'a [Expr<'g>],
-    /// Only where second derivatives are asked for.
+    /// Only where second derivatives are wanted.
     pub weights: &'a [Expr<'g>],
 }
 
@@ -104,7 +104,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             speeds: &system.scene.speeds,
             speed_rates: &system.scene.speed_rates,
             momenta: &system.scene.momenta,
-            twist: system.rigid_body().map_or(&[], |body| &body.twist),
+            twist: system.twist(),
             residuals: &constraints.residuals,
             inputs: &system.scene.inputs,
             weights: self.weights,
@@ -152,7 +152,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         }
     }
 
-    /// The names of the frames that are asked for.
+    /// The names of the frames that are wanted.
     pub fn frames(&self) -> &'a [Ident] {
         &self.item().wanted.frames
     }
@@ -206,7 +206,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         Argument { array: quote!(#private::components(#name)), symbols: symbols.to_vec() }
     }
 
-    /// What methods read beside constants and time.
+    /// The arguments of methods other than constants and time.
     pub fn arguments(&self) -> &[Argument<'g>] {
         self.arguments.get_or_init(|| self.all_arguments())
     }

@@ -1,69 +1,54 @@
 //! Programs as Rust, equations as documentation.
 //!
-//! | file | what it holds |
+//! | room, file | what it holds |
 //! |---|---|
-//! | `program` | the dialect of Rust that kernels are written in |
-//! | `arguments` | the arguments of every function of a kernel; where the symbols of a program come from: parts of `q`, `z`, `p`, the fields of the kernel |
-//! | `parameters`, `locals`, `assigned`, `inertia`, `laws` | the parameters read, checked, and turned into constants; `warnings()` |
-//! | `subject`, `chart`, `pose` | what is derived: its configuration, its constraints; charts by name; configurations as poses |
-//! | `documentation` | equations and costs as text, LaTeX and rustdoc |
-//! | `file` | the file that a robot was read from, and warnings of what it says in vain |
+//! | `dialect` | the dialect of Rust that kernels are written in; `arguments`: the arguments of every function of a kernel, where the symbols of a program come from: parts of `q`, `z`, `p`, the fields of the kernel; `packs`: vectors |
+//! | `subject`, `chart` | what is derived: its configuration, its constraints; charts by name |
 //! | `derived` | everything known about one derive, and what the implementations are made with |
+//! | `records` | states and inputs by name |
+//! | `equations` | `GaussSystem`, constraints, power series |
+//! | `derivatives` | a file for each kind of derivative; `columns`: solved together |
+//! | `quantities` | powers and forces, frames, the pose of a body, sums over the system |
+//! | `text` | equations and costs as text, LaTeX and rustdoc; the file that a robot was read from, and warnings of what in it has no effect |
+//! | `constructor` | the kernel struct and `kernel()`: parameters read, checked, and turned into constants; `warnings()`; numbers of a robot's file |
+//! | `fallback` | where there are mistakes |
 //!
-//! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and
-//! `kernel()`), `state` and `input` (by name, both `record`s), `of_file` (numbers of a robot's file), `gauss_system`,
-//! `description`, `rigid_body`, `constrained`, `forced`, `framed`, `whole`, `taylor`, `linearized`, `hessian`,
-//! `inverse`, `parametric`, `regressor`; `fallback` where there are mistakes.
+//! Rooms know those above them. One file for each item that is generated, a function from [`Derived`] to tokens.
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
-mod arguments;
 mod chart;
-mod columns;
-mod constrained;
+mod constructor;
+mod derivatives;
 mod derived;
-mod description;
-mod documentation;
+mod dialect;
+mod equations;
 mod fallback;
-mod file;
-mod forced;
-mod framed;
-mod gauss_system;
-mod hessian;
-mod input;
-mod inverse;
-mod kernel;
-mod laws;
-mod linearized;
-mod locals;
-mod mass_laws;
-mod of_file;
-mod packs;
-mod parameters;
-mod parametric;
-mod pose;
-mod program;
-mod record;
-mod regressor;
-mod rigid_body;
+mod quantities;
+mod records;
 #[cfg(test)]
 mod specialisation_tests;
-mod state;
 mod subject;
 #[cfg(test)]
 mod system_tests;
-mod taylor;
 #[cfg(test)]
 mod tests;
-mod whole;
+mod text;
 
-pub use arguments::{OF_EQUATIONS, OF_HESSIAN, OF_REGRESSOR, OF_RESIDUAL, arguments_of};
+pub use derivatives::hessian::blocks;
 pub use derived::Derived;
-pub use documentation::{Equations, figures};
+pub use dialect::arguments::{OF_EQUATIONS, OF_HESSIAN, OF_REGRESSOR, OF_RESIDUAL, arguments_of};
 pub use fallback::fallback;
-pub use file::file;
-pub use hessian::blocks;
+pub use text::documentation::{Equations, figures};
+pub use text::file::file;
+
+use constructor::{kernel, of_file};
+use derivatives::{hessian, inverse, linearized, parametric, regressor};
+use equations::{constrained, gauss_system, taylor};
+use quantities::{forced, framed, rigid_body, whole};
+use records::{input, state};
+use text::description;
 
 /// The whole output of the derive.
 pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {

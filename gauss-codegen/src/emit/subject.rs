@@ -7,8 +7,8 @@ use crate::algebra::Expr;
 use crate::mechanics::{Constraints, Coordinate, Method, System};
 use crate::translate::Given;
 
-use super::arguments::Argument;
-use super::chart::chart_tokens;
+use crate::emit::chart::chart_tokens;
+use crate::emit::dialect::arguments::Argument;
 
 /// What is derived.
 pub struct Subject<'a, 'g> {

@@ -6,8 +6,8 @@ use quote::quote;
 use crate::expand::{expand, expand_without_vectors};
 use crate::terms::Scalar;
 
-use super::derived::PRIVATE;
-use super::program::ScalarTokens;
+use crate::emit::derived::PRIVATE;
+use crate::emit::dialect::program::ScalarTokens;
 
 pub fn generate(source: &str) -> TokenStream {
     let input = syn::parse_str(source).expect("a struct");

@@ -1,4 +1,4 @@
-//! What is asked of frames: each quantity of each, and all of all at once.
+//! Quantities of frames: each of each frame, and all of all frames at once.
 
 use crate::algebra::Expr;
 

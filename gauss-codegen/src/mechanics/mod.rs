@@ -16,8 +16,8 @@
 //! - `print`: the equations for people.
 //!
 //! `scene` is what is given, `system` puts everything together: every method (`formula`) of a kernel, each in several
-//! arrangements; `one_body` where a body is all that has matter, `frames` what is asked of single links, `whole` of all
-//! together. `tidy` is what is multiplied out where that is short.
+//! arrangements; `one_body` defines the body that is all the matter; `frames` has quantities of single links, `whole`
+//! those of all together. `tidy` is what is multiplied out where that is short.
 
 mod arrangements;
 mod check;

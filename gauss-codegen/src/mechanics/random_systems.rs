@@ -106,7 +106,7 @@ impl<'g> Compiled<'g> {
     }
 }
 
-/// Without the accounts of what acts, which say of the same forces what each one does.
+/// Without the accounts of elements, which list the same forces one by one.
 fn formulas_of<'g>(system: &System<'g>) -> Formulas<'g> {
     let accounts = [Method::Powers, Method::ElementForces, Method::SuppliedPower];
     let mut formulas = system.formulas();

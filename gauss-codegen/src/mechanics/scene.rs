@@ -90,12 +90,12 @@ pub struct SystemScene<'g> {
     pub constraints: Vec<Constraint<'g>>,
     /// Values that arrive at run time.
     pub inputs: Vec<Expr<'g>>,
-    /// What acts beside weight and buoyancy.
+    /// Loads other than weight and buoyancy.
     pub elements: Vec<Element<'g>>,
 }
 
 impl<'g> SystemScene<'g> {
-    /// The scene of other bodies, each in place of one. What acts stays as it is.
+    /// The scene of other bodies, each in place of one. Loads stay as they are.
     pub fn of_bodies(&self, other: impl Fn(&Body<'g>) -> Body<'g>) -> Self {
         let matter = |matter: &Matter<'g>| match matter {
             Matter::Body(body) => Matter::Body(Box::new(other(body))),

@@ -32,7 +32,7 @@ pub struct System<'g> {
     /// Of all elements together.
     pub potential: Option<Expr<'g>>,
     pub forces: Vec<Force<'g>>,
-    /// What acts on links, fields among it.
+    /// Loads on links, fields among them.
     pub(in crate::mechanics) loads: Loads<'g>,
     /// By other poles, where that is shorter.
     working: Option<Working<'g>>,
@@ -79,7 +79,7 @@ impl<'g> System<'g> {
         let at_rest = system.at_rest();
         let mut velocities = system.constraints.on_velocities.clone();
         // The velocities of a free link are homogeneous in its speeds.
-        if system.lone_link().is_none() {
+        if system.balance_of_all().is_none() {
             velocities.extend(system.momentum());
             velocities.push(system.scene.tree.twice_kinetic_energy());
         }
@@ -97,7 +97,7 @@ impl<'g> System<'g> {
     }
 
     fn mass_matrix(&self) -> Vec<Vec<Expr<'g>>> {
-        if let Some(body) = self.lone_link().filter(|_| self.constraints.is_empty()) {
+        if let Some(body) = self.balance_of_all().filter(|_| self.constraints.is_empty()) {
             let entries = body.mass_matrix(&body.momentum());
             return entries.chunks(self.scene.speeds.len()).map(<[Expr<'g>]>::to_vec).collect();
         }
@@ -109,36 +109,23 @@ impl<'g> System<'g> {
         self.free.iter_mut().for_each(FreeLink::forget);
     }
 
-    /// The free link that is all of the system.
-    pub fn lone_link(&self) -> Option<&FreeLink<'g>> {
+    /// The free link whose balance is that of the whole system: its only link, moved by all speeds. Equations are then
+    /// formed in its body axes, and not as sums over links.
+    pub fn balance_of_all(&self) -> Option<&FreeLink<'g>> {
         match self.free.as_slice() {
             [body] if body.block.len() == self.scene.speeds.len() && self.scene.tree.links.len() == 1 => Some(body),
             _ => None,
         }
     }
 
-    /// The body that is all of the system, where the configuration is known to be its pose: in a chart, or with the
-    /// pose or the rotation for its only coordinate.
-    pub fn rigid_body(&self) -> Option<&FreeLink<'g>> {
-        let body = self.lone_link().filter(|_| self.constraints.is_empty())?;
-        let placed = match self.scene.coordinates.as_slice() {
-            [coordinate] => body.is_placed_by(coordinate),
-            _ => false,
-        };
-        (placed || self.scene.chart().is_some()).then_some(body)
+    /// Whether ∂C/∂ż is the sum over links and nothing else: without multipliers, and not the balance of one free link.
+    pub fn is_sum_over_links(&self) -> bool {
+        self.constraints.is_empty() && self.balance_of_all().is_none()
     }
 
     pub fn formulas(&self) -> Formulas<'g> {
-        let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
         let mut formulas = self.arranged();
-        if let Some(body) = self.rigid_body() {
-            formulas.extend([
-                single(Method::BodyTwist, body.kinematics.body_twist().to_vec()),
-                single(Method::Speeds, body.speeds_of_twist()),
-                single(Method::BodyMomentum, body.body_momentum()),
-            ]);
-            formulas.extend(body.regularity().map(|outputs| single(Method::Regularity, outputs)));
-        }
+        formulas.extend(self.formulas_by_pose());
         if !self.constraints.is_empty() {
             formulas.extend(self.constraint_formulas());
         }
@@ -147,7 +134,7 @@ impl<'g> System<'g> {
         formulas
     }
 
-    /// What the kernel says of its constraints.
+    /// The methods for constraints: multipliers, residuals, corrections.
     pub fn constraint_formulas(&self) -> Vec<Formula<'g>> {
         let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
         let multipliers = self.arrangements().iter().map(|a| self.acceleration(a).1).collect();
@@ -179,7 +166,7 @@ impl<'g> System<'g> {
         self.scene.is_long()
     }
 
-    /// The links as the sums over them are formed, and what acts on them.
+    /// The links by the poles and in the axes in which sums over them are formed.
     pub(in crate::mechanics) fn tree(&self) -> &Tree<'g> {
         self.working.as_ref().map_or(&self.scene.tree, |working| &working.tree)
     }
@@ -238,7 +225,7 @@ impl<'g> System<'g> {
 
     /// `∫∂v_P/∂z·dF` of the elements alone.
     pub fn element_forces(&self) -> Vec<Expr<'g>> {
-        if let Some(body) = self.lone_link() {
+        if let Some(body) = self.balance_of_all() {
             return body.load_forces();
         }
         self.element_forces_in_general()
@@ -248,9 +235,9 @@ impl<'g> System<'g> {
         sums(&self.tree().loads(self.loads()), &self.other_forces())
     }
 
-    /// ∂C/∂ż of the unconstrained C without the elements of what acts: inertia, weight and buoyancy.
+    /// ∂C/∂ż of the unconstrained C without the elements of the loads: inertia, weight and buoyancy.
     pub fn inertial_residuals(&self) -> Vec<Vec<Expr<'g>>> {
-        if let Some(body) = self.lone_link() {
+        if let Some(body) = self.balance_of_all() {
             return body.inertial_residuals();
         }
         let tree = self.tree();
@@ -259,7 +246,7 @@ impl<'g> System<'g> {
         residuals.flat_map(|residual| self.with_tidied(residual)).collect()
     }
 
-    /// Of the potential, and of what acts elsewhere than on links.
+    /// Generalised forces of the potential, and of the forces that are not on links.
     pub(in crate::mechanics) fn other_forces(&self) -> Vec<Expr<'g>> {
         let scene = &self.scene;
         let acting =
@@ -292,9 +279,9 @@ impl<'g> System<'g> {
         (0..self.scene.speeds.len()).map(|speed| held(speed) || geared(speed)).collect()
     }
 
-    /// ż link by link, with what acts gathered together with what the motion asks for.
+    /// ż link by link, with loads gathered together with the forces of inertia.
     pub(in crate::mechanics) fn gathered_accelerations(&self) -> Vec<Vec<Expr<'g>>> {
-        let articulated = if self.is_long() { Articulated::new(self.tree()) } else { None };
+        let articulated = if self.is_long() { Articulated::eliminated(self.tree()) } else { None };
         let of = |articulated: &Articulated<'_, 'g>, inertia: Inertia| {
             let [relative, taken] = self.gathered(articulated, inertia);
             sums(&relative, &taken)
@@ -340,7 +327,7 @@ impl<'g> System<'g> {
 
     /// A x = right in the ways that are worth trying, with A arranged as given.
     fn solutions(&self, matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Vec<Vec<Expr<'g>>> {
-        let articulated = if self.is_long() { Articulated::new(self.tree()) } else { None };
+        let articulated = if self.is_long() { Articulated::eliminated(self.tree()) } else { None };
         let mut solutions: Vec<Vec<Expr<'g>>> = articulated.iter().map(|a| a.solve(right)).collect();
         if solutions.is_empty() || right.len() <= DENSE {
             solutions.push(solve_symmetric(matrix, right));
@@ -386,7 +373,7 @@ impl<'g> System<'g> {
     }
 
     fn elements_of<'a>(&self, tree: &'a Tree<'g>) -> Option<Elements<'a, 'g>> {
-        let several = self.scene.speeds.len() > 1 && self.lone_link().is_none();
+        let several = self.scene.speeds.len() > 1 && self.balance_of_all().is_none();
         let lengths = if several { self.lengths() } else { Vec::new() };
         let far = |a: &Vector<'g>| {
             let mut parts = a.body.iter().chain(&a.space);

@@ -133,7 +133,7 @@ impl<'g> Charted<'g> {
 
     /// The body as a free link.
     pub fn free(&self) -> &FreeLink<'g> {
-        self.system.lone_link().expect("a body in a chart is free")
+        self.system.balance_of_all().expect("a body in a chart is free")
     }
 }
 

@@ -1,4 +1,4 @@
-//! What is asked of the system as a whole beside its equations: momenta about the centre of mass, what acts at ż = 0,
+//! Quantities of the system as a whole, besides its equations: momenta about the centre of mass, forces at ż = 0,
 //! weights.
 
 use crate::algebra::{Expr, Map};

@@ -1,4 +1,4 @@
-//! What acts, as the user wrote it, in symbols: springs become potentials and dissipation functions, torques with a
+//! Loads, as the user wrote them, in symbols: springs become potentials and dissipation functions, torques with a
 //! reaction two loads, drag a wrench of the velocity relative to the medium.
 
 use std::collections::HashSet;
@@ -50,7 +50,7 @@ impl Names {
 }
 
 impl<'g> Translator<'_, 'g> {
-    /// Everything that acts beside weight and buoyancy, each with where it is written.
+    /// All loads other than weight and buoyancy, each with the place where it is written.
     pub(super) fn elements(&self, tree: &Tree<'g>) -> Result<Vec<(Span, Element<'g>)>> {
         let model = self.model;
         let given = model.forces.iter().filter_map(|clause| clause.name.as_ref());
@@ -261,7 +261,7 @@ impl<'g> Translator<'_, 'g> {
         clause.expression(word).map_or(Ok([self.graph.zero(); 3]), |e| self.vector(e, tree))
     }
 
-    /// The length of what is extended, and its square where no root is needed for that.
+    /// The length between the ends of an element, or along an expression; its square, without a root where possible.
     fn extent(&self, clause: &ForceClause, tree: &Tree<'g>) -> Result<[Expr<'g>; 2]> {
         if let Some(along) = clause.expression(ALONG) {
             let length = self.scalar(along, tree)?;

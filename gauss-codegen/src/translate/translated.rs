@@ -36,7 +36,7 @@ pub struct Given<'g> {
     pub laws: Vec<Law<'g>>,
     /// Mass data and gravity.
     pub mass_data: MassData<'g>,
-    /// The links of the frames that are asked for, in their order.
+    /// The links of the frames that are wanted, in their order.
     pub frames: Vec<usize>,
     /// What the speeds are called.
     pub speeds: Vec<Named>,

@@ -240,7 +240,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         Some(Charted { link: self.links_of_clauses[clause], own: self.model.in_chart?, alone })
     }
 
-    /// What acts on the only body, whose motion a chart describes: translated in terms of symbols for it, so that each
+    /// Loads on the only body, whose motion a chart describes: translated in terms of symbols for it, so that each
     /// part of a wrench stays in the axes where it arises.
     fn elements_on(&self, chart: &ChartedBody<'g>) -> Result<Vec<Element<'g>>> {
         if !self.model.is_acted_upon() {

@@ -163,7 +163,7 @@ fn nothing_behind_the_translation_names_the_model() {
 }
 
 /// Files of `emit` that name the chart of a scene: for people, and where the runtime has functions for each.
-const OF_CHARTS: [&str; 3] = ["emit/chart.rs", "emit/documentation.rs", "emit/pose.rs"];
+const OF_CHARTS: [&str; 3] = ["emit/chart.rs", "emit/quantities/pose.rs", "emit/text/documentation.rs"];
 
 #[test]
 fn emission_does_not_ask_for_the_chart_of_a_scene() {

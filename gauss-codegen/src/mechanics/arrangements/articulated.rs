@@ -6,7 +6,12 @@
 //! joints' own speeds, sums of those of the user, are eliminated in their place.
 //!
 //! This is Gaussian elimination in an order that never forms A, and the *articulated-body inertia* of a link
-//! (Featherstone, Rigid Body Dynamics Algorithms, chapter 7) is what the elimination leaves at it.
+//! (Featherstone, Rigid Body Dynamics Algorithms, chapter 7) is what the elimination leaves at it. His three passes:
+//!
+//! 1. outward: velocities and partial velocities of all links, which a [`Tree`] has;
+//! 2. inward: articulated inertias ([`eliminated`](Articulated::eliminated)), which depend on A alone, and bias forces
+//!    ([`bias_forces`](Articulated::bias_forces)), which depend on r;
+//! 3. outward: accelerations ([`accelerations`](Articulated::accelerations)).
 
 use crate::algebra::{Expr, Factored, FactoredColumns, Rational};
 
@@ -18,7 +23,7 @@ use crate::mechanics::matter::moments::Moments;
 
 type Matrix<'g> = [Triple<'g>; 3];
 
-/// `F = linear·a + mixed·α`, `N = mixedᵀ·a + angular·α`: what a motion (a, α) of O asks for.
+/// `F = linear·a + mixed·α`, `N = mixedᵀ·a + angular·α`: the wrench about O that a motion (a, α) of O needs.
 #[derive(Clone, Copy)]
 struct ArticulatedInertia<'g> {
     linear: Matrix<'g>,
@@ -36,7 +41,8 @@ struct JointSpeed<'g> {
     combination: Vec<(usize, Rational)>,
 }
 
-/// A speed of a joint when it is eliminated: its partial velocity, what that asks for, and the reciprocal of the pivot.
+/// A speed of a joint when it is eliminated: its partial velocity, the wrench that this needs, and the reciprocal of
+/// the pivot.
 struct Pivot<'g> {
     speed: usize,
     row: Pair<'g>,
@@ -46,7 +52,7 @@ struct Pivot<'g> {
     inverse: Expr<'g>,
 }
 
-/// Pivots of every link, in the order of elimination.
+/// A tree with its inertias eliminated: the pivots of every link, in the order of elimination.
 pub struct Articulated<'a, 'g> {
     tree: &'a Tree<'g>,
     joints: Vec<JointSpeed<'g>>,
@@ -54,8 +60,10 @@ pub struct Articulated<'a, 'g> {
 }
 
 impl<'a, 'g> Articulated<'a, 'g> {
-    /// `None` when no joint has speeds of its own that determine those of the user, or there is fluid.
-    pub fn new(tree: &'a Tree<'g>) -> Option<Self> {
+    /// The inward elimination of articulated inertias: the speeds of each link are eliminated, and the inertia that is
+    /// left is added to that of its parent. `None` when no joint has speeds of its own that determine those of the
+    /// user, or there is fluid.
+    pub fn eliminated(tree: &'a Tree<'g>) -> Option<Self> {
         let dry = |link: &Link<'g>| link.body().is_none_or(|body| body.added_mass.is_none());
         let joints = joint_speeds(tree).filter(|_| tree.links.iter().all(dry))?;
         let armatures = armatures(tree, &joints)?;
@@ -81,18 +89,18 @@ impl<'a, 'g> Articulated<'a, 'g> {
     pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let none = [self.tree.graph.zero(); 3];
         let nothing = vec![(none, none); self.tree.links.len()];
-        self.combinations().solve(right, |right| self.solve_joints(right, nothing.clone(), |_| None))
+        self.combinations().solve(right, |right| self.joint_rates(right, nothing.clone(), |_| None))
     }
 
-    /// x with A x = right less what wrenches on the links ask of the speeds: on the way to the root they are gathered
-    /// together with what the motion asks for. Along the axis of a hinge that is then known, and of its motion what is
-    /// relative to the parent is found last; in [`solve`](Self::solve) it is first, since that of all links is wanted
-    /// besides.
+    /// x with A x = right less the wrenches on the links along the speeds: on the way to the root they are gathered
+    /// together with the wrenches that the motion needs. Along the axis of a hinge the sum is then known, and the
+    /// motion relative to the parent is found last; in [`solve`](Self::solve) it is first, since the motion of all
+    /// links is wanted besides.
     pub fn solve_under(&self, wrenches: &Pairs<'g>, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let links = self.tree.links.iter().zip(wrenches);
         let wrenches: Vec<Pair<'g>> =
             links.map(|(link, (linear, angular))| (link.frame.resolve(linear, Axes::Body), *angular)).collect();
-        self.combinations().solve(right, |right| self.solve_joints(right, wrenches.clone(), Pivot::axis))
+        self.combinations().solve(right, |right| self.joint_rates(right, wrenches.clone(), Pivot::axis))
     }
 
     fn combinations(&self) -> Combinations {
@@ -104,9 +112,10 @@ impl<'a, 'g> Articulated<'a, 'g> {
         Combinations { rows, columns }
     }
 
-    /// A as LDLᵀ in the speeds of the joints: what is left of a column is the response of its joint, carried to the
-    /// joints that it hangs on. For many right-hand sides: each is solved for without a motion of any link.
-    pub fn factored(&self) -> JointFactors<'g> {
+    /// A as LDLᵀ in the speeds of the joints, by the pivots of the inward elimination: what is left of a column is the
+    /// response of its joint, carried to the joints that it hangs on. For many right-hand sides: each is solved for
+    /// without a motion of any link.
+    pub fn joint_factors(&self) -> JointFactors<'g> {
         let links = &self.tree.links;
         let sequence: Vec<(usize, &Pivot<'g>)> =
             (0..links.len()).rev().flat_map(|k| self.pivots[k].iter().map(move |pivot| (k, pivot))).collect();
@@ -131,34 +140,54 @@ impl<'a, 'g> Articulated<'a, 'g> {
         JointFactors { combinations: self.combinations(), factored: Factored::of_columns(order, rest) }
     }
 
-    /// y with A_y y = right less what is asked of the links; where a pivot is that of an axis, along that.
-    fn solve_joints(
+    /// y with A_y y = right less what wrenches on the links give along the speeds of the joints; where a pivot is that
+    /// of an axis, along that.
+    fn joint_rates(
         &self,
         right: &[Expr<'g>],
-        mut asked: Vec<Pair<'g>>,
+        wrenches: Vec<Pair<'g>>,
         axis: impl Fn(&Pivot<'g>) -> Option<usize>,
     ) -> Vec<Expr<'g>> {
-        let zero = self.tree.graph.zero();
+        self.accelerations(&self.bias_forces(right, wrenches, &axis), axis)
+    }
+
+    /// The inward pass of bias forces: the right-hand sides less the articulated bias forces along each speed. These
+    /// are wrenches on the links about their O, in working axes, gathered toward the root together with what the
+    /// speeds that are eliminated add to them.
+    fn bias_forces(
+        &self,
+        right: &[Expr<'g>],
+        mut wrenches: Vec<Pair<'g>>,
+        axis: impl Fn(&Pivot<'g>) -> Option<usize>,
+    ) -> Vec<Expr<'g>> {
         let links = &self.tree.links;
-        let nothing: Pair<'g> = ([zero; 3], [zero; 3]);
         let mut reduced = right.to_vec();
         for k in (0..links.len()).rev() {
             for pivot in &self.pivots[k] {
-                let rest = right[pivot.speed] - pair(&pivot.row, &asked[k]);
+                let rest = right[pivot.speed] - pair(&pivot.row, &wrenches[k]);
                 reduced[pivot.speed] = rest.group();
                 let share = (reduced[pivot.speed] * pivot.inverse).group();
-                asked[k] = moved(&asked[k], share, &pivot.response);
+                wrenches[k] = moved(&wrenches[k], share, &pivot.response);
                 if let Some(axis) = axis(pivot) {
-                    *component(&mut asked[k], axis) = right[pivot.speed];
+                    *component(&mut wrenches[k], axis) = right[pivot.speed];
                 }
             }
             if let Some(parent) = links[k].parent {
-                let (linear, angular) = self.tree.carried(k, &asked[k].0, &asked[k].1);
-                asked[parent] =
-                    (add(&asked[parent].0, &linear).map(Expr::group), add(&asked[parent].1, &angular).map(Expr::group));
+                let (linear, angular) = self.tree.carried(k, &wrenches[k].0, &wrenches[k].1);
+                let (force, torque) = &wrenches[parent];
+                wrenches[parent] = (add(force, &linear).map(Expr::group), add(torque, &angular).map(Expr::group));
             }
         }
-        let mut solution = vec![zero; right.len()];
+        reduced
+    }
+
+    /// The outward pass of accelerations: from the root on, each speed's rate from what is left for it and from the
+    /// motion (a, α) of its link at O, working axes, which the parent and the speeds before give it.
+    fn accelerations(&self, reduced: &[Expr<'g>], axis: impl Fn(&Pivot<'g>) -> Option<usize>) -> Vec<Expr<'g>> {
+        let zero = self.tree.graph.zero();
+        let links = &self.tree.links;
+        let nothing: Pair<'g> = ([zero; 3], [zero; 3]);
+        let mut solution = vec![zero; reduced.len()];
         let mut motions: Vec<Pair<'g>> = Vec::with_capacity(links.len());
         for (k, link) in links.iter().enumerate() {
             let mut motion = match link.parent {
@@ -321,8 +350,8 @@ impl<'g> Pivot<'g> {
         Self { speed, row, response, armature, inverse }
     }
 
-    /// The component of a motion that the speed is, where it is one and nothing but the links resists: what is asked
-    /// along it is then what acts along it, and the response there the pivot.
+    /// The component of a motion that the speed is, where it is one and nothing but the links resists: the force needed
+    /// along it is then the applied one, and the response there the pivot.
     fn axis(&self) -> Option<usize> {
         let mut there = self.row.0.iter().chain(&self.row.1).enumerate().filter(|(_, e)| !e.is_zero());
         let (axis, value) = there.next()?;

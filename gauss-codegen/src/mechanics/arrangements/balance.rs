@@ -422,7 +422,7 @@ impl<'a, 'g> Unsolved<'a, 'g> {
         Balance { linear_bias, angular_bias, linear, angular }
     }
 
-    /// An acceleration in body axes, and what acts in observer's.
+    /// An acceleration in body axes, and loads in observer's.
     fn observed(&self, per_mass: Expr<'g>, in_body: Triple<'g>) -> Vector<'g> {
         let frame = &self.kinematics.frame;
         let observed = frame.body_vector(in_body);

@@ -98,7 +98,7 @@ impl<'a, 'g> Elements<'a, 'g> {
         rates
     }
 
-    /// ż, from what acts elsewhere than on links and by no field.
+    /// ż, from the loads on links and the generalised forces of all others.
     pub fn accelerations(&self, loads: &Loads<'g>, others: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let tree = self.tree;
         let nothing = vec![false; tree.speed_count()];
@@ -126,7 +126,7 @@ impl<'a, 'g> Elements<'a, 'g> {
         self.in_speeds(rates).iter().zip(&taken).map(|(rate, own)| *rate + *own).collect()
     }
 
-    /// Generalised forces of what acts on links without mass, which have no elements.
+    /// Generalised forces of the loads on links without mass, which have no elements.
     fn acting_on_frames(&self, forces: &[Force<'g>]) -> Vec<Expr<'g>> {
         let (tree, zero) = (self.tree, self.tree.graph.zero());
         let massless = |k: usize| matches!(tree.links[k].matter, Matter::Nothing);
@@ -139,7 +139,7 @@ impl<'a, 'g> Elements<'a, 'g> {
         tree.acted_on_by(&forces, nothing)
     }
 
-    /// `ω × I_G ω` and what acts on links, element by element: with `I_G = L D Lᵀ` a torque τ about G is that of `L⁻¹τ`
+    /// `ω × I_G ω` and the loads on links, element by element: with `I_G = L D Lᵀ` a torque τ about G is that of `L⁻¹τ`
     /// along `Lᵀω`.
     fn acting(&self, forces: &[Force<'g>]) -> Vec<Expr<'g>> {
         let tree = self.tree;

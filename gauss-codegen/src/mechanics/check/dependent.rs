@@ -1,4 +1,4 @@
-//! Constraints that say nothing new beside those before them, or nothing that can hold with them.
+//! Constraints that follow from those before them, or contradict them.
 
 use crate::algebra::{Expr, Map, Number, Precise, Rational};
 

@@ -33,7 +33,7 @@ pub enum SystemFault {
     Disagreement(Disagreement),
     /// A is singular: this speed moves nothing that the earlier ones do not move.
     DependentSpeed(usize),
-    /// The constraint, by its index, says nothing that the earlier ones do not say.
+    /// The constraint, by its index, follows from the earlier ones.
     DependentConstraint(usize),
     /// No velocity satisfies the constraint together with the earlier ones.
     InconsistentConstraint(usize),
@@ -134,7 +134,7 @@ fn check_in<'g, N: Number>(system: &System<'g>, claims: &Claims<'_, 'g>) -> Resu
     found.pop().map_or(Ok(()), |error| Err(vec![SystemFault::Disagreement(error)]))
 }
 
-/// What the definition says of formulas at one state.
+/// The values that the definition gives for formulas at one state.
 enum Comparison {
     Agrees,
     /// Numbers are so large that it has no value at the accelerations of the formulas, as at those of `exp(exp(1000))`.

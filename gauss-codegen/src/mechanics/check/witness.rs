@@ -142,7 +142,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
         Still { partials, gravity, links, acting }
     }
 
-    /// `Σ F·∂v/∂z^α` over what acts, with velocities differentiated from positions. `partials` are those of the links.
+    /// `Σ F·∂v/∂z^α` over all forces, with velocities differentiated from positions. `partials` are those of the links.
     fn forces(&self, partials: &[Vec<N>]) -> Vec<N> {
         let scene = &self.system.scene;
         let mut rows = vec![N::number(0.0); scene.speeds.len()];

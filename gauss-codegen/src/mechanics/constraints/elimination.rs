@@ -89,7 +89,7 @@ impl<'g> Elimination<'g> {
         self.whole.scene.constraints.iter().any(|c| c.kind == ConstraintKind::Position)
     }
 
-    /// What the reduced system's kernel says of the constraints.
+    /// The methods for constraints in the kernel of the reduced system.
     pub fn formulas(&self) -> Vec<Formula<'g>> {
         let replacement = self.replacement();
         let zero = self.whole.scene.graph.zero();

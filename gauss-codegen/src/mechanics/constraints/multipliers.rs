@@ -15,7 +15,7 @@ pub struct Constraints<'g> {
     pub jacobian: Vec<Vec<Expr<'g>>>,
     /// γ of J ż = γ.
     bias: Vec<Expr<'g>>,
-    /// Symbols of the residuals that corrections are asked for.
+    /// Symbols of the residuals that corrections remove.
     pub residuals: Vec<Expr<'g>>,
 }
 

@@ -53,7 +53,7 @@ struct Recursion<'a, 'g> {
     weights: &'a [Expr<'g>],
     /// Symbols for μ.
     solved: Vec<Expr<'g>>,
-    /// Those that are asked for, then along ż.
+    /// Those that are wanted, then along ż.
     directions: Vec<Rates<'g>>,
     /// Which second derivatives of the residual are needed, by what follows what.
     pairs: Vec<(usize, usize)>,

@@ -20,8 +20,8 @@ pub(super) enum Factors<'g> {
 impl<'g> Factors<'g> {
     /// The ways that are worth trying.
     pub(super) fn of(system: &System<'g>) -> Vec<Self> {
-        let articulated = if system.is_long() { Articulated::new(&system.scene.tree) } else { None };
-        let mut ways: Vec<Self> = articulated.iter().map(|a| Self::Joints(a.factored())).collect();
+        let articulated = if system.is_long() { Articulated::eliminated(&system.scene.tree) } else { None };
+        let mut ways: Vec<Self> = articulated.iter().map(|a| Self::Joints(a.joint_factors())).collect();
         if ways.is_empty() || system.scene.speeds.len() <= DENSE {
             ways.push(Self::Dense(Factored::new(&system.matrix)));
         }
@@ -101,7 +101,7 @@ impl<'g> System<'g> {
         directions: &[Rates<'g>],
         right: Option<&[Expr<'g>]>,
     ) -> Vec<AccelerationsWithDerivatives<'g>> {
-        if !self.constraints.is_empty() || self.lone_link().is_some() || !self.rotors_are_plain() {
+        if !self.is_sum_over_links() || !self.rotors_are_plain() {
             return Vec::new();
         }
         let acting = self.acting();
@@ -118,7 +118,7 @@ impl<'g> System<'g> {
         ways.filter_map(way).collect()
     }
 
-    /// What ∂C/∂ż has beside the inertia of links.
+    /// The terms of ∂C/∂ż other than the inertia of links: rotors and loads.
     pub(super) fn beside(&self) -> Vec<Expr<'g>> {
         let (tree, speeds, zero) = (&self.scene.tree, &self.scene.speeds, self.scene.graph.zero());
         let rotors = add_projected(&tree.rotors, speeds, vec![zero; speeds.len()], |rotor| rotor.force(&self.along));
@@ -134,7 +134,7 @@ impl<'g> System<'g> {
         directions: &[Rates<'g>],
         pairs: &[(usize, usize)],
     ) -> Vec<Vec<Expr<'g>>> {
-        if !self.constraints.is_empty() || self.lone_link().is_some() {
+        if !self.is_sum_over_links() {
             return Vec::new();
         }
         let tree = &self.scene.tree;
@@ -149,7 +149,7 @@ impl<'g> System<'g> {
         tree.inertias(self.is_long()).iter().filter_map(way).collect()
     }
 
-    /// Generalised forces of what acts but fields, which are accelerations of the observer.
+    /// Generalised forces of the loads without fields, which are accelerations of the observer.
     fn acting(&self) -> Vec<Expr<'g>> {
         let (tree, zero) = (&self.scene.tree, self.scene.graph.zero());
         let nothing = tree.links.iter().map(|link| (link.frame.zero(), [zero; 3])).collect();
@@ -160,7 +160,7 @@ impl<'g> System<'g> {
     /// None where the residual is not that of links alone: under constraints it has multipliers that depend on
     /// everything.
     pub fn residuals_with_derivatives(&self, directions: &[Rates<'g>]) -> Vec<Vec<Vec<Expr<'g>>>> {
-        if !self.constraints.is_empty() || self.lone_link().is_some() {
+        if !self.is_sum_over_links() {
             return Vec::new();
         }
         let (tree, beside) = (&self.scene.tree, self.beside());

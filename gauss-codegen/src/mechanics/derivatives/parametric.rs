@@ -2,7 +2,7 @@
 //! recursion.
 //!
 //! What a parameter does to joints, partial velocities and gravity is a change like that along a coordinate (see
-//! [`rigid`](super::rigid)), and what acts is differentiated as it is written. What it does to matter is a change of
+//! [`rigid`](super::rigid)), and loads are differentiated as they are written. What it does to matter is a change of
 //! moments: the forces of inertia are linear in these, so each link whose moments change is pushed, where it moves as
 //! it does, by forces of inertia of matter that has the derivatives for its moments. How such a push on a link moves a
 //! speed is, by the symmetry of A, the virtual velocity that the link has under a column of A⁻¹: found once for all
@@ -42,7 +42,7 @@ impl<'g> System<'g> {
     /// The derivatives of ż along directions of parameters, one after the other, in the ways that are worth trying.
     /// None where the residual is not that of links alone.
     pub fn accelerations_by_parameters(&self, directions: &[Rates<'g>]) -> Vec<Vec<Expr<'g>>> {
-        if !self.constraints.is_empty() || self.lone_link().is_some() || !self.rotors_are_plain() {
+        if !self.is_sum_over_links() || !self.rotors_are_plain() {
             return Vec::new();
         }
         let Some(&inertia) = self.scene.tree.inertias(self.is_long()).first() else { return Vec::new() };

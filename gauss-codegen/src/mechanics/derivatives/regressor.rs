@@ -2,7 +2,7 @@
 //!
 //! ∂C/∂ż is linear in the moments of the masses and in the added mass, not in the centre of mass: in it `c = s/m` is
 //! put in place of c, with the first moment s, and the coefficients of m, s, I_O and X are its derivatives by them.
-//! Uniform gravity is an acceleration of the observer and goes with the masses; the elements of what acts, and
+//! Uniform gravity is an acceleration of the observer and goes with the masses; the elements of the loads, and
 //! buoyancy, do not.
 
 use crate::algebra::{Expr, Graph, Map};

@@ -29,7 +29,7 @@ pub struct Motion<'a, 'g> {
     pub angular_velocity: &'a Vector<'g>,
 }
 
-/// A frame in which components can be asked for.
+/// A frame in which components are resolved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axes {
     Body,

@@ -49,7 +49,7 @@ pub struct Tree<'g> {
     /// Acceleration of free fall, observer's axes.
     pub gravity: Option<Triple<'g>>,
     floating: Vec<Option<Floating<'g>>>,
-    /// Inertia of rates, beside that of the links.
+    /// Inertia of rates, added to that of the links.
     pub rotors: Vec<Rotor<'g>>,
 }
 
@@ -323,7 +323,7 @@ impl<'g> Tree<'g> {
         (inward(&joint.turns, &moved), inward(&joint.turns, &angular))
     }
 
-    /// `∂C/∂ż` without the potential and what acts elsewhere than on links: `∫(a_P − g)·w_α dm`, the fluid's share and
+    /// `∂C/∂ż` without the potential and the forces that are not on links: `∫(a_P − g)·w_α dm`, the fluid's share and
     /// the loads, with ż by its rates in `along`.
     pub fn residual(&self, along: &Map<u32, Expr<'g>>, inertia: Inertia, loads: &Loads<'g>) -> Vec<Expr<'g>> {
         self.balance(along, inertia, loads, &self.accelerations(along, Some(loads), Observers::Still))
@@ -406,7 +406,7 @@ impl<'g> Tree<'g> {
         pairs
     }
 
-    /// `R·a_α + M_O·o_α` of what acts on links.
+    /// `R·a_α + M_O·o_α` of the loads on links.
     pub fn loads(&self, loads: &Loads<'g>) -> Vec<Expr<'g>> {
         let fields: Vec<Option<Triple<'g>>> = (0..self.links.len()).map(|k| loads.field_on(self.root_of(k))).collect();
         self.acted_on_by(&loads.forces, self.weights_in(&fields, |_| None))

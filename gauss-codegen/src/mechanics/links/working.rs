@@ -204,7 +204,7 @@ fn is_symmetric(link: &Link<'_>) -> bool {
     pairs.zip(turned.first.iter().chain(turned.second.iter().flatten())).all(|(a, b)| tidy(*a - *b).is_zero())
 }
 
-/// A tree that describes the same motion of the same matter by other poles and axes, and what acts on it.
+/// A tree that describes the same motion of the same matter by other poles and axes, and the loads on it.
 pub struct Working<'g> {
     pub tree: Tree<'g>,
     pub loads: Loads<'g>,

@@ -1,4 +1,4 @@
-//! One account: the power and the generalised force of an element, and what a kernel says of all of them.
+//! One account: the power and the generalised force of an element; the methods of a kernel that give all of them.
 
 use crate::algebra::Expr;
 

@@ -1,4 +1,4 @@
-//! Accounts: the power and the generalised force of every element of what acts, and what changes the energy.
+//! Accounts: the power and the generalised force of every element of the loads, and the rate of the energy.
 
 use crate::algebra::Expr;
 
@@ -12,8 +12,8 @@ use crate::mechanics::tidy::sums;
 /// The name of the account of prescribed motion: coordinates and constraints that are given functions of time.
 const GUIDES: &str = "guides";
 
-/// One account of a name: what acts by a potential and by forces, as a spring with a damper does, is in the energy by
-/// the first.
+/// One account of a name: an element with a potential and forces, as a spring with a damper, is in the energy by the
+/// first.
 fn joined(accounts: Vec<Account<'_>>) -> Vec<Account<'_>> {
     let mut all: Vec<Account<'_>> = Vec::with_capacity(accounts.len());
     for account in accounts {
@@ -53,7 +53,7 @@ impl<'g> System<'g> {
             let outside = (!conservative).then_some(power);
             Account { name: name.to_owned(), conservative, forces: body.project_wrench(wrench), power, outside }
         };
-        let body = self.lone_link();
+        let body = self.balance_of_all();
         let mut accounts = Vec::new();
         if let Some((body, wrench)) = body.and_then(|body| Some((body, body.weight_wrench()?))) {
             accounts.push(by_wrench(body, GRAVITY, true, &wrench));

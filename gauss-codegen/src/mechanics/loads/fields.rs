@@ -1,4 +1,4 @@
-//! What acts on all that a body is in: a medium that moves.
+//! Loads by all that a body is in: a medium that moves.
 
 use crate::algebra::{Expr, Graph, Map};
 

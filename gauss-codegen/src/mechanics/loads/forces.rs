@@ -1,4 +1,4 @@
-//! What acts beside weight and buoyancy: potentials, and forces, each of which enters through `∫∂v_P/∂z·dF` of (3.4),
+//! Loads other than weight and buoyancy: potentials, and forces, each of which enters through `∫∂v_P/∂z·dF` of (3.4),
 //! at the point where it acts; nothing else is ever said about it.
 
 use crate::algebra::{Expr, Map};
@@ -8,7 +8,7 @@ use crate::mechanics::links::link::Link;
 use crate::mechanics::links::path::{power_between, torque_between};
 use crate::mechanics::loads::wrench::Wrench;
 
-/// One element of what acts, under the name by which its power and its generalised force are known.
+/// One element of the loads, under the name by which its power and its generalised force are known.
 #[derive(Clone)]
 pub struct Element<'g> {
     pub name: String,
@@ -66,7 +66,7 @@ impl<'g> Field<'g> {
     }
 }
 
-/// What acts on links.
+/// Loads on links.
 #[derive(Clone, Default)]
 pub struct Loads<'g> {
     pub forces: Vec<Force<'g>>,
@@ -188,7 +188,7 @@ impl<'g> Force<'g> {
         Some((*link, target.frame.body_vector(force), torque))
     }
 
-    /// The power that it delivers: with the velocity of what it acts on, whatever that is due to.
+    /// The power that it delivers: with the velocity of its point of action, whatever that is due to.
     pub fn power(&self, links: &[Link<'g>], speeds: &[Expr<'g>], rates: &Map<u32, Expr<'g>>) -> Expr<'g> {
         match self {
             Force::AtPoint { at, force } => dot(&force.map(Expr::group), &at.map(|e| e.derivative(rates).group())),

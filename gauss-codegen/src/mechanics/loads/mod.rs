@@ -1,4 +1,4 @@
-//! Loads beside weight and buoyancy.
+//! Loads other than weight and buoyancy.
 
 pub mod account;
 pub mod accounts;

@@ -74,7 +74,7 @@ impl<'g> Moments<'g> {
         })
     }
 
-    /// `∫(v + ω × x) dm` beside `m v`, and `∫x × (v + ω × x) dm`.
+    /// `∫(v + ω × x) dm` without `m v`, and `∫x × (v + ω × x) dm`.
     pub fn momentum(&self, v: &Triple<'g>, omega: &Triple<'g>) -> (Triple<'g>, Triple<'g>) {
         let inertia = self.inertia();
         let spin: Triple<'g> = std::array::from_fn(|i| crate::mechanics::kinematics::vector::dot(&inertia[i], omega));

@@ -120,7 +120,7 @@ impl<'g> System<'g> {
     /// The equations, section by section; sections with nothing to say are left out.
     pub fn equations(&self) -> Page<'g> {
         // One body in a chart has the letters of textbooks, everything else those of its author.
-        let mut sections = match self.lone_link().filter(|_| self.scene.chart().is_some()) {
+        let mut sections = match self.one_body().and_then(|one| one.posed).filter(|_| self.scene.chart().is_some()) {
             Some(body) => Textbook { system: self, body }.sections(),
             None => self.sections(),
         };

@@ -1,4 +1,4 @@
-//! Every method in the arrangements that are worth trying: each says when it applies, and gives candidates.
+//! Every method in the arrangements that are worth trying: each decides whether it applies, and gives candidates.
 
 use crate::algebra::{Expr, Map};
 
@@ -12,7 +12,7 @@ use super::{System, tidied};
 trait Arrangement<'g> {
     fn applies(&self, system: &System<'g>) -> bool;
 
-    /// Candidates of each method, beside those of the arrangements before; none of a method that is not formed so.
+    /// Candidates of each method, added to those of the arrangements before; none of a method that is not formed so.
     fn candidates(&self, system: &System<'g>, before: &Formulas<'g>) -> Formulas<'g>;
 
     /// Whether its candidates are listed first, as those are from which others take rows.
@@ -32,7 +32,7 @@ struct BalanceOfAll;
 
 impl<'g> Arrangement<'g> for OverLinks {
     fn applies(&self, system: &System<'g>) -> bool {
-        system.lone_link().is_none() || !system.constraints.is_empty()
+        system.balance_of_all().is_none() || !system.constraints.is_empty()
     }
 
     fn candidates(&self, system: &System<'g>, _: &Formulas<'g>) -> Formulas<'g> {
@@ -46,7 +46,7 @@ impl<'g> Arrangement<'g> for OverLinks {
 
 impl<'g> Arrangement<'g> for RowsOfFreeLinks {
     fn applies(&self, system: &System<'g>) -> bool {
-        system.lone_link().is_none() && system.constraints.is_empty() && !system.free.is_empty()
+        system.is_sum_over_links() && !system.free.is_empty()
     }
 
     fn candidates(&self, system: &System<'g>, before: &Formulas<'g>) -> Formulas<'g> {
@@ -74,11 +74,11 @@ impl<'g> Arrangement<'g> for RowsOfFreeLinks {
 
 impl<'g> Arrangement<'g> for BalanceOfAll {
     fn applies(&self, system: &System<'g>) -> bool {
-        system.lone_link().is_some()
+        system.balance_of_all().is_some()
     }
 
     fn candidates(&self, system: &System<'g>, _: &Formulas<'g>) -> Formulas<'g> {
-        let Some(body) = system.lone_link() else { return Formulas::none() };
+        let Some(body) = system.balance_of_all() else { return Formulas::none() };
         let of_body = system.arranged_as_body(body);
         if system.constraints.is_empty() {
             return of_body;
@@ -104,7 +104,7 @@ impl<'g> System<'g> {
         formulas
     }
 
-    /// Of the only body, which is free.
+    /// By the balance of the free link that is all of the system.
     fn arranged_as_body(&self, body: &FreeLink<'g>) -> Formulas<'g> {
         let balances = body.balances();
         let short = body.short();

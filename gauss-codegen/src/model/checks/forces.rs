@@ -109,8 +109,8 @@ fn check_drive(
     }
 }
 
-/// What acts does something, and inputs are for something. Asked only where all else is well, since what could not be
-/// read may be what is missed.
+/// Every load has an effect, and every input a use. Checked only where all else is well, since the clause that is
+/// missed may be one that could not be read.
 pub fn check_effect(statements: &Statements, context: &mut Context) {
     let moving = Moving::new(statements);
     for clause in &statements.forces {

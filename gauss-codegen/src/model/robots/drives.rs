@@ -47,7 +47,7 @@ pub fn inputs(
                     input(ident, &word, Some(unit(joint.kind)), Driven::Joint(index))
                 })
                 .collect();
-            // What acts at a frame has no joint whose effort it could be.
+            // A drive at a frame has no joint whose effort it could be.
             let others = controls(description, |drive| drive.at_link.is_some(), names);
             efforts.into_iter().chain(others).collect()
         }

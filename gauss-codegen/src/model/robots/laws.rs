@@ -1,4 +1,4 @@
-//! What acts in the joints: damping, dry friction, limits, the inertia of rotors; weights that are held.
+//! Loads in the joints: damping, dry friction, limits, the inertia of rotors; weights that are held.
 
 use proc_macro2::Ident;
 use quote::format_ident;
@@ -14,7 +14,7 @@ use crate::model::scene::forces::{ForceAxes, ForceClause};
 use gauss_robots::description::{Joint, JointKind, Note};
 
 impl Robot<'_> {
-    /// What acts in the joints.
+    /// Loads in the joints.
     pub fn forces(&mut self, gravity: Option<&RoleClause>) -> Vec<ForceClause> {
         let span = self.writer.span;
         let name = |name: &str| Some(Ident::new(name, span));

@@ -45,7 +45,7 @@ pub struct Model {
     pub medium: Option<Expression>,
     /// Central gravity: each acts on every body and every particle.
     pub attractions: Vec<ForceClause>,
-    /// What acts besides gravity and the potential, in the order in which it is written.
+    /// Loads besides gravity and the potential, in the order in which it is written.
     pub forces: Vec<ForceClause>,
     /// Inertia of the rates of scalar coordinates: a scalar of fields and numbers for each.
     pub armatures: Vec<(Ident, Expression)>,

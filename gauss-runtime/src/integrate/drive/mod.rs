@@ -4,26 +4,19 @@
 //! before a run ([`control`]), errors in tolerances ([`tolerance`]), lengths of steps ([`step_length`]), constraints
 //! ([`projection`]), and why a run cannot go on ([`cause`], [`pace`]). Runs in lanes, in the crate `gauss-batch`, are
 //! such controls.
+//!
+//! The files are in four rooms, each of which knows those before it: `acceptance` (tolerances, constraints, causes of
+//! failure), `step_control`, `events`, `runs`.
 
-pub mod adaptive;
+mod acceptance;
+mod events;
+mod runs;
+mod step_control;
+
+pub use acceptance::{cause, pace, projection, tolerance};
+pub use events::{event, search};
+pub(in crate::integrate) use events::{leaving, zero};
 #[cfg(feature = "alloc")]
-pub mod boxed;
-pub mod cause;
-pub mod compensated;
-pub mod control;
-pub mod event;
-pub mod fixed;
-pub(in crate::integrate) mod leaving;
-pub mod logarithms;
-pub mod observer;
-pub mod pace;
-pub mod projection;
-pub mod run;
-pub mod search;
-pub mod simulation;
-pub mod step_length;
-pub mod summary;
-pub mod tolerance;
-#[cfg(feature = "alloc")]
-pub mod trajectory;
-pub(in crate::integrate) mod zero;
+pub use runs::{boxed, trajectory};
+pub use runs::{observer, run, simulation, summary};
+pub use step_control::{adaptive, compensated, control, fixed, logarithms, step_length};

@@ -35,7 +35,7 @@ struct Pair<'g> {
     angular: Triple<'g>,
 }
 
-/// A free link: a body, how it moves, and what acts on it.
+/// A free link: a body, its kinematics, and its loads.
 pub struct FreeLink<'g> {
     /// Which link it is.
     pub link: usize,
@@ -63,7 +63,7 @@ pub struct FreeLink<'g> {
     formed: Formed<'g>,
 }
 
-/// What several equations are made of, formed once it is asked for.
+/// Parts that several equations share, formed when the first of them needs them.
 #[derive(Default)]
 struct Formed<'g> {
     /// What the formal components of the balance are.
@@ -249,7 +249,7 @@ impl<'g> FreeLink<'g> {
         })
     }
 
-    /// ∂C/∂ż without what acts beside weight and buoyancy, arranged in two ways.
+    /// ∂C/∂ż without the loads other than weight and buoyancy, arranged in two ways.
     pub fn inertial_residuals(&self) -> Vec<Vec<Expr<'g>>> {
         let load = Wrench::zero(self.kinematics.frame.graph);
         let formal = Formal::new(&self.kinematics, &load);
@@ -263,7 +263,7 @@ impl<'g> FreeLink<'g> {
         [Arrangement::Structured, Arrangement::Collected].map(residual).into()
     }
 
-    /// `R·a_α + M_O·o_α` of what acts beside weight and buoyancy.
+    /// `R·a_α + M_O·o_α` of the loads other than weight and buoyancy.
     pub fn load_forces(&self) -> Vec<Expr<'g>> {
         let rows = self.project_wrench(&self.load);
         let field = self.weights.field.map(|field| self.project_wrench(&self.wrench_of_weight(&field)));
@@ -282,7 +282,7 @@ impl<'g> FreeLink<'g> {
         self.project(Pair { linear: pair.linear.map(Expr::group), angular: pair.angular.map(Expr::group) })
     }
 
-    /// A numerator, and the square of what it is divided by; `None` where the coordinates have no singularity.
+    /// A numerator, and the square of its denominator; `None` where the coordinates have no singularity.
     ///
     /// Where the volume that the columns of ∂ω/∂q̇ span is a power D⁻ᵏ of one sum, coordinates become infinite where it
     /// vanishes: those of Rodrigues with D = 1 + |g|² and k = 2, the modified ones with D = 1 + |σ|² and k = 3. D then

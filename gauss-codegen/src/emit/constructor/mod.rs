@@ -1,0 +1,8 @@
+//! `kernel()` of the user's struct: its parameters read, checked, and turned into constants.
+
+pub mod kernel;
+pub mod laws;
+pub mod locals;
+pub mod mass_laws;
+pub mod of_file;
+pub mod parameters;

@@ -1,0 +1,5 @@
+//! The equations of motion, their constraints, and their power series.
+
+pub mod constrained;
+pub mod gauss_system;
+pub mod taylor;

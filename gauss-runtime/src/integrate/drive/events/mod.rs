@@ -1,0 +1,6 @@
+//! Events within a step: zeros of functions of the state, and jumps there.
+
+pub mod event;
+pub(in crate::integrate) mod leaving;
+pub mod search;
+pub(in crate::integrate) mod zero;

@@ -1,0 +1,8 @@
+//! Control of the lengths of steps: fixed, adaptive, with compensated rounding.
+
+pub mod adaptive;
+pub mod compensated;
+pub mod control;
+pub mod fixed;
+pub mod logarithms;
+pub mod step_length;
