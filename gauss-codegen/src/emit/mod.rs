@@ -12,7 +12,7 @@
 //!
 //! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and
 //! `kernel()`), `state` and `input` (by name, both `record`s), `of_file` (numbers of a robot's file), `gauss_system`,
-//! `description`, `rigid_body`, `constrained`, `forced`, `framed`, `whole`, `taylor`, `linearized`, `hessian`,
+//! `description`, `rigid_body`, `constrained`, `contact`, `forced`, `framed`, `whole`, `taylor`, `linearized`, `hessian`,
 //! `inverse`, `parametric`, `regressor`; `fallback` where there are mistakes.
 
 use proc_macro2::TokenStream;
@@ -22,6 +22,7 @@ mod arguments;
 mod chart;
 mod columns;
 mod constrained;
+mod contact;
 mod derived;
 mod description;
 mod documentation;
@@ -74,6 +75,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let described = description::described(derived, equations);
     let rigid_body = rigid_body::rigid_body_system(derived);
     let constrained = constrained::constrained_system(derived);
+    let contacts = contact::contact_system(derived);
     let forced = forced::forced_system(derived);
     let taylor = taylor::taylor_system(derived);
     let linearized = linearized::linearized_system(derived);
@@ -102,6 +104,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
             #described
             #rigid_body
             #constrained
+            #contacts
             #forced
             #taylor
             #linearized

@@ -23,4 +23,8 @@ pub enum LawKind {
     Dissipation,
     /// A gravitational parameter.
     Attraction,
+    /// A coefficient of friction: checked where it is a constant.
+    Friction,
+    /// A coefficient of restitution.
+    Restitution,
 }

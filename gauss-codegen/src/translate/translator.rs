@@ -15,6 +15,7 @@ use crate::model::{self, ExpressionKind, Model, SpeedPart};
 use crate::terms::{InChart, InputKind, LawKind, UserFunction};
 use crate::words::Unraw;
 
+use super::contacts;
 use super::laws::Law;
 use super::notes::Notes;
 use super::parameters::parameters;
@@ -66,6 +67,7 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
             state: quantities(model, independent.as_ref().map(|independent| &independent.kept[..])),
             rates: model.kinematics.iter().map(rate).collect(),
             constraints: model.constraints.iter().map(place).collect(),
+            contacts: model.contacts.iter().map(contacts::place).collect(),
             independent,
             item: model.item.clone(),
         },
@@ -212,6 +214,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             _ => self.elements(&tree)?.into_iter().map(|(_, element)| element).collect(),
         };
         let constraints = self.constraints(&tree)?;
+        let contacts = self.contacts(&tree)?;
         tree.settle();
         Ok(SystemScene {
             graph,
@@ -228,6 +231,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             rates: self.rates.clone(),
             tree,
             constraints,
+            contacts,
             inputs: self.declared.inputs.clone(),
             elements,
         })

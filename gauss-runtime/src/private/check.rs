@@ -110,6 +110,16 @@ impl<T: Real> ParameterCheck<T> {
         }
     }
 
+    /// A coefficient of restitution: from 0 to 1.
+    pub fn restitution(&mut self, field: &'static str, value: T) {
+        if self.finite_so_far(field, &[value]) {
+            self.each_lane(field, |lane| {
+                let value = value.lane(lane);
+                (!(0.0..=1.0).contains(&value)).then_some((value, Rule::Restitution))
+            });
+        }
+    }
+
     /// An inertia tensor about the centre of mass, or one of which nothing else is known: symmetric up to rounding,
     /// positive definite, and its principal moments obey the triangle inequality up to a few ulp of the trace.
     pub fn inertia(&mut self, field: &'static str, inertia: &[[T; 3]; 3]) {

@@ -16,6 +16,7 @@ pub enum Holder {
     Armature,
     AddedMass,
     Inertia,
+    Contact,
 }
 
 impl Holder {
@@ -26,13 +27,14 @@ impl Holder {
             Holder::Armature => "an armature".into(),
             Holder::AddedMass => "an added mass".into(),
             Holder::Inertia => "an inertia".into(),
+            Holder::Contact => "a contact".into(),
         }
     }
 
     /// What its constants are called.
     fn constant(self) -> String {
         match self {
-            Holder::Element(_) => format!("a constant of {}", self.noun()),
+            Holder::Element(_) | Holder::Contact => format!("a constant of {}", self.noun()),
             Holder::Armature | Holder::AddedMass | Holder::Inertia => self.noun(),
         }
     }
@@ -58,6 +60,15 @@ pub enum Place {
     At,
     Potential,
     Constraint(ConstraintKind),
+    /// Of a contact.
+    Gap,
+    /// Velocity along a tangent of a contact.
+    Slip,
+    /// The coefficient of friction of a contact.
+    Friction,
+    /// What stays in a range, and where the range ends.
+    Limited,
+    Limit,
     /// Of the point where a force acts, in observer axes.
     ForcePoint,
     /// Of the point where a force acts, in its body; `bound`: there is no other way to say where it acts.
@@ -97,6 +108,7 @@ impl Place {
         match self {
             Place::Kinematics(None) => true,
             Place::Kinematics(Some(CoordinateKind::Scalar)) | Place::Mass | Place::Potential => kind == Kind::Scalar,
+            Place::Gap | Place::Slip | Place::Friction | Place::Limited | Place::Limit => kind == Kind::Scalar,
             Place::Drive | Place::Along(_) | Place::Constant { .. } | Place::Dissipation | Place::Coefficient(_) => {
                 kind == Kind::Scalar
             }
@@ -151,6 +163,11 @@ impl Place {
                 "a constraint is a scalar or a vector that is zero",
                 "write numbers that vanish when it holds, such as products of unit vectors",
             ),
+            Place::Gap => ("a gap is a scalar", "write one number, such as `ball.position.z - r`"),
+            Place::Slip => ("a slip is a scalar", "write one number, such as `dot(tip.velocity, [1, 0, 0])`"),
+            Place::Friction => ("a coefficient of friction is a scalar", "write one number or the name of a field"),
+            Place::Limited => ("what stays in a range is a scalar", "write one number, such as the angle of a joint"),
+            Place::Limit => ("the limit of a range is a scalar", "write one number or the name of a field"),
             Place::ForcePoint => {
                 ("the point of a force is a vector", "write the name of a point, `arm.position` or `[x, y, z]`")
             }
@@ -213,6 +230,10 @@ impl Place {
                         Place::Particle { parent: false }
                             | Place::Potential
                             | Place::Constraint(_)
+                            | Place::Gap
+                            | Place::Slip
+                            | Place::Limited
+                            | Place::Limit
                             | Place::ForcePoint
                             | Place::End(_)
                             | Place::Along(_)
@@ -230,8 +251,15 @@ impl Place {
                 | Place::Drive
                 | Place::Dissipation
                 | Place::Coefficient(_)
+                | Place::Friction
                 | Place::Definition
         )
+    }
+
+    /// It is looked at together with the other expressions of its contact.
+    pub fn is_of_contact(self) -> bool {
+        let constant = matches!(self, Place::Constant { of: Holder::Contact, .. });
+        constant || matches!(self, Place::Gap | Place::Slip | Place::Friction | Place::Limited | Place::Limit)
     }
 
     /// Nothing that moves with the system may stand here, but time may.
@@ -241,7 +269,8 @@ impl Place {
 
     /// Speeds may stand here.
     fn of_velocities(self) -> bool {
-        self.is_action() || matches!(self, Place::Kinematics(_) | Place::Constraint(ConstraintKind::Velocity))
+        self.is_action()
+            || matches!(self, Place::Kinematics(_) | Place::Constraint(ConstraintKind::Velocity) | Place::Slip)
     }
 
     /// Nothing that changes may stand here.
@@ -261,6 +290,11 @@ impl Place {
             Place::Potential => "a potential",
             Place::Constraint(ConstraintKind::Position) => "a constraint of positions",
             Place::Constraint(ConstraintKind::Velocity) => "a constraint of velocities",
+            Place::Gap => "a gap",
+            Place::Slip => "a slip",
+            Place::Friction => "a coefficient of friction",
+            Place::Limited => "what stays in a range",
+            Place::Limit => "the limit of a range",
             Place::ForcePoint | Place::ForceAt { .. } => "the point of a force",
             Place::Force => "a force",
             Place::Torque => "a torque",
@@ -348,6 +382,8 @@ impl Place {
                 let remedy = match place {
                     Place::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
                     Place::Constraint(_) => "write `constraint(velocity = …)`",
+                    Place::Gap => "its rate is formed from it; velocities stand in `slip = …`",
+                    Place::Limited | Place::Limit => "a constraint of velocities is `constraint(velocity = …)`",
                     Place::ForcePoint | Place::End(_) | Place::Along(_) => "speeds stand in values of forces",
                     _ => "speeds stand in `kinematics`",
                 };
@@ -361,8 +397,9 @@ impl Place {
     pub fn refuses_velocity(self, written: &str) -> Option<String> {
         let remedy = match self {
             place if place.is_action() => return None,
-            Place::Constraint(ConstraintKind::Velocity) => return None,
+            Place::Constraint(ConstraintKind::Velocity) | Place::Slip => return None,
             Place::Constraint(ConstraintKind::Position) => "write `constraint(velocity = …)`",
+            Place::Gap => "its rate is formed from it; velocities stand in `slip = …`",
             Place::Kinematics(_) => "the rates of coordinates are written in speeds",
             Place::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
             _ => "remove it",
@@ -375,7 +412,8 @@ impl Place {
     /// Why nothing that is not smooth may stand here.
     pub fn refuses_kinks(self) -> Option<String> {
         match self {
-            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) | Place::Definition => None,
+            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) => None,
+            Place::Friction | Place::Definition => None,
             Place::Dissipation => Some("forces are derivatives of a dissipation function".into()),
             place if place.is_constant() => None,
             place => Some(format!("{} is differentiated", place.subject())),
@@ -385,7 +423,8 @@ impl Place {
     /// What to say of a function that is not smooth, where derivatives are taken.
     pub fn refuses_kink(self, function: FunctionName) -> Option<String> {
         match self {
-            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) | Place::Definition => None,
+            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) => None,
+            Place::Friction | Place::Definition => None,
             place if place.is_constant() => Some(format!(
                 "`{}` stands in values of forces only; make the number a field of the struct",
                 function.word()
