@@ -39,6 +39,7 @@ fn written(
             LawKind::Limits => quote!(limits),
             LawKind::NonNegative | LawKind::Friction => quote!(non_negative),
             LawKind::Restitution => quote!(restitution),
+            LawKind::Direction => quote!(direction),
             LawKind::MassInSum => quote!(mass_in_sum),
             LawKind::StiffnessMatrix => quote!(stiffness_matrix),
             LawKind::DampingMatrix => quote!(damping_matrix),
@@ -53,6 +54,7 @@ fn written(
             | LawKind::NonNegative
             | LawKind::Friction
             | LawKind::Restitution
+            | LawKind::Direction
             | LawKind::MassInSum => {
                 quote!({ #compute __check.#check(#label, #(#values)*); })
             }
@@ -126,6 +128,7 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
             | LawKind::StiffnessMatrix
             | LawKind::Friction
             | LawKind::Restitution
+            | LawKind::Direction
             | LawKind::MassInSum => {
                 return None;
             }

@@ -12,8 +12,8 @@
 //!
 //! One file for each item that is generated, a function from [`Derived`] to tokens: `kernel` (the struct and
 //! `kernel()`), `state` and `input` (by name, both `record`s), `of_file` (numbers of a robot's file), `gauss_system`,
-//! `description`, `rigid_body`, `constrained`, `contact`, `forced`, `framed`, `whole`, `taylor`, `linearized`, `hessian`,
-//! `inverse`, `parametric`, `regressor`; `fallback` where there are mistakes.
+//! `description`, `rigid_body`, `constrained`, `contact`, `forced`, `framed`, `whole`, `taylor`, `linearized`,
+//! `hessian`, `inverse`, `parametric`, `regressor`; `fallback` where there are mistakes.
 
 use proc_macro2::TokenStream;
 use quote::quote;

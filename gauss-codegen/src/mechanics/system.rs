@@ -9,7 +9,7 @@ use crate::algebra::{Expr, Map, solve_pairs, solve_symmetric};
 use crate::mechanics::arrangements::articulated::Articulated;
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::arrangements::orthogonal::Elements;
-use crate::mechanics::constraints::contact::Contacts;
+use crate::mechanics::constraints::contact_rows::Contacts;
 use crate::mechanics::constraints::multipliers::Constraints;
 use crate::mechanics::formula::{Formula, Formulas, Method};
 use crate::mechanics::kinematics::vector::{Vector, is_zero};

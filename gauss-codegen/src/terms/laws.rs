@@ -25,6 +25,8 @@ pub enum LawKind {
     Attraction,
     /// A coefficient of friction: checked where it is a constant.
     Friction,
+    /// The square of the length of a direction.
+    Direction,
     /// A coefficient of restitution.
     Restitution,
 }

@@ -1,23 +1,19 @@
 //! What may touch, in symbols: gaps, slips, coefficients.
 
+use crate::algebra::Expr;
 use crate::error::Result;
-use crate::mechanics::{Contact, Tree};
-use crate::model::{ContactClause, Touching};
+use crate::mechanics::{Contact, Tree, add, cross, dot, subtract};
+use crate::model::{Against, Expression, PointContact, Property, Touching};
 use crate::terms::LawKind;
 use crate::words::Unraw;
 
-use super::translated::ContactPlace;
-use super::translator::Translator;
+use super::translator::{Translator, bug};
+use super::value::{Local, Value};
 
-/// Where a contact is written.
-pub(super) fn place(clause: &ContactClause) -> ContactPlace {
-    match &clause.touching {
-        Touching::Gap { gap, slips } => {
-            ContactPlace { gap: gap.span, slips: slips.iter().map(|slip| slip.span).collect() }
-        }
-        Touching::Range { along, .. } => ContactPlace { gap: along.span, slips: Vec::new() },
-    }
-}
+type Triple<'g> = [Expr<'g>; 3];
+
+/// Terms that a slip may have while it is seen whether it vanishes.
+const LIMIT: usize = 400;
 
 impl<'g> Translator<'_, 'g> {
     /// All contacts in the order in which they are written; of a range the lower limit first.
@@ -37,6 +33,9 @@ impl<'g> Translator<'_, 'g> {
                 Touching::Gap { gap, slips } => {
                     let slips = slips.iter().map(|slip| self.scalar(slip, tree)).collect::<Result<Vec<_>>>()?;
                     vec![(self.scalar(gap, tree)?, slips)]
+                }
+                Touching::Point(contact) => {
+                    vec![self.point_contact(&name, contact, friction.is_some(), tree)?]
                 }
                 Touching::Range { along, from, to } => {
                     let x = self.scalar(along, tree)?;
@@ -59,5 +58,116 @@ impl<'g> Translator<'_, 'g> {
             }));
         }
         Ok(contacts)
+    }
+
+    /// Gap and slips of a point, a sphere or a rim.
+    fn point_contact(
+        &self,
+        name: &str,
+        contact: &PointContact,
+        slides: bool,
+        tree: &Tree<'g>,
+    ) -> Result<(Expr<'g>, Vec<Expr<'g>>)> {
+        let radius = |e: &Option<Expression>, word: &str| match e {
+            Some(e) => self.radius((name, word), e, tree),
+            None => Ok(self.graph.zero()),
+        };
+        let position = self.vector(&contact.point, tree)?;
+        let own = radius(&contact.radius, "radius")?;
+        let (normal, height, along) = match &contact.against {
+            Against::Sphere { center, radius: other } => {
+                let apart = subtract(&position, &self.vector(center, tree)?);
+                let other = radius(other, "other_radius")?;
+                return Ok((dot(&apart, &apart).group().sqrt() - own - other, Vec::new()));
+            }
+            Against::Plane { normal, height, along } => (normal, height, along),
+        };
+        let n = match normal {
+            Some(e) => self.direction((name, "plane"), e, self.vector(e, tree)?),
+            None => self.axis(2),
+        };
+        let height = height.as_ref().map_or(Ok(self.graph.zero()), |e| self.scalar(e, tree))?;
+        // From the point to where it touches: against the normal, of a rim as far as its plane allows.
+        let (depth, arm) = match &contact.rim {
+            None => (own, n.map(|e| -own * e)),
+            Some([rim, axis]) => {
+                let local = self.local_point(&contact.point, tree)?;
+                let axis = self.direction((name, "axis"), axis, self.vector(axis, tree)?);
+                let axis = tree.links[local.link].axes().to_space(&axis).map(Expr::group);
+                let rim = self.radius((name, "rim"), rim, tree)?;
+                let across = cross(&axis, &n);
+                let sine = dot(&across, &across).group().sqrt();
+                // n − a (n·a) = (a × n) × a.
+                let scale = (-rim * sine.recip()).group();
+                (rim * sine, cross(&across.map(Expr::group), &axis).map(|e| scale * e))
+            }
+        };
+        let gap = dot(&n, &position) - height - depth;
+        if !slides {
+            return Ok((gap, Vec::new()));
+        }
+        let velocity = match arm.iter().all(|e| e.is_zero()) {
+            true => position.map(|e| e.derivative(&self.rates)),
+            false => {
+                let link = self.local_point(&contact.point, tree)?.link;
+                let spin = self.velocity_of(link, Property::AngularVelocity, tree);
+                add(&position.map(|e| e.derivative(&self.rates)), &cross(&spin, &arm))
+            }
+        };
+        let first = match along {
+            Some(e) => self.tangent((name, "along"), e, self.vector(e, tree)?, &n),
+            None => self.usual_tangent(name, normal.as_ref(), &n),
+        };
+        let slips = [first, cross(&n, &first)].map(|tangent| dot(&tangent, &velocity));
+        // Across the plane of a motion nothing slips.
+        Ok((gap, slips.into_iter().filter(|slip| !slip.collected(LIMIT).is_zero()).collect()))
+    }
+
+    /// The point as a body knows it.
+    fn local_point(&self, e: &Expression, tree: &Tree<'g>) -> Result<Local<'g>> {
+        match self.value(e, tree)? {
+            Value::Local(point) if point.is_point => Ok(point),
+            _ => Err(bug(e.span)),
+        }
+    }
+
+    fn radius(&self, argument: (&str, &str), e: &Expression, tree: &Tree<'g>) -> Result<Expr<'g>> {
+        let value = self.scalar(e, tree)?;
+        self.note(LawKind::NonNegative, argument, e, vec![value]);
+        Ok(value)
+    }
+
+    fn axis(&self, k: usize) -> Triple<'g> {
+        std::array::from_fn(|i| if i == k { self.graph.one() } else { self.graph.zero() })
+    }
+
+    /// A vector over its length, which `kernel()` checks to be one.
+    fn direction(&self, argument: (&str, &str), e: &Expression, vector: Triple<'g>) -> Triple<'g> {
+        let square = dot(&vector, &vector);
+        if square == self.graph.one() {
+            return vector;
+        }
+        self.note(LawKind::Direction, argument, e, vec![square]);
+        let length = self.divisor(square.group().sqrt(), e.span);
+        vector.map(|component| component * length.recip())
+    }
+
+    /// What of a vector is normal to n, over its length.
+    fn tangent(&self, argument: (&str, &str), e: &Expression, vector: Triple<'g>, n: &Triple<'g>) -> Triple<'g> {
+        let along = dot(&vector, n);
+        let normal = n.map(|component| along * component);
+        self.direction(argument, e, subtract(&vector, &normal))
+    }
+
+    /// The axis of the observer after that which is nearest to the normal, made normal to it.
+    fn usual_tangent(&self, name: &str, written: Option<&Expression>, n: &Triple<'g>) -> Triple<'g> {
+        let literal = written.and_then(Expression::literal_components).unwrap_or([0.0, 0.0, 1.0]);
+        let size = |k: &usize| literal[*k].abs();
+        let nearest = (0..3).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(2);
+        let axis = self.axis((nearest + 1) % 3);
+        match written {
+            Some(e) => self.tangent((name, "plane"), e, axis, n),
+            None => axis,
+        }
     }
 }

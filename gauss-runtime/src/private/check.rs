@@ -110,6 +110,16 @@ impl<T: Real> ParameterCheck<T> {
         }
     }
 
+    /// The square of the length of a direction: finite and greater than zero.
+    pub fn direction(&mut self, field: &'static str, square: T) {
+        if self.finite_so_far(field, &[square]) {
+            self.each_lane(field, |lane| {
+                let value = square.lane(lane);
+                (value <= 0.0).then_some((value, Rule::Direction))
+            });
+        }
+    }
+
     /// A coefficient of restitution: from 0 to 1.
     pub fn restitution(&mut self, field: &'static str, value: T) {
         if self.finite_so_far(field, &[value]) {

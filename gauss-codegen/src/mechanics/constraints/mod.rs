@@ -2,5 +2,6 @@
 
 pub mod constraint;
 pub mod contact;
+pub mod contact_rows;
 pub mod elimination;
 pub mod multipliers;

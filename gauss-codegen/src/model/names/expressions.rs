@@ -4,7 +4,7 @@ use super::places::{Holder, Place};
 use crate::model::language::statements::Statements;
 use crate::model::language::words::same;
 use crate::model::scene::clauses::{RoleClause, RoleValue};
-use crate::model::scene::contacts::{ContactClause, Touching};
+use crate::model::scene::contacts::{Against, ContactClause, PointContact, Touching};
 use crate::model::scene::elements::{Argument, Takes};
 use crate::model::scene::expression::Expression;
 use crate::model::scene::forces::{ForceClause, Value};
@@ -133,6 +133,7 @@ impl ContactClause {
                 let slips = slips.iter().map(|slip| (Place::Slip, slip));
                 std::iter::once((Place::Gap, gap)).chain(slips).collect::<Vec<_>>()
             }
+            Touching::Point(contact) => contact.placed(),
             Touching::Range { along, from, to } => {
                 let limits = from.iter().chain(to).map(|limit| (Place::Limit, limit));
                 std::iter::once((Place::Limited, along)).chain(limits).collect()
@@ -141,6 +142,29 @@ impl ContactClause {
         placed.extend(self.friction.iter().map(|friction| (Place::Friction, friction)));
         let restitution = Place::Constant { word: "coefficient of restitution", of: Holder::Contact };
         placed.extend(self.restitution.iter().map(|value| (restitution, value)));
+        placed
+    }
+}
+
+impl PointContact {
+    /// Its expressions, with their places.
+    fn placed(&self) -> Vec<(Place, &Expression)> {
+        let radius = Place::Constant { word: "radius", of: Holder::Contact };
+        let mut placed = vec![(Place::Touching, &self.point)];
+        placed.extend(self.radius.iter().map(|value| (radius, value)));
+        if let Some([of_rim, axis]) = &self.rim {
+            placed.extend([(radius, of_rim), (Place::Direction, axis)]);
+        }
+        match &self.against {
+            Against::Plane { normal, height, along } => {
+                placed.extend(normal.iter().chain(along).map(|value| (Place::Direction, value)));
+                placed.extend(height.iter().map(|value| (Place::Height, value)));
+            }
+            Against::Sphere { center, radius: other } => {
+                placed.push((Place::Touching, center));
+                placed.extend(other.iter().map(|value| (radius, value)));
+            }
+        }
         placed
     }
 }

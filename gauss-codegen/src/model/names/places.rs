@@ -66,6 +66,12 @@ pub enum Place {
     Slip,
     /// The coefficient of friction of a contact.
     Friction,
+    /// The point of a contact, or of what it touches.
+    Touching,
+    /// The normal or a tangent of a plane, the axis of a rim.
+    Direction,
+    /// Of a plane.
+    Height,
     /// What stays in a range, and where the range ends.
     Limited,
     Limit,
@@ -120,7 +126,8 @@ impl Place {
             Place::ForcePoint | Place::ForceAt { .. } | Place::Force | Place::Torque | Place::End(_) => {
                 kind == Kind::Vector
             }
-            Place::Medium | Place::Center => kind == Kind::Vector,
+            Place::Medium | Place::Center | Place::Touching | Place::Direction => kind == Kind::Vector,
+            Place::Height => kind == Kind::Scalar,
             Place::Rotation => kind == Kind::Rotation,
             Place::Role(role) => match kind {
                 Kind::Scalar => role.takes(Shape::Scalar),
@@ -166,6 +173,11 @@ impl Place {
             Place::Gap => ("a gap is a scalar", "write one number, such as `ball.position.z - r`"),
             Place::Slip => ("a slip is a scalar", "write one number, such as `dot(tip.velocity, [1, 0, 0])`"),
             Place::Friction => ("a coefficient of friction is a scalar", "write one number or the name of a field"),
+            Place::Touching => {
+                ("the point of a contact is a vector", "write the name of a point, `arm.position` or `[x, y, z]`")
+            }
+            Place::Direction => ("a direction is a vector", "write `[a, b, c]`"),
+            Place::Height => ("the height of a plane is a scalar", "write one number or the name of a field"),
             Place::Limited => ("what stays in a range is a scalar", "write one number, such as the angle of a joint"),
             Place::Limit => ("the limit of a range is a scalar", "write one number or the name of a field"),
             Place::ForcePoint => {
@@ -231,6 +243,7 @@ impl Place {
                             | Place::Potential
                             | Place::Constraint(_)
                             | Place::Gap
+                            | Place::Touching
                             | Place::Slip
                             | Place::Limited
                             | Place::Limit
@@ -259,12 +272,14 @@ impl Place {
     /// It is looked at together with the other expressions of its contact.
     pub fn is_of_contact(self) -> bool {
         let constant = matches!(self, Place::Constant { of: Holder::Contact, .. });
-        constant || matches!(self, Place::Gap | Place::Slip | Place::Friction | Place::Limited | Place::Limit)
+        let of_point = matches!(self, Place::Touching | Place::Direction | Place::Height);
+        let of_gap = matches!(self, Place::Gap | Place::Slip | Place::Friction | Place::Limited | Place::Limit);
+        constant || of_point || of_gap
     }
 
     /// Nothing that moves with the system may stand here, but time may.
     fn is_given(self) -> bool {
-        matches!(self, Place::Medium | Place::Center)
+        matches!(self, Place::Medium | Place::Center | Place::Height)
     }
 
     /// Speeds may stand here.
@@ -275,7 +290,15 @@ impl Place {
 
     /// Nothing that changes may stand here.
     fn is_constant(self) -> bool {
-        matches!(self, Place::Mass | Place::Role(_) | Place::At | Place::ForceAt { .. } | Place::Constant { .. })
+        matches!(
+            self,
+            Place::Mass
+                | Place::Role(_)
+                | Place::At
+                | Place::ForceAt { .. }
+                | Place::Constant { .. }
+                | Place::Direction
+        )
     }
 
     /// What stands here, for messages.
@@ -293,6 +316,9 @@ impl Place {
             Place::Gap => "a gap",
             Place::Slip => "a slip",
             Place::Friction => "a coefficient of friction",
+            Place::Touching => "the point of a contact",
+            Place::Direction => "a direction",
+            Place::Height => "the height of a plane",
             Place::Limited => "what stays in a range",
             Place::Limit => "the limit of a range",
             Place::ForcePoint | Place::ForceAt { .. } => "the point of a force",
@@ -331,6 +357,15 @@ impl Place {
                 "`{name}` moves with the system, and the center of gravity is given beforehand; write it in `t`, fields \
                  and numbers"
             ),
+            (Place::Height, _) => format!(
+                "`{name}` moves with the system, and the height of a plane is given beforehand; write it in `t`, fields and \
+                 numbers, or the whole gap as `gap = …`"
+            ),
+            (Place::Direction, _) => {
+                format!(
+                    "`{name}` varies, and a direction is constant; write numbers and fields only, or the whole gap as `gap = …`"
+                )
+            }
             (Place::Kinematics(_), _) => format!(
                 "`{name}` is {what}, and its velocity follows from the kinematics, not the kinematics from it; \
                  write rates in coordinates, speeds, fields and `t`"
@@ -382,7 +417,7 @@ impl Place {
                 let remedy = match place {
                     Place::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
                     Place::Constraint(_) => "write `constraint(velocity = …)`",
-                    Place::Gap => "its rate is formed from it; velocities stand in `slip = …`",
+                    Place::Gap | Place::Touching => "its rate is formed from it; velocities stand in `slip = …`",
                     Place::Limited | Place::Limit => "a constraint of velocities is `constraint(velocity = …)`",
                     Place::ForcePoint | Place::End(_) | Place::Along(_) => "speeds stand in values of forces",
                     _ => "speeds stand in `kinematics`",
@@ -399,7 +434,7 @@ impl Place {
             place if place.is_action() => return None,
             Place::Constraint(ConstraintKind::Velocity) | Place::Slip => return None,
             Place::Constraint(ConstraintKind::Position) => "write `constraint(velocity = …)`",
-            Place::Gap => "its rate is formed from it; velocities stand in `slip = …`",
+            Place::Gap | Place::Touching => "its rate is formed from it; velocities stand in `slip = …`",
             Place::Kinematics(_) => "the rates of coordinates are written in speeds",
             Place::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
             _ => "remove it",

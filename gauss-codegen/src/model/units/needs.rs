@@ -130,13 +130,18 @@ impl Checker<'_> {
 
     /// Slips are in the unit of the rate of their gap, limits in that of what they limit; coefficients have none.
     fn contact(&mut self, clause: &ContactClause) {
-        const NONE: (&str, Dimension) = ("dimensionless", Dimension::NONE);
+        const NONE: (&str, Dimension) = ("no unit", Dimension::NONE);
         let extent = |found: Dimensions| match found.parts()[0] {
             Found::Known(dimension) => Some(Extent { dimension, named: String::new() }),
             _ => None,
         };
         let (first, others, what, unit) = match &clause.touching {
             Touching::Gap { gap, slips } => (gap, slips.iter().collect(), "a slip with this gap is", Unit::Rate),
+            Touching::Point(contact) => {
+                let lengths = Need::new("points, radii and heights of a contact are", LENGTH);
+                contact.lengths().into_iter().for_each(|e| self.require(e, &lengths));
+                (&contact.point, Vec::new(), "", Unit::Extent)
+            }
             Touching::Range { along, from, to } => {
                 (along, from.iter().chain(to).collect::<Vec<_>>(), "the limit of this range is", Unit::Extent)
             }
