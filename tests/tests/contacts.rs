@@ -1,6 +1,9 @@
 //! Contacts of kernels: gaps against geometry, W and D against one another and the mass matrix, b against the rates of
-//! `contact_rates` along the motion, charts against one another.
+//! `contact_rates` along the motion (dual numbers, and differences), charts against one another.
 
+mod common;
+
+use common::dual::Dual;
 use gauss_runtime::contact::{Contact, ContactDynamics};
 use gauss_runtime::forces::Columns;
 use gauss_runtime::prelude::*;
@@ -43,14 +46,14 @@ fn ball() -> Ball {
     input(torque),
     drive(a = torque),
 )]
-struct Pendulum {
-    m: f64,
-    l: f64,
+struct Pendulum<T> {
+    m: T,
+    l: T,
     #[gauss(gravity)]
-    g: f64,
-    low: f64,
-    high: f64,
-    e: f64,
+    g: T,
+    low: T,
+    high: T,
+    e: T,
 }
 
 /// The ball of [`Ball`] by its geometry, in a chart.
@@ -87,6 +90,20 @@ in_charts! {
     RightInvariant: right_invariant;
 }
 
+/// A disk that rolls in the plane k₁k₂, in which weight is along −k₂.
+#[derive(GaussDynamics)]
+#[gauss(
+    chart = left_invariant,
+    motion = planar,
+    mass = 2,
+    inertia = 0.3,
+    gravity = 9.81,
+    contact(floor, point = body.position, radius = r, friction = 0.5)
+)]
+struct Disk {
+    r: f64,
+}
+
 /// A point on an arm of a slider-crank, whose loop is closed by a multiplier or solved for.
 macro_rules! cranks {
     ($($name:ident: $($independent:ident)?;)+) => {$(
@@ -107,10 +124,10 @@ macro_rules! cranks {
             contact(table, point = tip, plane = [1, 0, 2], height = 0.1 * t, friction = 0.5 + 0.1 * tanh(da)),
             range(slide, along = x, to = 3.5 * l),
         )]
-        struct $name {
-            l: f64,
+        struct $name<T> {
+            l: T,
             #[gauss(gravity)]
-            g: Vector3<f64>,
+            g: Vector3<T>,
         }
     )+};
 }
@@ -152,9 +169,9 @@ fn a_list_of_contacts() {
     assert_eq!(BallKernel::CONTACTS, [Contact::new("floor", 0, 2)]);
     let names = ["a_from", "a_to", "knee_from"].into_iter().enumerate();
     let all: Vec<Contact> = names.map(|(k, name)| Contact::new(name, k, 0)).collect();
-    assert_eq!(PendulumKernel::CONTACTS, all);
+    assert_eq!(PendulumKernel::<f64>::CONTACTS, all);
     // Motion in a plane has one tangent, motion along a line on a slope as well.
-    assert_eq!(CrankKernel::CONTACTS, [Contact::new("table", 0, 1), Contact::new("slide_to", 2, 0)]);
+    assert_eq!(CrankKernel::<f64>::CONTACTS, [Contact::new("table", 0, 1), Contact::new("slide_to", 2, 0)]);
     let shapes = [Contact::new("rim", 0, 2), Contact::new("balls", 3, 0), Contact::new("slope", 4, 1)];
     assert_eq!(ShapesKernel::CONTACTS, shapes);
     assert!(BallKernel::OPERATIONS.contact_dynamics.total() > BallKernel::OPERATIONS.contact_response.total());
@@ -184,13 +201,36 @@ fn a_ball_in_every_chart() {
 }
 
 #[test]
+fn a_disk_in_the_plane() {
+    let kernel = Disk { r: 0.4 }.kernel().unwrap();
+    assert_eq!(DiskKernel::CONTACTS, [Contact::new("floor", 0, 1)]);
+    let q = Isometry2::new(Vector2::new(1.0, 0.6), 0.5);
+    let (u, w) = (Vector2::new(0.3, -0.2), 1.5);
+    same(kernel.gaps(0.0, &q).as_slice(), &[0.2]);
+    let z = SVector::from([u.x, u.y, w]);
+    let (delassus, bias, rates) = laws(&kernel, &q, &z, &(), 0.0);
+    let v = q.rotation * u;
+    // At the lowest point v + ω k₃ × (−r k₂).
+    assert!((rates[0] - v.y).abs() < 1e-14 && (rates[1].abs() - (v.x + 0.4 * w).abs()).abs() < 1e-14, "{rates:?}");
+    same(&delassus, &[0.5, 0.0, 0.0, 0.5 + 0.16 / 0.3]);
+    same(&bias, &[-9.81, 0.0]);
+}
+
+#[test]
 fn a_pendulum_with_stops() {
     let parameters = Pendulum { m: 0.7, l: 1.3, g: 9.81, low: 0.4, high: 0.9, e: 0.5 };
     let kernel = parameters.kernel().unwrap();
     let (q, z) = (SVector::from([0.3, 1.1]), SVector::from([0.7, -0.4]));
     same(kernel.gaps(0.0, &q).as_slice(), &[0.7, 0.6, 0.8]);
     assert_eq!(kernel.restitution(), SVector::from([0.5, 0.5, 0.0]));
-    laws(&kernel, &q, &z, &SVector::from([0.3]), 0.0);
+    let input = SVector::from([0.3]);
+    let (_, bias, _) = laws(&kernel, &q, &z, &input, 0.0);
+    let of = |x: f64| Dual::new(x, 0.0);
+    let (m, l, g) = (of(0.7), of(1.3), of(9.81));
+    let dual = Pendulum { m, l, g, low: of(0.4), high: of(0.9), e: of(0.5) }.kernel().unwrap();
+    let acceleration = kernel.acceleration(0.0, &q, &z, &input);
+    let rates = dual.contact_rates(of(0.0), &q.zip_map(&z, Dual::new), &z.zip_map(&acceleration, Dual::new));
+    same(rates.map(|x| x.rate).as_slice(), &bias);
     let wrong = Pendulum { low: -1.0, e: 1.5, ..parameters }.kernel().unwrap_err().to_string();
     assert!(wrong.contains("`e` is 1.5: a coefficient of restitution is from 0"), "{wrong}");
     assert!(wrong.contains("the lower limit lies below"), "{wrong}");
@@ -211,6 +251,12 @@ fn a_loop_with_multipliers_and_solved() {
     assert!(whole.position_residual(t, &q).amax() < 1e-14 && whole.velocity_residual(t, &q, &z).amax() < 1e-14);
     let known = laws(&whole, &q, &z, &(), t);
     let found = laws(&solved, &q, &SVector::from([da]), &(), t);
+    let of = |x: f64| Dual::new(x, 0.0);
+    let dual = Crank { l: of(l), g: g.map(of) }.kernel().unwrap();
+    let acceleration = whole.acceleration(t, &q, &z, &());
+    let z_dual = z.zip_map(&acceleration, Dual::new);
+    let rates = dual.contact_rates(Dual::new(t, 1.0), &q.zip_map(&z, Dual::new), &z_dual);
+    same(rates.map(|x| x.rate).as_slice(), &known.1);
     same(&found.0, &known.0);
     same(&found.1, &known.1);
     same(solved.gaps(t, &q).as_slice(), whole.gaps(t, &q).as_slice());

@@ -4,7 +4,7 @@ use crate::algebra::Expr;
 use crate::error::Result;
 use crate::mechanics::{Contact, Tree, add, cross, dot, subtract};
 use crate::model::{Against, Expression, PointContact, Property, Touching};
-use crate::terms::LawKind;
+use crate::terms::{LawKind, Motion};
 use crate::words::Unraw;
 
 use super::translator::{Translator, bug};
@@ -84,7 +84,7 @@ impl<'g> Translator<'_, 'g> {
         };
         let n = match normal {
             Some(e) => self.direction((name, "plane"), e, self.vector(e, tree)?),
-            None => self.axis(2),
+            None => self.axis(self.upward()),
         };
         let height = height.as_ref().map_or(Ok(self.graph.zero()), |e| self.scalar(e, tree))?;
         // From the point to where it touches: against the normal, of a rim as far as its plane allows.
@@ -141,6 +141,11 @@ impl<'g> Translator<'_, 'g> {
         std::array::from_fn(|i| if i == k { self.graph.one() } else { self.graph.zero() })
     }
 
+    /// The axis against which a scalar gravity points: the third, in plane motion of a chart the second.
+    fn upward(&self) -> usize {
+        if self.model.in_chart.is_some_and(|chart| chart.motion == Motion::Planar) { 1 } else { 2 }
+    }
+
     /// A vector over its length, which `kernel()` checks to be one.
     fn direction(&self, argument: (&str, &str), e: &Expression, vector: Triple<'g>) -> Triple<'g> {
         let square = dot(&vector, &vector);
@@ -161,9 +166,10 @@ impl<'g> Translator<'_, 'g> {
 
     /// The axis of the observer after that which is nearest to the normal, made normal to it.
     fn usual_tangent(&self, name: &str, written: Option<&Expression>, n: &Triple<'g>) -> Triple<'g> {
-        let literal = written.and_then(Expression::literal_components).unwrap_or([0.0, 0.0, 1.0]);
-        let size = |k: &usize| literal[*k].abs();
-        let nearest = (0..3).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(2);
+        let nearest = match written.and_then(Expression::literal_components) {
+            Some(literal) => (0..3).max_by(|&a: &usize, &b| literal[a].abs().total_cmp(&literal[b].abs())).unwrap_or(2),
+            None => self.upward(),
+        };
         let axis = self.axis((nearest + 1) % 3);
         match written {
             Some(e) => self.tangent((name, "plane"), e, axis, n),

@@ -57,7 +57,7 @@ pub struct PointContact {
 pub enum Against {
     /// A half space: below a plane.
     Plane {
-        /// A vector of fields and numbers, observer axes, out of the half space; `None`: the third axis.
+        /// A vector of fields and numbers, observer axes, out of the half space; `None`: against a scalar gravity.
         normal: Option<Expression>,
         /// Of the plane from Ω along the normal: a scalar of t, fields and numbers.
         height: Option<Expression>,
