@@ -7,6 +7,8 @@
 //! and dry friction in finite freedom dynamics*, 1988). What the laws of contact and friction make of that is for
 //! a solver, such as the crate `gauss-contact`: the equations of a kernel are those of its motion without contact
 //! forces.
+//!
+//! `#[gauss(contact(…), range(…))]` has the derive write it.
 
 use core::fmt::{self, Debug};
 use core::ops::Index;

@@ -8,6 +8,17 @@ use gauss_runtime::contact::{Contact, ContactDynamics};
 use gauss_runtime::forces::Columns;
 use gauss_runtime::prelude::*;
 
+/// A robot from its file over a table, with stops of a finger.
+#[derive(GaussDynamics)]
+#[gauss(
+    urdf = "robots/panda.urdf",
+    gravity = 9.81,
+    frames(panda_finger_joint1_link),
+    contact(table, point = panda_finger_joint1_link.position, radius = 0.01, height = 0.1, friction = 0.4),
+    range(panda_finger_joint1, from = 0, to = 0.04, restitution = 0.2)
+)]
+struct Panda;
+
 /// A ball on a plane: friction along two tangents.
 #[derive(GaussDynamics)]
 #[gauss(
@@ -198,6 +209,23 @@ fn a_ball_in_every_chart() {
         )+};
     }
     same!(Hybrid LeftInvariant RightInvariant);
+}
+
+#[test]
+fn a_robot_from_its_file() {
+    let kernel = Panda.kernel().unwrap();
+    let contacts = [
+        Contact::new("table", 0, 2),
+        Contact::new("panda_finger_joint1_from", 3, 0),
+        Contact::new("panda_finger_joint1_to", 4, 0),
+    ];
+    assert_eq!(PandaKernel::CONTACTS, contacts);
+    let q = SVector::from([0.3, -0.5, 0.2, -1.9, 0.4, 1.3, -0.6, 0.03, 0.01]);
+    let z = SVector::from([0.4, -0.2, 0.3, 0.1, -0.5, 0.2, 0.6, -0.1, 0.2]);
+    let finger = kernel.pose_of(PandaFrame::panda_finger_joint1_link, 0.0, &q).translation;
+    same(kernel.gaps(0.0, &q).as_slice(), &[finger.z - 0.11, 0.03, 0.01]);
+    assert_eq!(kernel.restitution(), SVector::from([0.0, 0.2, 0.2]));
+    laws(&kernel, &q, &z, &SVector::zeros(), 0.0);
 }
 
 #[test]
