@@ -62,8 +62,10 @@ fn derive_model<R>(graph: &Graph, model: &Model, write: impl FnOnce(&Derived<'_,
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::algebra::Rational;
+    use crate::mechanics::{Claims, System, SystemFault, check_system_against_definition};
 
-    const SCENES: [&str; 4] = [
+    const SCENES: [&str; 5] = [
         "#[gauss(chart = jet(euler_zyx), linearize(parameters), regressor, force(at = c, value = [m * c.x, 0, 0]))]
          struct Body { #[gauss(mass)] m: f64, #[gauss(center_of_mass)] c: Vector3<f64>, #[gauss(inertia)] i: Matrix3<f64>,
              #[gauss(added_mass)] x: Matrix6<f64>, #[gauss(gravity)] g: f64 }",
@@ -78,7 +80,70 @@ mod tests {
         "#[gauss(coordinates(x, y, z), particle(mass = m, position = [x, y, z]), constraint(position = x * x + y * y - z),
              potential = ln(1 + x * x) / (2 + sin(y)), central_gravity(mu = m))]
          struct Bowl { m: f64 }",
+        "#[gauss(coordinates(x, turn: Rotation), body(disk, position = [x, 0, 0], rotation = turn, mass = 1, inertia = [a, b, b]),
+             contact(rim, point = disk.position, rim = a, axis = [1, 0, 0], friction = b), range(x, from = a, to = b))]
+         struct Disk { a: f64, b: f64 }",
     ];
+
+    fn mistakes(clauses: &str) -> Vec<(String, String)> {
+        let source = format!(
+            "#[gauss(coordinates(x, y, a), speeds(v, w, s), kinematics(x = v, y = w, a = s),
+                 particle(mass = 1, position = [x, y, 0]), body(wheel, rotation = rotation_z(a), mass = 1, inertia = 1),
+                 point(hub, body = wheel, at = [0, 0, 1]), {clauses})] struct Scene {{}}"
+        );
+        let input: DeriveInput = syn::parse_str(&source).expect("a struct");
+        let error = expand(&input).expect_err("a mistake");
+        error.into_iter().map(|e| (e.span().source_text().unwrap_or_default(), e.to_string())).collect()
+    }
+
+    /// Each number that a kernel says of its contacts is held to the definition.
+    #[test]
+    fn what_is_wrong_about_contacts_is_found() {
+        let source = "#[gauss(coordinates(a, b, x), particle(mass = m, position = [cos(a), 0, sin(a)]),
+             body(rod, rotation = rotation_y(b), mass = m, inertia = m), particle(mass = m, position = [x, 0, 0]),
+             constraint(position = cos(a) + 2 * cos(b) - x), range(x, to = m),
+             contact(floor, gap = a + t * b, slip = rate(x * a), friction = m))] struct Crank { m: f64 }";
+        let input: DeriveInput = syn::parse_str(source).expect("a struct");
+        let model = model::parse(&input).expect("a valid scene");
+        let graph = Graph::new();
+        let translated = crate::translate::translate(&graph, &model).expect("a scene");
+        let system = System::new(translated.scene);
+        let formulas = system.formulas();
+        let claims = Claims::of(&formulas);
+        assert!(check_system_against_definition(&system, &claims).is_ok());
+        let [right, ..] = claims.contacts else { panic!("no way to form the motion") };
+        // Three accelerations, three rows, three by three columns, three by three of D.
+        assert_eq!(right.len(), 3 + 3 + 9 + 9);
+        for k in 0..right.len() {
+            let mut wrong = right.clone();
+            wrong[k] = wrong[k] + graph.number(Rational::new(1, 1000));
+            let claims = Claims { contacts: &[wrong], ..Claims::of(&formulas) };
+            let faults = check_system_against_definition(&system, &claims).expect_err("a fault");
+            assert!(matches!(faults.as_slice(), [SystemFault::Disagreement(_)]), "{k}: {faults:?}");
+        }
+    }
+
+    /// What only the derivation sees of gaps and slips, all at once and each at its place.
+    #[test]
+    fn contacts_that_nothing_changes() {
+        let found = mistakes(
+            "contact(p, gap = x - x + y - y, slip = v, friction = 1), contact(q, gap = y, slip = [v * w, s - s], friction = 1),
+             range(r, along = hub.z, to = 2), contact(u, point = hub, plane = [1, 0, 0])",
+        );
+        let found: Vec<(&str, &str)> = found.iter().map(|(place, message)| (&place[..], &message[..])).collect();
+        let curved = "this slip of `q` is not affine in the speeds; write the component of a velocity along a tangent";
+        let gap = |name: &str| format!("no speed changes the gap of `{name}`, so no force closes or opens it");
+        assert_eq!(
+            found,
+            [
+                ("-", &gap("p")[..]),
+                ("*", curved),
+                ("-", "no speed changes this slip of `q`; leave it out"),
+                ("z", &gap("r_to")),
+                ("hub", &gap("u")),
+            ]
+        );
+    }
 
     /// A frame that turns with `b` carries a body; the other body that turns with `b` is not free by itself.
     #[test]

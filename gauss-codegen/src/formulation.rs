@@ -12,7 +12,8 @@ use crate::mechanics::{
 };
 use crate::methods::DerivativeKind;
 use crate::mistakes::{
-    eliminate, not_linear, refuse_curved_kinematics, refuse_exhausted, refuse_idle_speeds, system_faults,
+    eliminate, not_linear, refuse_contacts, refuse_curved_kinematics, refuse_exhausted, refuse_idle_speeds,
+    system_faults,
 };
 use crate::terms::{self, WantedMethod};
 use crate::translate::{Given, Parameter, Translated};
@@ -46,6 +47,7 @@ impl<'g> Formulation<'g> {
     pub fn of(translated: Translated<'g>) -> Result<Self> {
         let Reduced { given, mut system, elimination } = Reduced::of(translated)?;
         let (wanted_of, graph) = (&given.item.wanted, system.scene.graph);
+        refuse_contacts(&given, &system)?;
         let printed = printed(&mut system);
         refuse_exhausted(&given.item, graph)?;
         let mut formulas = system.formulas();

@@ -51,6 +51,15 @@ pub enum Method {
     /// ∂C/∂ż at ż = 0; what holds weight and buoyancy.
     NonlinearEffects,
     GravityTorques,
+    /// g; ġ and s; Wᵀ; μ; e. Only with contacts.
+    Gaps,
+    ContactRates,
+    ContactJacobian,
+    Friction,
+    Restitution,
+    /// A⁻¹Wᵀ and D = W A⁻¹Wᵀ; ż without contact forces, b = W ż + γ, and these.
+    ContactResponse,
+    ContactDynamics,
 }
 
 /// A quantity of a frame. Components are in its own axes, the pole is its origin.
@@ -88,8 +97,8 @@ impl Method {
     pub const CENTROIDAL: [Self; 5] =
         [Self::TotalMass, Self::CenterOfMass, Self::CentroidalMomentum, Self::CentroidalMatrix, Self::CentroidalBias];
 
-    /// What a kernel has on request, but single frames.
-    pub const ASKED_FOR: [Self; 7] = [
+    /// What a kernel has on request, but single frames, and with contacts.
+    pub const ASKED_FOR: [Self; 13] = [
         Self::Frames,
         Self::CenterOfMass,
         Self::CentroidalMomentum,
@@ -97,6 +106,12 @@ impl Method {
         Self::CentroidalBias,
         Self::NonlinearEffects,
         Self::GravityTorques,
+        Self::Gaps,
+        Self::ContactRates,
+        Self::ContactJacobian,
+        Self::Friction,
+        Self::ContactResponse,
+        Self::ContactDynamics,
     ];
 
     /// What the generated method is called.
@@ -138,6 +153,13 @@ impl Method {
             Method::CentroidalBias => "centroidal_bias",
             Method::NonlinearEffects => "nonlinear_effects",
             Method::GravityTorques => "gravity_torques",
+            Method::Gaps => "gaps",
+            Method::ContactRates => "contact_rates",
+            Method::ContactJacobian => "contact_jacobian",
+            Method::Friction => "friction",
+            Method::Restitution => "restitution",
+            Method::ContactResponse => "contact_response",
+            Method::ContactDynamics => "contact_dynamics",
         }
     }
 }

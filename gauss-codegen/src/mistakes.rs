@@ -167,6 +167,31 @@ pub fn not_linear(clause: &Ident, mass: &str) -> Error {
     )
 }
 
+/// Gaps that no motion changes; slips that are not affine in the speeds, or that no motion changes.
+pub fn refuse_contacts(given: &Given<'_>, system: &System<'_>) -> Result<()> {
+    let mut mistakes = Mistakes::default();
+    let mut rows = system.contacts.jacobian.iter();
+    for contact in &system.scene.contacts {
+        let place = &given.contacts[contact.clause];
+        let spans = std::iter::once(place.gap).chain(place.slips.iter().copied());
+        for (number, (span, row)) in spans.zip(&mut rows).enumerate() {
+            let message = match (system.contacts.is_still(row), system.contacts.is_affine(row, &system.scene.speeds)) {
+                (true, _) if number == 0 => {
+                    format!("no speed changes the gap of `{}`, so no force closes or opens it", contact.name)
+                }
+                (true, _) => format!("no speed changes this slip of `{}`; leave it out", contact.name),
+                (_, false) => format!(
+                    "this slip of `{}` is not affine in the speeds; write the component of a velocity along a tangent",
+                    contact.name
+                ),
+                _ => continue,
+            };
+            mistakes.push(span, message);
+        }
+    }
+    mistakes.finish()
+}
+
 /// Solves the constraints for the speeds that are not named.
 pub fn eliminate<'g>(
     places: &[ConstraintPlace],

@@ -170,6 +170,33 @@ fn latex_can_be_set() {
     }
 }
 
+/// A line for each gap, slip and coefficient, of a body in a chart and of others.
+#[test]
+fn contacts_are_printed_by_their_names() {
+    let (_, source) = common::SCENES.iter().find(|(name, _)| *name == "Rolling").expect("a scene");
+    let others = "#[gauss(coordinates(x, y), particle(mass = 1, position = [x, y, 0]), range(x, to = l),
+        contact(wall_2, gap = y - x, slip = rate(x + y), friction = mu))] struct Corner { l: f64, mu: f64 }";
+    let title = "gaps: none becomes negative; each adds a force that is not negative, and zero where it is open";
+    for (name, source, lines) in [
+        ("Rolling", *source, vec!["  g_floor = ", "  s_floor1 = ", "  s_floor2 = ", "  μ_floor = mu"]),
+        (
+            "Corner",
+            others,
+            vec!["  g_x_to = l - x", "  g_wall_2 = y - x", "  s_wall_2 = x\u{307} + y\u{307}", "  μ_wall_2 = mu"],
+        ),
+    ] {
+        let derivation = Derivation::of_source(source, name).expect("a valid scene");
+        let text = derivation.equations(Notation::Text);
+        let (_, after) = text.split_once(title).unwrap_or_else(|| panic!("{text}"));
+        let found: Vec<&str> = after.trim_start().lines().take(lines.len()).map(str::trim).collect();
+        for (line, found) in lines.iter().zip(&found) {
+            assert!(found.starts_with(line.trim()), "{line}: {text}");
+        }
+        let complaints = latex::complaints(derivation.equations(Notation::Latex));
+        assert!(complaints.is_empty(), "\n{}", complaints.join("\n"));
+    }
+}
+
 /// A motor between a craft and its wheel: on the craft's speeds it does not act, in whatever attitude.
 #[test]
 fn a_torque_between_two_links_is_printed_on_their_joint_alone() {

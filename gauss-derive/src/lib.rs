@@ -141,6 +141,11 @@
 /// | `particle(mass = m, position = […], parent = other)` | a point with mass; the position in observer's axes from Ω, or in the axes of the parent from its O |
 /// | `point(name, body = other, at = […])` | a point fixed in a body or a frame, at numbers and fields in its axes from O |
 /// | `constraint(position = expr)`, `constraint(velocity = expr)` | what is zero: a scalar, or a vector for three constraints at once, less those that are the same combination of the others everywhere, as across the plane of a loop |
+/// | `contact(name, gap = expr, slip = expr, friction = mu, restitution = e)` | what may touch: a gap that does not become negative, a scalar as in constraints of positions. With friction the slip, the velocity along a tangent in the unit of the gap's rate, or `[expr, expr]` along two tangents that are normal to each other; μ may depend on all that forces do, e is made of numbers and fields. The kernel implements `ContactSystem`: its equations are those of the motion without contact forces, of which a solver makes use |
+/// | `contact(name, point = tip, radius = r, plane = [0, 0, 1], height = h, along = [1, 0, 0], friction = mu)` | the same by geometry: a point (its name, `ball.position`, `[x, y, z]`), or the sphere of that radius about it, above a plane with this normal (in observer's axes, of any length; by default k₃, in plane motion k₂), whose distance from Ω may depend on `t`. The slip is that of the material point that touches, along two tangents, the first one as near to `along` as can be, and left out where it is always zero |
+/// | `contact(name, point = wheel.position, rim = r, axis = [0, 1, 0], plane = …)` | the rim of a disk about the point; the axis is in the axes of the body. Where the disk lies flat the point that touches is not determined |
+/// | `contact(name, point = a.position, radius = r, other = b.position, other_radius = s)` | two spheres, without friction |
+/// | `range(x, from = a, to = b, restitution = e)` | stops of a coordinate, or of `along = expr`, without friction: contacts `x_from` and `x_to`; either limit may be left out, both may depend on `t` and coordinates |
 /// | `armature(elbow = a, wrist = 2 * a)` | inertia of the rates of coordinates, ½ a q̇² in T: rotors behind gears, of which a coordinate feels the inertia times the square of the ratio; of a `Rotation` ½ a ω², of a `Pose` ½ a (v² + ω²). It has no weight, and counts in no centre of mass and no momentum of the whole |
 /// | `independent(v, w.x)` | the speeds that stay, or components of them, when the constraints are solved for the others at compile time. Those of a chart are called `u`, `xi` or `b_dot`, each of all its components, and `omega`; of jet charts `b1_dot`, `psi_dot` and so on |
 /// | `waive(triangle_inequality)` | see above |
@@ -268,9 +273,9 @@
 ///
 /// | where | what else |
 /// |---|---|
-/// | particles without a parent, potentials, constraints, points of forces, springs, stops | points, which are position vectors; of bodies and frames `arm.position` (of O) and `arm.rotation`, all from Ω in observer's axes |
-/// | constraints of velocities; values of forces, torques, wrenches and drives; coefficients of drags; `damping` | the same; speeds; `arm.velocity` (of O) and `arm.angular_velocity` in observer's axes; `arm.body_velocity`, `arm.body_angular_velocity` and `arm.relative_velocity` (of O, relative to the medium) in body axes; of poses and rotations the same but the last, of points `tip.velocity`; the time derivative `rate(expr)` of what has no speeds in it |
-/// | values of forces, torques, wrenches and drives; coefficients of drags; `damping` | inputs |
+/// | particles without a parent, potentials, constraints, points of forces, springs, stops, gaps, points of contacts, ranges | points, which are position vectors; of bodies and frames `arm.position` (of O) and `arm.rotation`, all from Ω in observer's axes |
+/// | constraints of velocities, slips; values of forces, torques, wrenches and drives; coefficients of drags; `friction` of contacts; `damping` | the same; speeds; `arm.velocity` (of O) and `arm.angular_velocity` in observer's axes; `arm.body_velocity`, `arm.body_angular_velocity` and `arm.relative_velocity` (of O, relative to the medium) in body axes; of poses and rotations the same but the last, of points `tip.velocity`; the time derivative `rate(expr)` of what has no speeds in it |
+/// | values of forces, torques, wrenches and drives; coefficients of drags; `friction` of contacts; `damping` | inputs |
 /// | the same without `damping` | `abs min max clamp(x, low, high) signum smooth_step(x, from, to)`, which are not smooth; the last is 0 below `from`, 1 above `to` and 3s² − 2s³ between |
 ///
 /// # Units

@@ -161,6 +161,18 @@ by_method! {
     nonlinear_effects,
     /// Of [`GravityTorques::gravity_torques`](crate::centroidal::GravityTorques::gravity_torques).
     gravity_torques,
+    /// Of [`ContactSystem::gaps`](crate::contact::ContactSystem::gaps); none without contacts.
+    gaps,
+    /// Of [`ContactSystem::contact_rates`](crate::contact::ContactSystem::contact_rates).
+    contact_rates,
+    /// Of [`ContactSystem::contact_jacobian`](crate::contact::ContactSystem::contact_jacobian).
+    contact_jacobian,
+    /// Of [`ContactSystem::friction`](crate::contact::ContactSystem::friction).
+    friction,
+    /// Of [`ContactSystem::contact_response`](crate::contact::ContactSystem::contact_response).
+    contact_response,
+    /// Of [`ContactSystem::contact_dynamics`](crate::contact::ContactSystem::contact_dynamics).
+    contact_dynamics,
     ;
     /// Of the other methods of [`FramedSystem`](crate::frames::FramedSystem), frame by frame in their order.
     of_frames: &'static [FrameOperations] = &[]

@@ -37,6 +37,11 @@ pub enum Rule {
         /// The upper limit.
         most: f64,
     },
+    /// A direction is a vector that is not zero, a tangent one that is not along the normal. The value is the square of
+    /// what is left of it.
+    Direction,
+    /// A coefficient of restitution is from 0 to 1: an impact takes energy, and does not draw together.
+    Restitution,
     /// Bodies without mass, or without some moment of inertia, move together with others that make up for it. The value
     /// is the smallest eigenvalue of their mass matrix scaled to a unit diagonal, 0.
     RegularSum,
@@ -126,6 +131,14 @@ impl fmt::Display for Violation {
             Rule::NonNegative => {
                 write!(f, "`{field}` is {value}: it must be 0 or greater; check its sign")
             }
+            Rule::Direction => write!(
+                f,
+                "`{field}` has no direction: it is zero, or along the normal; give a vector of any other length and direction"
+            ),
+            Rule::Restitution => write!(
+                f,
+                "`{field}` is {value}: a coefficient of restitution is from 0, without rebound, to 1, without loss"
+            ),
             Rule::NonNegativeStiffness => write!(
                 f,
                 "`{field}` is {value}: a stiffness is 0 or greater, and pulls back; check its sign, or write what pushes \

@@ -74,6 +74,7 @@ pub mod chart;
 pub mod condition;
 pub mod configuration;
 pub mod constraint;
+pub mod contact;
 pub mod description;
 pub mod error;
 pub mod forces;

@@ -10,6 +10,7 @@ pub use crate::centroidal::{CentroidalSystem, GravityTorques};
 pub use crate::chart::Chart;
 pub use crate::configuration::{Configuration, VectorSpace};
 pub use crate::constraint::ConstrainedSystem;
+pub use crate::contact::ContactSystem;
 pub use crate::description::DescribedSystem;
 pub use crate::error::ParameterError;
 pub use crate::forces::ForcedSystem;

@@ -38,11 +38,19 @@ fn of_method<'g>(
     let results = |rows: usize, columns: usize| vec![Results::new(name, rows, columns)];
     let count = code.outputs.len();
     match method {
-        Method::MassMatrix | Method::ElementForces => {
+        Method::MassMatrix | Method::ElementForces | Method::ContactJacobian => {
             signature.program(name, &arguments, code, results(rows, count / rows))
         }
         Method::OfFrame(FrameQuantity::Jacobian | FrameQuantity::JacobianRate, _) | Method::CentroidalMatrix => {
             signature.program(name, &arguments, code, results(6, rows))
+        }
+        Method::ContactResponse | Method::ContactDynamics => {
+            let lines = derived.subject.system.contacts.rates.len();
+            let mut results = vec![Results::new("columns", rows, lines), Results::new("delassus", lines, lines)];
+            if method == Method::ContactDynamics {
+                results.splice(0..0, [Results::new("acceleration", rows, 1), Results::new("bias", lines, 1)]);
+            }
+            signature.program(name, &arguments, code, results)
         }
         Method::Regularity => signature.program(name, &arguments, &regularity(code), results(1, 1)),
         _ => signature.program(name, &arguments, code, results(count, 1)),

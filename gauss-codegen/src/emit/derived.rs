@@ -301,7 +301,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             | Method::ConstraintFunction
             | Method::SuppliedPower
             | Method::TotalMass => quote!(#(#outputs)*),
-            Method::MassMatrix | Method::ElementForces => {
+            Method::MassMatrix | Method::ElementForces | Method::ContactJacobian => {
                 let rows = outputs.chunks(outputs.len() / speeds.len()).map(|row| quote!([#(#row),*]));
                 quote!(#private::matrix([#(#rows),*]))
             }

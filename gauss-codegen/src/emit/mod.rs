@@ -6,7 +6,7 @@
 //! | `subject`, `chart` | what is derived: its configuration, its constraints; charts by name |
 //! | `derived` | everything known about one derive, and what the implementations are made with |
 //! | `records` | states and inputs by name |
-//! | `equations` | `GaussSystem`, constraints, power series |
+//! | `equations` | `GaussSystem`, constraints, contacts, power series |
 //! | `derivatives` | a file for each kind of derivative; `columns`: solved together |
 //! | `quantities` | powers and forces, frames, the pose of a body, sums over the system |
 //! | `text` | equations and costs as text, LaTeX and rustdoc; the file that a robot was read from, and warnings of what in it has no effect |
@@ -45,7 +45,7 @@ pub use text::file::file;
 
 use constructor::{kernel, of_file};
 use derivatives::{hessian, inverse, linearized, parametric, regressor};
-use equations::{constrained, gauss_system, taylor};
+use equations::{constrained, contact, gauss_system, taylor};
 use quantities::{forced, framed, rigid_body, whole};
 use records::{input, state};
 use text::description;
@@ -59,6 +59,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let described = description::described(derived, equations);
     let rigid_body = rigid_body::rigid_body_system(derived);
     let constrained = constrained::constrained_system(derived);
+    let contacts = contact::contact_system(derived);
     let forced = forced::forced_system(derived);
     let taylor = taylor::taylor_system(derived);
     let linearized = linearized::linearized_system(derived);
@@ -87,6 +88,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
             #described
             #rigid_body
             #constrained
+            #contacts
             #forced
             #taylor
             #linearized

@@ -1,9 +1,10 @@
-//! A system as it is given: coordinates, speeds, ψ, links, constraints and loads, in symbols.
+//! A system as it is given: coordinates, speeds, ψ, links, constraints, contacts and loads, in symbols.
 
 use crate::algebra::{Expr, Graph, Map, Substitution};
 use crate::terms::{InChart, Motion};
 
 use crate::mechanics::constraints::constraint::Constraint;
+use crate::mechanics::constraints::contact::Contact;
 use crate::mechanics::kinematics::vector::{Triple, is_zero};
 use crate::mechanics::links::link::{Matter, Placement};
 use crate::mechanics::links::tree::Tree;
@@ -88,6 +89,8 @@ pub struct SystemScene<'g> {
     pub rates: Map<u32, Expr<'g>>,
     pub tree: Tree<'g>,
     pub constraints: Vec<Constraint<'g>>,
+    /// What may touch.
+    pub contacts: Vec<Contact<'g>>,
     /// Values that arrive at run time.
     pub inputs: Vec<Expr<'g>>,
     /// Loads other than weight and buoyancy.
@@ -105,7 +108,8 @@ impl<'g> SystemScene<'g> {
         let mut tree = self.tree.changed(self.speeds.clone(), self.rates.clone(), placed);
         tree.settle();
         let kept: Vec<usize> = (0..self.speeds.len()).collect();
-        self.assembled(&kept, self.kinematics.clone(), self.rates.clone(), tree, self.elements.clone())
+        let scene = self.assembled(&kept, self.kinematics.clone(), self.rates.clone(), tree, self.elements.clone());
+        Self { contacts: self.contacts.clone(), ..scene }
     }
 
     /// The scene in which constraints are solved: of its speeds those of `kept` stay, in terms of which the replacement
@@ -119,10 +123,11 @@ impl<'g> SystemScene<'g> {
         tree.rotors.iter_mut().for_each(|rotor| rotor.rate = value(rotor.rate));
         let elements = self.elements.iter().map(|element| element.map(value)).collect();
         tree.settle();
-        self.assembled(kept, kinematics, rates, tree, elements)
+        let contacts = self.contacts.iter().map(|contact| contact.in_speeds(replacement)).collect();
+        Self { contacts, ..self.assembled(kept, kinematics, rates, tree, elements) }
     }
 
-    /// The speeds of `kept`, without constraints.
+    /// The speeds of `kept`, without constraints and contacts.
     fn assembled(
         &self,
         kept: &[usize],
@@ -148,6 +153,7 @@ impl<'g> SystemScene<'g> {
             rates,
             tree,
             constraints: Vec::new(),
+            contacts: Vec::new(),
             inputs: self.inputs.clone(),
             elements,
         }

@@ -2,12 +2,14 @@
 //! and every method of their kernels.
 
 mod arranged;
+mod response;
 
 use crate::algebra::{Expr, Map, solve_pairs, solve_symmetric};
 
 use crate::mechanics::arrangements::articulated::Articulated;
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::arrangements::orthogonal::Elements;
+use crate::mechanics::constraints::contact_rows::Contacts;
 use crate::mechanics::constraints::multipliers::Constraints;
 use crate::mechanics::formula::{Formula, Formulas, Method};
 use crate::mechanics::kinematics::vector::{Vector, is_zero};
@@ -40,6 +42,7 @@ pub struct System<'g> {
     /// do not come in.
     in_own_axes: Option<Tree<'g>>,
     pub constraints: Constraints<'g>,
+    pub contacts: Contacts<'g>,
     /// Links that nothing else moves with.
     pub free: Vec<FreeLink<'g>>,
     /// Something is moved as a function of time: velocities, or what constraints say of them, do not vanish with z.
@@ -65,6 +68,7 @@ impl<'g> System<'g> {
         let mut along = scene.rates.clone();
         along.extend(scene.speeds.iter().zip(&scene.speed_rates).map(|(z, rate)| (z.key(), *rate)));
         let constraints = Constraints::new(&scene, &scene.rates);
+        let contacts = Contacts::new(&scene);
         let free = FreeLink::all(&scene);
         let (potential, forces) = (potential_of(&scene.elements), forces_of(&scene.elements));
         let loads = Loads::of(&scene.elements);
@@ -73,8 +77,20 @@ impl<'g> System<'g> {
         let short = scene.speeds.len() <= most_squares(&scene);
         let working = if short { Working::of_rotors(&scene.tree, &loads) } else { Working::of(&scene.tree, &loads) };
         let in_own_axes = if short { scene.tree.in_own_axes() } else { None };
-        let mut system =
-            Self { scene, potential, forces, loads, working, in_own_axes, constraints, free, driven, along, matrix };
+        let mut system = Self {
+            scene,
+            potential,
+            forces,
+            loads,
+            working,
+            in_own_axes,
+            constraints,
+            contacts,
+            free,
+            driven,
+            along,
+            matrix,
+        };
         system.matrix = system.mass_matrix();
         let at_rest = system.at_rest();
         let mut velocities = system.constraints.on_velocities.clone();
@@ -130,6 +146,7 @@ impl<'g> System<'g> {
             formulas.extend(self.constraint_formulas());
         }
         formulas.extend(account_formulas(&self.accounts(), self.explicit_power()));
+        formulas.extend(self.contact_formulas(&formulas.acceleration));
         formulas.others.sort_by_key(|(method, _)| *method);
         formulas
     }

@@ -1,6 +1,6 @@
 //! The clauses and fields of a scene put together: every name known, every kind right, nothing missing.
 
-use crate::model::checks::{bodies, coefficients, constraints, field_shapes, forces, masses, motion};
+use crate::model::checks::{bodies, coefficients, constraints, contacts, field_shapes, forces, masses, motion};
 use crate::model::language::context::Context;
 use crate::model::language::fields::{ReadField, Reader};
 use crate::model::language::shapes::TypeKind;
@@ -86,8 +86,9 @@ fn check_expressions(
     let mut scope = declared::scope(statements, &reader.fields, shapes, scalar, uncertain);
     definitions::check(&statements.definitions, &mut scope, context);
     for (place, expression) in expressions::all(statements) {
-        // Of constraints and mass data the kind is needed as well.
+        // Of constraints and mass data the kind is needed as well; contacts are looked at clause by clause.
         let later = matches!(place, Place::Constraint(_) | Place::Role(_))
+            || place.is_of_contact()
             || [Role::AddedMass, Role::Inertia].map(expressions::entry).contains(&place);
         if !later {
             kinds::check(expression, place, &scope, context);
@@ -100,6 +101,7 @@ fn check_expressions(
     forces::check(statements, context);
     coefficients::check(statements, &reader.fields, &scope, scalar, context);
     let well = constraints::check_kinds(statements, &scope, context);
+    let in_contacts = contacts::check_kinds(statements, &scope, context);
     let all: Vec<&Expression> = expressions::all(statements).into_iter().map(|(_, expression)| expression).collect();
     let unused = definitions::unused(statements, &all);
     // Only what is well otherwise has dimensions.
@@ -108,6 +110,7 @@ fn check_expressions(
     }
     definitions::inline(statements);
     constraints::check(statements, &well, uncertain, context);
+    contacts::check(statements, &in_contacts, context);
     unused
 }
 
@@ -177,6 +180,7 @@ fn assembled(
         particles: statements.particles,
         points: statements.points,
         constraints: statements.constraints,
+        contacts: statements.contacts,
         independent: statements.independent.map(|independent| independent.names),
         potential: statements.potential.and_then(|(_, potential)| potential),
         role_clauses: statements.role_clauses,

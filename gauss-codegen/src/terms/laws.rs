@@ -23,4 +23,10 @@ pub enum LawKind {
     Dissipation,
     /// A gravitational parameter.
     Attraction,
+    /// A coefficient of friction: checked where it is a constant.
+    Friction,
+    /// The square of the length of a direction.
+    Direction,
+    /// A coefficient of restitution.
+    Restitution,
 }

@@ -232,7 +232,7 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// Takes note of what the argument `word` of the element `name` is.
-    fn note(&self, kind: LawKind, (name, word): (&str, &str), e: &Expression, values: Vec<Expr<'g>>) {
+    pub(super) fn note(&self, kind: LawKind, (name, word): (&str, &str), e: &Expression, values: Vec<Expr<'g>>) {
         let field = |ident: &Ident| self.model.item.fields.iter().any(|field| field.ident.unraw() == ident.unraw());
         let label = match &e.kind {
             ExpressionKind::Name(ident) if field(ident) => ident.unraw().to_string(),

@@ -9,12 +9,13 @@
 //! - `kinematics`: ψ, and the rates of everything that it moves.
 //! - `values`: expressions; `value`: what they stand for.
 //! - `domains`: expressions without a value; `notes`: what is noted on the way.
-//! - `forces`: loads.
+//! - `forces`: loads; `contacts`: gaps, slips and their coefficients.
 //! - `laws`, `drag`: constants of loads, for checks and warnings.
 //! - `parameters`: what the numbers of fields are called; `state`: what coordinates and speeds are called.
 //! - `placements`: where bodies, frames and points are.
 
 mod blame;
+mod contacts;
 mod domains;
 mod drag;
 mod forces;

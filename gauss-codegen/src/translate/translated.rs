@@ -46,6 +46,8 @@ pub struct Given<'g> {
     pub rates: Vec<Named>,
     /// Clause by clause.
     pub constraints: Vec<ConstraintPlace>,
+    /// Clause by clause.
+    pub contacts: Vec<ContactPlace>,
     /// The speeds that stay where constraints are solved for the others.
     pub independent: Option<Independent>,
 }
@@ -95,6 +97,12 @@ pub struct ConstraintPlace {
     pub in_file: Option<String>,
     /// It is a vector.
     pub is_vector: bool,
+}
+
+/// Where gap and slips of a contact are written.
+pub struct ContactPlace {
+    pub gap: Span,
+    pub slips: Vec<Span>,
 }
 
 /// The speeds that stay where constraints are solved for the others.

@@ -20,7 +20,7 @@ use super::notes::Notes;
 use super::parameters::parameters;
 use super::state::quantities;
 use super::symbols::{self, Declared};
-use super::translated::{ConstraintPlace, Given, Independent, Named, Translated};
+use super::translated::{ConstraintPlace, ContactPlace, Given, Independent, Named, Translated};
 use super::value::{Piece, Value};
 
 /// Translates a checked system.
@@ -66,6 +66,7 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
             state: quantities(model, independent.as_ref().map(|independent| &independent.kept[..])),
             rates: model.kinematics.iter().map(rate).collect(),
             constraints: model.constraints.iter().map(place).collect(),
+            contacts: model.contacts.iter().map(contact_place).collect(),
             independent,
             item: model.item.clone(),
         },
@@ -82,6 +83,16 @@ fn place(clause: &model::ConstraintClause) -> ConstraintPlace {
         expression: clause.expression.span,
         in_file: clause.place.clone(),
         is_vector: clause.vector,
+    }
+}
+
+fn contact_place(clause: &model::ContactClause) -> ContactPlace {
+    match &clause.touching {
+        model::Touching::Gap { gap, slips } => {
+            ContactPlace { gap: gap.span, slips: slips.iter().map(|slip| slip.span).collect() }
+        }
+        model::Touching::Point(contact) => ContactPlace { gap: contact.point.span, slips: vec![contact.point.span; 2] },
+        model::Touching::Range { along, .. } => ContactPlace { gap: along.span, slips: Vec::new() },
     }
 }
 
@@ -212,6 +223,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             _ => self.elements(&tree)?.into_iter().map(|(_, element)| element).collect(),
         };
         let constraints = self.constraints(&tree)?;
+        let contacts = self.contacts(&tree)?;
         tree.settle();
         Ok(SystemScene {
             graph,
@@ -228,6 +240,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             rates: self.rates.clone(),
             tree,
             constraints,
+            contacts,
             inputs: self.declared.inputs.clone(),
             elements,
         })

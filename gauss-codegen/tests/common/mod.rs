@@ -4,7 +4,7 @@ use gauss_codegen::Derivation;
 use gauss_codegen::program::{ArgumentKind, Program};
 
 /// One body in each kind of chart, systems with groups, constraints, inputs, literals, and forces that are not smooth.
-pub const SCENES: [(&str, &str); 7] = [
+pub const SCENES: [(&str, &str); 8] = [
     (
         "Top",
         "#[gauss(motion = fixed_point)] struct Top { #[gauss(mass)] m: f64, #[gauss(inertia)] i: Vector3<f64> }",
@@ -56,6 +56,15 @@ pub const SCENES: [(&str, &str); 7] = [
         "#[gauss(
             coordinates(x, z), particle(mass = m, position = [x, 0, z]), constraint(position = x * x + z * z - l * l),
         )] struct Rod { m: f64, l: f64, #[gauss(gravity)] g: f64 }",
+    ),
+    (
+        "Rolling",
+        "#[gauss(chart = hybrid, contact(floor, point = body.position, radius = r, plane = n, along = [1, 0, 0],
+            friction = mu, restitution = 0.5))]
+        struct Rolling {
+            #[gauss(mass)] m: f64, #[gauss(inertia)] i: Vector3<f64>, #[gauss(gravity)] g: f64, r: f64, mu: f64,
+            n: Vector3<f64>,
+        }",
     ),
 ];
 

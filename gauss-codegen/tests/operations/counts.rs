@@ -15,7 +15,7 @@ pub struct Row {
 }
 
 /// Methods whose costs are pinned; what else `OPERATIONS` has serves checks.
-const PINNED: [&str; 20] = [
+const PINNED: [&str; 26] = [
     "acceleration",
     "momentum",
     "velocity",
@@ -36,6 +36,12 @@ const PINNED: [&str; 20] = [
     "centroidal_bias",
     "nonlinear_effects",
     "gravity_torques",
+    "gaps",
+    "contact_rates",
+    "contact_jacobian",
+    "friction",
+    "contact_response",
+    "contact_dynamics",
 ];
 
 /// Of `kernel()`, which runs once.

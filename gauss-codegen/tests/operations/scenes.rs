@@ -6,7 +6,10 @@ mod structures;
 use crate::sources::{self, Scene};
 
 pub fn all() -> Vec<Scene> {
-    [bodies(), loads(), between(), one_link(), chains(), written_out(), in_macros()].into_iter().flatten().collect()
+    [bodies(), loads(), between(), one_link(), chains(), touching(), written_out(), in_macros()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// Charts of each motion.
@@ -202,6 +205,51 @@ fn one_link() -> Vec<Scene> {
         }
     }
     scenes
+}
+
+/// Contacts: without friction, with one tangent and with two, of one body in a chart, and in a loop.
+fn touching() -> Vec<Scene> {
+    let ball = "contact(floor, point = body.position, radius = r, friction = mu, restitution = e)";
+    let scenes = [
+        (
+            "bouncing ball",
+            "#[gauss(coordinates(z), particle(mass = m, position = [0, 0, z]), contact(floor, gap = z, restitution = e))] \
+             struct Ball { m: f64, #[gauss(gravity)] g: f64, e: f64 }"
+                .to_owned(),
+        ),
+        (
+            "block on a slope",
+            "#[gauss(coordinates(x, z), particle(mass = m, position = [x, 0, z]), contact(slope, point = [x, 0, z], \
+             plane = [-sin(a), 0, cos(a)], along = [1, 0, 0], friction = mu))] \
+             struct Block { m: f64, #[gauss(gravity)] g: f64, a: f64, mu: f64 }"
+                .to_owned(),
+        ),
+        (
+            "rolling ball",
+            format!(
+                "#[gauss(chart = hybrid, {ball})] struct Ball {{ {MASS} {PRINCIPAL} {CENTER} {VERTICAL} r: f64, mu: f64, \
+                 e: f64 }}"
+            ),
+        ),
+        (
+            "pendulum with stops",
+            "#[gauss(coordinates(a, b), particle(mass = m, position = [l * sin(a), 0, -l * cos(a)]), particle(mass = m, \
+             position = [l * (sin(a) + sin(b)), 0, -l * (cos(a) + cos(b))]), range(a, from = -k, to = k), range(knee, \
+             along = b - a, from = 0, restitution = e))] \
+             struct Pendulum { m: f64, l: f64, k: f64, e: f64, #[gauss(gravity)] g: f64 }"
+                .to_owned(),
+        ),
+        (
+            "slider-crank with a stop",
+            "#[gauss(coordinates(a, b, x), particle(mass = m, position = [l * cos(a), 0, l * sin(a)]), particle(mass = m, \
+             position = [x, 0, 0]), body(rod, rotation = rotation_y(b), mass = m, inertia = k), constraint(position = \
+             [l * cos(a) + k * cos(b) - x, 0, l * sin(a) - k * sin(b)]), range(x, to = k))] \
+             struct Crank { m: f64, l: f64, k: f64 }"
+                .to_owned(),
+        ),
+    ];
+    let named = |(name, source): (&str, String)| Scene { name: format!("touching: {name}"), source };
+    scenes.into_iter().map(named).collect()
 }
 
 fn chains() -> Vec<Scene> {

@@ -110,6 +110,26 @@ impl<T: Real> ParameterCheck<T> {
         }
     }
 
+    /// The square of the length of a direction: finite and greater than zero.
+    pub fn direction(&mut self, field: &'static str, square: T) {
+        if self.finite_so_far(field, &[square]) {
+            self.each_lane(field, |lane| {
+                let value = square.lane(lane);
+                (value <= 0.0).then_some((value, Rule::Direction))
+            });
+        }
+    }
+
+    /// A coefficient of restitution: from 0 to 1.
+    pub fn restitution(&mut self, field: &'static str, value: T) {
+        if self.finite_so_far(field, &[value]) {
+            self.each_lane(field, |lane| {
+                let value = value.lane(lane);
+                (!(0.0..=1.0).contains(&value)).then_some((value, Rule::Restitution))
+            });
+        }
+    }
+
     /// An inertia tensor about the centre of mass, or one of which nothing else is known: symmetric up to rounding,
     /// positive definite, and its principal moments obey the triangle inequality up to a few ulp of the trace.
     pub fn inertia(&mut self, field: &'static str, inertia: &[[T; 3]; 3]) {

@@ -53,6 +53,26 @@ fn masses_and_plain_values() {
 }
 
 #[test]
+fn coefficients_and_directions_of_contacts() {
+    let none = found(|check| {
+        [0.0, 0.5, 1.0].into_iter().for_each(|e| check.restitution("e", e));
+        check.direction("n", 1e-30);
+    });
+    assert!(none.is_empty(), "{none:?}");
+    for wrong in [-0.1, 1.0 + f64::EPSILON, 7.0] {
+        let violation = only(|check| check.restitution("e", wrong));
+        assert_eq!((violation.value, violation.rule), (wrong, Rule::Restitution));
+    }
+    assert_eq!(only(|check| check.restitution("e", f64::NAN)).rule, Rule::Finite);
+    assert_eq!(only(|check| check.direction("n", 0.0)).rule, Rule::Direction);
+    let violation = only(|check| check.direction("n", f64::INFINITY));
+    assert_eq!(violation.rule, Rule::Finite);
+    assert!(
+        only(|check| check.direction("floor.plane", 0.0)).to_string().starts_with("`floor.plane` has no direction")
+    );
+}
+
+#[test]
 fn inertia_alone() {
     assert_eq!(only(|check| check.inertia("j", &diagonal([1.0, f64::NAN, 1.0]))).rule, Rule::Finite);
 

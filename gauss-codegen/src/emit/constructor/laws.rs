@@ -37,16 +37,25 @@ fn written(
             LawKind::Stiffness => quote!(stiffness),
             LawKind::Width => quote!(width),
             LawKind::Limits => quote!(limits),
-            LawKind::NonNegative => quote!(non_negative),
+            LawKind::NonNegative | LawKind::Friction => quote!(non_negative),
+            LawKind::Restitution => quote!(restitution),
+            LawKind::Direction => quote!(direction),
             LawKind::MassInSum => quote!(mass_in_sum),
             LawKind::StiffnessMatrix => quote!(stiffness_matrix),
             LawKind::DampingMatrix => quote!(damping_matrix),
             LawKind::Damping | LawKind::Attraction => quote!(finite),
             LawKind::Dissipation => return None,
         };
-        let (compute, values) = statements(&Program::lower(&law.values), symbols, &derived.scalar());
+        // Of a state nothing is known when the kernel is made.
+        let (compute, values) = of_parameters(derived, symbols, &law.values)?;
         Some(match law.kind {
-            LawKind::Stiffness | LawKind::Width | LawKind::NonNegative | LawKind::MassInSum => {
+            LawKind::Stiffness
+            | LawKind::Width
+            | LawKind::NonNegative
+            | LawKind::Friction
+            | LawKind::Restitution
+            | LawKind::Direction
+            | LawKind::MassInSum => {
                 quote!({ #compute __check.#check(#label, #(#values)*); })
             }
             LawKind::Limits => quote!({ #compute __check.#check(#label, [#(#values),*]); }),
@@ -117,6 +126,9 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
             | LawKind::Limits
             | LawKind::NonNegative
             | LawKind::StiffnessMatrix
+            | LawKind::Friction
+            | LawKind::Restitution
+            | LawKind::Direction
             | LawKind::MassInSum => {
                 return None;
             }

@@ -46,7 +46,9 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
         | Method::Powers
         | Method::ElementForces
         | Method::SuppliedPower
-        | Method::NonlinearEffects => OF_EQUATIONS,
+        | Method::NonlinearEffects
+        | Method::Friction
+        | Method::ContactDynamics => OF_EQUATIONS,
         Method::Kinematics
         | Method::Momentum
         | Method::KineticEnergy
@@ -57,7 +59,8 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
         | Method::OfFrame(FrameQuantity::Twist | FrameQuantity::Bias | FrameQuantity::JacobianRate, _)
         | Method::Frames
         | Method::CentroidalMomentum
-        | Method::CentroidalBias => &[Speeds],
+        | Method::CentroidalBias
+        | Method::ContactRates => &[Speeds],
         Method::Velocity => &[Momenta],
         Method::MomentumRate => &[Momenta, Inputs],
         Method::GaussResidual | Method::ConstraintFunction | Method::OtherForces => OF_RESIDUAL,
@@ -75,7 +78,11 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
         | Method::TotalMass
         | Method::CenterOfMass
         | Method::CentroidalMatrix
-        | Method::GravityTorques => &[],
+        | Method::GravityTorques
+        | Method::Gaps
+        | Method::ContactJacobian
+        | Method::Restitution
+        | Method::ContactResponse => &[],
     }
 }
 

@@ -1,5 +1,6 @@
 //! The equations of motion, their constraints, and their power series.
 
 pub mod constrained;
+pub mod contact;
 pub mod gauss_system;
 pub mod taylor;

@@ -56,6 +56,8 @@ pub struct Claims<'a, 'g> {
     pub accelerations: &'a [Vec<Expr<'g>>],
     /// λ, where there are constraints.
     pub multipliers: Option<&'a [Expr<'g>]>,
+    /// The motion without contact forces and what they do, where there are contacts.
+    pub contacts: &'a [Vec<Expr<'g>>],
 }
 
 impl<'a, 'g> Claims<'a, 'g> {
@@ -64,6 +66,7 @@ impl<'a, 'g> Claims<'a, 'g> {
             residuals: &formulas.gauss_residual,
             accelerations: &formulas.acceleration,
             multipliers: formulas.get(Method::Multipliers).and_then(|all| all.first()).map(Vec::as_slice),
+            contacts: formulas.get(Method::ContactDynamics).map_or(&[], Vec::as_slice),
         }
     }
 }
@@ -221,7 +224,86 @@ fn compare<'g, N: Number>(
             agree(Method::Acceleration, &vec![N::number(0.0); sums.len()], &sums)?;
         }
     }
-    Ok(Comparison::Agrees)
+    let pushed = Pushed { witness: &witness, jacobian: &jacobian, multipliers: &multipliers };
+    pushed.compare(claims.contacts)
+}
+
+/// The definition with contact forces of arbitrary sizes.
+struct Pushed<'w, 'a, 'g, N> {
+    witness: &'w Witness<'a, 'g, N>,
+    /// Of the constraints, speed by speed, and their multipliers without contact forces.
+    jacobian: &'w [Vec<N>],
+    multipliers: &'w [N],
+}
+
+impl<'g, N: Number> Pushed<'_, '_, 'g, N> {
+    /// C is stationary at `ż + A⁻¹Wᵀλ` under the forces Wᵀλ, and the rates of gaps and slips change by `D λ + b` there:
+    /// W and what changes them by dual numbers.
+    fn compare(&self, claims: &[Vec<Expr<'g>>]) -> Result<Comparison, Disagreement> {
+        let Self { witness, .. } = self;
+        let system = witness.system;
+        if claims.is_empty() {
+            return Ok(Comparison::Agrees);
+        }
+        let (n, rows) = (system.scene.speeds.len(), system.contacts.rates.len());
+        let rates = &system.contacts.rates;
+        let zero = N::number(0.0);
+        let forces: Vec<N> = (0..rows).map(|k| N::number(0.4 + 0.3 * (k % 3) as f64)).collect();
+        let transposed = witness.partials(rates);
+        let of_constraints = self.multipliers_with(&forces);
+        let gaps: Vec<Expr<'g>> = system.scene.contacts.iter().map(|contact| contact.gap).collect();
+        let normal_rates = witness.along(&witness.flow(&vec![zero; n]), &gaps);
+        let normals = system.scene.contacts.iter().scan(0, |next, contact| {
+            let normal = *next;
+            *next += 1 + contact.slips.len();
+            Some(rates[normal])
+        });
+        let expected: Vec<_> = normal_rates.into_iter().map(|rate| Summed::of(rate, Vec::new())).collect();
+        if !expected.iter().all(Summed::is_in_range) {
+            return Ok(Comparison::WithoutValue);
+        }
+        agree(Method::ContactRates, &witness.values(&normals.collect::<Vec<_>>()), &expected)?;
+        for claim in claims {
+            let values = witness.values(claim);
+            let (still, rest) = values.split_at(n);
+            let (bias, rest) = rest.split_at(rows);
+            let (columns, delassus) = rest.split_at(n * rows);
+            let summed = |first: N, terms: &[N]| {
+                Summed::of(first, terms.iter().zip(&forces).map(|(x, force)| *x * *force).collect())
+            };
+            let with_forces = |(k, &rate): (usize, &N)| summed(rate, &columns[k * rows..(k + 1) * rows]).value;
+            let moved: Vec<N> = still.iter().enumerate().map(with_forces).collect();
+            // The roundings of Delassus' matrix are those of A⁻¹, larger than what is left of its rows.
+            let scale = largest(values.iter().copied()).max(1.0);
+            let stationary = witness.stationarity(&moved).into_iter().enumerate().map(|(k, row)| {
+                let of_contacts = transposed[k].iter().zip(&forces).map(|(w, force)| -(*w * *force));
+                let held = self.jacobian.get(k).into_iter().flatten().zip(&of_constraints).map(|(j, l)| -(*j * *l));
+                Summed::of(row, of_contacts.chain(held).collect()).over(scale)
+            });
+            let changes = witness.along(&witness.flow(&moved), rates).into_iter().enumerate().map(|(i, change)| {
+                let sum = summed(bias[i], &delassus[i * rows..(i + 1) * rows]);
+                let sizes = largest(moved.iter().copied()) * largest(transposed.iter().flatten().copied());
+                Summed { value: change - sum.value, terms: sum.terms + sizes }.over(scale)
+            });
+            for sums in [stationary.collect::<Vec<_>>(), changes.collect()] {
+                if !sums.iter().all(Summed::is_in_range) {
+                    return Ok(Comparison::WithoutValue);
+                }
+                agree(Method::ContactDynamics, &vec![zero; sums.len()], &sums)?;
+            }
+        }
+        Ok(Comparison::Agrees)
+    }
+
+    /// The multipliers of the constraints with contact forces.
+    fn multipliers_with(&self, forces: &[N]) -> Vec<N> {
+        let mut sum = self.multipliers.to_vec();
+        for (of_row, force) in self.witness.system.multipliers_of_contacts().iter().zip(forces) {
+            let values = self.witness.values(of_row);
+            sum.iter_mut().zip(values).for_each(|(sum, value)| *sum = *sum + value * *force);
+        }
+        sum
+    }
 }
 
 /// A sum, and the sizes of its terms together: what its roundings are relative to.

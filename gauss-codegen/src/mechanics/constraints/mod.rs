@@ -1,5 +1,7 @@
-//! What coordinates and speeds do not solve by themselves.
+//! What coordinates and speeds do not solve by themselves, and what may touch.
 
 pub mod constraint;
+pub mod contact;
+pub mod contact_rows;
 pub mod elimination;
 pub mod multipliers;

@@ -57,6 +57,13 @@ impl<'g> Constraints<'g> {
         (rates, multipliers.into_iter().map(|e| -e).collect())
     }
 
+    /// x and μ with `A x = right + Jᵀ μ` and `J x = 0`: velocities that impulses make.
+    pub fn respond(&self, matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
+        let still = vec![right[0].graph().zero(); self.count()];
+        let (rates, multipliers) = solve_saddle(matrix, &self.jacobian, right, &still);
+        (rates, multipliers.into_iter().map(|e| -e).collect())
+    }
+
     /// Jᵀ λ.
     pub fn forces(&self, multipliers: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let n = self.jacobian.first().map_or(0, Vec::len);

@@ -47,6 +47,27 @@ impl<'g> System<'g> {
         sections
     }
 
+    /// Gaps, slips and coefficients of friction.
+    pub(in crate::mechanics) fn contact_section(&self) -> Section<'g> {
+        let title = "gaps: none becomes negative; each adds a force that is not negative, and zero where it is open";
+        let named = |letter: &str, latex: &str, name: &str| {
+            Name::new(letter, latex).of(&Name::new(name, &format!("\\text{{{}}}", name.replace('_', "\\_"))))
+        };
+        let mut rows = Vec::new();
+        for contact in &self.scene.contacts {
+            rows.push(Row::Definition(named("g", "g", &contact.name), legible(contact.gap)));
+            let slip = named("s", "s", &contact.name);
+            let several = contact.slips.len() > 1;
+            rows.extend(contact.slips.iter().enumerate().map(|(k, e)| {
+                let name = if several { slip.index(k) } else { slip.clone() };
+                Row::Definition(name, legible(*e))
+            }));
+            let friction = contact.friction.map(|e| Row::Definition(named("μ", "\\mu", &contact.name), legible(e)));
+            rows.extend(friction);
+        }
+        Section { title: Name::new(title, title), rows }
+    }
+
     /// Rates that are not speeds themselves.
     fn kinematic_rows(&self) -> Vec<Row<'g>> {
         let scene = &self.scene;

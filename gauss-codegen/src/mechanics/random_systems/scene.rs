@@ -170,6 +170,7 @@ impl<'g> Symbols<'g> {
             rates,
             tree,
             constraints,
+            contacts: Vec::new(),
             inputs: Vec::new(),
             elements: plan
                 .potential

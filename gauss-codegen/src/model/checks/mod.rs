@@ -3,6 +3,7 @@
 pub mod bodies;
 pub mod coefficients;
 pub mod constraints;
+pub mod contacts;
 pub mod field_shapes;
 pub mod forces;
 pub mod masses;

@@ -92,6 +92,28 @@ pub fn read_coefficients(owner: &str, what: &str, tokens: &[TokenTree], context:
     None
 }
 
+/// Reads the tokens of one scalar, or of a list `[a, b]` of one or two.
+pub fn read_one_or_two(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Vec<Expression>> {
+    let flat = attributes::flat(tokens.iter().cloned().collect());
+    let [TokenTree::Group(group)] = flat.as_slice() else {
+        return read(owner, tokens, context).map(|expression| vec![expression]);
+    };
+    if group.delimiter() != Delimiter::Bracket {
+        return read(owner, tokens, context).map(|expression| vec![expression]);
+    }
+    let pieces = attributes::pieces(group.stream(), "", context);
+    if !matches!(pieces.len(), 1 | 2) {
+        let message = format!(
+            "`{owner}` is one scalar or two, one for each tangent, found {}; write `{owner} = v` or `{owner} = [u, v]`",
+            pieces.len()
+        );
+        context.error(group.span_open(), message);
+        return None;
+    }
+    let read: Vec<_> = pieces.iter().map(|piece| read(owner, piece, context)).collect();
+    read.into_iter().collect()
+}
+
 fn parse(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Expr> {
     if let Some(span) = nesting::too_deep(tokens.iter().cloned().collect()) {
         context.error(span, nested(owner));

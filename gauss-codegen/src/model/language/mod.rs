@@ -5,6 +5,7 @@ pub mod arguments;
 pub mod arithmetic;
 pub mod attributes;
 pub mod chains;
+pub mod contacts;
 pub mod context;
 pub mod declarations;
 pub mod fields;

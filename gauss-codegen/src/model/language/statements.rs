@@ -6,10 +6,11 @@ use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
 use super::declarations::{self, Definition, Kinematics, Names};
 use super::words::{self, Table, same};
-use super::{actions, own_functions, placements, role_clauses};
+use super::{actions, contacts, own_functions, placements, role_clauses};
 use crate::model::scene::clauses::{
     BodyClause, ConstraintClause, ConstraintKind, Coordinate, ParticleClause, PointClause, RoleClause, Speed, SpeedPart,
 };
+use crate::model::scene::contacts::ContactClause;
 use crate::model::scene::elements::{ATTRACTION, ELEMENTS, Form, Row};
 use crate::model::scene::expression::{Expression, ExpressionKind};
 use crate::model::scene::forces::ForceClause;
@@ -37,6 +38,7 @@ pub struct Statements {
     pub particles: Vec<ParticleClause>,
     pub points: Vec<PointClause>,
     pub constraints: Vec<ConstraintClause>,
+    pub contacts: Vec<ContactClause>,
     pub independent: Option<Names<SpeedPart>>,
     pub limit: Option<(Ident, Option<usize>)>,
     pub potential: Option<(Ident, Option<Expression>)>,
@@ -72,6 +74,8 @@ pub enum Statement {
     Particle,
     Point,
     Constraint,
+    Contact,
+    Range,
     Independent,
     Potential,
     Input,
@@ -88,7 +92,7 @@ pub enum Statement {
 }
 
 /// The clauses of systems, but for those of force elements: these stand between the two.
-const DECLARED: [(&str, Statement); 11] = [
+const DECLARED: [(&str, Statement); 13] = [
     ("coordinates", Statement::Coordinates),
     ("speeds", Statement::Speeds),
     ("kinematics", Statement::Kinematics),
@@ -97,6 +101,8 @@ const DECLARED: [(&str, Statement); 11] = [
     ("particle", Statement::Particle),
     ("point", Statement::Point),
     ("constraint", Statement::Constraint),
+    ("contact", Statement::Contact),
+    ("range", Statement::Range),
     ("independent", Statement::Independent),
     ("potential", Statement::Potential),
     ("input", Statement::Input),
@@ -195,9 +201,13 @@ impl Statements {
             | Statement::Table
             | Statement::Waive
             | Statement::Limit => self.read_declaration(statement, clause, context),
-            Statement::Body | Statement::Frame | Statement::Particle | Statement::Point | Statement::Constraint => {
-                self.read_placement(statement, clause, context)
-            }
+            Statement::Body
+            | Statement::Frame
+            | Statement::Particle
+            | Statement::Point
+            | Statement::Constraint
+            | Statement::Contact
+            | Statement::Range => self.read_placement(statement, clause, context),
             Statement::Element(row) => self.read_element(row, clause, context),
             Statement::Armature => self.read_armature(clause, context),
             Statement::Potential => {
@@ -283,7 +293,7 @@ impl Statements {
         }
     }
 
-    /// Bodies, particles, points, and what constrains them.
+    /// Bodies, particles, points, what constrains them and what they touch.
     fn read_placement(&mut self, statement: Statement, clause: &Clause, context: &mut Context) {
         let read = match statement {
             Statement::Body => match placements::read_body(clause, false, context) {
@@ -296,6 +306,8 @@ impl Statements {
             Statement::Frame => add(&mut self.bodies, placements::read_body(clause, true, context)),
             Statement::Particle => add(&mut self.particles, placements::read_particle(clause, context)),
             Statement::Point => add(&mut self.points, placements::read_point(clause, self.in_chart, context)),
+            Statement::Contact => add(&mut self.contacts, contacts::read_contact(clause, context)),
+            Statement::Range => add(&mut self.contacts, contacts::read_range(clause, context)),
             _ => add(&mut self.constraints, read_constraint(clause, context)),
         };
         self.note_read(read, statement);

@@ -51,9 +51,10 @@ const TORSION: &str = "a torsional spring between two bodies is `torsional_sprin
                        about their third axes; along a coordinate `spring(along = angle, stiffness = k)`";
 const COUPLING: &str = "a viscous coupling of two bodies is `coupling(body = wheel, other = hull, viscous = c)`";
 const ROLLING: &str = "rolling without slip is `constraint(velocity = …)`; a loop is `constraint(position = …)`";
-const CONTACT: &str =
-    "a contact is `stop(along = height, least = 0, stiffness = k, width = e)`; friction is `force(…)`";
-const RANGE: &str = "limits of a coordinate are `stop(along = x, least = a, most = b, stiffness = k, width = e)`";
+const CONTACT: &str = "a contact is `contact(name, gap = height, slip = v, friction = mu, restitution = e)`; one that gives \
+                       way `stop(along = height, least = 0, stiffness = k, width = e)`";
+const RANGE: &str = "limits of a coordinate are `range(x, from = a, to = b)`; limits that give way \
+                     `stop(along = x, least = a, most = b, stiffness = k, width = e)`";
 const GEAR: &str = "a gear is one coordinate for both: `rotation = rotation_z(n * angle)`; the inertia of a rotor behind \
                     it is `armature(angle = a)`";
 const ROTOR: &str = "a wheel is a body that a coordinate turns: `coordinates(angle), body(wheel, parent = hull, \
@@ -150,10 +151,11 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("nonholonomic", ROLLING),
     ("holonomic", ROLLING),
     ("loop_closure", ROLLING),
-    ("contact", CONTACT),
+    ("unilateral", CONTACT),
+    ("impact", CONTACT),
+    ("collision", CONTACT),
     ("ground", CONTACT),
     ("floor", CONTACT),
-    ("range", RANGE),
     ("limits", RANGE),
     ("joint_limits", RANGE),
     ("bumper", RANGE),
@@ -286,7 +288,12 @@ pub const FOR_ARGUMENTS: &Table<&[&str]> = &[
     ("viscosity", &["viscous"]),
     ("damping", &["viscous"]),
     ("viscous", &["damping"]),
-    ("coulomb", &["dry"]),
+    ("coulomb", &["dry", "friction"]),
+    ("mu", &["friction"]),
+    ("distance", &["gap"]),
+    ("tangent", &["slip"]),
+    ("bounce", &["restitution"]),
+    ("elasticity", &["restitution"]),
     ("min", &["least"]),
     ("lower", &["least"]),
     ("max", &["most"]),

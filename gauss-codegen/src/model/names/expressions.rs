@@ -4,12 +4,13 @@ use super::places::{Holder, Place};
 use crate::model::language::statements::Statements;
 use crate::model::language::words::same;
 use crate::model::scene::clauses::{RoleClause, RoleValue};
+use crate::model::scene::contacts::{Against, ContactClause, PointContact, Touching};
 use crate::model::scene::elements::{Argument, Takes};
 use crate::model::scene::expression::Expression;
 use crate::model::scene::forces::{ForceClause, Value};
 use crate::terms::Role;
 
-/// Every expression, with its place; those of constraints come after the others.
+/// Every expression, with its place; those of constraints and contacts come after the others.
 pub fn all(statements: &Statements) -> Vec<(Place, &Expression)> {
     let mut all = Vec::new();
     let coordinates = || statements.coordinates.iter().flat_map(|names| &names.names);
@@ -48,6 +49,7 @@ pub fn all(statements: &Statements) -> Vec<(Place, &Expression)> {
         all.extend(placed.filter(|(place, expression)| !named(place, expression)));
     }
     all.extend(statements.constraints.iter().map(|clause| (Place::Constraint(clause.kind), &clause.expression)));
+    all.extend(statements.contacts.iter().flat_map(ContactClause::placed));
     all
 }
 
@@ -74,6 +76,7 @@ impl Statements {
         }
         self.points.iter_mut().for_each(|point| change(&mut point.at));
         self.constraints.iter_mut().for_each(|constraint| change(&mut constraint.expression));
+        self.contacts.iter_mut().for_each(|clause| clause.each_expression(change));
         for (_, value) in self.potential.iter_mut().chain(&mut self.medium) {
             value.iter_mut().for_each(&mut *change);
         }
@@ -120,6 +123,50 @@ impl RoleClause {
 /// Where an entry of an added mass, or of an inertia, stands.
 pub fn entry(role: Role) -> Place {
     Place::Constant { word: "entry", of: if role == Role::AddedMass { Holder::AddedMass } else { Holder::Inertia } }
+}
+
+impl ContactClause {
+    /// Its expressions, with their places.
+    pub fn placed(&self) -> Vec<(Place, &Expression)> {
+        let mut placed = match &self.touching {
+            Touching::Gap { gap, slips } => {
+                let slips = slips.iter().map(|slip| (Place::Slip, slip));
+                std::iter::once((Place::Gap, gap)).chain(slips).collect::<Vec<_>>()
+            }
+            Touching::Point(contact) => contact.placed(),
+            Touching::Range { along, from, to } => {
+                let limits = from.iter().chain(to).map(|limit| (Place::Limit, limit));
+                std::iter::once((Place::Limited, along)).chain(limits).collect()
+            }
+        };
+        placed.extend(self.friction.iter().map(|friction| (Place::Friction, friction)));
+        let restitution = Place::Constant { word: "coefficient of restitution", of: Holder::Contact };
+        placed.extend(self.restitution.iter().map(|value| (restitution, value)));
+        placed
+    }
+}
+
+impl PointContact {
+    /// Its expressions, with their places.
+    fn placed(&self) -> Vec<(Place, &Expression)> {
+        let radius = Place::Constant { word: "radius", of: Holder::Contact };
+        let mut placed = vec![(Place::Touching, &self.point)];
+        placed.extend(self.radius.iter().map(|value| (radius, value)));
+        if let Some([of_rim, axis]) = &self.rim {
+            placed.extend([(radius, of_rim), (Place::Direction, axis)]);
+        }
+        match &self.against {
+            Against::Plane { normal, height, along } => {
+                placed.extend(normal.iter().chain(along).map(|value| (Place::Direction, value)));
+                placed.extend(height.iter().map(|value| (Place::Height, value)));
+            }
+            Against::Sphere { center, radius: other } => {
+                placed.push((Place::Touching, center));
+                placed.extend(other.iter().map(|value| (radius, value)));
+            }
+        }
+        placed
+    }
 }
 
 impl ForceClause {

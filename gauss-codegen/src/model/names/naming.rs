@@ -14,9 +14,9 @@ use syn::ext::IdentExt;
 type Named<'a> = (&'a Ident, &'static str);
 
 /// Refuses names that are used twice, among fields, coordinates, speeds, inputs, definitions, functions, bodies, frames
-/// and points, and among force elements; and names that expressions use already.
+/// and points, and among force elements and contacts; and names that expressions use already.
 pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Context) {
-    // Expressions do not name force elements: a force may have the name of its input.
+    // Expressions do not name force elements and contacts: a force may have the name of its input.
     let acting = acting(statements);
     let nouns: HashSet<&str> = acting.iter().map(|(_, noun)| *noun).collect();
     let is_element = |noun: &str| nouns.contains(noun);
@@ -38,10 +38,12 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
     }
 }
 
-/// What acts, where it has a name.
+/// What acts, where it has a name, and what may touch.
 fn acting(statements: &Statements) -> Vec<Named<'_>> {
     let clauses = statements.forces.iter().chain(&statements.attractions);
-    clauses.filter_map(|clause| Some((clause.name.as_ref()?, clause.noun()))).collect()
+    let acting = clauses.filter_map(|clause| Some((clause.name.as_ref()?, clause.noun())));
+    let contacts = statements.contacts.iter().flat_map(|clause| &clause.names);
+    acting.chain(contacts.map(|name| (name, "contact"))).collect()
 }
 
 /// What expressions can name.

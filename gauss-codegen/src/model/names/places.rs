@@ -16,6 +16,7 @@ pub enum Holder {
     Armature,
     AddedMass,
     Inertia,
+    Contact,
 }
 
 impl Holder {
@@ -26,13 +27,14 @@ impl Holder {
             Holder::Armature => "an armature".into(),
             Holder::AddedMass => "an added mass".into(),
             Holder::Inertia => "an inertia".into(),
+            Holder::Contact => "a contact".into(),
         }
     }
 
     /// What its constants are called.
     fn constant(self) -> String {
         match self {
-            Holder::Element(_) => format!("a constant of {}", self.noun()),
+            Holder::Element(_) | Holder::Contact => format!("a constant of {}", self.noun()),
             Holder::Armature | Holder::AddedMass | Holder::Inertia => self.noun(),
         }
     }
@@ -58,6 +60,21 @@ pub enum Place {
     At,
     Potential,
     Constraint(ConstraintKind),
+    /// Of a contact.
+    Gap,
+    /// Velocity along a tangent of a contact.
+    Slip,
+    /// The coefficient of friction of a contact.
+    Friction,
+    /// The point of a contact, or of what it touches.
+    Touching,
+    /// The normal or a tangent of a plane, the axis of a rim.
+    Direction,
+    /// Of a plane.
+    Height,
+    /// What stays in a range, and where the range ends.
+    Limited,
+    Limit,
     /// Of the point where a force acts, in observer axes.
     ForcePoint,
     /// Of the point where a force acts, in its body; `bound`: there is no other way to say where it acts.
@@ -97,6 +114,7 @@ impl Place {
         match self {
             Place::Kinematics(None) => true,
             Place::Kinematics(Some(CoordinateKind::Scalar)) | Place::Mass | Place::Potential => kind == Kind::Scalar,
+            Place::Gap | Place::Slip | Place::Friction | Place::Limited | Place::Limit => kind == Kind::Scalar,
             Place::Drive | Place::Along(_) | Place::Constant { .. } | Place::Dissipation | Place::Coefficient(_) => {
                 kind == Kind::Scalar
             }
@@ -108,7 +126,8 @@ impl Place {
             Place::ForcePoint | Place::ForceAt { .. } | Place::Force | Place::Torque | Place::End(_) => {
                 kind == Kind::Vector
             }
-            Place::Medium | Place::Center => kind == Kind::Vector,
+            Place::Medium | Place::Center | Place::Touching | Place::Direction => kind == Kind::Vector,
+            Place::Height => kind == Kind::Scalar,
             Place::Rotation => kind == Kind::Rotation,
             Place::Role(role) => match kind {
                 Kind::Scalar => role.takes(Shape::Scalar),
@@ -151,6 +170,16 @@ impl Place {
                 "a constraint is a scalar or a vector that is zero",
                 "write numbers that vanish when it holds, such as products of unit vectors",
             ),
+            Place::Gap => ("a gap is a scalar", "write one number, such as `ball.position.z - r`"),
+            Place::Slip => ("a slip is a scalar", "write one number, such as `dot(tip.velocity, [1, 0, 0])`"),
+            Place::Friction => ("a coefficient of friction is a scalar", "write one number or the name of a field"),
+            Place::Touching => {
+                ("the point of a contact is a vector", "write the name of a point, `arm.position` or `[x, y, z]`")
+            }
+            Place::Direction => ("a direction is a vector", "write `[a, b, c]`"),
+            Place::Height => ("the height of a plane is a scalar", "write one number or the name of a field"),
+            Place::Limited => ("what stays in a range is a scalar", "write one number, such as the angle of a joint"),
+            Place::Limit => ("the limit of a range is a scalar", "write one number or the name of a field"),
             Place::ForcePoint => {
                 ("the point of a force is a vector", "write the name of a point, `arm.position` or `[x, y, z]`")
             }
@@ -213,6 +242,11 @@ impl Place {
                         Place::Particle { parent: false }
                             | Place::Potential
                             | Place::Constraint(_)
+                            | Place::Gap
+                            | Place::Touching
+                            | Place::Slip
+                            | Place::Limited
+                            | Place::Limit
                             | Place::ForcePoint
                             | Place::End(_)
                             | Place::Along(_)
@@ -230,23 +264,41 @@ impl Place {
                 | Place::Drive
                 | Place::Dissipation
                 | Place::Coefficient(_)
+                | Place::Friction
                 | Place::Definition
         )
     }
 
+    /// It is looked at together with the other expressions of its contact.
+    pub fn is_of_contact(self) -> bool {
+        let constant = matches!(self, Place::Constant { of: Holder::Contact, .. });
+        let of_point = matches!(self, Place::Touching | Place::Direction | Place::Height);
+        let of_gap = matches!(self, Place::Gap | Place::Slip | Place::Friction | Place::Limited | Place::Limit);
+        constant || of_point || of_gap
+    }
+
     /// Nothing that moves with the system may stand here, but time may.
     fn is_given(self) -> bool {
-        matches!(self, Place::Medium | Place::Center)
+        matches!(self, Place::Medium | Place::Center | Place::Height)
     }
 
     /// Speeds may stand here.
     fn of_velocities(self) -> bool {
-        self.is_action() || matches!(self, Place::Kinematics(_) | Place::Constraint(ConstraintKind::Velocity))
+        self.is_action()
+            || matches!(self, Place::Kinematics(_) | Place::Constraint(ConstraintKind::Velocity) | Place::Slip)
     }
 
     /// Nothing that changes may stand here.
     fn is_constant(self) -> bool {
-        matches!(self, Place::Mass | Place::Role(_) | Place::At | Place::ForceAt { .. } | Place::Constant { .. })
+        matches!(
+            self,
+            Place::Mass
+                | Place::Role(_)
+                | Place::At
+                | Place::ForceAt { .. }
+                | Place::Constant { .. }
+                | Place::Direction
+        )
     }
 
     /// What stands here, for messages.
@@ -261,6 +313,14 @@ impl Place {
             Place::Potential => "a potential",
             Place::Constraint(ConstraintKind::Position) => "a constraint of positions",
             Place::Constraint(ConstraintKind::Velocity) => "a constraint of velocities",
+            Place::Gap => "a gap",
+            Place::Slip => "a slip",
+            Place::Friction => "a coefficient of friction",
+            Place::Touching => "the point of a contact",
+            Place::Direction => "a direction",
+            Place::Height => "the height of a plane",
+            Place::Limited => "what stays in a range",
+            Place::Limit => "the limit of a range",
             Place::ForcePoint | Place::ForceAt { .. } => "the point of a force",
             Place::Force => "a force",
             Place::Torque => "a torque",
@@ -297,6 +357,15 @@ impl Place {
                 "`{name}` moves with the system, and the center of gravity is given beforehand; write it in `t`, fields \
                  and numbers"
             ),
+            (Place::Height, _) => format!(
+                "`{name}` moves with the system, and the height of a plane is given beforehand; write it in `t`, fields and \
+                 numbers, or the whole gap as `gap = …`"
+            ),
+            (Place::Direction, _) => {
+                format!(
+                    "`{name}` varies, and a direction is constant; write numbers and fields only, or the whole gap as `gap = …`"
+                )
+            }
             (Place::Kinematics(_), _) => format!(
                 "`{name}` is {what}, and its velocity follows from the kinematics, not the kinematics from it; \
                  write rates in coordinates, speeds, fields and `t`"
@@ -348,6 +417,8 @@ impl Place {
                 let remedy = match place {
                     Place::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
                     Place::Constraint(_) => "write `constraint(velocity = …)`",
+                    Place::Gap | Place::Touching => "its rate is formed from it; velocities stand in `slip = …`",
+                    Place::Limited | Place::Limit => "a constraint of velocities is `constraint(velocity = …)`",
                     Place::ForcePoint | Place::End(_) | Place::Along(_) => "speeds stand in values of forces",
                     _ => "speeds stand in `kinematics`",
                 };
@@ -361,8 +432,9 @@ impl Place {
     pub fn refuses_velocity(self, written: &str) -> Option<String> {
         let remedy = match self {
             place if place.is_action() => return None,
-            Place::Constraint(ConstraintKind::Velocity) => return None,
+            Place::Constraint(ConstraintKind::Velocity) | Place::Slip => return None,
             Place::Constraint(ConstraintKind::Position) => "write `constraint(velocity = …)`",
+            Place::Gap | Place::Touching => "its rate is formed from it; velocities stand in `slip = …`",
             Place::Kinematics(_) => "the rates of coordinates are written in speeds",
             Place::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
             _ => "remove it",
@@ -375,7 +447,8 @@ impl Place {
     /// Why nothing that is not smooth may stand here.
     pub fn refuses_kinks(self) -> Option<String> {
         match self {
-            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) | Place::Definition => None,
+            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) => None,
+            Place::Friction | Place::Definition => None,
             Place::Dissipation => Some("forces are derivatives of a dissipation function".into()),
             place if place.is_constant() => None,
             place => Some(format!("{} is differentiated", place.subject())),
@@ -385,7 +458,8 @@ impl Place {
     /// What to say of a function that is not smooth, where derivatives are taken.
     pub fn refuses_kink(self, function: FunctionName) -> Option<String> {
         match self {
-            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) | Place::Definition => None,
+            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) => None,
+            Place::Friction | Place::Definition => None,
             place if place.is_constant() => Some(format!(
                 "`{}` stands in values of forces only; make the number a field of the struct",
                 function.word()

@@ -147,6 +147,20 @@ pub enum Property {
 }
 
 impl Expression {
+    /// The components of a vector that is written in numbers.
+    pub fn literal_components(&self) -> Option<[f64; 3]> {
+        let number = |e: &Self| match &e.kind {
+            ExpressionKind::Number { value } => Some(value.to_f64()),
+            ExpressionKind::Negate(inner) => match &inner.kind {
+                ExpressionKind::Number { value } => Some(-value.to_f64()),
+                _ => None,
+            },
+            _ => None,
+        };
+        let ExpressionKind::Vector([a, b, c]) = &self.kind else { return None };
+        Some([number(a)?, number(b)?, number(c)?])
+    }
+
     /// Calls `visit` with this expression and every part of it.
     pub fn walk(&self, visit: &mut dyn FnMut(&Expression)) {
         visit(self);

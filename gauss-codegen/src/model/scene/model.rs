@@ -5,6 +5,7 @@ use super::clauses::{
     BodyClause, Coefficients, ConstraintClause, Coordinate, ParticleClause, PointClause, RoleClause, RoleValue, Speed,
     SpeedPart,
 };
+use super::contacts::ContactClause;
 use super::expression::Expression;
 use super::forces::ForceClause;
 use crate::terms::{InChart, Item};
@@ -35,6 +36,8 @@ pub struct Model {
     pub points: Vec<PointClause>,
     /// What is further required of the motion.
     pub constraints: Vec<ConstraintClause>,
+    /// What may touch.
+    pub contacts: Vec<ContactClause>,
     /// The speeds that stay when the constraints are solved for the others at compile time; `None`: multipliers.
     pub independent: Option<Vec<SpeedPart>>,
     /// The potential energy besides that of gravity: a scalar of t and q.
@@ -71,7 +74,8 @@ impl Model {
 
     /// Whether there is any expression, of forces or of mass data.
     pub fn has_expressions(&self) -> bool {
-        self.is_acted_upon() || !self.role_clauses.is_empty() || !self.points.is_empty()
+        let clauses = !self.role_clauses.is_empty() || !self.points.is_empty() || !self.contacts.is_empty();
+        self.is_acted_upon() || clauses
     }
 
     /// Whether the field is the added mass that some clause names.

@@ -10,6 +10,7 @@ use crate::model::language::statements::Statements;
 use crate::model::language::units::{self, Dimension, read};
 use crate::model::language::words::{self, PI, TIME, same};
 use crate::model::scene::clauses::CoordinateKind;
+use crate::model::scene::contacts::{ContactClause, Touching};
 use crate::model::scene::elements::{Argument, ElementKind, Takes, Unit};
 use crate::model::scene::expression::{Expression, ExpressionKind, FunctionName};
 use crate::model::scene::forces::ForceClause;
@@ -62,6 +63,7 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
     for constraint in &statements.constraints {
         checker.value(&constraint.expression);
     }
+    statements.contacts.iter().for_each(|clause| checker.contact(clause));
 }
 
 impl Checker<'_> {
@@ -124,6 +126,40 @@ impl Checker<'_> {
             self.value(inertia);
         }
         statements.attractions.iter().for_each(|clause| self.element(clause));
+    }
+
+    /// Slips are in the unit of the rate of their gap, limits in that of what they limit; coefficients have none.
+    fn contact(&mut self, clause: &ContactClause) {
+        const NONE: (&str, Dimension) = ("no unit", Dimension::NONE);
+        let extent = |found: Dimensions| match found.parts()[0] {
+            Found::Known(dimension) => Some(Extent { dimension, named: String::new() }),
+            _ => None,
+        };
+        let (first, others, what, unit) = match &clause.touching {
+            Touching::Gap { gap, slips } => (gap, slips.iter().collect(), "a slip with this gap is", Unit::Rate),
+            Touching::Point(contact) => {
+                let lengths = Need::new("points, radii and heights of a contact are", LENGTH);
+                contact.lengths().into_iter().for_each(|e| self.require(e, &lengths));
+                (&contact.point, Vec::new(), "", Unit::Extent)
+            }
+            Touching::Range { along, from, to } => {
+                (along, from.iter().chain(to).collect::<Vec<_>>(), "the limit of this range is", Unit::Extent)
+            }
+        };
+        let needed = extent(self.value(first)).and_then(|extent| extent.unit(unit));
+        for other in others {
+            match &needed {
+                Some((text, dimension)) => self.require(other, &Need::new(what, (text, *dimension))),
+                None => {
+                    self.value(other);
+                }
+            }
+        }
+        let friction = clause.friction.iter().map(|e| (e, "a coefficient of friction is"));
+        let restitution = clause.restitution.iter().map(|e| (e, "a coefficient of restitution is"));
+        for (e, what) in friction.chain(restitution) {
+            self.require(e, &Need::new(what, NONE));
+        }
     }
 
     /// The arguments of a force element.

@@ -3,6 +3,7 @@
 mod accepted;
 mod bodies;
 mod constraints;
+mod contacts;
 mod definitions;
 mod elements;
 mod expressions;

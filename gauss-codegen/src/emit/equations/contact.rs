@@ -1,0 +1,80 @@
+//! `ContactSystem`: gaps, rates, W, Delassus' matrix and the motion without contact forces.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::mechanics::Method;
+
+use crate::emit::derived::Derived;
+use crate::emit::dialect::arguments::arguments_of;
+
+pub fn contact_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let dynamics = derived.program(Method::ContactDynamics)?;
+    let (private, ty, n) = (derived.private(), derived.scalar().ty(), derived.degrees_of_freedom());
+    let (count, rows) = (derived.subject.system.scene.contacts.len(), derived.subject.system.contacts.rates.len());
+    let listed = listed(derived);
+    let restitution = derived.method_body(Method::Restitution)?;
+    let methods = [
+        (Method::Gaps, quote!(Self::Gaps)),
+        (Method::ContactRates, quote!(Self::ContactRows)),
+        (Method::ContactJacobian, quote!(Self::ContactColumns)),
+        (Method::Friction, quote!(Self::Gaps)),
+    ];
+    let methods = methods.into_iter().filter_map(|(method, result)| derived.function(method, result));
+    let of_impulses = {
+        let (mut body, outputs) = derived.computed(derived.program(Method::ContactResponse)?);
+        body.extend(response(derived, &outputs));
+        let arguments = arguments_of(Method::ContactResponse);
+        derived.function_of("contact_response", arguments, quote!(#private::ContactResponse<Self>), body)
+    };
+    let of_motion = {
+        let (mut body, outputs) = derived.computed(dynamics);
+        let (acceleration, rest) = outputs.split_at(n);
+        let (bias, rest) = rest.split_at(rows);
+        let response = response(derived, rest);
+        body.extend(quote! {
+            #private::ContactDynamics::new(#private::vector([#(#acceleration),*]), #private::vector([#(#bias),*]), #response)
+        });
+        let arguments = arguments_of(Method::ContactDynamics);
+        derived.function_of("contact_dynamics", arguments, quote!(#private::ContactDynamics<Self>), body)
+    };
+    let items = quote! {
+        type Gaps = #private::SVector<#ty, #count>;
+        type ContactRows = #private::SVector<#ty, #rows>;
+        type ContactColumns = #private::SMatrix<#ty, #n, #rows>;
+        type Delassus = #private::SMatrix<#ty, #rows, #rows>;
+        const CONTACTS: &'static [#private::Contact] = &[#(#listed),*];
+        #(#methods)*
+        #[inline]
+        fn restitution(&self) -> Self::Gaps { #restitution }
+        #[inline]
+        #of_impulses
+        #[inline]
+        #of_motion
+    };
+    Some(derived.implementation(quote!(ContactSystem), items))
+}
+
+/// The contacts with the numbers of their rows.
+fn listed(derived: &Derived<'_, '_>) -> Vec<TokenStream> {
+    let private = derived.private();
+    let mut next = 0;
+    let contacts = derived.subject.system.scene.contacts.iter().map(|contact| {
+        let (name, normal, tangents) = (&contact.name, next, contact.slips.len());
+        next += 1 + tangents;
+        quote!(#private::Contact::new(#name, #normal, #tangents))
+    });
+    contacts.collect()
+}
+
+/// Rows of A⁻¹Wᵀ, then those of D.
+fn response(derived: &Derived<'_, '_>, outputs: &[TokenStream]) -> TokenStream {
+    let (private, rows) = (derived.private(), derived.subject.system.contacts.rates.len());
+    let (columns, delassus) = outputs.split_at(derived.degrees_of_freedom() * rows);
+    let matrix = |entries: &[TokenStream]| {
+        let rows = entries.chunks(rows).map(|row| quote!([#(#row),*]));
+        quote!(#private::matrix([#(#rows),*]))
+    };
+    let (columns, delassus) = (matrix(columns), matrix(delassus));
+    quote!(#private::ContactResponse::new(#columns, #delassus))
+}

@@ -1,0 +1,124 @@
+//! What contact forces do: A⁻¹Wᵀ, Delassus' matrix D = W A⁻¹Wᵀ, and the motion without them.
+
+use crate::algebra::Expr;
+
+use crate::mechanics::arrangements::articulated::Articulated;
+use crate::mechanics::formula::{Arrangements, Formula, Method};
+
+use super::System;
+
+/// One way to form the motion without contact forces, and the velocities that unit impulses make, one for each row.
+struct Response<'g> {
+    rates: Vec<Expr<'g>>,
+    columns: Vec<Vec<Expr<'g>>>,
+}
+
+impl<'g> System<'g> {
+    /// What the kernel says of its contacts; `accelerations` are those of the balance of a free link.
+    pub(super) fn contact_formulas(&self, accelerations: &Arrangements<'g>) -> Vec<Formula<'g>> {
+        if self.contacts.is_empty() {
+            return Vec::new();
+        }
+        let (scene, zero) = (&self.scene, self.scene.graph.zero());
+        let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
+        let coefficient = |value: Option<Expr<'g>>| value.unwrap_or(zero);
+        let responses = self.responses(accelerations);
+        let rows = 0..self.contacts.rates.len();
+        let transposed = (0..scene.speeds.len()).flat_map(|k| rows.clone().map(move |row| (row, k)));
+        vec![
+            single(Method::Gaps, scene.contacts.iter().map(|contact| contact.gap).collect()),
+            single(Method::ContactRates, self.contacts.rates.clone()),
+            single(Method::ContactJacobian, transposed.map(|(row, k)| self.contacts.jacobian[row][k]).collect()),
+            single(Method::Friction, scene.contacts.iter().map(|contact| coefficient(contact.friction)).collect()),
+            single(
+                Method::Restitution,
+                scene.contacts.iter().map(|contact| coefficient(contact.restitution)).collect(),
+            ),
+            Formula {
+                method: Method::ContactResponse,
+                arrangements: responses.iter().map(|response| self.response(response)).collect(),
+            },
+            Formula {
+                method: Method::ContactDynamics,
+                arrangements: responses.iter().map(|response| self.contact_dynamics(response)).collect(),
+            },
+        ]
+    }
+
+    /// The multipliers of the constraints that unit contact forces make, one list for each row; for checks.
+    pub(in crate::mechanics) fn multipliers_of_contacts(&self) -> Vec<Vec<Expr<'g>>> {
+        match self.constraints.is_empty() {
+            true => vec![Vec::new(); self.contacts.jacobian.len()],
+            false => self.contacts.jacobian.iter().map(|row| self.constraints.respond(&self.matrix, row).1).collect(),
+        }
+    }
+
+    /// Both in the ways that are worth trying, each with the same factors of A in both.
+    fn responses(&self, accelerations: &Arrangements<'g>) -> Vec<Response<'g>> {
+        let rows = &self.contacts.jacobian;
+        let arrangements = self.arrangements();
+        if !self.constraints.is_empty() {
+            let of = |a| Response {
+                rates: self.acceleration(a).0,
+                columns: rows.iter().map(|row| self.constraints.respond(&a.matrix, row).0).collect(),
+            };
+            return arrangements.iter().map(of).collect();
+        }
+        if let Some(body) = self.balance_of_all() {
+            // z = A⁻¹ p of a free link: its momenta are homogeneous in its speeds.
+            let solved = |velocity: &Vec<Expr<'g>>, row: &Vec<Expr<'g>>| {
+                let impulse = self.scene.momenta.iter().zip(row).map(|(p, w)| (p.key(), *w)).collect();
+                velocity.iter().map(|z| z.substitute(&impulse)).collect()
+            };
+            let velocities = body.velocities_of_momentum();
+            let of = |k: usize| Response {
+                rates: accelerations[k % accelerations.len()].clone(),
+                columns: rows.iter().map(|row| solved(&velocities[k % velocities.len()], row)).collect(),
+            };
+            return (0..accelerations.len().max(velocities.len())).map(of).collect();
+        }
+        let ways = self.accelerations(&arrangements).into_iter().zip(self.columns(&arrangements));
+        ways.map(|(rates, columns)| Response { rates, columns }).collect()
+    }
+
+    /// A⁻¹ of every row, in the order of [`accelerations`](System::accelerations).
+    fn columns(&self, arrangements: &[super::Arrangement<'g>]) -> Vec<Vec<Vec<Expr<'g>>>> {
+        let rows = &self.contacts.jacobian;
+        let mut ways = Vec::new();
+        for arrangement in arrangements {
+            let of_rows: Vec<_> = rows.iter().map(|row| self.solutions(&arrangement.matrix, row)).collect();
+            ways.extend((0..of_rows[0].len()).map(|way| of_rows.iter().map(|all| all[way].clone()).collect()));
+        }
+        if let Some(articulated) = self.is_long().then(|| Articulated::eliminated(self.tree())).flatten() {
+            let columns: Vec<Vec<Expr<'g>>> = rows.iter().map(|row| articulated.solve(row)).collect();
+            ways.extend(self.tree().inertias(true).iter().map(|_| columns.clone()));
+        }
+        let elements = self.elements();
+        ways.extend(elements.iter().map(|elements| rows.iter().map(|row| elements.solve(row)).collect()));
+        ways
+    }
+
+    /// A⁻¹Wᵀ, row by row of the speeds, then D.
+    fn response(&self, Response { columns, .. }: &Response<'g>) -> Vec<Expr<'g>> {
+        let columns: Vec<Vec<Expr<'g>>> = columns.iter().map(|x| x.iter().map(|e| e.group()).collect()).collect();
+        let rows = &self.contacts.jacobian;
+        let mut outputs: Vec<Expr<'g>> =
+            (0..self.scene.speeds.len()).flat_map(|k| columns.iter().map(move |column| column[k])).collect();
+        // D is symmetric: what is below its diagonal is not formed once more.
+        let entry = |i: usize, j: usize| product(&rows[i.min(j)], &columns[i.max(j)]);
+        outputs.extend((0..rows.len()).flat_map(|i| (0..rows.len()).map(move |j| (i, j))).map(|(i, j)| entry(i, j)));
+        outputs
+    }
+
+    /// ż, b = W ż + γ, then the response.
+    fn contact_dynamics(&self, response: &Response<'g>) -> Vec<Expr<'g>> {
+        let rates: Vec<Expr<'g>> = response.rates.iter().map(|e| e.group()).collect();
+        let rows = self.contacts.jacobian.iter().zip(&self.contacts.bias);
+        let bias = rows.map(|(row, bias)| product(row, &rates) + *bias);
+        rates.iter().copied().chain(bias).chain(self.response(response)).collect()
+    }
+}
+
+fn product<'g>(row: &[Expr<'g>], column: &[Expr<'g>]) -> Expr<'g> {
+    row.iter().zip(column).map(|(w, x)| *w * *x).sum()
+}

@@ -1,0 +1,103 @@
+//! What must hold of contacts.
+
+use crate::model::language::context::Context;
+use crate::model::language::statements::Statements;
+use crate::model::language::words::{same, word};
+use crate::model::names::kinds;
+use crate::model::names::moving::Moving;
+use crate::model::names::scope::Scope;
+use crate::model::scene::contacts::{Against, ContactClause, PointContact, Touching};
+use crate::model::scene::expression::{Expression, ExpressionKind, Property};
+
+/// Checks names and kinds in the contacts. Returns for each clause whether it is without mistakes.
+pub fn check_kinds(statements: &Statements, scope: &Scope, context: &mut Context) -> Vec<bool> {
+    let check = |clause: &ContactClause| {
+        let earlier = context.count();
+        for (place, expression) in clause.placed() {
+            kinds::check(expression, place, scope, context);
+        }
+        context.count() == earlier
+    };
+    statements.contacts.iter().map(check).collect()
+}
+
+/// Checks that gaps and slips are those of something that moves, in the clauses that are `well`.
+pub fn check(statements: &Statements, well: &[bool], context: &mut Context) {
+    let moving = Moving::new(statements);
+    for (clause, _) in statements.contacts.iter().zip(well).filter(|(_, well)| **well) {
+        match &clause.touching {
+            Touching::Gap { gap, slips } => {
+                if !moving.in_place(gap) {
+                    context.error(
+                        gap.span,
+                        "the gap names nothing that moves, so it never closes; name a coordinate, or a body or point \
+                         that moves",
+                    );
+                }
+                for slip in slips.iter().filter(|slip| !moving.in_velocity(slip)) {
+                    context.error(
+                        slip.span,
+                        "the slip contains no velocity of anything that moves; write `tip.velocity`, a speed, or the \
+                         time derivative `rate(…)`",
+                    );
+                }
+            }
+            Touching::Point(contact) => check_point(statements, clause, contact, &moving, context),
+            Touching::Range { along, .. } if !moving.in_place(along) => context.error(
+                along.span,
+                "the range is that of nothing that moves; name a coordinate, or a body or point that moves",
+            ),
+            Touching::Range { .. } => {}
+        }
+    }
+}
+
+/// Something moves; a body turns what has friction away from its point, or has an axis; tangents are known.
+fn check_point(
+    statements: &Statements,
+    clause: &ContactClause,
+    contact: &PointContact,
+    moving: &Moving,
+    context: &mut Context,
+) {
+    let other = match &contact.against {
+        Against::Sphere { center, .. } => Some(center),
+        Against::Plane { .. } => None,
+    };
+    if !moving.in_place(&contact.point) && !other.is_some_and(|center| moving.in_place(center)) {
+        context.error(
+            contact.point.span,
+            "the point does not move, so it never touches; name a coordinate, or a body or point that moves",
+        );
+    }
+    let needs_body = contact.rim.is_some() || (contact.radius.is_some() && clause.friction.is_some());
+    if needs_body && !is_of_body(&contact.point, statements) {
+        context.error(
+            contact.point.span,
+            "a rim, or a sphere with friction, turns with its body; write `point = ball.position` of the body, or the name \
+             of a point that is fixed in it",
+        );
+    }
+    if let Against::Plane { normal: Some(normal), along: None, .. } = &contact.against
+        && clause.friction.is_some()
+        && normal.literal_components().is_none()
+    {
+        context.error(
+            normal.span,
+            "the tangents of a normal that is not written in numbers are not known; add `along = [1, 0, 0]`, a direction \
+             that is not that of the normal",
+        );
+    }
+}
+
+/// A point that is fixed in a body or a frame, or the O of one.
+fn is_of_body(point: &Expression, statements: &Statements) -> bool {
+    match &point.kind {
+        ExpressionKind::Name(name) => statements.points.iter().any(|point| same(&point.name, name)),
+        ExpressionKind::Property(owner, Property::Position) => match &owner.kind {
+            ExpressionKind::Name(name) => statements.bodies.iter().any(|body| body.word() == word(name)),
+            _ => false,
+        },
+        _ => false,
+    }
+}

@@ -1,0 +1,241 @@
+//! Contacts and ranges.
+
+use super::super::{Mistake, check};
+use super::{show, system};
+use crate::model::{Against, Touching};
+
+/// A body in space with a hinged arm, with more `clauses`.
+fn arm(clauses: &str) -> String {
+    format!(
+        "#[gauss(coordinates(pose: Pose, theta), speeds(u: Vector3, w: Vector3, v), kinematics(pose = twist(u, w), theta = v), \
+         body(hull, position = pose.position, rotation = pose.rotation), body(arm, parent = hull, rotation = rotation_x(theta)), \
+         frame(quay), point(tip, body = arm, at = [0, 0, l]), {clauses})] \
+         struct Scene {{ #[gauss(body)] hull: RigidBody<f64>, #[gauss(body)] arm: RigidBody<f64>, l: f64, k: f64, \
+         c: Vector3<f64> }}"
+    )
+}
+
+#[track_caller]
+fn mistakes(clauses: &str, expected: &[Mistake<'_>]) {
+    check(&arm(clauses), expected);
+}
+
+#[test]
+fn accepted() {
+    let model = system(&arm(
+        "input(grip), contact(floor, gap = tip.z - l * t, slip = [tip.velocity.x, rate(tip.y)], friction = k + abs(grip)), \
+         contact(wall, gap = theta, slip = v, friction = k, restitution = 0.5), contact(post, gap = l - tip.x), \
+         range(theta, from = -k, to = k, restitution = k), range(reach, along = tip.x, to = l * t), \
+         contact(ball, point = hull.position, radius = l, plane = c, height = l * t, along = [1, 0, 0], friction = k), \
+         contact(disk, point = tip, rim = l, axis = c), contact(both, point = tip, other = hull.position, other_radius = l)",
+    ));
+    let shown = model.contacts.iter().map(|clause| {
+        let names: Vec<String> = clause.names.iter().map(ToString::to_string).collect();
+        let touching = match &clause.touching {
+            Touching::Gap { gap, slips } => {
+                format!("gap {}, slips {:?}", show(gap), slips.iter().map(show).collect::<Vec<_>>())
+            }
+            Touching::Range { along, from, to } => {
+                format!("{} from {:?} to {:?}", show(along), from.as_ref().map(show), to.as_ref().map(show))
+            }
+            Touching::Point(contact) => match &contact.against {
+                Against::Plane { normal, .. } => {
+                    format!("{} above {:?}", show(&contact.point), normal.as_ref().map(show))
+                }
+                Against::Sphere { center, .. } => format!("{} and {}", show(&contact.point), show(center)),
+            },
+        };
+        format!("{}: {touching}", names.join(", "))
+    });
+    assert_eq!(
+        shown.collect::<Vec<_>>(),
+        [
+            "floor: gap (Subtract tip[2] (Multiply l t)), slips [\"tip.Velocity[0]\", \"(rate tip[1])\"]",
+            "wall: gap theta, slips [\"v\"]",
+            "post: gap (Subtract l tip[0]), slips []",
+            "theta_from, theta_to: theta from Some(\"(-k)\") to Some(\"k\")",
+            "reach_to: tip[0] from None to Some(\"(Multiply l t)\")",
+            "ball: hull.Position above Some(\"c\")",
+            "disk: tip above None",
+            "both: tip and hull.Position",
+        ]
+    );
+}
+
+#[test]
+fn clauses() {
+    mistakes(
+        "contact, contact(), contact(gap = theta), contact(a), contact(b, gp = theta), contact(c1, gap = theta, friction = k), \
+         contact(d, gap = theta, slip = v), contact(f, gap = theta, slip = [v, v, v], friction = k), \
+         contact(g, gap = theta, mu = k), contact(h, gap = theta, gap = v), range(theta), range(theta, least = 1), \
+         range(from = 1), contact(i, point = tip, gap = theta), contact(j, point = tip, slip = v), \
+         contact(m, gap = theta, radius = l), contact(n, point = tip, radius = l, rim = k), \
+         contact(o, point = tip, other = hull.position, friction = k)",
+        &[
+            ("contact", "`contact` is empty; write `contact(name, gap = …)`"),
+            ("(", "`contact()` is empty; write `contact(name, gap = …)` or remove it"),
+            ("contact", "a contact needs a name, by which a run tells its forces; write `contact(name, gap = …)`"),
+            (
+                "contact",
+                "a contact needs what may not become negative, or a point that touches; add `gap = z - r` or `point = tip`",
+            ),
+            ("gp", "unknown argument of `contact`: `gp`; did you mean `gap`?"),
+            (
+                "friction",
+                "friction acts along a slip; add `slip = v`, the velocity along the tangent, or `slip = [u, v]` of two \
+                 tangents that are normal to each other",
+            ),
+            ("slip", "without friction the slip does nothing; add `friction = mu`, or remove `slip`"),
+            ("[", "`slip` is one scalar or two, one for each tangent, found 3; write `slip = v` or `slip = [u, v]`"),
+            ("mu", "unknown argument of `contact`: `mu`; write `friction`"),
+            ("gap", "`gap` is given twice; keep one of the two"),
+            ("range", "a range needs a limit; add `from = a`, `to = b`, or both"),
+            ("least", "unknown argument of `range`: `least`; write `from`"),
+            (
+                "range",
+                "a range needs the coordinate that it limits, or a name of its own with `along = …`; write \
+                 `range(x, from = a, to = b)`",
+            ),
+            ("gap", "`point` already gives the gap; remove `gap`, or remove `point`"),
+            ("slip", "the slip of a point follows from its motion; remove `slip`"),
+            ("radius", "`radius` goes with `point = …`; add it, or remove `radius`"),
+            ("rim", "`rim` goes with `axis = …`; add it, or remove `rim`"),
+            ("rim", "`rim` is the radius of a disk and `radius` that of a sphere; keep one of the two"),
+            ("friction", "tangents of two spheres turn with them; write `gap = …` with `slip = …` for friction"),
+        ],
+    );
+}
+
+#[test]
+fn names() {
+    mistakes(
+        "contact(floor, gap = theta), contact(floor, gap = -theta), range(theta, to = k), contact(theta_to, gap = theta)",
+        &[
+            ("floor", "two contacts are called `floor`; rename one of the two"),
+            ("theta_to", "two contacts are called `theta_to`; rename one of the two"),
+        ],
+    );
+    mistakes(
+        "range(knee, from = k), contact(a, point = nail), contact(b, gap = hul.position.z)",
+        &[
+            (
+                "knee",
+                "unknown name `knee`; expected a coordinate (`pose` or `theta`), a field (`l`, `k` or `c`), a body (`hull` or `arm`), a frame (`quay`), a point (`tip`) or `t`",
+            ),
+            (
+                "nail",
+                "unknown name `nail`; expected a coordinate (`pose` or `theta`), a field (`l`, `k` or `c`), a body (`hull` or `arm`), a frame (`quay`), a point (`tip`) or `t`",
+            ),
+            ("hul", "unknown name `hul`; did you mean the body `hull`?"),
+        ],
+    );
+}
+
+#[test]
+fn what_stands_where() {
+    mistakes(
+        "contact(a, gap = v), contact(b, gap = tip), contact(d, gap = tip.velocity.z), \
+         contact(e, gap = theta, slip = tip.velocity, friction = k), contact(f, gap = theta, slip = v, friction = c), \
+         contact(g, gap = theta, restitution = theta), contact(h, gap = abs(theta)), contact(i, point = tip, plane = tip), \
+         contact(j, point = tip, height = theta), range(theta, from = c)",
+        &[
+            (
+                "v",
+                "`v` is a speed, and a gap depends on coordinates, fields and `t` only; its rate is formed from it; \
+                 velocities stand in `slip = …`",
+            ),
+            ("tip", "a gap is a scalar, found a vector; write one number, such as `ball.position.z - r`"),
+            (
+                "velocity",
+                "`tip.velocity` is a velocity, which only `constraint(velocity = …)` and values of forces can contain; its \
+                 rate is formed from it; velocities stand in `slip = …`",
+            ),
+            (
+                "velocity",
+                "a slip is a scalar, found a vector; write one number, such as `dot(tip.velocity, [1, 0, 0])`",
+            ),
+            ("c", "a coefficient of friction is a scalar, found a vector; write one number or the name of a field"),
+            (
+                "theta",
+                "`theta` varies, and the coefficient of restitution of a contact is constant; write numbers and fields only",
+            ),
+            ("abs", "the derivative of `abs` jumps, and a gap is differentiated; only values of forces can contain it"),
+            (
+                "tip",
+                "`tip` varies, and a direction is constant; write numbers and fields only, or the whole gap as `gap = …`",
+            ),
+            (
+                "theta",
+                "`theta` moves with the system, and the height of a plane is given beforehand; write it in `t`, fields and \
+                 numbers, or the whole gap as `gap = …`",
+            ),
+            ("c", "the limit of a range is a scalar, found a vector; write one number or the name of a field"),
+        ],
+    );
+}
+
+#[test]
+fn what_does_not_move() {
+    mistakes(
+        "contact(a, gap = l - t), contact(b, gap = theta, slip = theta, friction = k), range(reach, along = l, to = k), \
+         contact(d, point = quay.position), contact(e, point = [theta, 0, 0], radius = l, friction = k), \
+         contact(f, point = tip, plane = c, friction = k)",
+        &[
+            (
+                "-",
+                "the gap names nothing that moves, so it never closes; name a coordinate, or a body or point that moves",
+            ),
+            (
+                "theta",
+                "the slip contains no velocity of anything that moves; write `tip.velocity`, a speed, or the time \
+                 derivative `rate(…)`",
+            ),
+            ("l", "the range is that of nothing that moves; name a coordinate, or a body or point that moves"),
+            (
+                "position",
+                "the point does not move, so it never touches; name a coordinate, or a body or point that moves",
+            ),
+            (
+                "[",
+                "a rim, or a sphere with friction, turns with its body; write `point = ball.position` of the body, or the \
+                 name of a point that is fixed in it",
+            ),
+            (
+                "c",
+                "the tangents of a normal that is not written in numbers are not known; add `along = [1, 0, 0]`, a \
+                 direction that is not that of the normal",
+            ),
+        ],
+    );
+}
+
+#[test]
+fn units() {
+    let scene = |clauses: &str| {
+        format!(
+            "#[gauss(coordinates(x), particle(mass = 1, position = [x * l, 0, 0]), {clauses})] struct Scene {{ \
+             #[gauss(unit = \"m\")] l: f64, #[gauss(unit = \"s\")] s: f64, #[gauss(unit = \"N\")] f: f64 }}"
+        )
+    };
+    system(&scene("contact(a, gap = l * sin(x), slip = l / s + rate(x), friction = l / l, restitution = 0.5)"));
+    check(
+        &scene(
+            "contact(a, gap = l * sin(x), slip = f * rate(x), friction = l), range(b, along = l * sin(x), to = s), \
+             contact(d, point = [l * x, 0, 0], height = f)",
+        ),
+        &[
+            (
+                "l",
+                "`l` is in m, and a coefficient of friction is in no unit; multiply it by a coefficient in 1/m, or correct its unit",
+            ),
+            (
+                "s",
+                "`s` is in s, and the limit of this range is in m; multiply it by a coefficient in m/s, or correct its unit",
+            ),
+            (
+                "f",
+                "`f` is in N, and points, radii and heights of a contact are in m; multiply it by a coefficient in s^2/kg, or correct its unit",
+            ),
+        ],
+    );
+}

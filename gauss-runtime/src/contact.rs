@@ -1,0 +1,154 @@
+//! Contacts: gaps that may close and not become negative, and what a solver of contact laws needs of a system.
+//!
+//! A contact has a gap `g(t, q) ≥ 0`, its rate ġ along the normal, and rates s of slip along one or two tangents. With
+//! the rows `W = ∂(ġ, s)/∂z` contact forces λ (normal, then tangential, contact by contact) enter Gauss' condition as
+//! `A ż = r + Wᵀλ`: where C is minimised subject to `g̈ ≥ 0` for closed gaps, λ are the multipliers, and
+//! `(ġ, s)˙ = D λ + b` with Delassus' matrix `D = W A⁻¹ Wᵀ` and `b = W A⁻¹ r + γ` (J. J. Moreau, *Unilateral contact
+//! and dry friction in finite freedom dynamics*, 1988). What the laws of contact and friction make of that is for
+//! a solver, such as the crate `gauss-contact`: the equations of a kernel are those of its motion without contact
+//! forces.
+//!
+//! `#[gauss(contact(…), range(…))]` has the derive write it.
+
+use core::fmt::{self, Debug};
+use core::ops::Index;
+
+use crate::configuration::VectorSpace;
+use crate::forces::Columns;
+use crate::system::GaussSystem;
+
+/// A system some of whose gaps may close.
+///
+/// Rows of contacts are numbered contact by contact: of each its normal, then its tangents. Units are those of the gaps
+/// and of slips: with lengths λ is a force, with angles a torque. Bilateral constraints of the scene hold in all of it:
+/// A⁻¹ is then the inverse on the velocities that they admit.
+pub trait ContactSystem: GaussSystem {
+    /// `SVector<Scalar, C>`, C contacts: one component for each.
+    type Gaps: VectorSpace<Self::Scalar>;
+
+    /// `SVector<Scalar, R>`, R rows: rates, accelerations and forces of contacts.
+    type ContactRows: VectorSpace<Self::Scalar>;
+
+    /// `SMatrix<Scalar, DOF, R>`, one column for each row of the contacts.
+    type ContactColumns: Columns<Self::Speeds> + Copy + Debug;
+
+    /// `SMatrix<Scalar, R, R>`, with entries by `(row, column)`.
+    type Delassus: Copy + Debug + Index<(usize, usize), Output = Self::Scalar>;
+
+    /// The contacts, in the order in which they are written. Names are unique.
+    const CONTACTS: &'static [Contact];
+
+    /// g(t, q) of each contact: positive where it is open.
+    fn gaps(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Gaps;
+
+    /// ġ, then the slip s of each tangent, contact by contact: velocities of the first body's point at the contact
+    /// relative to what it touches.
+    fn contact_rates(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> Self::ContactRows;
+
+    /// Wᵀ, `W = ∂(ġ, s)/∂z`: the generalised force of a unit contact force, column by column.
+    fn contact_jacobian(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::ContactColumns;
+
+    /// μ of each contact; 0 without friction.
+    fn friction(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds, input: &Self::Input) -> Self::Gaps;
+
+    /// The coefficient of restitution e of each contact; 0 where none is given.
+    fn restitution(&self) -> Self::Gaps;
+
+    /// What contact impulses do at (t, q).
+    fn contact_response(&self, t: Self::Scalar, q: &Self::Configuration) -> ContactResponse<Self>;
+
+    /// The motion without contact forces at (t, q, z), with b = `W ż + γ` of it and what contact forces add.
+    fn contact_dynamics(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> ContactDynamics<Self>;
+}
+
+/// One contact of a system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub struct Contact {
+    /// Its name in the scene.
+    pub name: &'static str,
+    /// Its normal among the rows of [`ContactRows`](ContactSystem::ContactRows); its tangents follow.
+    pub normal: usize,
+    /// How many tangents it has: 0 without friction, 1 where motion or scene is plane, else 2.
+    pub tangents: usize,
+}
+
+impl Contact {
+    /// A contact from its parts, in the order of the fields.
+    #[must_use]
+    pub const fn new(name: &'static str, normal: usize, tangents: usize) -> Self {
+        Self { name, normal, tangents }
+    }
+}
+
+impl fmt::Display for Contact {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+/// What contact impulses do: the result of [`ContactSystem::contact_response`].
+#[non_exhaustive]
+pub struct ContactResponse<S: ContactSystem + ?Sized> {
+    /// `A⁻¹ Wᵀ`: the velocities that unit impulses make, column by column.
+    pub columns: S::ContactColumns,
+    /// `D = W A⁻¹ Wᵀ`, symmetric and positive semidefinite.
+    pub delassus: S::Delassus,
+}
+
+/// The motion without contact forces, and what they add: the result of [`ContactSystem::contact_dynamics`].
+#[non_exhaustive]
+pub struct ContactDynamics<S: ContactSystem + ?Sized> {
+    /// ż without contact forces.
+    pub acceleration: S::Speeds,
+    /// `b = W A⁻¹ r + γ`: the rates of ġ and s without contact forces.
+    pub bias: S::ContactRows,
+    /// What contact forces add.
+    pub response: ContactResponse<S>,
+}
+
+impl<S: ContactSystem + ?Sized> ContactResponse<S> {
+    /// From its parts, in the order of the fields.
+    #[inline(always)]
+    pub fn new(columns: S::ContactColumns, delassus: S::Delassus) -> Self {
+        Self { columns, delassus }
+    }
+}
+
+impl<S: ContactSystem + ?Sized> ContactDynamics<S> {
+    /// From its parts, in the order of the fields.
+    #[inline(always)]
+    pub fn new(acceleration: S::Speeds, bias: S::ContactRows, response: ContactResponse<S>) -> Self {
+        Self { acceleration, bias, response }
+    }
+}
+
+macro_rules! copied {
+    ($($name:ident { $($field:ident)* })*) => {$(
+        impl<S: ContactSystem + ?Sized> Clone for $name<S> {
+            #[inline]
+            fn clone(&self) -> Self {
+                *self
+            }
+        }
+
+        impl<S: ContactSystem + ?Sized> Copy for $name<S> {}
+
+        impl<S: ContactSystem + ?Sized> fmt::Debug for $name<S> {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.debug_struct(stringify!($name))$(.field(stringify!($field), &self.$field))*.finish()
+            }
+        }
+    )*};
+}
+
+copied! {
+    ContactResponse { columns delassus }
+    ContactDynamics { acceleration bias response }
+}
