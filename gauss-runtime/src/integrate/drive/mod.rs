@@ -11,6 +11,8 @@ pub mod boxed;
 pub mod cause;
 pub mod compensated;
 pub mod control;
+#[cfg(feature = "alloc")]
+pub mod each;
 pub mod event;
 pub mod fixed;
 pub(in crate::integrate) mod leaving;
