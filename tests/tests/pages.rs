@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use gauss_tests::pages::{keep, repository};
 
 /// Folders whose Markdown pages are read.
-const FOLDERS: [&str; 18] = [
+const FOLDERS: [&str; 20] = [
     "",
     "docs",
     "guide/src",
@@ -21,6 +21,7 @@ const FOLDERS: [&str; 18] = [
     "crates/gauss-adapters",
     "crates/gauss-batch",
     "crates/gauss-bounded",
+    "crates/gauss-contact",
     "crates/gauss-exact",
     "crates/gauss-files",
     "crates/gauss-playback",
