@@ -170,6 +170,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
             });
             let Some((i, kind)) = next else { break };
             choice.resting[i] = true;
+            self.leave_out_bounces(i, &choice, made)?;
             events.push(ContactEvent { time: self.t, contact: i, kind });
         }
         if !self.first {
@@ -321,6 +322,35 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
             || height <= 8.0 * sizes.rounding[i]
             || remaining <= 16.0 * scales.resolution(self.t);
         over.then_some(EventKind::Rests { speed, height, remaining })
+    }
+
+    /// Takes the rate of a gap away at which bounces are left out. In all of them together the contact passes on what it
+    /// would at rest in that time, less this momentum; so friction of a contact that slides is less by as much.
+    fn leave_out_bounces(
+        &mut self,
+        i: usize,
+        choice: &Choice,
+        made: &ContactTrajectory<'k, K>,
+    ) -> Result<(), ContactError> {
+        let (contact, rates) = (&K::CONTACTS[i], self.kernel.contact_rates(self.t, &self.q, &self.z));
+        let response = self.kernel.contact_response(self.t, &self.q);
+        let mut impulses = vec![0.0; K::ContactRows::DIM];
+        impulses[contact.normal] = 1.0;
+        let along = slip(contact, &rates);
+        let size = norm(&along);
+        if size > norm(&choice.still[tangents(contact)]) {
+            let mu = self.friction(made)?.component(i);
+            tangents(contact).zip(along).for_each(|(row, s)| impulses[row] = -mu * s / size);
+        }
+        let unit = impulses.iter().enumerate().map(|(row, part)| response.delassus[(contact.normal, row)] * part);
+        let lifted = unit.sum::<f64>();
+        // Else the gap's rate alone is taken away, with the projection.
+        if lifted > 0.0 {
+            let by = -rates.component(contact.normal) / lifted;
+            impulses.iter_mut().for_each(|part| *part *= by);
+            self.z = after::<K>(&response, &self.z, &impulses);
+        }
+        Ok(())
     }
 
     /// Chooses the modes of the contacts that rest, brings the state onto them; the accelerations of all rows.

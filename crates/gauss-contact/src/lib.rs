@@ -3,8 +3,8 @@
 //! A [`ContactSystem`](gauss_runtime::contact::ContactSystem) has gaps that may close. Between two events each contact
 //! has a [`Mode`]: open, closed, sticking, or sliding. The motion is smooth then, and any adaptive method integrates it
 //! to the accuracy that is asked for. At an event (a gap closes, a contact force vanishes, a slip ends, friction
-//! reaches its bound) impacts are solved by a law that has a name ([`Impact`]), and the modes are chosen anew by the laws of
-//! Signorini and Coulomb for accelerations.
+//! reaches its bound) impacts are solved by a law that has a name ([`Impact`]), and the modes are chosen anew by the
+//! laws of Signorini and Coulomb for accelerations.
 //!
 //! - What sticks has slip 0, and what rests has gap 0 to rounding: they are constraints.
 //! - Bounces that pile up end in rest ([`EventKind::Rests`]), with what was left out.

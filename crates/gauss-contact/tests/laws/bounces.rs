@@ -3,6 +3,7 @@
 use crate::common::{Layout, Scene, V};
 use gauss_contact::{ContactRun, EventKind, Impact, Mode};
 use gauss_runtime::contact::Contact;
+use gauss_runtime::integrate::{Adaptive, DormandPrince5, RungeKutta};
 use gauss_runtime::nalgebra::SMatrix;
 use gauss_runtime::system::GaussSystem;
 
@@ -129,4 +130,53 @@ fn a_ball_is_thrown_off_where_its_force_vanishes() {
     // z = −sin t + 1, q = cos t + t − π/2 from there on.
     assert!((end.z[0] - (1.0 - 3.0_f64.sin())).abs() < 1e-10);
     assert!((end.q[0] - (3.0_f64.cos() + 3.0 - quarter)).abs() < 1e-10);
+}
+
+struct Balls;
+impl Layout for Balls {
+    const CONTACTS: &'static [Contact] = &{
+        const NAMES: [&str; 49] = {
+            let mut names = ["ball"; 49];
+            // Names differ in their length alone: their places tell them apart here.
+            names[0] = "first ball";
+            names
+        };
+        let mut all = [Contact::new("", 0, 0); 49];
+        let mut n = 0;
+        while n < 49 {
+            all[n] = Contact::new(NAMES[n], n, 0);
+            n += 1;
+        }
+        all
+    };
+}
+
+#[test]
+fn forty_nine_balls_keep_their_energy() {
+    // 10 kg from 5 m and somewhat more, each by itself; the first ten at one height strike at once.
+    let rows = SMatrix::<f64, 49, 49>::identity();
+    let mass = V::<49>::repeat(10.0);
+    let kernel: Scene<Balls, 49, 49, 49> = Scene::linear(mass, mass * -G, V::zeros(), rows).restitution([1.0; 49]);
+    let kernel = Scene { gaps: Box::new(|q| *q), ..kernel };
+    let start = V::<49>::from_fn(|i, _| 5.0 + 0.01 * (i as f64 - 9.0).max(0.0));
+    let run = ContactRun::new(&kernel).adaptive(1e-6, 1e-6).run(start, V::zeros(), 0.0..20.0).expect("runs");
+    let last = run.last().expect("a sample");
+    let (first, end) = (kernel.energy(0.0, &start, &V::zeros()), kernel.energy(20.0, &last.q, &last.z));
+    let bounces = |height: f64| ((20.0 / (2.0 * height / G).sqrt() + 1.0) / 2.0).floor();
+    let impacts = run.events().len();
+    assert_eq!(impacts as f64, start.iter().map(|height| bounces(*height)).sum::<f64>());
+    // Every segment has a few steps of a parabola, exact to some roundings of each term.
+    assert!((end / first - 1.0).abs() < 4.0 * f64::EPSILON * run.iter().count() as f64, "{:e}", end / first - 1.0);
+}
+
+#[test]
+fn other_methods_drive_the_same_run() {
+    let kernel = ball(0.5);
+    let fall = (2.0 / G).sqrt();
+    let run = ContactRun::new(&kernel).control(Adaptive::by(RungeKutta(DormandPrince5), 1e-10, 1e-10));
+    let run = run.tolerance(1e-6, 1e-6).run([1.0].into(), [0.0].into(), 0.0..2.0).expect("runs");
+    let rest = run.events().last().expect("rests");
+    let EventKind::Rests { remaining, speed, .. } = rest.kind else { panic!("{rest:?}") };
+    assert!(speed <= 5.5e-6 && speed > 2.7e-6 && run.events().len() < 24);
+    assert!((rest.time + remaining - 3.0 * fall).abs() < 1e-12);
 }
