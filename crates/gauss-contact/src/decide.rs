@@ -140,9 +140,11 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
         let slides = self.begins_to_slide(made);
         let closed = self.closed(scales);
         let before = self.sizes(scales);
-        let struck = self.impacts(&closed, scales, made)?;
+        let noise = self.impacts(&closed, scales, made)?;
+        let struck = noise.is_some();
         let now = self.sizes(scales);
-        let still: Vec<f64> = before.of_rate.iter().zip(&now.of_rate).map(|(a, b)| a.max(*b)).collect();
+        let mut still: Vec<f64> = before.of_rate.iter().zip(&now.of_rate).map(|(a, b)| a.max(*b)).collect();
+        still.iter_mut().zip(noise.iter().flatten()).for_each(|(still, noise)| *still += noise);
         let rests = |i: usize| closed[i] && now.rates.component(K::CONTACTS[i].normal) <= still[K::CONTACTS[i].normal];
         let stuck = |i: usize| match self.fired {
             Some(Watched::Speed(n, _)) if n == i => true,
@@ -230,22 +232,25 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
         Ok(friction)
     }
 
-    /// Impacts until no closed gap closes further; whether there were any.
+    /// Impacts until no closed gap closes further. Where there were any: what the rounding of their impulses makes of
+    /// rates, since impulses that cancel leave no rate to tell it from.
     fn impacts(
         &mut self,
         closed: &[bool],
         scales: &Scales,
         made: &mut ContactTrajectory<'k, K>,
-    ) -> Result<bool, ContactError> {
+    ) -> Result<Option<Vec<f64>>, ContactError> {
         let friction = self.friction(made)?;
+        let mut noise = vec![0.0; K::ContactRows::DIM];
         let restitution = self.kernel.restitution();
         let most = if scales.law == Impact::Sequential { 10_000 } else { 100 };
         for count in 0..=most {
             let sizes = self.sizes(scales);
             let rate = |i: usize| sizes.rates.component(K::CONTACTS[i].normal);
-            let strikes = |&i: &usize| closed[i] && rate(i) < -sizes.of_rate[K::CONTACTS[i].normal];
+            let rounding = |row: usize| sizes.of_rate[row] + noise[row];
+            let strikes = |&i: &usize| closed[i] && rate(i) < -rounding(K::CONTACTS[i].normal);
             let fastest = (0..closed.len()).filter(strikes).min_by(|&a, &b| rate(a).total_cmp(&rate(b)));
-            let Some(fastest) = fastest else { return Ok(count > 0) };
+            let Some(fastest) = fastest else { return Ok((count > 0).then_some(noise)) };
             if count == most {
                 return Err(self.error(Some(fastest), ContactErrorKind::Zeno { impacts: count }));
             }
@@ -265,8 +270,12 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
             self.z = after::<K>(&response, &self.z, &blow.impulses);
             made.solves.push(SolveRecord { time: self.t, impact: true, residuals: blow.residuals });
             self.record(&contacts, &sizes.rates, &blow.impulses, (scales.law, made))?;
+            for (row, noise) in noise.iter_mut().enumerate() {
+                let each = blow.impulses.iter().enumerate().map(|(j, x)| (response.delassus[(row, j)] * x).abs());
+                *noise += 64.0 * f64::EPSILON * each.sum::<f64>();
+            }
         }
-        Ok(true)
+        Ok(Some(noise))
     }
 
     /// Records an impact, of which energy must not grow.

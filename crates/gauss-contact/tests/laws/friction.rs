@@ -310,3 +310,37 @@ fn newtons_law_with_friction_is_refused_where_it_creates_energy_and_moreaus_is_n
     }
     assert!(refused > 0 && made > refused, "{refused} {made}");
 }
+
+#[test]
+fn both_corners_of_a_square_are_lifted_at_once() {
+    let (mass, a) = (1.0, 0.1);
+    let kernel = square(0.5, a).force(move |t, _, _| V::from([0.0, -mass * t.cos(), 0.0]));
+    let run = ContactRun::new(&kernel).adaptive(1e-12, 1e-12);
+    let run = run.run([0.0, a, 0.0].into(), V::zeros(), 0.0..2.5).expect("runs");
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let leaves: Vec<f64> =
+        run.events().iter().filter(|event| event.kind == EventKind::Leaves).map(|event| event.time).collect();
+    assert!(leaves.len() >= 2 && leaves.iter().all(|t| (t - quarter).abs() < 1e-9), "{:?}", run.events());
+    let end = run.last().expect("a sample");
+    assert!((end.q[1] - a - (2.5_f64.cos() + 2.5 - quarter)).abs() < 1e-9 && end.q[2].abs() < 1e-9, "{}", end.q);
+}
+
+#[test]
+fn a_block_on_a_table_takes_the_blow_of_a_ball_without_a_move() {
+    // Heights of the ball and of the block, and the block's place along the table.
+    let rows = SMatrix::<f64, 4, 3>::from_row_slice(&[1., -1., 0., 0., 0., -1., 0., 1., 0., 0., 0., 1.]);
+    let masses = [0.7, 0.3, 0.3];
+    for e in [0.0, 0.5, 1.0] {
+        let weight = V::from([-masses[0] * G, -masses[1] * G, 0.0]);
+        let kernel: Scene<Corners, 3, 2, 4> =
+            Scene::linear(masses.into(), weight, V::from([-0.1, 0.0]), rows).friction([0.3; 2]).restitution([e; 2]);
+        let run = ContactRun::new(&kernel).adaptive(1e-10, 1e-10);
+        let run = run.run([0.4, 0.0, 0.0].into(), V::zeros(), 0.0..0.3).expect("runs");
+        let end = run.last().expect("a sample");
+        assert_eq!((end.q[1], end.q[2], end.z[1], end.z[2]), (0.0, 0.0, 0.0, 0.0), "{e}");
+        assert!(run.events().iter().all(|event| event.contact == 0 || matches!(event.kind, EventKind::Impact(_))));
+        let EventKind::Impact(hit) = run.events()[0].kind else { panic!("{:?}", run.events()) };
+        let speed = (2.0 * G * 0.3).sqrt();
+        assert!((hit.impulse[0] - masses[0] * (1.0 + e) * speed).abs() < 64.0 * f64::EPSILON * speed);
+    }
+}
