@@ -418,35 +418,45 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
     fn bring_to_rest(
         &mut self,
         contacts: &[usize],
-        choice: &Choice,
+        choice: &mut Choice,
         made: &ContactTrajectory<'k, K>,
     ) -> Result<Vec<Law>, ContactError> {
-        let rates = self.kernel.contact_rates(self.t, &self.q, &self.z);
-        let slides = |i: usize| {
-            let contact = &K::CONTACTS[i];
-            let (along, still) = (slip(contact, &rates), &choice.still[tangents(contact)]);
-            let size = norm(&along);
-            (!choice.stuck[i] && size > norm(still)).then(|| along.map(|s| s / size))
+        // Slips that depend on one another end together: what one of them stops, no other slides on by.
+        let slips = loop {
+            let slips: Vec<_> = contacts.iter().map(|&i| self.slides(i, choice)).collect();
+            let mut modes = vec![Mode::Open; K::CONTACTS.len()];
+            for (&i, slip) in contacts.iter().zip(&slips) {
+                modes[i] = match (K::CONTACTS[i].tangents, slip) {
+                    (0, _) => Mode::Closed,
+                    (_, Some(along)) => Mode::Slides(*along),
+                    _ => Mode::Sticks,
+                };
+            }
+            let projected = InMode::new(self.kernel, &modes).project(self.t, &self.q, &self.z);
+            (self.q, self.z) = projected.map_err(|error| self.error(None, ContactErrorKind::Projection(error)))?;
+            let stopped = |(&i, slip): (&usize, &Option<_>)| slip.is_some() && self.slides(i, choice).is_none();
+            let stopped: Vec<usize> =
+                contacts.iter().zip(&slips).filter(|&pair| stopped(pair)).map(|(&i, _)| i).collect();
+            if stopped.is_empty() {
+                break slips;
+            }
+            stopped.into_iter().for_each(|i| choice.stuck[i] = true);
         };
-        let mut modes = vec![Mode::Open; K::CONTACTS.len()];
-        let mut known = Vec::new();
-        for &i in contacts {
-            let slides = slides(i);
-            modes[i] = match (K::CONTACTS[i].tangents, slides) {
-                (0, _) => Mode::Closed,
-                (_, Some(along)) => Mode::Slides(along),
-                _ => Mode::Sticks,
-            };
-            known.push(slides.or(choice.slides.filter(|(n, _)| *n == i).map(|(_, along)| along)));
-        }
-        let projected = InMode::new(self.kernel, &modes).project(self.t, &self.q, &self.z);
-        (self.q, self.z) = projected.map_err(|error| self.error(None, ContactErrorKind::Projection(error)))?;
         let friction = self.friction(made)?;
         let law = |(&i, slip): (&usize, Option<[f64; 2]>)| {
             let tangents = K::CONTACTS[i].tangents;
-            Law { tangents, friction: friction.component(i), slip: slip.filter(|_| tangents > 0) }
+            let forced = choice.slides.filter(|(n, _)| *n == i).map(|(_, along)| along);
+            Law { tangents, friction: friction.component(i), slip: slip.or(forced).filter(|_| tangents > 0) }
         };
-        Ok(contacts.iter().zip(known).map(law).collect())
+        Ok(contacts.iter().zip(slips).map(law).collect())
+    }
+
+    /// The direction in which a contact slides.
+    fn slides(&self, i: usize, choice: &Choice) -> Option<[f64; 2]> {
+        let contact = &K::CONTACTS[i];
+        let along = slip(contact, &self.kernel.contact_rates(self.t, &self.q, &self.z));
+        let size = norm(&along);
+        (!choice.stuck[i] && size > norm(&choice.still[tangents(contact)])).then(|| along.map(|s| s / size))
     }
 
     /// Changes of modes as events.

@@ -153,7 +153,7 @@ impl Contacts {
                 let worst = found.residuals.iter().max_by(|a, b| a.worst().total_cmp(&b.worst()));
                 let worst = worst.copied().unwrap_or_default();
                 if found.residuals.iter().all(Residual::holds) {
-                    return Ok(found);
+                    return Ok(self.sticking(found));
                 }
                 if worst.worst() < best.worst() {
                     best = worst;
@@ -168,6 +168,23 @@ impl Contacts {
             Some(mut found) if !found.is_empty() => Ok(found.swap_remove(0)),
             _ => Err(Failure::NotFound(best)),
         }
+    }
+
+    /// The same motion with contacts that stick where they would slide at a rate of zero: where contacts depend on one
+    /// another, friction of one may be at its bound for nothing.
+    fn sticking(&self, found: Solution) -> Solution {
+        let mut states = found.states.clone();
+        for (i, state) in states.iter_mut().enumerate().filter(|(_, state)| matches!(state, State::Slides(_))) {
+            let still = |row: usize| found.rates[row].abs() <= self.rounding(row, &found.forces);
+            if self.tangents(i).all(still) {
+                *state = State::Sticks;
+            }
+        }
+        if states == found.states {
+            return found;
+        }
+        let stuck = self.in_states(states);
+        if stuck.residuals.iter().all(Residual::holds) { stuck } else { found }
     }
 
     /// Whether friction of a contact cannot turn the sign of what its normal force does: `D_NN > μ |D_NT|`, or along

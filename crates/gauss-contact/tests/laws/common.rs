@@ -139,3 +139,11 @@ impl<L: Layout, const N: usize, const C: usize, const R: usize> ContactSystem fo
         ContactDynamics::new(free, bias, self.contact_response(t, q))
     }
 }
+
+/// Numbers in (−1, 1): a linear congruence with the constants of Knuth's MMIX.
+pub fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
+    move || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / 4_503_599_627_370_496.0 - 1.0
+    }
+}

@@ -7,7 +7,7 @@ use gauss_runtime::contact::Contact;
 use gauss_runtime::nalgebra::SMatrix;
 use gauss_runtime::system::GaussSystem;
 
-use crate::common::{Layout, Scene, V};
+use crate::common::{Layout, Scene, V, numbers};
 
 const G: f64 = 9.81;
 
@@ -342,5 +342,29 @@ fn a_block_on_a_table_takes_the_blow_of_a_ball_without_a_move() {
         let EventKind::Impact(hit) = run.events()[0].kind else { panic!("{:?}", run.events()) };
         let speed = (2.0 * G * 0.3).sqrt();
         assert!((hit.impulse[0] - masses[0] * (1.0 + e) * speed).abs() < 64.0 * f64::EPSILON * speed);
+    }
+}
+
+#[test]
+fn squares_that_are_tossed_come_to_rest() {
+    let mut number = numbers(3);
+    for n in 0..24 {
+        let e = [0.0, 0.3, 0.7][n % 3];
+        let kernel = Scene { restitution: V::from([e; 2]), ..square(0.25 + 0.25 * number(), 0.1) };
+        let start = V::from([0.0, 0.4, 0.7 * number()]);
+        let speeds = V::from([2.0 * number(), number(), 5.0 * number()]);
+        let run = ContactRun::new(&kernel).adaptive(1e-9, 1e-9).law(Impact::Moreau);
+        let run = run.run(start, speeds, 0.0..3.0).unwrap_or_else(|error| panic!("{n} {error}"));
+        let energies: Vec<f64> = run.iter().map(|s| kernel.energy(s.t, &s.q, &s.z)).collect();
+        // Steps have errors of 1e-9 of their terms, at energies of about 5.
+        assert!(energies.windows(2).all(|pair| pair[1] <= pair[0] + 5e-9), "{n}");
+        // Gaps end within the resolution of the time, 16 ε 3 s, at speeds of about 5, or are closed to rounding.
+        let gaps = run.iter().flat_map(|s| <[f64; 2]>::from((kernel.gaps)(&s.q)));
+        assert!(gaps.fold(0.0, f64::min) > -16.0 * f64::EPSILON * 3.0 * 5.0, "{n}");
+        // In the end it is on both corners, to the last bit at rest.
+        let end = run.last().expect("a sample");
+        assert_eq!(end.z, V::<3>::zeros(), "{n}");
+        assert_eq!(run.modes(3.0).expect("inside"), [Mode::Sticks; 2], "{n}");
+        assert!(run.solves().iter().flat_map(|solve| &solve.residuals).all(|(_, r)| r.coulomb <= r.rounding));
     }
 }

@@ -1,10 +1,11 @@
 //! Friction along two tangents.
 
-use gauss_contact::{ContactRun, EventKind, Mode};
+use gauss_contact::{ContactRun, EventKind, Impact, Mode};
 use gauss_runtime::contact::Contact;
 use gauss_runtime::nalgebra::SMatrix;
+use gauss_runtime::system::GaussSystem;
 
-use crate::common::{Layout, Scene, V};
+use crate::common::{Layout, Scene, V, numbers};
 
 const G: f64 = 9.81;
 
@@ -70,4 +71,42 @@ fn a_block_across_an_incline_turns_downhill_and_stops() {
     assert!((stop.time - wanted).abs() < 1e-8, "{} {wanted}", stop.time);
     let end = run.last().expect("a sample");
     assert_eq!(end.z, V::<3>::zeros());
+}
+
+struct Room;
+impl Layout for Room {
+    const CONTACTS: &'static [Contact] =
+        &[Contact::new("floor", 0, 2), Contact::new("wall", 3, 2), Contact::new("other wall", 6, 2)];
+}
+
+#[test]
+fn points_that_are_thrown_into_a_corner_of_a_room_come_to_rest() {
+    // The normal of each contact is a tangent of the two others.
+    let rows = SMatrix::<f64, 9, 3>::from_row_slice(&[
+        0., 0., 1., 1., 0., 0., 0., 1., 0., //
+        1., 0., 0., 0., 1., 0., 0., 0., 1., //
+        0., 1., 0., 0., 0., 1., 1., 0., 0.,
+    ]);
+    let mut number = numbers(11);
+    for n in 0..30 {
+        let (e, law) = ([0.0, 0.4, 0.8][n % 3], [Impact::Newton, Impact::Moreau][n % 2]);
+        let (mass, weight) = (1.5, V::from([-4.0 - 3.0 * number(), -4.0 - 3.0 * number(), -1.5 * G]));
+        let kernel: Scene<Room, 3, 3, 9> = Scene::linear(V::repeat(mass), weight, V::zeros(), rows);
+        let kernel = kernel.friction([0.3 + 0.3 * number(), 0.2, 0.1]).restitution([e; 3]);
+        let start = V::from([1.0 + number(), 1.0 + number(), 1.0 + number()]);
+        let speeds = V::from([3.0 * number(), 3.0 * number(), 3.0 * number()]);
+        let run = ContactRun::new(&kernel).adaptive(1e-9, 1e-9).law(law);
+        let run = run.run(start, speeds, 0.0..20.0).unwrap_or_else(|error| panic!("{n} {error}"));
+        let end = run.last().expect("a sample");
+        assert_eq!(end.z, V::<3>::zeros(), "{n} {:?}", run.modes(20.0));
+        let energies: Vec<f64> = run.iter().map(|s| kernel.energy(s.t, &s.q, &s.z)).collect();
+        // Steps have errors of 1e-9 of their terms, at energies below 100.
+        assert!(energies.windows(2).all(|pair| pair[1] <= pair[0] + 1e-7), "{n}");
+        // Coulomb's law in the end, of the forces as they are given.
+        let forces = run.forces(20.0).expect("inside");
+        for i in 0..3 {
+            let [normal, x, y] = [0, 1, 2].map(|k| forces[3 * i + k]);
+            assert!(x.hypot(y) <= kernel.friction[i] * normal + 1e-9 && normal >= 0.0, "{n} {forces}");
+        }
+    }
 }
