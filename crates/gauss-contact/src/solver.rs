@@ -153,7 +153,7 @@ impl Contacts {
                 let worst = found.residuals.iter().max_by(|a, b| a.worst().total_cmp(&b.worst()));
                 let worst = worst.copied().unwrap_or_default();
                 if found.residuals.iter().all(Residual::holds) {
-                    return Ok(self.sticking(found));
+                    return Ok(self.shared(found));
                 }
                 if worst.worst() < best.worst() {
                     best = worst;
@@ -170,21 +170,33 @@ impl Contacts {
         }
     }
 
-    /// The same motion with contacts that stick where they would slide at a rate of zero: where contacts depend on one
-    /// another, friction of one may be at its bound for nothing.
-    fn sticking(&self, found: Solution) -> Solution {
+    /// The same motion with all contacts that can carry it: where contacts depend on one another, one may leave at
+    /// a rate of zero, or its friction may be at its bound, for nothing.
+    fn shared(&self, found: Solution) -> Solution {
+        let still = |row: usize| found.rates[row].abs() <= self.rounding(row, &found.forces);
         let mut states = found.states.clone();
-        for (i, state) in states.iter_mut().enumerate().filter(|(_, state)| matches!(state, State::Slides(_))) {
-            let still = |row: usize| found.rates[row].abs() <= self.rounding(row, &found.forces);
-            if self.tangents(i).all(still) {
-                *state = State::Sticks;
+        for (i, state) in states.iter_mut().enumerate() {
+            let free = self.laws[i].tangents > 0 && self.laws[i].slip.is_none();
+            match state {
+                State::Leaves if still(self.normals[i]) && !free => *state = State::Closed,
+                State::Leaves if still(self.normals[i]) && self.tangents(i).all(still) => *state = State::Sticks,
+                State::Slides(_) if self.tangents(i).all(still) => *state = State::Sticks,
+                _ => {}
             }
         }
         if states == found.states {
             return found;
         }
-        let stuck = self.in_states(states);
-        if stuck.residuals.iter().all(Residual::holds) { stuck } else { found }
+        let shared = self.in_states(states);
+        let carries = |i: usize| {
+            let normal = self.normals[i];
+            let pressed = self.matrix.at(normal, normal) * shared.forces[normal];
+            found.states[i] != State::Leaves
+                || pressed > self.rounding(normal, &shared.forces)
+                || shared.states[i] == State::Leaves
+        };
+        let all = shared.residuals.iter().all(Residual::holds) && (0..self.laws.len()).all(carries);
+        if all { shared } else { found }
     }
 
     /// Whether friction of a contact cannot turn the sign of what its normal force does: `D_NN > μ |D_NT|`, or along

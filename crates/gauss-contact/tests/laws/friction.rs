@@ -312,6 +312,19 @@ fn newtons_law_with_friction_is_refused_where_it_creates_energy_and_moreaus_is_n
 }
 
 #[test]
+fn a_square_that_is_pushed_below_its_friction_sticks_on_both_corners() {
+    // Friction of least norm is the same at both, within the bound of the rear one, μ 0.4 m g.
+    let kernel = square(0.5, 0.1).force(|_, _, _| V::from([0.2 * G, -G, 0.0]));
+    let run = ContactRun::new(&kernel).adaptive(1e-10, 1e-10);
+    let run = run.run([0.0, 0.1, 0.0].into(), V::zeros(), 0.0..1.0).expect("stands");
+    assert_eq!(run.modes(0.5).expect("inside"), [Mode::Sticks; 2]);
+    let end = run.last().expect("a sample");
+    assert!(run.events().is_empty() && end.z == V::<3>::zeros() && end.q[0] == 0.0, "{}", end.q);
+    let [rear, a, front, b] = run.forces(0.5).expect("inside").into();
+    assert!((rear + front - G).abs() < 1e-13 && (a + 0.1 * G).abs() < 1e-13 && (b + 0.1 * G).abs() < 1e-13);
+}
+
+#[test]
 fn both_corners_of_a_square_are_lifted_at_once() {
     let (mass, a) = (1.0, 0.1);
     let kernel = square(0.5, a).force(move |t, _, _| V::from([0.0, -mass * t.cos(), 0.0]));
