@@ -333,8 +333,8 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
         over.then_some(EventKind::Rests { speed, height, remaining })
     }
 
-    /// Takes the rate of a gap away at which bounces are left out. In all of them together the contact passes on what it
-    /// would at rest in that time, less this momentum; so friction of a contact that slides is less by as much.
+    /// Takes the rate of a gap away at which bounces are left out. In all of them together the contact passes on what
+    /// it would at rest in that time, less this momentum; so friction of a contact that slides is less by as much.
     fn leave_out_bounces(
         &mut self,
         i: usize,

@@ -12,6 +12,10 @@
 //! - Each solution of the laws has its residuals in the history ([`SolveRecord`]).
 //! - Where rigid bodies and Coulomb's law have no motion or several (Painlevé), the run ends with an error.
 //!
+//! Limits: flights lower than some hundred roundings of the largest coordinate are rest, or an error where e = 1. A gap
+//! that opens and closes within a step is seen as far as [events](gauss_runtime::integrate::drive::event) are; one that
+//! is found closed too late ends the run with [`ContactErrorKind::Penetration`]. Scalars are `f64`.
+//!
 //! Friction is Coulomb's, isotropic; with two tangents and a friction so large that it can reverse the effect of
 //! a normal force, uniqueness is not checked for contacts that begin to slide.
 

@@ -161,6 +161,38 @@ fn painleves_rod_has_a_paradox_from_four_thirds_on() {
     }
 }
 
+/// An arm of a body at this angle.
+fn turned([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
+    let (sine, cosine) = angle.sin_cos();
+    [cosine * x - sine * y, sine * x + cosine * y]
+}
+
+/// A rectangle of sides 2 a, 2 b and mass 1 in its plane, (x, y, θ) of its centre, on its two lower corners.
+fn rectangle(mu: f64, [a, b]: [f64; 2]) -> Scene<Corners, 3, 2, 4> {
+    let corners = [[-a, -b], [a, -b]];
+    Scene {
+        mass: [1.0, 1.0, (a * a + b * b) / 3.0].into(),
+        force: Box::new(|_, _, _| V::from([0.0, -G, 0.0])),
+        potential: Box::new(|q| G * q[1]),
+        gaps: Box::new(move |q| V::from(corners.map(|corner| q[1] + turned(corner, q[2])[1]))),
+        rows: Box::new(move |q| {
+            let [[a, b], [c, d]] = corners.map(|corner| turned(corner, q[2]));
+            SMatrix::<f64, 4, 3>::from_row_slice(&[0., 1., a, 1., 0., -b, 0., 1., c, 1., 0., -d])
+        }),
+        gamma: Box::new(move |q, z| {
+            let [[a, b], [c, d]] = corners.map(|corner| turned(corner, q[2]));
+            V::from([-b, -a, -d, -c]) * (z[2] * z[2])
+        }),
+        friction: V::from([mu; 2]),
+        restitution: V::zeros(),
+        layout: PhantomData,
+    }
+}
+
+fn square(mu: f64, a: f64) -> Scene<Corners, 3, 2, 4> {
+    rectangle(mu, [a, a])
+}
+
 struct Corners;
 impl Layout for Corners {
     const CONTACTS: &'static [Contact] = &[Contact::new("left", 0, 1), Contact::new("right", 2, 1)];
@@ -168,34 +200,12 @@ impl Layout for Corners {
 
 #[test]
 fn housners_block_loses_at_each_impact_what_its_angle_says() {
-    // Height 1, width ¼; (x, y, θ) of its centre, θ to the left. Corners at (∓⅛, −½).
-    let corners = [[-0.125, -0.5], [0.125, -0.5]];
-    let arm = |[x, y]: [f64; 2], angle: f64| {
-        let (sine, cosine) = angle.sin_cos();
-        [cosine * x - sine * y, sine * x + cosine * y]
-    };
-    let inertia = (1.0 + 0.0625) / 12.0;
-    let kernel: Scene<Corners, 3, 2, 4> = Scene {
-        mass: [1.0, 1.0, inertia].into(),
-        force: Box::new(|_, _, _| V::from([0.0, -G, 0.0])),
-        potential: Box::new(|q| G * q[1]),
-        gaps: Box::new(move |q| V::from(corners.map(|corner| q[1] + arm(corner, q[2])[1]))),
-        rows: Box::new(move |q| {
-            let [[a, b], [c, d]] = corners.map(|corner| arm(corner, q[2]));
-            SMatrix::<f64, 4, 3>::from_row_slice(&[0., 1., a, 1., 0., -b, 0., 1., c, 1., 0., -d])
-        }),
-        gamma: Box::new(move |q, z| {
-            let [[a, b], [c, d]] = corners.map(|corner| arm(corner, q[2]));
-            V::from([-b, -a, -d, -c]) * (z[2] * z[2])
-        }),
-        // Enough for no slip, and not so much that one corner alone could jam.
-        friction: V::from([0.3; 2]),
-        restitution: V::zeros(),
-        layout: PhantomData,
-    };
+    // Height 1, width ¼; friction enough for no slip, and not so much that one corner alone could jam.
+    let corner = [-0.125, -0.5];
+    let kernel = rectangle(0.3, [0.125, 0.5]);
     let alpha = 0.25_f64.atan();
     let start = 0.5 * alpha;
-    let [x, y] = arm(corners[0], start);
+    let [x, y] = turned(corner, start);
     let run = ContactRun::new(&kernel).adaptive(1e-12, 1e-12);
     let run = run.run([-x, -y, start].into(), V::zeros(), 0.0..0.72).expect("runs");
     let impact = run.events().iter().find(|event| matches!(event.kind, EventKind::Impact(_))).expect("an impact");
@@ -241,32 +251,6 @@ fn a_block_that_is_dropped_sliding_bounces_to_rest_and_stops() {
     assert_eq!(stop.kind, EventKind::Sticks);
     assert!((stop.time - v / (mu * G)).abs() < 1e-12, "{}", stop.time);
     assert_eq!(run.last().expect("a sample").z, V::<2>::zeros());
-}
-
-/// A square of side 2 a in its plane on two corners, (x, y, θ).
-fn square(mu: f64, a: f64) -> Scene<Corners, 3, 2, 4> {
-    let corners = [[-a, -a], [a, -a]];
-    let arm = |[x, y]: [f64; 2], angle: f64| {
-        let (sine, cosine) = angle.sin_cos();
-        [cosine * x - sine * y, sine * x + cosine * y]
-    };
-    Scene {
-        mass: [1.0, 1.0, 2.0 * a * a / 3.0].into(),
-        force: Box::new(|_, _, _| V::from([0.0, -G, 0.0])),
-        potential: Box::new(|q| G * q[1]),
-        gaps: Box::new(move |q| V::from(corners.map(|corner| q[1] + arm(corner, q[2])[1]))),
-        rows: Box::new(move |q| {
-            let [[a, b], [c, d]] = corners.map(|corner| arm(corner, q[2]));
-            SMatrix::<f64, 4, 3>::from_row_slice(&[0., 1., a, 1., 0., -b, 0., 1., c, 1., 0., -d])
-        }),
-        gamma: Box::new(move |q, z| {
-            let [[a, b], [c, d]] = corners.map(|corner| arm(corner, q[2]));
-            V::from([-b, -a, -d, -c]) * (z[2] * z[2])
-        }),
-        friction: V::from([mu; 2]),
-        restitution: V::zeros(),
-        layout: PhantomData,
-    }
 }
 
 #[test]
