@@ -365,3 +365,25 @@ fn squares_that_are_tossed_come_to_rest() {
         assert!(run.solves().iter().flat_map(|solve| &solve.residuals).all(|(_, r)| r.coulomb <= r.rounding));
     }
 }
+
+#[test]
+fn a_block_on_a_belt_sticks_and_slips() {
+    // Mass, stiffness and bound of friction 1; a belt so heavy that its speed ½ stays. From rest: x = 1 − cos t to
+    // ẋ = ½, then with the belt to x = 1, then x = 1 + ½ sin.
+    let rows = SMatrix::<f64, 2, 3>::from_row_slice(&[0., 1., 0., 1., 0., -1.]);
+    let mass = V::from([1.0, 1.0, 1e18]);
+    let kernel: Scene<Ground, 3, 1, 2> = Scene::linear(mass, V::zeros(), V::zeros(), rows).friction([1.0]);
+    let kernel = kernel.force(|_, q, _| V::from([-q[0], -1.0, 0.0]));
+    let run = ContactRun::new(&kernel).adaptive(1e-12, 1e-12);
+    let run = run.run(V::zeros(), [0.0, 0.0, 0.5].into(), 0.0..5.0).expect("runs");
+    let [sticks, slides] = run.events() else { panic!("{:?}", run.events()) };
+    let first = std::f64::consts::FRAC_PI_6;
+    let second = first + 2.0 * first.cos();
+    // Some ten steps of errors of 1e-12; the force at the second one changes by ½ per unit of time.
+    assert!(sticks.kind == EventKind::Sticks && (sticks.time - first).abs() < 1e-11, "{sticks:?}");
+    assert!(slides.kind == EventKind::Slides([-1.0, 0.0]) && (slides.time - second).abs() < 1e-10, "{slides:?}");
+    let on = run.at(0.5 * (first + second)).expect("inside");
+    assert_eq!(on.z[0], on.z[2]);
+    let end = run.last().expect("a sample");
+    assert!((end.q[0] - (1.0 + 0.5 * (5.0 - second).sin())).abs() < 1e-10, "{}", end.q);
+}
