@@ -34,6 +34,7 @@
 //! | crate | for |
 //! |---|---|
 //! | `gauss-batch` | many states of one scene at once: packs, threads, ensembles |
+//! | `gauss-contact` | contact, dry friction and impacts, from event to event |
 //! | `gauss-tables` | runs as tables, plots and files (CSV, Arrow, Parquet) |
 //! | `gauss-playback`, `gauss-rerun` | motions as a page that plays; in the viewer Rerun |
 //! | `gauss-exact` | exact motions of free bodies and tops, splitting methods |

@@ -21,6 +21,7 @@ const FOLDERS: &[&str] = &[
     "crates/gauss-adapters",
     "crates/gauss-batch",
     "crates/gauss-bounded",
+    "crates/gauss-contact",
     "crates/gauss-exact",
     "crates/gauss-files",
     "crates/gauss-playback",

@@ -152,7 +152,7 @@ where
         let (memory, (span, state, rates)) = outcome?;
         let width = S::Scalar::WIDTH;
         let (verdicts, end) = (vec![Verdict::Rejected; width], S::Scalar::from_f64(self.times.1));
-        let unseen = E::COUNT == 0;
+        let unseen = !E::ANY;
         let group = Group { state, rates, verdicts, end, span, unseen, alone: false, steps: 1 };
         let mut lanes =
             Lanes { all: self, group, memory, running: (0..width).map(|_| None).collect(), who: vec![false; width] };
@@ -242,7 +242,7 @@ where
             },
         )?;
         let Some(running) = &mut self.running[lane] else { return Ok(()) };
-        if E::COUNT > 0 { running.watch.begin(&self.group.state) } else { Ok(()) }
+        if E::ANY { running.watch.begin(&self.group.state) } else { Ok(()) }
     }
 
     /// A run has come to its end, by itself or by an event, or cannot go on.
@@ -287,7 +287,7 @@ where
         }
         let mut who = core::mem::take(&mut self.who);
         who.iter_mut().zip(&self.running).for_each(|(who, running)| *who = running.is_some());
-        let before = (E::COUNT > 0).then_some((self.group.state, self.group.rates));
+        let before = E::ANY.then_some((self.group.state, self.group.rates));
         self.attempt(&who);
         if let Some(before) = &before {
             self.see(before, &who, runs);
@@ -298,7 +298,7 @@ where
                 Verdict::Gave(gave) => self.give_up(lane, gave, runs),
                 Verdict::Taken(taken, last) => {
                     if let Some(running) = &mut self.running[lane]
-                        && E::COUNT == 0
+                        && !E::ANY
                     {
                         running.summary.count(taken);
                         running.summary.steps += self.group.steps - 1;

@@ -14,6 +14,8 @@ mod runs;
 mod step_control;
 
 pub use acceptance::{cause, pace, projection, tolerance};
+#[cfg(feature = "alloc")]
+pub use events::each;
 pub use events::{event, search};
 pub(in crate::integrate) use events::{leaving, zero};
 #[cfg(feature = "alloc")]

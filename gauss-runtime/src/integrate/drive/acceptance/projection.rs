@@ -148,6 +148,25 @@ fn check_above_rounding<S: GaussSystem, P: Problem<System = S>>(
     worst.1
 }
 
+/// The state after a jump, on the constraints where there are any. The nearest velocities, as the kinetic energy
+/// measures them, are those after an impact.
+pub(in crate::integrate) fn consistent<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
+    (given, set): (&Sample<S>, &Sample<S>),
+    lanes: &Range<usize>,
+) -> Result<(S::Configuration, S::Speeds), IntegrationErrorKind> {
+    let Sample { t, q, z, .. } = *set;
+    if !(q.is_finite() && z.is_finite()) {
+        return Err(IntegrationErrorKind::NonFinite { part: RunPart::Jump });
+    }
+    if !S::CONSTRAINED {
+        return Ok((q.renormalise(), z));
+    }
+    let projected = problem.system().project(t, &q, &z).map_err(|error| IntegrationErrorKind::Projection { error })?;
+    check_jump(problem.system(), given, set, (&projected, lanes))?;
+    Ok(projected)
+}
+
 /// Refuses what the projection makes of a jump where that is farther from the state that was set than the jump itself
 /// goes.
 ///
@@ -155,7 +174,7 @@ fn check_above_rounding<S: GaussSystem, P: Problem<System = S>>(
 /// the jump: as the kinetic energy measures it, and by largest components within [`PROJECTED`]. Where the configuration
 /// stays, velocities are projected onto one linear space, and the kinetic energy of what that takes away is no more
 /// than that of the jump. Else it is all rounding of constraints that depend on one another.
-pub(in crate::integrate) fn check_jump<S: GaussSystem>(
+fn check_jump<S: GaussSystem>(
     system: &S,
     before: &Sample<S>,
     set: &Sample<S>,

@@ -48,10 +48,10 @@ use core::ops::Range;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::control::Control;
 use crate::integrate::drive::leaving::{Leaving, OnZero, rounding};
-use crate::integrate::drive::projection::check_jump;
+use crate::integrate::drive::projection::consistent;
 use crate::integrate::drive::search::{Crossing, Function, Looking, Made, side, value};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake, RunPart};
+use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake};
 use crate::integrate::problem::state::{Sample, State, TangentOf};
 use crate::real::Real;
 use crate::sealed::Sealed;
@@ -93,8 +93,11 @@ struct BeforeJump {
 
 /// The events of a run, in the order in which they were added to the simulation.
 pub trait Events<S: GaussSystem>: Sealed {
+    /// Whether there are any.
+    const ANY: bool;
+
     /// Their number.
-    const COUNT: usize;
+    fn count(&self) -> usize;
 
     /// Shows every one.
     fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark));
@@ -110,7 +113,11 @@ pub struct NoEvents;
 impl Sealed for NoEvents {}
 
 impl<S: GaussSystem> Events<S> for NoEvents {
-    const COUNT: usize = 0;
+    const ANY: bool = false;
+
+    fn count(&self) -> usize {
+        0
+    }
 
     fn each(&mut self, _: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {}
 
@@ -122,7 +129,11 @@ impl<S: GaussSystem> Events<S> for NoEvents {
 impl<E: Sealed> Sealed for &mut E {}
 
 impl<S: GaussSystem, E: Events<S>> Events<S> for &mut E {
-    const COUNT: usize = E::COUNT;
+    const ANY: bool = E::ANY;
+
+    fn count(&self) -> usize {
+        (**self).count()
+    }
 
     fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {
         (**self).each(visit);
@@ -197,7 +208,11 @@ where
     G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
     J: Jump<S>,
 {
-    const COUNT: usize = E::COUNT + 1;
+    const ANY: bool = true;
+
+    fn count(&self) -> usize {
+        self.others.count() + 1
+    }
 
     fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {
         self.others.each(visit);
@@ -205,7 +220,7 @@ where
     }
 
     fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {
-        if number == E::COUNT { self.jump.jump(state) } else { self.others.jump(number, state) }
+        if number == self.others.count() { self.jump.jump(state) } else { self.others.jump(number, state) }
     }
 }
 
@@ -231,7 +246,7 @@ type Here<S> = (State<S>, Option<State<S>>, usize, Option<usize>);
 
 impl Mark {
     /// Before a run.
-    const fn new(crossing: Crossing, terminal: bool, through: bool) -> Self {
+    pub(in crate::integrate) const fn new(crossing: Crossing, terminal: bool, through: bool) -> Self {
         Self {
             crossing,
             terminal,
@@ -558,25 +573,6 @@ fn differs<T: Real, V: VectorSpace<T>>(a: &V, b: &V, lanes: &Range<usize>, part:
             off > part * size || off.is_nan()
         })
     })
-}
-
-/// The state after a jump, on the constraints where there are any. The nearest velocities, as the kinetic energy
-/// measures them, are those after an impact.
-fn consistent<S: GaussSystem, P: Problem<System = S>>(
-    problem: &P,
-    (given, set): (&Sample<S>, &Sample<S>),
-    lanes: &Range<usize>,
-) -> Result<(S::Configuration, S::Speeds), IntegrationErrorKind> {
-    let Sample { t, q, z, .. } = *set;
-    if !(q.is_finite() && z.is_finite()) {
-        return Err(IntegrationErrorKind::NonFinite { part: RunPart::Jump });
-    }
-    if !S::CONSTRAINED {
-        return Ok((q.renormalise(), z));
-    }
-    let projected = problem.system().project(t, &q, &z).map_err(|error| IntegrationErrorKind::Projection { error })?;
-    check_jump(problem.system(), given, set, (&projected, lanes))?;
-    Ok(projected)
 }
 
 #[cfg(all(test, feature = "alloc"))]

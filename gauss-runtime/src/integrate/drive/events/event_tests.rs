@@ -7,7 +7,7 @@ use std::vec::Vec;
 
 use super::*;
 use crate::integrate::tests::slope;
-use crate::integrate::{Classical4, Fixed, IntegrationErrorKind, Observer, RungeKutta, Sample, Simulation};
+use crate::integrate::{Classical4, Fixed, IntegrationErrorKind, Observer, RunPart, RungeKutta, Sample, Simulation};
 use crate::system::Smoothness;
 use crate::testing::oscillator::{Law, Oscillator};
 
@@ -224,4 +224,26 @@ fn steps_that_the_time_does_not_tell_apart_are_refused() {
     }
     let refused = run.adaptive(1e-9, 1e-9).run_to_end(q0, z0, 1e16..1e16 + 100.0).expect_err("refused").kind;
     assert!(matches!(refused, IntegrationErrorKind::TimeTooCoarse { .. }), "{refused}");
+}
+
+#[test]
+fn a_list_of_functions_ends_a_run_as_that_many_calls_do() {
+    let (q0, z0) = origin();
+    let above = |level: f64| move |_: f64, q: &One, _: &One| q[0] - level;
+    let levels = [0.9, 0.3, 0.6];
+    let simulation = || Simulation::new(&SPRING).input(undriven).event(Crossing::Any, above(0.2));
+    let listed = simulation().until_each(Crossing::Rising, levels.map(above).to_vec()).event(Crossing::Any, above(0.1));
+    let listed = listed.fixed_step(0.5).run(q0, z0, 0.0..3.0).expect("runs");
+    let called = simulation().until(Crossing::Rising, above(0.9)).until(Crossing::Rising, above(0.3));
+    let called = called.until(Crossing::Rising, above(0.6)).event(Crossing::Any, above(0.1));
+    let called = called.fixed_step(0.5).run(q0, z0, 0.0..3.0).expect("runs");
+    // 0.3 is the third of all, and those before and after the list are numbered with it.
+    assert_eq!((listed.stopped_by(), called.stopped_by()), (Some(2), Some(2)));
+    let seen: Vec<_> = listed.events().iter().map(|event| event.number).collect();
+    assert_eq!(seen, [4, 0, 2]);
+    assert_eq!((listed.last().t, listed.last().q), (called.last().t, called.last().q));
+    // An empty list ends nothing.
+    let none: Vec<fn(f64, &One, &One) -> f64> = Vec::new();
+    let run = Simulation::new(&SPRING).input(undriven).until_each(Crossing::Any, none);
+    assert_eq!(run.fixed_step(0.5).run(q0, z0, 0.0..3.0).expect("runs").last().t, 3.0);
 }

@@ -242,7 +242,7 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
                 if count > 0 {
                     reached.summary.count(taken);
                 }
-                if E::COUNT > 0 {
+                if E::ANY {
                     let found = match &before {
                         None => watch.begin(state).map(|()| Outcome::On),
                         Some((from, slopes)) => {
@@ -270,7 +270,7 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
                 if !held {
                     pass(Seen::Sample(state));
                 }
-                if held || E::COUNT > 0 {
+                if held || E::ANY {
                     before = Some((*state, *rates));
                 }
                 count += 1;

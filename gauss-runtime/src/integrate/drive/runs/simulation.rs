@@ -1,11 +1,15 @@
 //! The front of the integrators: choose the problem, the form of its equations and the accuracy, then run.
 
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
 use core::ops::Range;
 
 use crate::integrate::drive::adaptive::Adaptive;
 #[cfg(feature = "alloc")]
 use crate::integrate::drive::boxed::BoxedSimulation;
 use crate::integrate::drive::control::Control;
+#[cfg(feature = "alloc")]
+use crate::integrate::drive::each::Each;
 use crate::integrate::drive::event::{Events, JumpFunction, NoEvents, Watched};
 use crate::integrate::drive::fixed::Fixed;
 use crate::integrate::drive::observer::{Callback, Observer, Unobserved};
@@ -311,6 +315,20 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
     pub fn max_steps(mut self, limit: u64) -> Self {
         self.limit = Some(limit);
         self
+    }
+
+    /// Ends the run at the first state in which one of a list of functions passes through zero: as that many calls of
+    /// `until`, where their number is known when the program runs only. Functions are numbered in the order of the
+    /// list, after the events that were added before.
+    #[cfg(feature = "alloc")]
+    pub fn until_each<S, G>(self, crossing: Crossing, functions: Vec<G>) -> Simulation<P, C, O, Each<E, G>>
+    where
+        S: GaussSystem,
+        P: Problem<System = S>,
+        G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
+    {
+        let Self { problem, control, observer, events, every, limit } = self;
+        Simulation { problem, control, observer, events: Each::after(events, crossing, functions), every, limit }
     }
 
     /// What is integrated: the kernel, the form of its equations, the input.

@@ -1,0 +1,479 @@
+//! What becomes of a state at an event: impacts, then the modes of the contacts.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use gauss_runtime::configuration::{Configuration, VectorSpace};
+use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::forces::Columns;
+use gauss_runtime::integrate::drive::tolerance::Tolerance;
+use gauss_runtime::integrate::problem::state::TangentOf;
+use gauss_runtime::real::Real;
+use gauss_runtime::system::GaussSystem;
+
+use crate::dense::{Matrix, norm};
+use crate::error::{ContactError, ContactErrorKind};
+use crate::history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
+use crate::impact::{Impact, Struck, after, rows};
+use crate::mode::{InMode, Mode, slip, tangents};
+use crate::solver::{Contacts, Failure, Law, State};
+use crate::trajectory::ContactTrajectory;
+use crate::witness::Watched;
+
+/// What a run tells apart.
+pub(crate) struct Scales {
+    pub(crate) end: f64,
+    pub(crate) tolerance: Tolerance,
+    /// The largest speed at an event so far.
+    pub(crate) largest: f64,
+    pub(crate) law: Impact,
+    /// The start of the run.
+    pub(crate) start: f64,
+}
+
+impl Scales {
+    /// Speeds below are rest.
+    pub(crate) fn rest(&self) -> f64 {
+        self.tolerance.relative.fma(self.largest, self.tolerance.absolute)
+    }
+
+    /// Events are found to four roundings of the time or of a step, which is no longer than the run up to now.
+    pub(crate) fn resolution(&self, t: f64) -> f64 {
+        4.0 * f64::EPSILON * (t.abs() + self.start.abs())
+    }
+}
+
+/// The size of a configuration.
+pub(crate) struct Rounding(f64);
+
+impl Rounding {
+    pub(crate) fn of<K: ContactSystem<Scalar = f64>>(_: &K, _: f64, q: &K::Configuration) -> Self {
+        Self((0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max))
+    }
+
+    /// √ε of it, and 64 ε for numbers of order 1 that cancel: what agrees in half of the digits was meant to.
+    pub(crate) fn half_of_the_digits(&self) -> f64 {
+        Real::sqrt(f64::EPSILON) * self.0 + 64.0 * f64::EPSILON
+    }
+}
+
+/// Rates of contacts, and what is rounding of them.
+pub(crate) struct Sizes<K: ContactSystem> {
+    pub(crate) rates: K::ContactRows,
+    pub(crate) of_rate: Vec<f64>,
+    /// Gaps below are closed: rounding, and what the gap changes by within the resolution of the time.
+    pub(crate) of_gap: Vec<f64>,
+    pub(crate) rounding: Vec<f64>,
+}
+
+/// A state with the modes that led to it.
+pub(crate) struct Instant<'k, K: ContactSystem<Scalar = f64>> {
+    pub(crate) kernel: &'k K,
+    pub(crate) t: f64,
+    pub(crate) q: K::Configuration,
+    pub(crate) z: K::Speeds,
+    pub(crate) modes: Vec<Mode>,
+    pub(crate) fired: Option<Watched>,
+    pub(crate) first: bool,
+}
+
+/// What is known of the contacts while modes are chosen.
+struct Choice {
+    /// Gap and its rate are zero.
+    resting: Vec<bool>,
+    /// Opens although it is on zero: its force has fallen to zero.
+    leaves: Option<usize>,
+    /// Begins to slide in this direction: friction has reached its bound.
+    slides: Option<(usize, [f64; 2])>,
+    /// Slips below are zero.
+    still: Vec<f64>,
+    /// The slip is zero whatever its number is.
+    stuck: Vec<bool>,
+}
+
+impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
+    fn error(&self, contact: Option<usize>, kind: ContactErrorKind) -> ContactError {
+        ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: self.t, kind }
+    }
+
+    fn failed(&self, contacts: &[usize], failure: Failure) -> ContactError {
+        match failure {
+            Failure::NonFinite => self.error(None, ContactErrorKind::NonFinite),
+            Failure::Inconsistent(n) => self.error(Some(contacts[n]), ContactErrorKind::Inconsistent),
+            Failure::Indeterminate(n) => self.error(Some(contacts[n]), ContactErrorKind::Indeterminate),
+            Failure::NotFound(residual) => self.error(None, ContactErrorKind::Unsolved { residual }),
+        }
+    }
+
+    /// Rates here with what is rounding of them, 64 roundings of each of their terms.
+    pub(crate) fn sizes(&self, scales: &Scales) -> Sizes<K> {
+        let Self { kernel, t, q, z, .. } = self;
+        let (jacobian, rates) = (kernel.contact_jacobian(*t, q), kernel.contact_rates(*t, q, z));
+        let terms =
+            |column: K::Speeds| (0..K::Speeds::DIM).map(|j| (column.component(j) * z.component(j)).abs()).sum::<f64>();
+        let of_rate = (0..K::ContactRows::DIM).map(|row| jacobian.nth(row).map_or(0.0, terms) * 64.0 * f64::EPSILON);
+        let size = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
+        let here = kernel.gaps(*t, q);
+        let mut rounding = vec![0.0; K::CONTACTS.len()];
+        for i in 0..TangentOf::<K>::DIM {
+            let mut sigma = TangentOf::<K>::zero();
+            sigma.set_component(i, 16.0 * f64::EPSILON * size);
+            let moved = kernel.gaps(*t, &q.retract(&sigma));
+            (0..rounding.len()).for_each(|n| rounding[n] += (moved.component(n) - here.component(n)).abs());
+        }
+        let late = 4.0 * scales.resolution(*t);
+        let within = |(contact, rounding): (&gauss_runtime::contact::Contact, &f64)| {
+            late.fma(rates.component(contact.normal).abs(), *rounding)
+        };
+        let of_gap = K::CONTACTS.iter().zip(&rounding).map(within).collect();
+        Sizes { of_rate: of_rate.collect(), of_gap, rounding, rates }
+    }
+
+    /// Brings the state over the event: impacts, rest, modes.
+    pub(crate) fn decide(
+        &mut self,
+        scales: &mut Scales,
+        made: &mut ContactTrajectory<'k, K>,
+    ) -> Result<(), ContactError> {
+        scales.largest = scales.largest.max(self.z.max_norm());
+        self.check_paradox(made)?;
+        let slides = self.begins_to_slide(made);
+        let closed = self.closed(scales);
+        let before = self.sizes(scales);
+        let noise = self.impacts(&closed, scales, made)?;
+        let struck = noise.is_some();
+        let now = self.sizes(scales);
+        let mut still: Vec<f64> = before.of_rate.iter().zip(&now.of_rate).map(|(a, b)| a.max(*b)).collect();
+        still.iter_mut().zip(noise.iter().flatten()).for_each(|(still, noise)| *still += noise);
+        let rests = |i: usize| closed[i] && now.rates.component(K::CONTACTS[i].normal) <= still[K::CONTACTS[i].normal];
+        let stuck = |i: usize| match self.fired {
+            Some(Watched::Speed(n, _)) if n == i => true,
+            Some(Watched::Slip(n)) if n == i => {
+                K::CONTACTS[i].tangents == 1 || norm(&slip(&K::CONTACTS[i], &now.rates)) <= scales.rest()
+            }
+            _ => self.modes[i] == Mode::Sticks,
+        };
+        let contacts = 0..K::CONTACTS.len();
+        let mut choice = Choice {
+            resting: contacts.clone().map(rests).collect(),
+            leaves: self.fired.and_then(|fired| if let Watched::Force(i) = fired { Some(i) } else { None }),
+            slides,
+            stuck: contacts.clone().map(|i| !struck && stuck(i)).collect(),
+            still,
+        };
+        let old = self.modes.clone();
+        let mut events = Vec::new();
+        loop {
+            let accelerations = self.choose(&mut choice, made)?;
+            let next = contacts.clone().find_map(|i| {
+                let candidate = struck && closed[i] && !choice.resting[i];
+                let kind = candidate.then(|| self.comes_to_rest(i, &accelerations, scales))??;
+                Some((i, kind))
+            });
+            let Some((i, kind)) = next else { break };
+            choice.resting[i] = true;
+            self.leave_out_bounces(i, &choice, made)?;
+            events.push(ContactEvent { time: self.t, contact: i, kind });
+        }
+        if !self.first {
+            self.changes(&old, &mut events);
+        }
+        made.events.append(&mut events);
+        Ok(())
+    }
+
+    /// Ends the run where a sliding contact that was pushed apart by its force no longer is.
+    fn check_paradox(&self, made: &ContactTrajectory<'k, K>) -> Result<(), ContactError> {
+        let Some(Watched::Pushes(i)) = self.fired else { return Ok(()) };
+        let input = (made.input)(self.t, &self.q, &self.z);
+        let bias = self.kernel.contact_dynamics(self.t, &self.q, &self.z, &input).bias;
+        let presses = bias.component(K::CONTACTS[i].normal) < 0.0;
+        Err(self.error(Some(i), if presses { ContactErrorKind::Inconsistent } else { ContactErrorKind::Indeterminate }))
+    }
+
+    /// The direction in which a contact that stuck begins to slide: against its friction.
+    fn begins_to_slide(&self, made: &ContactTrajectory<'k, K>) -> Option<(usize, [f64; 2])> {
+        let Some(Watched::Cone(i)) = self.fired else { return None };
+        let system = InMode::new(self.kernel, &self.modes);
+        let loads = system.loads(self.t, &self.q, &self.z, &(made.input)(self.t, &self.q, &self.z));
+        let friction = &loads.forces[tangents(&K::CONTACTS[i])];
+        let size = norm(friction);
+        (size > 0.0).then(|| (i, [-friction[0] / size, friction.get(1).map_or(0.0, |f| -f / size)]))
+    }
+
+    /// The contacts whose gap is zero. Where one has just closed, the state goes back by as much of the time as the gap
+    /// is beyond zero, less than what times are told apart by: else each bounce would be a little lower than zero.
+    fn closed(&mut self, scales: &Scales) -> Vec<bool> {
+        let gaps = self.kernel.gaps(self.t, &self.q);
+        let sizes = self.sizes(scales);
+        let landed = if let Some(Watched::Gap(i)) = self.fired { Some(i) } else { None };
+        let closed = (0..K::CONTACTS.len())
+            .map(|i| self.modes[i].is_closed() || landed == Some(i) || gaps.component(i) <= sizes.of_gap[i])
+            .collect();
+        if let Some(i) = landed {
+            let (gap, rate) = (gaps.component(i), sizes.rates.component(K::CONTACTS[i].normal));
+            if gap < 0.0 && rate < -sizes.of_rate[K::CONTACTS[i].normal] {
+                let velocity = self.kernel.kinematics(self.t, &self.q, &self.z);
+                self.q = self.q.retract(&velocity.scale(-gap / rate)).renormalise();
+            }
+        }
+        closed
+    }
+
+    /// Friction of all contacts, checked.
+    fn friction(&self, made: &ContactTrajectory<'k, K>) -> Result<K::Gaps, ContactError> {
+        let friction = self.kernel.friction(self.t, &self.q, &self.z, &(made.input)(self.t, &self.q, &self.z));
+        for i in 0..K::CONTACTS.len() {
+            let mu = friction.component(i);
+            if !(mu >= 0.0 && mu.is_finite()) {
+                return Err(self.error(Some(i), ContactErrorKind::InvalidFriction { friction: mu }));
+            }
+        }
+        Ok(friction)
+    }
+
+    /// Impacts until no closed gap closes further. Where there were any: what the rounding of their impulses makes of
+    /// rates, since impulses that cancel leave no rate to tell it from.
+    fn impacts(
+        &mut self,
+        closed: &[bool],
+        scales: &Scales,
+        made: &mut ContactTrajectory<'k, K>,
+    ) -> Result<Option<Vec<f64>>, ContactError> {
+        let friction = self.friction(made)?;
+        let mut noise = vec![0.0; K::ContactRows::DIM];
+        let restitution = self.kernel.restitution();
+        let most = if scales.law == Impact::Sequential { 10_000 } else { 100 };
+        for count in 0..=most {
+            let sizes = self.sizes(scales);
+            let rate = |i: usize| sizes.rates.component(K::CONTACTS[i].normal);
+            let rounding = |row: usize| sizes.of_rate[row] + noise[row];
+            let strikes = |&i: &usize| closed[i] && rate(i) < -rounding(K::CONTACTS[i].normal);
+            let fastest = (0..closed.len()).filter(strikes).min_by(|&a, &b| rate(a).total_cmp(&rate(b)));
+            let Some(fastest) = fastest else { return Ok((count > 0).then_some(noise)) };
+            if count == most {
+                return Err(self.error(Some(fastest), ContactErrorKind::Zeno { impacts: count }));
+            }
+            let contacts: Vec<usize> = match scales.law {
+                Impact::Sequential => vec![fastest],
+                _ => (0..closed.len()).filter(|&i| closed[i]).collect(),
+            };
+            let response = self.kernel.contact_response(self.t, &self.q);
+            let struck = Struck {
+                contacts: &contacts,
+                response: &response,
+                rates: &sizes.rates,
+                friction: &friction,
+                restitution: &restitution,
+            };
+            let blow = struck.solve(scales.law).map_err(|failure| self.failed(&contacts, failure))?;
+            self.z = after::<K>(&response, &self.z, &blow.impulses);
+            made.solves.push(SolveRecord { time: self.t, impact: true, residuals: blow.residuals });
+            self.record(&contacts, &sizes.rates, &blow.impulses, (scales.law, made))?;
+            for (row, noise) in noise.iter_mut().enumerate() {
+                let each = blow.impulses.iter().enumerate().map(|(j, x)| (response.delassus[(row, j)] * x).abs());
+                *noise += 64.0 * f64::EPSILON * each.sum::<f64>();
+            }
+        }
+        Ok(Some(noise))
+    }
+
+    /// Records an impact, of which energy must not grow.
+    fn record(
+        &self,
+        contacts: &[usize],
+        before: &K::ContactRows,
+        impulses: &[f64],
+        (law, made): (Impact, &mut ContactTrajectory<'k, K>),
+    ) -> Result<(), ContactError> {
+        let now = self.kernel.contact_rates(self.t, &self.q, &self.z);
+        let (mut lost, mut terms) = (0.0, 0.0);
+        for &i in contacts {
+            let contact = &K::CONTACTS[i];
+            let three = |of: &dyn Fn(usize) -> f64| {
+                let mut three = [0.0; 3];
+                (0..=contact.tangents.min(2)).for_each(|k| three[k] = of(contact.normal + k));
+                three
+            };
+            let (u, v) = (three(&|row| before.component(row)), three(&|row| now.component(row)));
+            let impulse = three(&|row| impulses[row]);
+            let work: Vec<f64> = (0..3).map(|k| 0.5 * impulse[k] * (u[k] + v[k])).collect();
+            let energy_lost = -work.iter().sum::<f64>();
+            lost += energy_lost;
+            terms += (0..3).map(|k| (impulse[k] * u[k]).abs() + (impulse[k] * v[k]).abs()).sum::<f64>();
+            if impulse != [0.0; 3] {
+                let kind = EventKind::Impact(ImpactRecord { before: u, after: v, impulse, energy_lost });
+                made.events.push(ContactEvent { time: self.t, contact: i, kind });
+            }
+        }
+        // Rates after are sums of R products, each with its roundings.
+        if lost < -64.0 * (1 + impulses.len()) as f64 * f64::EPSILON * terms {
+            let after = self.kernel.kinetic_energy(self.t, &self.q, &self.z);
+            return Err(
+                self.error(Some(contacts[0]), ContactErrorKind::EnergyGrows { law, before: after + lost, after })
+            );
+        }
+        Ok(())
+    }
+
+    /// Whether the bounces of a gap that has just been left at a small rate are over: they would end after
+    /// 2 ġ/(|g̈| (1 − e)).
+    fn comes_to_rest(&self, i: usize, accelerations: &[f64], scales: &Scales) -> Option<EventKind> {
+        let normal = K::CONTACTS[i].normal;
+        let sizes = self.sizes(scales);
+        let (speed, fall) = (sizes.rates.component(normal), -accelerations[normal]);
+        let e = self.kernel.restitution().component(i);
+        if !(fall > 0.0 && e < 1.0) {
+            return None;
+        }
+        let (height, remaining) = (speed * speed / (2.0 * fall), 2.0 * speed / (fall * (1.0 - e)));
+        let over = speed <= scales.rest()
+            || height <= 8.0 * sizes.rounding[i]
+            || remaining <= 16.0 * scales.resolution(self.t);
+        over.then_some(EventKind::Rests { speed, height, remaining })
+    }
+
+    /// Takes the rate of a gap away at which bounces are left out. In all of them together the contact passes on what
+    /// it would at rest in that time, less this momentum; so friction of a contact that slides is less by as much.
+    fn leave_out_bounces(
+        &mut self,
+        i: usize,
+        choice: &Choice,
+        made: &ContactTrajectory<'k, K>,
+    ) -> Result<(), ContactError> {
+        let (contact, rates) = (&K::CONTACTS[i], self.kernel.contact_rates(self.t, &self.q, &self.z));
+        let response = self.kernel.contact_response(self.t, &self.q);
+        let mut impulses = vec![0.0; K::ContactRows::DIM];
+        impulses[contact.normal] = 1.0;
+        let along = slip(contact, &rates);
+        let size = norm(&along);
+        if size > norm(&choice.still[tangents(contact)]) {
+            let mu = self.friction(made)?.component(i);
+            tangents(contact).zip(along).for_each(|(row, s)| impulses[row] = -mu * s / size);
+        }
+        let unit = impulses.iter().enumerate().map(|(row, part)| response.delassus[(contact.normal, row)] * part);
+        let lifted = unit.sum::<f64>();
+        // Else the gap's rate alone is taken away, with the projection.
+        if lifted > 0.0 {
+            let by = -rates.component(contact.normal) / lifted;
+            impulses.iter_mut().for_each(|part| *part *= by);
+            self.z = after::<K>(&response, &self.z, &impulses);
+        }
+        Ok(())
+    }
+
+    /// Chooses the modes of the contacts that rest, brings the state onto them; the accelerations of all rows.
+    fn choose(&mut self, choice: &mut Choice, made: &mut ContactTrajectory<'k, K>) -> Result<Vec<f64>, ContactError> {
+        // Each time one of the two that are forced is given up.
+        loop {
+            let contacts: Vec<usize> =
+                (0..K::CONTACTS.len()).filter(|&i| choice.resting[i] && choice.leaves != Some(i)).collect();
+            let laws = self.bring_to_rest(&contacts, choice, made)?;
+            let input = (made.input)(self.t, &self.q, &self.z);
+            let dynamics = self.kernel.contact_dynamics(self.t, &self.q, &self.z, &input);
+            let rows = rows::<K>(&contacts);
+            let delassus = &dynamics.response.delassus;
+            let matrix = Matrix::from_fn(rows.len(), |i, j| delassus[(rows[i], rows[j])]);
+            let bias = rows.iter().map(|&row| dynamics.bias.component(row)).collect();
+            let solver = Contacts::new(laws.clone(), matrix, bias);
+            let solution = solver.solve(vec![0.0; rows.len()]).map_err(|failure| self.failed(&contacts, failure))?;
+            let rate = |row: usize| {
+                let each = rows.iter().zip(&solution.forces).map(|(&column, force)| delassus[(row, column)] * force);
+                let terms = each.clone().fold(dynamics.bias.component(row).abs(), |sum, term| sum + term.abs());
+                (each.fold(dynamics.bias.component(row), |sum, term| sum + term), 256.0 * f64::EPSILON * terms)
+            };
+            let accelerations: Vec<(f64, f64)> = (0..K::ContactRows::DIM).map(rate).collect();
+            let falls_back = choice.leaves.is_some_and(|i| {
+                let (rate, rounding) = accelerations[K::CONTACTS[i].normal];
+                choice.resting[i] && rate < -rounding
+            });
+            let slides_back = choice.slides.is_some_and(|(i, along)| {
+                let each = tangents(&K::CONTACTS[i]).zip(along);
+                each.clone().map(|(row, s)| accelerations[row].0 * s).sum::<f64>()
+                    < -each.map(|(row, _)| accelerations[row].1).sum::<f64>()
+            });
+            if falls_back || slides_back {
+                choice.leaves = choice.leaves.filter(|_| !falls_back);
+                choice.slides = choice.slides.filter(|_| !slides_back);
+                continue;
+            }
+            let mut modes = vec![Mode::Open; K::CONTACTS.len()];
+            for ((&i, law), state) in contacts.iter().zip(&laws).zip(&solution.states) {
+                modes[i] = match (state, law.slip) {
+                    (State::Leaves, _) => Mode::Open,
+                    (State::Closed, Some(along)) => Mode::Slides(along),
+                    (State::Closed, None) => Mode::Closed,
+                    (State::Sticks, _) => Mode::Sticks,
+                    (State::Slides(along), _) => Mode::Slides(*along),
+                };
+            }
+            self.modes = modes;
+            let residuals = contacts.into_iter().zip(solution.residuals).collect();
+            made.solves.push(SolveRecord { time: self.t, impact: false, residuals });
+            return Ok(accelerations.into_iter().map(|(rate, _)| rate).collect());
+        }
+    }
+
+    /// Brings gaps of contacts, their rates and slips that have ended to zero; the laws for the accelerations there.
+    fn bring_to_rest(
+        &mut self,
+        contacts: &[usize],
+        choice: &mut Choice,
+        made: &ContactTrajectory<'k, K>,
+    ) -> Result<Vec<Law>, ContactError> {
+        // Slips that depend on one another end together: what one of them stops, no other slides on by.
+        let slips = loop {
+            let slips: Vec<_> = contacts.iter().map(|&i| self.slides(i, choice)).collect();
+            let mut modes = vec![Mode::Open; K::CONTACTS.len()];
+            for (&i, slip) in contacts.iter().zip(&slips) {
+                modes[i] = match (K::CONTACTS[i].tangents, slip) {
+                    (0, _) => Mode::Closed,
+                    (_, Some(along)) => Mode::Slides(*along),
+                    _ => Mode::Sticks,
+                };
+            }
+            let projected = InMode::new(self.kernel, &modes).project(self.t, &self.q, &self.z);
+            (self.q, self.z) = projected.map_err(|error| self.error(None, ContactErrorKind::Projection(error)))?;
+            let stopped = |(&i, slip): (&usize, &Option<_>)| slip.is_some() && self.slides(i, choice).is_none();
+            let stopped: Vec<usize> =
+                contacts.iter().zip(&slips).filter(|&pair| stopped(pair)).map(|(&i, _)| i).collect();
+            if stopped.is_empty() {
+                break slips;
+            }
+            stopped.into_iter().for_each(|i| choice.stuck[i] = true);
+        };
+        let friction = self.friction(made)?;
+        let law = |(&i, slip): (&usize, Option<[f64; 2]>)| {
+            let tangents = K::CONTACTS[i].tangents;
+            let forced = choice.slides.filter(|(n, _)| *n == i).map(|(_, along)| along);
+            Law { tangents, friction: friction.component(i), slip: slip.or(forced).filter(|_| tangents > 0) }
+        };
+        Ok(contacts.iter().zip(slips).map(law).collect())
+    }
+
+    /// The direction in which a contact slides.
+    fn slides(&self, i: usize, choice: &Choice) -> Option<[f64; 2]> {
+        let contact = &K::CONTACTS[i];
+        let along = slip(contact, &self.kernel.contact_rates(self.t, &self.q, &self.z));
+        let size = norm(&along);
+        (!choice.stuck[i] && size > norm(&choice.still[tangents(contact)])).then(|| along.map(|s| s / size))
+    }
+
+    /// Changes of modes as events.
+    fn changes(&self, old: &[Mode], events: &mut Vec<ContactEvent>) {
+        for (contact, (old, new)) in old.iter().zip(&self.modes).enumerate() {
+            let reverses = |a: &[f64; 2], b: &[f64; 2]| a[0] * b[0] + a[1] * b[1] < 0.0;
+            let kind = match (old, new) {
+                (Mode::Open, new) if new.is_closed() && events.iter().all(|event| event.contact != contact) => {
+                    EventKind::Closes
+                }
+                (old, Mode::Open) if old.is_closed() => EventKind::Leaves,
+                (Mode::Sticks, Mode::Slides(along)) => EventKind::Slides(*along),
+                (Mode::Slides(_), Mode::Sticks) => EventKind::Sticks,
+                (Mode::Slides(before), Mode::Slides(along)) if reverses(before, along) => EventKind::Reverses(*along),
+                _ => continue,
+            };
+            events.push(ContactEvent { time: self.t, contact, kind });
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Why a run with contacts cannot go on.
+
+use core::fmt;
+
+use gauss_runtime::constraint::ProjectionError;
+use gauss_runtime::integrate::IntegrationError;
+
+use crate::impact::Impact;
+use crate::solver::Residual;
+
+/// A run with contacts that cannot go on: where, when, and why. The part that was made is kept: see
+/// [`ContactRun::attempt`](crate::ContactRun::attempt), whose last sample is the position.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ContactError {
+    /// The contact, by its name; `None` where it is not one of them.
+    pub contact: Option<&'static str>,
+    /// The time.
+    pub time: f64,
+    /// The cause.
+    pub kind: ContactErrorKind,
+}
+
+/// The cause of a run's end.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ContactErrorKind {
+    /// The run starts with a gap that is negative by more than rounding.
+    NegativeGap {
+        /// The gap.
+        gap: f64,
+    },
+    /// A gap that counts as open became negative: it opened and closed again within what the steps show.
+    Penetration {
+        /// The gap.
+        gap: f64,
+    },
+    /// A coefficient of restitution outside [0, 1], or not a number.
+    InvalidRestitution {
+        /// e.
+        restitution: f64,
+    },
+    /// A coefficient of friction that is negative, or not finite.
+    InvalidFriction {
+        /// μ.
+        friction: f64,
+    },
+    /// The run would go back in time, in which impacts and friction have no unique solution, or its times are not
+    /// finite.
+    InvalidInterval,
+    /// Gaps, rates or coefficients of the contacts are not finite.
+    NonFinite,
+    /// Painlevé's paradox: no contact force agrees with rigid bodies and Coulomb's law here.
+    Inconsistent,
+    /// Painlevé's paradox: several motions agree with rigid bodies and Coulomb's law here.
+    Indeterminate,
+    /// No forces were found that satisfy the laws.
+    Unsolved {
+        /// How far the best ones are from them.
+        residual: Residual,
+    },
+    /// The impact would create energy: Newton's law with friction can (T. R. Kane 1984).
+    EnergyGrows {
+        /// The law of the run.
+        law: Impact,
+        /// The kinetic energy before.
+        before: f64,
+        /// And after.
+        after: f64,
+    },
+    /// Impacts follow each other without end in no time, and are not those of one gap that comes to rest.
+    Zeno {
+        /// How many there were at this time.
+        impacts: u32,
+    },
+    /// Contacts change their modes without end in no time.
+    Chatter {
+        /// How many changes there were at this time.
+        changes: u32,
+    },
+    /// More events than the run may have.
+    TooManyEvents {
+        /// The limit.
+        limit: usize,
+    },
+    /// The state cannot be brought onto closed gaps.
+    Projection(ProjectionError),
+    /// The run does not cover the time.
+    OutsideRun,
+    /// The integration between two events failed.
+    Integration(IntegrationError),
+}
+
+impl fmt::Display for ContactErrorKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NegativeGap { gap } => write!(f, "the gap starts at {gap:e}; it must not be negative"),
+            Self::Penetration { gap } => {
+                write!(f, "the gap has become {gap:e} unseen, within a step; bound the steps by `largest_step`")
+            }
+            Self::InvalidRestitution { restitution } => {
+                write!(f, "the coefficient of restitution is {restitution}; it must be between 0 and 1")
+            }
+            Self::InvalidFriction { friction } => {
+                write!(f, "the coefficient of friction is {friction}; it must be finite and not negative")
+            }
+            Self::InvalidInterval => f.write_str("the run must go forward in time, between finite ends"),
+            Self::NonFinite => f.write_str("gaps, rates or coefficients are not finite"),
+            Self::Inconsistent => f.write_str("no contact force agrees with rigid bodies and Coulomb's law (Painlevé)"),
+            Self::Indeterminate => f.write_str("several motions agree with rigid bodies and Coulomb's law (Painlevé)"),
+            Self::Unsolved { residual } => write!(
+                f,
+                "no forces were found that satisfy the laws: residuals {:.1e} (Signorini), {:.1e} (Coulomb), {:.1e} \
+                 (dissipation) at a rounding of {:.1e}",
+                residual.signorini, residual.coulomb, residual.dissipation, residual.rounding
+            ),
+            Self::EnergyGrows { law, before, after } => write!(
+                f,
+                "by the law {law:?} the impact would raise the kinetic energy from {before:e} to {after:e}; \
+                 `Impact::Moreau` keeps it from growing"
+            ),
+            Self::Zeno { impacts } => write!(f, "{impacts} impacts at one time do not end"),
+            Self::Chatter { changes } => write!(f, "{changes} changes of modes at one time do not end"),
+            Self::TooManyEvents { limit } => {
+                write!(f, "{limit} events do not reach the end; allow more by `max_events`")
+            }
+            Self::Projection(error) => error.fmt(f),
+            Self::OutsideRun => f.write_str("the run does not cover this time"),
+            Self::Integration(error) => error.fmt(f),
+        }
+    }
+}
+
+impl fmt::Display for ContactError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.contact {
+            Some(name) => write!(f, "contact `{name}` at t = {}: {}", self.time, self.kind),
+            None => write!(f, "contacts at t = {}: {}", self.time, self.kind),
+        }
+    }
+}
+
+impl core::error::Error for ContactErrorKind {}
+
+impl core::error::Error for ContactError {}

@@ -1,0 +1,94 @@
+//! Laws of impact.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use gauss_runtime::configuration::VectorSpace;
+use gauss_runtime::contact::{ContactResponse, ContactSystem};
+use gauss_runtime::forces::Columns;
+
+use crate::dense::Matrix;
+use crate::solver::{Contacts, Failure, Law, Residual};
+
+/// What an impact does to velocities u⁻ of the contacts that are closed: `u⁺ = u⁻ + D Λ` with impulses Λ.
+///
+/// A contact whose gap opens before the impact has e = 0 in all laws: it must not close.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Impact {
+    /// All contacts at once: `ġ⁺ + e ġ⁻ ≥ 0` complementary to Λ_N, and Coulomb's law between Λ_T and the slip s⁺ after
+    /// the impact: no restitution along tangents. With friction it can create energy (T. R. Kane 1984): such a run ends
+    /// with an error.
+    #[default]
+    Newton,
+    /// All contacts at once: both laws for the mean `ū = (u⁺ + e u⁻)/(1 + e)`, with one e for normal and tangents of
+    /// a contact. Where all contacts have the same e, the energy cannot grow:
+    /// `ΔT = Λᵀ ū − ½ (1 − e)/(1 + e) Λᵀ D Λ`, and neither term is positive (J. J. Moreau 1988).
+    Moreau,
+    /// Newton's law for one contact after another, that which closes fastest first, as if the others were not there.
+    /// Of Newton's cradle the last ball leaves alone.
+    Sequential,
+}
+
+/// A part of the contacts at an impact, with all velocities before.
+pub(crate) struct Struck<'a, K: ContactSystem> {
+    /// Which, by their numbers.
+    pub(crate) contacts: &'a [usize],
+    pub(crate) response: &'a ContactResponse<K>,
+    pub(crate) rates: &'a K::ContactRows,
+    pub(crate) friction: &'a K::Gaps,
+    pub(crate) restitution: &'a K::Gaps,
+}
+
+/// Impulses of all rows, and the residual of each contact that was struck.
+pub(crate) struct Blow {
+    pub(crate) impulses: Vec<f64>,
+    pub(crate) residuals: Vec<(usize, Residual)>,
+}
+
+/// The rows of some contacts, one contact after the other.
+pub(crate) fn rows<K: ContactSystem>(contacts: &[usize]) -> Vec<usize> {
+    contacts.iter().flat_map(|&i| K::CONTACTS[i].normal..=K::CONTACTS[i].normal + K::CONTACTS[i].tangents).collect()
+}
+
+impl<K: ContactSystem<Scalar = f64>> Struck<'_, K> {
+    /// The impulses that a law asks for.
+    pub(crate) fn solve(&self, law: Impact) -> Result<Blow, Failure> {
+        let rows = rows::<K>(self.contacts);
+        let owner: Vec<usize> =
+            self.contacts.iter().flat_map(|&i| core::iter::repeat_n(i, 1 + K::CONTACTS[i].tangents)).collect();
+        let closing = |i: usize| self.rates.component(K::CONTACTS[i].normal) < 0.0;
+        let e = |i: usize| if closing(i) { self.restitution.component(i) } else { 0.0 };
+        let delassus = &self.response.delassus;
+        let moreau = law == Impact::Moreau;
+        let entry = |a: usize, b: usize| {
+            let part = if moreau { 1.0 + e(owner[a]) } else { 1.0 };
+            delassus[(rows[a], rows[b])] / part
+        };
+        let before = |a: usize| {
+            let normal = K::CONTACTS[owner[a]].normal == rows[a];
+            let part = if normal && !moreau { 1.0 + e(owner[a]) } else { 1.0 };
+            part * self.rates.component(rows[a])
+        };
+        let law_of =
+            |&i: &usize| Law { tangents: K::CONTACTS[i].tangents, friction: self.friction.component(i), slip: None };
+        let laws = self.contacts.iter().map(law_of).collect();
+        let b = (0..rows.len()).map(before).collect();
+        let contacts = Contacts::new(laws, Matrix::from_fn(rows.len(), entry), b);
+        let solution = contacts.solve(vec![0.0; rows.len()])?;
+        let mut impulses = vec![0.0; K::ContactRows::DIM];
+        rows.iter().zip(&solution.forces).for_each(|(&row, impulse)| impulses[row] = *impulse);
+        let residuals = self.contacts.iter().copied().zip(solution.residuals).collect();
+        Ok(Blow { impulses, residuals })
+    }
+}
+
+/// Velocities after impulses.
+pub(crate) fn after<K: ContactSystem<Scalar = f64>>(
+    response: &ContactResponse<K>,
+    z: &K::Speeds,
+    impulses: &[f64],
+) -> K::Speeds {
+    let each = impulses.iter().enumerate().filter_map(|(row, impulse)| Some((impulse, response.columns.nth(row)?)));
+    each.fold(*z, |z, (impulse, column)| z.add_scaled(*impulse, &column))
+}

@@ -1,0 +1,47 @@
+//! Contact, dry friction and impacts of scenes of Gauss, exactly: runs from event to event.
+//!
+//! A [`ContactSystem`](gauss_runtime::contact::ContactSystem) has gaps that may close. Between two events each contact
+//! has a [`Mode`]: open, closed, sticking, or sliding. The motion is smooth then, and any adaptive method integrates it
+//! to the accuracy that is asked for. At an event (a gap closes, a contact force vanishes, a slip ends, friction
+//! reaches its bound) impacts are solved by a law that has a name ([`Impact`]), and the modes are chosen anew by the
+//! laws of Signorini and Coulomb for accelerations.
+//!
+//! - What sticks has slip 0, and what rests has gap 0 to rounding: they are constraints.
+//! - Bounces that pile up end in rest ([`EventKind::Rests`]), with what was left out.
+//! - Contacts that depend on one another, as four legs of a table, have forces of least norm; the motion is unique.
+//! - Each solution of the laws has its residuals in the history ([`SolveRecord`]).
+//! - Where rigid bodies and Coulomb's law have no motion or several (Painlevé), the run ends with an error.
+//!
+//! Limits: flights lower than some hundred roundings of the largest coordinate are rest, or an error where e = 1. A gap
+//! that opens and closes within a step is seen as far as [events](gauss_runtime::integrate::drive::event) are; one that
+//! is found closed too late ends the run with [`ContactErrorKind::Penetration`]. Scalars are `f64`.
+//!
+//! Friction is Coulomb's, isotropic; with two tangents and a friction so large that it can reverse the effect of
+//! a normal force, uniqueness is not checked for contacts that begin to slide.
+
+#![no_std]
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
+extern crate alloc;
+
+mod decide;
+mod dense;
+mod error;
+mod history;
+mod impact;
+mod mode;
+mod problem;
+mod run;
+mod solver;
+mod trajectory;
+mod witness;
+
+pub use error::{ContactError, ContactErrorKind};
+pub use history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
+pub use impact::Impact;
+pub use mode::{InMode, Mode};
+pub use run::ContactRun;
+pub use solver::Residual;
+pub use trajectory::{ContactTrajectory, Segment};

@@ -1,0 +1,298 @@
+//! Runs from event to event.
+
+use alloc::rc::Rc;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use gauss_runtime::configuration::{Configuration, VectorSpace};
+use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::integrate::drive::simulation::NoControl;
+use gauss_runtime::integrate::drive::tolerance::Tolerance;
+use gauss_runtime::integrate::{Adaptive, Control, Crossing, Feedback, InputSource, NoInput, Simulation};
+use gauss_runtime::real::Real;
+
+use crate::decide::{Instant, Rounding, Scales};
+use crate::error::{ContactError, ContactErrorKind};
+use crate::impact::Impact;
+use crate::mode::{InMode, Mode, slip, tangents};
+use crate::problem::InModeProblem;
+use crate::trajectory::{ContactTrajectory, InputOf, Segment, integration};
+use crate::witness::{Watched, Witness};
+
+/// A run with contacts in preparation.
+#[derive(Clone, Copy, Debug)]
+#[must_use = "a run does nothing before `run`"]
+pub struct ContactRun<'k, K, C = NoControl, I = NoInput> {
+    kernel: &'k K,
+    control: C,
+    input: I,
+    law: Impact,
+    tolerance: Tolerance,
+    limit: usize,
+}
+
+/// Events of a run unless it sets another limit.
+const MOST_EVENTS: usize = 1_000_000;
+
+impl<'k, K: ContactSystem<Scalar = f64>> ContactRun<'k, K> {
+    /// A run of a system, without inputs and with Newton's law of impact.
+    pub fn new(kernel: &'k K) -> Self {
+        let tolerance = Tolerance { relative: 1e-9, absolute: 1e-9 };
+        Self { kernel, control: NoControl, input: NoInput, law: Impact::Newton, tolerance, limit: MOST_EVENTS }
+    }
+}
+
+impl<'k, K: ContactSystem<Scalar = f64>, C, I> ContactRun<'k, K, C, I> {
+    /// Steps as long as the tolerances allow: see [`Adaptive::new`]. They are those of [`tolerance`](Self::tolerance)
+    /// as well.
+    pub fn adaptive(self, relative: f64, absolute: f64) -> ContactRun<'k, K, Adaptive, I> {
+        self.control(Adaptive::new(relative, absolute)).tolerance(relative, absolute)
+    }
+
+    /// Any method with its choice of steps.
+    pub fn control<D>(self, control: D) -> ContactRun<'k, K, D, I> {
+        let Self { kernel, input, law, tolerance, limit, .. } = self;
+        ContactRun { kernel, control, input, law, tolerance, limit }
+    }
+
+    /// The speeds that count as rest where bounces pile up and where a slip along two tangents ends: `absolute`, plus
+    /// `relative` times the largest speed at an event so far. Each such place adds an error of that size.
+    pub fn tolerance(mut self, relative: f64, absolute: f64) -> Self {
+        self.tolerance = Tolerance { relative, absolute };
+        self
+    }
+
+    /// The input as a function of time and state, which should be smooth.
+    pub fn input<G>(self, input: G) -> ContactRun<'k, K, C, Feedback<G>>
+    where
+        G: Fn(f64, &K::Configuration, &K::Speeds) -> K::Input,
+    {
+        let Self { kernel, control, law, tolerance, limit, .. } = self;
+        ContactRun { kernel, control, input: Feedback(input), law, tolerance, limit }
+    }
+
+    /// The law of impacts.
+    pub fn law(mut self, law: Impact) -> Self {
+        self.law = law;
+        self
+    }
+
+    /// The most events before the run is given up, instead of a million.
+    pub fn max_events(mut self, limit: usize) -> Self {
+        self.limit = limit;
+        self
+    }
+
+    /// Runs from (q₀, z₀) over the interval, forward in time.
+    ///
+    /// # Errors
+    /// When the end is not reached; [`attempt`](Self::attempt) then gives the part that was made.
+    pub fn run(
+        self,
+        q0: K::Configuration,
+        z0: K::Speeds,
+        interval: Range<f64>,
+    ) -> Result<ContactTrajectory<'k, K>, ContactError>
+    where
+        C: Control<InMode<'k, K>> + Clone + 'k,
+        I: InputSource<K> + 'k,
+    {
+        match self.attempt(q0, z0, interval) {
+            (trajectory, None) => Ok(trajectory),
+            (_, Some(error)) => Err(error),
+        }
+    }
+
+    /// Like [`run`](Self::run), but gives the part that was made when the end is not reached, with the reason.
+    pub fn attempt(
+        self,
+        q0: K::Configuration,
+        z0: K::Speeds,
+        interval: Range<f64>,
+    ) -> (ContactTrajectory<'k, K>, Option<ContactError>)
+    where
+        C: Control<InMode<'k, K>> + Clone + 'k,
+        I: InputSource<K> + 'k,
+    {
+        let Self { kernel, control, input, law, tolerance, limit } = self;
+        let input: InputOf<'k, K> = Rc::new(move |t, q, z| input.input(t, q, z));
+        let (segments, events, solves) = (Vec::new(), Vec::new(), Vec::new());
+        let made = ContactTrajectory { segments, events, solves, input };
+        let scales = Scales { end: interval.end, tolerance, largest: 0.0, law, start: interval.start };
+        let mut driver = Driver { kernel, control, made, scales, limit, last: f64::NEG_INFINITY, at_once: 0 };
+        let error = driver.go((interval.start, q0.renormalise(), z0)).err();
+        (driver.made, error)
+    }
+}
+
+/// A run on its way.
+struct Driver<'k, K: ContactSystem<Scalar = f64>, C> {
+    kernel: &'k K,
+    control: C,
+    made: ContactTrajectory<'k, K>,
+    scales: Scales,
+    limit: usize,
+    /// The time of the last event, and how many there were at it.
+    last: f64,
+    at_once: u32,
+}
+
+/// Events at one time before they count as endless: all contacts may have several of their own.
+const AT_ONCE: u32 = 200;
+
+impl<'k, K, C> Driver<'k, K, C>
+where
+    K: ContactSystem<Scalar = f64>,
+    C: Control<InMode<'k, K>> + Clone + 'k,
+{
+    fn go(&mut self, (t, q, z): (f64, K::Configuration, K::Speeds)) -> Result<(), ContactError> {
+        self.check_start(t, &q, &z)?;
+        let modes = vec![Mode::Open; K::CONTACTS.len()];
+        let mut instant = Instant { kernel: self.kernel, t, q, z, modes, fired: None, first: true };
+        loop {
+            instant.decide(&mut self.scales, &mut self.made)?;
+            let fired = self.segment(&instant)?;
+            let Some(last) = self.made.last() else { return Ok(()) };
+            let Some(fired) = fired.filter(|_| last.t < self.scales.end) else { return Ok(()) };
+            self.count(last.t, fired)?;
+            instant = Instant { t: last.t, q: last.q, z: last.z, fired: Some(fired), first: false, ..instant };
+        }
+    }
+
+    fn check_start(&self, t: f64, q: &K::Configuration, z: &K::Speeds) -> Result<(), ContactError> {
+        let stop = |contact: Option<usize>, kind| {
+            Err(ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: t, kind })
+        };
+        if !(t.is_finite() && self.scales.end.is_finite() && t <= self.scales.end) {
+            return stop(None, ContactErrorKind::InvalidInterval);
+        }
+        if !(q.is_finite() && z.is_finite()) {
+            return stop(None, ContactErrorKind::NonFinite);
+        }
+        let (gaps, restitution) = (self.kernel.gaps(t, q), self.kernel.restitution());
+        for i in 0..K::CONTACTS.len() {
+            let (gap, e) = (gaps.component(i), restitution.component(i));
+            if !(0.0..=1.0).contains(&e) {
+                return stop(Some(i), ContactErrorKind::InvalidRestitution { restitution: e });
+            }
+            if !gap.is_finite() {
+                return stop(Some(i), ContactErrorKind::NonFinite);
+            }
+            if gap < -Rounding::of(self.kernel, t, q).half_of_the_digits() {
+                return stop(Some(i), ContactErrorKind::NegativeGap { gap });
+            }
+        }
+        Ok(())
+    }
+
+    /// Counts events that do not move the time.
+    fn count(&mut self, t: f64, fired: Watched) -> Result<(), ContactError> {
+        let stop = |kind| Err(ContactError { contact: Some(K::CONTACTS[fired.contact()].name), time: t, kind });
+        self.at_once = if t - self.last <= 16.0 * self.scales.resolution(t) { self.at_once + 1 } else { 0 };
+        self.last = t;
+        if self.at_once > AT_ONCE {
+            let count = self.at_once;
+            return stop(match fired {
+                Watched::Gap(_) => ContactErrorKind::Zeno { impacts: count },
+                _ => ContactErrorKind::Chatter { changes: count },
+            });
+        }
+        if self.made.segments.len() >= self.limit {
+            return stop(ContactErrorKind::TooManyEvents { limit: self.limit });
+        }
+        Ok(())
+    }
+
+    /// One segment; what ended it, unless it reached the end of the run.
+    fn segment(&mut self, from: &Instant<'k, K>) -> Result<Option<Watched>, ContactError> {
+        let system = InMode::new(self.kernel, &from.modes);
+        let problem = InModeProblem { system: system.clone(), input: Rc::clone(&self.made.input) };
+        let witnesses = self.witnesses(from, &problem);
+        let watched: Vec<Watched> = witnesses.iter().map(|witness| witness.watched).collect();
+        let functions = witnesses
+            .into_iter()
+            .map(|witness| move |t: f64, q: &K::Configuration, z: &K::Speeds| witness.value(t, q, z));
+        let simulation = Simulation::of(problem).control(self.control.clone());
+        let simulation = simulation.until_each(Crossing::Falling, functions.collect());
+        let (trajectory, error) = simulation.attempt(from.q, from.z, from.t..self.scales.end);
+        let stopped = trajectory.stopped_by().map(|n| watched[n]);
+        let (last, end) = (*trajectory.last(), trajectory.last().t);
+        self.made.segments.push(Segment { system, trajectory });
+        if let Some(error) = error {
+            return Err(integration(end, error));
+        }
+        self.check_end(&from.modes, (end, &last.q, &last.z))?;
+        Ok(stopped)
+    }
+
+    /// Refuses gaps and slips that have passed through zero unseen.
+    fn check_end(&self, modes: &[Mode], (t, q, z): (f64, &K::Configuration, &K::Speeds)) -> Result<(), ContactError> {
+        let (gaps, rates) = (self.kernel.gaps(t, q), self.kernel.contact_rates(t, q, z));
+        let bound = Rounding::of(self.kernel, t, q).half_of_the_digits();
+        for (i, (contact, mode)) in K::CONTACTS.iter().zip(modes).enumerate() {
+            let stop = |kind| Err(ContactError { contact: Some(contact.name), time: t, kind });
+            // Events are found to the resolution of the time.
+            let late = 8.0 * self.scales.resolution(t) * rates.component(contact.normal).abs();
+            match mode {
+                Mode::Open if gaps.component(i) < -(bound + late) => {
+                    return stop(ContactErrorKind::Penetration { gap: gaps.component(i) });
+                }
+                Mode::Slides(reference) if contact.tangents == 1 => {
+                    let along = slip(contact, &rates)[0] * reference[0];
+                    if along < -Real::max(self.scales.rest(), bound) {
+                        return stop(ContactErrorKind::Chatter { changes: 1 });
+                    }
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// What ends the segment from here.
+    fn witnesses(&self, from: &Instant<'k, K>, problem: &InModeProblem<'k, K>) -> Vec<Witness<'k, K>> {
+        let mut found = Vec::new();
+        let mut watch = |watched: Watched, shift: &dyn Fn(f64) -> f64| {
+            let mut witness = Witness { problem: problem.clone(), watched, shift: 0.0 };
+            witness.shift = shift(witness.bare(from.t, &from.q, &from.z));
+            found.push(witness);
+        };
+        let sizes = from.sizes(&self.scales);
+        let loads = from.modes.iter().any(|mode| mode.is_closed()).then(|| {
+            let input = (problem.input)(from.t, &from.q, &from.z);
+            problem.system.loads(from.t, &from.q, &from.z, &input)
+        });
+        for (i, contact) in K::CONTACTS.iter().enumerate() {
+            // Forces that are no more than rounding start above zero by as much.
+            let least = loads.as_ref().map_or(0.0, |loads| loads.rounding(contact));
+            let above = move |value: f64| if value > least { 0.0 } else { least - value };
+            let from_zero = |bound: f64| move |value: f64| if value.abs() <= bound { -value } else { 0.0 };
+            match from.modes[i] {
+                Mode::Open if sizes.rates.component(contact.normal) > sizes.of_rate[contact.normal] => {
+                    watch(Watched::Gap(i), &from_zero(sizes.of_gap[i]));
+                }
+                Mode::Open => {
+                    let rounding = sizes.rounding[i];
+                    let shift = |gap: f64| if gap.abs() <= sizes.of_gap[i] { rounding - gap } else { 0.0 };
+                    watch(Watched::Gap(i), &shift);
+                }
+                Mode::Closed => watch(Watched::Force(i), &above),
+                Mode::Sticks => {
+                    watch(Watched::Force(i), &above);
+                    watch(Watched::Cone(i), &above);
+                }
+                Mode::Slides(_) => {
+                    watch(Watched::Force(i), &above);
+                    let rounding = tangents(contact).map(|row| sizes.of_rate[row]).fold(0.0, f64::max);
+                    watch(Watched::Slip(i), &from_zero(rounding));
+                    if contact.tangents == 2 {
+                        watch(Watched::Speed(i, self.scales.rest()), &|_| 0.0);
+                    }
+                    watch(Watched::Pushes(i), &|_| 0.0);
+                }
+            }
+        }
+        found
+    }
+}

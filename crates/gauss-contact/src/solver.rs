@@ -1,0 +1,456 @@
+//! The laws of contact and friction at one instant: forces from Delassus' matrix.
+//!
+//! With rows of contacts one after the other, of each its normal N, then its tangents T: rates (velocities after an
+//! impact, or accelerations) are `u = D λ + b`, and
+//!
+//! - `0 ≤ λ_N ⊥ u_N ≥ 0` (Signorini),
+//! - `|λ_T| ≤ μ λ_N`, and where `u_T ≠ 0`: `λ_T = −μ λ_N u_T/|u_T|` (Coulomb).
+//!
+//! Of a contact that slides already, the direction ŝ of its friction is known: `λ_T = −μ λ_N ŝ`, whatever u_T is.
+//!
+//! Projected Gauss–Seidel sweeps find which contacts leave, stick and slide; then the equations of these states are
+//! solved to rounding, and the laws are checked. States that violate them are corrected by the same rule until they do
+//! not change (a semismooth Newton method: P. Alart & A. Curnier 1991). Where that finds nothing, or where friction is
+//! so large that solutions need not be unique, all combinations are tried, if they are few.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use gauss_runtime::real::Real;
+
+use crate::dense::{Decomposition, Matrix, norm};
+
+/// What is known of a contact before its force is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Law {
+    /// 0 without friction, else 1 or 2.
+    pub(crate) tangents: usize,
+    /// μ.
+    pub(crate) friction: f64,
+    /// ŝ where it slides already.
+    pub(crate) slip: Option<[f64; 2]>,
+}
+
+/// What a contact does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum State {
+    Leaves,
+    /// Stays closed; friction, if there is any, has a known direction.
+    Closed,
+    Sticks,
+    /// Begins to slide in this direction.
+    Slides([f64; 2]),
+}
+
+/// How far a contact is from its laws, in units of u: a velocity after an impact, else an acceleration.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Residual {
+    /// `min(u_N, D_NN λ_N)`, without its sign: 0 where the gap does not close and nothing pulls.
+    pub signorini: f64,
+    /// By how much friction is larger than μ λ_N, times D_TT.
+    pub coulomb: f64,
+    /// How far friction is from the force within μ λ_N that opposes slip most, times D_TT.
+    pub dissipation: f64,
+    /// What rounding makes of these.
+    pub rounding: f64,
+}
+
+impl Residual {
+    fn worst(&self) -> f64 {
+        [self.signorini, self.coulomb, self.dissipation]
+            .into_iter()
+            .fold(0.0, |worst, r| if r <= worst { worst } else { r })
+    }
+
+    fn holds(&self) -> bool {
+        self.worst() <= self.rounding
+    }
+}
+
+#[derive(Debug)]
+pub(crate) struct Solution {
+    /// λ, all rows.
+    pub(crate) forces: Vec<f64>,
+    /// u, all rows.
+    pub(crate) rates: Vec<f64>,
+    pub(crate) states: Vec<State>,
+    pub(crate) residuals: Vec<Residual>,
+}
+
+/// Why there is no solution that could be given.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// A number is not finite.
+    NonFinite,
+    /// No state of this contact agrees with the laws.
+    Inconsistent(usize),
+    /// Several states of this contact do.
+    Indeterminate(usize),
+    /// None was found; how far the best one was from the laws.
+    NotFound(Residual),
+}
+
+/// The laws of some contacts at an instant.
+#[derive(Debug)]
+pub(crate) struct Contacts {
+    laws: Vec<Law>,
+    normals: Vec<usize>,
+    matrix: Matrix,
+    b: Vec<f64>,
+}
+
+/// Combinations that are tried at most.
+const MOST_COMBINATIONS: usize = 4096;
+/// Rounds of sweeps, each of twice as many as the one before.
+const ROUNDS: u32 = 10;
+/// Roundings of each product of a row that its sum may be off by: those of the entries and of the solution.
+const ROUNDINGS: f64 = 256.0;
+
+impl Contacts {
+    pub(crate) fn new(laws: Vec<Law>, matrix: Matrix, b: Vec<f64>) -> Self {
+        let rows_before = |i: usize| laws[..i].iter().map(|law| 1 + law.tangents).sum();
+        let normals = (0..laws.len()).map(rows_before).collect();
+        Self { laws, normals, matrix, b }
+    }
+
+    /// `|D_TT|` of a contact, the largest of its tangents.
+    fn tangent_scale(&self, i: usize) -> f64 {
+        self.tangents(i).map(|row| self.matrix.at(row, row)).fold(0.0, f64::max)
+    }
+
+    fn tangents(&self, i: usize) -> core::ops::Range<usize> {
+        let normal = self.normals[i];
+        normal + 1..normal + 1 + self.laws[i].tangents
+    }
+
+    fn rates(&self, forces: &[f64]) -> Vec<f64> {
+        (0..self.b.len()).map(|row| self.rate(row, forces)).collect()
+    }
+
+    fn rate(&self, row: usize, forces: &[f64]) -> f64 {
+        self.matrix.row(row).iter().zip(forces).fold(self.b[row], |sum, (d, force)| d.fma(*force, sum))
+    }
+
+    /// Finds the forces, from an estimate of them.
+    pub(crate) fn solve(&self, mut forces: Vec<f64>) -> Result<Solution, Failure> {
+        let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
+        if !(finite(&self.b) && (0..self.b.len()).all(|row| finite(self.matrix.row(row)))) {
+            return Err(Failure::NonFinite);
+        }
+        if let Some(contact) = (0..self.laws.len()).find(|&i| !self.is_regular(i)) {
+            // Of directions that are to be found there are too many to try.
+            if self.laws[contact].slip.is_some() || self.choices().is_some() {
+                return self.only(contact);
+            }
+        }
+        let mut best = Residual { signorini: f64::INFINITY, ..Residual::default() };
+        for round in 0..ROUNDS {
+            (0..8 << round).for_each(|_| self.sweep(&mut forces));
+            let mut states = self.states(&forces, &self.rates(&forces));
+            for _ in 0..20 {
+                let found = self.in_states(states.clone());
+                let worst = found.residuals.iter().max_by(|a, b| a.worst().total_cmp(&b.worst()));
+                let worst = worst.copied().unwrap_or_default();
+                if found.residuals.iter().all(Residual::holds) {
+                    return Ok(self.shared(found));
+                }
+                if worst.worst() < best.worst() {
+                    best = worst;
+                }
+                let next = self.states(&found.forces, &found.rates);
+                if core::mem::replace(&mut states, next) == states {
+                    break;
+                }
+            }
+        }
+        match self.all() {
+            Some(mut found) if !found.is_empty() => Ok(found.swap_remove(0)),
+            _ => Err(Failure::NotFound(best)),
+        }
+    }
+
+    /// The same motion with all contacts that can carry it: where contacts depend on one another, one may leave at
+    /// a rate of zero, or its friction may be at its bound, for nothing.
+    fn shared(&self, found: Solution) -> Solution {
+        let still = |row: usize| found.rates[row].abs() <= self.rounding(row, &found.forces);
+        let mut states = found.states.clone();
+        for (i, state) in states.iter_mut().enumerate() {
+            let free = self.laws[i].tangents > 0 && self.laws[i].slip.is_none();
+            match state {
+                State::Leaves if still(self.normals[i]) && !free => *state = State::Closed,
+                State::Leaves if still(self.normals[i]) && self.tangents(i).all(still) => *state = State::Sticks,
+                State::Slides(_) if self.tangents(i).all(still) => *state = State::Sticks,
+                _ => {}
+            }
+        }
+        if states == found.states {
+            return found;
+        }
+        let shared = self.in_states(states);
+        let carries = |i: usize| {
+            let normal = self.normals[i];
+            let pressed = self.matrix.at(normal, normal) * shared.forces[normal];
+            found.states[i] != State::Leaves
+                || pressed > self.rounding(normal, &shared.forces)
+                || shared.states[i] == State::Leaves
+        };
+        let all = shared.residuals.iter().all(Residual::holds) && (0..self.laws.len()).all(carries);
+        if all { shared } else { found }
+    }
+
+    /// Whether friction of a contact cannot turn the sign of what its normal force does: `D_NN > μ |D_NT|`, or along
+    /// a known direction `p = D_NN − μ D_NT ŝ > 0` (P. Painlevé 1895).
+    fn is_regular(&self, i: usize) -> bool {
+        let (normal, Law { friction, slip, .. }) = (self.normals[i], self.laws[i]);
+        let coupling: Vec<f64> = self.tangents(i).map(|row| self.matrix.at(normal, row)).collect();
+        let against = match slip {
+            Some(slip) => coupling.iter().zip(slip).map(|(d, s)| d * s).sum(),
+            None => norm(&coupling),
+        };
+        let diagonal = self.matrix.at(normal, normal);
+        let terms = diagonal + friction * norm(&coupling);
+        diagonal - friction * against > ROUNDINGS * f64::EPSILON * terms || terms == 0.0
+    }
+
+    /// Where solutions need not be unique: the only one, if it is.
+    fn only(&self, contact: usize) -> Result<Solution, Failure> {
+        let normal = self.normals[contact];
+        let Some(mut found) = self.all() else {
+            return Err(if self.b[normal] < 0.0 {
+                Failure::Inconsistent(contact)
+            } else {
+                Failure::Indeterminate(contact)
+            });
+        };
+        let Some(first) = found.first() else { return Err(Failure::Inconsistent(contact)) };
+        let same = |other: &Solution| {
+            let pairs = other.rates.iter().zip(&first.rates).enumerate();
+            pairs.into_iter().all(|(row, (a, b))| (a - b).abs() <= 1e3 * self.rounding(row, &first.forces))
+        };
+        if found.iter().all(same) { Ok(found.swap_remove(0)) } else { Err(Failure::Indeterminate(contact)) }
+    }
+
+    /// The states that each contact may have; none where the combinations are too many, or directions are not of finite
+    /// number.
+    fn choices(&self) -> Option<Vec<Vec<State>>> {
+        let of = |law: &Law| match (law.slip, law.tangents) {
+            (Some(_), _) | (None, 0) => Some(vec![State::Leaves, State::Closed]),
+            (None, 1) => {
+                Some(vec![State::Leaves, State::Sticks, State::Slides([1.0, 0.0]), State::Slides([-1.0, 0.0])])
+            }
+            _ => None,
+        };
+        let choices: Vec<Vec<State>> = self.laws.iter().map(of).collect::<Option<_>>()?;
+        let count = choices.iter().try_fold(1_usize, |count, of| count.checked_mul(of.len()));
+        count.filter(|count| *count <= MOST_COMBINATIONS).map(|_| choices)
+    }
+
+    /// All combinations of states that agree with the laws.
+    fn all(&self) -> Option<Vec<Solution>> {
+        let choices = self.choices()?;
+        let count = choices.iter().map(Vec::len).product::<usize>();
+        let combination = |mut n: usize| {
+            let state = |of: &Vec<State>| {
+                let state = of[n % of.len()];
+                n /= of.len();
+                state
+            };
+            choices.iter().map(state).collect::<Vec<_>>()
+        };
+        let solutions = (0..count).map(|n| self.in_states(combination(n)));
+        Some(solutions.filter(|found| found.residuals.iter().all(Residual::holds)).collect())
+    }
+
+    /// One sweep over the contacts: each force is brought to its cone as if the others stayed.
+    fn sweep(&self, forces: &mut [f64]) {
+        for i in 0..self.laws.len() {
+            let (normal, Law { friction, slip, .. }) = (self.normals[i], self.laws[i]);
+            let diagonal = self.matrix.at(normal, normal);
+            let rate = self.rate(normal, forces);
+            let effective = match slip {
+                Some(slip) => {
+                    let coupled = self.tangents(i).zip(slip).map(|(row, s)| s * self.matrix.at(normal, row));
+                    diagonal - friction * coupled.sum::<f64>()
+                }
+                None => diagonal,
+            };
+            if effective > 0.0 {
+                forces[normal] = Real::max(forces[normal] - rate / effective, 0.0);
+            }
+            let largest = friction * forces[normal];
+            if let Some(slip) = slip {
+                self.tangents(i).zip(slip).for_each(|(row, s)| forces[row] = -largest * s);
+                continue;
+            }
+            let scale = self.matrix_norm(i);
+            if scale > 0.0 {
+                let rates: Vec<f64> = self.tangents(i).map(|row| self.rate(row, forces)).collect();
+                let wanted: Vec<f64> =
+                    self.tangents(i).zip(&rates).map(|(row, rate)| forces[row] - rate / scale).collect();
+                let size = norm(&wanted);
+                let part = if size > largest { largest / size } else { 1.0 };
+                self.tangents(i).zip(&wanted).for_each(|(row, force)| forces[row] = part * force);
+            }
+        }
+    }
+
+    /// A bound of the tangential block of a contact.
+    fn matrix_norm(&self, i: usize) -> f64 {
+        self.tangents(i).map(|row| self.matrix.at(row, row)).sum()
+    }
+
+    /// What each contact does, judged by forces and rates.
+    fn states(&self, forces: &[f64], rates: &[f64]) -> Vec<State> {
+        let state = |i: usize| {
+            let (normal, law) = (self.normals[i], self.laws[i]);
+            let diagonal = self.matrix.at(normal, normal);
+            let pressed = diagonal * forces[normal] - rates[normal];
+            if pressed <= 0.0 {
+                return State::Leaves;
+            }
+            if law.tangents == 0 || law.slip.is_some() {
+                return State::Closed;
+            }
+            let scale = self.tangent_scale(i);
+            let wanted: Vec<f64> = self.tangents(i).map(|row| scale * forces[row] - rates[row]).collect();
+            let size = norm(&wanted);
+            if size * diagonal <= law.friction * pressed * scale || size == 0.0 {
+                return State::Sticks;
+            }
+            State::Slides([-wanted[0] / size, wanted.get(1).map_or(0.0, |w| -w / size)])
+        };
+        (0..self.laws.len()).map(state).collect()
+    }
+
+    /// The solution in given states, with its residuals. Directions of two tangents are those of the slip.
+    fn in_states(&self, mut states: Vec<State>) -> Solution {
+        let free = |(i, state): (usize, &State)| {
+            (matches!(state, State::Slides(_)) && self.laws[i].tangents == 2).then_some(i)
+        };
+        let turning: Vec<usize> = states.iter().enumerate().filter_map(free).collect();
+        let mut forces = self.forces_in(&states);
+        for _ in 0..if turning.is_empty() { 0 } else { 60 } {
+            let miss = self.misses(&turning, &states, &forces);
+            let size = norm(&miss);
+            // Differences of 10⁻⁷ rad: Newton's method in seven digits a step.
+            let turned = |k: usize, by: f64| {
+                let mut states = states.clone();
+                turn(&mut states[turning[k]], by);
+                states
+            };
+            let differences: Vec<Vec<f64>> = (0..turning.len())
+                .map(|k| {
+                    let states = turned(k, 1e-7);
+                    let near = self.misses(&turning, &states, &self.forces_in(&states));
+                    near.iter().zip(&miss).map(|(near, miss)| (near - miss) / 1e-7).collect()
+                })
+                .collect();
+            let jacobian = Matrix::from_fn(turning.len(), |i, j| differences[j][i]);
+            let by = Decomposition::new(&jacobian, |i| jacobian.at(i, i).abs()).solve(&miss);
+            let longest = by.iter().fold(0.0_f64, |longest, by| longest.max(by.abs()));
+            let part = if longest > 0.5 { 0.5 / longest } else { 1.0 };
+            let mut next = states.clone();
+            turning.iter().zip(&by).for_each(|(&i, by)| turn(&mut next[i], -part * by));
+            let found = self.forces_in(&next);
+            if part == 1.0 && longest < 1e-5 && norm(&self.misses(&turning, &next, &found)) >= size {
+                break;
+            }
+            (states, forces) = (next, found);
+        }
+        let rates = self.rates(&forces);
+        let residuals = (0..self.laws.len()).map(|i| self.residual(i, &forces, &rates)).collect();
+        Solution { forces, rates, states, residuals }
+    }
+
+    /// The sines of the angles from the directions of contacts to their slip, times its size.
+    fn misses(&self, turning: &[usize], states: &[State], forces: &[f64]) -> Vec<f64> {
+        let miss = |&i: &usize| match states[i] {
+            State::Slides([x, y]) => {
+                let tangents = self.tangents(i);
+                y * self.rate(tangents.start, forces) - x * self.rate(tangents.start + 1, forces)
+            }
+            _ => 0.0,
+        };
+        turning.iter().map(miss).collect()
+    }
+
+    /// Forces such that closed contacts keep their normal rates at zero, and those that stick all of them.
+    fn forces_in(&self, states: &[State]) -> Vec<f64> {
+        let mut rows = Vec::new();
+        // What a unit of the unknown of a row adds to forces, in this row and in those of friction.
+        let mut with: Vec<Vec<(usize, f64)>> = Vec::new();
+        for (i, state) in states.iter().enumerate() {
+            let normal = self.normals[i];
+            let direction = match state {
+                State::Leaves => continue,
+                State::Slides(direction) => Some(*direction),
+                State::Closed => self.laws[i].slip,
+                State::Sticks => None,
+            };
+            rows.push(normal);
+            let friction = self.laws[i].friction;
+            let along =
+                direction.into_iter().flat_map(|d| self.tangents(i).zip(d)).map(|(row, d)| (row, -friction * d));
+            with.push(core::iter::once((normal, 1.0)).chain(along).collect());
+            if *state == State::Sticks {
+                self.tangents(i).for_each(|row| {
+                    rows.push(row);
+                    with.push(vec![(row, 1.0)]);
+                });
+            }
+        }
+        let entry = |i: usize, j: usize| with[j].iter().map(|(row, part)| part * self.matrix.at(rows[i], *row)).sum();
+        let matrix = Matrix::from_fn(rows.len(), entry);
+        let factors = Decomposition::new(&matrix, |i| self.matrix.at(rows[i], rows[i]));
+        let mut forces = vec![0.0; self.b.len()];
+        // Once more for what the first solution leaves.
+        for _ in 0..2 {
+            let left: Vec<f64> = rows.iter().map(|&row| -self.rate(row, &forces)).collect();
+            for (unknown, with) in factors.solve(&left).into_iter().zip(&with) {
+                with.iter().for_each(|(row, part)| forces[*row] += part * unknown);
+            }
+        }
+        forces
+    }
+
+    /// What rounding does to the rate of a row.
+    fn rounding(&self, row: usize, forces: &[f64]) -> f64 {
+        let terms = self.matrix.row(row).iter().zip(forces).map(|(d, force)| (d * force).abs());
+        ROUNDINGS * (1 + self.b.len()) as f64 * f64::EPSILON * terms.fold(self.b[row].abs(), |sum, term| sum + term)
+    }
+
+    fn residual(&self, i: usize, forces: &[f64], rates: &[f64]) -> Residual {
+        let (normal, law) = (self.normals[i], self.laws[i]);
+        let signorini = Real::min(rates[normal], self.matrix.at(normal, normal) * forces[normal]).abs();
+        let rounding =
+            self.tangents(i).fold(self.rounding(normal, forces), |most, row| most.max(self.rounding(row, forces)));
+        let scale = self.tangent_scale(i);
+        let friction: Vec<f64> = self.tangents(i).map(|row| scale * forces[row]).collect();
+        let largest = scale * law.friction * forces[normal].max(0.0);
+        let coulomb = Real::max(norm(&friction) - largest, 0.0);
+        let wanted: Vec<f64> = match law.slip {
+            Some(slip) => slip.iter().take(law.tangents).map(|s| -largest * s).collect(),
+            None => {
+                let pushed: Vec<f64> = self.tangents(i).zip(&friction).map(|(row, f)| f - rates[row]).collect();
+                let size = norm(&pushed);
+                let part = if size > largest { largest / size } else { 1.0 };
+                pushed.iter().map(|f| part * f).collect()
+            }
+        };
+        let off: Vec<f64> = friction.iter().zip(&wanted).map(|(f, w)| f - w).collect();
+        Residual { signorini, coulomb, dissipation: norm(&off), rounding }
+    }
+}
+
+/// Turns the direction of a contact.
+fn turn(state: &mut State, by: f64) {
+    if let State::Slides([x, y]) = state {
+        let (sine, cosine) = Real::sin_cos(by);
+        (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
+    }
+}
+
+#[cfg(test)]
+#[path = "solver_tests.rs"]
+mod tests;

@@ -1,0 +1,98 @@
+//! Functions that pass through zero where the modes of a segment end.
+
+use gauss_runtime::configuration::VectorSpace;
+use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::real::Real;
+
+use crate::dense::norm;
+use crate::mode::{Mode, slip, tangents};
+use crate::problem::InModeProblem;
+
+/// What is watched, by the number of the contact. All of them fall to zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Watched {
+    /// The gap of an open contact.
+    Gap(usize),
+    /// λ_N of a closed one.
+    Force(usize),
+    /// The slip along the direction at the start of the segment.
+    Slip(usize),
+    /// |s| of a contact with two tangents, above a level.
+    Speed(usize, f64),
+    /// μ λ_N − |λ_T| of a contact that sticks.
+    Cone(usize),
+    /// p of a contact that slides: how its normal force, with its friction, moves its gap (P. Painlevé).
+    Pushes(usize),
+}
+
+impl Watched {
+    /// The number of the contact.
+    pub(crate) fn contact(self) -> usize {
+        match self {
+            Self::Gap(i) | Self::Force(i) | Self::Slip(i) | Self::Speed(i, _) | Self::Cone(i) | Self::Pushes(i) => i,
+        }
+    }
+}
+
+/// A function with what is added to it.
+///
+/// What has just changed starts on zero, to rounding. A gap or a slip is shifted to start there exactly: a function
+/// that starts on zero is seen to leave it and to come back, however short the flight. Forces are shifted to start
+/// above zero: those that fall at once are events at once.
+pub(crate) struct Witness<'k, K: ContactSystem<Scalar = f64>> {
+    pub(crate) problem: InModeProblem<'k, K>,
+    pub(crate) watched: Watched,
+    pub(crate) shift: f64,
+}
+
+impl<K: ContactSystem<Scalar = f64>> Witness<'_, K> {
+    pub(crate) fn value(&self, t: f64, q: &K::Configuration, z: &K::Speeds) -> f64 {
+        self.bare(t, q, z) + self.shift
+    }
+
+    pub(crate) fn bare(&self, t: f64, q: &K::Configuration, z: &K::Speeds) -> f64 {
+        let kernel = self.problem.system.kernel;
+        let slip_of = |i: usize| slip(&K::CONTACTS[i], &kernel.contact_rates(t, q, z));
+        let input = || (self.problem.input)(t, q, z);
+        match self.watched {
+            Watched::Gap(i) => kernel.gaps(t, q).component(i),
+            Watched::Slip(i) => {
+                let (s, reference) = (slip_of(i), self.reference(i));
+                s[0] * reference[0] + s[1] * reference[1]
+            }
+            Watched::Speed(i, level) => norm(&slip_of(i)) - level,
+            Watched::Force(i) => {
+                let loads = self.problem.system.loads(t, q, z, &input());
+                loads.forces[K::CONTACTS[i].normal]
+            }
+            Watched::Cone(i) => {
+                let input = input();
+                let loads = self.problem.system.loads(t, q, z, &input);
+                let contact = &K::CONTACTS[i];
+                let friction = &loads.forces[tangents(contact)];
+                kernel.friction(t, q, z, &input).component(i) * loads.forces[contact.normal] - norm(friction)
+            }
+            Watched::Pushes(i) => self.pushes(i, t, q, z),
+        }
+    }
+
+    fn reference(&self, i: usize) -> [f64; 2] {
+        match self.problem.system.modes()[i] {
+            Mode::Slides(reference) => reference,
+            _ => [0.0; 2],
+        }
+    }
+
+    /// p over its own first term.
+    fn pushes(&self, i: usize, t: f64, q: &K::Configuration, z: &K::Speeds) -> f64 {
+        let kernel = self.problem.system.kernel;
+        let contact = &K::CONTACTS[i];
+        let input = (self.problem.input)(t, q, z);
+        let delassus = kernel.contact_response(t, q).delassus;
+        let mu = kernel.friction(t, q, z, &input).component(i);
+        let along = self.problem.system.direction(contact, self.reference(i), (t, q, z));
+        let coupled: f64 = tangents(contact).zip(along).map(|(row, s)| s * delassus[(contact.normal, row)]).sum();
+        let diagonal = delassus[(contact.normal, contact.normal)];
+        1.0 - mu * coupled / Real::max(diagonal, f64::MIN_POSITIVE)
+    }
+}

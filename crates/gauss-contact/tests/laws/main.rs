@@ -1,0 +1,7 @@
+//! The laws of contact, friction and impact in runs, scene by scene, against closed forms.
+
+mod bounces;
+mod common;
+mod friction;
+mod hostile;
+mod spatial;
