@@ -45,3 +45,8 @@ pub use mode::{InMode, Mode};
 pub use run::ContactRun;
 pub use solver::Residual;
 pub use trajectory::{ContactTrajectory, Segment};
+
+/// The page of the crate, whose program is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
