@@ -15,7 +15,7 @@ use crate::dense::{Matrix, norm};
 use crate::error::{ContactError, ContactErrorKind};
 use crate::history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
 use crate::impact::{Impact, Struck, after, rows};
-use crate::mode::{InMode, Mode, slip, tangents};
+use crate::mode::{InMode, Mode, slip, tangents, terms};
 use crate::solver::{Contacts, Failure, Law, State};
 use crate::trajectory::ContactTrajectory;
 use crate::witness::Watched;
@@ -47,7 +47,7 @@ impl Scales {
 pub(crate) struct Rounding(f64);
 
 impl Rounding {
-    pub(crate) fn of<K: ContactSystem<Scalar = f64>>(_: &K, _: f64, q: &K::Configuration) -> Self {
+    pub(crate) fn of<K: ContactSystem<Scalar = f64>>(q: &K::Configuration) -> Self {
         Self((0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max))
     }
 
@@ -109,10 +109,9 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
     pub(crate) fn sizes(&self, scales: &Scales) -> Sizes<K> {
         let Self { kernel, t, q, z, .. } = self;
         let (jacobian, rates) = (kernel.contact_jacobian(*t, q), kernel.contact_rates(*t, q, z));
-        let terms =
-            |column: K::Speeds| (0..K::Speeds::DIM).map(|j| (column.component(j) * z.component(j)).abs()).sum::<f64>();
-        let of_rate = (0..K::ContactRows::DIM).map(|row| jacobian.nth(row).map_or(0.0, terms) * 64.0 * f64::EPSILON);
-        let size = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
+        let of_row = |row: usize| jacobian.nth(row).map_or(0.0, |column| terms(&column, z));
+        let of_rate = (0..K::ContactRows::DIM).map(|row| of_row(row) * 64.0 * f64::EPSILON);
+        let Rounding(size) = Rounding::of::<K>(q);
         let here = kernel.gaps(*t, q);
         let mut rounding = vec![0.0; K::CONTACTS.len()];
         for i in 0..TangentOf::<K>::DIM {

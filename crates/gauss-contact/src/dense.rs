@@ -44,7 +44,7 @@ pub(crate) struct Decomposition {
 }
 
 impl Decomposition {
-    /// `scale`: the square roots of the diagonal of Delassus' matrix at these rows.
+    /// `diagonal`: that of Delassus' matrix at these rows.
     pub(crate) fn new(matrix: &Matrix, diagonal: impl Fn(usize) -> f64) -> Self {
         let n = matrix.size;
         let scale: Vec<f64> = (0..n).map(|i| reciprocal_root(diagonal(i))).collect();

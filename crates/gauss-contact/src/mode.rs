@@ -18,6 +18,7 @@ use gauss_runtime::real::Real;
 use gauss_runtime::system::{GaussSystem, Smoothness};
 
 use crate::dense::{Decomposition, Matrix, norm};
+use crate::impact::after;
 
 /// What a contact does during a part of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,6 +84,11 @@ pub(crate) fn slip<V: VectorSpace<f64>>(contact: &Contact, rates: &V) -> [f64; 2
     slip
 }
 
+/// The sizes of the terms of a rate together: what its rounding is relative to.
+pub(crate) fn terms<V: VectorSpace<f64>>(column: &V, z: &V) -> f64 {
+    (0..V::DIM).map(|j| (column.component(j) * z.component(j)).abs()).sum()
+}
+
 /// Where the slip of a contact with two tangents leads, as a smooth function beyond the line through zero that is
 /// perpendicular to `reference`: mirrored there, so that a motion that stops passes on straight. What is across the
 /// reference by rounding alone has no direction, however small the slip is.
@@ -134,9 +140,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> InMode<'k, K> {
             return reference;
         }
         let jacobian = self.kernel.contact_jacobian(t, q);
-        let terms =
-            |column: K::Speeds| (0..K::Speeds::DIM).map(|j| (column.component(j) * z.component(j)).abs()).sum::<f64>();
-        let size: f64 = tangents(contact).filter_map(|row| jacobian.nth(row)).map(terms).sum();
+        let size: f64 = tangents(contact).filter_map(|row| jacobian.nth(row)).map(|column| terms(&column, z)).sum();
         let slip = slip(contact, &self.kernel.contact_rates(t, q, z));
         direction(reference, slip, 64.0 * f64::EPSILON * size)
     }
@@ -230,8 +234,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> InMode<'k, K> {
             let gap = |row: usize| contact(row).map_or(0.0, |i| gaps.component(i));
             let impulses = Self::cancelling(&response.delassus, &rows, &gap);
             let zero = K::Speeds::zero();
-            let moved = impulses.iter().enumerate().filter_map(|(row, x)| Some((x, response.columns.nth(row)?)));
-            let moved = moved.fold(zero, |sum, (x, column)| sum.add_scaled(*x, &column));
+            let moved = after::<K>(&response, &zero, &impulses);
             let still = self.kernel.kinematics(t, &q, &zero);
             let increment = self.kernel.kinematics(t, &q, &moved).add_scaled(-1.0, &still);
             q = q.retract(&increment).renormalise();

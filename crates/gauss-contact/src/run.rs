@@ -179,7 +179,7 @@ where
             if !gap.is_finite() {
                 return stop(Some(i), ContactErrorKind::NonFinite);
             }
-            if gap < -Rounding::of(self.kernel, t, q).half_of_the_digits() {
+            if gap < -Rounding::of::<K>(q).half_of_the_digits() {
                 return stop(Some(i), ContactErrorKind::NegativeGap { gap });
             }
         }
@@ -229,7 +229,7 @@ where
     /// Refuses gaps and slips that have passed through zero unseen.
     fn check_end(&self, modes: &[Mode], (t, q, z): (f64, &K::Configuration, &K::Speeds)) -> Result<(), ContactError> {
         let (gaps, rates) = (self.kernel.gaps(t, q), self.kernel.contact_rates(t, q, z));
-        let bound = Rounding::of(self.kernel, t, q).half_of_the_digits();
+        let bound = Rounding::of::<K>(q).half_of_the_digits();
         for (i, (contact, mode)) in K::CONTACTS.iter().zip(modes).enumerate() {
             let stop = |kind| Err(ContactError { contact: Some(contact.name), time: t, kind });
             // Events are found to the resolution of the time.
