@@ -226,7 +226,9 @@ fn leave_out_needless<'g>(given: &Given<'g>, system: &mut System<'g>) {
     let together = |clause: usize| given.constraints[clause].is_vector || given.constraints[clause].in_file.is_some();
     if system.scene.constraints.iter().any(|constraint| together(constraint.clause)) {
         let mut needless = system.scene.graph.aside(|| needless_constraints(system, &given.literals));
-        needless.retain(|&k| together(system.scene.constraints[k].clause));
+        // Constraints that share forces stay, but for those that no motion changes.
+        let shares = |k: usize| system.scene.redundant && system.constraints.jacobian[k].iter().any(|e| !e.is_zero());
+        needless.retain(|&k| together(system.scene.constraints[k].clause) && !shares(k));
         if !needless.is_empty() {
             system.leave_out(&needless);
         }

@@ -244,7 +244,7 @@ pub fn system_faults<'g>(given: &Given<'g>, system: &System<'g>, faults: &[Syste
                 let (span, message) = clause(
                     *k,
                     "this constraint follows from the coordinates, the speeds and the constraints before it, so its \
-                     multiplier is undetermined; remove it",
+                     multiplier is undetermined; remove it, or add `redundant` for multipliers of least norm",
                 );
                 mistakes.push(span, message);
             }

@@ -169,7 +169,7 @@ fn constraints_on_huge_numbers() {
 #[test]
 fn constraints_that_nothing_moves() {
     let follows = "this constraint follows from the coordinates, the speeds and the constraints before it, so its \
-                   multiplier is undetermined; remove it";
+                   multiplier is undetermined; remove it, or add `redundant` for multipliers of least norm";
     check(&scene("constraint(position = acos(y + m + 3 - y))"), &[("constraint", follows)]);
 }
 

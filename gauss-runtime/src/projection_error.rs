@@ -62,7 +62,7 @@ impl fmt::Display for ProjectionError {
             ProjectionFailure::NonFinite => write!(
                 f,
                 "the correction of the {level} is infinite or undefined (residual {given:e}, then {residual:e}); \
-                 the state is, or constraints depend on one another there"
+                 the state is, or constraints depend on one another there; `redundant` in the scene allows them to"
             ),
             ProjectionFailure::NotConverged => write!(
                 f,

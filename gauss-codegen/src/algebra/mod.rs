@@ -8,6 +8,7 @@
 //!   and in proofs the relations of a rotation matrix). Equal expressions have equal normal forms, so this one decides
 //!   identities, cancels what can cancel, and is what a reader wants to see printed.
 
+mod dependent;
 mod expressions;
 mod large;
 mod linear;
@@ -21,6 +22,7 @@ mod rational;
 #[cfg(test)]
 mod tests;
 
+pub use dependent::{Dependent, solve_dependent};
 pub use expressions::differentiate::Along;
 pub use expressions::function::{BinaryFunction, Function, OwnFunction};
 pub use expressions::graph::{Expr, Graph, NodeView};

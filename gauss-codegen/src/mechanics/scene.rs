@@ -89,6 +89,8 @@ pub struct SystemScene<'g> {
     pub rates: Map<u32, Expr<'g>>,
     pub tree: Tree<'g>,
     pub constraints: Vec<Constraint<'g>>,
+    /// Constraints may depend on one another.
+    pub redundant: bool,
     /// What may touch.
     pub contacts: Vec<Contact<'g>>,
     /// Values that arrive at run time.
@@ -153,6 +155,7 @@ impl<'g> SystemScene<'g> {
             rates,
             tree,
             constraints: Vec::new(),
+            redundant: false,
             contacts: Vec::new(),
             inputs: self.inputs.clone(),
             elements,

@@ -124,6 +124,7 @@ impl<'g> Charted<'g> {
             rates,
             tree,
             constraints: Vec::new(),
+            redundant: false,
             contacts: Vec::new(),
             inputs: Vec::new(),
             elements: elements(kinematics),

@@ -180,6 +180,7 @@ fn assembled(
         particles: statements.particles,
         points: statements.points,
         constraints: statements.constraints,
+        redundant: statements.redundant.is_some(),
         contacts: statements.contacts,
         independent: statements.independent.map(|independent| independent.names),
         potential: statements.potential.and_then(|(_, potential)| potential),

@@ -240,6 +240,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             rates: self.rates.clone(),
             tree,
             constraints,
+            redundant: model.redundant,
             contacts,
             inputs: self.declared.inputs.clone(),
             elements,

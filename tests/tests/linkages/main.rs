@@ -1,6 +1,7 @@
 //! Bodies in gimbals and in a closed loop: a gyroscope and a four-bar linkage, with coordinates that solve the joints
 //! and with constraints that make them.
 
+mod redundant;
 mod rows;
 
 use gauss_runtime::monitor::EnergyMonitor;

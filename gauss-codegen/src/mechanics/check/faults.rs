@@ -121,7 +121,9 @@ fn check_in<'g, N: Number>(
     let singular = states().find(is_regular).map(|witness| vanishing_pivots(witness.values(&matrix), n));
     let mut faults: Vec<SystemFault> =
         singular.unwrap_or_default().into_iter().map(SystemFault::DependentSpeed).collect();
-    faults.extend(dependencies(system, states(), 100.0 * N::NEGLIGIBLE).into_iter().map(SystemFault::of));
+    let mut dependent = dependencies(system, states(), 100.0 * N::NEGLIGIBLE);
+    dependent.retain(|found| found.contradicts || !system.scene.redundant);
+    faults.extend(dependent.into_iter().map(SystemFault::of));
     if !faults.is_empty() {
         return Err(faults);
     }
@@ -204,6 +206,9 @@ fn compare<'g, N: Number>(
     let scale = largest(expected.iter().map(|row| row.value)).max(1.0);
     let still = witness.flow(&vec![N::number(0.0); arbitrary.len()]);
     let bias = witness.along(&still, &system.constraints.on_velocities);
+    // Of what depends on others, and holds with them alone, nothing is known at states that violate constraints.
+    let kept = system.constraints.kept(&system.matrix).map(|kept| witness.values(&kept));
+    let is_kept = |k: &usize| kept.as_ref().is_none_or(|kept| kept[*k].to_f64() != 0.0);
     for arrangement in claims.accelerations {
         let rates = values(arrangement);
         let found =
@@ -211,6 +216,7 @@ fn compare<'g, N: Number>(
         // J ż = γ: what the constraints say of velocities goes on to hold. A small ż is what is left of large ones.
         let most = largest(rates.iter().copied());
         let drift: Vec<_> = (0..bias.len())
+            .filter(is_kept)
             .map(|k| {
                 let sum = Summed::of(bias[k], rates.iter().zip(&jacobian).map(|(rate, row)| *rate * row[k]).collect());
                 let sizes: f64 = jacobian.iter().map(|row| row[k].to_f64().abs()).sum();

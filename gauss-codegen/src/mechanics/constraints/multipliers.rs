@@ -1,7 +1,7 @@
 //! Constraints that coordinates and speeds do not solve by themselves: C is minimised subject to `J ż = γ`, which is
 //! what `φ(t, q) = 0` differentiated twice, and `φ(t, q, z) = 0` differentiated once, say.
 
-use crate::algebra::{Expr, Map, solve_saddle};
+use crate::algebra::{Dependent, Expr, Map, solve_dependent, solve_saddle};
 
 use crate::mechanics::constraints::constraint::{Constraint, ConstraintKind};
 use crate::mechanics::scene::SystemScene;
@@ -9,6 +9,8 @@ use crate::mechanics::scene::SystemScene;
 /// All constraints on the level of velocities.
 pub struct Constraints<'g> {
     list: Vec<Constraint<'g>>,
+    /// They may depend on one another.
+    redundant: bool,
     /// dφ/dt of positions, φ of velocities.
     pub on_velocities: Vec<Expr<'g>>,
     /// J = ∂(that)/∂z, one row a constraint.
@@ -39,6 +41,7 @@ impl<'g> Constraints<'g> {
             bias: on_velocities.iter().map(|e| (-e.derivative(rates)).group()).collect(),
             residuals: residuals.collect(),
             list: scene.constraints.clone(),
+            redundant: scene.redundant,
             on_velocities,
         }
     }
@@ -53,15 +56,36 @@ impl<'g> Constraints<'g> {
 
     /// ż and λ with `A ż = right + Jᵀ λ` and `J ż = γ`.
     pub fn solve(&self, matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
-        let (rates, multipliers) = solve_saddle(matrix, &self.jacobian, right, &self.bias);
-        (rates, multipliers.into_iter().map(|e| -e).collect())
+        self.saddle(matrix, &self.jacobian, right, &self.bias)
     }
 
     /// x and μ with `A x = right + Jᵀ μ` and `J x = 0`: velocities that impulses make.
     pub fn respond(&self, matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
         let still = vec![right[0].graph().zero(); self.count()];
-        let (rates, multipliers) = solve_saddle(matrix, &self.jacobian, right, &still);
+        self.saddle(matrix, &self.jacobian, right, &still)
+    }
+
+    fn saddle(
+        &self,
+        matrix: &[Vec<Expr<'g>>],
+        jacobian: &[Vec<Expr<'g>>],
+        right: &[Expr<'g>],
+        bias: &[Expr<'g>],
+    ) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
+        let (rates, multipliers) = match self.redundant {
+            true => {
+                let Dependent { solution, multipliers, .. } = solve_dependent(matrix, jacobian, right, bias);
+                (solution, multipliers)
+            }
+            false => solve_saddle(matrix, jacobian, right, bias),
+        };
         (rates, multipliers.into_iter().map(|e| -e).collect())
+    }
+
+    /// 1 for a constraint that is independent of those before it, else 0; `None` where all have to be.
+    pub fn kept(&self, matrix: &[Vec<Expr<'g>>]) -> Option<Vec<Expr<'g>>> {
+        let still = vec![matrix[0][0].graph().zero(); matrix.len()];
+        self.redundant.then(|| solve_dependent(matrix, &self.jacobian, &still, &self.bias).kept)
     }
 
     /// Jᵀ λ.
@@ -99,6 +123,6 @@ impl<'g> Constraints<'g> {
         let jacobian: Vec<Vec<Expr<'g>>> = rows.iter().map(|&k| self.jacobian[k].clone()).collect();
         let wanted: Vec<Expr<'g>> = rows.iter().map(|&k| -self.residuals[k]).collect();
         let still: Vec<Expr<'g>> = matrix.iter().map(|row| row[0].graph().zero()).collect();
-        solve_saddle(matrix, &jacobian, &still, &wanted).0
+        self.saddle(matrix, &jacobian, &still, &wanted).0
     }
 }

@@ -170,6 +170,7 @@ impl<'g> Symbols<'g> {
             rates,
             tree,
             constraints,
+            redundant: false,
             contacts: Vec::new(),
             inputs: Vec::new(),
             elements: plan

@@ -30,6 +30,7 @@ pub fn check(statements: &Statements, well: &[bool], uncertain: bool, context: &
         check_motion(constraint, &moving, context);
     }
     check_independent(statements, uncertain, context);
+    check_redundant(statements, uncertain, context);
 }
 
 /// Motion has something to do with whether a constraint holds.
@@ -108,6 +109,24 @@ fn check_independent(statements: &Statements, uncertain: bool, context: &mut Con
             independent.clause.span(),
             "all speeds are named independent, and none is left to solve the constraints for; \
              leave out as many as there are constraints",
+        );
+    }
+}
+
+/// `redundant` has constraints to be about, which keep their multipliers.
+fn check_redundant(statements: &Statements, uncertain: bool, context: &mut Context) {
+    let Some(redundant) = &statements.redundant else { return };
+    if statements.constraints.is_empty() && !statements.missed_any(&[Statement::Constraint]) && !uncertain {
+        context.error(
+            redundant.span(),
+            "without constraints none can depend on others; add `constraint(…)`, or remove `redundant`",
+        );
+    }
+    if let Some(independent) = &statements.independent {
+        context.error(
+            independent.clause.span(),
+            "constraints that may depend on one another cannot be solved for speeds when the code is written; remove \
+             `independent` to have them kept with multipliers, or remove `redundant`",
         );
     }
 }

@@ -40,6 +40,8 @@ pub struct Statements {
     pub constraints: Vec<ConstraintClause>,
     pub contacts: Vec<ContactClause>,
     pub independent: Option<Names<SpeedPart>>,
+    /// `redundant` is written.
+    pub redundant: Option<Ident>,
     pub limit: Option<(Ident, Option<usize>)>,
     pub potential: Option<(Ident, Option<Expression>)>,
     pub inputs: Option<Names<InputName>>,
@@ -77,6 +79,7 @@ pub enum Statement {
     Contact,
     Range,
     Independent,
+    Redundant,
     Potential,
     Input,
     /// A force element.
@@ -92,7 +95,7 @@ pub enum Statement {
 }
 
 /// The clauses of systems, but for those of force elements: these stand between the two.
-const DECLARED: [(&str, Statement); 13] = [
+const DECLARED: [(&str, Statement); 14] = [
     ("coordinates", Statement::Coordinates),
     ("speeds", Statement::Speeds),
     ("kinematics", Statement::Kinematics),
@@ -104,6 +107,7 @@ const DECLARED: [(&str, Statement); 13] = [
     ("contact", Statement::Contact),
     ("range", Statement::Range),
     ("independent", Statement::Independent),
+    ("redundant", Statement::Redundant),
     ("potential", Statement::Potential),
     ("input", Statement::Input),
 ];
@@ -152,6 +156,7 @@ pub fn form(word: &str) -> Option<String> {
     STATEMENTS.iter().find(|(name, _)| *name == word).map(|(_, statement)| match statement {
         Statement::Potential | Statement::Limit => format!("{word} = …"),
         Statement::Element(row) if row.form == Form::Value => format!("{word} = …"),
+        Statement::Redundant => word.to_owned(),
         _ => format!("{word}(…)"),
     })
 }
@@ -170,6 +175,7 @@ impl Statement {
                 | Statement::Particle
                 | Statement::Constraint
                 | Statement::Independent
+                | Statement::Redundant
         )
     }
 }
@@ -209,6 +215,7 @@ impl Statements {
             | Statement::Contact
             | Statement::Range => self.read_placement(statement, clause, context),
             Statement::Element(row) => self.read_element(row, clause, context),
+            Statement::Redundant => self.read_redundant(clause, context),
             Statement::Armature => self.read_armature(clause, context),
             Statement::Potential => {
                 let value = value(clause, "k * x * x / 2", context);
@@ -231,6 +238,7 @@ impl Statements {
             Statement::Speeds => self.speeds.is_some(),
             Statement::Kinematics => self.kinematics.is_some(),
             Statement::Independent => self.independent.is_some(),
+            Statement::Redundant => self.redundant.is_some(),
             Statement::Potential => self.potential.is_some(),
             Statement::Limit => self.limit.is_some(),
             Statement::Input => self.inputs.is_some(),
@@ -242,7 +250,7 @@ impl Statements {
             let name = &clause.name;
             let remedy = match statement {
                 Statement::Potential | Statement::Element(_) => "write the sum of the two in one",
-                Statement::Limit | Statement::Medium => "keep one of the two",
+                Statement::Limit | Statement::Medium | Statement::Redundant => "keep one of the two",
                 _ => "write all of it in one",
             };
             context.error(name.span(), format!("`{name}` is given twice; {remedy}"));
@@ -355,6 +363,17 @@ impl Statements {
             return;
         }
         self.armatures.extend(actions::read_armature(clause, context));
+    }
+
+    /// `redundant`, a word alone.
+    fn read_redundant(&mut self, clause: &Clause, context: &mut Context) {
+        if !matches!(clause.value, Content::Absent) {
+            context.error(
+                clause.name.span(),
+                "`redundant` is a word alone, and of all constraints; write `redundant` without a value",
+            );
+        }
+        self.redundant.get_or_insert_with(|| clause.name.clone());
     }
 
     /// All coordinates are those of a chart.

@@ -36,6 +36,8 @@ pub struct Model {
     pub points: Vec<PointClause>,
     /// What is further required of the motion.
     pub constraints: Vec<ConstraintClause>,
+    /// Constraints may depend on one another.
+    pub redundant: bool,
     /// What may touch.
     pub contacts: Vec<ContactClause>,
     /// The speeds that stay when the constraints are solved for the others at compile time; `None`: multipliers.

@@ -167,6 +167,34 @@ fn motion() {
 }
 
 #[test]
+fn redundant() {
+    let constraint = "constraint(velocity = v - w)";
+    assert!(system(&moving(&format!("{constraint}, redundant"))).redundant);
+    assert!(!system(&moving(constraint)).redundant);
+    mistake(
+        "redundant",
+        "redundant",
+        "without constraints none can depend on others; add `constraint(…)`, or remove `redundant`",
+    );
+    mistake(
+        &format!("{constraint}, redundant(v)"),
+        "redundant",
+        "`redundant` is a word alone, and of all constraints; write `redundant` without a value",
+    );
+    mistake(
+        &format!("{constraint}, redundant, redundant"),
+        "redundant",
+        "`redundant` is given twice; keep one of the two",
+    );
+    mistake(
+        &format!("{constraint}, redundant, independent(v)"),
+        "independent",
+        "constraints that may depend on one another cannot be solved for speeds when the code is written; remove \
+         `independent` to have them kept with multipliers, or remove `redundant`",
+    );
+}
+
+#[test]
 fn independent() {
     let constraint = "constraint(velocity = v - w)";
     check(
