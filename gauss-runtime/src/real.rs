@@ -48,6 +48,11 @@ pub trait Real:
     /// Distance from 1 to the next larger number of a lane. Sets the length of power series and the slack of checks.
     const EPSILON: f64 = f64::EPSILON;
 
+    /// Whether a number may carry derivatives, as dual numbers do: times of events are refined by them then (see
+    /// [`event`](crate::integrate::drive::event)), and constraints are solved for them where values need no more.
+    /// A scalar of your own is taken to, unless it writes `false` here, which saves that work.
+    const DERIVATIVES: bool = true;
+
     /// The value part of lane `i < LANES`, rounded to `f64`: for checks, step control and reports, not for arithmetic.
     fn lane(self, i: usize) -> f64;
 
@@ -267,6 +272,7 @@ macro_rules! implement_real {
         impl Real for $float {
             const LANES: usize = 1;
             const EPSILON: f64 = $float::EPSILON as f64;
+            const DERIVATIVES: bool = false;
 
             #[inline(always)]
             fn lane(self, _: usize) -> f64 {

@@ -159,6 +159,7 @@ impl Real for DoubleDouble {
     const LANES: usize = 1;
     /// 2⁻¹⁰⁴.
     const EPSILON: f64 = f64::EPSILON * f64::EPSILON;
+    const DERIVATIVES: bool = false;
 
     fn lane(self, _: usize) -> f64 {
         self.high

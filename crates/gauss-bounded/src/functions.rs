@@ -99,6 +99,7 @@ fn hypotenuse<T: Float>(x: T, y: T) -> T {
 impl<T: Float> Real for Bounded<T> {
     const LANES: usize = 1;
     const EPSILON: f64 = T::EPSILON;
+    const DERIVATIVES: bool = false;
 
     #[inline(always)]
     fn lane(self, i: usize) -> f64 {

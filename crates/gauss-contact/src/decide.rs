@@ -11,7 +11,7 @@ use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
 
-use crate::dense::{Matrix, norm};
+use crate::dense::{Matrix, epsilon, norm, size, sum, value};
 use crate::error::{ContactError, ContactErrorKind};
 use crate::history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
 use crate::impact::{Impact, Struck, after, rows};
@@ -22,13 +22,14 @@ use crate::witness::Watched;
 
 /// What a run tells apart.
 pub(crate) struct Scales {
-    pub(crate) end: f64,
     pub(crate) tolerance: Tolerance,
     /// The largest speed at an event so far.
     pub(crate) largest: f64,
     pub(crate) law: Impact,
     /// The start of the run.
     pub(crate) start: f64,
+    /// The rounding of values.
+    pub(crate) epsilon: f64,
 }
 
 impl Scales {
@@ -39,21 +40,25 @@ impl Scales {
 
     /// Events are found to four roundings of the time or of a step, which is no longer than the run up to now.
     pub(crate) fn resolution(&self, t: f64) -> f64 {
-        4.0 * f64::EPSILON * (t.abs() + self.start.abs())
+        4.0 * self.epsilon * (t.abs() + self.start.abs())
     }
 }
 
 /// The size of a configuration.
-pub(crate) struct Rounding(f64);
+pub(crate) struct Rounding {
+    size: f64,
+    epsilon: f64,
+}
 
 impl Rounding {
-    pub(crate) fn of<K: ContactSystem<Scalar = f64>>(q: &K::Configuration) -> Self {
-        Self((0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max))
+    pub(crate) fn of<K: ContactSystem>(q: &K::Configuration) -> Self {
+        let size = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
+        Self { size, epsilon: epsilon::<K::Scalar>() }
     }
 
     /// √ε of it, and 64 ε for numbers of order 1 that cancel: what agrees in half of the digits was meant to.
     pub(crate) fn half_of_the_digits(&self) -> f64 {
-        Real::sqrt(f64::EPSILON) * self.0 + 64.0 * f64::EPSILON
+        Real::sqrt(self.epsilon) * self.size + 64.0 * self.epsilon
     }
 }
 
@@ -67,33 +72,33 @@ pub(crate) struct Sizes<K: ContactSystem> {
 }
 
 /// A state with the modes that led to it.
-pub(crate) struct Instant<'k, K: ContactSystem<Scalar = f64>> {
+pub(crate) struct Instant<'k, K: ContactSystem> {
     pub(crate) kernel: &'k K,
-    pub(crate) t: f64,
+    pub(crate) t: K::Scalar,
     pub(crate) q: K::Configuration,
     pub(crate) z: K::Speeds,
-    pub(crate) modes: Vec<Mode>,
+    pub(crate) modes: Vec<Mode<K::Scalar>>,
     pub(crate) fired: Option<Watched>,
     pub(crate) first: bool,
 }
 
 /// What is known of the contacts while modes are chosen.
-struct Choice {
+struct Choice<T> {
     /// Gap and its rate are zero.
     resting: Vec<bool>,
     /// Opens although it is on zero: its force has fallen to zero.
     leaves: Option<usize>,
     /// Begins to slide in this direction: friction has reached its bound.
-    slides: Option<(usize, [f64; 2])>,
+    slides: Option<(usize, [T; 2])>,
     /// Slips below are zero.
     still: Vec<f64>,
     /// The slip is zero whatever its number is.
     stuck: Vec<bool>,
 }
 
-impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
+impl<'k, K: ContactSystem> Instant<'k, K> {
     fn error(&self, contact: Option<usize>, kind: ContactErrorKind) -> ContactError {
-        ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: self.t, kind }
+        ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: value(self.t), kind }
     }
 
     fn failed(&self, contacts: &[usize], failure: Failure) -> ContactError {
@@ -110,19 +115,19 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
         let Self { kernel, t, q, z, .. } = self;
         let (jacobian, rates) = (kernel.contact_jacobian(*t, q), kernel.contact_rates(*t, q, z));
         let of_row = |row: usize| jacobian.nth(row).map_or(0.0, |column| terms(&column, z));
-        let of_rate = (0..K::ContactRows::DIM).map(|row| of_row(row) * 64.0 * f64::EPSILON);
-        let Rounding(size) = Rounding::of::<K>(q);
+        let of_rate = (0..K::ContactRows::DIM).map(|row| of_row(row) * 64.0 * epsilon::<K::Scalar>());
+        let Rounding { size, .. } = Rounding::of::<K>(q);
         let here = kernel.gaps(*t, q);
         let mut rounding = vec![0.0; K::CONTACTS.len()];
         for i in 0..TangentOf::<K>::DIM {
             let mut sigma = TangentOf::<K>::zero();
-            sigma.set_component(i, 16.0 * f64::EPSILON * size);
+            sigma.set_component(i, K::Scalar::from_f64(16.0 * epsilon::<K::Scalar>() * size));
             let moved = kernel.gaps(*t, &q.retract(&sigma));
-            (0..rounding.len()).for_each(|n| rounding[n] += (moved.component(n) - here.component(n)).abs());
+            (0..rounding.len()).for_each(|n| rounding[n] += value(moved.component(n) - here.component(n)).abs());
         }
-        let late = 4.0 * scales.resolution(*t);
+        let late = 4.0 * scales.resolution(value(*t));
         let within = |(contact, rounding): (&gauss_runtime::contact::Contact, &f64)| {
-            late.fma(rates.component(contact.normal).abs(), *rounding)
+            late.fma(value(rates.component(contact.normal)).abs(), *rounding)
         };
         let of_gap = K::CONTACTS.iter().zip(&rounding).map(within).collect();
         Sizes { of_rate: of_rate.collect(), of_gap, rounding, rates }
@@ -144,13 +149,14 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
         let now = self.sizes(scales);
         let mut still: Vec<f64> = before.of_rate.iter().zip(&now.of_rate).map(|(a, b)| a.max(*b)).collect();
         still.iter_mut().zip(noise.iter().flatten()).for_each(|(still, noise)| *still += noise);
-        let rests = |i: usize| closed[i] && now.rates.component(K::CONTACTS[i].normal) <= still[K::CONTACTS[i].normal];
+        let rests =
+            |i: usize| closed[i] && value(now.rates.component(K::CONTACTS[i].normal)) <= still[K::CONTACTS[i].normal];
         let stuck = |i: usize| match self.fired {
             Some(Watched::Speed(n, _)) if n == i => true,
             Some(Watched::Slip(n)) if n == i => {
-                K::CONTACTS[i].tangents == 1 || norm(&slip(&K::CONTACTS[i], &now.rates)) <= scales.rest()
+                K::CONTACTS[i].tangents == 1 || size(&slip(&K::CONTACTS[i], &now.rates)) <= scales.rest()
             }
-            _ => self.modes[i] == Mode::Sticks,
+            _ => matches!(self.modes[i], Mode::Sticks),
         };
         let contacts = 0..K::CONTACTS.len();
         let mut choice = Choice {
@@ -172,7 +178,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
             let Some((i, kind)) = next else { break };
             choice.resting[i] = true;
             self.leave_out_bounces(i, &choice, made)?;
-            events.push(ContactEvent { time: self.t, contact: i, kind });
+            events.push(ContactEvent { time: value(self.t), contact: i, kind });
         }
         if !self.first {
             self.changes(&old, &mut events);
@@ -186,18 +192,19 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
         let Some(Watched::Pushes(i)) = self.fired else { return Ok(()) };
         let input = (made.input)(self.t, &self.q, &self.z);
         let bias = self.kernel.contact_dynamics(self.t, &self.q, &self.z, &input).bias;
-        let presses = bias.component(K::CONTACTS[i].normal) < 0.0;
+        let presses = value(bias.component(K::CONTACTS[i].normal)) < 0.0;
         Err(self.error(Some(i), if presses { ContactErrorKind::Inconsistent } else { ContactErrorKind::Indeterminate }))
     }
 
     /// The direction in which a contact that stuck begins to slide: against its friction.
-    fn begins_to_slide(&self, made: &ContactTrajectory<'k, K>) -> Option<(usize, [f64; 2])> {
+    fn begins_to_slide(&self, made: &ContactTrajectory<'k, K>) -> Option<(usize, [K::Scalar; 2])> {
         let Some(Watched::Cone(i)) = self.fired else { return None };
         let system = InMode::new(self.kernel, &self.modes);
         let loads = system.loads(self.t, &self.q, &self.z, &(made.input)(self.t, &self.q, &self.z));
         let friction = &loads.forces[tangents(&K::CONTACTS[i])];
-        let size = norm(friction);
-        (size > 0.0).then(|| (i, [-friction[0] / size, friction.get(1).map_or(0.0, |f| -f / size)]))
+        let zero = K::Scalar::zero();
+        let length = norm(friction);
+        (value(length) > 0.0).then(|| (i, [-friction[0] / length, friction.get(1).map_or(zero, |f| -*f / length)]))
     }
 
     /// The contacts whose gap is zero. Where one has just closed, the state goes back by as much of the time as the gap
@@ -207,11 +214,11 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
         let sizes = self.sizes(scales);
         let landed = if let Some(Watched::Gap(i)) = self.fired { Some(i) } else { None };
         let closed = (0..K::CONTACTS.len())
-            .map(|i| self.modes[i].is_closed() || landed == Some(i) || gaps.component(i) <= sizes.of_gap[i])
+            .map(|i| self.modes[i].is_closed() || landed == Some(i) || value(gaps.component(i)) <= sizes.of_gap[i])
             .collect();
         if let Some(i) = landed {
             let (gap, rate) = (gaps.component(i), sizes.rates.component(K::CONTACTS[i].normal));
-            if gap < 0.0 && rate < -sizes.of_rate[K::CONTACTS[i].normal] {
+            if value(gap) < 0.0 && value(rate) < -sizes.of_rate[K::CONTACTS[i].normal] {
                 let velocity = self.kernel.kinematics(self.t, &self.q, &self.z);
                 self.q = self.q.retract(&velocity.scale(-gap / rate)).renormalise();
             }
@@ -223,7 +230,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
     fn friction(&self, made: &ContactTrajectory<'k, K>) -> Result<K::Gaps, ContactError> {
         let friction = self.kernel.friction(self.t, &self.q, &self.z, &(made.input)(self.t, &self.q, &self.z));
         for i in 0..K::CONTACTS.len() {
-            let mu = friction.component(i);
+            let mu = value(friction.component(i));
             if !(mu >= 0.0 && mu.is_finite()) {
                 return Err(self.error(Some(i), ContactErrorKind::InvalidFriction { friction: mu }));
             }
@@ -245,7 +252,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
         let most = if scales.law == Impact::Sequential { 10_000 } else { 100 };
         for count in 0..=most {
             let sizes = self.sizes(scales);
-            let rate = |i: usize| sizes.rates.component(K::CONTACTS[i].normal);
+            let rate = |i: usize| value(sizes.rates.component(K::CONTACTS[i].normal));
             let rounding = |row: usize| sizes.of_rate[row] + noise[row];
             let strikes = |&i: &usize| closed[i] && rate(i) < -rounding(K::CONTACTS[i].normal);
             let fastest = (0..closed.len()).filter(strikes).min_by(|&a, &b| rate(a).total_cmp(&rate(b)));
@@ -267,11 +274,12 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
             };
             let blow = struck.solve(scales.law).map_err(|failure| self.failed(&contacts, failure))?;
             self.z = after::<K>(&response, &self.z, &blow.impulses);
-            made.solves.push(SolveRecord { time: self.t, impact: true, residuals: blow.residuals });
-            self.record(&contacts, &sizes.rates, &blow.impulses, (scales.law, made))?;
+            made.solves.push(SolveRecord { time: value(self.t), impact: true, residuals: blow.residuals });
+            let impulses: Vec<f64> = blow.impulses.iter().copied().map(value).collect();
+            self.record(&contacts, &sizes.rates, &impulses, (scales.law, made))?;
             for (row, noise) in noise.iter_mut().enumerate() {
-                let each = blow.impulses.iter().enumerate().map(|(j, x)| (response.delassus[(row, j)] * x).abs());
-                *noise += 64.0 * f64::EPSILON * each.sum::<f64>();
+                let each = impulses.iter().enumerate().map(|(j, x)| (value(response.delassus[(row, j)]) * x).abs());
+                *noise += 64.0 * epsilon::<K::Scalar>() * each.sum::<f64>();
             }
         }
         Ok(Some(noise))
@@ -294,7 +302,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
                 (0..=contact.tangents.min(2)).for_each(|k| three[k] = of(contact.normal + k));
                 three
             };
-            let (u, v) = (three(&|row| before.component(row)), three(&|row| now.component(row)));
+            let (u, v) = (three(&|row| value(before.component(row))), three(&|row| value(now.component(row))));
             let impulse = three(&|row| impulses[row]);
             let work: Vec<f64> = (0..3).map(|k| 0.5 * impulse[k] * (u[k] + v[k])).collect();
             let energy_lost = -work.iter().sum::<f64>();
@@ -302,12 +310,12 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
             terms += (0..3).map(|k| (impulse[k] * u[k]).abs() + (impulse[k] * v[k]).abs()).sum::<f64>();
             if impulse != [0.0; 3] {
                 let kind = EventKind::Impact(ImpactRecord { before: u, after: v, impulse, energy_lost });
-                made.events.push(ContactEvent { time: self.t, contact: i, kind });
+                made.events.push(ContactEvent { time: value(self.t), contact: i, kind });
             }
         }
         // Rates after are sums of R products, each with its roundings.
-        if lost < -64.0 * (1 + impulses.len()) as f64 * f64::EPSILON * terms {
-            let after = self.kernel.kinetic_energy(self.t, &self.q, &self.z);
+        if lost < -64.0 * (1 + impulses.len()) as f64 * epsilon::<K::Scalar>() * terms {
+            let after = value(self.kernel.kinetic_energy(self.t, &self.q, &self.z));
             return Err(
                 self.error(Some(contacts[0]), ContactErrorKind::EnergyGrows { law, before: after + lost, after })
             );
@@ -320,15 +328,15 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
     fn comes_to_rest(&self, i: usize, accelerations: &[f64], scales: &Scales) -> Option<EventKind> {
         let normal = K::CONTACTS[i].normal;
         let sizes = self.sizes(scales);
-        let (speed, fall) = (sizes.rates.component(normal), -accelerations[normal]);
-        let e = self.kernel.restitution().component(i);
+        let (speed, fall) = (value(sizes.rates.component(normal)), -accelerations[normal]);
+        let e = value(self.kernel.restitution().component(i));
         if !(fall > 0.0 && e < 1.0) {
             return None;
         }
         let (height, remaining) = (speed * speed / (2.0 * fall), 2.0 * speed / (fall * (1.0 - e)));
         let over = speed <= scales.rest()
             || height <= 8.0 * sizes.rounding[i]
-            || remaining <= 16.0 * scales.resolution(self.t);
+            || remaining <= 16.0 * scales.resolution(value(self.t));
         over.then_some(EventKind::Rests { speed, height, remaining })
     }
 
@@ -337,23 +345,23 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
     fn leave_out_bounces(
         &mut self,
         i: usize,
-        choice: &Choice,
+        choice: &Choice<K::Scalar>,
         made: &ContactTrajectory<'k, K>,
     ) -> Result<(), ContactError> {
         let (contact, rates) = (&K::CONTACTS[i], self.kernel.contact_rates(self.t, &self.q, &self.z));
         let response = self.kernel.contact_response(self.t, &self.q);
-        let mut impulses = vec![0.0; K::ContactRows::DIM];
-        impulses[contact.normal] = 1.0;
+        let mut impulses = vec![K::Scalar::zero(); K::ContactRows::DIM];
+        impulses[contact.normal] = K::Scalar::one();
         let along = slip(contact, &rates);
-        let size = norm(&along);
-        if size > norm(&choice.still[tangents(contact)]) {
+        if size(&along) > norm(&choice.still[tangents(contact)]) {
+            let length = norm(&along);
             let mu = self.friction(made)?.component(i);
-            tangents(contact).zip(along).for_each(|(row, s)| impulses[row] = -mu * s / size);
+            tangents(contact).zip(along).for_each(|(row, s)| impulses[row] = -mu * s / length);
         }
-        let unit = impulses.iter().enumerate().map(|(row, part)| response.delassus[(contact.normal, row)] * part);
-        let lifted = unit.sum::<f64>();
+        let unit = impulses.iter().enumerate().map(|(row, part)| response.delassus[(contact.normal, row)] * *part);
+        let lifted = sum(unit);
         // Else the gap's rate alone is taken away, with the projection.
-        if lifted > 0.0 {
+        if value(lifted) > 0.0 {
             let by = -rates.component(contact.normal) / lifted;
             impulses.iter_mut().for_each(|part| *part *= by);
             self.z = after::<K>(&response, &self.z, &impulses);
@@ -362,7 +370,11 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
     }
 
     /// Chooses the modes of the contacts that rest, brings the state onto them; the accelerations of all rows.
-    fn choose(&mut self, choice: &mut Choice, made: &mut ContactTrajectory<'k, K>) -> Result<Vec<f64>, ContactError> {
+    fn choose(
+        &mut self,
+        choice: &mut Choice<K::Scalar>,
+        made: &mut ContactTrajectory<'k, K>,
+    ) -> Result<Vec<f64>, ContactError> {
         // Each time one of the two that are forced is given up.
         loop {
             let contacts: Vec<usize> =
@@ -375,11 +387,13 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
             let matrix = Matrix::from_fn(rows.len(), |i, j| delassus[(rows[i], rows[j])]);
             let bias = rows.iter().map(|&row| dynamics.bias.component(row)).collect();
             let solver = Contacts::new(laws.clone(), matrix, bias);
-            let solution = solver.solve(vec![0.0; rows.len()]).map_err(|failure| self.failed(&contacts, failure))?;
+            let solution = solver.solution().map_err(|failure| self.failed(&contacts, failure))?;
             let rate = |row: usize| {
-                let each = rows.iter().zip(&solution.forces).map(|(&column, force)| delassus[(row, column)] * force);
-                let terms = each.clone().fold(dynamics.bias.component(row).abs(), |sum, term| sum + term.abs());
-                (each.fold(dynamics.bias.component(row), |sum, term| sum + term), 256.0 * f64::EPSILON * terms)
+                let each =
+                    rows.iter().zip(&solution.forces).map(|(&column, force)| value(delassus[(row, column)] * *force));
+                let free = value(dynamics.bias.component(row));
+                let terms = each.clone().fold(free.abs(), |sum, term| sum + term.abs());
+                (each.fold(free, |sum, term| sum + term), 256.0 * epsilon::<K::Scalar>() * terms)
             };
             let accelerations: Vec<(f64, f64)> = (0..K::ContactRows::DIM).map(rate).collect();
             let falls_back = choice.leaves.is_some_and(|i| {
@@ -388,7 +402,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
             });
             let slides_back = choice.slides.is_some_and(|(i, along)| {
                 let each = tangents(&K::CONTACTS[i]).zip(along);
-                each.clone().map(|(row, s)| accelerations[row].0 * s).sum::<f64>()
+                each.clone().map(|(row, s)| accelerations[row].0 * value(s)).sum::<f64>()
                     < -each.map(|(row, _)| accelerations[row].1).sum::<f64>()
             });
             if falls_back || slides_back {
@@ -408,7 +422,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
             }
             self.modes = modes;
             let residuals = contacts.into_iter().zip(solution.residuals).collect();
-            made.solves.push(SolveRecord { time: self.t, impact: false, residuals });
+            made.solves.push(SolveRecord { time: value(self.t), impact: false, residuals });
             return Ok(accelerations.into_iter().map(|(rate, _)| rate).collect());
         }
     }
@@ -417,9 +431,9 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
     fn bring_to_rest(
         &mut self,
         contacts: &[usize],
-        choice: &mut Choice,
+        choice: &mut Choice<K::Scalar>,
         made: &ContactTrajectory<'k, K>,
-    ) -> Result<Vec<Law>, ContactError> {
+    ) -> Result<Vec<Law<K::Scalar>>, ContactError> {
         // Slips that depend on one another end together: what one of them stops, no other slides on by.
         let slips = loop {
             let slips: Vec<_> = contacts.iter().map(|&i| self.slides(i, choice)).collect();
@@ -442,7 +456,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
             stopped.into_iter().for_each(|i| choice.stuck[i] = true);
         };
         let friction = self.friction(made)?;
-        let law = |(&i, slip): (&usize, Option<[f64; 2]>)| {
+        let law = |(&i, slip): (&usize, Option<[K::Scalar; 2]>)| {
             let tangents = K::CONTACTS[i].tangents;
             let forced = choice.slides.filter(|(n, _)| *n == i).map(|(_, along)| along);
             Law { tangents, friction: friction.component(i), slip: slip.or(forced).filter(|_| tangents > 0) }
@@ -451,28 +465,33 @@ impl<'k, K: ContactSystem<Scalar = f64>> Instant<'k, K> {
     }
 
     /// The direction in which a contact slides.
-    fn slides(&self, i: usize, choice: &Choice) -> Option<[f64; 2]> {
+    fn slides(&self, i: usize, choice: &Choice<K::Scalar>) -> Option<[K::Scalar; 2]> {
         let contact = &K::CONTACTS[i];
         let along = slip(contact, &self.kernel.contact_rates(self.t, &self.q, &self.z));
-        let size = norm(&along);
-        (!choice.stuck[i] && size > norm(&choice.still[tangents(contact)])).then(|| along.map(|s| s / size))
+        let moves = !choice.stuck[i] && size(&along) > norm(&choice.still[tangents(contact)]);
+        moves.then(|| {
+            let length = norm(&along);
+            along.map(|s| s / length)
+        })
     }
 
     /// Changes of modes as events.
-    fn changes(&self, old: &[Mode], events: &mut Vec<ContactEvent>) {
+    fn changes(&self, old: &[Mode<K::Scalar>], events: &mut Vec<ContactEvent>) {
         for (contact, (old, new)) in old.iter().zip(&self.modes).enumerate() {
-            let reverses = |a: &[f64; 2], b: &[f64; 2]| a[0] * b[0] + a[1] * b[1] < 0.0;
+            let reverses = |a: &[K::Scalar; 2], b: &[K::Scalar; 2]| value(a[0] * b[0] + a[1] * b[1]) < 0.0;
             let kind = match (old, new) {
                 (Mode::Open, new) if new.is_closed() && events.iter().all(|event| event.contact != contact) => {
                     EventKind::Closes
                 }
                 (old, Mode::Open) if old.is_closed() => EventKind::Leaves,
-                (Mode::Sticks, Mode::Slides(along)) => EventKind::Slides(*along),
+                (Mode::Sticks, Mode::Slides(along)) => EventKind::Slides(along.map(value)),
                 (Mode::Slides(_), Mode::Sticks) => EventKind::Sticks,
-                (Mode::Slides(before), Mode::Slides(along)) if reverses(before, along) => EventKind::Reverses(*along),
+                (Mode::Slides(before), Mode::Slides(along)) if reverses(before, along) => {
+                    EventKind::Reverses(along.map(value))
+                }
                 _ => continue,
             };
-            events.push(ContactEvent { time: self.t, contact, kind });
+            events.push(ContactEvent { time: value(self.t), contact, kind });
         }
     }
 }

@@ -5,25 +5,40 @@ use alloc::vec::Vec;
 
 use gauss_runtime::real::Real;
 
-/// A square matrix, row by row.
-#[derive(Clone, Debug)]
-pub(crate) struct Matrix {
-    size: usize,
-    entries: Vec<f64>,
+/// The value of a number, by which decisions are made.
+pub(crate) fn value<T: Real>(x: T) -> f64 {
+    x.lane(0)
 }
 
-impl Matrix {
-    pub(crate) fn from_fn(size: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
+/// The rounding of values.
+pub(crate) fn epsilon<T: Real>() -> f64 {
+    T::EPSILON.max(f64::EPSILON)
+}
+
+/// A square matrix, row by row.
+#[derive(Clone, Debug)]
+pub(crate) struct Matrix<T = f64> {
+    size: usize,
+    entries: Vec<T>,
+}
+
+impl<T: Real> Matrix<T> {
+    pub(crate) fn from_fn(size: usize, entry: impl Fn(usize, usize) -> T) -> Self {
         let entries = (0..size * size).map(|n| entry(n / size, n % size)).collect();
         Self { size, entries }
     }
 
-    pub(crate) fn at(&self, i: usize, j: usize) -> f64 {
+    pub(crate) fn at(&self, i: usize, j: usize) -> T {
         self.entries[i * self.size + j]
     }
 
-    pub(crate) fn row(&self, i: usize) -> &[f64] {
+    pub(crate) fn row(&self, i: usize) -> &[T] {
         &self.entries[i * self.size..(i + 1) * self.size]
+    }
+
+    /// The values of the entries.
+    pub(crate) fn values(&self) -> Matrix {
+        Matrix { size: self.size, entries: self.entries.iter().copied().map(value).collect() }
     }
 }
 
@@ -33,35 +48,37 @@ impl Matrix {
 /// a column, after those of larger remainders are taken out, is rounding where it is below 64 n roundings of the
 /// largest: n terms of products that the matrix was made of, with a factor for the steps before them. Directions nearer
 /// to one another than √(64 n ε), 10⁻⁷ rad and some, are therefore dependent: their products do not tell them apart.
+///
+/// Columns are chosen by values. Derivatives are right where dependent columns stay dependent nearby.
 #[derive(Debug)]
-pub(crate) struct Decomposition {
-    scale: Vec<f64>,
+pub(crate) struct Decomposition<T = f64> {
+    scale: Vec<T>,
     /// Orthonormal columns, and the rows of their products with the columns of the matrix.
-    columns: Vec<Vec<f64>>,
-    rows: Vec<Vec<f64>>,
+    columns: Vec<Vec<T>>,
+    rows: Vec<Vec<T>>,
     /// The order in which columns were taken.
     order: Vec<usize>,
 }
 
-impl Decomposition {
+impl<T: Real> Decomposition<T> {
     /// `diagonal`: that of Delassus' matrix at these rows.
-    pub(crate) fn new(matrix: &Matrix, diagonal: impl Fn(usize) -> f64) -> Self {
+    pub(crate) fn new(matrix: &Matrix<T>, diagonal: impl Fn(usize) -> T) -> Self {
         let n = matrix.size;
-        let scale: Vec<f64> = (0..n).map(|i| reciprocal_root(diagonal(i))).collect();
+        let scale: Vec<T> = (0..n).map(|i| reciprocal_root(diagonal(i))).collect();
         let scaled = |i: usize, j: usize| matrix.at(i, j) * scale[i] * scale[j];
-        let mut rest: Vec<Vec<f64>> = (0..n).map(|j| (0..n).map(|i| scaled(i, j)).collect()).collect();
-        let (mut columns, mut rows, mut order) = (Vec::<Vec<f64>>::new(), Vec::<Vec<f64>>::new(), Vec::new());
+        let mut rest: Vec<Vec<T>> = (0..n).map(|j| (0..n).map(|i| scaled(i, j)).collect()).collect();
+        let (mut columns, mut rows, mut order) = (Vec::<Vec<T>>::new(), Vec::<Vec<T>>::new(), Vec::new());
         let mut largest = 0.0_f64;
         while order.len() < n {
             let left = (0..n).filter(|j| !order.contains(j));
-            let Some((next, size)) = left
-                .map(|j| (j, norm(&rest[j])))
+            let Some((next, most)) = left
+                .map(|j| (j, size(&rest[j])))
                 .max_by(|a, b| a.1.partial_cmp(&b.1).unwrap_or(core::cmp::Ordering::Equal))
             else {
                 break;
             };
-            largest = largest.max(size);
-            if size <= 64.0 * n as f64 * f64::EPSILON * largest || size.is_nan() {
+            largest = largest.max(most);
+            if most <= 64.0 * n as f64 * epsilon::<T>() * largest || most.is_nan() {
                 break;
             }
             let mut column = rest[next].clone();
@@ -71,10 +88,10 @@ impl Decomposition {
                 row[next] += part;
                 add(&mut column, -part, q);
             }
-            let size = norm(&column);
-            column.iter_mut().for_each(|x| *x /= size);
-            let mut row = vec![0.0; n];
-            row[next] = size;
+            let length = norm(&column);
+            column.iter_mut().for_each(|x| *x /= length);
+            let mut row = vec![T::zero(); n];
+            row[next] = length;
             order.push(next);
             for j in (0..n).filter(|j| !order.contains(j)) {
                 row[j] = dot(&column, &rest[j]);
@@ -92,46 +109,46 @@ impl Decomposition {
     }
 
     /// The x that solves `M x = b` best, and of these the one of least norm in scaled unknowns: Σ D_ii x_i².
-    pub(crate) fn solve(&self, b: &[f64]) -> Vec<f64> {
-        let mut rest: Vec<f64> = b.iter().zip(&self.scale).map(|(b, scale)| b * scale).collect();
-        let mut parts: Vec<f64> = Vec::with_capacity(self.rank());
+    pub(crate) fn solve(&self, b: &[T]) -> Vec<T> {
+        let mut rest: Vec<T> = b.iter().zip(&self.scale).map(|(b, scale)| *b * *scale).collect();
+        let mut parts: Vec<T> = Vec::with_capacity(self.rank());
         for column in &self.columns {
             let part = dot(column, &rest);
             add(&mut rest, -part, column);
             parts.push(part);
         }
         let mut x = if self.rank() == b.len() { self.back(&parts) } else { self.least(&parts) };
-        x.iter_mut().zip(&self.scale).for_each(|(x, scale)| *x *= scale);
+        x.iter_mut().zip(&self.scale).for_each(|(x, scale)| *x *= *scale);
         x
     }
 
     /// All columns are independent.
-    fn back(&self, parts: &[f64]) -> Vec<f64> {
-        let mut x = vec![0.0; parts.len()];
+    fn back(&self, parts: &[T]) -> Vec<T> {
+        let mut x = vec![T::zero(); parts.len()];
         for k in (0..parts.len()).rev() {
-            let known: f64 = self.order[k + 1..].iter().map(|&j| self.rows[k][j] * x[j]).sum();
+            let known = sum(self.order[k + 1..].iter().map(|&j| self.rows[k][j] * x[j]));
             x[self.order[k]] = (parts[k] - known) / self.rows[k][self.order[k]];
         }
         x
     }
 
     /// A combination of the rows.
-    fn least(&self, parts: &[f64]) -> Vec<f64> {
+    fn least(&self, parts: &[T]) -> Vec<T> {
         let n = self.scale.len();
-        let (mut basis, mut weights) = (Vec::<Vec<f64>>::new(), Vec::<f64>::new());
-        let mut x = vec![0.0; n];
+        let (mut basis, mut weights) = (Vec::<Vec<T>>::new(), Vec::<T>::new());
+        let mut x = vec![T::zero(); n];
         for (row, part) in self.rows.iter().zip(parts) {
-            let (mut direction, mut known) = (row.clone(), 0.0);
+            let (mut direction, mut known) = (row.clone(), T::zero());
             for _ in 0..2 {
                 for (q, weight) in basis.iter().zip(&weights) {
                     let product = dot(q, &direction);
-                    known += product * weight;
+                    known += product * *weight;
                     add(&mut direction, -product, q);
                 }
             }
-            let size = norm(&direction);
-            direction.iter_mut().for_each(|d| *d /= size);
-            let weight = (part - known) / size;
+            let length = norm(&direction);
+            direction.iter_mut().for_each(|d| *d /= length);
+            let weight = (*part - known) / length;
             add(&mut x, weight, &direction);
             basis.push(direction);
             weights.push(weight);
@@ -140,20 +157,29 @@ impl Decomposition {
     }
 }
 
-fn reciprocal_root(diagonal: f64) -> f64 {
-    if diagonal > 0.0 { Real::sqrt(diagonal).recip() } else { 1.0 }
+fn reciprocal_root<T: Real>(diagonal: T) -> T {
+    if value(diagonal) > 0.0 { diagonal.sqrt().recip() } else { T::one() }
 }
 
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+pub(crate) fn sum<T: Real>(terms: impl Iterator<Item = T>) -> T {
+    terms.fold(T::zero(), |sum, term| sum + term)
 }
 
-pub(crate) fn norm(a: &[f64]) -> f64 {
-    Real::sqrt(dot(a, a))
+pub(crate) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
+    sum(a.iter().zip(b).map(|(a, b)| *a * *b))
 }
 
-fn add(a: &mut [f64], factor: f64, b: &[f64]) {
-    a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
+pub(crate) fn norm<T: Real>(a: &[T]) -> T {
+    dot(a, a).sqrt()
+}
+
+/// The norm of the values: of what may vanish, where the norm has no derivative.
+pub(crate) fn size<T: Real>(a: &[T]) -> f64 {
+    Real::sqrt(sum(a.iter().map(|x| value(*x) * value(*x))))
+}
+
+fn add<T: Real>(a: &mut [T], factor: T, b: &[T]) {
+    a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * *b);
 }
 
 #[cfg(test)]

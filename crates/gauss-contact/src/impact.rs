@@ -6,8 +6,9 @@ use alloc::vec::Vec;
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::{ContactResponse, ContactSystem};
 use gauss_runtime::forces::Columns;
+use gauss_runtime::real::Real;
 
-use crate::dense::Matrix;
+use crate::dense::{Matrix, value};
 use crate::solver::{Contacts, Failure, Law, Residual};
 
 /// What an impact does to velocities u⁻ of the contacts that are closed: `u⁺ = u⁻ + D Λ` with impulses Λ.
@@ -41,8 +42,8 @@ pub(crate) struct Struck<'a, K: ContactSystem> {
 }
 
 /// Impulses of all rows, and the residual of each contact that was struck.
-pub(crate) struct Blow {
-    pub(crate) impulses: Vec<f64>,
+pub(crate) struct Blow<T> {
+    pub(crate) impulses: Vec<T>,
     pub(crate) residuals: Vec<(usize, Residual)>,
 }
 
@@ -51,23 +52,24 @@ pub(crate) fn rows<K: ContactSystem>(contacts: &[usize]) -> Vec<usize> {
     contacts.iter().flat_map(|&i| K::CONTACTS[i].normal..=K::CONTACTS[i].normal + K::CONTACTS[i].tangents).collect()
 }
 
-impl<K: ContactSystem<Scalar = f64>> Struck<'_, K> {
+impl<K: ContactSystem> Struck<'_, K> {
     /// The impulses that a law asks for.
-    pub(crate) fn solve(&self, law: Impact) -> Result<Blow, Failure> {
+    pub(crate) fn solve(&self, law: Impact) -> Result<Blow<K::Scalar>, Failure> {
+        let (zero, one) = (K::Scalar::zero(), K::Scalar::one());
         let rows = rows::<K>(self.contacts);
         let owner: Vec<usize> =
             self.contacts.iter().flat_map(|&i| core::iter::repeat_n(i, 1 + K::CONTACTS[i].tangents)).collect();
-        let closing = |i: usize| self.rates.component(K::CONTACTS[i].normal) < 0.0;
-        let e = |i: usize| if closing(i) { self.restitution.component(i) } else { 0.0 };
+        let closing = |i: usize| value(self.rates.component(K::CONTACTS[i].normal)) < 0.0;
+        let e = |i: usize| if closing(i) { self.restitution.component(i) } else { zero };
         let delassus = &self.response.delassus;
         let moreau = law == Impact::Moreau;
         let entry = |a: usize, b: usize| {
-            let part = if moreau { 1.0 + e(owner[a]) } else { 1.0 };
+            let part = if moreau { one + e(owner[a]) } else { one };
             delassus[(rows[a], rows[b])] / part
         };
         let before = |a: usize| {
             let normal = K::CONTACTS[owner[a]].normal == rows[a];
-            let part = if normal && !moreau { 1.0 + e(owner[a]) } else { 1.0 };
+            let part = if normal && !moreau { one + e(owner[a]) } else { one };
             part * self.rates.component(rows[a])
         };
         let law_of =
@@ -75,8 +77,8 @@ impl<K: ContactSystem<Scalar = f64>> Struck<'_, K> {
         let laws = self.contacts.iter().map(law_of).collect();
         let b = (0..rows.len()).map(before).collect();
         let contacts = Contacts::new(laws, Matrix::from_fn(rows.len(), entry), b);
-        let solution = contacts.solve(vec![0.0; rows.len()])?;
-        let mut impulses = vec![0.0; K::ContactRows::DIM];
+        let solution = contacts.solution()?;
+        let mut impulses = vec![zero; K::ContactRows::DIM];
         rows.iter().zip(&solution.forces).for_each(|(&row, impulse)| impulses[row] = *impulse);
         let residuals = self.contacts.iter().copied().zip(solution.residuals).collect();
         Ok(Blow { impulses, residuals })
@@ -84,10 +86,10 @@ impl<K: ContactSystem<Scalar = f64>> Struck<'_, K> {
 }
 
 /// Velocities after impulses.
-pub(crate) fn after<K: ContactSystem<Scalar = f64>>(
+pub(crate) fn after<K: ContactSystem>(
     response: &ContactResponse<K>,
     z: &K::Speeds,
-    impulses: &[f64],
+    impulses: &[K::Scalar],
 ) -> K::Speeds {
     let each = impulses.iter().enumerate().filter_map(|(row, impulse)| Some((impulse, response.columns.nth(row)?)));
     each.fold(*z, |z, (impulse, column)| z.add_scaled(*impulse, &column))

@@ -7,6 +7,7 @@
 use alloc::rc::Rc;
 use alloc::vec;
 use alloc::vec::Vec;
+use core::fmt;
 
 use gauss_runtime::chart::Chart;
 use gauss_runtime::configuration::{Configuration, VectorSpace};
@@ -17,12 +18,12 @@ use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 use gauss_runtime::system::{GaussSystem, Smoothness};
 
-use crate::dense::{Decomposition, Matrix, norm};
+use crate::dense::{Decomposition, Matrix, epsilon, norm, sum, value};
 use crate::impact::after;
 
 /// What a contact does during a part of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Mode {
+pub enum Mode<T = f64> {
     /// The gap is open.
     Open,
     /// The gap is closed and stays so; there is no friction.
@@ -30,26 +31,31 @@ pub enum Mode {
     /// The gap is closed, and the slip is zero.
     Sticks,
     /// The gap is closed, and the slip has this direction along the tangents; of two tangents, at the start.
-    Slides([f64; 2]),
+    Slides([T; 2]),
 }
 
-impl Mode {
+impl<T> Mode<T> {
     /// Whether the gap is closed.
     #[must_use]
-    pub fn is_closed(self) -> bool {
-        self != Self::Open
+    pub fn is_closed(&self) -> bool {
+        !matches!(self, Self::Open)
     }
 }
 
 /// A system in given modes of its contacts. [`GaussSystem::project`] brings closed gaps, their rates, and slips that
 /// stick to zero, in the metric of the kinetic energy.
-#[derive(Debug)]
-pub struct InMode<'k, K> {
+pub struct InMode<'k, K: ContactSystem> {
     pub(crate) kernel: &'k K,
-    pub(crate) modes: Rc<[Mode]>,
+    pub(crate) modes: Rc<[Mode<K::Scalar>]>,
 }
 
-impl<K> Clone for InMode<'_, K> {
+impl<K: ContactSystem> fmt::Debug for InMode<'_, K> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("InMode").field("modes", &self.modes).finish_non_exhaustive()
+    }
+}
+
+impl<K: ContactSystem> Clone for InMode<'_, K> {
     fn clone(&self) -> Self {
         Self { kernel: self.kernel, modes: Rc::clone(&self.modes) }
     }
@@ -59,16 +65,16 @@ impl<K> Clone for InMode<'_, K> {
 pub(crate) struct Loads<K: ContactSystem> {
     pub(crate) dynamics: ContactDynamics<K>,
     /// λ, all rows.
-    pub(crate) forces: Vec<f64>,
+    pub(crate) forces: Vec<K::Scalar>,
 }
 
-impl<K: ContactSystem<Scalar = f64>> Loads<K> {
+impl<K: ContactSystem> Loads<K> {
     /// What rounding makes of the normal force of a contact: that of the terms of its acceleration.
     pub(crate) fn rounding(&self, contact: &Contact) -> f64 {
         let (normal, d) = (contact.normal, &self.dynamics.response.delassus);
-        let each = self.forces.iter().enumerate().map(|(row, force)| (d[(normal, row)] * force).abs());
-        let terms = each.fold(self.dynamics.bias.component(normal).abs(), |sum, term| sum + term);
-        256.0 * f64::EPSILON * terms / Real::max(d[(normal, normal)], f64::MIN_POSITIVE)
+        let each = self.forces.iter().enumerate().map(|(row, force)| value(d[(normal, row)] * *force).abs());
+        let terms = each.fold(value(self.dynamics.bias.component(normal)).abs(), |sum, term| sum + term);
+        256.0 * epsilon::<K::Scalar>() * terms / value(d[(normal, normal)]).max(f64::MIN_POSITIVE)
     }
 }
 
@@ -78,52 +84,62 @@ pub(crate) fn tangents(contact: &Contact) -> core::ops::Range<usize> {
 }
 
 /// The slip of a contact.
-pub(crate) fn slip<V: VectorSpace<f64>>(contact: &Contact, rates: &V) -> [f64; 2] {
-    let mut slip = [0.0; 2];
+pub(crate) fn slip<T: Real, V: VectorSpace<T>>(contact: &Contact, rates: &V) -> [T; 2] {
+    let mut slip = [T::zero(); 2];
     tangents(contact).zip(&mut slip).for_each(|(row, s)| *s = rates.component(row));
     slip
 }
 
 /// The sizes of the terms of a rate together: what its rounding is relative to.
-pub(crate) fn terms<V: VectorSpace<f64>>(column: &V, z: &V) -> f64 {
-    (0..V::DIM).map(|j| (column.component(j) * z.component(j)).abs()).sum()
+pub(crate) fn terms<T: Real, V: VectorSpace<T>>(column: &V, z: &V) -> f64 {
+    (0..V::DIM).map(|j| value(column.component(j) * z.component(j)).abs()).sum()
 }
 
 /// Where the slip of a contact with two tangents leads, as a smooth function beyond the line through zero that is
 /// perpendicular to `reference`: mirrored there, so that a motion that stops passes on straight. What is across the
 /// reference by rounding alone has no direction, however small the slip is.
-fn direction(reference: [f64; 2], [x, y]: [f64; 2], rounding: f64) -> [f64; 2] {
+fn direction<T: Real>(reference: [T; 2], [x, y]: [T; 2], rounding: f64) -> [T; 2] {
     let along = x * reference[0] + y * reference[1];
     let across = y * reference[0] - x * reference[1];
-    if across.abs() <= rounding {
+    let straight = value(across).abs() <= rounding;
+    if straight && (!T::DERIVATIVES || value(along).abs() <= rounding) {
         return reference;
     }
-    let back = -2.0 * Real::min(along, 0.0);
+    let back = T::from_f64(-2.0) * along.min(T::zero());
     let slip = [back.fma(reference[0], x), back.fma(reference[1], y)];
     let size = norm(&slip);
-    slip.map(|s| s / size)
+    let turned = slip.map(|s| s / size);
+    // Derivatives are those of the slip.
+    let kept = |k: usize| turned[k] + T::from_f64(value(reference[k]) - value(turned[k]));
+    if straight { [kept(0), kept(1)] } else { turned }
 }
 
-impl<'k, K: ContactSystem<Scalar = f64>> InMode<'k, K> {
-    pub(crate) fn new(kernel: &'k K, modes: &[Mode]) -> Self {
+/// The least number of Newton's corrections of a state: each one that values do not need doubles the order up to which
+/// derivatives are right.
+fn corrections<T: Real>() -> usize {
+    if T::DERIVATIVES { 3 } else { 0 }
+}
+
+impl<'k, K: ContactSystem> InMode<'k, K> {
+    pub(crate) fn new(kernel: &'k K, modes: &[Mode<K::Scalar>]) -> Self {
         Self { kernel, modes: modes.into() }
     }
 
     /// The mode of each contact.
     #[must_use]
-    pub fn modes(&self) -> &[Mode] {
+    pub fn modes(&self) -> &[Mode<K::Scalar>] {
         &self.modes
     }
 
-    fn closed(&self) -> impl Iterator<Item = (usize, &'static Contact, Mode)> {
+    fn closed(&self) -> impl Iterator<Item = (usize, &'static Contact, Mode<K::Scalar>)> {
         let each = K::CONTACTS.iter().zip(self.modes.iter()).enumerate();
         each.filter(|(_, (_, mode))| mode.is_closed()).map(|(i, (contact, mode))| (i, contact, *mode))
     }
 
     /// The rows of constraints: normals of closed contacts, tangents of those that stick where `velocities`.
     fn rows(&self, velocities: bool) -> Vec<usize> {
-        let of = |(_, contact, mode): (usize, &Contact, Mode)| {
-            let more = if velocities && mode == Mode::Sticks { contact.tangents } else { 0 };
+        let of = |(_, contact, mode): (usize, &Contact, Mode<K::Scalar>)| {
+            let more = if velocities && matches!(mode, Mode::Sticks) { contact.tangents } else { 0 };
             contact.normal..=contact.normal + more
         };
         self.closed().flat_map(of).collect()
@@ -133,52 +149,53 @@ impl<'k, K: ContactSystem<Scalar = f64>> InMode<'k, K> {
     pub(crate) fn direction(
         &self,
         contact: &Contact,
-        reference: [f64; 2],
-        (t, q, z): (f64, &K::Configuration, &K::Speeds),
-    ) -> [f64; 2] {
+        reference: [K::Scalar; 2],
+        (t, q, z): (K::Scalar, &K::Configuration, &K::Speeds),
+    ) -> [K::Scalar; 2] {
         if contact.tangents < 2 {
             return reference;
         }
         let jacobian = self.kernel.contact_jacobian(t, q);
         let size: f64 = tangents(contact).filter_map(|row| jacobian.nth(row)).map(|column| terms(&column, z)).sum();
         let slip = slip(contact, &self.kernel.contact_rates(t, q, z));
-        direction(reference, slip, 64.0 * f64::EPSILON * size)
+        direction(reference, slip, 64.0 * epsilon::<K::Scalar>() * size)
     }
 
     /// λ at a state.
-    pub(crate) fn loads(&self, t: f64, q: &K::Configuration, z: &K::Speeds, input: &K::Input) -> Loads<K> {
+    pub(crate) fn loads(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds, input: &K::Input) -> Loads<K> {
+        let one = K::Scalar::one();
         let dynamics = self.kernel.contact_dynamics(t, q, z, input);
         let d = &dynamics.response.delassus;
-        let mut forces = vec![0.0; K::ContactRows::DIM];
+        let mut forces = vec![K::Scalar::zero(); K::ContactRows::DIM];
         let sliding = self.closed().any(|(.., mode)| matches!(mode, Mode::Slides(_)));
         let friction = sliding.then(|| self.kernel.friction(t, q, z, input));
         let mut rows = Vec::new();
-        let mut with: Vec<Vec<(usize, f64)>> = Vec::new();
+        let mut with: Vec<Vec<(usize, K::Scalar)>> = Vec::new();
         for (i, contact, mode) in self.closed() {
             rows.push(contact.normal);
-            let mut column = vec![(contact.normal, 1.0)];
+            let mut column = vec![(contact.normal, one)];
             if let (Mode::Slides(reference), Some(friction)) = (mode, &friction) {
                 let along = self.direction(contact, reference, (t, q, z));
                 let mu = friction.component(i);
                 column.extend(tangents(contact).zip(along).map(|(row, s)| (row, -mu * s)));
             }
             with.push(column);
-            if mode == Mode::Sticks {
+            if matches!(mode, Mode::Sticks) {
                 tangents(contact).for_each(|row| {
                     rows.push(row);
-                    with.push(vec![(row, 1.0)]);
+                    with.push(vec![(row, one)]);
                 });
             }
         }
-        let entry = |i: usize, j: usize| with[j].iter().map(|(row, part)| part * d[(rows[i], *row)]).sum();
+        let entry = |i: usize, j: usize| sum(with[j].iter().map(|(row, part)| *part * d[(rows[i], *row)]));
         let factors = Decomposition::new(&Matrix::from_fn(rows.len(), entry), |i| d[(rows[i], rows[i])]);
         for _ in 0..2 {
             let rate = |&row: &usize| {
-                forces.iter().enumerate().fold(dynamics.bias.component(row), |u, (j, f)| u + d[(row, j)] * f)
+                forces.iter().enumerate().fold(dynamics.bias.component(row), |u, (j, f)| u + d[(row, j)] * *f)
             };
-            let left: Vec<f64> = rows.iter().map(|row| -rate(row)).collect();
+            let left: Vec<_> = rows.iter().map(|row| -rate(row)).collect();
             for (unknown, with) in factors.solve(&left).into_iter().zip(&with) {
-                with.iter().for_each(|(row, part)| forces[*row] += part * unknown);
+                with.iter().for_each(|(row, part)| forces[*row] += *part * unknown);
             }
         }
         Loads { dynamics, forces }
@@ -186,57 +203,59 @@ impl<'k, K: ContactSystem<Scalar = f64>> InMode<'k, K> {
 
     /// `x + Σ λ column`, where components that are no more than the rounding of their terms are 0: what rests does not
     /// creep.
-    fn pushed(x: &K::Speeds, columns: &K::ContactColumns, forces: &[f64]) -> K::Speeds {
+    fn pushed(x: &K::Speeds, columns: &K::ContactColumns, forces: &[K::Scalar]) -> K::Speeds {
         let (mut sum, mut terms) = (*x, vec![0.0; K::Speeds::DIM]);
-        (0..terms.len()).for_each(|i| terms[i] = x.component(i).abs());
+        (0..terms.len()).for_each(|i| terms[i] = value(x.component(i)).abs());
         let mut count = 1;
-        for (row, force) in forces.iter().enumerate().filter(|(_, force)| **force != 0.0) {
+        let acts = |force: K::Scalar| K::Scalar::DERIVATIVES || value(force) != 0.0;
+        for (row, force) in forces.iter().enumerate().filter(|(_, force)| acts(**force)) {
             let Some(column) = columns.nth(row) else { continue };
             sum = sum.add_scaled(*force, &column);
-            (0..terms.len()).for_each(|i| terms[i] += (force * column.component(i)).abs());
+            (0..terms.len()).for_each(|i| terms[i] += value(*force * column.component(i)).abs());
             count += 1;
         }
         // Each term has roundings of its own, those of its factors and of the solution for λ.
-        let part = 16.0 * f64::from(count) * f64::EPSILON;
+        let part = 16.0 * f64::from(count) * epsilon::<K::Scalar>();
         for (i, terms) in terms.iter().enumerate().filter(|_| count > 1) {
-            if sum.component(i).abs() <= part * terms {
-                sum.set_component(i, 0.0);
+            let rounding = value(sum.component(i));
+            if rounding.abs() <= part * terms {
+                sum.set_component(i, sum.component(i) - K::Scalar::from_f64(rounding));
             }
         }
         sum
     }
 
     /// The impulses at these rows that cancel rates, all rows of contacts.
-    fn cancelling(delassus: &K::Delassus, rows: &[usize], rates: &dyn Fn(usize) -> f64) -> Vec<f64> {
+    fn cancelling(delassus: &K::Delassus, rows: &[usize], rates: &dyn Fn(usize) -> K::Scalar) -> Vec<K::Scalar> {
         let matrix = Matrix::from_fn(rows.len(), |i, j| delassus[(rows[i], rows[j])]);
-        let left: Vec<f64> = rows.iter().map(|&row| -rates(row)).collect();
+        let left: Vec<_> = rows.iter().map(|&row| -rates(row)).collect();
         let solved = Decomposition::new(&matrix, |i| matrix.at(i, i)).solve(&left);
-        let mut impulses = vec![0.0; K::ContactRows::DIM];
+        let mut impulses = vec![K::Scalar::zero(); K::ContactRows::DIM];
         rows.iter().zip(solved).for_each(|(&row, impulse)| impulses[row] = impulse);
         impulses
     }
 
     /// Closed gaps brought to zero. ψ is affine in z: what an impulse adds to it is an increment of the configuration.
-    fn close_gaps(&self, t: f64, mut q: K::Configuration) -> Result<K::Configuration, ProjectionError> {
+    fn close_gaps(&self, t: K::Scalar, mut q: K::Configuration) -> Result<K::Configuration, ProjectionError> {
         let contact = |row: usize| K::CONTACTS.iter().position(|contact| contact.normal == row);
         let rows = self.rows(false);
         let mut left = f64::INFINITY;
-        for _ in 0..20 {
+        for n in 0..20 {
             let gaps = self.kernel.gaps(t, &q);
-            let size =
-                rows.iter().filter_map(|row| contact(*row)).fold(0.0_f64, |most, i| most.max(gaps.component(i).abs()));
+            let gap = |i: usize| value(gaps.component(i)).abs();
+            let size = rows.iter().filter_map(|row| contact(*row)).fold(0.0_f64, |most, i| most.max(gap(i)));
             // Newton's method has nothing to gain where it no longer halves what is left.
-            if size == 0.0 || size >= 0.5 * left {
+            if n >= corrections::<K::Scalar>() && (size == 0.0 || size >= 0.5 * left) {
                 break;
             }
             left = size;
             let response = self.kernel.contact_response(t, &q);
-            let gap = |row: usize| contact(row).map_or(0.0, |i| gaps.component(i));
+            let gap = |row: usize| contact(row).map_or(K::Scalar::zero(), |i| gaps.component(i));
             let impulses = Self::cancelling(&response.delassus, &rows, &gap);
             let zero = K::Speeds::zero();
             let moved = after::<K>(&response, &zero, &impulses);
             let still = self.kernel.kinematics(t, &q, &zero);
-            let increment = self.kernel.kinematics(t, &q, &moved).add_scaled(-1.0, &still);
+            let increment = self.kernel.kinematics(t, &q, &moved).add_scaled(-K::Scalar::one(), &still);
             q = q.retract(&increment).renormalise();
             if K::CONSTRAINED {
                 q = self.kernel.project(t, &q, &zero)?.0;
@@ -246,14 +265,14 @@ impl<'k, K: ContactSystem<Scalar = f64>> InMode<'k, K> {
     }
 
     /// Rates of closed gaps and slips that stick brought to zero.
-    fn stop_rates(&self, t: f64, q: &K::Configuration, mut z: K::Speeds) -> K::Speeds {
+    fn stop_rates(&self, t: K::Scalar, q: &K::Configuration, mut z: K::Speeds) -> K::Speeds {
         let rows = self.rows(true);
         let response = self.kernel.contact_response(t, q);
         // The second time takes away what the first one rounds; a third and fourth make zeros of what can be zero.
         for _ in 0..4 {
             let rates = self.kernel.contact_rates(t, q, &z);
             let impulses = Self::cancelling(&response.delassus, &rows, &|row| rates.component(row));
-            if impulses.iter().all(|impulse| *impulse == 0.0) {
+            if !K::Scalar::DERIVATIVES && impulses.iter().all(|impulse| value(*impulse) == 0.0) {
                 break;
             }
             z = Self::pushed(&z, &response.columns, &impulses);
@@ -262,15 +281,15 @@ impl<'k, K: ContactSystem<Scalar = f64>> InMode<'k, K> {
     }
 
     /// Wᵀλ.
-    fn generalised(&self, t: f64, q: &K::Configuration, forces: &[f64]) -> K::Speeds {
+    fn generalised(&self, t: K::Scalar, q: &K::Configuration, forces: &[K::Scalar]) -> K::Speeds {
         let jacobian = self.kernel.contact_jacobian(t, q);
         let each = forces.iter().enumerate().filter_map(|(row, force)| Some((force, jacobian.nth(row)?)));
         each.fold(K::Speeds::zero(), |sum, (force, column)| sum.add_scaled(*force, &column))
     }
 }
 
-impl<K: ContactSystem<Scalar = f64>> GaussSystem for InMode<'_, K> {
-    type Scalar = f64;
+impl<K: ContactSystem> GaussSystem for InMode<'_, K> {
+    type Scalar = K::Scalar;
     type Configuration = K::Configuration;
     type Speeds = K::Speeds;
     type MassMatrix = K::MassMatrix;
@@ -281,11 +300,11 @@ impl<K: ContactSystem<Scalar = f64>> GaussSystem for InMode<'_, K> {
     const CONSTRAINED: bool = true;
     const SMOOTHNESS: Smoothness = K::SMOOTHNESS;
 
-    fn kinematics(&self, t: f64, q: &K::Configuration, z: &K::Speeds) -> TangentOf<Self> {
+    fn kinematics(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> TangentOf<Self> {
         self.kernel.kinematics(t, q, z)
     }
 
-    fn acceleration(&self, t: f64, q: &K::Configuration, z: &K::Speeds, input: &K::Input) -> K::Speeds {
+    fn acceleration(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds, input: &K::Input) -> K::Speeds {
         if !self.modes.iter().any(|mode| mode.is_closed()) {
             return self.kernel.acceleration(t, q, z, input);
         }
@@ -293,35 +312,35 @@ impl<K: ContactSystem<Scalar = f64>> GaussSystem for InMode<'_, K> {
         Self::pushed(&dynamics.acceleration, &dynamics.response.columns, &forces)
     }
 
-    fn momentum(&self, t: f64, q: &K::Configuration, z: &K::Speeds) -> K::Speeds {
+    fn momentum(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> K::Speeds {
         self.kernel.momentum(t, q, z)
     }
 
-    fn velocity(&self, t: f64, q: &K::Configuration, p: &K::Speeds) -> K::Speeds {
+    fn velocity(&self, t: K::Scalar, q: &K::Configuration, p: &K::Speeds) -> K::Speeds {
         self.kernel.velocity(t, q, p)
     }
 
-    fn momentum_rate(&self, t: f64, q: &K::Configuration, p: &K::Speeds, input: &K::Input) -> K::Speeds {
+    fn momentum_rate(&self, t: K::Scalar, q: &K::Configuration, p: &K::Speeds, input: &K::Input) -> K::Speeds {
         let loads = self.loads(t, q, &self.kernel.velocity(t, q, p), input);
         let rate = self.kernel.momentum_rate(t, q, p, input);
-        rate.add_scaled(1.0, &self.generalised(t, q, &loads.forces))
+        rate.add_scaled(K::Scalar::one(), &self.generalised(t, q, &loads.forces))
     }
 
-    fn mass_matrix(&self, t: f64, q: &K::Configuration) -> K::MassMatrix {
+    fn mass_matrix(&self, t: K::Scalar, q: &K::Configuration) -> K::MassMatrix {
         self.kernel.mass_matrix(t, q)
     }
 
-    fn kinetic_energy(&self, t: f64, q: &K::Configuration, z: &K::Speeds) -> f64 {
+    fn kinetic_energy(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> K::Scalar {
         self.kernel.kinetic_energy(t, q, z)
     }
 
-    fn potential_energy(&self, t: f64, q: &K::Configuration) -> f64 {
+    fn potential_energy(&self, t: K::Scalar, q: &K::Configuration) -> K::Scalar {
         self.kernel.potential_energy(t, q)
     }
 
     fn gauss_residual(
         &self,
-        t: f64,
+        t: K::Scalar,
         q: &K::Configuration,
         z: &K::Speeds,
         acceleration: &K::Speeds,
@@ -329,27 +348,27 @@ impl<K: ContactSystem<Scalar = f64>> GaussSystem for InMode<'_, K> {
     ) -> K::Speeds {
         let loads = self.loads(t, q, z, input);
         let residual = self.kernel.gauss_residual(t, q, z, acceleration, input);
-        residual.add_scaled(-1.0, &self.generalised(t, q, &loads.forces))
+        residual.add_scaled(-K::Scalar::one(), &self.generalised(t, q, &loads.forces))
     }
 
     fn constraint_function(
         &self,
-        t: f64,
+        t: K::Scalar,
         q: &K::Configuration,
         z: &K::Speeds,
         acceleration: &K::Speeds,
         input: &K::Input,
-    ) -> f64 {
+    ) -> K::Scalar {
         self.kernel.constraint_function(t, q, z, acceleration, input)
     }
 
-    fn regularity(&self, t: f64, q: &K::Configuration) -> f64 {
+    fn regularity(&self, t: K::Scalar, q: &K::Configuration) -> K::Scalar {
         self.kernel.regularity(t, q)
     }
 
     fn project(
         &self,
-        t: f64,
+        t: K::Scalar,
         q: &K::Configuration,
         z: &K::Speeds,
     ) -> Result<(K::Configuration, K::Speeds), ProjectionError> {

@@ -11,41 +11,41 @@ use crate::mode::InMode;
 use crate::trajectory::InputOf;
 
 /// A system in its modes, under an input; in velocity form. It owns both, since trajectories do.
-pub(crate) struct InModeProblem<'k, K: ContactSystem<Scalar = f64>> {
+pub(crate) struct InModeProblem<'k, K: ContactSystem> {
     pub(crate) system: InMode<'k, K>,
     pub(crate) input: InputOf<'k, K>,
 }
 
-impl<K: ContactSystem<Scalar = f64>> Clone for InModeProblem<'_, K> {
+impl<K: ContactSystem> Clone for InModeProblem<'_, K> {
     fn clone(&self) -> Self {
         Self { system: self.system.clone(), input: Rc::clone(&self.input) }
     }
 }
 
-impl<'k, K: ContactSystem<Scalar = f64>> Problem for InModeProblem<'k, K> {
+impl<'k, K: ContactSystem> Problem for InModeProblem<'k, K> {
     type System = InMode<'k, K>;
 
     fn system(&self) -> &InMode<'k, K> {
         &self.system
     }
 
-    fn input(&self, t: f64, q: &K::Configuration, z: &K::Speeds) -> K::Input {
+    fn input(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> K::Input {
         (self.input)(t, q, z)
     }
 
-    fn variables(&self, _: f64, _: &K::Configuration, z: &K::Speeds) -> K::Speeds {
+    fn variables(&self, _: K::Scalar, _: &K::Configuration, z: &K::Speeds) -> K::Speeds {
         *z
     }
 
-    fn of_momentum(&self, t: f64, q: &K::Configuration, p: &K::Speeds) -> K::Speeds {
+    fn of_momentum(&self, t: K::Scalar, q: &K::Configuration, p: &K::Speeds) -> K::Speeds {
         self.system.velocity(t, q, p)
     }
 
-    fn speeds(&self, _: f64, _: &K::Configuration, y: &K::Speeds) -> K::Speeds {
+    fn speeds(&self, _: K::Scalar, _: &K::Configuration, y: &K::Speeds) -> K::Speeds {
         *y
     }
 
-    fn momentum(&self, t: f64, q: &K::Configuration, y: &K::Speeds) -> K::Speeds {
+    fn momentum(&self, t: K::Scalar, q: &K::Configuration, y: &K::Speeds) -> K::Speeds {
         self.system.momentum(t, q, y)
     }
 

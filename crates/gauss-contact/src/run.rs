@@ -13,6 +13,7 @@ use gauss_runtime::integrate::{Adaptive, Control, Crossing, Feedback, InputSourc
 use gauss_runtime::real::Real;
 
 use crate::decide::{Instant, Rounding, Scales};
+use crate::dense::{epsilon, value};
 use crate::error::{ContactError, ContactErrorKind};
 use crate::impact::Impact;
 use crate::mode::{InMode, Mode, slip, tangents};
@@ -35,15 +36,16 @@ pub struct ContactRun<'k, K, C = NoControl, I = NoInput> {
 /// Events of a run unless it sets another limit.
 const MOST_EVENTS: usize = 1_000_000;
 
-impl<'k, K: ContactSystem<Scalar = f64>> ContactRun<'k, K> {
+impl<'k, K: ContactSystem> ContactRun<'k, K> {
     /// A run of a system, without inputs and with Newton's law of impact.
     pub fn new(kernel: &'k K) -> Self {
+        const { assert!(K::Scalar::LANES == 1, "runs with contacts take one state at a time, no packs of numbers") }
         let tolerance = Tolerance { relative: 1e-9, absolute: 1e-9 };
         Self { kernel, control: NoControl, input: NoInput, law: Impact::Newton, tolerance, limit: MOST_EVENTS }
     }
 }
 
-impl<'k, K: ContactSystem<Scalar = f64>, C, I> ContactRun<'k, K, C, I> {
+impl<'k, K: ContactSystem, C, I> ContactRun<'k, K, C, I> {
     /// Steps as long as the tolerances allow: see [`Adaptive::new`]. They are those of [`tolerance`](Self::tolerance)
     /// as well.
     pub fn adaptive(self, relative: f64, absolute: f64) -> ContactRun<'k, K, Adaptive, I> {
@@ -66,7 +68,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, C, I> ContactRun<'k, K, C, I> {
     /// The input as a function of time and state, which should be smooth.
     pub fn input<G>(self, input: G) -> ContactRun<'k, K, C, Feedback<G>>
     where
-        G: Fn(f64, &K::Configuration, &K::Speeds) -> K::Input,
+        G: Fn(K::Scalar, &K::Configuration, &K::Speeds) -> K::Input,
     {
         let Self { kernel, control, law, tolerance, limit, .. } = self;
         ContactRun { kernel, control, input: Feedback(input), law, tolerance, limit }
@@ -92,7 +94,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, C, I> ContactRun<'k, K, C, I> {
         self,
         q0: K::Configuration,
         z0: K::Speeds,
-        interval: Range<f64>,
+        interval: Range<K::Scalar>,
     ) -> Result<ContactTrajectory<'k, K>, ContactError>
     where
         C: Control<InMode<'k, K>> + Clone + 'k,
@@ -109,7 +111,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, C, I> ContactRun<'k, K, C, I> {
         self,
         q0: K::Configuration,
         z0: K::Speeds,
-        interval: Range<f64>,
+        interval: Range<K::Scalar>,
     ) -> (ContactTrajectory<'k, K>, Option<ContactError>)
     where
         C: Control<InMode<'k, K>> + Clone + 'k,
@@ -119,19 +121,22 @@ impl<'k, K: ContactSystem<Scalar = f64>, C, I> ContactRun<'k, K, C, I> {
         let input: InputOf<'k, K> = Rc::new(move |t, q, z| input.input(t, q, z));
         let (segments, events, solves) = (Vec::new(), Vec::new(), Vec::new());
         let made = ContactTrajectory { segments, events, solves, input };
-        let scales = Scales { end: interval.end, tolerance, largest: 0.0, law, start: interval.start };
-        let mut driver = Driver { kernel, control, made, scales, limit, last: f64::NEG_INFINITY, at_once: 0 };
+        let scales =
+            Scales { tolerance, largest: 0.0, law, start: value(interval.start), epsilon: epsilon::<K::Scalar>() };
+        let end = interval.end;
+        let mut driver = Driver { kernel, control, made, scales, end, limit, last: f64::NEG_INFINITY, at_once: 0 };
         let error = driver.go((interval.start, q0.renormalise(), z0)).err();
         (driver.made, error)
     }
 }
 
 /// A run on its way.
-struct Driver<'k, K: ContactSystem<Scalar = f64>, C> {
+struct Driver<'k, K: ContactSystem, C> {
     kernel: &'k K,
     control: C,
     made: ContactTrajectory<'k, K>,
     scales: Scales,
+    end: K::Scalar,
     limit: usize,
     /// The time of the last event, and how many there were at it.
     last: f64,
@@ -143,10 +148,10 @@ const AT_ONCE: u32 = 200;
 
 impl<'k, K, C> Driver<'k, K, C>
 where
-    K: ContactSystem<Scalar = f64>,
+    K: ContactSystem,
     C: Control<InMode<'k, K>> + Clone + 'k,
 {
-    fn go(&mut self, (t, q, z): (f64, K::Configuration, K::Speeds)) -> Result<(), ContactError> {
+    fn go(&mut self, (t, q, z): (K::Scalar, K::Configuration, K::Speeds)) -> Result<(), ContactError> {
         self.check_start(t, &q, &z)?;
         let modes = vec![Mode::Open; K::CONTACTS.len()];
         let mut instant = Instant { kernel: self.kernel, t, q, z, modes, fired: None, first: true };
@@ -154,17 +159,17 @@ where
             instant.decide(&mut self.scales, &mut self.made)?;
             let fired = self.segment(&instant)?;
             let Some(last) = self.made.last() else { return Ok(()) };
-            let Some(fired) = fired.filter(|_| last.t < self.scales.end) else { return Ok(()) };
-            self.count(last.t, fired)?;
+            let Some(fired) = fired.filter(|_| value(last.t) < value(self.end)) else { return Ok(()) };
+            self.count(value(last.t), fired)?;
             instant = Instant { t: last.t, q: last.q, z: last.z, fired: Some(fired), first: false, ..instant };
         }
     }
 
-    fn check_start(&self, t: f64, q: &K::Configuration, z: &K::Speeds) -> Result<(), ContactError> {
+    fn check_start(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> Result<(), ContactError> {
         let stop = |contact: Option<usize>, kind| {
-            Err(ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: t, kind })
+            Err(ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: value(t), kind })
         };
-        if !(t.is_finite() && self.scales.end.is_finite() && t <= self.scales.end) {
+        if !(t.is_finite() && self.end.is_finite() && value(t) <= value(self.end)) {
             return stop(None, ContactErrorKind::InvalidInterval);
         }
         if !(q.is_finite() && z.is_finite()) {
@@ -172,7 +177,7 @@ where
         }
         let (gaps, restitution) = (self.kernel.gaps(t, q), self.kernel.restitution());
         for i in 0..K::CONTACTS.len() {
-            let (gap, e) = (gaps.component(i), restitution.component(i));
+            let (gap, e) = (value(gaps.component(i)), value(restitution.component(i)));
             if !(0.0..=1.0).contains(&e) {
                 return stop(Some(i), ContactErrorKind::InvalidRestitution { restitution: e });
             }
@@ -212,35 +217,40 @@ where
         let watched: Vec<Watched> = witnesses.iter().map(|witness| witness.watched).collect();
         let functions = witnesses
             .into_iter()
-            .map(|witness| move |t: f64, q: &K::Configuration, z: &K::Speeds| witness.value(t, q, z));
+            .map(|witness| move |t: K::Scalar, q: &K::Configuration, z: &K::Speeds| witness.value(t, q, z));
         let simulation = Simulation::of(problem).control(self.control.clone());
         let simulation = simulation.until_each(Crossing::Falling, functions.collect());
-        let (trajectory, error) = simulation.attempt(from.q, from.z, from.t..self.scales.end);
+        let (trajectory, error) = simulation.attempt(from.q, from.z, from.t..self.end);
         let stopped = trajectory.stopped_by().map(|n| watched[n]);
         let (last, end) = (*trajectory.last(), trajectory.last().t);
         self.made.segments.push(Segment { system, trajectory });
         if let Some(error) = error {
-            return Err(integration(end, error));
+            return Err(integration(value(end), error));
         }
         self.check_end(&from.modes, (end, &last.q, &last.z))?;
         Ok(stopped)
     }
 
     /// Refuses gaps and slips that have passed through zero unseen.
-    fn check_end(&self, modes: &[Mode], (t, q, z): (f64, &K::Configuration, &K::Speeds)) -> Result<(), ContactError> {
+    fn check_end(
+        &self,
+        modes: &[Mode<K::Scalar>],
+        (t, q, z): (K::Scalar, &K::Configuration, &K::Speeds),
+    ) -> Result<(), ContactError> {
         let (gaps, rates) = (self.kernel.gaps(t, q), self.kernel.contact_rates(t, q, z));
+        let t = value(t);
         let bound = Rounding::of::<K>(q).half_of_the_digits();
         for (i, (contact, mode)) in K::CONTACTS.iter().zip(modes).enumerate() {
             let stop = |kind| Err(ContactError { contact: Some(contact.name), time: t, kind });
             // Events are found to the resolution of the time.
-            let late = 8.0 * self.scales.resolution(t) * rates.component(contact.normal).abs();
+            let late = 8.0 * self.scales.resolution(t) * value(rates.component(contact.normal)).abs();
             match mode {
-                Mode::Open if gaps.component(i) < -(bound + late) => {
-                    return stop(ContactErrorKind::Penetration { gap: gaps.component(i) });
+                Mode::Open if value(gaps.component(i)) < -(bound + late) => {
+                    return stop(ContactErrorKind::Penetration { gap: value(gaps.component(i)) });
                 }
                 Mode::Slides(reference) if contact.tangents == 1 => {
-                    let along = slip(contact, &rates)[0] * reference[0];
-                    if along < -Real::max(self.scales.rest(), bound) {
+                    let along = value(slip(contact, &rates)[0] * reference[0]);
+                    if along < -self.scales.rest().max(bound) {
                         return stop(ContactErrorKind::Chatter { changes: 1 });
                     }
                 }
@@ -255,7 +265,7 @@ where
         let mut found = Vec::new();
         let mut watch = |watched: Watched, shift: &dyn Fn(f64) -> f64| {
             let mut witness = Witness { problem: problem.clone(), watched, shift: 0.0 };
-            witness.shift = shift(witness.bare(from.t, &from.q, &from.z));
+            witness.shift = shift(value(witness.bare(from.t, &from.q, &from.z)));
             found.push(witness);
         };
         let sizes = from.sizes(&self.scales);
@@ -269,7 +279,7 @@ where
             let above = move |value: f64| if value > least { 0.0 } else { least - value };
             let from_zero = |bound: f64| move |value: f64| if value.abs() <= bound { -value } else { 0.0 };
             match from.modes[i] {
-                Mode::Open if sizes.rates.component(contact.normal) > sizes.of_rate[contact.normal] => {
+                Mode::Open if value(sizes.rates.component(contact.normal)) > sizes.of_rate[contact.normal] => {
                     watch(Watched::Gap(i), &from_zero(sizes.of_gap[i]));
                 }
                 Mode::Open => {

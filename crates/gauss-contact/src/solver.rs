@@ -18,28 +18,28 @@ use alloc::vec::Vec;
 
 use gauss_runtime::real::Real;
 
-use crate::dense::{Decomposition, Matrix, norm};
+use crate::dense::{Decomposition, Matrix, norm, size, sum, value};
 
 /// What is known of a contact before its force is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Law {
+pub(crate) struct Law<T = f64> {
     /// 0 without friction, else 1 or 2.
     pub(crate) tangents: usize,
     /// μ.
-    pub(crate) friction: f64,
+    pub(crate) friction: T,
     /// ŝ where it slides already.
-    pub(crate) slip: Option<[f64; 2]>,
+    pub(crate) slip: Option<[T; 2]>,
 }
 
 /// What a contact does.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum State {
+pub(crate) enum State<T = f64> {
     Leaves,
     /// Stays closed; friction, if there is any, has a known direction.
     Closed,
     Sticks,
     /// Begins to slide in this direction.
-    Slides([f64; 2]),
+    Slides([T; 2]),
 }
 
 /// How far a contact is from its laws, in units of u: a velocity after an impact, else an acceleration.
@@ -69,12 +69,12 @@ impl Residual {
 }
 
 #[derive(Debug)]
-pub(crate) struct Solution {
+pub(crate) struct Solution<T = f64> {
     /// λ, all rows.
-    pub(crate) forces: Vec<f64>,
+    pub(crate) forces: Vec<T>,
     /// u, all rows.
-    pub(crate) rates: Vec<f64>,
-    pub(crate) states: Vec<State>,
+    pub(crate) rates: Vec<T>,
+    pub(crate) states: Vec<State<T>>,
     pub(crate) residuals: Vec<Residual>,
 }
 
@@ -93,11 +93,11 @@ pub(crate) enum Failure {
 
 /// The laws of some contacts at an instant.
 #[derive(Debug)]
-pub(crate) struct Contacts {
-    laws: Vec<Law>,
+pub(crate) struct Contacts<T = f64> {
+    laws: Vec<Law<T>>,
     normals: Vec<usize>,
-    matrix: Matrix,
-    b: Vec<f64>,
+    matrix: Matrix<T>,
+    b: Vec<T>,
 }
 
 /// Combinations that are tried at most.
@@ -107,16 +107,37 @@ const ROUNDS: u32 = 10;
 /// Roundings of each product of a row that its sum may be off by: those of the entries and of the solution.
 const ROUNDINGS: f64 = 256.0;
 
-impl Contacts {
-    pub(crate) fn new(laws: Vec<Law>, matrix: Matrix, b: Vec<f64>) -> Self {
+impl<T: Real> Contacts<T> {
+    pub(crate) fn new(laws: Vec<Law<T>>, matrix: Matrix<T>, b: Vec<T>) -> Self {
         let rows_before = |i: usize| laws[..i].iter().map(|law| 1 + law.tangents).sum();
         let normals = (0..laws.len()).map(rows_before).collect();
         Self { laws, normals, matrix, b }
     }
 
-    /// `|D_TT|` of a contact, the largest of its tangents.
-    fn tangent_scale(&self, i: usize) -> f64 {
-        self.tangents(i).map(|row| self.matrix.at(row, row)).fold(0.0, f64::max)
+    /// The solution. What contacts do is found by values; forces and directions have the derivatives of the equations
+    /// of what they do (implicit functions).
+    pub(crate) fn solution(&self) -> Result<Solution<T>, Failure> {
+        let number = T::from_f64;
+        let laws = self.laws.iter().map(|law| Law {
+            tangents: law.tangents,
+            friction: value(law.friction),
+            slip: law.slip.map(|slip| slip.map(value)),
+        });
+        let b: Vec<f64> = self.b.iter().copied().map(value).collect();
+        let found = Contacts::new(laws.collect(), self.matrix.values(), b).solve(vec![0.0; self.b.len()])?;
+        let lifted = |state: &State| match *state {
+            State::Leaves => State::Leaves,
+            State::Closed => State::Closed,
+            State::Sticks => State::Sticks,
+            State::Slides(along) => State::Slides(along.map(number)),
+        };
+        let states = found.states.iter().map(lifted).collect();
+        let (states, forces) = if T::DERIVATIVES {
+            self.settled(states)
+        } else {
+            (states, found.forces.into_iter().map(number).collect())
+        };
+        Ok(Solution { rates: self.rates(&forces), forces, states, residuals: found.residuals })
     }
 
     fn tangents(&self, i: usize) -> core::ops::Range<usize> {
@@ -124,12 +145,112 @@ impl Contacts {
         normal + 1..normal + 1 + self.laws[i].tangents
     }
 
-    fn rates(&self, forces: &[f64]) -> Vec<f64> {
+    fn rates(&self, forces: &[T]) -> Vec<T> {
         (0..self.b.len()).map(|row| self.rate(row, forces)).collect()
     }
 
-    fn rate(&self, row: usize, forces: &[f64]) -> f64 {
+    fn rate(&self, row: usize, forces: &[T]) -> T {
         self.matrix.row(row).iter().zip(forces).fold(self.b[row], |sum, (d, force)| d.fma(*force, sum))
+    }
+
+    /// Given states with their forces. Directions of two tangents are those of the slip.
+    fn settled(&self, mut states: Vec<State<T>>) -> (Vec<State<T>>, Vec<T>) {
+        let free = |(i, state): (usize, &State<T>)| {
+            (matches!(state, State::Slides(_)) && self.laws[i].tangents == 2).then_some(i)
+        };
+        let turning: Vec<usize> = states.iter().enumerate().filter_map(free).collect();
+        let mut forces = self.forces_in(&states);
+        // Of derivatives each leaves 10⁻⁷.
+        let turns = if T::DERIVATIVES { 3 } else { 0 };
+        for n in 0..if turning.is_empty() { 0 } else { 60 } {
+            let miss = self.misses(&turning, &states, &forces);
+            let before = size(&miss);
+            // Differences of 10⁻⁷ rad: Newton's method in seven digits a step.
+            let turned = |k: usize, by: T| {
+                let mut states = states.clone();
+                turn(&mut states[turning[k]], by);
+                states
+            };
+            let short = T::from_f64(1e-7);
+            let differences: Vec<Vec<T>> = (0..turning.len())
+                .map(|k| {
+                    let states = turned(k, short);
+                    let near = self.misses(&turning, &states, &self.forces_in(&states));
+                    near.iter().zip(&miss).map(|(near, miss)| (*near - *miss) / short).collect()
+                })
+                .collect();
+            let jacobian = Matrix::from_fn(turning.len(), |i, j| differences[j][i]);
+            let by = Decomposition::new(&jacobian, |i| jacobian.at(i, i).abs()).solve(&miss);
+            let longest = by.iter().fold(0.0_f64, |longest, by| longest.max(value(*by).abs()));
+            let part = if longest > 0.5 { 0.5 / longest } else { 1.0 };
+            let mut next = states.clone();
+            turning.iter().zip(&by).for_each(|(&i, by)| turn(&mut next[i], T::from_f64(-part) * *by));
+            let found = self.forces_in(&next);
+            let ended = part == 1.0 && longest < 1e-5 && size(&self.misses(&turning, &next, &found)) >= before;
+            if ended && n >= turns {
+                break;
+            }
+            (states, forces) = (next, found);
+        }
+        (states, forces)
+    }
+
+    /// The sines of the angles from the directions of contacts to their slip, times its size.
+    fn misses(&self, turning: &[usize], states: &[State<T>], forces: &[T]) -> Vec<T> {
+        let miss = |&i: &usize| match states[i] {
+            State::Slides([x, y]) => {
+                let tangents = self.tangents(i);
+                y * self.rate(tangents.start, forces) - x * self.rate(tangents.start + 1, forces)
+            }
+            _ => T::zero(),
+        };
+        turning.iter().map(miss).collect()
+    }
+
+    /// Forces such that closed contacts keep their normal rates at zero, and those that stick all of them.
+    fn forces_in(&self, states: &[State<T>]) -> Vec<T> {
+        let mut rows = Vec::new();
+        // What a unit of the unknown of a row adds to forces, in this row and in those of friction.
+        let mut with: Vec<Vec<(usize, T)>> = Vec::new();
+        for (i, state) in states.iter().enumerate() {
+            let normal = self.normals[i];
+            let direction = match state {
+                State::Leaves => continue,
+                State::Slides(direction) => Some(*direction),
+                State::Closed => self.laws[i].slip,
+                State::Sticks => None,
+            };
+            rows.push(normal);
+            let friction = self.laws[i].friction;
+            let along =
+                direction.into_iter().flat_map(|d| self.tangents(i).zip(d)).map(|(row, d)| (row, -friction * d));
+            with.push(core::iter::once((normal, T::one())).chain(along).collect());
+            if matches!(state, State::Sticks) {
+                self.tangents(i).for_each(|row| {
+                    rows.push(row);
+                    with.push(vec![(row, T::one())]);
+                });
+            }
+        }
+        let entry = |i: usize, j: usize| sum(with[j].iter().map(|(row, part)| *part * self.matrix.at(rows[i], *row)));
+        let matrix = Matrix::from_fn(rows.len(), entry);
+        let factors = Decomposition::new(&matrix, |i| self.matrix.at(rows[i], rows[i]));
+        let mut forces = vec![T::zero(); self.b.len()];
+        // Once more for what the first solution leaves.
+        for _ in 0..2 {
+            let left: Vec<T> = rows.iter().map(|&row| -self.rate(row, &forces)).collect();
+            for (unknown, with) in factors.solve(&left).into_iter().zip(&with) {
+                with.iter().for_each(|(row, part)| forces[*row] += *part * unknown);
+            }
+        }
+        forces
+    }
+}
+
+impl Contacts {
+    /// `|D_TT|` of a contact, the largest of its tangents.
+    fn tangent_scale(&self, i: usize) -> f64 {
+        self.tangents(i).map(|row| self.matrix.at(row, row)).fold(0.0, f64::max)
     }
 
     /// Finds the forces, from an estimate of them.
@@ -323,95 +444,12 @@ impl Contacts {
         (0..self.laws.len()).map(state).collect()
     }
 
-    /// The solution in given states, with its residuals. Directions of two tangents are those of the slip.
-    fn in_states(&self, mut states: Vec<State>) -> Solution {
-        let free = |(i, state): (usize, &State)| {
-            (matches!(state, State::Slides(_)) && self.laws[i].tangents == 2).then_some(i)
-        };
-        let turning: Vec<usize> = states.iter().enumerate().filter_map(free).collect();
-        let mut forces = self.forces_in(&states);
-        for _ in 0..if turning.is_empty() { 0 } else { 60 } {
-            let miss = self.misses(&turning, &states, &forces);
-            let size = norm(&miss);
-            // Differences of 10⁻⁷ rad: Newton's method in seven digits a step.
-            let turned = |k: usize, by: f64| {
-                let mut states = states.clone();
-                turn(&mut states[turning[k]], by);
-                states
-            };
-            let differences: Vec<Vec<f64>> = (0..turning.len())
-                .map(|k| {
-                    let states = turned(k, 1e-7);
-                    let near = self.misses(&turning, &states, &self.forces_in(&states));
-                    near.iter().zip(&miss).map(|(near, miss)| (near - miss) / 1e-7).collect()
-                })
-                .collect();
-            let jacobian = Matrix::from_fn(turning.len(), |i, j| differences[j][i]);
-            let by = Decomposition::new(&jacobian, |i| jacobian.at(i, i).abs()).solve(&miss);
-            let longest = by.iter().fold(0.0_f64, |longest, by| longest.max(by.abs()));
-            let part = if longest > 0.5 { 0.5 / longest } else { 1.0 };
-            let mut next = states.clone();
-            turning.iter().zip(&by).for_each(|(&i, by)| turn(&mut next[i], -part * by));
-            let found = self.forces_in(&next);
-            if part == 1.0 && longest < 1e-5 && norm(&self.misses(&turning, &next, &found)) >= size {
-                break;
-            }
-            (states, forces) = (next, found);
-        }
+    /// The solution in given states, with its residuals.
+    fn in_states(&self, states: Vec<State>) -> Solution {
+        let (states, forces) = self.settled(states);
         let rates = self.rates(&forces);
         let residuals = (0..self.laws.len()).map(|i| self.residual(i, &forces, &rates)).collect();
         Solution { forces, rates, states, residuals }
-    }
-
-    /// The sines of the angles from the directions of contacts to their slip, times its size.
-    fn misses(&self, turning: &[usize], states: &[State], forces: &[f64]) -> Vec<f64> {
-        let miss = |&i: &usize| match states[i] {
-            State::Slides([x, y]) => {
-                let tangents = self.tangents(i);
-                y * self.rate(tangents.start, forces) - x * self.rate(tangents.start + 1, forces)
-            }
-            _ => 0.0,
-        };
-        turning.iter().map(miss).collect()
-    }
-
-    /// Forces such that closed contacts keep their normal rates at zero, and those that stick all of them.
-    fn forces_in(&self, states: &[State]) -> Vec<f64> {
-        let mut rows = Vec::new();
-        // What a unit of the unknown of a row adds to forces, in this row and in those of friction.
-        let mut with: Vec<Vec<(usize, f64)>> = Vec::new();
-        for (i, state) in states.iter().enumerate() {
-            let normal = self.normals[i];
-            let direction = match state {
-                State::Leaves => continue,
-                State::Slides(direction) => Some(*direction),
-                State::Closed => self.laws[i].slip,
-                State::Sticks => None,
-            };
-            rows.push(normal);
-            let friction = self.laws[i].friction;
-            let along =
-                direction.into_iter().flat_map(|d| self.tangents(i).zip(d)).map(|(row, d)| (row, -friction * d));
-            with.push(core::iter::once((normal, 1.0)).chain(along).collect());
-            if *state == State::Sticks {
-                self.tangents(i).for_each(|row| {
-                    rows.push(row);
-                    with.push(vec![(row, 1.0)]);
-                });
-            }
-        }
-        let entry = |i: usize, j: usize| with[j].iter().map(|(row, part)| part * self.matrix.at(rows[i], *row)).sum();
-        let matrix = Matrix::from_fn(rows.len(), entry);
-        let factors = Decomposition::new(&matrix, |i| self.matrix.at(rows[i], rows[i]));
-        let mut forces = vec![0.0; self.b.len()];
-        // Once more for what the first solution leaves.
-        for _ in 0..2 {
-            let left: Vec<f64> = rows.iter().map(|&row| -self.rate(row, &forces)).collect();
-            for (unknown, with) in factors.solve(&left).into_iter().zip(&with) {
-                with.iter().for_each(|(row, part)| forces[*row] += part * unknown);
-            }
-        }
-        forces
     }
 
     /// What rounding does to the rate of a row.
@@ -444,9 +482,9 @@ impl Contacts {
 }
 
 /// Turns the direction of a contact.
-fn turn(state: &mut State, by: f64) {
+fn turn<T: Real>(state: &mut State<T>, by: T) {
     if let State::Slides([x, y]) = state {
-        let (sine, cosine) = Real::sin_cos(by);
+        let (sine, cosine) = by.sin_cos();
         (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
     }
 }

@@ -7,6 +7,7 @@ use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::integrate::{IntegrationErrorKind, Sample, Trajectory};
 
+use crate::dense::value;
 use crate::error::{ContactError, ContactErrorKind};
 use crate::history::{ContactEvent, SolveRecord};
 use crate::mode::{InMode, Mode};
@@ -14,7 +15,7 @@ use crate::mode::{InMode, Mode};
 /// The input as a function of time and state.
 pub(crate) type InputOf<'k, K> = Rc<
     dyn Fn(
-            f64,
+            <K as gauss_runtime::system::GaussSystem>::Scalar,
             &<K as gauss_runtime::system::GaussSystem>::Configuration,
             &<K as gauss_runtime::system::GaussSystem>::Speeds,
         ) -> <K as gauss_runtime::system::GaussSystem>::Input
@@ -22,15 +23,15 @@ pub(crate) type InputOf<'k, K> = Rc<
 >;
 
 /// A part of a run between two events, in which all contacts keep their modes.
-pub struct Segment<'k, K: ContactSystem<Scalar = f64>> {
+pub struct Segment<'k, K: ContactSystem> {
     pub(crate) system: InMode<'k, K>,
     pub(crate) trajectory: Trajectory<'k, InMode<'k, K>>,
 }
 
-impl<'k, K: ContactSystem<Scalar = f64>> Segment<'k, K> {
+impl<'k, K: ContactSystem> Segment<'k, K> {
     /// The modes of the contacts.
     #[must_use]
-    pub fn modes(&self) -> &[Mode] {
+    pub fn modes(&self) -> &[Mode<K::Scalar>] {
         self.system.modes()
     }
 
@@ -45,19 +46,19 @@ impl<'k, K: ContactSystem<Scalar = f64>> Segment<'k, K> {
 ///
 /// Consecutive segments share a time: the first ends in the state before the event, the next one starts in that after
 /// it.
-pub struct ContactTrajectory<'k, K: ContactSystem<Scalar = f64>> {
+pub struct ContactTrajectory<'k, K: ContactSystem> {
     pub(crate) segments: Vec<Segment<'k, K>>,
     pub(crate) events: Vec<ContactEvent>,
     pub(crate) solves: Vec<SolveRecord>,
     pub(crate) input: InputOf<'k, K>,
 }
 
-fn sample<K: ContactSystem<Scalar = f64>>(sample: &Sample<InMode<'_, K>>) -> Sample<K> {
+fn sample<K: ContactSystem>(sample: &Sample<InMode<'_, K>>) -> Sample<K> {
     let Sample { t, q, z, p } = *sample;
     Sample { t, q, z, p }
 }
 
-impl<'k, K: ContactSystem<Scalar = f64>> ContactTrajectory<'k, K> {
+impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
     /// The segments in order; none where the run ended before its first step.
     #[must_use]
     pub fn segments(&self) -> &[Segment<'k, K>] {
@@ -91,8 +92,8 @@ impl<'k, K: ContactSystem<Scalar = f64>> ContactTrajectory<'k, K> {
     ///
     /// # Errors
     /// Where the run does not cover the time.
-    pub fn at(&self, t: f64) -> Result<Sample<K>, ContactError> {
-        self.segment_at(t)?.trajectory.at(t).map(|state| sample(&state)).map_err(|error| integration(t, error))
+    pub fn at(&self, t: K::Scalar) -> Result<Sample<K>, ContactError> {
+        self.segment_at(t)?.trajectory.at(t).map(|state| sample(&state)).map_err(|error| integration(value(t), error))
     }
 
     /// The contact forces at a time, all rows: normal, then tangents, contact by contact. Where contacts depend on one
@@ -100,9 +101,9 @@ impl<'k, K: ContactSystem<Scalar = f64>> ContactTrajectory<'k, K> {
     ///
     /// # Errors
     /// Where the run does not cover the time.
-    pub fn forces(&self, t: f64) -> Result<K::ContactRows, ContactError> {
+    pub fn forces(&self, t: K::Scalar) -> Result<K::ContactRows, ContactError> {
         let segment = self.segment_at(t)?;
-        let state = segment.trajectory.at(t).map_err(|error| integration(t, error))?;
+        let state = segment.trajectory.at(t).map_err(|error| integration(value(t), error))?;
         let input = (self.input)(t, &state.q, &state.z);
         let loads = segment.system.loads(t, &state.q, &state.z, &input);
         let mut forces = K::ContactRows::zero();
@@ -114,16 +115,17 @@ impl<'k, K: ContactSystem<Scalar = f64>> ContactTrajectory<'k, K> {
     ///
     /// # Errors
     /// Where the run does not cover the time.
-    pub fn modes(&self, t: f64) -> Result<&[Mode], ContactError> {
+    pub fn modes(&self, t: K::Scalar) -> Result<&[Mode<K::Scalar>], ContactError> {
         self.segment_at(t).map(Segment::modes)
     }
 
-    fn segment_at(&self, t: f64) -> Result<&Segment<'k, K>, ContactError> {
-        let behind = self.segments.partition_point(|segment| segment.trajectory.first().t <= t);
+    fn segment_at(&self, t: K::Scalar) -> Result<&Segment<'k, K>, ContactError> {
+        let time = value(t);
+        let behind = self.segments.partition_point(|segment| value(segment.trajectory.first().t) <= time);
         let found = behind.checked_sub(1).map(|n| &self.segments[n]);
-        found.filter(|segment| t <= segment.trajectory.last().t).ok_or(ContactError {
+        found.filter(|segment| time <= value(segment.trajectory.last().t)).ok_or(ContactError {
             contact: None,
-            time: t,
+            time,
             kind: ContactErrorKind::OutsideRun,
         })
     }

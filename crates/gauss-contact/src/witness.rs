@@ -4,7 +4,7 @@ use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::real::Real;
 
-use crate::dense::norm;
+use crate::dense::{norm, sum};
 use crate::mode::{Mode, slip, tangents};
 use crate::problem::InModeProblem;
 
@@ -39,18 +39,18 @@ impl Watched {
 /// What has just changed starts on zero, to rounding. A gap or a slip is shifted to start there exactly: a function
 /// that starts on zero is seen to leave it and to come back, however short the flight. Forces are shifted to start
 /// above zero: those that fall at once are events at once.
-pub(crate) struct Witness<'k, K: ContactSystem<Scalar = f64>> {
+pub(crate) struct Witness<'k, K: ContactSystem> {
     pub(crate) problem: InModeProblem<'k, K>,
     pub(crate) watched: Watched,
     pub(crate) shift: f64,
 }
 
-impl<K: ContactSystem<Scalar = f64>> Witness<'_, K> {
-    pub(crate) fn value(&self, t: f64, q: &K::Configuration, z: &K::Speeds) -> f64 {
-        self.bare(t, q, z) + self.shift
+impl<K: ContactSystem> Witness<'_, K> {
+    pub(crate) fn value(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> K::Scalar {
+        self.bare(t, q, z) + K::Scalar::from_f64(self.shift)
     }
 
-    pub(crate) fn bare(&self, t: f64, q: &K::Configuration, z: &K::Speeds) -> f64 {
+    pub(crate) fn bare(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> K::Scalar {
         let kernel = self.problem.system.kernel;
         let slip_of = |i: usize| slip(&K::CONTACTS[i], &kernel.contact_rates(t, q, z));
         let input = || (self.problem.input)(t, q, z);
@@ -60,7 +60,7 @@ impl<K: ContactSystem<Scalar = f64>> Witness<'_, K> {
                 let (s, reference) = (slip_of(i), self.reference(i));
                 s[0] * reference[0] + s[1] * reference[1]
             }
-            Watched::Speed(i, level) => norm(&slip_of(i)) - level,
+            Watched::Speed(i, level) => norm(&slip_of(i)) - K::Scalar::from_f64(level),
             Watched::Force(i) => {
                 let loads = self.problem.system.loads(t, q, z, &input());
                 loads.forces[K::CONTACTS[i].normal]
@@ -76,23 +76,23 @@ impl<K: ContactSystem<Scalar = f64>> Witness<'_, K> {
         }
     }
 
-    fn reference(&self, i: usize) -> [f64; 2] {
+    fn reference(&self, i: usize) -> [K::Scalar; 2] {
         match self.problem.system.modes()[i] {
             Mode::Slides(reference) => reference,
-            _ => [0.0; 2],
+            _ => [K::Scalar::zero(); 2],
         }
     }
 
     /// p over its own first term.
-    fn pushes(&self, i: usize, t: f64, q: &K::Configuration, z: &K::Speeds) -> f64 {
+    fn pushes(&self, i: usize, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> K::Scalar {
         let kernel = self.problem.system.kernel;
         let contact = &K::CONTACTS[i];
         let input = (self.problem.input)(t, q, z);
         let delassus = kernel.contact_response(t, q).delassus;
         let mu = kernel.friction(t, q, z, &input).component(i);
         let along = self.problem.system.direction(contact, self.reference(i), (t, q, z));
-        let coupled: f64 = tangents(contact).zip(along).map(|(row, s)| s * delassus[(contact.normal, row)]).sum();
+        let coupled = sum(tangents(contact).zip(along).map(|(row, s)| s * delassus[(contact.normal, row)]));
         let diagonal = delassus[(contact.normal, contact.normal)];
-        1.0 - mu * coupled / Real::max(diagonal, f64::MIN_POSITIVE)
+        K::Scalar::one() - mu * coupled / diagonal.max(K::Scalar::from_f64(f64::MIN_POSITIVE))
     }
 }

@@ -140,6 +140,7 @@ macro_rules! functions {
 impl<T: Real + Packed, const N: usize> Real for Lanes<T, N> {
     const LANES: usize = N * T::LANES;
     const EPSILON: f64 = T::EPSILON;
+    const DERIVATIVES: bool = T::DERIVATIVES;
 
     #[inline(always)]
     fn lane(self, i: usize) -> f64 {

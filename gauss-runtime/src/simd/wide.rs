@@ -21,6 +21,7 @@ macro_rules! implement_real {
         impl Real for $vector {
             const LANES: usize = $lanes;
             const EPSILON: f64 = <$float as Real>::EPSILON;
+            const DERIVATIVES: bool = false;
 
             #[inline(always)]
             fn lane(self, i: usize) -> f64 {
