@@ -1,5 +1,8 @@
 //! Runs with contacts of kernels that are derived: groups, inputs, constraints, gaps that depend on time.
 
+#[path = "touching/published.rs"]
+mod published;
+
 use std::f64::consts::FRAC_PI_2;
 
 use gauss_contact::{ContactRun, EventKind, Mode};
