@@ -65,7 +65,8 @@ pub trait LinearizedSystem: GaussSystem<Input: VectorSpace<<Self as GaussSystem>
     const INPUT_PATTERN: &'static [&'static [bool]];
 
     /// (V, ż) and all their derivatives, exact up to rounding; under constraints those of the accelerations that
-    /// satisfy them.
+    /// satisfy them. Contact forces are not in them: of a scene with [contacts](GaussSystem::HAS_CONTACTS) these are
+    /// the derivatives where all gaps are open.
     ///
     /// Where a force has a kink (`abs`, `min`, `max`, `clamp`) the derivative is the mean of those on its two sides;
     /// that of a jump (`signum`) is 0. Where a root is 0 its infinite slope is replaced by a huge one, so that what

@@ -48,6 +48,10 @@ pub trait GaussSystem {
     /// [`project`](Self::project) the state after every step.
     const CONSTRAINED: bool = false;
 
+    /// Whether the scene has gaps that may close, whose contact forces these equations do not have: runs refuse them,
+    /// but for [`Simulation::without_contacts`](crate::integrate::Simulation::without_contacts).
+    const HAS_CONTACTS: bool = false;
+
     /// How smooth the accelerations are as functions of the state: adaptive integrators step with more care where they
     /// are not.
     const SMOOTHNESS: Smoothness = Smoothness::Smooth;

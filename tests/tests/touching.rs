@@ -5,7 +5,9 @@ mod published;
 
 use std::f64::consts::FRAC_PI_2;
 
+use gauss_batch::{Batch, States};
 use gauss_contact::{ContactRun, EventKind, Mode};
+use gauss_runtime::integrate::{Adams, Collocation, Fixed, IntegrationErrorKind};
 use gauss_runtime::prelude::*;
 
 /// A homogeneous ball on a plane.
@@ -177,4 +179,62 @@ fn a_table_that_falls_faster_is_left() {
     let (flight, end) = (FRAC_PI_2 - wanted, run.last().unwrap());
     let height = a * wanted.sin() + a * wanted.cos() * flight - 0.5 * g * flight * flight;
     assert!((end.q[0] - height).abs() < 1e-10);
+}
+
+/// A point that falls onto a floor.
+#[derive(GaussDynamics)]
+#[gauss(coordinates(z), particle(mass = 1, position = [0, 0, z]), contact(floor, gap = z))]
+struct Falls<T> {
+    #[gauss(gravity)]
+    g: T,
+}
+
+#[test]
+fn runs_without_contact_forces_refuse_contacts() {
+    const { assert!(FallsKernel::<f64>::HAS_CONTACTS) };
+    let kernel = Falls { g: 9.81 }.kernel().unwrap();
+    let (q, z) = (SVector::from([1.0]), SVector::from([0.0]));
+    let simulation = Simulation::new(&kernel);
+    let refusals = [
+        simulation.adaptive(1e-9, 1e-9).run(q, z, 0.0..1.0).unwrap_err(),
+        simulation.momentum_form().fixed_step(0.1).run_to_end(q, z, 0.0..1.0).unwrap_err(),
+        simulation.control(Fixed::by(Collocation::midpoint(), 0.1)).attempt(q, z, 0.0..1.0).1.unwrap(),
+        simulation.control(Adams::<_, 10>::new(0.1)).run_to_end(q, z, 0.0..1.0).unwrap_err(),
+        simulation.adaptive(1e-9, 1e-9).boxed().run(q, z, 0.0..1.0).unwrap_err(),
+        // A form that is chosen later is one with contacts.
+        simulation.without_contacts().momentum_form().fixed_step(0.1).run_to_end(q, z, 0.0..1.0).unwrap_err(),
+    ];
+    for refusal in refusals {
+        assert_eq!(refusal.kind, IntegrationErrorKind::Contacts);
+        assert!(refusal.to_string().contains("`ContactRun` of the crate `gauss-contact`"), "{refusal}");
+    }
+    // On purpose: through the floor, in either form; a parabola is exact to the rounding of a few steps.
+    let fallen = 1.0 - 0.5 * 9.81;
+    let ends = [
+        simulation.without_contacts().adaptive(1e-9, 1e-9).run_to_end(q, z, 0.0..1.0).unwrap(),
+        simulation.momentum_form().without_contacts().fixed_step(0.1).run_to_end(q, z, 0.0..1.0).unwrap(),
+    ];
+    assert!(ends.iter().all(|end| (end.sample.q[0] - fallen).abs() < 1e-13));
+}
+
+#[test]
+fn ensembles_refuse_contacts() {
+    type Four = Lanes<f64, 4>;
+    let kernel = Falls { g: Four::splat(9.81) }.kernel().unwrap();
+    let fresh = || States::<FallsKernel<Four>>::from_fn(6, |_| (SVector::from([1.0]), SVector::from([0.0])));
+    let (mut states, method) = (fresh(), RungeKutta(DormandPrince8));
+    let refused = Batch::new(&kernel).advance(&method, 0.1, 0.0..1.0, &mut states).unwrap_err();
+    assert_eq!(refused.failures.len(), 6);
+    assert!(refused.failures.iter().all(|failure| failure.kind == IntegrationErrorKind::Contacts));
+    let ends = Batch::new(&kernel).adaptive(1e-9, 1e-9).run(0.0..1.0, &mut states);
+    assert!(ends.iter().all(|end| matches!(end, Err(error) if error.kind == IntegrationErrorKind::Contacts)));
+    assert!((0..6).all(|i| states.get(i) == (SVector::from([1.0]), SVector::from([0.0]))));
+
+    let fallen = 1.0 - 0.5 * 9.81;
+    let through = |states: &States<FallsKernel<Four>>| (0..6).all(|i| (states.get(i).0[0] - fallen).abs() < 1e-13);
+    Batch::new(&kernel).without_contacts().advance(&method, 0.1, 0.0..1.0, &mut states).unwrap();
+    assert!(through(&states));
+    let mut states = fresh();
+    let ends = Batch::new(&kernel).without_contacts().adaptive(1e-9, 1e-9).run(0.0..1.0, &mut states);
+    assert!(ends.iter().all(Result::is_ok) && through(&states));
 }

@@ -20,6 +20,8 @@ use gauss_runtime::system::GaussSystem;
 /// Made like a [`Simulation`](gauss_runtime::integrate::Simulation). It does not bring a state back onto constraints
 /// while it runs, as those do: accelerations satisfy constraints that were differentiated, so states leave them slowly,
 /// and [`GaussSystem::project`] of the final state repairs a short run. `f` never fails; undefined results are NaN.
+/// Contact forces are not in it: of a scene with [contacts](GaussSystem::HAS_CONTACTS) it is the motion with all gaps
+/// open, and nothing refuses to go on where one has closed.
 ///
 /// J is the way in which ∂f/∂x is computed for implicit methods.
 ///

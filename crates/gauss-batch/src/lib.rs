@@ -85,7 +85,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use gauss_runtime::integrate::{
-    Feedback, Form, InputSource, MomentumForm, NoInput, OneStep, SystemProblem, VelocityForm,
+    Feedback, Form, InputSource, MomentumForm, NoInput, OneStep, SystemProblem, VelocityForm, WithoutContacts,
 };
 use gauss_runtime::real::Real;
 use gauss_runtime::simd::Packed;
@@ -153,6 +153,13 @@ impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
     /// Integrates momenta instead of quasi-velocities.
     pub fn momentum_form(self) -> Batch<'k, K, MomentumForm, I> {
         Batch { kernels: self.kernels, form: MomentumForm, input: self.input }
+    }
+
+    /// Runs scenes with contacts as if they had none, as
+    /// [`Simulation::without_contacts`](gauss_runtime::integrate::Simulation::without_contacts) does; without this each
+    /// state ends at once with [`Contacts`](gauss_runtime::integrate::IntegrationErrorKind::Contacts).
+    pub fn without_contacts(self) -> Batch<'k, K, WithoutContacts<F>, I> {
+        Batch { kernels: self.kernels, form: WithoutContacts(self.form), input: self.input }
     }
 
     /// The input as a function of time and state, both of a whole block.

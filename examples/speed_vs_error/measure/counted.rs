@@ -43,6 +43,7 @@ impl<S: GaussSystem> GaussSystem for Counted<S> {
     const DOF: usize = S::DOF;
     const CHART: Chart = S::CHART;
     const CONSTRAINED: bool = S::CONSTRAINED;
+    const HAS_CONTACTS: bool = S::HAS_CONTACTS;
     const SMOOTHNESS: Smoothness = S::SMOOTHNESS;
 
     #[inline(always)]

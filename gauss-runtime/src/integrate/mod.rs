@@ -40,7 +40,7 @@ pub use lie_group::discrete::DiscreteLinearization;
 pub use lie_group::rkmk::Rkmk;
 pub use problem::equations::{Problem, SystemProblem};
 pub use problem::error::{IntegrationError, IntegrationErrorKind, JumpMistake, RunPart};
-pub use problem::form::{Form, MomentumForm, VelocityForm};
+pub use problem::form::{Form, MomentumForm, VelocityForm, WithoutContacts};
 pub use problem::input::{Feedback, InputSource, NoInput};
 pub use problem::state::{Rates, Sample, State};
 pub use rosenbrock::Rosenbrock;

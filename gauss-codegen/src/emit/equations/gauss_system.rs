@@ -13,9 +13,11 @@ use crate::emit::equations::constrained::projection;
 pub fn gauss_system(derived: &Derived<'_, '_>) -> TokenStream {
     let (types, smoothness) = (types(derived), smoothness(derived));
     let (methods, evaluate, projection) = (methods(derived), evaluate(derived), projection(derived));
+    let contacts = contacts(derived);
     let items = quote! {
         #types
         #smoothness
+        #contacts
         #methods
         #evaluate
         #projection
@@ -41,6 +43,16 @@ fn types(derived: &Derived<'_, '_>) -> TokenStream {
         const DOF: ::core::primitive::usize = #n;
         const CHART: #private::Chart = #chart;
     }
+}
+
+/// Whether gaps may close.
+fn contacts(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let touches = !derived.subject.system.contacts.is_empty();
+    touches.then(|| {
+        quote!(
+            const HAS_CONTACTS: ::core::primitive::bool = true;
+        )
+    })
 }
 
 /// Of the loads alone: kinematics are smooth where they are regular.

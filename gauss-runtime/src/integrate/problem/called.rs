@@ -56,4 +56,9 @@ impl<P: Problem> Problem for Called<'_, P> {
     fn both_rates(&self, state: &State<P::System>, known: &Speeds<P>) -> (Speeds<P>, Speeds<P>) {
         self.0.both_rates(state, known)
     }
+
+    #[inline(always)]
+    fn leaves_contacts_out(&self) -> bool {
+        self.0.leaves_contacts_out()
+    }
 }

@@ -39,6 +39,11 @@ pub trait Problem {
     /// (ż, ṗ) at a state, one of which is the known ẏ.
     fn both_rates(&self, state: &State<Self::System>, known: &Speeds<Self>) -> (Speeds<Self>, Speeds<Self>);
 
+    /// Whether the equations leave out [contacts](GaussSystem::HAS_CONTACTS) on purpose.
+    fn leaves_contacts_out(&self) -> bool {
+        false
+    }
+
     /// The state at time t with the quasi-velocities z.
     #[inline(always)]
     fn state(&self, t: Scalar<Self>, q: Configuration<Self>, z: &Speeds<Self>) -> State<Self::System> {
@@ -126,5 +131,9 @@ impl<S: GaussSystem, F: Form<S>, I: InputSource<S>> Problem for SystemProblem<'_
     #[inline(always)]
     fn both_rates(&self, state: &State<S>, known: &S::Speeds) -> (S::Speeds, S::Speeds) {
         self.form.both_rates(self.system, &self.input, state, known)
+    }
+    #[inline(always)]
+    fn leaves_contacts_out(&self) -> bool {
+        F::LEAVES_CONTACTS_OUT
     }
 }

@@ -192,6 +192,8 @@ pub enum IntegrationErrorKind {
     },
     /// An end of the interval of time is not finite.
     InvalidInterval,
+    /// The scene has [contacts](GaussSystem::HAS_CONTACTS), whose forces this run does not have.
+    Contacts,
     /// The run does not cover the time of the requested state.
     OutsideRun {
         /// The time.
@@ -350,6 +352,10 @@ impl fmt::Display for IntegrationErrorKind {
             ),
             Self::OutsideRun { time } => write!(f, "the run does not cover t = {time}"),
             Self::InvalidInterval => f.write_str("the interval of time has an end that is not finite"),
+            Self::Contacts => f.write_str(
+                "the scene has contacts, and this run has no contact forces: run it by `ContactRun` of the crate \
+                 `gauss-contact`, or leave contacts out on purpose by `without_contacts()`",
+            ),
         }
     }
 }

@@ -9,6 +9,9 @@ use crate::system::GaussSystem;
 
 /// The variables y that are integrated together with the configuration: speeds or momenta.
 pub trait Form<S: GaussSystem>: Copy {
+    /// Whether [contacts](GaussSystem::HAS_CONTACTS) are left out on purpose: see [`WithoutContacts`].
+    const LEAVES_CONTACTS_OUT: bool = false;
+
     /// y of a state given by its quasi-velocities.
     fn variables(self, system: &S, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Speeds;
 
@@ -41,6 +44,11 @@ pub struct VelocityForm;
 /// y = p: integrate the momenta by `momentum_rate`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MomentumForm;
+
+/// Another form, of a scene whose [contacts](GaussSystem::HAS_CONTACTS) are left out on purpose: its gaps become
+/// negative, and nothing touches.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct WithoutContacts<F>(pub F);
 
 impl<S: GaussSystem> Form<S> for VelocityForm {
     #[inline(always)]
@@ -125,5 +133,45 @@ impl<S: GaussSystem> Form<S> for MomentumForm {
         let z = system.velocity(*t, q, y);
         let input = input.input(*t, q, &z);
         (system.acceleration(*t, q, &z, &input), *known)
+    }
+}
+
+impl<S: GaussSystem, F: Form<S>> Form<S> for WithoutContacts<F> {
+    const LEAVES_CONTACTS_OUT: bool = true;
+
+    #[inline(always)]
+    fn variables(self, system: &S, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Speeds {
+        self.0.variables(system, t, q, z)
+    }
+
+    #[inline(always)]
+    fn speeds(self, system: &S, t: S::Scalar, q: &S::Configuration, y: &S::Speeds) -> S::Speeds {
+        self.0.speeds(system, t, q, y)
+    }
+
+    #[inline(always)]
+    fn momentum(self, system: &S, t: S::Scalar, q: &S::Configuration, y: &S::Speeds) -> S::Speeds {
+        self.0.momentum(system, t, q, y)
+    }
+
+    #[inline(always)]
+    fn of_momentum(self, system: &S, t: S::Scalar, q: &S::Configuration, p: &S::Speeds) -> S::Speeds {
+        self.0.of_momentum(system, t, q, p)
+    }
+
+    #[inline(always)]
+    fn rates<I: InputSource<S>>(self, system: &S, input: &I, state: &State<S>) -> Rates<S> {
+        self.0.rates(system, input, state)
+    }
+
+    #[inline(always)]
+    fn both_rates<I: InputSource<S>>(
+        self,
+        system: &S,
+        input: &I,
+        state: &State<S>,
+        known: &S::Speeds,
+    ) -> (S::Speeds, S::Speeds) {
+        self.0.both_rates(system, input, state, known)
     }
 }

@@ -20,7 +20,7 @@ use crate::integrate::drive::summary::End;
 use crate::integrate::drive::trajectory::Trajectory;
 use crate::integrate::problem::equations::{Problem, SystemProblem};
 use crate::integrate::problem::error::IntegrationError;
-use crate::integrate::problem::form::{Form, MomentumForm};
+use crate::integrate::problem::form::{Form, MomentumForm, WithoutContacts};
 use crate::integrate::problem::input::{Feedback, InputSource};
 use crate::integrate::problem::state::Sample;
 use crate::real::Real;
@@ -103,6 +103,17 @@ impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C
     /// Integrates momenta instead of quasi-velocities.
     pub fn momentum_form(self) -> Simulation<SystemProblem<'k, S, MomentumForm, I>, C, O, E> {
         self.form(MomentumForm)
+    }
+
+    /// Runs a scene with contacts as if it had none: its gaps become negative, and nothing touches. Without this such
+    /// a run ends at once with [`IntegrationErrorKind::Contacts`](crate::integrate::IntegrationErrorKind::Contacts);
+    /// `ContactRun` of the crate `gauss-contact` has contact forces. A later [`form`](Self::form) undoes it.
+    pub fn without_contacts(self) -> Simulation<SystemProblem<'k, S, WithoutContacts<F>, I>, C, O, E> {
+        self.with_problem(|SystemProblem { system, form, input }| SystemProblem {
+            system,
+            form: WithoutContacts(form),
+            input,
+        })
     }
 
     /// The input as a function of time and state. It is called at every stage of every step: it should depend on its

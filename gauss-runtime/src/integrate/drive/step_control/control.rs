@@ -168,12 +168,16 @@ pub fn unresolved<T: Real>(step: f64, time: f64, span: f64) -> IntegrationErrorK
 /// first step.
 ///
 /// # Errors
-/// When the interval or the start is not finite, or the start is not on the constraints.
+/// When contacts would be left out unasked, the interval or the start is not finite, or the start is not on the
+/// constraints.
 pub fn prepare<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     start: &State<S>,
     end: S::Scalar,
 ) -> Result<(f64, State<S>, Rates<S>), IntegrationErrorKind> {
+    if S::HAS_CONTACTS && !problem.leaves_contacts_out() {
+        return Err(IntegrationErrorKind::Contacts);
+    }
     let span = end - start.t;
     if !(start.t.is_finite() && end.is_finite() && span.is_finite()) {
         return Err(IntegrationErrorKind::InvalidInterval);
