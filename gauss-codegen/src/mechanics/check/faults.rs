@@ -1,30 +1,15 @@
 //! Every system against the definition, before code is written: C of (3.1) must be stationary at a pseudo-random state;
 //! no speed and no constraint may depend on others.
 
-use std::fmt;
-
 use crate::algebra::{Evaluation, Expr, Map, Number, Precise};
 
 use crate::mechanics::formula::{Formulas, Method};
 use crate::mechanics::system::System;
 
+use super::agreement::{Comparison, Disagreement, Summed, agree, is_in_range};
 use super::dependent::{Dependency, dependencies};
+use super::pushed::Pushed;
 use super::witness::{Witness, largest, sample_state};
-
-/// A formula does not satisfy the Gauss condition: an error of this crate, never of its user.
-#[derive(Debug)]
-pub struct Disagreement {
-    method: Method,
-    row: usize,
-    residual: f64,
-}
-
-impl fmt::Display for Disagreement {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { method, row, residual } = self;
-        write!(f, "row {row} of {method:?} misses the Gauss condition by {residual:e}")
-    }
-}
 
 /// What is found wrong with a system at a pseudo-random state.
 #[derive(Debug)]
@@ -170,13 +155,6 @@ fn is_stable<'g, N: Number>(system: &System<'g>, state: &Map<u32, N>, claims: &C
     values(state.clone()).iter().zip(&values(changed.collect())).all(same)
 }
 
-/// The values that the definition gives for formulas at one state.
-enum Comparison {
-    Agrees,
-    /// Numbers are so large that it has no value at the accelerations of the formulas, as at those of `exp(exp(1000))`.
-    WithoutValue,
-}
-
 /// Residuals at the given ż and accelerations, against the definition.
 fn compare<'g, N: Number>(
     mut witness: Witness<'_, 'g, N>,
@@ -232,126 +210,6 @@ fn compare<'g, N: Number>(
     }
     let pushed = Pushed { witness: &witness, jacobian: &jacobian, multipliers: &multipliers };
     pushed.compare(claims.contacts)
-}
-
-/// The definition with contact forces of arbitrary sizes.
-struct Pushed<'w, 'a, 'g, N> {
-    witness: &'w Witness<'a, 'g, N>,
-    /// Of the constraints, speed by speed, and their multipliers without contact forces.
-    jacobian: &'w [Vec<N>],
-    multipliers: &'w [N],
-}
-
-impl<'g, N: Number> Pushed<'_, '_, 'g, N> {
-    /// C is stationary at `ż + A⁻¹Wᵀλ` under the forces Wᵀλ, and the rates of gaps and slips change by `D λ + b` there:
-    /// W and what changes them by dual numbers.
-    fn compare(&self, claims: &[Vec<Expr<'g>>]) -> Result<Comparison, Disagreement> {
-        let Self { witness, .. } = self;
-        let system = witness.system;
-        if claims.is_empty() {
-            return Ok(Comparison::Agrees);
-        }
-        let (n, rows) = (system.scene.speeds.len(), system.contacts.rates.len());
-        let rates = &system.contacts.rates;
-        let zero = N::number(0.0);
-        let forces: Vec<N> = (0..rows).map(|k| N::number(0.4 + 0.3 * (k % 3) as f64)).collect();
-        let transposed = witness.partials(rates);
-        let of_constraints = self.multipliers_with(&forces);
-        let gaps: Vec<Expr<'g>> = system.scene.contacts.iter().map(|contact| contact.gap).collect();
-        let normal_rates = witness.along(&witness.flow(&vec![zero; n]), &gaps);
-        let normals = system.scene.contacts.iter().scan(0, |next, contact| {
-            let normal = *next;
-            *next += 1 + contact.slips.len();
-            Some(rates[normal])
-        });
-        let expected: Vec<_> = normal_rates.into_iter().map(|rate| Summed::of(rate, Vec::new())).collect();
-        if !expected.iter().all(Summed::is_in_range) {
-            return Ok(Comparison::WithoutValue);
-        }
-        agree(Method::ContactRates, &witness.values(&normals.collect::<Vec<_>>()), &expected)?;
-        for claim in claims {
-            let values = witness.values(claim);
-            let (still, rest) = values.split_at(n);
-            let (bias, rest) = rest.split_at(rows);
-            let (columns, delassus) = rest.split_at(n * rows);
-            let summed = |first: N, terms: &[N]| {
-                Summed::of(first, terms.iter().zip(&forces).map(|(x, force)| *x * *force).collect())
-            };
-            let with_forces = |(k, &rate): (usize, &N)| summed(rate, &columns[k * rows..(k + 1) * rows]).value;
-            let moved: Vec<N> = still.iter().enumerate().map(with_forces).collect();
-            // The roundings of Delassus' matrix are those of A⁻¹, larger than what is left of its rows.
-            let scale = largest(values.iter().copied()).max(1.0);
-            let stationary = witness.stationarity(&moved).into_iter().enumerate().map(|(k, row)| {
-                let of_contacts = transposed[k].iter().zip(&forces).map(|(w, force)| -(*w * *force));
-                let held = self.jacobian.get(k).into_iter().flatten().zip(&of_constraints).map(|(j, l)| -(*j * *l));
-                Summed::of(row, of_contacts.chain(held).collect()).over(scale)
-            });
-            let changes = witness.along(&witness.flow(&moved), rates).into_iter().enumerate().map(|(i, change)| {
-                let sum = summed(bias[i], &delassus[i * rows..(i + 1) * rows]);
-                let sizes = largest(moved.iter().copied()) * largest(transposed.iter().flatten().copied());
-                Summed { value: change - sum.value, terms: sum.terms + sizes }.over(scale)
-            });
-            for sums in [stationary.collect::<Vec<_>>(), changes.collect()] {
-                if !sums.iter().all(Summed::is_in_range) {
-                    return Ok(Comparison::WithoutValue);
-                }
-                agree(Method::ContactDynamics, &vec![zero; sums.len()], &sums)?;
-            }
-        }
-        Ok(Comparison::Agrees)
-    }
-
-    /// The multipliers of the constraints with contact forces.
-    fn multipliers_with(&self, forces: &[N]) -> Vec<N> {
-        let mut sum = self.multipliers.to_vec();
-        for (of_row, force) in self.witness.system.multipliers_of_contacts().iter().zip(forces) {
-            let values = self.witness.values(of_row);
-            sum.iter_mut().zip(values).for_each(|(sum, value)| *sum = *sum + value * *force);
-        }
-        sum
-    }
-}
-
-/// A sum, and the sizes of its terms together: what its roundings are relative to.
-struct Summed<N> {
-    value: N,
-    terms: f64,
-}
-
-impl<N: Number> Summed<N> {
-    fn of(first: N, terms: Vec<N>) -> Self {
-        let start = Self { value: first, terms: first.to_f64().abs() };
-        terms.into_iter().fold(start, |sum, x| Self { value: sum.value + x, terms: sum.terms + x.to_f64().abs() })
-    }
-
-    fn over(self, scale: f64) -> Self {
-        Self { value: self.value / N::number(scale), terms: self.terms / scale }
-    }
-
-    fn is_in_range(&self) -> bool {
-        is_in_range(&self.value) && self.terms.is_finite()
-    }
-}
-
-/// Whether double precision has the number: scales and residuals are taken there, and so are all results of kernels.
-fn is_in_range<N: Number>(x: &N) -> bool {
-    x.to_f64().is_finite()
-}
-
-/// Two evaluations of the same rows.
-fn agree<N: Number>(method: Method, found: &[N], expected: &[Summed<N>]) -> Result<(), Disagreement> {
-    let sizes = found.iter().chain(expected.iter().map(|row| &row.value));
-    let scale = sizes.fold(1.0_f64, |most, x| most.max(x.to_f64().abs()));
-    for (row, (x, y)) in found.iter().zip(expected).enumerate() {
-        // Numbers of order one and some hundreds of roundings; terms of 1e120 that cancel leave roundings of their own.
-        // NaN is no agreement either.
-        let residual = (*x - y.value).to_f64();
-        let close = residual.abs() <= 1e-8 * scale + N::NEGLIGIBLE * y.terms;
-        if !close {
-            return Err(Disagreement { method, row, residual });
-        }
-    }
-    Ok(())
 }
 
 /// The unknowns whose pivots vanish while A is eliminated, beside what they were.

@@ -1,7 +1,9 @@
 //! Every scene against the definition (3.1).
 
+mod agreement;
 #[cfg(test)]
 pub mod definition;
 pub mod dependent;
 pub mod faults;
+mod pushed;
 pub mod witness;
