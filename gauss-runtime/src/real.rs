@@ -254,6 +254,31 @@ pub trait Real:
     }
 }
 
+/// The largest of the derivatives that a number of one lane carries, rounded up to a power of two: 0 of a plain number,
+/// and of derivatives below 2⁻⁹⁰⁰; infinite from 2⁹⁰⁰ on. For decisions and reports, not for arithmetic.
+///
+/// All that numbers tell of their derivatives is whether they are finite: so they are enlarged until they are not.
+#[must_use]
+pub fn largest_derivative<T: Real>(x: T) -> f64 {
+    const FARTHEST: i32 = 900;
+    let rest = x - T::from_f64(x.lane(0));
+    let power = |n: i32| Real::powi(2.0_f64, n);
+    // Times 2^(1023 − n), in two factors, each of which is a number.
+    let within = |n: i32| (rest * T::from_f64(power(512 - n / 2)) * T::from_f64(power(511 - (n - n / 2)))).is_finite();
+    if !T::DERIVATIVES || within(-FARTHEST) {
+        return 0.0;
+    }
+    if !within(FARTHEST) {
+        return f64::INFINITY;
+    }
+    let (mut low, mut high) = (-FARTHEST, FARTHEST);
+    while high - low > 1 {
+        let middle = (low + high).div_euclid(2);
+        if within(middle) { high = middle } else { low = middle }
+    }
+    power(high)
+}
+
 #[cfg(feature = "std")]
 macro_rules! elementary {
     ($float:ident, $std:ident, $libm:ident; $($argument:expr),+) => { $float::$std($($argument),+) };

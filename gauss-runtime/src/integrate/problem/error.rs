@@ -128,6 +128,14 @@ pub enum IntegrationErrorKind {
         /// The rate after it.
         after: f64,
     },
+    /// The numbers of the run carry derivatives, and the time of an event has none: its function touches zero or jumps
+    /// over it, or the numbers are packs.
+    NoDerivative {
+        /// The number of the event.
+        event: usize,
+        /// The rate of its function there, per unit of time; NaN for packs of numbers.
+        rate: f64,
+    },
     /// The jump at an event sets another time, or speeds and momenta that disagree.
     InvalidJump {
         /// The number of the event.
@@ -282,6 +290,15 @@ impl IntegrationErrorKind {
                  {after:.3e} after {before:.3e}; turn the velocity along the function (speeds of a body may be in its own \
                  axes), or use `then_through` where it is to pass"
             ),
+            Self::NoDerivative { event, rate } if rate.is_nan() => write!(
+                f,
+                "the time of event {event} has derivatives, which packs of numbers do not share; run them one by one"
+            ),
+            Self::NoDerivative { event, rate } => write!(
+                f,
+                "the time of event {event} has no derivative: its function touches zero or jumps over it (rate \
+                 {rate:.1e}); watch a function that passes through zero, or run with plain numbers"
+            ),
             Self::InvalidJump { event, mistake: JumpMistake::Time } => {
                 write!(f, "the jump of event {event} sets the time; it may set q, and z or p")
             }
@@ -325,9 +342,11 @@ impl fmt::Display for IntegrationErrorKind {
                 "the motion has rates of {rate:.1e} per unit of time, for which steps of {step:.1e} are too long or too many; check \
                  units and parameters, shorten the run, or use a method that need not resolve them (`FreeFlow`, `Splitting`)"
             ),
-            Self::TooManyJumps { .. } | Self::Zeno { .. } | Self::NotTurnedBack { .. } | Self::InvalidJump { .. } => {
-                self.of_jump(f)
-            }
+            Self::TooManyJumps { .. }
+            | Self::Zeno { .. }
+            | Self::NotTurnedBack { .. }
+            | Self::NoDerivative { .. }
+            | Self::InvalidJump { .. } => self.of_jump(f),
             Self::IncrementTooLarge { angle } => write!(
                 f,
                 "the body turns by {angle:.3} rad in one step, and at most π can be told from less; use a smaller step"

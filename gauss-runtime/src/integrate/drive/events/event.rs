@@ -40,6 +40,13 @@
 //!   state after the jump. Events whose zeros are the same, to the resolution of the time, happen at one time, in their
 //!   order.
 //!
+//! **Derivatives.** Where numbers carry derivatives ([`Real::DERIVATIVES`]), the time of an event does too: values of
+//! dual numbers find it as those of `f64` do, then Newton's method in the numbers themselves moves the state along the
+//! motion to where the function is zero with all of its derivatives. A jump, and the run behind it, go on from there:
+//! derivatives of the end are those of the run through its events (saltation). A function that touches zero, or jumps
+//! over it, has no such time: the run ends with [`IntegrationErrorKind::NoDerivative`]. Events at one time are moved
+//! one after the other, in their order; where they act on one another the derivative is one-sided, that of this order.
+//!
 //! What a jump sets is `q`, and `z` or `p`. Time goes on: a jump that sets it ends the run with
 //! [`IntegrationErrorKind::InvalidJump`], and so does one that sets both `z` and `p` where they disagree.
 
@@ -411,17 +418,25 @@ where
 
         // What is no further than zeros are found to is at the same time.
         let together = 2.0 * looking.resolution;
-        let (mut cut, mut here) = (f64::INFINITY, None);
+        let (mut cut, mut here) = (f64::INFINITY, None::<Here<S>>);
         while let Some((number, part, terminal)) = self.earliest() {
             // Others at the very end of the run are told of, later ones are not.
             if part > cut + together {
                 break;
             }
             let now = match here.take() {
-                Some(now) => now,
-                None => (looking.reach(part)?, None, number, None),
+                // Its own time may have other derivatives than that of the event before.
+                Some((at, after, first, stopped_by)) => {
+                    report(number, &self.differentiated(&looking, number, at)?);
+                    let after = after.map(|after| self.differentiated(&looking, number, after)).transpose()?;
+                    (at, after, first, stopped_by)
+                }
+                None => {
+                    let at = self.differentiated(&looking, number, looking.reach(part)?)?;
+                    report(number, &at);
+                    (at, None, number, None)
+                }
             };
-            report(number, &now.0);
             let now = self.happens(&looking, (number, terminal), now)?;
             if now.1.is_some() || now.3.is_some() {
                 cut = cut.min(part);
@@ -445,6 +460,24 @@ where
             Ok(())
         })?;
         Ok(Outcome::On)
+    }
+
+    /// A state at an event, moved to where the derivatives of its function are zero as well.
+    fn differentiated(
+        &mut self,
+        looking: &Looking<'_, S, P, C>,
+        number: usize,
+        mut state: State<S>,
+    ) -> Result<State<S>, IntegrationErrorKind> {
+        if S::Scalar::DERIVATIVES {
+            self.each(|n, function, _| {
+                if n == number {
+                    state = looking.differentiated((number, function), &state)?;
+                }
+                Ok(())
+            })?;
+        }
+        Ok(state)
     }
 
     /// An event happens, which may end the run or make the state jump, perhaps after others there.
@@ -503,6 +536,11 @@ where
                 return mistake(JumpMistake::SpeedsAndMomenta);
             }
             set.z = z;
+        } else if S::Scalar::DERIVATIVES {
+            // Momenta may be set to other derivatives at the same values.
+            let [set_to, was] =
+                [&set.p, &given.p].map(|p| problem.speeds(from.t, &set.q, &problem.of_momentum(from.t, &set.q, p)));
+            set.z = set.z.add_scaled(S::Scalar::one(), &set_to.add_scaled(-S::Scalar::one(), &was));
         }
         // The least change of a velocity counts: that of an axis which happens to lie level is meant as any other.
         let touched = |a: &S::Speeds, b: &S::Speeds, lane| {

@@ -134,7 +134,7 @@ pub(in crate::integrate) fn rounding<S: GaussSystem, P: Problem<System = S>>(
 }
 
 /// The motion near a state, to the second order.
-struct Parabola<'a, S: GaussSystem> {
+pub(in crate::integrate) struct Parabola<'a, S: GaussSystem> {
     state: &'a State<S>,
     rates: &'a Rates<S>,
     second: Rates<S>,
@@ -144,7 +144,12 @@ struct Parabola<'a, S: GaussSystem> {
 impl<'a, S: GaussSystem> Parabola<'a, S> {
     /// Over a time h. The second derivatives are differences: what they are off by changes less than they do within a
     /// step.
-    fn of<P: Problem<System = S>>(problem: &P, state: &'a State<S>, rates: &'a Rates<S>, h: S::Scalar) -> Self {
+    pub(in crate::integrate) fn of<P: Problem<System = S>>(
+        problem: &P,
+        state: &'a State<S>,
+        rates: &'a Rates<S>,
+        h: S::Scalar,
+    ) -> Self {
         let short = h * S::Scalar::from_f64(SHORT);
         let next = problem.rates(&moved(state, rates, short));
         let minus = -S::Scalar::one();
@@ -155,7 +160,7 @@ impl<'a, S: GaussSystem> Parabola<'a, S> {
         Self { state, rates, second, h }
     }
 
-    fn at(&self, part: f64) -> State<S> {
+    pub(in crate::integrate) fn at(&self, part: f64) -> State<S> {
         let h = self.h * S::Scalar::from_f64(part);
         let half = h * S::Scalar::from_f64(0.5);
         let mean = Rates {

@@ -1,6 +1,8 @@
 //! Dual numbers of `num-dual` in kernels and integrators: derivatives of whole simulations by parameters, against
 //! differences.
 
+mod events;
+
 use gauss_adapters::DualNumber;
 use gauss_runtime::integrate::Fixed;
 use gauss_runtime::linearize::{Factored, Lu};
