@@ -8,14 +8,14 @@ use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::forces::Columns;
 use gauss_runtime::integrate::drive::tolerance::Tolerance;
 use gauss_runtime::integrate::problem::state::TangentOf;
-use gauss_runtime::real::Real;
+use gauss_runtime::real::{Real, largest_derivative};
 use gauss_runtime::system::GaussSystem;
 
 use crate::dense::{Matrix, epsilon, norm, size, sum, value};
 use crate::error::{ContactError, ContactErrorKind};
 use crate::history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
 use crate::impact::{Impact, Struck, after, rows};
-use crate::mode::{InMode, Mode, slip, tangents, terms};
+use crate::mode::{InMode, Mode, UNCLOSED, largest_derivative_of, slip, tangents, terms};
 use crate::solver::{Contacts, Failure, Law, State};
 use crate::trajectory::ContactTrajectory;
 use crate::witness::Watched;
@@ -142,7 +142,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         scales.largest = scales.largest.max(self.z.max_norm());
         self.check_paradox(made)?;
         let slides = self.begins_to_slide(made);
-        let closed = self.closed(scales);
+        let closed = self.closed(scales)?;
         let before = self.sizes(scales);
         let noise = self.impacts(&closed, scales, made)?;
         let struck = noise.is_some();
@@ -209,13 +209,23 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
 
     /// The contacts whose gap is zero. Where one has just closed, the state goes back by as much of the time as the gap
     /// is beyond zero, less than what times are told apart by: else each bounce would be a little lower than zero.
-    fn closed(&mut self, scales: &Scales) -> Vec<bool> {
+    fn closed(&mut self, scales: &Scales) -> Result<Vec<bool>, ContactError> {
         let gaps = self.kernel.gaps(self.t, &self.q);
         let sizes = self.sizes(scales);
         let landed = if let Some(Watched::Gap(i)) = self.fired { Some(i) } else { None };
-        let closed = (0..K::CONTACTS.len())
+        let closed: Vec<bool> = (0..K::CONTACTS.len())
             .map(|i| self.modes[i].is_closed() || landed == Some(i) || value(gaps.component(i)) <= sizes.of_gap[i])
             .collect();
+        // What else closes at this time has to do so nearby, too.
+        let known = |i: usize| {
+            let late = value(sizes.rates.component(K::CONTACTS[i].normal)).abs() * largest_derivative(self.t);
+            UNCLOSED * late.max(largest_derivative_of(&self.q))
+        };
+        let comes = |&i: &usize| closed[i] && !self.first && landed != Some(i) && !self.modes[i].is_closed();
+        let apart = (0..closed.len()).filter(comes).find(|&i| largest_derivative(gaps.component(i)) > known(i));
+        if let Some(apart) = apart {
+            return Err(self.error(Some(apart), ContactErrorKind::Together));
+        }
         if let Some(i) = landed {
             let (gap, rate) = (gaps.component(i), sizes.rates.component(K::CONTACTS[i].normal));
             if value(gap) < 0.0 && value(rate) < -sizes.of_rate[K::CONTACTS[i].normal] {
@@ -223,7 +233,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
                 self.q = self.q.retract(&velocity.scale(-gap / rate)).renormalise();
             }
         }
-        closed
+        Ok(closed)
     }
 
     /// Friction of all contacts, checked.

@@ -85,6 +85,15 @@ pub enum ContactErrorKind {
     },
     /// The state cannot be brought onto closed gaps.
     Projection(ProjectionError),
+    /// The numbers of the run carry derivatives, and the time of this event has none: the gap, force or slip that ends
+    /// the mode of the contact touches zero without passing through it.
+    Grazes {
+        /// Its rate, per unit of time.
+        rate: f64,
+    },
+    /// The numbers of the run carry derivatives, and this gap closes at one time with another, but not nearby: what
+    /// happens there depends on which of them is first, and what follows has no derivative.
+    Together,
     /// The run does not cover the time.
     OutsideRun,
     /// The integration between two events failed.
@@ -125,6 +134,12 @@ impl fmt::Display for ContactErrorKind {
                 write!(f, "{limit} events do not reach the end; allow more by `max_events`")
             }
             Self::Projection(error) => error.fmt(f),
+            Self::Grazes { rate } => {
+                write!(f, "what ends the mode only touches zero (rate {rate:.1e}): its time has no derivative")
+            }
+            Self::Together => f.write_str(
+                "the gap closes at one time with another, and nearby before or after it: what follows has no derivative",
+            ),
             Self::OutsideRun => f.write_str("the run does not cover this time"),
             Self::Integration(error) => error.fmt(f),
         }

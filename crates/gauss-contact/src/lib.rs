@@ -14,7 +14,13 @@
 //!
 //! Limits: flights lower than some hundred roundings of the largest coordinate are rest, or an error where e = 1. A gap
 //! that opens and closes within a step is seen as far as [events](gauss_runtime::integrate::drive::event) are; one that
-//! is found closed too late ends the run with [`ContactErrorKind::Penetration`]. Scalars are `f64`.
+//! is found closed too late ends the run with [`ContactErrorKind::Penetration`].
+//!
+//! Scalars are any of one lane. Values decide what happens; where numbers carry derivatives, so do times of events,
+//! impulses and forces, and the end of a run has those of the run through its events. Derivatives are those of the
+//! modes that the run has: where a slip or a gap is at the edge of two modes, one-sided. Of bounces that pile up they are
+//! followed as far as the bounces are; what rests moves with its closed gap, so that a start on a closed gap is
+//! differentiated along it. What has none ends with [`ContactErrorKind::Grazes`] or [`ContactErrorKind::Together`].
 //!
 //! Friction is Coulomb's, isotropic; with two tangents and a friction so large that it can reverse the effect of
 //! a normal force, uniqueness is not checked for contacts that begin to slide.

@@ -11,11 +11,11 @@ use core::fmt;
 
 use gauss_runtime::chart::Chart;
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::constraint::ProjectionError;
+use gauss_runtime::constraint::{ConstraintLevel, ProjectionError, ProjectionFailure};
 use gauss_runtime::contact::{Contact, ContactDynamics, ContactSystem};
 use gauss_runtime::forces::Columns;
 use gauss_runtime::integrate::problem::state::TangentOf;
-use gauss_runtime::real::Real;
+use gauss_runtime::real::{Real, largest_derivative};
 use gauss_runtime::system::{GaussSystem, Smoothness};
 
 use crate::dense::{Decomposition, Matrix, epsilon, norm, sum, value};
@@ -112,6 +112,15 @@ fn direction<T: Real>(reference: [T; 2], [x, y]: [T; 2], rounding: f64) -> [T; 2
     // Derivatives are those of the slip.
     let kept = |k: usize| turned[k] + T::from_f64(value(reference[k]) - value(turned[k]));
     if straight { [kept(0), kept(1)] } else { turned }
+}
+
+/// What is left of the derivative of a closed gap is rounding up to this part of those of the configuration.
+pub(crate) const UNCLOSED: f64 = 1e-9;
+
+/// The largest derivative in a configuration.
+pub(crate) fn largest_derivative_of<Q: Configuration>(q: &Q) -> f64 {
+    let components = q.components();
+    (0..Q::Components::DIM).map(|i| largest_derivative(components.component(i))).fold(0.0, f64::max)
 }
 
 /// The least number of Newton's corrections of a state: each one that values do not need doubles the order up to which
@@ -237,6 +246,7 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
 
     /// Closed gaps brought to zero. ψ is affine in z: what an impulse adds to it is an increment of the configuration.
     fn close_gaps(&self, t: K::Scalar, mut q: K::Configuration) -> Result<K::Configuration, ProjectionError> {
+        let given = q;
         let contact = |row: usize| K::CONTACTS.iter().position(|contact| contact.normal == row);
         let rows = self.rows(false);
         let mut left = f64::INFINITY;
@@ -260,6 +270,17 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
             if K::CONSTRAINED {
                 q = self.kernel.project(t, &q, &zero)?.0;
             }
+        }
+        // Gaps that depend on one another may close here, but not nearby.
+        let open = |q: &K::Configuration| {
+            let gaps = self.kernel.gaps(t, q);
+            self.closed().map(|(i, ..)| largest_derivative(gaps.component(i))).fold(0.0, f64::max)
+        };
+        let size = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
+        let rounding = UNCLOSED * largest_derivative_of(&q).max(1e-3 * size);
+        let (before, open) = (open(&given), open(&q));
+        if open > rounding && open > 1e-3 * before {
+            return Err(ProjectionError::new(ConstraintLevel::Position, ProjectionFailure::NotConverged, open));
         }
         Ok(q)
     }

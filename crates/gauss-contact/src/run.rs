@@ -9,7 +9,9 @@ use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::integrate::drive::simulation::NoControl;
 use gauss_runtime::integrate::drive::tolerance::Tolerance;
-use gauss_runtime::integrate::{Adaptive, Control, Crossing, Feedback, InputSource, NoInput, Simulation};
+use gauss_runtime::integrate::{
+    Adaptive, Control, Crossing, Feedback, InputSource, IntegrationErrorKind, NoInput, Simulation,
+};
 use gauss_runtime::real::Real;
 
 use crate::decide::{Instant, Rounding, Scales};
@@ -225,7 +227,15 @@ where
         let (last, end) = (*trajectory.last(), trajectory.last().t);
         self.made.segments.push(Segment { system, trajectory });
         if let Some(error) = error {
-            return Err(integration(value(end), error));
+            let grazes = |event: usize, rate| ContactError {
+                contact: Some(K::CONTACTS[watched[event].contact()].name),
+                time: value(end),
+                kind: ContactErrorKind::Grazes { rate },
+            };
+            return Err(match error.kind {
+                IntegrationErrorKind::NoDerivative { event, rate } => grazes(event, rate),
+                _ => integration(value(end), error),
+            });
         }
         self.check_end(&from.modes, (end, &last.q, &last.z))?;
         Ok(stopped)

@@ -77,7 +77,7 @@ fn bounces<T: Real>(control: impl Control<BallKernel<T>>, [h, e, g]: [T; 3]) -> 
 }
 
 /// The same by hand.
-fn closed_form<T: Real>([h, e, g]: [T; 3], impacts: usize) -> (Vec<T>, [T; 2]) {
+pub fn closed_form<T: Real>([h, e, g]: [T; 3], impacts: usize) -> (Vec<T>, [T; 2]) {
     let two = T::from_f64(2.0);
     let (mut t, mut v) = ((two * h / g).sqrt(), (two * h * g).sqrt());
     let mut times = vec![t];

@@ -1,6 +1,7 @@
 //! Dual numbers of `num-dual` in kernels and integrators: derivatives of whole simulations by parameters, against
 //! differences.
 
+mod contacts;
 mod events;
 
 use gauss_adapters::DualNumber;

@@ -25,8 +25,9 @@ const SPAN: f64 = 1.0 / 4096.0;
 const RESOLVED: f64 = 1e6;
 /// And no longer than the slower of configuration and speeds changes by this part of itself.
 const LONGEST: f64 = 1e-3;
-/// A function whose turning point is no further beyond zero than so many roundings touches zero.
-const TOUCHES: f64 = 64.0;
+/// A function whose turning point is no further beyond zero than so many roundings touches zero: these are bounds, some ten
+/// times what rounding is.
+const TOUCHES: f64 = 4.0;
 /// Newton's steps.
 const MOST_STEPS: u32 = 12;
 /// Steps end where what they add is this part of the sum, and have failed where it is the other.
