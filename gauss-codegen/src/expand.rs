@@ -127,7 +127,7 @@ mod tests {
     #[test]
     fn contacts_that_nothing_changes() {
         let found = mistakes(
-            "contact(p, gap = x - x + y - y, slip = v, friction = 1), contact(q, gap = y, slip = [v * w, s - s], friction = 1),
+            "contact(o, point = hub, plane = [1, 0, 0]), contact(p, gap = x - x + y - y, slip = v, friction = 1), contact(q, gap = y, slip = [v * w, s - s], friction = 1),
              range(r, along = hub.z, to = 2), contact(u, point = hub, plane = [1, 0, 0])",
         );
         let found: Vec<(&str, &str)> = found.iter().map(|(place, message)| (&place[..], &message[..])).collect();
@@ -136,6 +136,7 @@ mod tests {
         assert_eq!(
             found,
             [
+                ("hub", &gap("o")[..]),
                 ("-", &gap("p")[..]),
                 ("*", curved),
                 ("-", "no speed changes this slip of `q`; leave it out"),
@@ -143,6 +144,9 @@ mod tests {
                 ("hub", &gap("u")),
             ]
         );
+        let found = mistakes("contact(o, point = hub, height = x, over = x, friction = 2), contact(p, gap = y)");
+        let idle = "nothing slips along `o`, so friction does nothing; remove `friction`";
+        assert_eq!(found, [("2".to_owned(), idle.to_owned())]);
     }
 
     /// A frame that turns with `b` carries a body; the other body that turns with `b` is not free by itself.

@@ -174,6 +174,7 @@ pub fn refuse_contacts(given: &Given<'_>, system: &System<'_>) -> Result<()> {
     for contact in &system.scene.contacts {
         let place = &given.contacts[contact.clause];
         let spans = std::iter::once(place.gap).chain(place.slips.iter().copied());
+        let spans = spans.take(1 + contact.slips.len());
         for (number, (span, row)) in spans.zip(&mut rows).enumerate() {
             let message = match (system.contacts.is_still(row), system.contacts.is_affine(row, &system.scene.speeds)) {
                 (true, _) if number == 0 => {

@@ -2,6 +2,8 @@
 
 #[path = "touching/published.rs"]
 mod published;
+#[path = "touching/shapes.rs"]
+mod shapes;
 
 use std::f64::consts::FRAC_PI_2;
 

@@ -33,7 +33,7 @@ pub use scene::clauses::{
     BodyClause, Coefficients, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, RoleClause, RoleValue,
     SpeedKind, SpeedPart,
 };
-pub use scene::contacts::{Against, ContactClause, PointContact, Touching};
+pub use scene::contacts::{Against, ContactClause, Copies, PointContact, Touching};
 pub use scene::elements::{ElementKind, Takes, argument};
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 pub use scene::forces::{ForceAxes, ForceClause};

@@ -9,7 +9,7 @@
 //! - `kinematics`: ψ, and the rates of everything that it moves.
 //! - `values`: expressions; `value`: what they stand for.
 //! - `domains`: expressions without a value; `notes`: what is noted on the way.
-//! - `forces`: loads; `contacts`: gaps, slips and their coefficients.
+//! - `forces`: loads; `contacts`: gaps, slips and their coefficients; `shapes`: those of points, spheres, boxes.
 //! - `laws`, `drag`: constants of loads, for checks and warnings.
 //! - `parameters`: what the numbers of fields are called; `state`: what coordinates and speeds are called.
 //! - `placements`: where bodies, frames and points are.
@@ -25,6 +25,7 @@ mod mass_data;
 mod notes;
 mod parameters;
 mod placements;
+mod shapes;
 mod state;
 mod symbols;
 mod translated;

@@ -121,6 +121,8 @@ pub(super) struct Translator<'a, 'g> {
     pub(super) observed_rates: Vec<ObservedRates<'g>>,
     /// The motion of the only body, where it stands by symbols of its own.
     pub(super) observed: Option<Observed<'g>>,
+    /// The horizontal coordinates over which a height is given, while it is translated.
+    pub(super) place: Option<[Expr<'g>; 2]>,
 }
 
 impl<'a, 'g> Translator<'a, 'g> {
@@ -148,6 +150,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             rates: Map::default(),
             observed_rates: vec![[None; 2]; model.coordinates.len()],
             observed: None,
+            place: None,
         }
     }
 

@@ -64,6 +64,9 @@ impl<'g> Translator<'_, 'g> {
                 self.names.get(&name.unraw().to_string()).cloned().ok_or_else(|| bug(e.span))?
             }
             ExpressionKind::Input(_) => return Err(bug(e.span)),
+            ExpressionKind::Horizontal(_, k) => {
+                Value::Scalar(self.place.and_then(|place| place.get(*k).copied()).ok_or_else(|| bug(e.span))?)
+            }
             ExpressionKind::Property(inner, property) => self.property(inner, *property, tree)?,
             ExpressionKind::Component(inner, k) => {
                 Value::Scalar(*self.vector(inner, tree)?.get(*k).ok_or_else(|| bug(e.span))?)

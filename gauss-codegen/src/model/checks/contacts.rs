@@ -6,7 +6,7 @@ use crate::model::language::words::{same, word};
 use crate::model::names::kinds;
 use crate::model::names::moving::Moving;
 use crate::model::names::scope::Scope;
-use crate::model::scene::contacts::{Against, ContactClause, PointContact, Touching};
+use crate::model::scene::contacts::{Against, ContactClause, Copies, PointContact, Touching};
 use crate::model::scene::expression::{Expression, ExpressionKind, Property};
 
 /// Checks names and kinds in the contacts. Returns for each clause whether it is without mistakes.
@@ -62,20 +62,42 @@ fn check_point(
 ) {
     let other = match &contact.against {
         Against::Sphere { center, .. } => Some(center),
-        Against::Plane { .. } => None,
+        Against::Plane { .. } | Against::Ground(_) => None,
     };
-    if !moving.in_place(&contact.point) && !other.is_some_and(|center| moving.in_place(center)) {
+    let end = match &contact.copies {
+        Copies::Ends(end) => Some(end),
+        _ => None,
+    };
+    if ![Some(&contact.point), other, end].into_iter().flatten().any(|point| moving.in_place(point)) {
         context.error(
             contact.point.span,
             "the point does not move, so it never touches; name a coordinate, or a body or point that moves",
         );
     }
-    let needs_body = contact.rim.is_some() || (contact.radius.is_some() && clause.friction.is_some());
-    if needs_body && !is_of_body(&contact.point, statements) {
+    let rubs = clause.friction.is_some();
+    let needs_body =
+        contact.rim.is_some() || matches!(contact.copies, Copies::Corners(_)) || (contact.radius.is_some() && rubs);
+    let mut needing = vec![&contact.point];
+    needing.extend(end);
+    let needing = needing.into_iter().filter(|_| needs_body);
+    let turned = match &contact.against {
+        Against::Sphere { center, radius: Some(_), .. } if rubs && moving.in_place(center) => Some(center),
+        _ => None,
+    };
+    for point in needing.chain(turned).filter(|point| !is_of_body(point, statements)) {
         context.error(
-            contact.point.span,
-            "a rim, or a sphere with friction, turns with its body; write `point = ball.position` of the body, or the name \
-             of a point that is fixed in it",
+            point.span,
+            "a box, a rim, or a sphere with friction, turns with its body; write `point = ball.position` of the body, or the \
+             name of a point that is fixed in it",
+        );
+    }
+    if let Against::Sphere { center, along: None, .. } = &contact.against
+        && rubs
+    {
+        context.error(
+            center.span,
+            "the tangents of two spheres turn with their line of centers; add `along = [0, 0, 1]`, a direction that this \
+             line never has",
         );
     }
     if let Against::Plane { normal: Some(normal), along: None, .. } = &contact.against

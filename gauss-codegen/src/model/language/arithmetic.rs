@@ -93,7 +93,12 @@ pub fn read_coefficients(owner: &str, what: &str, tokens: &[TokenTree], context:
 }
 
 /// Reads the tokens of one scalar, or of a list `[a, b]` of one or two.
-pub fn read_one_or_two(owner: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Vec<Expression>> {
+pub fn read_one_or_two(
+    owner: &str,
+    (of, example): (&str, [&str; 2]),
+    tokens: &[TokenTree],
+    context: &mut Context,
+) -> Option<Vec<Expression>> {
     let flat = attributes::flat(tokens.iter().cloned().collect());
     let [TokenTree::Group(group)] = flat.as_slice() else {
         return read(owner, tokens, context).map(|expression| vec![expression]);
@@ -104,8 +109,10 @@ pub fn read_one_or_two(owner: &str, tokens: &[TokenTree], context: &mut Context)
     let pieces = attributes::pieces(group.stream(), "", context);
     if !matches!(pieces.len(), 1 | 2) {
         let message = format!(
-            "`{owner}` is one scalar or two, one for each tangent, found {}; write `{owner} = v` or `{owner} = [u, v]`",
-            pieces.len()
+            "`{owner}` is one {of}, found {}; write `{owner} = {}` or `{owner} = {}`",
+            pieces.len(),
+            example[0],
+            example[1]
         );
         context.error(group.span_open(), message);
         return None;

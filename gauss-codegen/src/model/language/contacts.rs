@@ -5,8 +5,8 @@ use super::arithmetic;
 use super::attributes::{Clause, Content, Owner};
 use super::context::Context;
 use super::placements::may_be_name;
-use super::words::{Table, word};
-use crate::model::scene::contacts::{Against, ContactClause, PointContact, Touching};
+use super::words::{Table, same, word};
+use crate::model::scene::contacts::{Against, ContactClause, Copies, PointContact, Touching};
 use crate::model::scene::expression::{Expression, ExpressionKind};
 use proc_macro2::{Ident, Span};
 use quote::format_ident;
@@ -19,8 +19,12 @@ const CONTACT: &Table<()> = &[
     ("radius", ()),
     ("rim", ()),
     ("axis", ()),
+    ("length", ()),
+    ("edges", ()),
+    ("end", ()),
     ("plane", ()),
     ("height", ()),
+    ("over", ()),
     ("along", ()),
     ("other", ()),
     ("other_radius", ()),
@@ -37,6 +41,10 @@ const NEEDS: &Table<&str> = &[
     ("other", "point"),
     ("axis", "rim"),
     ("rim", "axis"),
+    ("length", "rim"),
+    ("edges", "point"),
+    ("end", "point"),
+    ("over", "height"),
     ("other_radius", "other"),
 ];
 /// The first does not go with the second, and why.
@@ -47,8 +55,15 @@ const EXCLUDES: &[(&str, &str, &str)] = &[
     ("rim", "other", "a rim touches a plane alone; write the gap to another sphere as `gap = …`"),
     ("plane", "other", "a point touches a plane or another sphere; write a clause for each"),
     ("height", "other", "a point touches a plane or another sphere; write a clause for each"),
-    ("along", "other", "tangents are those of a plane; remove `along`"),
-    ("friction", "other", "tangents of two spheres turn with them; write `gap = …` with `slip = …` for friction"),
+    ("edges", "rim", "a box has corners and a disk has a rim; write a clause for each"),
+    ("edges", "end", "a box has corners and a capsule has two ends; write a clause for each"),
+    ("end", "rim", "a capsule has two ends and a disk has a rim; for a cylinder write `length = …` with the rim"),
+    ("edges", "other", "corners touch a plane or a ground; write the gap to a sphere as `gap = …`"),
+    ("end", "other", "the ends of a capsule touch a plane or a ground; write the gap to a sphere as `gap = …`"),
+    ("over", "plane", "a height over the horizontal place makes its own normals; remove `plane`"),
+    ("over", "along", "a height over the horizontal place makes its own tangents; remove `along`"),
+    ("radius", "over", "which point of a sphere is nearest to such a ground has no closed form; remove `radius`"),
+    ("rim", "over", "which point of a rim is nearest to such a ground has no closed form; write points of the rim"),
 ];
 const RANGE: &Table<()> = &[("along", ()), ("from", ()), ("to", ()), ("restitution", ())];
 /// Words of `stop(…)` and of other programs for the limits of a range.
@@ -81,8 +96,13 @@ pub fn read_contact(clause: &Clause, context: &mut Context) -> Option<ContactCla
         context
             .error(slip.name.span(), "without friction the slip does nothing; add `friction = mu`, or remove `slip`");
     }
-    let names = vec![written.name?];
-    Some(ContactClause { names, touching: touching.filter(|_| well)?, friction, restitution })
+    let (name, touching) = (written.name?, touching.filter(|_| well)?);
+    let numbered = |k| format_ident!("{}_{k}", name.unraw(), span = name.span());
+    let names = match &touching {
+        Touching::Point(contact) if contact.copies.count() > 1 => (0..contact.copies.count()).map(numbered).collect(),
+        _ => vec![name],
+    };
+    Some(ContactClause { names, touching, friction, restitution })
 }
 
 /// `range(x, from = …, to = …, restitution = …)` of the coordinate x, or `range(name, along = …, …)`; `None` if
@@ -108,6 +128,41 @@ pub fn read_range(clause: &Clause, context: &mut Context) -> Option<ContactClaus
     }
     let touching = Touching::Range { along: along?, from, to };
     Some(ContactClause { names, touching, friction: None, restitution })
+}
+
+/// The edges of a box.
+fn three(edges: Expression, context: &mut Context) -> Option<[Expression; 3]> {
+    match edges.kind {
+        ExpressionKind::Vector(edges) => Some(edges.map(|edge| *edge)),
+        _ => {
+            context.error(edges.span, "the edges of a box are three lengths in brackets; write `edges = [a, b, c]`");
+            None
+        }
+    }
+}
+
+/// What `over = …` calls the horizontal coordinates.
+fn horizontal(argument: &Clause, context: &mut Context) -> Option<Vec<Ident>> {
+    let wording = ("name or two, those of the horizontal coordinates", ["x", "[x, y]"]);
+    let names = arithmetic::read_one_or_two("over", wording, equals(argument, "[x, y]", context)?, context)?;
+    let name = |name: &Expression| match &name.kind {
+        ExpressionKind::Name(name) => Some(name.clone()),
+        _ => {
+            context.error(name.span, "`over` gives names to the horizontal coordinates; write `over = [x, y]`");
+            None
+        }
+    };
+    names.iter().map(name).collect()
+}
+
+/// Puts the horizontal coordinates in the place of their names.
+fn place_over(height: &mut Expression, names: &[Ident]) {
+    if let ExpressionKind::Name(name) = &height.kind
+        && let Some(k) = names.iter().position(|known| same(known, name))
+    {
+        height.kind = ExpressionKind::Horizontal(name.clone(), k);
+    }
+    height.each_part(&mut |part| place_over(part, names));
 }
 
 /// A clause as it is written: its name, and its arguments, each of them once and known.
@@ -173,7 +228,8 @@ impl Written {
     fn of_gap(&self, context: &mut Context) -> Option<Touching> {
         let gap = self.value("gap", "z - r", context);
         let slips = self.find("slip").map_or(Some(Vec::new()), |argument| {
-            arithmetic::read_one_or_two("slip", equals(argument, "v", context)?, context)
+            let wording = ("scalar or two, one for each tangent", ["v", "[u, v]"]);
+            arithmetic::read_one_or_two("slip", wording, equals(argument, "v", context)?, context)
         });
         Some(Touching::Gap { gap: gap?, slips: slips? })
     }
@@ -183,14 +239,28 @@ impl Written {
         let mut value = |word: &str, example: &str| self.value(word, example, context);
         let (point, radius) = (value("point", "tip"), value("radius", "r"));
         let (rim, axis) = (value("rim", "r"), value("axis", "[0, 0, 1]"));
+        let (length, edges, end) = (value("length", "l"), value("edges", "[a, b, c]"), value("end", "toe"));
         let (normal, height, along) = (value("plane", "[0, 0, 1]"), value("height", "h"), value("along", "[1, 0, 0]"));
         let (other, other_radius) = (value("other", "top"), value("other_radius", "r"));
-        let against = match other {
-            Some(center) => Against::Sphere { center, radius: other_radius },
-            None => Against::Plane { normal, height, along },
+        let over = self.find("over").map(|argument| horizontal(argument, context));
+        let edges = edges.map(|edges| three(edges, context));
+        let against = match (other, over) {
+            (Some(center), _) => Against::Sphere { center, radius: other_radius, along },
+            (None, Some(names)) => {
+                let mut height = height?;
+                place_over(&mut height, &names?);
+                Against::Ground(height)
+            }
+            (None, None) => Against::Plane { normal, height, along },
+        };
+        let copies = match (edges, end, length) {
+            (Some(edges), ..) => Copies::Corners(edges?),
+            (_, Some(end), _) => Copies::Ends(end),
+            (.., Some(length)) => Copies::Rims(length),
+            _ => Copies::One,
         };
         let rim = rim.zip(axis).map(|(radius, axis)| [radius, axis]);
-        Some(Touching::Point(Box::new(PointContact { point: point?, radius, rim, against })))
+        Some(Touching::Point(Box::new(PointContact { point: point?, radius, rim, copies, against })))
     }
 
     /// Whether the arguments of a contact go together; if not, that is noted.

@@ -4,7 +4,7 @@ use super::places::{Holder, Place};
 use crate::model::language::statements::Statements;
 use crate::model::language::words::same;
 use crate::model::scene::clauses::{RoleClause, RoleValue};
-use crate::model::scene::contacts::{Against, ContactClause, PointContact, Touching};
+use crate::model::scene::contacts::{Against, ContactClause, Copies, PointContact, Touching};
 use crate::model::scene::elements::{Argument, Takes};
 use crate::model::scene::expression::Expression;
 use crate::model::scene::forces::{ForceClause, Value};
@@ -149,20 +149,29 @@ impl ContactClause {
 impl PointContact {
     /// Its expressions, with their places.
     fn placed(&self) -> Vec<(Place, &Expression)> {
-        let radius = Place::Constant { word: "radius", of: Holder::Contact };
+        let constant = |word| Place::Constant { word, of: Holder::Contact };
+        let radius = constant("radius");
         let mut placed = vec![(Place::Touching, &self.point)];
         placed.extend(self.radius.iter().map(|value| (radius, value)));
         if let Some([of_rim, axis]) = &self.rim {
             placed.extend([(radius, of_rim), (Place::Direction, axis)]);
+        }
+        match &self.copies {
+            Copies::One => {}
+            Copies::Corners(edges) => placed.extend(edges.iter().map(|edge| (constant("edge"), edge))),
+            Copies::Ends(end) => placed.push((Place::Touching, end)),
+            Copies::Rims(length) => placed.push((constant("length"), length)),
         }
         match &self.against {
             Against::Plane { normal, height, along } => {
                 placed.extend(normal.iter().chain(along).map(|value| (Place::Direction, value)));
                 placed.extend(height.iter().map(|value| (Place::Height, value)));
             }
-            Against::Sphere { center, radius: other } => {
+            Against::Ground(height) => placed.push((Place::Height, height)),
+            Against::Sphere { center, radius: other, along } => {
                 placed.push((Place::Touching, center));
                 placed.extend(other.iter().map(|value| (radius, value)));
+                placed.extend(along.iter().map(|value| (Place::Direction, value)));
             }
         }
         placed

@@ -50,7 +50,7 @@ impl Checker<'_> {
 
     fn kind_of(&mut self, expression: &Expression) -> Option<Kind> {
         match &expression.kind {
-            ExpressionKind::Number { .. } => Some(Kind::Scalar),
+            ExpressionKind::Number { .. } | ExpressionKind::Horizontal(..) => Some(Kind::Scalar),
             ExpressionKind::Name(name) => self.name(name),
             // It names no input, which is noted.
             ExpressionKind::Input(_) => None,

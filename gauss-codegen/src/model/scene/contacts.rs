@@ -3,10 +3,10 @@
 use super::expression::Expression;
 use proc_macro2::Ident;
 
-/// `contact(name, …)`, or `range(name, …)`, which is one contact for each of its limits.
+/// `contact(name, …)`, one contact or one for each part of a shape; or `range(name, …)`, one for each of its limits.
 #[derive(Clone)]
 pub struct ContactClause {
-    /// Of each contact: one, or `x_from` and `x_to` of a range.
+    /// Of each contact: one, `box_0` and so on, or `x_from` and `x_to` of a range.
     pub names: Vec<Ident>,
     /// What may touch.
     pub touching: Touching,
@@ -39,7 +39,7 @@ pub enum Touching {
     },
 }
 
-/// A point, the sphere about it, or the rim of a disk about it, and what it may touch.
+/// A point, the sphere about it, or the rim of a disk about it, perhaps at several places, and what it may touch.
 #[derive(Clone)]
 pub struct PointContact {
     /// A vector of t and q: observer axes from Ω.
@@ -48,8 +48,57 @@ pub struct PointContact {
     pub radius: Option<Expression>,
     /// Radius, and the axis in the axes of the body that has the point: of fields and numbers.
     pub rim: Option<[Expression; 2]>,
+    /// Where else it is.
+    pub copies: Copies,
     /// What it may touch.
     pub against: Against,
+}
+
+/// The places of the same body at which a point, a sphere or a rim is: each is a contact of its own.
+#[derive(Clone)]
+pub enum Copies {
+    /// The point.
+    One,
+    /// `edges = [a, b, c]`, fields and numbers: the corners of a box about the point, along the axes of its body. Along
+    /// an edge that is written 0 there is one corner.
+    Corners([Expression; 3]),
+    /// `end = …`: the point, and this one, a vector of t and q.
+    Ends(Expression),
+    /// `length = …` of fields and numbers: half of it before and behind the point along the axis of the rim.
+    Rims(Expression),
+}
+
+impl Copies {
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        match self {
+            Self::One => 1,
+            Self::Corners(edges) => 1 << edges.iter().filter(|edge| !Self::is_flat(edge)).count(),
+            Self::Ends(_) | Self::Rims(_) => 2,
+        }
+    }
+
+    /// An edge that is written 0.
+    pub fn is_flat(edge: &Expression) -> bool {
+        edge.literal() == Some(0.0)
+    }
+
+    /// Its points and lengths.
+    fn expressions(&self) -> &[Expression] {
+        match self {
+            Self::One => &[],
+            Self::Corners(edges) => edges,
+            Self::Ends(one) | Self::Rims(one) => std::slice::from_ref(one),
+        }
+    }
+
+    fn expressions_mut(&mut self) -> &mut [Expression] {
+        match self {
+            Self::One => &mut [],
+            Self::Corners(edges) => edges,
+            Self::Ends(one) | Self::Rims(one) => std::slice::from_mut(one),
+        }
+    }
 }
 
 /// What a point may touch.
@@ -64,31 +113,38 @@ pub enum Against {
         /// The first tangent up to a multiple of the normal: of fields and numbers.
         along: Option<Expression>,
     },
-    /// A sphere about another point: a vector of t and q, and a scalar of fields and numbers.
-    Sphere { center: Expression, radius: Option<Expression> },
+    /// What lies below a height, a scalar of t, fields, numbers and the [horizontal
+    /// place](super::expression::ExpressionKind::Horizontal).
+    Ground(Expression),
+    /// A sphere about another point: a vector of t and q, and a scalar of fields and numbers; with friction a direction
+    /// that the line of centers never has, of fields and numbers.
+    Sphere { center: Expression, radius: Option<Expression>, along: Option<Expression> },
 }
 
 impl PointContact {
-    /// Its points, radii and heights.
+    /// Its points, lengths, radii and heights.
     pub fn lengths(&self) -> Vec<&Expression> {
         let of_rim = self.rim.iter().map(|[radius, _]| radius);
-        let own = std::iter::once(&self.point).chain(&self.radius).chain(of_rim);
+        let own = std::iter::once(&self.point).chain(&self.radius).chain(of_rim).chain(self.copies.expressions());
         match &self.against {
             Against::Plane { height, .. } => own.chain(height).collect(),
-            Against::Sphere { center, radius } => own.chain([center]).chain(radius).collect(),
+            Against::Ground(height) => own.chain([height]).collect(),
+            Against::Sphere { center, radius, .. } => own.chain([center]).chain(radius).collect(),
         }
     }
 
     fn each_expression(&mut self, change: &mut dyn FnMut(&mut Expression)) {
         change(&mut self.point);
-        self.radius.iter_mut().chain(self.rim.iter_mut().flatten()).for_each(&mut *change);
+        let copies = self.copies.expressions_mut();
+        self.radius.iter_mut().chain(self.rim.iter_mut().flatten()).chain(copies).for_each(&mut *change);
         match &mut self.against {
             Against::Plane { normal, height, along } => {
                 normal.iter_mut().chain(height).chain(along).for_each(change);
             }
-            Against::Sphere { center, radius } => {
+            Against::Ground(height) => change(height),
+            Against::Sphere { center, radius, along } => {
                 change(center);
-                radius.iter_mut().for_each(change);
+                radius.iter_mut().chain(along).for_each(change);
             }
         }
     }

@@ -31,6 +31,9 @@ pub enum ExpressionKind {
     Name(Ident),
     /// `input.elbow`: an input by what it is called outside of expressions; only until `names::inputs` has named it.
     Input(Ident),
+    /// A horizontal coordinate of the place where something touches, by its number: in `height = …` with `over = …`
+    /// alone.
+    Horizontal(Ident, usize),
     /// `arm.position`: of a body, a frame or a coordinate that is a pose, which is the name before it.
     Property(Box<Expression>, Property),
     /// `a.x`, `a[0]`: component 0, 1 or 2 of a vector.
@@ -170,7 +173,10 @@ impl Expression {
     /// Calls `visit` with each of its parts, not with the parts of these.
     pub fn parts(&self, visit: &mut dyn FnMut(&Expression)) {
         match &self.kind {
-            ExpressionKind::Number { .. } | ExpressionKind::Name(_) | ExpressionKind::Input(_) => {}
+            ExpressionKind::Number { .. }
+            | ExpressionKind::Name(_)
+            | ExpressionKind::Input(_)
+            | ExpressionKind::Horizontal(..) => {}
             ExpressionKind::Component(inner, _)
             | ExpressionKind::Property(inner, _)
             | ExpressionKind::Negate(inner)
@@ -188,7 +194,10 @@ impl Expression {
     /// Calls `change` with each of its parts, not with the parts of these.
     pub fn each_part(&mut self, change: &mut dyn FnMut(&mut Expression)) {
         match &mut self.kind {
-            ExpressionKind::Number { .. } | ExpressionKind::Name(_) | ExpressionKind::Input(_) => {}
+            ExpressionKind::Number { .. }
+            | ExpressionKind::Name(_)
+            | ExpressionKind::Input(_)
+            | ExpressionKind::Horizontal(..) => {}
             ExpressionKind::Component(inner, _)
             | ExpressionKind::Property(inner, _)
             | ExpressionKind::Negate(inner)
@@ -222,7 +231,9 @@ impl Expression {
     /// Whether it is made of literals alone.
     pub fn is_made_of_literals(&self) -> bool {
         let mut literals = true;
-        let named = |kind: &ExpressionKind| matches!(kind, ExpressionKind::Name(_) | ExpressionKind::Own(..));
+        let named = |kind: &ExpressionKind| {
+            matches!(kind, ExpressionKind::Name(_) | ExpressionKind::Own(..) | ExpressionKind::Horizontal(..))
+        };
         self.walk(&mut |part| literals &= !named(&part.kind));
         literals
     }

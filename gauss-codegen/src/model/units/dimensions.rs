@@ -176,6 +176,7 @@ impl Checker<'_> {
             ExpressionKind::Number { .. } => Dimensions::all(Found::Number),
             ExpressionKind::Name(name) => self.name(name),
             ExpressionKind::Input(_) => Dimensions::UNKNOWN,
+            ExpressionKind::Horizontal(..) => Dimensions::of(LENGTH.1),
             ExpressionKind::Property(_, property) => property_value(*property),
             ExpressionKind::Component(inner, index) => {
                 let parts = self.value(inner).parts();
@@ -395,7 +396,9 @@ fn property_value(property: Property) -> Dimensions {
 /// What an expression is called in messages.
 pub fn subject(expression: &Expression, article: &str) -> String {
     match &expression.kind {
-        ExpressionKind::Name(name) | ExpressionKind::Input(name) => format!("`{name}`"),
+        ExpressionKind::Name(name) | ExpressionKind::Input(name) | ExpressionKind::Horizontal(name, _) => {
+            format!("`{name}`")
+        }
         ExpressionKind::Property(base, property) => match &base.kind {
             ExpressionKind::Name(name) => format!("`{name}.{}`", property.word()),
             _ => format!("{article} `.{}`", property.word()),

@@ -27,7 +27,11 @@ fn accepted() {
          contact(wall, gap = theta, slip = v, friction = k, restitution = 0.5), contact(post, gap = l - tip.x), \
          range(theta, from = -k, to = k, restitution = k), range(reach, along = tip.x, to = l * t), \
          contact(ball, point = hull.position, radius = l, plane = c, height = l * t, along = [1, 0, 0], friction = k), \
-         contact(disk, point = tip, rim = l, axis = c), contact(both, point = tip, other = hull.position, other_radius = l)",
+         contact(disk, point = tip, rim = l, axis = c), contact(both, point = tip, other = hull.position, other_radius = l), \
+         contact(rub, point = tip, radius = l, other = hull.position, other_radius = l, along = c, friction = k), \
+         contact(case, point = tip, edges = [l, 0.0, 2 * l], friction = k), contact(shin, point = tip, end = hull.position), \
+         contact(drum, point = tip, rim = l, axis = c, length = k), \
+         contact(hill, point = tip, height = k * sin(x) + theta_0 * t, over = [x, theta_0])",
     ));
     let shown = model.contacts.iter().map(|clause| {
         let names: Vec<String> = clause.names.iter().map(ToString::to_string).collect();
@@ -42,6 +46,7 @@ fn accepted() {
                 Against::Plane { normal, .. } => {
                     format!("{} above {:?}", show(&contact.point), normal.as_ref().map(show))
                 }
+                Against::Ground(height) => format!("{} over {}", show(&contact.point), show(height)),
                 Against::Sphere { center, .. } => format!("{} and {}", show(&contact.point), show(center)),
             },
         };
@@ -58,6 +63,11 @@ fn accepted() {
             "ball: hull.Position above Some(\"c\")",
             "disk: tip above None",
             "both: tip and hull.Position",
+            "rub: tip and hull.Position",
+            "case_0, case_1, case_2, case_3: tip above None",
+            "shin_0, shin_1: tip above None",
+            "drum_0, drum_1: tip above None",
+            "hill: tip over (Add (Multiply k (sin place 0)) (Multiply place 1 t))",
         ]
     );
 }
@@ -70,7 +80,10 @@ fn clauses() {
          contact(g, gap = theta, mu = k), contact(h, gap = theta, gap = v), range(theta), range(theta, least = 1), \
          range(from = 1), contact(i, point = tip, gap = theta), contact(j, point = tip, slip = v), \
          contact(m, gap = theta, radius = l), contact(n, point = tip, radius = l, rim = k), \
-         contact(o, point = tip, other = hull.position, friction = k)",
+         contact(o, point = tip, edges = l), contact(p, point = tip, length = l, other = hull.position), \
+         contact(q, gap = theta, edges = [l, l, l]), contact(r, point = tip, height = k, over = [x, y, z]), \
+         contact(s, point = tip, radius = l, height = k * x, over = x), contact(u, point = tip, over = [x, y]), \
+         contact(v, point = tip, height = k, over = [2, y]), contact(w, point = tip, edges = [l, l, l], end = tip)",
         &[
             ("contact", "`contact` is empty; write `contact(name, gap = …)`"),
             ("(", "`contact()` is empty; write `contact(name, gap = …)` or remove it"),
@@ -101,7 +114,17 @@ fn clauses() {
             ("radius", "`radius` goes with `point = …`; add it, or remove `radius`"),
             ("rim", "`rim` goes with `axis = …`; add it, or remove `rim`"),
             ("rim", "`rim` is the radius of a disk and `radius` that of a sphere; keep one of the two"),
-            ("friction", "tangents of two spheres turn with them; write `gap = …` with `slip = …` for friction"),
+            ("l", "the edges of a box are three lengths in brackets; write `edges = [a, b, c]`"),
+            ("length", "`length` goes with `rim = …`; add it, or remove `length`"),
+            ("edges", "`edges` goes with `point = …`; add it, or remove `edges`"),
+            (
+                "[",
+                "`over` is one name or two, those of the horizontal coordinates, found 3; write `over = x` or `over = [x, y]`",
+            ),
+            ("radius", "which point of a sphere is nearest to such a ground has no closed form; remove `radius`"),
+            ("over", "`over` goes with `height = …`; add it, or remove `over`"),
+            ("2", "`over` gives names to the horizontal coordinates; write `over = [x, y]`"),
+            ("edges", "a box has corners and a capsule has two ends; write a clause for each"),
         ],
     );
 }
@@ -109,10 +132,12 @@ fn clauses() {
 #[test]
 fn names() {
     mistakes(
-        "contact(floor, gap = theta), contact(floor, gap = -theta), range(theta, to = k), contact(theta_to, gap = theta)",
+        "contact(floor, gap = theta), contact(floor, gap = -theta), range(theta, to = k), contact(theta_to, gap = theta), \
+         contact(shin, point = tip, end = hull.position), contact(shin_1, gap = theta)",
         &[
             ("floor", "two contacts are called `floor`; rename one of the two"),
             ("theta_to", "two contacts are called `theta_to`; rename one of the two"),
+            ("shin_1", "two contacts are called `shin_1`; rename one of the two"),
         ],
     );
     mistakes(
@@ -137,7 +162,9 @@ fn what_stands_where() {
         "contact(a, gap = v), contact(b, gap = tip), contact(d, gap = tip.velocity.z), \
          contact(e, gap = theta, slip = tip.velocity, friction = k), contact(f, gap = theta, slip = v, friction = c), \
          contact(g, gap = theta, restitution = theta), contact(h, gap = abs(theta)), contact(i, point = tip, plane = tip), \
-         contact(j, point = tip, height = theta), range(theta, from = c)",
+         contact(j, point = tip, height = theta), range(theta, from = c), \
+         contact(o, point = tip, height = x + y + theta, over = x), contact(p, point = tip, edges = [l, theta, c]), \
+         contact(q, point = tip, height = abs(x), over = [x, y])",
         &[
             (
                 "v",
@@ -170,6 +197,18 @@ fn what_stands_where() {
                  numbers, or the whole gap as `gap = …`",
             ),
             ("c", "the limit of a range is a scalar, found a vector; write one number or the name of a field"),
+            ("y", "unknown name `y`; expected a field (`l`, `k` or `c`) or `t`"),
+            (
+                "theta",
+                "`theta` moves with the system, and the height of a plane is given beforehand; write it in `t`, fields and \
+                 numbers, or the whole gap as `gap = …`",
+            ),
+            ("theta", "`theta` varies, and the edge of a contact is constant; write numbers and fields only"),
+            ("c", "the edge of a contact is a scalar, found a vector; write one number or the name of a field"),
+            (
+                "abs",
+                "the derivative of `abs` jumps, and the height of a plane is differentiated; only values of forces can contain it",
+            ),
         ],
     );
 }
@@ -179,7 +218,8 @@ fn what_does_not_move() {
     mistakes(
         "contact(a, gap = l - t), contact(b, gap = theta, slip = theta, friction = k), range(reach, along = l, to = k), \
          contact(d, point = quay.position), contact(e, point = [theta, 0, 0], radius = l, friction = k), \
-         contact(f, point = tip, plane = c, friction = k)",
+         contact(f, point = tip, plane = c, friction = k), contact(g, point = [0, 0, theta], edges = [l, l, l]), \
+         contact(h, point = tip, other = [0, theta, 0], other_radius = l, friction = k)",
         &[
             (
                 "-",
@@ -197,13 +237,28 @@ fn what_does_not_move() {
             ),
             (
                 "[",
-                "a rim, or a sphere with friction, turns with its body; write `point = ball.position` of the body, or the \
-                 name of a point that is fixed in it",
+                "a box, a rim, or a sphere with friction, turns with its body; write `point = ball.position` of the body, or \
+                 the name of a point that is fixed in it",
             ),
             (
                 "c",
                 "the tangents of a normal that is not written in numbers are not known; add `along = [1, 0, 0]`, a \
                  direction that is not that of the normal",
+            ),
+            (
+                "[",
+                "a box, a rim, or a sphere with friction, turns with its body; write `point = ball.position` of the body, or \
+                 the name of a point that is fixed in it",
+            ),
+            (
+                "[",
+                "a box, a rim, or a sphere with friction, turns with its body; write `point = ball.position` of the body, or \
+                 the name of a point that is fixed in it",
+            ),
+            (
+                "[",
+                "the tangents of two spheres turn with their line of centers; add `along = [0, 0, 1]`, a direction that this \
+                 line never has",
             ),
         ],
     );
@@ -221,7 +276,7 @@ fn units() {
     check(
         &scene(
             "contact(a, gap = l * sin(x), slip = f * rate(x), friction = l), range(b, along = l * sin(x), to = s), \
-             contact(d, point = [l * x, 0, 0], height = f)",
+             contact(d, point = [l * x, 0, 0], height = f), contact(e, point = [l * x, 0, 0], height = s * u, over = u)",
         ),
         &[
             (
@@ -235,6 +290,10 @@ fn units() {
             (
                 "f",
                 "`f` is in N, and points, radii and heights of a contact are in m; multiply it by a coefficient in s^2/kg, or correct its unit",
+            ),
+            (
+                "*",
+                "this product is in m s, and points, radii and heights of a contact are in m; multiply it by a coefficient in 1/s",
             ),
         ],
     );

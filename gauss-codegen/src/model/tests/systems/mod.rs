@@ -50,6 +50,7 @@ fn check_potential(value: &str, expected: &[Mistake<'_>]) {
 /// An expression with all its brackets.
 pub(super) fn show(expression: &Expression) -> String {
     match &expression.kind {
+        ExpressionKind::Horizontal(_, k) => format!("place {k}"),
         ExpressionKind::Own(name, argument) => format!("({name} {})", show(argument)),
         ExpressionKind::Number { value } => format!("{value:?}"),
         ExpressionKind::Name(name) | ExpressionKind::Input(name) => name.to_string(),

@@ -1,0 +1,294 @@
+//! Points, spheres, rims, boxes, capsules and cylinders against planes, grounds and spheres: their gaps and slips.
+
+use crate::algebra::{Expr, Substitution};
+use crate::error::Result;
+use crate::mechanics::{Tree, add, cross, dot, subtract};
+use crate::model::{Against, Copies, Expression, PointContact, Property};
+use crate::terms::{LawKind, Motion};
+
+use super::translator::{Translator, bug};
+use super::value::Value;
+
+type Triple<'g> = [Expr<'g>; 3];
+
+/// Terms that a slip may have while it is seen whether it vanishes.
+const LIMIT: usize = 400;
+
+/// Gap and slips.
+type Form<'g> = (Expr<'g>, Vec<Expr<'g>>);
+
+/// A place of a shape.
+struct Part<'g> {
+    position: Triple<'g>,
+    /// The body that has it, where that is known.
+    link: Option<usize>,
+}
+
+/// What is about each place of a shape.
+enum About<'g> {
+    /// A sphere of this radius.
+    Sphere(Expr<'g>),
+    /// A circle of this radius about an axis of length one, in the axes of the body.
+    Rim(Expr<'g>, Triple<'g>),
+}
+
+/// What a place is opposite to.
+struct Facing<'g> {
+    /// How far away it is.
+    gap: Expr<'g>,
+    /// Out of it, of length one.
+    normal: Triple<'g>,
+    /// None without friction.
+    tangents: Vec<Triple<'g>>,
+    /// Of the point of it that is touched.
+    velocity: Triple<'g>,
+}
+
+/// [`Facing`] as a function of the place.
+type Opposite<'a, 'g> = Box<dyn Fn(&Part<'g>) -> Facing<'g> + 'a>;
+
+impl<'g> Translator<'_, 'g> {
+    /// Gap and slips of each part of a shape; no slips unless it `rubs`.
+    pub(super) fn shape(
+        &self,
+        name: &str,
+        contact: &PointContact,
+        rubs: bool,
+        tree: &Tree<'g>,
+    ) -> Result<Vec<Form<'g>>> {
+        let about = match &contact.rim {
+            None => About::Sphere(self.length_or_zero((name, "radius"), contact.radius.as_ref(), tree)?),
+            Some([rim, axis]) => {
+                let axis = self.direction((name, "axis"), axis, self.vector(axis, tree)?);
+                About::Rim(self.length((name, "rim"), rim, tree)?, axis)
+            }
+        };
+        let parts = self.parts_of(name, contact, &about, tree)?;
+        let opposite = match &contact.against {
+            Against::Plane { normal, height, along } => {
+                self.plane(name, [normal.as_ref(), height.as_ref(), along.as_ref()], rubs, tree)?
+            }
+            Against::Ground(height) => self.ground(height, rubs, tree)?,
+            Against::Sphere { center, radius, along } => {
+                let radius = self.length_or_zero((name, "other_radius"), radius.as_ref(), tree)?;
+                self.sphere(name, (center, radius), along.as_ref().filter(|_| rubs), tree)?
+            }
+        };
+        parts.iter().map(|part| self.touch(part, &about, &opposite(part), tree)).collect()
+    }
+
+    /// The places of a shape.
+    fn parts_of(
+        &self,
+        name: &str,
+        contact: &PointContact,
+        about: &About<'g>,
+        tree: &Tree<'g>,
+    ) -> Result<Vec<Part<'g>>> {
+        let first = self.part_at(&contact.point, tree)?;
+        // Half of a length along a direction in the axes of the body, in those of the observer.
+        let half = |direction: Triple<'g>, (word, length): (&str, &Expression)| {
+            let half = self.length((name, word), length, tree)? * self.graph.integer(2).recip();
+            let link = first.link.ok_or_else(|| bug(contact.point.span))?;
+            Ok(tree.links[link].axes().to_space(&direction.map(|e| half * e)).map(Expr::group))
+        };
+        let steps: Vec<Triple<'g>> = match (&contact.copies, about) {
+            (Copies::Ends(end), _) => return Ok(vec![first, self.part_at(end, tree)?]),
+            (Copies::Corners(edges), _) => {
+                let edges = edges.iter().enumerate().filter(|(_, edge)| !Copies::is_flat(edge));
+                edges.map(|(k, edge)| half(self.axis(k), ("edges", edge))).collect::<Result<_>>()?
+            }
+            (Copies::Rims(length), About::Rim(_, axis)) => vec![half(*axis, ("length", length))?],
+            _ => Vec::new(),
+        };
+        let corner = |number: usize| {
+            let sides = steps.iter().enumerate().fold(first.position, |sum, (bit, step)| match number >> bit & 1 {
+                0 => subtract(&sum, step),
+                _ => add(&sum, step),
+            });
+            Part { position: sides, link: first.link }
+        };
+        Ok((0..1 << steps.len()).map(corner).collect())
+    }
+
+    fn part_at(&self, point: &Expression, tree: &Tree<'g>) -> Result<Part<'g>> {
+        let link = match self.value(point, tree)? {
+            Value::Local(local) if local.is_point => Some(local.link),
+            _ => None,
+        };
+        Ok(Part { position: self.vector(point, tree)?, link })
+    }
+
+    /// Gap and slips of one part.
+    fn touch(&self, part: &Part<'g>, about: &About<'g>, facing: &Facing<'g>, tree: &Tree<'g>) -> Result<Form<'g>> {
+        let n = &facing.normal;
+        // From the point to where it touches: against the normal, of a rim as far as its plane allows.
+        let (depth, arm) = match about {
+            About::Sphere(radius) => (*radius, n.map(|e| -*radius * e)),
+            About::Rim(rim, axis) => {
+                let link = part.link.ok_or_else(|| bug(self.model.item.ident.span()))?;
+                let axis = tree.links[link].axes().to_space(axis).map(Expr::group);
+                let across = cross(&axis, n);
+                let sine = dot(&across, &across).group().sqrt();
+                // n − a (n·a) = (a × n) × a.
+                let scale = (-*rim * sine.recip()).group();
+                (*rim * sine, cross(&across.map(Expr::group), &axis).map(|e| scale * e))
+            }
+        };
+        let gap = facing.gap - depth;
+        if facing.tangents.is_empty() {
+            return Ok((gap, Vec::new()));
+        }
+        let velocity = subtract(&self.velocity_at(part, &arm, tree), &facing.velocity);
+        let slips = facing.tangents.iter().map(|tangent| dot(tangent, &velocity));
+        // Across the plane of a motion nothing slips.
+        Ok((gap, slips.filter(|slip| !slip.collected(LIMIT).is_zero()).collect()))
+    }
+
+    /// The velocity of the point of a body that is an arm away from a part; what is in no body does not turn.
+    fn velocity_at(&self, part: &Part<'g>, arm: &Triple<'g>, tree: &Tree<'g>) -> Triple<'g> {
+        let velocity = part.position.map(|e| e.derivative(&self.rates));
+        match part.link {
+            Some(link) if !arm.iter().all(|e| e.is_zero()) => {
+                add(&velocity, &cross(&self.velocity_of(link, Property::AngularVelocity, tree), arm))
+            }
+            _ => velocity,
+        }
+    }
+
+    /// A plane by its normal, its height and its first tangent.
+    fn plane<'a>(
+        &'a self,
+        name: &str,
+        [normal, height, along]: [Option<&Expression>; 3],
+        rubs: bool,
+        tree: &Tree<'g>,
+    ) -> Result<Opposite<'a, 'g>> {
+        let n = match normal {
+            Some(e) => self.direction((name, "plane"), e, self.vector(e, tree)?),
+            None => self.axis(self.upward()),
+        };
+        let height = height.map_or(Ok(self.graph.zero()), |e| self.scalar(e, tree))?;
+        let first = match along {
+            _ if !rubs => None,
+            Some(e) => Some(self.tangent((name, "along"), e, self.vector(e, tree)?, &n)),
+            None => Some(self.usual_tangent(name, normal, &n)),
+        };
+        let tangents = first.map_or(Vec::new(), |first| vec![first, cross(&n, &first)]);
+        Ok(Box::new(move |part| {
+            let gap = dot(&n, &part.position) - height;
+            Facing { gap, normal: n, tangents: tangents.clone(), velocity: [self.graph.zero(); 3] }
+        }))
+    }
+
+    /// The ground below a height h over the horizontal place; its points move upward where h depends on time. Of
+    /// a point at z, `(z − h)/√(1 + |∂h|²)` vanishes where the distance does, and has its slope there.
+    fn ground<'a>(&'a self, height: &Expression, rubs: bool, tree: &Tree<'g>) -> Result<Opposite<'a, 'g>> {
+        let (zero, one, up) = (self.graph.zero(), self.graph.one(), self.upward());
+        let [i, j] = if up == 2 { [0, 1] } else { [0, 2] };
+        let place = ["x", "y"].map(|word| self.graph.symbol(word, word, false));
+        let over = Self { place: Some(place), ..self.clone() };
+        let height = over.scalar(height, tree)?;
+        let slopes = place.map(|symbol| height.partial(symbol));
+        let rises = height.partial(self.declared.time);
+        Ok(Box::new(move |part| {
+            let there = place.iter().map(|symbol| symbol.key()).zip([part.position[i], part.position[j]]);
+            let there = Substitution::new(there.collect());
+            let [a, b] = slopes.map(|slope| there.of(slope).group());
+            let steep = (one + a * a + b * b).group().sqrt().recip();
+            let mut normal = [zero; 3];
+            (normal[i], normal[j], normal[up]) = (-(a * steep), -(b * steep), steep);
+            let mut first = [zero; 3];
+            let along = (one + a * a).group().sqrt().recip();
+            (first[i], first[up]) = (along, a * along);
+            let mut velocity = [zero; 3];
+            velocity[up] = there.of(rises);
+            Facing {
+                gap: (part.position[up] - there.of(height)) * steep,
+                normal,
+                tangents: if rubs { vec![first, cross(&normal, &first)] } else { Vec::new() },
+                velocity,
+            }
+        }))
+    }
+
+    /// A sphere about another point, which turns with its body; `along` has a tangent normal to it, with friction.
+    fn sphere<'a>(
+        &'a self,
+        name: &str,
+        (center, radius): (&Expression, Expr<'g>),
+        along: Option<&Expression>,
+        tree: &'a Tree<'g>,
+    ) -> Result<Opposite<'a, 'g>> {
+        let (other, place) = (self.part_at(center, tree)?, center.span);
+        let along = match along {
+            Some(e) => Some((self.direction((name, "along"), e, self.vector(e, tree)?), e.span)),
+            None => None,
+        };
+        Ok(Box::new(move |part| {
+            let apart = subtract(&part.position, &other.position);
+            let distance = self.divisor(dot(&apart, &apart).group().sqrt(), place);
+            let normal = apart.map(|e| e * distance.recip());
+            let tangents = along.map(|(along, span)| {
+                let across = cross(&along, &normal).map(Expr::group);
+                let sine = self.divisor(dot(&across, &across).group().sqrt(), span);
+                let first = across.map(|e| e * sine.recip());
+                vec![first, cross(&normal, &first)]
+            });
+            let velocity = self.velocity_at(&other, &normal.map(|e| radius * e), tree);
+            Facing { gap: distance - radius, normal, tangents: tangents.unwrap_or_default(), velocity }
+        }))
+    }
+
+    /// A radius or a length, which `kernel()` checks.
+    fn length(&self, argument: (&str, &str), e: &Expression, tree: &Tree<'g>) -> Result<Expr<'g>> {
+        let value = self.scalar(e, tree)?;
+        self.note(LawKind::NonNegative, argument, e, vec![value]);
+        Ok(value)
+    }
+
+    /// The same of what may be left out.
+    fn length_or_zero(&self, argument: (&str, &str), e: Option<&Expression>, tree: &Tree<'g>) -> Result<Expr<'g>> {
+        e.map_or(Ok(self.graph.zero()), |e| self.length(argument, e, tree))
+    }
+
+    fn axis(&self, k: usize) -> Triple<'g> {
+        std::array::from_fn(|i| if i == k { self.graph.one() } else { self.graph.zero() })
+    }
+
+    /// The axis against which a scalar gravity points: the third, in plane motion of a chart the second.
+    fn upward(&self) -> usize {
+        if self.model.in_chart.is_some_and(|chart| chart.motion == Motion::Planar) { 1 } else { 2 }
+    }
+
+    /// A vector over its length, which `kernel()` checks to be one.
+    fn direction(&self, argument: (&str, &str), e: &Expression, vector: Triple<'g>) -> Triple<'g> {
+        let square = dot(&vector, &vector);
+        if square == self.graph.one() {
+            return vector;
+        }
+        self.note(LawKind::Direction, argument, e, vec![square]);
+        let length = self.divisor(square.group().sqrt(), e.span);
+        vector.map(|component| component * length.recip())
+    }
+
+    /// What of a vector is normal to n, over its length.
+    fn tangent(&self, argument: (&str, &str), e: &Expression, vector: Triple<'g>, n: &Triple<'g>) -> Triple<'g> {
+        let along = dot(&vector, n);
+        let normal = n.map(|component| along * component);
+        self.direction(argument, e, subtract(&vector, &normal))
+    }
+
+    /// The axis of the observer after that which is nearest to the normal, made normal to it.
+    fn usual_tangent(&self, name: &str, written: Option<&Expression>, n: &Triple<'g>) -> Triple<'g> {
+        let nearest = match written.and_then(Expression::literal_components) {
+            Some(literal) => (0..3).max_by(|&a: &usize, &b| literal[a].abs().total_cmp(&literal[b].abs())).unwrap_or(2),
+            None => self.upward(),
+        };
+        let axis = self.axis((nearest + 1) % 3);
+        match written {
+            Some(e) => self.tangent((name, "plane"), e, axis, n),
+            None => axis,
+        }
+    }
+}
