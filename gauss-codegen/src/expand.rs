@@ -102,7 +102,8 @@ mod tests {
         let source = "#[gauss(coordinates(a, b, x), particle(mass = m, position = [cos(a), 0, sin(a)]),
              body(rod, rotation = rotation_y(b), mass = m, inertia = m), particle(mass = m, position = [x, 0, 0]),
              constraint(position = cos(a) + 2 * cos(b) - x), range(x, to = m),
-             contact(floor, gap = a + t * b, slip = rate(x * a), friction = m))] struct Crank { m: f64 }";
+             contact(floor, gap = a + t * b, slip = rate(x * a), friction = m), dry_friction(brake, slip = rate(b * x), bound = m),
+             range(b, from = m))] struct Crank { m: f64 }";
         let input: DeriveInput = syn::parse_str(source).expect("a struct");
         let model = model::parse(&input).expect("a valid scene");
         let graph = Graph::new();
@@ -112,8 +113,8 @@ mod tests {
         let claims = Claims::of(&formulas);
         assert!(check_system_against_definition(&system, &claims).is_ok());
         let [right, ..] = claims.contacts else { panic!("no way to form the motion") };
-        // Three accelerations, three rows, three by three columns, three by three of D.
-        assert_eq!(right.len(), 3 + 3 + 9 + 9);
+        // Three accelerations, five rows, three by five columns, five by five of D.
+        assert_eq!(right.len(), 3 + 5 + 15 + 25);
         for k in 0..right.len() {
             let mut wrong = right.clone();
             wrong[k] = wrong[k] + graph.number(Rational::new(1, 1000));
@@ -128,7 +129,8 @@ mod tests {
     fn contacts_that_nothing_changes() {
         let found = mistakes(
             "contact(o, point = hub, plane = [1, 0, 0]), contact(p, gap = x - x + y - y, slip = v, friction = 1), contact(q, gap = y, slip = [v * w, s - s], friction = 1),
-             range(r, along = hub.z, to = 2), contact(u, point = hub, plane = [1, 0, 0])",
+             range(r, along = hub.z, to = 2), contact(u, point = hub, plane = [1, 0, 0]),
+             dry_friction(b, slip = [s - s, w * w], bound = 1)",
         );
         let found: Vec<(&str, &str)> = found.iter().map(|(place, message)| (&place[..], &message[..])).collect();
         let curved = "this slip of `q` is not affine in the speeds; write the component of a velocity along a tangent";
@@ -142,6 +144,8 @@ mod tests {
                 ("-", "no speed changes this slip of `q`; leave it out"),
                 ("z", &gap("r_to")),
                 ("hub", &gap("u")),
+                ("-", "no speed changes this slip of `b`; leave it out"),
+                ("*", &curved.replace("`q`", "`b`")),
             ]
         );
         let found = mistakes("contact(o, point = hub, height = x, over = x, friction = 2), contact(p, gap = y)");

@@ -173,11 +173,11 @@ pub fn refuse_contacts(given: &Given<'_>, system: &System<'_>) -> Result<()> {
     let mut rows = system.contacts.jacobian.iter();
     for contact in &system.scene.contacts {
         let place = &given.contacts[contact.clause];
-        let spans = std::iter::once(place.gap).chain(place.slips.iter().copied());
-        let spans = spans.take(1 + contact.slips.len());
-        for (number, (span, row)) in spans.zip(&mut rows).enumerate() {
+        let spans = place.gap.into_iter().map(|gap| (gap, true)).chain(place.slips.iter().map(|slip| (*slip, false)));
+        let count = usize::from(contact.gap.is_some()) + contact.slips.len();
+        for ((span, of_gap), row) in spans.zip(rows.by_ref().take(count)) {
             let message = match (system.contacts.is_still(row), system.contacts.is_affine(row, &system.scene.speeds)) {
-                (true, _) if number == 0 => {
+                (true, _) if of_gap => {
                     format!("no speed changes the gap of `{}`, so no force closes or opens it", contact.name)
                 }
                 (true, _) => format!("no speed changes this slip of `{}`; leave it out", contact.name),

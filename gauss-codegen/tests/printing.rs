@@ -176,12 +176,29 @@ fn contacts_are_printed_by_their_names() {
     let (_, source) = common::SCENES.iter().find(|(name, _)| *name == "Rolling").expect("a scene");
     let others = "#[gauss(coordinates(x, y), particle(mass = 1, position = [x, y, 0]), range(x, to = l),
         contact(wall_2, gap = y - x, slip = rate(x + y), friction = mu))] struct Corner { l: f64, mu: f64 }";
-    let title = "gaps: none becomes negative; each adds a force that is not negative, and zero where it is open";
-    for (name, source, lines) in [
-        ("Rolling", *source, vec!["  g_floor = ", "  s_floor1 = ", "  s_floor2 = ", "  μ_floor = mu"]),
+    let rubbing = "#[gauss(coordinates(x, y), particle(mass = 1, position = [x, y, 0]), dry_friction(x, bound = f),
+        dry_friction(belt, slip = [rate(x), rate(y) - v], bound = [f, 2 * f]))] struct Rubbing { f: f64, v: f64 }";
+    let gaps = "gaps: none becomes negative; each adds a force that is not negative, and zero where it is open";
+    let dry = "dry friction: a force against each slip, of the size f; at rest any force that is not larger";
+    for (name, source, title, lines) in [
+        (
+            "Rubbing",
+            rubbing,
+            dry,
+            vec![
+                "  s_x = x\u{307}",
+                "  f_x = f",
+                "  s_belt1 = x\u{307}",
+                "  s_belt2 = ",
+                "  f_belt1 = f",
+                "  f_belt2 = ",
+            ],
+        ),
+        ("Rolling", *source, gaps, vec!["  g_floor = ", "  s_floor1 = ", "  s_floor2 = ", "  μ_floor = mu"]),
         (
             "Corner",
             others,
+            gaps,
             vec!["  g_x_to = l - x", "  g_wall_2 = y - x", "  s_wall_2 = x\u{307} + y\u{307}", "  μ_wall_2 = mu"],
         ),
     ] {

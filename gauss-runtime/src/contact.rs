@@ -1,4 +1,5 @@
-//! Contacts: gaps that may close and not become negative, and what a solver of contact laws needs of a system.
+//! Contacts and dry friction: gaps that may close and not become negative, slips that are resisted, and what a solver
+//! of their laws needs of a system.
 //!
 //! A contact has a gap `g(t, q) ≥ 0`, its rate ġ along the normal, and rates s of slip along one or two tangents. With
 //! the rows `W = ∂(ġ, s)/∂z` contact forces λ (normal, then tangential, contact by contact) enter Gauss' condition as
@@ -8,18 +9,22 @@
 //! a solver, such as the crate `gauss-contact`: the equations of a kernel are those of its motion without contact
 //! forces.
 //!
-//! `#[gauss(contact(…), range(…))]` has the derive write it.
+//! Dry friction of a given bound f, as in a brake or a joint, is a contact without a normal: its rows are slips s, and
+//! its forces are at most f.
+//!
+//! `#[gauss(contact(…), range(…), dry_friction(…))]` has the derive write it.
 
 use core::fmt::{self, Debug};
-use core::ops::Index;
+use core::ops::{Index, Range};
 
 use crate::configuration::VectorSpace;
 use crate::forces::Columns;
 use crate::system::GaussSystem;
 
-/// A system some of whose gaps may close.
+/// A system some of whose gaps may close, or with dry friction.
 ///
-/// Rows of contacts are numbered contact by contact: of each its normal, then its tangents. Units are those of the gaps
+/// Rows of contacts are numbered contact by contact: of each its normal, then its tangents; of dry friction only the
+/// tangents. Units are those of the gaps
 /// and of slips: with lengths λ is a force, with angles a torque. Bilateral constraints of the scene hold in all of it:
 /// A⁻¹ is then the inverse on the velocities that they admit.
 pub trait ContactSystem: GaussSystem {
@@ -38,18 +43,26 @@ pub trait ContactSystem: GaussSystem {
     /// The contacts, in the order in which they are written. Names are unique.
     const CONTACTS: &'static [Contact];
 
-    /// g(t, q) of each contact: positive where it is open.
+    /// g(t, q) of each contact: positive where it is open; 0 of dry friction.
     fn gaps(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Gaps;
 
-    /// ġ, then the slip s of each tangent, contact by contact: velocities of the first body's point at the contact
-    /// relative to what it touches.
+    /// ġ, then the slip s of each tangent, contact by contact; of contacts with a gap they are velocities of the first
+    /// body's point at the contact relative to what it touches.
     fn contact_rates(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> Self::ContactRows;
 
     /// Wᵀ, `W = ∂(ġ, s)/∂z`: the generalised force of a unit contact force, column by column.
     fn contact_jacobian(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::ContactColumns;
 
-    /// μ of each contact; 0 without friction.
-    fn friction(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds, input: &Self::Input) -> Self::Gaps;
+    /// The bounds of friction, row by row: μ of each tangent of a contact, f of each slip of dry friction, in its
+    /// generalised force; 0 of normals. Two tangents of a contact are the axes of an ellipse:
+    /// `(λ₁/μ₁)² + (λ₂/μ₂)² ≤ λ_N²`, or with f in the place of μ `… ≤ 1`.
+    fn friction(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Self::ContactRows;
 
     /// The coefficient of restitution e of each contact; 0 where none is given.
     fn restitution(&self) -> Self::Gaps;
@@ -73,17 +86,55 @@ pub trait ContactSystem: GaussSystem {
 pub struct Contact {
     /// Its name in the scene.
     pub name: &'static str,
-    /// Its normal among the rows of [`ContactRows`](ContactSystem::ContactRows); its tangents follow.
+    /// Its first row in [`ContactRows`](ContactSystem::ContactRows): the normal, which the tangents follow; of dry
+    /// friction the first tangent.
     pub normal: usize,
     /// How many tangents it has: 0 without friction, 1 where motion or scene is plane, else 2.
     pub tangents: usize,
+    /// What bounds its friction.
+    pub kind: ContactKind,
+}
+
+/// What bounds the friction of a contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ContactKind {
+    /// The force along the normal of a gap.
+    Gap,
+    /// Nothing but [`friction`](ContactSystem::friction): there is no gap and no normal.
+    DryFriction,
 }
 
 impl Contact {
-    /// A contact from its parts, in the order of the fields.
+    /// A contact with a gap.
     #[must_use]
     pub const fn new(name: &'static str, normal: usize, tangents: usize) -> Self {
-        Self { name, normal, tangents }
+        Self { name, normal, tangents, kind: ContactKind::Gap }
+    }
+
+    /// Dry friction along one slip or two, of which the first row is given.
+    #[must_use]
+    pub const fn dry_friction(name: &'static str, first: usize, tangents: usize) -> Self {
+        Self { name, normal: first, tangents, kind: ContactKind::DryFriction }
+    }
+
+    /// Whether it has a gap and a normal.
+    #[must_use]
+    pub const fn has_gap(&self) -> bool {
+        matches!(self.kind, ContactKind::Gap)
+    }
+
+    /// The rows of its tangents.
+    #[must_use]
+    pub const fn tangent_rows(&self) -> Range<usize> {
+        let first = if self.has_gap() { self.normal + 1 } else { self.normal };
+        first..first + self.tangents
+    }
+
+    /// All its rows.
+    #[must_use]
+    pub const fn rows(&self) -> Range<usize> {
+        self.normal..self.tangent_rows().end
     }
 }
 

@@ -13,6 +13,7 @@ use gauss_runtime::system::GaussSystem;
 
 use crate::dense::{Matrix, epsilon, norm, size, sum, value};
 use crate::error::{ContactError, ContactErrorKind};
+use crate::friction::Bounds;
 use crate::history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
 use crate::impact::{Impact, Struck, after, rows};
 use crate::mode::{InMode, Mode, UNCLOSED, largest_derivative_of, slip, tangents, terms};
@@ -149,8 +150,10 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let now = self.sizes(scales);
         let mut still: Vec<f64> = before.of_rate.iter().zip(&now.of_rate).map(|(a, b)| a.max(*b)).collect();
         still.iter_mut().zip(noise.iter().flatten()).for_each(|(still, noise)| *still += noise);
-        let rests =
-            |i: usize| closed[i] && value(now.rates.component(K::CONTACTS[i].normal)) <= still[K::CONTACTS[i].normal];
+        let rests = |i: usize| {
+            let contact = &K::CONTACTS[i];
+            closed[i] && (!contact.has_gap() || value(now.rates.component(contact.normal)) <= still[contact.normal])
+        };
         let stuck = |i: usize| match self.fired {
             Some(Watched::Speed(n, _)) if n == i => true,
             Some(Watched::Slip(n)) if n == i => {
@@ -201,10 +204,10 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let Some(Watched::Cone(i)) = self.fired else { return None };
         let system = InMode::new(self.kernel, &self.modes);
         let loads = system.loads(self.t, &self.q, &self.z, &(made.input)(self.t, &self.q, &self.z));
-        let friction = &loads.forces[tangents(&K::CONTACTS[i])];
-        let zero = K::Scalar::zero();
-        let length = norm(friction);
-        (value(length) > 0.0).then(|| (i, [-friction[0] / length, friction.get(1).map_or(zero, |f| -*f / length)]))
+        let contact = &K::CONTACTS[i];
+        let friction = self.kernel.friction(self.t, &self.q, &self.z, &(made.input)(self.t, &self.q, &self.z));
+        let along = Bounds::of(contact, &friction).gives_way(&loads.forces[tangents(contact)])?;
+        Some((i, along))
     }
 
     /// The contacts whose gap is zero. Where one has just closed, the state goes back by as much of the time as the gap
@@ -237,12 +240,11 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
     }
 
     /// Friction of all contacts, checked.
-    fn friction(&self, made: &ContactTrajectory<'k, K>) -> Result<K::Gaps, ContactError> {
+    fn friction(&self, made: &ContactTrajectory<'k, K>) -> Result<K::ContactRows, ContactError> {
         let friction = self.kernel.friction(self.t, &self.q, &self.z, &(made.input)(self.t, &self.q, &self.z));
-        for i in 0..K::CONTACTS.len() {
-            let mu = value(friction.component(i));
-            if !(mu >= 0.0 && mu.is_finite()) {
-                return Err(self.error(Some(i), ContactErrorKind::InvalidFriction { friction: mu }));
+        for (i, contact) in K::CONTACTS.iter().enumerate() {
+            if let Some(friction) = Bounds::of(contact, &friction).invalid() {
+                return Err(self.error(Some(i), ContactErrorKind::InvalidFriction { friction }));
             }
         }
         Ok(friction)
@@ -264,7 +266,8 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             let sizes = self.sizes(scales);
             let rate = |i: usize| value(sizes.rates.component(K::CONTACTS[i].normal));
             let rounding = |row: usize| sizes.of_rate[row] + noise[row];
-            let strikes = |&i: &usize| closed[i] && rate(i) < -rounding(K::CONTACTS[i].normal);
+            let touches = |&i: &usize| closed[i] && K::CONTACTS[i].has_gap();
+            let strikes = |i: &usize| touches(i) && rate(*i) < -rounding(K::CONTACTS[*i].normal);
             let fastest = (0..closed.len()).filter(strikes).min_by(|&a, &b| rate(a).total_cmp(&rate(b)));
             let Some(fastest) = fastest else { return Ok((count > 0).then_some(noise)) };
             if count == most {
@@ -272,7 +275,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             }
             let contacts: Vec<usize> = match scales.law {
                 Impact::Sequential => vec![fastest],
-                _ => (0..closed.len()).filter(|&i| closed[i]).collect(),
+                _ => (0..closed.len()).filter(touches).collect(),
             };
             let response = self.kernel.contact_response(self.t, &self.q);
             let struck = Struck {
@@ -365,8 +368,8 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let along = slip(contact, &rates);
         if size(&along) > norm(&choice.still[tangents(contact)]) {
             let length = norm(&along);
-            let mu = self.friction(made)?.component(i);
-            tangents(contact).zip(along).for_each(|(row, s)| impulses[row] = -mu * s / length);
+            let against = Bounds::of(contact, &self.friction(made)?).against(along.map(|s| s / length));
+            tangents(contact).zip(against).for_each(|(row, force)| impulses[row] = force);
         }
         let unit = impulses.iter().enumerate().map(|(row, part)| response.delassus[(contact.normal, row)] * *part);
         let lifted = sum(unit);
@@ -397,7 +400,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             let matrix = Matrix::from_fn(rows.len(), |i, j| delassus[(rows[i], rows[j])]);
             let bias = rows.iter().map(|&row| dynamics.bias.component(row)).collect();
             let solver = Contacts::new(laws.clone(), matrix, bias);
-            let solution = solver.solution().map_err(|failure| self.failed(&contacts, failure))?;
+            let solution = solver.solve().map_err(|failure| self.failed(&contacts, failure))?;
             let rate = |row: usize| {
                 let each =
                     rows.iter().zip(&solution.forces).map(|(&column, force)| value(delassus[(row, column)] * *force));
@@ -422,7 +425,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             }
             let mut modes = vec![Mode::Open; K::CONTACTS.len()];
             for ((&i, law), state) in contacts.iter().zip(&laws).zip(&solution.states) {
-                modes[i] = match (state, law.slip) {
+                modes[i] = match (state, law.along()) {
                     (State::Leaves, _) => Mode::Open,
                     (State::Closed, Some(along)) => Mode::Slides(along),
                     (State::Closed, None) => Mode::Closed,
@@ -467,9 +470,9 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         };
         let friction = self.friction(made)?;
         let law = |(&i, slip): (&usize, Option<[K::Scalar; 2]>)| {
-            let tangents = K::CONTACTS[i].tangents;
+            let contact = &K::CONTACTS[i];
             let forced = choice.slides.filter(|(n, _)| *n == i).map(|(_, along)| along);
-            Law { tangents, friction: friction.component(i), slip: slip.or(forced).filter(|_| tangents > 0) }
+            Law::new(contact, Bounds::of(contact, &friction), slip.or(forced).filter(|_| contact.tangents > 0))
         };
         Ok(contacts.iter().zip(slips).map(law).collect())
     }

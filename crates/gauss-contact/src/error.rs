@@ -40,9 +40,10 @@ pub enum ContactErrorKind {
         /// e.
         restitution: f64,
     },
-    /// A coefficient of friction that is negative, or not finite.
+    /// A coefficient of friction, or a bound of dry friction, that is negative, not finite, or zero along one of two
+    /// axes alone.
     InvalidFriction {
-        /// μ.
+        /// μ, or f.
         friction: f64,
     },
     /// The run would go back in time, in which impacts and friction have no unique solution, or its times are not
@@ -111,7 +112,11 @@ impl fmt::Display for ContactErrorKind {
                 write!(f, "the coefficient of restitution is {restitution}; it must be between 0 and 1")
             }
             Self::InvalidFriction { friction } => {
-                write!(f, "the coefficient of friction is {friction}; it must be finite and not negative")
+                write!(
+                    f,
+                    "the bound of friction is {friction}; it must be finite and not negative, and zero along both axes \
+                     or none"
+                )
             }
             Self::InvalidInterval => f.write_str("the run must go forward in time, between finite ends"),
             Self::NonFinite => f.write_str("gaps, rates or coefficients are not finite"),

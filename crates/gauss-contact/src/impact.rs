@@ -9,11 +9,13 @@ use gauss_runtime::forces::Columns;
 use gauss_runtime::real::Real;
 
 use crate::dense::{Matrix, value};
+use crate::friction::Bounds;
 use crate::solver::{Contacts, Failure, Law, Residual};
 
 /// What an impact does to velocities u⁻ of the contacts that are closed: `u⁺ = u⁻ + D Λ` with impulses Λ.
 ///
-/// A contact whose gap opens before the impact has e = 0 in all laws: it must not close.
+/// A contact whose gap opens before the impact has e = 0 in all laws: it must not close. Dry friction has no part in
+/// impacts: its force is bounded, and so is its impulse by zero in no time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Impact {
@@ -37,7 +39,7 @@ pub(crate) struct Struck<'a, K: ContactSystem> {
     pub(crate) contacts: &'a [usize],
     pub(crate) response: &'a ContactResponse<K>,
     pub(crate) rates: &'a K::ContactRows,
-    pub(crate) friction: &'a K::Gaps,
+    pub(crate) friction: &'a K::ContactRows,
     pub(crate) restitution: &'a K::Gaps,
 }
 
@@ -49,7 +51,7 @@ pub(crate) struct Blow<T> {
 
 /// The rows of some contacts, one contact after the other.
 pub(crate) fn rows<K: ContactSystem>(contacts: &[usize]) -> Vec<usize> {
-    contacts.iter().flat_map(|&i| K::CONTACTS[i].normal..=K::CONTACTS[i].normal + K::CONTACTS[i].tangents).collect()
+    contacts.iter().flat_map(|&i| K::CONTACTS[i].rows()).collect()
 }
 
 impl<K: ContactSystem> Struck<'_, K> {
@@ -72,12 +74,11 @@ impl<K: ContactSystem> Struck<'_, K> {
             let part = if normal && !moreau { one + e(owner[a]) } else { one };
             part * self.rates.component(rows[a])
         };
-        let law_of =
-            |&i: &usize| Law { tangents: K::CONTACTS[i].tangents, friction: self.friction.component(i), slip: None };
+        let law_of = |&i: &usize| Law::new(&K::CONTACTS[i], Bounds::of(&K::CONTACTS[i], self.friction), None);
         let laws = self.contacts.iter().map(law_of).collect();
         let b = (0..rows.len()).map(before).collect();
         let contacts = Contacts::new(laws, Matrix::from_fn(rows.len(), entry), b);
-        let solution = contacts.solution()?;
+        let solution = contacts.solve()?;
         let mut impulses = vec![zero; K::ContactRows::DIM];
         rows.iter().zip(&solution.forces).for_each(|(&row, impulse)| impulses[row] = *impulse);
         let residuals = self.contacts.iter().copied().zip(solution.residuals).collect();

@@ -35,6 +35,7 @@ extern crate alloc;
 mod decide;
 mod dense;
 mod error;
+mod friction;
 mod history;
 mod impact;
 mod mode;

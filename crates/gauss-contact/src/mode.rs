@@ -19,23 +19,25 @@ use gauss_runtime::real::{Real, largest_derivative};
 use gauss_runtime::system::{GaussSystem, Smoothness};
 
 use crate::dense::{Decomposition, Matrix, epsilon, norm, sum, value};
+use crate::friction::Bounds;
 use crate::impact::after;
 
-/// What a contact does during a part of a run.
+/// What a contact does during a part of a run. Dry friction sticks or slides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mode<T = f64> {
     /// The gap is open.
     Open,
     /// The gap is closed and stays so; there is no friction.
     Closed,
-    /// The gap is closed, and the slip is zero.
+    /// The gap is closed, if there is one, and the slip is zero.
     Sticks,
-    /// The gap is closed, and the slip has this direction along the tangents; of two tangents, at the start.
+    /// The gap is closed, if there is one, and the slip has this direction along the tangents; of two tangents, at the
+    /// start.
     Slides([T; 2]),
 }
 
 impl<T> Mode<T> {
-    /// Whether the gap is closed.
+    /// Whether the gap is closed; of dry friction always.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         !matches!(self, Self::Open)
@@ -47,6 +49,8 @@ impl<T> Mode<T> {
 pub struct InMode<'k, K: ContactSystem> {
     pub(crate) kernel: &'k K,
     pub(crate) modes: Rc<[Mode<K::Scalar>]>,
+    /// Slips that count as rest, and the rounding of each row at the start.
+    least: (f64, Rc<[f64]>),
 }
 
 impl<K: ContactSystem> fmt::Debug for InMode<'_, K> {
@@ -57,7 +61,7 @@ impl<K: ContactSystem> fmt::Debug for InMode<'_, K> {
 
 impl<K: ContactSystem> Clone for InMode<'_, K> {
     fn clone(&self) -> Self {
-        Self { kernel: self.kernel, modes: Rc::clone(&self.modes) }
+        Self { kernel: self.kernel, modes: Rc::clone(&self.modes), least: self.least.clone() }
     }
 }
 
@@ -69,18 +73,28 @@ pub(crate) struct Loads<K: ContactSystem> {
 }
 
 impl<K: ContactSystem> Loads<K> {
-    /// What rounding makes of the normal force of a contact: that of the terms of its acceleration.
+    /// What rounding makes of the normal force of a contact, or of dry friction: that of the terms of its acceleration.
     pub(crate) fn rounding(&self, contact: &Contact) -> f64 {
-        let (normal, d) = (contact.normal, &self.dynamics.response.delassus);
-        let each = self.forces.iter().enumerate().map(|(row, force)| value(d[(normal, row)] * *force).abs());
-        let terms = each.fold(value(self.dynamics.bias.component(normal)).abs(), |sum, term| sum + term);
-        256.0 * epsilon::<K::Scalar>() * terms / value(d[(normal, normal)]).max(f64::MIN_POSITIVE)
+        let d = &self.dynamics.response.delassus;
+        let of_row = |of: usize| {
+            let each = self.forces.iter().enumerate().map(|(row, force)| value(d[(of, row)] * *force).abs());
+            let terms = each.fold(value(self.dynamics.bias.component(of)).abs(), |sum, term| sum + term);
+            256.0 * epsilon::<K::Scalar>() * terms / value(d[(of, of)]).max(f64::MIN_POSITIVE)
+        };
+        let rows = if contact.has_gap() { contact.normal..contact.normal + 1 } else { contact.rows() };
+        rows.map(of_row).fold(0.0, f64::max)
+    }
+
+    /// The force that friction of a contact may not exceed, over the friction that it has.
+    pub(crate) fn reserve(&self, contact: &Contact, bounds: Bounds<K::Scalar>) -> K::Scalar {
+        let pressed = if contact.has_gap() { self.forces[contact.normal] } else { K::Scalar::one() };
+        bounds.largest * pressed - bounds.size(&self.forces[contact.tangent_rows()])
     }
 }
 
 /// The rows of tangents.
 pub(crate) fn tangents(contact: &Contact) -> core::ops::Range<usize> {
-    contact.normal + 1..contact.normal + 1 + contact.tangents
+    contact.tangent_rows()
 }
 
 /// The slip of a contact.
@@ -97,15 +111,16 @@ pub(crate) fn terms<T: Real, V: VectorSpace<T>>(column: &V, z: &V) -> f64 {
 
 /// Where the slip of a contact with two tangents leads, as a smooth function beyond the line through zero that is
 /// perpendicular to `reference`: mirrored there, so that a motion that stops passes on straight. What is across the
-/// reference by rounding alone has no direction, however small the slip is.
-fn direction<T: Real>(reference: [T; 2], [x, y]: [T; 2], rounding: f64) -> [T; 2] {
+/// reference by rounding alone has no direction, however small the slip is. Slips of about `rest` keep to the
+/// reference: they turn at a rate of friction over slip, without bound where the slip begins.
+fn direction<T: Real>(reference: [T; 2], [x, y]: [T; 2], rounding: f64, rest: f64) -> [T; 2] {
     let along = x * reference[0] + y * reference[1];
     let across = y * reference[0] - x * reference[1];
     let straight = value(across).abs() <= rounding;
     if straight && (!T::DERIVATIVES || value(along).abs() <= rounding) {
         return reference;
     }
-    let back = T::from_f64(-2.0) * along.min(T::zero());
+    let back = (T::from_f64(-2.0) * along).max(T::zero()) + T::from_f64(rest);
     let slip = [back.fma(reference[0], x), back.fma(reference[1], y)];
     let size = norm(&slip);
     let turned = slip.map(|s| s / size);
@@ -131,7 +146,12 @@ fn corrections<T: Real>() -> usize {
 
 impl<'k, K: ContactSystem> InMode<'k, K> {
     pub(crate) fn new(kernel: &'k K, modes: &[Mode<K::Scalar>]) -> Self {
-        Self { kernel, modes: modes.into() }
+        Self::with(kernel, modes, (0.0, &[]))
+    }
+
+    /// With the slips that count as rest, and the rounding of each row at the start.
+    pub(crate) fn with(kernel: &'k K, modes: &[Mode<K::Scalar>], (rest, rounding): (f64, &[f64])) -> Self {
+        Self { kernel, modes: modes.into(), least: (rest, rounding.into()) }
     }
 
     /// The mode of each contact.
@@ -148,8 +168,8 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
     /// The rows of constraints: normals of closed contacts, tangents of those that stick where `velocities`.
     fn rows(&self, velocities: bool) -> Vec<usize> {
         let of = |(_, contact, mode): (usize, &Contact, Mode<K::Scalar>)| {
-            let more = if velocities && matches!(mode, Mode::Sticks) { contact.tangents } else { 0 };
-            contact.normal..=contact.normal + more
+            let all = contact.rows();
+            if velocities && matches!(mode, Mode::Sticks) { all } else { all.start..contact.tangent_rows().start }
         };
         self.closed().flat_map(of).collect()
     }
@@ -167,7 +187,9 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
         let jacobian = self.kernel.contact_jacobian(t, q);
         let size: f64 = tangents(contact).filter_map(|row| jacobian.nth(row)).map(|column| terms(&column, z)).sum();
         let slip = slip(contact, &self.kernel.contact_rates(t, q, z));
-        direction(reference, slip, 64.0 * epsilon::<K::Scalar>() * size)
+        let (rest, at_start) = &self.least;
+        let at_start = tangents(contact).filter_map(|row| at_start.get(row)).sum();
+        direction(reference, slip, (64.0 * epsilon::<K::Scalar>() * size).max(at_start), *rest)
     }
 
     /// λ at a state.
@@ -180,15 +202,18 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
         let friction = sliding.then(|| self.kernel.friction(t, q, z, input));
         let mut rows = Vec::new();
         let mut with: Vec<Vec<(usize, K::Scalar)>> = Vec::new();
-        for (i, contact, mode) in self.closed() {
-            rows.push(contact.normal);
-            let mut column = vec![(contact.normal, one)];
+        for (_, contact, mode) in self.closed() {
+            let mut against = Vec::new();
             if let (Mode::Slides(reference), Some(friction)) = (mode, &friction) {
                 let along = self.direction(contact, reference, (t, q, z));
-                let mu = friction.component(i);
-                column.extend(tangents(contact).zip(along).map(|(row, s)| (row, -mu * s)));
+                against.extend(tangents(contact).zip(Bounds::of(contact, friction).against(along)));
             }
-            with.push(column);
+            if contact.has_gap() {
+                rows.push(contact.normal);
+                with.push(core::iter::once((contact.normal, one)).chain(against).collect());
+            } else {
+                against.into_iter().for_each(|(row, force)| forces[row] = force);
+            }
             if matches!(mode, Mode::Sticks) {
                 tangents(contact).for_each(|row| {
                     rows.push(row);
@@ -247,7 +272,7 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
     /// Closed gaps brought to zero. ψ is affine in z: what an impulse adds to it is an increment of the configuration.
     fn close_gaps(&self, t: K::Scalar, mut q: K::Configuration) -> Result<K::Configuration, ProjectionError> {
         let given = q;
-        let contact = |row: usize| K::CONTACTS.iter().position(|contact| contact.normal == row);
+        let contact = |row: usize| K::CONTACTS.iter().position(|contact| contact.normal == row && contact.has_gap());
         let rows = self.rows(false);
         let mut left = f64::INFINITY;
         for n in 0..20 {

@@ -213,7 +213,8 @@ where
 
     /// One segment; what ended it, unless it reached the end of the run.
     fn segment(&mut self, from: &Instant<'k, K>) -> Result<Option<Watched>, ContactError> {
-        let system = InMode::new(self.kernel, &from.modes);
+        let rounding = from.sizes(&self.scales).of_rate;
+        let system = InMode::with(self.kernel, &from.modes, (self.scales.rest(), &rounding));
         let problem = InModeProblem { system: system.clone(), input: Rc::clone(&self.made.input) };
         let witnesses = self.witnesses(from, &problem);
         let watched: Vec<Watched> = witnesses.iter().map(|witness| witness.watched).collect();
@@ -299,17 +300,23 @@ where
                 }
                 Mode::Closed => watch(Watched::Force(i), &above),
                 Mode::Sticks => {
-                    watch(Watched::Force(i), &above);
+                    if contact.has_gap() {
+                        watch(Watched::Force(i), &above);
+                    }
                     watch(Watched::Cone(i), &above);
                 }
                 Mode::Slides(_) => {
-                    watch(Watched::Force(i), &above);
+                    if contact.has_gap() {
+                        watch(Watched::Force(i), &above);
+                    }
                     let rounding = tangents(contact).map(|row| sizes.of_rate[row]).fold(0.0, f64::max);
                     watch(Watched::Slip(i), &from_zero(rounding));
                     if contact.tangents == 2 {
                         watch(Watched::Speed(i, self.scales.rest()), &|_| 0.0);
                     }
-                    watch(Watched::Pushes(i), &|_| 0.0);
+                    if contact.has_gap() {
+                        watch(Watched::Pushes(i), &|_| 0.0);
+                    }
                 }
             }
         }

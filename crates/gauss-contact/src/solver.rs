@@ -7,6 +7,8 @@
 //! - `|λ_T| ≤ μ λ_N`, and where `u_T ≠ 0`: `λ_T = −μ λ_N u_T/|u_T|` (Coulomb).
 //!
 //! Of a contact that slides already, the direction ŝ of its friction is known: `λ_T = −μ λ_N ŝ`, whatever u_T is.
+//! Dry friction has no normal, and its bound f in the place of μ λ_N: forces that make `½ λᵀDλ + bᵀλ` least, as Gauss'
+//! principle asks, which is the same as `C + Σ f |u_T|`. Friction of two axes is scaled to a circle (`Bounds`).
 //!
 //! Projected Gauss–Seidel sweeps find which contacts leave, stick and slide; then the equations of these states are
 //! solved to rounding, and the laws are checked. States that violate them are corrected by the same rule until they do
@@ -16,19 +18,58 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use gauss_runtime::contact::Contact;
 use gauss_runtime::real::Real;
 
 use crate::dense::{Decomposition, Matrix, norm, size, sum, value};
+use crate::friction::Bounds;
 
 /// What is known of a contact before its force is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Law<T = f64> {
+    /// Of a gap; else of dry friction.
+    has_normal: bool,
     /// 0 without friction, else 1 or 2.
-    pub(crate) tangents: usize,
-    /// μ.
-    pub(crate) friction: T,
-    /// ŝ where it slides already.
-    pub(crate) slip: Option<[T; 2]>,
+    tangents: usize,
+    /// μ, or f.
+    friction: T,
+    /// ŝ on the circle where it slides already.
+    slip: Option<[T; 2]>,
+    /// By which forces and slips are scaled to a circle.
+    bounds: Bounds<T>,
+}
+
+impl<T: Real> Law<T> {
+    /// `slip`: the direction in which it slides already.
+    pub(crate) fn new(contact: &Contact, bounds: Bounds<T>, slip: Option<[T; 2]>) -> Self {
+        Self {
+            has_normal: contact.has_gap(),
+            tangents: contact.tangents,
+            friction: bounds.largest,
+            slip: slip.map(|along| bounds.on_circle(along)),
+            bounds,
+        }
+    }
+
+    /// The values.
+    fn values(&self) -> Law {
+        Law {
+            has_normal: self.has_normal,
+            tangents: self.tangents,
+            friction: value(self.friction),
+            slip: self.slip.map(|slip| slip.map(value)),
+            bounds: self.bounds.values(),
+        }
+    }
+
+    /// The direction of slip where it slides already.
+    pub(crate) fn along(&self) -> Option<[T; 2]> {
+        self.slip.map(|direction| self.bounds.slip_of(direction))
+    }
+
+    fn rows(&self) -> usize {
+        usize::from(self.has_normal) + self.tangents
+    }
 }
 
 /// What a contact does.
@@ -95,7 +136,8 @@ pub(crate) enum Failure {
 #[derive(Debug)]
 pub(crate) struct Contacts<T = f64> {
     laws: Vec<Law<T>>,
-    normals: Vec<usize>,
+    /// The first row of each.
+    first: Vec<usize>,
     matrix: Matrix<T>,
     b: Vec<T>,
 }
@@ -109,22 +151,49 @@ const ROUNDINGS: f64 = 256.0;
 
 impl<T: Real> Contacts<T> {
     pub(crate) fn new(laws: Vec<Law<T>>, matrix: Matrix<T>, b: Vec<T>) -> Self {
-        let rows_before = |i: usize| laws[..i].iter().map(|law| 1 + law.tangents).sum();
-        let normals = (0..laws.len()).map(rows_before).collect();
-        Self { laws, normals, matrix, b }
+        let scales: Vec<T> = laws.iter().flat_map(scales).collect();
+        let b = b.into_iter().zip(&scales).map(|(b, scale)| b * *scale).collect();
+        let size = scales.len();
+        let matrix = Matrix::from_fn(size, |i, j| matrix.at(i, j) * (scales[i] * scales[j]));
+        let rows_before = |i: usize| laws[..i].iter().map(Law::rows).sum();
+        let first = (0..laws.len()).map(rows_before).collect();
+        Self { laws, first, matrix, b }
+    }
+
+    /// The solution in forces and rates as they are.
+    fn unscaled(&self, mut found: Solution<T>) -> Solution<T> {
+        let scales = self.laws.iter().flat_map(scales);
+        for ((force, rate), scale) in found.forces.iter_mut().zip(&mut found.rates).zip(scales) {
+            (*force, *rate) = (*force * scale, *rate / scale);
+        }
+        for (state, law) in found.states.iter_mut().zip(&self.laws) {
+            if let State::Slides(along) = state {
+                *along = law.bounds.slip_of(*along);
+            }
+        }
+        found
+    }
+
+    fn normal(&self, i: usize) -> Option<usize> {
+        self.laws[i].has_normal.then(|| self.first[i])
+    }
+
+    /// What is known in values.
+    fn values(&self) -> Contacts {
+        let laws = self.laws.iter().map(Law::values).collect();
+        Contacts {
+            laws,
+            first: self.first.clone(),
+            matrix: self.matrix.values(),
+            b: self.b.iter().copied().map(value).collect(),
+        }
     }
 
     /// The solution. What contacts do is found by values; forces and directions have the derivatives of the equations
     /// of what they do (implicit functions).
-    pub(crate) fn solution(&self) -> Result<Solution<T>, Failure> {
+    pub(crate) fn solve(&self) -> Result<Solution<T>, Failure> {
         let number = T::from_f64;
-        let laws = self.laws.iter().map(|law| Law {
-            tangents: law.tangents,
-            friction: value(law.friction),
-            slip: law.slip.map(|slip| slip.map(value)),
-        });
-        let b: Vec<f64> = self.b.iter().copied().map(value).collect();
-        let found = Contacts::new(laws.collect(), self.matrix.values(), b).solve(vec![0.0; self.b.len()])?;
+        let found = self.values().on_circles()?;
         let lifted = |state: &State| match *state {
             State::Leaves => State::Leaves,
             State::Closed => State::Closed,
@@ -137,12 +206,12 @@ impl<T: Real> Contacts<T> {
         } else {
             (states, found.forces.into_iter().map(number).collect())
         };
-        Ok(Solution { rates: self.rates(&forces), forces, states, residuals: found.residuals })
+        Ok(self.unscaled(Solution { rates: self.rates(&forces), forces, states, residuals: found.residuals }))
     }
 
     fn tangents(&self, i: usize) -> core::ops::Range<usize> {
-        let normal = self.normals[i];
-        normal + 1..normal + 1 + self.laws[i].tangents
+        let end = self.first[i] + self.laws[i].rows();
+        end - self.laws[i].tangents..end
     }
 
     fn rates(&self, forces: &[T]) -> Vec<T> {
@@ -210,21 +279,26 @@ impl<T: Real> Contacts<T> {
     /// Forces such that closed contacts keep their normal rates at zero, and those that stick all of them.
     fn forces_in(&self, states: &[State<T>]) -> Vec<T> {
         let mut rows = Vec::new();
+        let mut forces = vec![T::zero(); self.b.len()];
         // What a unit of the unknown of a row adds to forces, in this row and in those of friction.
         let mut with: Vec<Vec<(usize, T)>> = Vec::new();
         for (i, state) in states.iter().enumerate() {
-            let normal = self.normals[i];
             let direction = match state {
                 State::Leaves => continue,
                 State::Slides(direction) => Some(*direction),
                 State::Closed => self.laws[i].slip,
                 State::Sticks => None,
             };
-            rows.push(normal);
             let friction = self.laws[i].friction;
             let along =
                 direction.into_iter().flat_map(|d| self.tangents(i).zip(d)).map(|(row, d)| (row, -friction * d));
-            with.push(core::iter::once((normal, T::one())).chain(along).collect());
+            match self.normal(i) {
+                Some(normal) => {
+                    rows.push(normal);
+                    with.push(core::iter::once((normal, T::one())).chain(along).collect());
+                }
+                None => along.for_each(|(row, force)| forces[row] = force),
+            }
             if matches!(state, State::Sticks) {
                 self.tangents(i).for_each(|row| {
                     rows.push(row);
@@ -235,7 +309,6 @@ impl<T: Real> Contacts<T> {
         let entry = |i: usize, j: usize| sum(with[j].iter().map(|(row, part)| *part * self.matrix.at(rows[i], *row)));
         let matrix = Matrix::from_fn(rows.len(), entry);
         let factors = Decomposition::new(&matrix, |i| self.matrix.at(rows[i], rows[i]));
-        let mut forces = vec![T::zero(); self.b.len()];
         // Once more for what the first solution leaves.
         for _ in 0..2 {
             let left: Vec<T> = rows.iter().map(|&row| -self.rate(row, &forces)).collect();
@@ -248,13 +321,18 @@ impl<T: Real> Contacts<T> {
 }
 
 impl Contacts {
+    /// The largest friction of a contact under forces.
+    fn largest(&self, i: usize, forces: &[f64]) -> f64 {
+        self.laws[i].friction * self.normal(i).map_or(1.0, |normal| Real::max(forces[normal], 0.0))
+    }
+
     /// `|D_TT|` of a contact, the largest of its tangents.
     fn tangent_scale(&self, i: usize) -> f64 {
         self.tangents(i).map(|row| self.matrix.at(row, row)).fold(0.0, f64::max)
     }
 
-    /// Finds the forces, from an estimate of them.
-    pub(crate) fn solve(&self, mut forces: Vec<f64>) -> Result<Solution, Failure> {
+    fn on_circles(&self) -> Result<Solution, Failure> {
+        let mut forces = vec![0.0; self.b.len()];
         let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
         if !(finite(&self.b) && (0..self.b.len()).all(|row| finite(self.matrix.row(row)))) {
             return Err(Failure::NonFinite);
@@ -299,8 +377,8 @@ impl Contacts {
         for (i, state) in states.iter_mut().enumerate() {
             let free = self.laws[i].tangents > 0 && self.laws[i].slip.is_none();
             match state {
-                State::Leaves if still(self.normals[i]) && !free => *state = State::Closed,
-                State::Leaves if still(self.normals[i]) && self.tangents(i).all(still) => *state = State::Sticks,
+                State::Leaves if still(self.first[i]) && !free => *state = State::Closed,
+                State::Leaves if still(self.first[i]) && self.tangents(i).all(still) => *state = State::Sticks,
                 State::Slides(_) if self.tangents(i).all(still) => *state = State::Sticks,
                 _ => {}
             }
@@ -310,7 +388,7 @@ impl Contacts {
         }
         let shared = self.in_states(states);
         let carries = |i: usize| {
-            let normal = self.normals[i];
+            let normal = self.first[i];
             let pressed = self.matrix.at(normal, normal) * shared.forces[normal];
             found.states[i] != State::Leaves
                 || pressed > self.rounding(normal, &shared.forces)
@@ -323,7 +401,8 @@ impl Contacts {
     /// Whether friction of a contact cannot turn the sign of what its normal force does: `D_NN > μ |D_NT|`, or along
     /// a known direction `p = D_NN − μ D_NT ŝ > 0` (P. Painlevé 1895).
     fn is_regular(&self, i: usize) -> bool {
-        let (normal, Law { friction, slip, .. }) = (self.normals[i], self.laws[i]);
+        let Some(normal) = self.normal(i) else { return true };
+        let Law { friction, slip, .. } = self.laws[i];
         let coupling: Vec<f64> = self.tangents(i).map(|row| self.matrix.at(normal, row)).collect();
         let against = match slip {
             Some(slip) => coupling.iter().zip(slip).map(|(d, s)| d * s).sum(),
@@ -336,7 +415,7 @@ impl Contacts {
 
     /// Where solutions need not be unique: the only one, if it is.
     fn only(&self, contact: usize) -> Result<Solution, Failure> {
-        let normal = self.normals[contact];
+        let normal = self.first[contact];
         let Some(mut found) = self.all() else {
             return Err(if self.b[normal] < 0.0 {
                 Failure::Inconsistent(contact)
@@ -355,12 +434,16 @@ impl Contacts {
     /// The states that each contact may have; none where the combinations are too many, or directions are not of finite
     /// number.
     fn choices(&self) -> Option<Vec<Vec<State>>> {
-        let of = |law: &Law| match (law.slip, law.tangents) {
-            (Some(_), _) | (None, 0) => Some(vec![State::Leaves, State::Closed]),
-            (None, 1) => {
-                Some(vec![State::Leaves, State::Sticks, State::Slides([1.0, 0.0]), State::Slides([-1.0, 0.0])])
+        let of = |law: &Law| {
+            let mut states = match (law.slip, law.tangents) {
+                (Some(_), _) | (None, 0) => vec![State::Closed],
+                (None, 1) => vec![State::Sticks, State::Slides([1.0, 0.0]), State::Slides([-1.0, 0.0])],
+                _ => return None,
+            };
+            if law.has_normal {
+                states.insert(0, State::Leaves);
             }
-            _ => None,
+            Some(states)
         };
         let choices: Vec<Vec<State>> = self.laws.iter().map(of).collect::<Option<_>>()?;
         let count = choices.iter().try_fold(1_usize, |count, of| count.checked_mul(of.len()));
@@ -386,20 +469,22 @@ impl Contacts {
     /// One sweep over the contacts: each force is brought to its cone as if the others stayed.
     fn sweep(&self, forces: &mut [f64]) {
         for i in 0..self.laws.len() {
-            let (normal, Law { friction, slip, .. }) = (self.normals[i], self.laws[i]);
-            let diagonal = self.matrix.at(normal, normal);
-            let rate = self.rate(normal, forces);
-            let effective = match slip {
-                Some(slip) => {
-                    let coupled = self.tangents(i).zip(slip).map(|(row, s)| s * self.matrix.at(normal, row));
-                    diagonal - friction * coupled.sum::<f64>()
+            let Law { friction, slip, .. } = self.laws[i];
+            if let Some(normal) = self.normal(i) {
+                let diagonal = self.matrix.at(normal, normal);
+                let rate = self.rate(normal, forces);
+                let effective = match slip {
+                    Some(slip) => {
+                        let coupled = self.tangents(i).zip(slip).map(|(row, s)| s * self.matrix.at(normal, row));
+                        diagonal - friction * coupled.sum::<f64>()
+                    }
+                    None => diagonal,
+                };
+                if effective > 0.0 {
+                    forces[normal] = Real::max(forces[normal] - rate / effective, 0.0);
                 }
-                None => diagonal,
-            };
-            if effective > 0.0 {
-                forces[normal] = Real::max(forces[normal] - rate / effective, 0.0);
             }
-            let largest = friction * forces[normal];
+            let largest = self.largest(i, forces);
             if let Some(slip) = slip {
                 self.tangents(i).zip(slip).for_each(|(row, s)| forces[row] = -largest * s);
                 continue;
@@ -424,9 +509,11 @@ impl Contacts {
     /// What each contact does, judged by forces and rates.
     fn states(&self, forces: &[f64], rates: &[f64]) -> Vec<State> {
         let state = |i: usize| {
-            let (normal, law) = (self.normals[i], self.laws[i]);
-            let diagonal = self.matrix.at(normal, normal);
-            let pressed = diagonal * forces[normal] - rates[normal];
+            let law = self.laws[i];
+            let (diagonal, pressed) = self.normal(i).map_or((1.0, 1.0), |normal| {
+                let diagonal = self.matrix.at(normal, normal);
+                (diagonal, diagonal * forces[normal] - rates[normal])
+            });
             if pressed <= 0.0 {
                 return State::Leaves;
             }
@@ -459,13 +546,15 @@ impl Contacts {
     }
 
     fn residual(&self, i: usize, forces: &[f64], rates: &[f64]) -> Residual {
-        let (normal, law) = (self.normals[i], self.laws[i]);
-        let signorini = Real::min(rates[normal], self.matrix.at(normal, normal) * forces[normal]).abs();
-        let rounding =
-            self.tangents(i).fold(self.rounding(normal, forces), |most, row| most.max(self.rounding(row, forces)));
+        let law = self.laws[i];
+        let signorini = self
+            .normal(i)
+            .map_or(0.0, |normal| Real::min(rates[normal], self.matrix.at(normal, normal) * forces[normal]).abs());
+        let rows = self.first[i]..self.tangents(i).end;
+        let rounding = rows.fold(0.0_f64, |most, row| most.max(self.rounding(row, forces)));
         let scale = self.tangent_scale(i);
         let friction: Vec<f64> = self.tangents(i).map(|row| scale * forces[row]).collect();
-        let largest = scale * law.friction * forces[normal].max(0.0);
+        let largest = scale * self.largest(i, forces);
         let coulomb = Real::max(norm(&friction) - largest, 0.0);
         let wanted: Vec<f64> = match law.slip {
             Some(slip) => slip.iter().take(law.tangents).map(|s| -largest * s).collect(),
@@ -479,6 +568,11 @@ impl Contacts {
         let off: Vec<f64> = friction.iter().zip(&wanted).map(|(f, w)| f - w).collect();
         Residual { signorini, coulomb, dissipation: norm(&off), rounding }
     }
+}
+
+/// By what forces of the rows of a contact are those of the circle, and slips in reverse.
+fn scales<T: Real>(law: &Law<T>) -> impl Iterator<Item = T> + use<T> {
+    core::iter::repeat_n(T::one(), usize::from(law.has_normal)).chain(law.bounds.weights.into_iter().take(law.tangents))
 }
 
 /// Turns the direction of a contact.

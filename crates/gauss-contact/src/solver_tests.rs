@@ -16,6 +16,11 @@ impl Numbers {
     }
 }
 
+/// Of a contact with isotropic friction.
+fn law(tangents: usize, friction: f64, slip: Option<[f64; 2]>) -> Law {
+    Law::new(&Contact::new("", 0, tangents), Bounds { largest: friction, weights: [1.0; 2] }, slip)
+}
+
 /// Rows of contacts in a space of some dimensions, and Delassus' matrix of them with unit masses.
 fn random(numbers: &mut Numbers, tangents: usize, count: usize, dimensions: usize) -> (Matrix, Vec<f64>) {
     let rows = count * (1 + tangents);
@@ -32,7 +37,7 @@ fn random(numbers: &mut Numbers, tangents: usize, count: usize, dimensions: usiz
 
 /// The laws of one contact, as they are written: by how much they fail, over the size of their terms.
 fn violation(contacts: &Contacts, found: &Solution, i: usize) -> f64 {
-    let normal = contacts.normals[i];
+    let normal = contacts.first[i];
     let size = |row: usize| {
         let terms = contacts.matrix.row(row).iter().zip(&found.forces).map(|(d, f)| (d * f).abs());
         terms.fold(contacts.b[row].abs(), |sum, term| sum + term)
@@ -68,9 +73,9 @@ fn gaps_without_friction_agree_with_enumeration() {
         let count = 1 + n % 6;
         // More contacts than dimensions as well: then forces are not unique, rates are.
         let (matrix, b) = random(&mut numbers, 0, count, 1 + n % 4);
-        let laws = vec![Law { tangents: 0, friction: 0.0, slip: None }; count];
+        let laws = vec![law(0, 0.0, None); count];
         let contacts = Contacts::new(laws, matrix, b);
-        let found = contacts.solve(vec![0.0; count]).expect("is convex");
+        let found = contacts.solve().expect("is convex");
         for i in 0..count {
             assert!(violation(&contacts, &found, i) < 1e-11, "{n} {i} {found:?}");
         }
@@ -96,9 +101,9 @@ fn coulombs_law_holds_along_one_tangent_and_two() {
     for n in 0..400 {
         let (tangents, count) = (1 + n % 2, 1 + n % 5);
         let (matrix, b) = random(&mut numbers, tangents, count, 3 * count + 1);
-        let laws = (0..count).map(|_| Law { tangents, friction: 0.3 * numbers.next(), slip: None }).collect();
+        let laws = (0..count).map(|_| law(tangents, 0.3 * numbers.next(), None)).collect();
         let contacts = Contacts::new(laws, matrix, b);
-        let found = contacts.solve(vec![0.0; contacts.b.len()]).unwrap_or_else(|failure| panic!("{n} {failure:?}"));
+        let found = contacts.solve().unwrap_or_else(|failure| panic!("{n} {failure:?}"));
         for i in 0..count {
             assert!(violation(&contacts, &found, i) < 1e-11, "{n} {i} {found:?}");
         }
@@ -112,8 +117,7 @@ fn coulombs_law_holds_along_one_tangent_and_two() {
 fn one_contact_has_the_forces_of_its_closed_form() {
     let solve = |b: [f64; 2], friction: f64| {
         let matrix = Matrix::from_fn(2, |i, j| if i == j { 2.0 } else { 0.0 });
-        let law = Law { tangents: 1, friction, slip: None };
-        let found = Contacts::new(vec![law], matrix, b.to_vec()).solve(vec![0.0; 2]).expect("is regular");
+        let found = Contacts::new(vec![law(1, friction, None)], matrix, b.to_vec()).solve().expect("is regular");
         (found.forces, found.states[0])
     };
     assert_eq!(solve([-4.0, 1.0], 0.5), (vec![2.0, -0.5], State::Sticks));
@@ -127,10 +131,89 @@ fn painleves_states_are_told_apart() {
     // p = 1 − 2 · 0.8 < 0.
     let solve = |b: f64| {
         let matrix = Matrix::from_fn(2, |i, j| if i == j { 1.0 } else { 0.8 });
-        let law = Law { tangents: 1, friction: 2.0, slip: Some([1.0, 0.0]) };
-        Contacts::new(vec![law], matrix, vec![b, 0.0]).solve(vec![0.0; 2])
+        Contacts::new(vec![law(1, 2.0, Some([1.0, 0.0]))], matrix, vec![b, 0.0]).solve()
     };
     assert!(matches!(solve(-1.0), Err(Failure::Inconsistent(0))));
     assert!(matches!(solve(1.0), Err(Failure::Indeterminate(0))));
     assert!(matches!(solve(f64::NAN), Err(Failure::NonFinite)));
+}
+
+/// Holds the laws of a contact or of dry friction with friction of two axes, as they are written; whether it slides.
+#[track_caller]
+fn hold(contact: &Contact, bounds: Bounds, first: usize, (matrix, b): (&Matrix, &[f64]), forces: &[f64]) -> bool {
+    let tangents = first + usize::from(contact.has_gap())..first + contact.rows().len();
+    let size = |row: usize| {
+        let terms = matrix.row(row).iter().zip(forces).map(|(d, f)| (d * f).abs());
+        terms.fold(b[row].abs(), |sum, term| sum + term)
+    };
+    let rate = |row: usize| matrix.row(row).iter().zip(forces).fold(b[row], |sum, (d, f)| sum + d * f);
+    let mut largest = bounds.largest;
+    if contact.has_gap() {
+        let (force, rate) = (forces[first], rate(first));
+        let of_force = size(first) / matrix.at(first, first);
+        assert!(force >= -1e-11 * of_force && rate >= -1e-11 * size(first));
+        assert!((force / of_force).min(rate / size(first)) <= 1e-11);
+        largest *= force.max(0.0);
+    }
+    // Σ (λ_k/κ_k)² ≤ bound², and where it slides λ is −bound (κ₁² s₁, κ₂² s₂)/|(κ₁ s₁, κ₂ s₂)|.
+    let weights = bounds.weights;
+    let on: Vec<f64> = tangents.clone().zip(weights).map(|(row, w)| forces[row] / w).collect();
+    let off: Vec<f64> = tangents.clone().zip(weights).map(|(row, w)| rate(row) * w).collect();
+    let sizes: Vec<f64> = tangents.clone().zip(weights).map(|(row, w)| size(row) * w).collect();
+    let push = tangents.zip(weights).map(|(row, w)| size(row) / (matrix.at(row, row) * w)).fold(0.0, f64::max);
+    assert!(norm(&on) - largest <= 1e-10 * push, "{on:?} {largest}");
+    let slides = norm(&off) > 1e-8 * norm(&sizes);
+    for (f, s) in on.iter().zip(&off).filter(|_| slides) {
+        assert!((f + largest * s / norm(&off)).abs() <= 1e-8 * push, "{on:?} {off:?} {largest}");
+    }
+    slides
+}
+
+/// Contacts and dry friction in one system, with friction of two axes.
+#[test]
+fn ellipses_and_bounds_hold_their_laws_together() {
+    let mut numbers = Numbers(23);
+    let (mut sticks, mut slides) = (0, 0);
+    for n in 0..400 {
+        let count = 1 + n % 5;
+        let contacts: Vec<Contact> = (0..count)
+            .map(|_| {
+                let tangents = 1 + usize::from(numbers.next() > 0.5);
+                if numbers.next() > 0.5 {
+                    Contact::new("", 0, tangents)
+                } else {
+                    Contact::dry_friction("", 0, tangents)
+                }
+            })
+            .collect();
+        let rows: usize = contacts.iter().map(|contact| contact.rows().len()).sum();
+        let (matrix, b) = random(&mut numbers, 0, rows, rows + 1);
+        // Units of forces are as the rows': bounds are some part of what would stop all of it.
+        let scale = |row: usize| b[row].abs() / matrix.at(row, row);
+        let mut next = 0;
+        let mut laws = Vec::new();
+        for contact in &contacts {
+            let first = next;
+            next += contact.rows().len();
+            let tangents = first + usize::from(contact.has_gap())..next;
+            let mut bounds = tangents.map(|row| match contact.has_gap() {
+                true => 0.3 * numbers.next() * (matrix.at(first, first) / matrix.at(row, row)).sqrt(),
+                false => 10.0_f64.powf(2.0 * numbers.signed()) * scale(row),
+            });
+            let first = bounds.next().unwrap_or(0.0);
+            let second = bounds.next().unwrap_or(first);
+            let largest = first.max(second);
+            laws.push(Law::new(contact, Bounds { largest, weights: [first / largest, second / largest] }, None));
+        }
+        let solver = Contacts::new(laws.clone(), matrix.clone(), b.clone());
+        let found = solver.solve().unwrap_or_else(|failure| panic!("{n} {failure:?}"));
+        let mut next = 0;
+        for (contact, law) in contacts.iter().zip(&laws) {
+            let slid = hold(contact, law.bounds, next, (&matrix, &b), &found.forces);
+            next += contact.rows().len();
+            sticks += usize::from(!slid);
+            slides += usize::from(slid);
+        }
+    }
+    assert!(sticks > 50 && slides > 100, "{sticks} {slides}");
 }

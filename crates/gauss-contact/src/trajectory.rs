@@ -96,8 +96,9 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
         self.segment_at(t)?.trajectory.at(t).map(|state| sample(&state)).map_err(|error| integration(value(t), error))
     }
 
-    /// The contact forces at a time, all rows: normal, then tangents, contact by contact. Where contacts depend on one
-    /// another they are those of least `Σ D_ii λ_i²`; the motion is the same for all others.
+    /// The contact forces at a time, all rows: normal, then tangents, contact by contact; of dry friction tangents
+    /// alone. Where contacts depend on one another they are those of least `Σ D_ii λ_i²`; the motion is the same for
+    /// all others.
     ///
     /// # Errors
     /// Where the run does not cover the time.

@@ -5,6 +5,7 @@ use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::real::Real;
 
 use crate::dense::{norm, sum};
+use crate::friction::Bounds;
 use crate::mode::{Mode, slip, tangents};
 use crate::problem::InModeProblem;
 
@@ -19,7 +20,7 @@ pub(crate) enum Watched {
     Slip(usize),
     /// |s| of a contact with two tangents, above a level.
     Speed(usize, f64),
-    /// μ λ_N − |λ_T| of a contact that sticks.
+    /// μ λ_N − |λ_T| of a contact that sticks, f − |λ| of dry friction.
     Cone(usize),
     /// p of a contact that slides: how its normal force, with its friction, moves its gap (P. Painlevé).
     Pushes(usize),
@@ -69,8 +70,7 @@ impl<K: ContactSystem> Witness<'_, K> {
                 let input = input();
                 let loads = self.problem.system.loads(t, q, z, &input);
                 let contact = &K::CONTACTS[i];
-                let friction = &loads.forces[tangents(contact)];
-                kernel.friction(t, q, z, &input).component(i) * loads.forces[contact.normal] - norm(friction)
+                loads.reserve(contact, Bounds::of(contact, &kernel.friction(t, q, z, &input)))
             }
             Watched::Pushes(i) => self.pushes(i, t, q, z),
         }
@@ -89,10 +89,10 @@ impl<K: ContactSystem> Witness<'_, K> {
         let contact = &K::CONTACTS[i];
         let input = (self.problem.input)(t, q, z);
         let delassus = kernel.contact_response(t, q).delassus;
-        let mu = kernel.friction(t, q, z, &input).component(i);
         let along = self.problem.system.direction(contact, self.reference(i), (t, q, z));
-        let coupled = sum(tangents(contact).zip(along).map(|(row, s)| s * delassus[(contact.normal, row)]));
+        let against = Bounds::of(contact, &kernel.friction(t, q, z, &input)).against(along);
+        let coupled = sum(tangents(contact).zip(against).map(|(row, f)| f * delassus[(contact.normal, row)]));
         let diagonal = delassus[(contact.normal, contact.normal)];
-        K::Scalar::one() - mu * coupled / diagonal.max(K::Scalar::from_f64(f64::MIN_POSITIVE))
+        K::Scalar::one() + coupled / diagonal.max(K::Scalar::from_f64(f64::MIN_POSITIVE))
     }
 }

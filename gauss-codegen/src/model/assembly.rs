@@ -83,6 +83,7 @@ fn check_expressions(
     if !definitions::check_sizes(statements, context) {
         return Vec::new();
     }
+    statements.name_rates();
     let mut scope = declared::scope(statements, &reader.fields, shapes, scalar, uncertain);
     definitions::check(&statements.definitions, &mut scope, context);
     for (place, expression) in expressions::all(statements) {

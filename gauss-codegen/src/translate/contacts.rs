@@ -2,10 +2,11 @@
 
 use crate::error::Result;
 use crate::mechanics::{Contact, Tree};
-use crate::model::Touching;
+use crate::model::{Expression, Touching};
 use crate::terms::LawKind;
 use crate::words::Unraw;
 
+use super::shapes::Slips;
 use super::translator::Translator;
 
 impl<'g> Translator<'_, 'g> {
@@ -20,14 +21,22 @@ impl<'g> Translator<'_, 'g> {
                 self.note(kind, (&name, word), e, vec![value]);
                 Ok(Some(value))
             };
-            let friction = coefficient(&written.friction, LawKind::Friction, "friction")?;
+            let dry = matches!(written.touching, Touching::Slip { .. });
+            let word = if dry { "bound" } else { "friction" };
+            let mut friction = Vec::new();
+            for e in &written.friction {
+                let value = self.scalar(e, tree)?;
+                self.note(LawKind::Friction, (&name, word), e, vec![value]);
+                friction.push(value);
+            }
             let restitution = coefficient(&written.restitution, LawKind::Restitution, "restitution")?;
             let forms = match &written.touching {
-                Touching::Gap { gap, slips } => {
-                    let slips = slips.iter().map(|slip| self.scalar(slip, tree)).collect::<Result<Vec<_>>>()?;
-                    vec![(self.scalar(gap, tree)?, slips)]
+                Touching::Gap { gap, slips } => vec![(Some(self.scalar(gap, tree)?), self.slips(slips, tree)?)],
+                Touching::Slip { slips, .. } => vec![(None, self.slips(slips, tree)?)],
+                Touching::Point(contact) => {
+                    let forms = self.shape(&name, contact, !friction.is_empty(), tree)?;
+                    forms.into_iter().map(|(gap, slips)| (Some(gap), slips)).collect()
                 }
-                Touching::Point(contact) => self.shape(&name, contact, friction.is_some(), tree)?,
                 Touching::Range { along, from, to } => {
                     let x = self.scalar(along, tree)?;
                     let limit = |e: &Option<_>| e.as_ref().map(|e| self.scalar(e, tree)).transpose();
@@ -36,10 +45,10 @@ impl<'g> Translator<'_, 'g> {
                         self.note(LawKind::Limits, (&name, ""), e, vec![least, most]);
                     }
                     let gaps = least.map(|least| x - least).into_iter().chain(most.map(|most| most - x));
-                    gaps.map(|gap| (gap, Vec::new())).collect()
+                    gaps.map(|gap| (Some(gap), Vec::new())).collect()
                 }
             };
-            if let (Touching::Point(_), Some(e)) = (&written.touching, &written.friction)
+            if let (Touching::Point(_), Some(e)) = (&written.touching, written.friction.first())
                 && forms.iter().all(|(_, slips)| slips.is_empty())
             {
                 self.mistake(
@@ -47,15 +56,17 @@ impl<'g> Translator<'_, 'g> {
                     format!("nothing slips along `{name}`, so friction does nothing; remove `friction`"),
                 );
             }
-            contacts.extend(written.names.iter().zip(forms).map(|(name, (gap, slips))| Contact {
-                name: name.unraw().to_string(),
-                gap,
-                slips,
-                friction,
-                restitution,
-                clause,
+            contacts.extend(written.names.iter().zip(forms).map(|(name, (gap, slips))| {
+                // Of two coefficients the one of the same tangent.
+                let friction = |k: usize| friction.get(k).or(friction.first()).copied();
+                let (slips, friction) = slips.into_iter().filter_map(|(k, slip)| Some((slip, friction(k)?))).unzip();
+                Contact { name: name.unraw().to_string(), gap, slips, friction, restitution, clause }
             }));
         }
         Ok(contacts)
+    }
+
+    fn slips(&self, slips: &[Expression], tree: &Tree<'g>) -> Result<Slips<'g>> {
+        slips.iter().enumerate().map(|(k, slip)| Ok((k, self.scalar(slip, tree)?))).collect()
     }
 }

@@ -14,8 +14,11 @@ type Triple<'g> = [Expr<'g>; 3];
 /// Terms that a slip may have while it is seen whether it vanishes.
 const LIMIT: usize = 400;
 
+/// Slips with the number of their tangent.
+pub(super) type Slips<'g> = Vec<(usize, Expr<'g>)>;
+
 /// Gap and slips.
-type Form<'g> = (Expr<'g>, Vec<Expr<'g>>);
+type Form<'g> = (Expr<'g>, Slips<'g>);
 
 /// A place of a shape.
 struct Part<'g> {
@@ -142,7 +145,7 @@ impl<'g> Translator<'_, 'g> {
         let velocity = subtract(&self.velocity_at(part, &arm, tree), &facing.velocity);
         let slips = facing.tangents.iter().map(|tangent| dot(tangent, &velocity));
         // Across the plane of a motion nothing slips.
-        Ok((gap, slips.filter(|slip| !slip.collected(LIMIT).is_zero()).collect()))
+        Ok((gap, slips.enumerate().filter(|(_, slip)| !slip.collected(LIMIT).is_zero()).collect()))
     }
 
     /// The velocity of the point of a body that is an arm away from a part; what is in no body does not turn.

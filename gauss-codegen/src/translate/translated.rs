@@ -101,7 +101,8 @@ pub struct ConstraintPlace {
 
 /// Where gap and slips of a contact are written.
 pub struct ContactPlace {
-    pub gap: Span,
+    /// `None`: it has none.
+    pub gap: Option<Span>,
     pub slips: Vec<Span>,
 }
 

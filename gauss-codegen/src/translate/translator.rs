@@ -89,10 +89,15 @@ fn place(clause: &model::ConstraintClause) -> ConstraintPlace {
 fn contact_place(clause: &model::ContactClause) -> ContactPlace {
     match &clause.touching {
         model::Touching::Gap { gap, slips } => {
-            ContactPlace { gap: gap.span, slips: slips.iter().map(|slip| slip.span).collect() }
+            ContactPlace { gap: Some(gap.span), slips: slips.iter().map(|slip| slip.span).collect() }
         }
-        model::Touching::Point(contact) => ContactPlace { gap: contact.point.span, slips: vec![contact.point.span; 2] },
-        model::Touching::Range { along, .. } => ContactPlace { gap: along.span, slips: Vec::new() },
+        model::Touching::Point(contact) => {
+            ContactPlace { gap: Some(contact.point.span), slips: vec![contact.point.span; 2] }
+        }
+        model::Touching::Slip { slips, .. } => {
+            ContactPlace { gap: None, slips: slips.iter().map(|slip| slip.span).collect() }
+        }
+        model::Touching::Range { along, .. } => ContactPlace { gap: Some(along.span), slips: Vec::new() },
     }
 }
 

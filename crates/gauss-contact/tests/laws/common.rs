@@ -122,8 +122,12 @@ impl<L: Layout, const N: usize, const C: usize, const R: usize> ContactSystem fo
     fn contact_jacobian(&self, _: f64, q: &V<N>) -> SMatrix<f64, N, R> {
         (self.rows)(q).transpose()
     }
-    fn friction(&self, _: f64, _: &V<N>, _: &V<N>, (): &()) -> V<C> {
-        self.friction
+    fn friction(&self, _: f64, _: &V<N>, _: &V<N>, (): &()) -> V<R> {
+        let mut rows = V::zeros();
+        for (contact, mu) in L::CONTACTS.iter().zip(self.friction.iter()) {
+            contact.tangent_rows().for_each(|row| rows[row] = *mu);
+        }
+        rows
     }
     fn restitution(&self) -> V<C> {
         self.restitution

@@ -2,6 +2,7 @@
 
 mod bounces;
 mod common;
+mod dry;
 mod friction;
 mod hostile;
 mod spatial;

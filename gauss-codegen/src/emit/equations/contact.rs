@@ -18,7 +18,7 @@ pub fn contact_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         (Method::Gaps, quote!(Self::Gaps)),
         (Method::ContactRates, quote!(Self::ContactRows)),
         (Method::ContactJacobian, quote!(Self::ContactColumns)),
-        (Method::Friction, quote!(Self::Gaps)),
+        (Method::Friction, quote!(Self::ContactRows)),
     ];
     let methods = methods.into_iter().filter_map(|(method, result)| derived.function(method, result));
     let of_impulses = {
@@ -60,9 +60,10 @@ fn listed(derived: &Derived<'_, '_>) -> Vec<TokenStream> {
     let private = derived.private();
     let mut next = 0;
     let contacts = derived.subject.system.scene.contacts.iter().map(|contact| {
-        let (name, normal, tangents) = (&contact.name, next, contact.slips.len());
-        next += 1 + tangents;
-        quote!(#private::Contact::new(#name, #normal, #tangents))
+        let (name, first, tangents) = (&contact.name, next, contact.slips.len());
+        next += usize::from(contact.gap.is_some()) + tangents;
+        let kind = if contact.gap.is_some() { quote!(new) } else { quote!(dry_friction) };
+        quote!(#private::Contact::#kind(#name, #first, #tangents))
     });
     contacts.collect()
 }

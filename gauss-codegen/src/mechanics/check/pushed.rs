@@ -39,7 +39,7 @@ impl<'g, N: Number> Pushed<'_, '_, 'g, N> {
         }
         let (n, rows) = (system.scene.speeds.len(), system.contacts.rates.len());
         let normals: Vec<usize> = self.normals();
-        let gaps: Vec<Expr<'g>> = system.scene.contacts.iter().map(|contact| contact.gap).collect();
+        let gaps: Vec<Expr<'g>> = system.scene.contacts.iter().filter_map(|contact| contact.gap).collect();
         let normal_rates = self.witness.along(&self.witness.flow(&vec![N::number(0.0); n]), &gaps);
         let expected: Vec<_> = normal_rates.into_iter().map(|rate| Summed::of(rate, Vec::new())).collect();
         if !expected.iter().all(Summed::is_in_range) {
@@ -74,11 +74,11 @@ impl<'g, N: Number> Pushed<'_, '_, 'g, N> {
         let mut next = 0;
         let contacts = self.witness.system.scene.contacts.iter();
         let rows = contacts.map(|contact| {
-            let normal = next;
-            next += 1 + contact.slips.len();
-            normal
+            let first = next;
+            next += usize::from(contact.gap.is_some()) + contact.slips.len();
+            contact.gap.map(|_| first)
         });
-        rows.collect()
+        rows.flatten().collect()
     }
 
     /// C is stationary at `ż + A⁻¹Wᵀλ` under the forces Wᵀλ, and the rates of gaps and slips change by `D λ + b` there:

@@ -2,16 +2,16 @@
 
 use crate::algebra::{Expr, Substitution};
 
-/// What may touch: a gap that is not negative, and slips along tangents.
+/// What may touch: a gap that is not negative, and slips along tangents; or dry friction, which has no gap.
 #[derive(Clone)]
 pub struct Contact<'g> {
     pub name: String,
-    /// A function of t and q.
-    pub gap: Expr<'g>,
+    /// A function of t and q; `None` of dry friction.
+    pub gap: Option<Expr<'g>>,
     /// Functions of t, q and z, affine in z.
     pub slips: Vec<Expr<'g>>,
-    /// μ, a function of t, q, z and inputs.
-    pub friction: Option<Expr<'g>>,
+    /// Of each slip μ, or the bound of dry friction: functions of t, q, z and inputs.
+    pub friction: Vec<Expr<'g>>,
     /// e, a constant.
     pub restitution: Option<Expr<'g>>,
     /// Which of the clauses it comes from.
@@ -21,7 +21,7 @@ pub struct Contact<'g> {
 impl<'g> Contact<'g> {
     /// With expressions in the place of speeds.
     pub fn in_speeds(&self, replacement: &Substitution<'g>) -> Self {
-        let slips = self.slips.iter().map(|slip| replacement.of(*slip)).collect();
-        Self { slips, friction: self.friction.map(|friction| replacement.of(friction)), ..self.clone() }
+        let replaced = |all: &[Expr<'g>]| all.iter().map(|e| replacement.of(*e)).collect();
+        Self { slips: replaced(&self.slips), friction: replaced(&self.friction), ..self.clone() }
     }
 }

@@ -6,7 +6,8 @@ use crate::mechanics::constraints::contact::Contact;
 use crate::mechanics::scene::SystemScene;
 use crate::mechanics::tidy::tidy;
 
-/// All contacts on the level of velocities. Rows: of each contact its normal, then its tangents.
+/// All contacts on the level of velocities. Rows: of each contact its normal, then its tangents; of dry friction
+/// tangents alone.
 pub struct Contacts<'g> {
     /// ġ and s.
     pub rates: Vec<Expr<'g>>,
@@ -19,8 +20,8 @@ pub struct Contacts<'g> {
 impl<'g> Contacts<'g> {
     pub fn new(scene: &SystemScene<'g>) -> Self {
         let of_contact = |contact: &Contact<'g>| {
-            let normal = contact.gap.derivative(&scene.rates);
-            std::iter::once(normal).chain(contact.slips.iter().copied()).collect::<Vec<_>>()
+            let normal = contact.gap.map(|gap| gap.derivative(&scene.rates));
+            normal.into_iter().chain(contact.slips.iter().copied()).collect::<Vec<_>>()
         };
         let rates: Vec<Expr<'g>> = scene.contacts.iter().flat_map(of_contact).collect();
         let row = |e: &Expr<'g>| scene.speeds.iter().map(|&z| e.partial(z).group()).collect();

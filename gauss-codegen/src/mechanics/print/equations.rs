@@ -124,7 +124,7 @@ impl<'g> System<'g> {
             Some(body) => Textbook { system: self, body }.sections(),
             None => self.sections(),
         };
-        sections.push(self.contact_section());
+        sections.extend(self.contact_sections());
         sections.retain(|section| !section.rows.is_empty());
         let rows = sections.iter().flat_map(|section| &section.rows);
         let parts = Parts::of(&rows.flat_map(Row::expressions).collect::<Vec<_>>());

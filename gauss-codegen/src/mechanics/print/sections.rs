@@ -47,23 +47,33 @@ impl<'g> System<'g> {
         sections
     }
 
-    /// Gaps, slips and coefficients of friction.
-    pub(in crate::mechanics) fn contact_section(&self) -> Section<'g> {
-        let title = "gaps: none becomes negative; each adds a force that is not negative, and zero where it is open";
+    /// Gaps, slips and coefficients of friction; then dry friction.
+    pub(in crate::mechanics) fn contact_sections(&self) -> [Section<'g>; 2] {
+        let gaps = "gaps: none becomes negative; each adds a force that is not negative, and zero where it is open";
+        let dry = "dry friction: a force against each slip, of the size f; at rest any force that is not larger";
+        [(gaps, false), (dry, true)].map(|(title, dry)| self.contact_section(title, dry))
+    }
+
+    fn contact_section(&self, title: &str, dry: bool) -> Section<'g> {
         let named = |letter: &str, latex: &str, name: &str| {
             Name::new(letter, latex).of(&Name::new(name, &format!("\\text{{{}}}", name.replace('_', "\\_"))))
         };
         let mut rows = Vec::new();
-        for contact in &self.scene.contacts {
-            rows.push(Row::Definition(named("g", "g", &contact.name), legible(contact.gap)));
+        for contact in self.scene.contacts.iter().filter(|contact| contact.gap.is_none() == dry) {
+            rows.extend(contact.gap.map(|gap| Row::Definition(named("g", "g", &contact.name), legible(gap))));
             let slip = named("s", "s", &contact.name);
             let several = contact.slips.len() > 1;
             rows.extend(contact.slips.iter().enumerate().map(|(k, e)| {
                 let name = if several { slip.index(k) } else { slip.clone() };
                 Row::Definition(name, legible(*e))
             }));
-            let friction = contact.friction.map(|e| Row::Definition(named("μ", "\\mu", &contact.name), legible(e)));
-            rows.extend(friction);
+            let bound = if dry { named("f", "f", &contact.name) } else { named("μ", "\\mu", &contact.name) };
+            let isotropic = contact.friction.iter().all(|e| *e == contact.friction[0]);
+            let bounds = &contact.friction[..contact.friction.len().min(if isotropic { 1 } else { 2 })];
+            rows.extend(bounds.iter().enumerate().map(|(k, e)| {
+                let name = if isotropic { bound.clone() } else { bound.index(k) };
+                Row::Definition(name, legible(*e))
+            }));
         }
         Section { title: Name::new(title, title), rows }
     }

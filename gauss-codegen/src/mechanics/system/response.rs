@@ -3,6 +3,7 @@
 use crate::algebra::Expr;
 
 use crate::mechanics::arrangements::articulated::Articulated;
+use crate::mechanics::constraints::contact::Contact;
 use crate::mechanics::formula::{Arrangements, Formula, Method};
 
 use super::System;
@@ -22,14 +23,18 @@ impl<'g> System<'g> {
         let (scene, zero) = (&self.scene, self.scene.graph.zero());
         let single = |method, outputs: Vec<Expr<'g>>| Formula { method, arrangements: vec![outputs] };
         let coefficient = |value: Option<Expr<'g>>| value.unwrap_or(zero);
+        let friction = |contact: &Contact<'g>| {
+            let normal = contact.gap.map(|_| zero);
+            normal.into_iter().chain(contact.friction.iter().copied()).collect::<Vec<_>>()
+        };
         let responses = self.responses(accelerations);
         let rows = 0..self.contacts.rates.len();
         let transposed = (0..scene.speeds.len()).flat_map(|k| rows.clone().map(move |row| (row, k)));
         vec![
-            single(Method::Gaps, scene.contacts.iter().map(|contact| contact.gap).collect()),
+            single(Method::Gaps, scene.contacts.iter().map(|contact| coefficient(contact.gap)).collect()),
             single(Method::ContactRates, self.contacts.rates.clone()),
             single(Method::ContactJacobian, transposed.map(|(row, k)| self.contacts.jacobian[row][k]).collect()),
-            single(Method::Friction, scene.contacts.iter().map(|contact| coefficient(contact.friction)).collect()),
+            single(Method::Friction, scene.contacts.iter().flat_map(friction).collect()),
             single(
                 Method::Restitution,
                 scene.contacts.iter().map(|contact| coefficient(contact.restitution)).collect(),

@@ -24,7 +24,17 @@ pub fn check_kinds(statements: &Statements, scope: &Scope, context: &mut Context
 /// Checks that gaps and slips are those of something that moves, in the clauses that are `well`.
 pub fn check(statements: &Statements, well: &[bool], context: &mut Context) {
     let moving = Moving::new(statements);
+    let check_slips = |slips: &[Expression], context: &mut Context| {
+        for slip in slips.iter().filter(|slip| !moving.in_velocity(slip)) {
+            context.error(
+                slip.span,
+                "the slip contains no velocity of anything that moves; write `tip.velocity`, a speed, or the time \
+                 derivative `rate(…)`",
+            );
+        }
+    };
     for (clause, _) in statements.contacts.iter().zip(well).filter(|(_, well)| **well) {
+        check_axes(clause, context);
         match &clause.touching {
             Touching::Gap { gap, slips } => {
                 if !moving.in_place(gap) {
@@ -34,14 +44,9 @@ pub fn check(statements: &Statements, well: &[bool], context: &mut Context) {
                          that moves",
                     );
                 }
-                for slip in slips.iter().filter(|slip| !moving.in_velocity(slip)) {
-                    context.error(
-                        slip.span,
-                        "the slip contains no velocity of anything that moves; write `tip.velocity`, a speed, or the \
-                         time derivative `rate(…)`",
-                    );
-                }
+                check_slips(slips, context);
             }
+            Touching::Slip { slips, .. } => check_slips(slips, context),
             Touching::Point(contact) => check_point(statements, clause, contact, &moving, context),
             Touching::Range { along, .. } if !moving.in_place(along) => context.error(
                 along.span,
@@ -49,6 +54,15 @@ pub fn check(statements: &Statements, well: &[bool], context: &mut Context) {
             ),
             Touching::Range { .. } => {}
         }
+    }
+}
+
+/// Friction of two axes has two slips.
+fn check_axes(clause: &ContactClause, context: &mut Context) {
+    if let Touching::Gap { slips, .. } | Touching::Slip { slips, .. } = &clause.touching
+        && let ([_], [_, second]) = (&slips[..], &clause.friction[..])
+    {
+        context.error(second.span, "along one slip there is one friction; remove the second, or write `slip = [u, v]`");
     }
 }
 
@@ -74,7 +88,7 @@ fn check_point(
             "the point does not move, so it never touches; name a coordinate, or a body or point that moves",
         );
     }
-    let rubs = clause.friction.is_some();
+    let rubs = !clause.friction.is_empty();
     let needs_body =
         contact.rim.is_some() || matches!(contact.copies, Copies::Corners(_)) || (contact.radius.is_some() && rubs);
     let mut needing = vec![&contact.point];
@@ -101,7 +115,7 @@ fn check_point(
         );
     }
     if let Against::Plane { normal: Some(normal), along: None, .. } = &contact.against
-        && clause.friction.is_some()
+        && !clause.friction.is_empty()
         && normal.literal_components().is_none()
     {
         context.error(

@@ -1,4 +1,4 @@
-//! Clauses of what may touch: contacts by their gap, and ranges of what has stops.
+//! Clauses of what may touch: contacts by their gap, ranges of what has stops, and dry friction.
 
 use super::arguments::{self, brackets, equals, known, value};
 use super::arithmetic;
@@ -65,6 +65,7 @@ const EXCLUDES: &[(&str, &str, &str)] = &[
     ("radius", "over", "which point of a sphere is nearest to such a ground has no closed form; remove `radius`"),
     ("rim", "over", "which point of a rim is nearest to such a ground has no closed form; write points of the rim"),
 ];
+const DRY_FRICTION: &Table<()> = &[("slip", ()), ("bound", ())];
 const RANGE: &Table<()> = &[("along", ()), ("from", ()), ("to", ()), ("restitution", ())];
 /// Words of `stop(…)` and of other programs for the limits of a range.
 const LIMITS: &Table<&str> =
@@ -76,7 +77,7 @@ pub fn read_contact(clause: &Clause, context: &mut Context) -> Option<ContactCla
     let written = Written::read(clause, "contact", CONTACT, "name, gap = …", context)?;
     let of_point = !written.lacks("point");
     let touching = if of_point { written.of_point(context) } else { written.of_gap(context) };
-    let friction = written.value("friction", "mu", context);
+    let friction = written.one_or_two("friction", "mu", context);
     let restitution = written.value("restitution", "e", context);
     if written.lacks("gap") && !of_point {
         context.error(
@@ -102,7 +103,26 @@ pub fn read_contact(clause: &Clause, context: &mut Context) -> Option<ContactCla
         Touching::Point(contact) if contact.copies.count() > 1 => (0..contact.copies.count()).map(numbered).collect(),
         _ => vec![name],
     };
-    Some(ContactClause { names, touching, friction, restitution })
+    Some(ContactClause { names, touching, friction: friction?, restitution })
+}
+
+/// `dry_friction(x, bound = …)` of the coordinate or the speed x, or `dry_friction(name, slip = …, bound = …)`; `None`
+/// if something is missing or wrong, which is noted.
+pub fn read_dry_friction(clause: &Clause, context: &mut Context) -> Option<ContactClause> {
+    let written = Written::read(clause, "dry_friction", DRY_FRICTION, "x, bound = f", context)?;
+    let named = written.find("slip").is_none();
+    let slips = match (named, &written.name) {
+        (true, Some(name)) => Some(vec![Expression { span: name.span(), kind: ExpressionKind::Name(name.clone()) }]),
+        _ => written.one_or_two("slip", "v", context),
+    };
+    let bound = written.one_or_two("bound", "f", context);
+    if written.lacks("bound") {
+        context.error(clause.name.span(), "dry friction needs the largest force that it has; add `bound = f`");
+    }
+    let names = vec![written.name?];
+    let touching = Touching::Slip { slips: slips?, named };
+    let friction = bound.filter(|bound| !bound.is_empty())?;
+    Some(ContactClause { names, touching, friction, restitution: None })
 }
 
 /// `range(x, from = …, to = …, restitution = …)` of the coordinate x, or `range(name, along = …, …)`; `None` if
@@ -127,7 +147,7 @@ pub fn read_range(clause: &Clause, context: &mut Context) -> Option<ContactClaus
         return None;
     }
     let touching = Touching::Range { along: along?, from, to };
-    Some(ContactClause { names, touching, friction: None, restitution })
+    Some(ContactClause { names, touching, friction: Vec::new(), restitution })
 }
 
 /// The edges of a box.
@@ -219,19 +239,25 @@ impl Written {
     fn refuse_unnamed(&self, span: Span, noun: &str, example: &str, context: &mut Context) {
         let why = match noun {
             "range" => "the coordinate that it limits, or a name of its own with `along = …`",
+            "dry_friction" => "the coordinate or the speed that it resists, or a name of its own with `slip = …`",
             _ => "a name, by which a run tells its forces",
         };
-        context.error(span, format!("a {noun} needs {why}; write `{noun}({example})`"));
+        let what = noun.replace('_', " ");
+        let article = if noun == "dry_friction" { "" } else { "a " };
+        context.error(span, format!("{article}{what} needs {why}; write `{noun}({example})`"));
     }
 
     /// What a gap is said to be, with slips.
     fn of_gap(&self, context: &mut Context) -> Option<Touching> {
         let gap = self.value("gap", "z - r", context);
-        let slips = self.find("slip").map_or(Some(Vec::new()), |argument| {
-            let wording = ("scalar or two, one for each tangent", ["v", "[u, v]"]);
-            arithmetic::read_one_or_two("slip", wording, equals(argument, "v", context)?, context)
-        });
-        Some(Touching::Gap { gap: gap?, slips: slips? })
+        Some(Touching::Gap { gap: gap?, slips: self.one_or_two("slip", "v", context)? })
+    }
+
+    /// The expressions of an argument that has one for each tangent; none where it is not given.
+    fn one_or_two(&self, word: &'static str, example: &str, context: &mut Context) -> Option<Vec<Expression>> {
+        let Some(argument) = self.find(word) else { return Some(Vec::new()) };
+        let wording = ("scalar or two, one for each tangent", ["v", "[u, v]"]);
+        arithmetic::read_one_or_two(word, wording, equals(argument, example, context)?, context)
     }
 
     /// What touches at a point, or about it.

@@ -78,6 +78,7 @@ pub enum Statement {
     Constraint,
     Contact,
     Range,
+    DryFriction,
     Independent,
     Redundant,
     Potential,
@@ -95,7 +96,7 @@ pub enum Statement {
 }
 
 /// The clauses of systems, but for those of force elements: these stand between the two.
-const DECLARED: [(&str, Statement); 14] = [
+const DECLARED: [(&str, Statement); 15] = [
     ("coordinates", Statement::Coordinates),
     ("speeds", Statement::Speeds),
     ("kinematics", Statement::Kinematics),
@@ -106,6 +107,7 @@ const DECLARED: [(&str, Statement); 14] = [
     ("constraint", Statement::Constraint),
     ("contact", Statement::Contact),
     ("range", Statement::Range),
+    ("dry_friction", Statement::DryFriction),
     ("independent", Statement::Independent),
     ("redundant", Statement::Redundant),
     ("potential", Statement::Potential),
@@ -213,7 +215,8 @@ impl Statements {
             | Statement::Point
             | Statement::Constraint
             | Statement::Contact
-            | Statement::Range => self.read_placement(statement, clause, context),
+            | Statement::Range
+            | Statement::DryFriction => self.read_placement(statement, clause, context),
             Statement::Element(row) => self.read_element(row, clause, context),
             Statement::Redundant => self.read_redundant(clause, context),
             Statement::Armature => self.read_armature(clause, context),
@@ -316,6 +319,7 @@ impl Statements {
             Statement::Point => add(&mut self.points, placements::read_point(clause, self.in_chart, context)),
             Statement::Contact => add(&mut self.contacts, contacts::read_contact(clause, context)),
             Statement::Range => add(&mut self.contacts, contacts::read_range(clause, context)),
+            Statement::DryFriction => add(&mut self.contacts, contacts::read_dry_friction(clause, context)),
             _ => add(&mut self.constraints, read_constraint(clause, context)),
         };
         self.note_read(read, statement);

@@ -53,6 +53,8 @@ const COUPLING: &str = "a viscous coupling of two bodies is `coupling(body = whe
 const ROLLING: &str = "rolling without slip is `constraint(velocity = …)`; a loop is `constraint(position = …)`";
 const CONTACT: &str = "a contact is `contact(name, gap = height, slip = v, friction = mu, restitution = e)`; one that gives \
                        way `stop(along = height, least = 0, stiffness = k, width = e)`";
+const DRY_FRICTION: &str = "dry friction of a bound is `dry_friction(x, bound = f)` of a coordinate, or \
+                            `dry_friction(name, slip = v, bound = f)`, v the velocity relative to what rubs";
 const RANGE: &str = "limits of a coordinate are `range(x, from = a, to = b)`; limits that give way \
                      `stop(along = x, least = a, most = b, stiffness = k, width = e)`";
 const GEAR: &str = "a gear is one coordinate for both: `rotation = rotation_z(n * angle)`; the inertia of a rotor behind \
@@ -156,6 +158,11 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("collision", CONTACT),
     ("ground", CONTACT),
     ("floor", CONTACT),
+    ("brake", DRY_FRICTION),
+    ("belt", DRY_FRICTION),
+    ("clutch", DRY_FRICTION),
+    ("coulomb", DRY_FRICTION),
+    ("stiction", DRY_FRICTION),
     ("limits", RANGE),
     ("joint_limits", RANGE),
     ("bumper", RANGE),
@@ -288,8 +295,11 @@ pub const FOR_ARGUMENTS: &Table<&[&str]> = &[
     ("viscosity", &["viscous"]),
     ("damping", &["viscous"]),
     ("viscous", &["damping"]),
-    ("coulomb", &["dry", "friction"]),
+    ("coulomb", &["dry", "friction", "bound"]),
     ("mu", &["friction"]),
+    ("level", &["dry", "bound"]),
+    ("dry", &["bound"]),
+    ("friction", &["bound"]),
     ("distance", &["gap"]),
     ("tangent", &["slip"]),
     ("bounce", &["restitution"]),

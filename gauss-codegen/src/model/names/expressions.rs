@@ -2,11 +2,11 @@
 
 use super::places::{Holder, Place};
 use crate::model::language::statements::Statements;
-use crate::model::language::words::same;
+use crate::model::language::words::{same, word};
 use crate::model::scene::clauses::{RoleClause, RoleValue};
 use crate::model::scene::contacts::{Against, ContactClause, Copies, PointContact, Touching};
 use crate::model::scene::elements::{Argument, Takes};
-use crate::model::scene::expression::Expression;
+use crate::model::scene::expression::{Expression, ExpressionKind, FunctionName};
 use crate::model::scene::forces::{ForceClause, Value};
 use crate::terms::Role;
 
@@ -85,6 +85,21 @@ impl Statements {
         self.forces.iter_mut().for_each(|clause| clause.each_expression(change));
     }
 
+    /// Writes the rate of a coordinate in the place of its name, where dry friction resists it.
+    pub fn name_rates(&mut self) {
+        let coordinates = self.coordinates.iter().flat_map(|names| &names.names);
+        let coordinates: Vec<String> = coordinates.map(|coordinate| word(&coordinate.ident)).collect();
+        for clause in &mut self.contacts {
+            let Touching::Slip { slips, named: true } = &mut clause.touching else { continue };
+            for slip in slips {
+                if matches!(&slip.kind, ExpressionKind::Name(name) if coordinates.contains(&word(name))) {
+                    let kind = ExpressionKind::Call(FunctionName::Rate, vec![slip.clone()]);
+                    *slip = Expression { kind, span: slip.span };
+                }
+            }
+        }
+    }
+
     /// Writes the places of points in the place of their names, where forces act in the axes of the body that has them.
     pub fn place_at_points(&mut self) {
         let mut forces = std::mem::take(&mut self.forces);
@@ -134,12 +149,14 @@ impl ContactClause {
                 std::iter::once((Place::Gap, gap)).chain(slips).collect::<Vec<_>>()
             }
             Touching::Point(contact) => contact.placed(),
+            Touching::Slip { slips, .. } => slips.iter().map(|slip| (Place::Slip, slip)).collect(),
             Touching::Range { along, from, to } => {
                 let limits = from.iter().chain(to).map(|limit| (Place::Limit, limit));
                 std::iter::once((Place::Limited, along)).chain(limits).collect()
             }
         };
-        placed.extend(self.friction.iter().map(|friction| (Place::Friction, friction)));
+        let bounds = if matches!(self.touching, Touching::Slip { .. }) { Place::Bound } else { Place::Friction };
+        placed.extend(self.friction.iter().map(|friction| (bounds, friction)));
         let restitution = Place::Constant { word: "coefficient of restitution", of: Holder::Contact };
         placed.extend(self.restitution.iter().map(|value| (restitution, value)));
         placed

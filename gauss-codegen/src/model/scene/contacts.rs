@@ -3,15 +3,17 @@
 use super::expression::Expression;
 use proc_macro2::Ident;
 
-/// `contact(name, …)`, one contact or one for each part of a shape; or `range(name, …)`, one for each of its limits.
+/// `contact(name, …)`, one contact or one for each part of a shape; `range(name, …)`, one for each of its limits; or
+/// `dry_friction(name, …)`.
 #[derive(Clone)]
 pub struct ContactClause {
     /// Of each contact: one, `box_0` and so on, or `x_from` and `x_to` of a range.
     pub names: Vec<Ident>,
     /// What may touch.
     pub touching: Touching,
-    /// The coefficient μ: a scalar of t, q, z, inputs, fields and numbers; only with slip.
-    pub friction: Option<Expression>,
+    /// The coefficient μ, or those of two tangents; of dry friction the bounds of its force. Scalars of t, q, z,
+    /// inputs, fields and numbers; only with slip.
+    pub friction: Vec<Expression>,
     /// The coefficient e: a scalar of fields and numbers.
     pub restitution: Option<Expression>,
 }
@@ -28,6 +30,13 @@ pub enum Touching {
     },
     /// `point = …` of a point, a sphere or a rim.
     Point(Box<PointContact>),
+    /// `slip = …` of dry friction: one or two scalars of t, q and z.
+    Slip {
+        /// Velocities that friction resists.
+        slips: Vec<Expression>,
+        /// The only one is the name of a coordinate, whose rate is meant, or of a speed.
+        named: bool,
+    },
     /// `along = …, from = …, to = …`: scalars of t and q. One limit at least.
     Range {
         /// What stays between the limits.
@@ -159,6 +168,7 @@ impl ContactClause {
                 slips.iter_mut().for_each(&mut *change);
             }
             Touching::Point(contact) => contact.each_expression(change),
+            Touching::Slip { slips, .. } => slips.iter_mut().for_each(&mut *change),
             Touching::Range { along, from, to } => {
                 change(along);
                 from.iter_mut().chain(to).for_each(&mut *change);

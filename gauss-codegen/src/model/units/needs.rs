@@ -135,7 +135,11 @@ impl Checker<'_> {
             Found::Known(dimension) => Some(Extent { dimension, named: String::new() }),
             _ => None,
         };
+        if let Touching::Slip { slips, .. } = &clause.touching {
+            return self.dry_friction(slips, &clause.friction);
+        }
         let (first, others, what, unit) = match &clause.touching {
+            Touching::Slip { .. } => return,
             Touching::Gap { gap, slips } => (gap, slips.iter().collect(), "a slip with this gap is", Unit::Rate),
             Touching::Point(contact) => {
                 let lengths = Need::new("points, radii and heights of a contact are", LENGTH);
@@ -159,6 +163,26 @@ impl Checker<'_> {
         let restitution = clause.restitution.iter().map(|e| (e, "a coefficient of restitution is"));
         for (e, what) in friction.chain(restitution) {
             self.require(e, &Need::new(what, NONE));
+        }
+    }
+
+    /// Bounds of dry friction are in the unit of power by slip.
+    fn dry_friction(&mut self, slips: &[Expression], bounds: &[Expression]) {
+        let found: Vec<Dimensions> = slips.iter().map(|slip| self.value(slip)).collect();
+        let of = |found: &Dimensions| match found.parts()[0] {
+            Found::Known(dimension) => POWER.1.over(dimension),
+            _ => None,
+        };
+        for (k, bound) in bounds.iter().enumerate() {
+            match found.get(k).and_then(of) {
+                Some(needed) => {
+                    let what = "the bound of this dry friction is";
+                    self.require(bound, &Need::new(what, (&needed.to_string(), needed)));
+                }
+                None => {
+                    self.value(bound);
+                }
+            }
         }
     }
 

@@ -31,13 +31,19 @@ fn accepted() {
          contact(rub, point = tip, radius = l, other = hull.position, other_radius = l, along = c, friction = k), \
          contact(case, point = tip, edges = [l, 0.0, 2 * l], friction = k), contact(shin, point = tip, end = hull.position), \
          contact(drum, point = tip, rim = l, axis = c, length = k), \
-         contact(hill, point = tip, height = k * sin(x) + theta_0 * t, over = [x, theta_0])",
+         contact(hill, point = tip, height = k * sin(x) + theta_0 * t, over = [x, theta_0]), \
+         dry_friction(theta, bound = k), dry_friction(v, bound = k * abs(v)), \
+         dry_friction(brake, slip = [v - k, tip.velocity.x], bound = [k, k + abs(grip)])",
     ));
     let shown = model.contacts.iter().map(|clause| {
         let names: Vec<String> = clause.names.iter().map(ToString::to_string).collect();
         let touching = match &clause.touching {
             Touching::Gap { gap, slips } => {
                 format!("gap {}, slips {:?}", show(gap), slips.iter().map(show).collect::<Vec<_>>())
+            }
+            Touching::Slip { slips, .. } => {
+                let all = [slips, &clause.friction].map(|all| all.iter().map(show).collect::<Vec<_>>());
+                format!("slips {:?}, bounds {:?}", all[0], all[1])
             }
             Touching::Range { along, from, to } => {
                 format!("{} from {:?} to {:?}", show(along), from.as_ref().map(show), to.as_ref().map(show))
@@ -68,6 +74,9 @@ fn accepted() {
             "shin_0, shin_1: tip above None",
             "drum_0, drum_1: tip above None",
             "hill: tip over (Add (Multiply k (sin place 0)) (Multiply place 1 t))",
+            "theta: slips [\"(rate theta)\"], bounds [\"k\"]",
+            "v: slips [\"v\"], bounds [\"(Multiply k (abs v))\"]",
+            "brake: slips [\"(Subtract v k)\", \"tip.Velocity[0]\"], bounds [\"k\", \"(Add k (abs grip))\"]",
         ]
     );
 }
@@ -273,6 +282,14 @@ fn units() {
         )
     };
     system(&scene("contact(a, gap = l * sin(x), slip = l / s + rate(x), friction = l / l, restitution = 0.5)"));
+    system(&scene("dry_friction(x, bound = f * l), dry_friction(belt, slip = l / s + rate(x), bound = f)"));
+    check(
+        &scene("dry_friction(belt, slip = [l / s + rate(x), 1 / s + rate(x)], bound = [f * l, f * l])"),
+        &[(
+            "*",
+            "this product is in N m, and the bound of this dry friction is in N; multiply it by a coefficient in 1/m",
+        )],
+    );
     check(
         &scene(
             "contact(a, gap = l * sin(x), slip = f * rate(x), friction = l), range(b, along = l * sin(x), to = s), \
@@ -296,5 +313,56 @@ fn units() {
                 "this product is in m s, and points, radii and heights of a contact are in m; multiply it by a coefficient in 1/s",
             ),
         ],
+    );
+}
+
+#[test]
+fn dry_friction() {
+    mistakes(
+        "dry_friction(), dry_friction(theta), dry_friction(slip = v, bound = k), dry_friction(a, slip = v, friction = k), \
+         contact(f, gap = theta, slip = v, friction = [k, k, k]), brake(g, slip = v, bound = k)",
+        &[
+            ("(", "`dry_friction()` is empty; write `dry_friction(x, bound = f)` or remove it"),
+            ("dry_friction", "dry friction needs the largest force that it has; add `bound = f`"),
+            (
+                "dry_friction",
+                "dry friction needs the coordinate or the speed that it resists, or a name of its own with `slip = …`; write \
+                 `dry_friction(x, bound = f)`",
+            ),
+            ("friction", "unknown argument of `dry_friction`: `friction`; write `bound`"),
+            (
+                "[",
+                "`friction` is one scalar or two, one for each tangent, found 3; write `friction = v` or `friction = [u, v]`",
+            ),
+            (
+                "brake",
+                "unknown clause `brake`; dry friction of a bound is `dry_friction(x, bound = f)` of a coordinate, or \
+                 `dry_friction(name, slip = v, bound = f)`, v the velocity relative to what rubs",
+            ),
+        ],
+    );
+    mistakes(
+        "dry_friction(b, slip = v, bound = [k, k]), dry_friction(d, slip = theta, bound = k), \
+         dry_friction(e, slip = v, bound = c), dry_friction(b, slip = v, bound = 1), \
+         contact(g, gap = theta, slip = v, friction = [k, k])",
+        &[
+            ("b", "two contacts are called `b`; rename one of the two"),
+            ("c", "the bound of dry friction is a scalar, found a vector; write one number or the name of a field"),
+            ("k", "along one slip there is one friction; remove the second, or write `slip = [u, v]`"),
+            (
+                "theta",
+                "the slip contains no velocity of anything that moves; write `tip.velocity`, a speed, or the time \
+                 derivative `rate(…)`",
+            ),
+            ("k", "along one slip there is one friction; remove the second, or write `slip = [u, v]`"),
+        ],
+    );
+    mistakes(
+        "dry_friction(knee, bound = k)",
+        &[(
+            "knee",
+            "unknown name `knee`; expected a coordinate (`pose` or `theta`), a speed (`u`, `w` or `v`), a field (`l`, `k` or \
+             `c`), a body (`hull` or `arm`), a frame (`quay`), a point (`tip`) or `t`",
+        )],
     );
 }
