@@ -1,32 +1,29 @@
-//! The picture: angle, energy and powers of the pendulum; the slider against its exact solution.
+//! The picture: angle, energy and powers of the pendulum, and the torque of its friction.
 
 use std::error::Error;
 
 use gauss_charts::drawing::{COLOURS, INK};
+use gauss_contact::{ContactError, ContactTrajectory};
 use gauss_examples::plots::{Line, Plot, sheet};
 use gauss_playback::{Playback, Shape};
-use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 
-use crate::scene::{LENGTH, Pendulum, PendulumFrame, PendulumKernel, Slider};
-use crate::slide::{Sliding, slide};
+use crate::scene::{LENGTH, Pendulum, PendulumFrame, PendulumKernel};
 
 /// Lower end of the axis of powers, W: what the buffer takes is far below it.
 const LEAST_POWER: f64 = -0.2;
 
+type Run<'k> = ContactTrajectory<'k, PendulumKernel>;
+
 /// Draws all four panels.
 ///
 /// # Errors
-/// When a panel cannot be laid out, or a slider does not reach its end.
-pub fn draw(
-    pendulum: &Pendulum,
-    kernel: &PendulumKernel,
-    path: &Trajectory<PendulumKernel>,
-    slider: &Slider,
-) -> Result<String, Box<dyn Error>> {
-    let end = path.last().t;
+/// When a panel cannot be laid out, or the run does not cover its times.
+pub fn draw(pendulum: &Pendulum, kernel: &PendulumKernel, run: &Run<'_>) -> Result<String, Box<dyn Error>> {
+    let path: Vec<Sample<PendulumKernel>> = run.iter().collect();
+    let end = path[path.len() - 1].t;
     let of_path = |value: &dyn Fn(&Sample<PendulumKernel>) -> f64| -> Vec<(f64, f64)> {
-        path.iter().step_by(2).map(|s| (s.t, value(s))).collect()
+        path.iter().map(|s| (s.t, value(s))).collect()
     };
     let plot = |title, y, ends, lines| Plot::new(title, ("time, s", 0.0..end), (y, ends), lines);
 
@@ -34,79 +31,66 @@ pub fn draw(
     let rod = Line::new("rod", COLOURS[0], of_path(&|s| s.q[0]));
     let angle = plot("Angle", "rad", -1.0..2.0, vec![buffer, rod]);
 
-    let start = kernel.energy(path.first().t, &path.first().q, &path.first().z);
-    let balance = power_balance(kernel, path, |_, _, _| ());
-    let work = balance.points().iter().step_by(2).map(|p| (p.t, start + p.work));
+    let energy = |s: &Sample<PendulumKernel>| kernel.energy(s.t, &s.q, &s.z);
+    // What friction has taken: friction times way.
+    let mut way = 0.0;
+    let taken = path.windows(2).map(|pair| {
+        way += (pair[1].q[0] - pair[0].q[0]).abs();
+        (pair[1].t, energy(&path[0]) - pendulum.dry * way)
+    });
     let energies = vec![
         Line::new("kinetic", COLOURS[2], of_path(&|s| kernel.kinetic_energy(s.t, &s.q, &s.z))),
-        Line::new("with potential", COLOURS[0], of_path(&|s| kernel.energy(s.t, &s.q, &s.z))).wide(6),
-        Line::new("start + work", INK, work).dashed().wide(2),
+        Line::new("with potential", COLOURS[0], of_path(&energy)).wide(6),
+        Line::new("less friction", INK, taken.collect::<Vec<_>>()).dashed().wide(2),
     ];
-    let energy = plot("Energy, and what dissipation leaves of it", "J", -0.6..0.8, energies);
+    let energy = plot("Energy; what friction leaves, the buffer damps", "J", -0.6..0.8, energies);
 
-    let power = |name: &str| {
-        of_path(&|s| kernel.power(name, s.t, &s.q, &s.z, &()).map_or(f64::NAN, |power| power.max(LEAST_POWER)))
-    };
-    // What friction does not take, the damper of the buffer does.
-    let damping = of_path(&|s| {
-        let friction = kernel.power("friction", s.t, &s.q, &s.z, &()).unwrap_or(f64::NAN);
-        (kernel.supplied_power(s.t, &s.q, &s.z, &()) - friction).max(LEAST_POWER)
-    });
+    let torque: Result<Vec<_>, ContactError> = path.iter().map(|s| Ok((s.t, run.forces(s.t)?[0]))).collect();
+    let torque = torque?;
+    let rubs = path.iter().zip(&torque).map(|(s, (t, f))| (*t, (s.z[0] * f).max(LEAST_POWER)));
+    let damping = of_path(&|s| kernel.supplied_power(s.t, &s.q, &s.z, &()).max(LEAST_POWER));
     let losses = vec![
         Line::new("damping of the buffer", COLOURS[1], damping).wide(3),
-        Line::new("friction", COLOURS[0], power("friction")).wide(3),
+        Line::new("friction", COLOURS[0], rubs.collect::<Vec<_>>()).wide(3),
     ];
     let powers = plot("Power (peaks of the buffer are cut off)", "W", LEAST_POWER..0.05, losses);
 
-    let smooth = |creep: f64| distances(&slider.smooth(creep).kernel()?, slider);
-    let errors = Plot::new(
-        "A sliding mass: distance from the exact solution",
-        ("time, s", 0.0..slider.rests()),
-        ("log₁₀ of metres", -13.0..-2.0),
-        vec![
-            Line::new("signum", INK, distances(&slider.kernel()?, slider)?).wide(3),
-            Line::new("ε = 10⁻² m/s", COLOURS[1], smooth(1e-2)?).wide(3),
-            Line::new("10⁻³", COLOURS[2], smooth(1e-3)?).wide(3),
-            Line::new("10⁻⁴", COLOURS[0], smooth(1e-4)?).wide(3),
-        ],
-    );
+    let (least, most) = (-pendulum.dry, pendulum.dry);
+    let bounds = Line::new("bounds", INK, [(0.0, most), (end, most), (end, least), (0.0, least)]).dashed();
+    let lines = vec![bounds, Line::new("friction", COLOURS[0], torque).wide(3)];
+    let friction = plot("Torque of friction", "N m", -0.02..0.02, lines);
     let title = "A pendulum with dry friction, a spiral spring and a buffer";
-    sheet(title, (1600, 1300), &[vec![angle, energy], vec![powers, errors]])
-}
-
-/// Decimal logarithms of the slider's distances from the exact solution.
-fn distances<K: Sliding>(kernel: &K, slider: &Slider) -> Result<Vec<(f64, f64)>, Box<dyn Error>> {
-    let path = slide(kernel, slider, 1e-10)?;
-    let samples = path.at_times((1..=400).map(|n| slider.rests() * f64::from(n) / 400.0))?;
-    Ok(samples.iter().map(|s| (s.t, (s.q[0] - slider.exact(s.t)).abs().max(1e-13).log10())).collect())
+    sheet(title, (1600, 1300), &[vec![angle, energy], vec![powers, friction]])
 }
 
 /// The rod, every torque as a force at its end, and what each element delivers.
 ///
 /// # Errors
-/// When the path has no state at a time.
-pub fn page(
-    kernel: &PendulumKernel,
-    path: &Trajectory<PendulumKernel>,
-    limit: f64,
-) -> Result<Playback<PendulumKernel>, IntegrationError> {
+/// When the run has no state at a time.
+pub fn page(kernel: &PendulumKernel, run: &Run<'_>, limit: f64) -> Result<Playback<PendulumKernel>, ContactError> {
     let end = Vector3::new(0.0, 0.0, -LENGTH);
     // Beside the rod where it meets the buffer.
     let buffer = Isometry3::rotation(Vector3::y() * limit) * Isometry3::translation(0.035, 0.0, -0.8 * LENGTH);
-    let mut page = Playback::new("A pendulum with dry friction, a spiral spring and a buffer", path)?
+    let last = run.last().map_or(0.0, |s| s.t);
+    let samples: Result<Vec<_>, ContactError> = (0..=600).map(|n| run.at(last * f64::from(n) / 600.0)).collect();
+    // A torque about the pivot as the force at the end of the rod that has it.
+    let arrow = |s: &Sample<PendulumKernel>, torque: f64| {
+        let rotation = kernel.pose_of(PendulumFrame::rod, s.t, &s.q).rotation;
+        (rotation * end, rotation * Vector3::x() * (-torque / LENGTH))
+    };
+    let friction = |s: &Sample<PendulumKernel>| run.forces(s.t).map_or(f64::NAN, |forces| forces[0]);
+    let mut page = Playback::of_samples("A pendulum with dry friction, a spiral spring and a buffer", samples?)
         .frames(kernel)
         .from_the_side()
         .shape("rod", Shape::rod([0.0; 3], end.into(), 0.012))
         .body("buffer", |_| buffer, [Shape::cuboid([0.04, 0.06, 0.06]).colour("#444444")])
-        .trace("rod", end.into());
+        .trace("rod", end.into())
+        .arrow("friction", 0.08, |s| arrow(s, friction(s)))
+        .curve("power / W", "friction", |s| friction(s) * s.z[0]);
     for (k, element) in PendulumKernel::ELEMENTS.iter().enumerate() {
         let torque = |s: &Sample<PendulumKernel>| kernel.element_forces(s.t, &s.q, &s.z, &())[(0, k)];
-        // A torque about the pivot as the force at the end of the rod that has it.
         page = page
-            .arrow(element.name, 0.08, |s| {
-                let rotation = kernel.pose_of(PendulumFrame::rod, s.t, &s.q).rotation;
-                (rotation * end, rotation * Vector3::x() * (-torque(s) / LENGTH))
-            })
+            .arrow(element.name, 0.08, |s| arrow(s, torque(s)))
             .curve("power / W", element.name, |s| kernel.powers(s.t, &s.q, &s.z, &())[k]);
     }
     Ok(page.energy(kernel))

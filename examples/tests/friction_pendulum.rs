@@ -1,14 +1,15 @@
-//! The claims of the example `friction_pendulum`, against equations typed by hand and the exact solution of a slider.
+//! The claims of the example `friction_pendulum`, against equations typed by hand.
 
 #[path = "../friction_pendulum/scene.rs"]
 mod scene;
 
+use gauss_contact::{ContactRun, EventKind};
 use gauss_runtime::prelude::*;
 
-use scene::{Pendulum, Slider};
+use scene::Pendulum;
 
-/// The torques of gravity, spiral, buffer with its damping, and friction, N m: a uniform rod hangs at rest, angles from
-/// there.
+/// The torques of gravity, spiral, buffer with its damping, and friction while it falls or
+/// rises, N m: a uniform rod hangs at rest, angles from there.
 fn torques(p: &Pendulum, theta: f64, speed: f64) -> [f64; 4] {
     let lever = -p.rod.center_of_mass.z;
     let beyond = p.limit - theta;
@@ -19,7 +20,7 @@ fn torques(p: &Pendulum, theta: f64, speed: f64) -> [f64; 4] {
         -p.rod.mass * p.g * lever * theta.sin(),
         -p.spiral * (theta - p.relaxed),
         p.rubber * pressed * slope - p.loss * slope * slope * speed,
-        -p.dry * speed / (speed * speed + p.creep * p.creep).sqrt(),
+        if speed > 0.0 { -p.dry } else { p.dry },
     ]
 }
 
@@ -54,13 +55,14 @@ fn the_forces_are_those_of_the_textbook() {
             let size: f64 =
                 expected.iter().map(|torque| torque.abs()).sum::<f64>() + pendulum.rubber * theta.abs().max(1.0);
             let rounding = 12.0 * f64::EPSILON * size;
-            let names = ["gravity", "spiral", "buffer", "friction"];
+            let names = ["gravity", "spiral", "buffer"];
             for (name, torque) in names.into_iter().zip(expected) {
                 let found = kernel.generalised_force(name, 0.0, &q, &z, &()).unwrap()[0];
                 assert!((found - torque).abs() <= rounding, "{name} at {theta}, {speed}: {found} and {torque}");
             }
             let found = kernel.acceleration(0.0, &q, &z, &())[0];
-            let expected = acceleration(&pendulum, [theta, speed])[1];
+            let friction = expected[3];
+            let expected = acceleration(&pendulum, [theta, speed])[1] - friction / pendulum.rod.inertia.m22;
             assert!((found - expected).abs() <= rounding / pendulum.rod.inertia.m22, "{found} and {expected}");
         }
     }
@@ -68,58 +70,31 @@ fn the_forces_are_those_of_the_textbook() {
 
 #[test]
 fn it_swings_as_the_equations_typed_by_hand_do() {
-    // Friction over a tenth of a radian per second: then the equations typed by hand can be solved in equal steps.
-    let pendulum = Pendulum { creep: 0.1, ..Pendulum::desk() };
+    let pendulum = Pendulum::desk();
     let kernel = pendulum.kernel().unwrap();
-    let run = Simulation::new(&kernel).adaptive(1e-11, 1e-11);
-    let end = run.run_to_end(SVector::from([1.6]), SVector::from([0.0]), 0.0..2.0).unwrap();
-    let [coarse, fine] = [10_000, 20_000].map(|steps| runge_kutta(&pendulum, [1.6, 0.0], 2.0, steps));
-    for (found, coarse, fine) in [(end.q[0], coarse[0], fine[0]), (end.z[0], coarse[1], fine[1])] {
+    let run = ContactRun::new(&kernel).adaptive(1e-11, 1e-11).run([1.6].into(), [0.0].into(), 0.0..12.0).unwrap();
+    let end = run.events()[0].time;
+    let [coarse, fine] = [10_000, 20_000].map(|steps| runge_kutta(&pendulum, [1.6, 0.0], end, steps));
+    let found = run.at(end).unwrap();
+    for (found, coarse, fine) in [(found.q[0], coarse[0], fine[0]), (found.z[0], coarse[1], fine[1])] {
         // Halving the steps of a method of order 4 leaves a fifteenth of the difference; the adaptive run makes some
-        // thousand errors of 1e-11 of numbers below 10, which swings do not magnify.
-        let bound = (coarse - fine).abs() / 15.0 + 1e-7;
+        // hundred errors of 1e-11 of numbers below 10.
+        let bound = (coarse - fine).abs() / 15.0 + 1e-8;
         assert!((coarse - fine).abs() < 1e-8, "the reference is not good enough: {coarse} and {fine}");
         assert!((found - fine).abs() < bound, "{found} and {fine}");
     }
 }
 
 #[test]
-fn at_rest_it_creeps_as_slowly_as_it_is_said_to() {
+fn it_stops_where_friction_holds_it() {
     let pendulum = Pendulum::desk();
     let kernel = pendulum.kernel().unwrap();
-    let theta = 0.06;
-    let pull: f64 = torques(&pendulum, theta, 0.0).iter().sum();
-    assert!(pull.abs() < pendulum.dry, "friction holds it");
-    let creeping = pendulum.creep * pull / (pendulum.dry * pendulum.dry - pull * pull).sqrt();
-    let found = kernel.acceleration(0.0, &SVector::from([theta]), &SVector::from([creeping]), &())[0];
-    // At that speed the torques balance but for that of the buffer's damping, whose slope is (w/2x)² where nothing
-    // touches it.
-    let slope = (0.5 * pendulum.soft / (theta - pendulum.limit)).powi(2);
-    let bound = pendulum.loss * slope * slope * creeping.abs() + 12.0 * f64::EPSILON * pendulum.rubber;
-    assert!((found * pendulum.rod.inertia.m22).abs() < 1.01 * bound, "{found}");
-}
-
-/// Lengths in the plane (x, v/ω) are kept along an arc, so that errors of steps add up; each is the tolerance, of
-/// numbers up to 1, or where the force jumps, and the error is hard to estimate, up to three times that.
-#[test]
-fn dry_friction_takes_the_same_from_every_swing() {
-    let slider = Slider::desk();
-    let kernel = slider.kernel().unwrap();
-    let tolerance = 1e-10;
-    let run = Simulation::new(&kernel).adaptive(tolerance, tolerance);
-    let path = run.run(SVector::from([slider.released()]), SVector::from([0.0]), 0.0..slider.rests()).unwrap();
-    let bound = 3.0 * path.len() as f64 * 2.0 * tolerance;
-    for s in path.iter() {
-        assert!((s.q[0] - slider.exact(s.t)).abs() < bound, "at {}: {} and {}", s.t, s.q[0], slider.exact(s.t));
-    }
-
-    // Made smooth, the law is left for |v| of some ε, and the error is of first order in ε.
-    let error = |creep: f64| {
-        let kernel = slider.smooth(creep).kernel().unwrap();
-        let run = Simulation::new(&kernel).adaptive(tolerance, tolerance);
-        let path = run.run(SVector::from([slider.released()]), SVector::from([0.0]), 0.0..slider.rests()).unwrap();
-        path.iter().map(|s| (s.q[0] - slider.exact(s.t)).abs()).fold(0.0, f64::max)
-    };
-    let [coarse, fine] = [error(1e-2), error(1e-3)];
-    assert!((7.0..14.0).contains(&(coarse / fine)), "{coarse:e} and {fine:e}");
+    let run = ContactRun::new(&kernel).adaptive(1e-10, 1e-10).run([1.6].into(), [0.0].into(), 0.0..12.0).unwrap();
+    let (stops, end) = (run.events().last().unwrap(), run.last().unwrap());
+    assert_eq!((stops.kind, end.z[0]), (EventKind::Sticks, 0.0));
+    assert_eq!(run.at(stops.time).unwrap().q, end.q);
+    // What holds it is against all other torques, within the bound.
+    let [weight, spiral, buffer, _] = torques(&pendulum, end.q[0], 0.0);
+    let held = run.forces(12.0).unwrap()[0];
+    assert!((held + weight + spiral + buffer).abs() < 1e-14 && held.abs() < pendulum.dry, "{held}");
 }
