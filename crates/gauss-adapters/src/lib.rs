@@ -8,6 +8,7 @@
 //! | `ode_solvers` | the trait `System` of `ode_solvers` (feature `ode_solvers`) |
 //! | `diffsol` | a problem of `diffsol` (feature `diffsol`) |
 //! | `dual` | the dual numbers of `num-dual` as scalars (feature `num-dual`) |
+//! | `linear` | `linearize`: A and B of any system at dual numbers, such as one in contact (feature `num-dual`) |
 //! | `interchange` | poses in the types of `mint` and `glam` (features `mint`, `glam030` to `glam033`) |
 //!
 //! The integrators of [`integrate`](gauss_runtime::integrate) keep the group, are faster, and say why they stop; these
@@ -29,6 +30,8 @@ pub mod flat;
 #[cfg(feature = "mint")]
 pub mod interchange;
 pub mod jacobian;
+#[cfg(feature = "num-dual")]
+pub mod linear;
 mod ways;
 
 #[cfg(feature = "differential-equations")]
@@ -42,6 +45,8 @@ pub mod ode_solvers;
 pub use dual::DualNumber;
 pub use flat::FlatSystem;
 pub use jacobian::JacobianProduct;
+#[cfg(feature = "num-dual")]
+pub use linear::linearize;
 pub use ways::{Differences, JacobianFunction};
 
 /// The example of the README is a test.

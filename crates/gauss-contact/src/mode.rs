@@ -145,7 +145,10 @@ fn corrections<T: Real>() -> usize {
 }
 
 impl<'k, K: ContactSystem> InMode<'k, K> {
-    pub(crate) fn new(kernel: &'k K, modes: &[Mode<K::Scalar>]) -> Self {
+    /// A system whose contacts have these modes, in the order of [`ContactSystem::CONTACTS`]; those left out are open.
+    /// [`project`](GaussSystem::project) brings a state onto them.
+    #[must_use]
+    pub fn new(kernel: &'k K, modes: &[Mode<K::Scalar>]) -> Self {
         Self::with(kernel, modes, (0.0, &[]))
     }
 

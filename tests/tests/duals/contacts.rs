@@ -1,10 +1,11 @@
 //! Derivatives of runs through impacts, sticking and rest, against closed forms and against differences.
 
-use gauss_adapters::DualNumber;
-use gauss_contact::{ContactErrorKind, ContactRun, EventKind, Mode};
+use gauss_adapters::{DualNumber, linearize};
+use gauss_contact::{ContactErrorKind, ContactRun, EventKind, InMode, Mode};
+use gauss_runtime::linearize::Linearization;
 use gauss_runtime::prelude::*;
 use gauss_runtime::real::largest_derivative;
-use num_dual::HyperDual64;
+use num_dual::{Dual64, HyperDual64};
 
 use super::events::{Three, closed_form, parts, variables};
 
@@ -61,6 +62,40 @@ struct Impactor<T> {
     contact(right, gap = b, restitution = 0.5),
 )]
 struct Both<T> {
+    #[gauss(gravity)]
+    g: T,
+}
+
+/// A wheel with a motor, held by a spring.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, height, turn),
+    body(wheel, position = [x, 0, height], rotation = rotation_y(turn), mass = 2, inertia = [1, 0.3, 1]),
+    spring(along = x, stiffness = k, damping = c),
+    input(motor),
+    drive(turn = motor),
+    contact(floor, gap = height - r, slip = rate(x) - r * rate(turn), friction = 0.5),
+)]
+struct Wheel<T> {
+    r: T,
+    k: T,
+    c: T,
+    #[gauss(gravity)]
+    g: T,
+}
+
+/// A body in the air, over a floor.
+#[derive(GaussDynamics)]
+#[gauss(
+    linearize,
+    coordinates(pose: Pose),
+    body(stone, position = pose.position, rotation = pose.rotation, mass = 2, inertia = [0.5, 0.6, 0.6],
+         center_of_mass = [0.1, 0, 0.2]),
+    input(thrust),
+    force(thrust, body = stone, value = [thrust, 0, 0], at = [0, 0.3, 0]),
+    contact(floor, point = stone.position, radius = 0.1),
+)]
+struct Stone<T> {
     #[gauss(gravity)]
     g: T,
 }
@@ -294,4 +329,37 @@ fn single_precision_runs_too() {
     let wide = wide.run(SVector::from([0.0, 0.1]), SVector::from([2.0, 0.0]), 0.0..3.0).expect("stops");
     // The tolerance of speeds, three seconds long.
     assert!((f64::from(last.q[0]) - wide.last().expect("an end").q[0]).abs() < 3e-4);
+}
+
+/// Rolling: (I/r² + m) ẍ = motor/r − k x − c ẋ, with r the radius.
+#[test]
+fn a_system_is_linearised_in_its_mode() {
+    let (r, k, c) = (0.2, 30.0, 1.5);
+    let kernel = Wheel { r: number::<DualNumber<Dual64>>(r), k: number(k), c: number(c), g: number(9.81) };
+    let kernel = kernel.kernel().expect("a wheel");
+    let vector = |x: [f64; 3]| SVector::from(x.map(number::<DualNumber<Dual64>>));
+    let (q, z, motor) =
+        (vector([0.1, r, 0.4]), vector([0.3, 0.0, 0.3 / r]), SVector::from([number::<DualNumber<Dual64>>(0.7); 1]));
+    let rolls = InMode::new(&kernel, &[Mode::Sticks]);
+    let linear: Linearization<f64, 6, 1> = linearize(&rolls, 0.0, &q, &z, &motor);
+    let mass = 0.3 / (r * r) + 2.0;
+    let off = |found: f64, expected: f64| (found - expected).abs() < 1e-13 * (1.0 + expected.abs());
+    assert!(off(linear.rate[3], (0.7 / r - k * 0.1 - c * 0.3) / mass), "{}", linear.rate);
+    for (row, part) in [(3, 1.0), (4, 0.0), (5, 1.0 / r)] {
+        assert!(off(linear.by_state[(row, 0)], -part * k / mass), "{}", linear.by_state);
+        assert!(off(linear.by_state[(row, 3)], -part * c / mass), "{}", linear.by_state);
+        assert!([1, 2, 4, 5].into_iter().all(|column| off(linear.by_state[(row, column)], 0.0)), "{}", linear.by_state);
+        assert!(off(linear.by_input[row], part / (r * mass)) && linear.by_time[row] == 0.0);
+    }
+    // Open, it is what the derive writes.
+    let (pose, twist) = (place(2.0), [0.3, -0.2, 0.5, 1.0, 2.0, -0.7]);
+    let plain = Stone { g: 9.81 }.kernel().expect("a stone");
+    let expected = plain.linearize(0.0, &pose, &twist.into(), &SVector::from([0.7]));
+    let dual = Stone { g: number::<DualNumber<Dual64>>(9.81) }.kernel().expect("a stone");
+    let twist = SVector::from(twist.map(number::<DualNumber<Dual64>>));
+    let found: Linearization<f64, 12, 1> =
+        linearize(&InMode::new(&dual, &[]), 0.0, &place(number(2.0)), &twist, &motor);
+    // Some hundred operations on numbers up to 20.
+    assert!((found.by_state - expected.by_state).amax() < 1e-12 && (found.rate - expected.rate).amax() < 1e-12);
+    assert!((found.by_input - expected.by_input).amax() < 1e-12);
 }
