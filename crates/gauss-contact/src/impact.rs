@@ -14,8 +14,9 @@ use crate::solver::{Contacts, Failure, Law, Residual};
 
 /// What an impact does to velocities u⁻ of the contacts that are closed: `u⁺ = u⁻ + D Λ` with impulses Λ.
 ///
-/// A contact whose gap opens before the impact has e = 0 in all laws: it must not close. Dry friction has no part in
-/// impacts: its force is bounded, and so is its impulse by zero in no time.
+/// A gap that opens before the impact may close after it, at e times its rate: it strikes again at once, which takes
+/// more energy away. Held to stay open instead, it would give energy: three balls that fall on one another would. Dry
+/// friction has no part in impacts: its force is bounded, and so is its impulse by zero in no time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Impact {
@@ -61,8 +62,7 @@ impl<K: ContactSystem> Struck<'_, K> {
         let rows = rows::<K>(self.contacts);
         let owner: Vec<usize> =
             self.contacts.iter().flat_map(|&i| core::iter::repeat_n(i, 1 + K::CONTACTS[i].tangents)).collect();
-        let closing = |i: usize| value(self.rates.component(K::CONTACTS[i].normal)) < 0.0;
-        let e = |i: usize| if closing(i) { self.restitution.component(i) } else { zero };
+        let e = |i: usize| self.restitution.component(i);
         let delassus = &self.response.delassus;
         let moreau = law == Impact::Moreau;
         let entry = |a: usize, b: usize| {
