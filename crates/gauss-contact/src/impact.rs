@@ -8,7 +8,7 @@ use gauss_runtime::contact::{ContactResponse, ContactSystem};
 use gauss_runtime::forces::Columns;
 use gauss_runtime::real::Real;
 
-use crate::dense::{Matrix, value};
+use crate::dense::Matrix;
 use crate::friction::Bounds;
 use crate::solver::{Contacts, Failure, Law, Residual};
 

@@ -73,6 +73,18 @@ pub(crate) struct Loads<K: ContactSystem> {
 }
 
 impl<K: ContactSystem> Loads<K> {
+    /// ż with the contact forces.
+    pub(crate) fn acceleration(&self) -> K::Speeds {
+        pushed::<K>(&self.dynamics.acceleration, &self.dynamics.response.columns, &self.forces)
+    }
+
+    /// The rate of a rate: (ġ, s)˙ = D λ + b in a row.
+    pub(crate) fn row_acceleration(&self, row: usize) -> K::Scalar {
+        let d = &self.dynamics.response.delassus;
+        let each = self.forces.iter().enumerate();
+        each.fold(self.dynamics.bias.component(row), |u, (j, force)| u + d[(row, j)] * *force)
+    }
+
     /// What rounding makes of the normal force of a contact, or of dry friction: that of the terms of its acceleration.
     pub(crate) fn rounding(&self, contact: &Contact) -> f64 {
         let d = &self.dynamics.response.delassus;
@@ -144,6 +156,30 @@ fn corrections<T: Real>() -> usize {
     if T::DERIVATIVES { 3 } else { 0 }
 }
 
+/// `x + Σ λ column`, where components that are no more than the rounding of their terms are 0: what rests does not
+/// creep.
+fn pushed<K: ContactSystem>(x: &K::Speeds, columns: &K::ContactColumns, forces: &[K::Scalar]) -> K::Speeds {
+    let (mut sum, mut terms) = (*x, vec![0.0; K::Speeds::DIM]);
+    (0..terms.len()).for_each(|i| terms[i] = value(x.component(i)).abs());
+    let mut count = 1;
+    let acts = |force: K::Scalar| K::Scalar::DERIVATIVES || value(force) != 0.0;
+    for (row, force) in forces.iter().enumerate().filter(|(_, force)| acts(**force)) {
+        let Some(column) = columns.nth(row) else { continue };
+        sum = sum.add_scaled(*force, &column);
+        (0..terms.len()).for_each(|i| terms[i] += value(*force * column.component(i)).abs());
+        count += 1;
+    }
+    // Each term has roundings of its own, those of its factors and of the solution for λ.
+    let part = 16.0 * f64::from(count) * epsilon::<K::Scalar>();
+    for (i, terms) in terms.iter().enumerate().filter(|_| count > 1) {
+        let rounding = value(sum.component(i));
+        if rounding.abs() <= part * terms {
+            sum.set_component(i, sum.component(i) - K::Scalar::from_f64(rounding));
+        }
+    }
+    sum
+}
+
 impl<'k, K: ContactSystem> InMode<'k, K> {
     /// A system whose contacts have these modes, in the order of [`ContactSystem::CONTACTS`]; those left out are open.
     /// [`project`](GaussSystem::project) brings a state onto them.
@@ -161,6 +197,11 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
     #[must_use]
     pub fn modes(&self) -> &[Mode<K::Scalar>] {
         &self.modes
+    }
+
+    /// Whether no gap is closed.
+    pub(crate) fn is_open(&self) -> bool {
+        !self.modes.iter().any(|mode| mode.is_closed())
     }
 
     fn closed(&self) -> impl Iterator<Item = (usize, &'static Contact, Mode<K::Scalar>)> {
@@ -238,30 +279,6 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
         Loads { dynamics, forces }
     }
 
-    /// `x + Σ λ column`, where components that are no more than the rounding of their terms are 0: what rests does not
-    /// creep.
-    fn pushed(x: &K::Speeds, columns: &K::ContactColumns, forces: &[K::Scalar]) -> K::Speeds {
-        let (mut sum, mut terms) = (*x, vec![0.0; K::Speeds::DIM]);
-        (0..terms.len()).for_each(|i| terms[i] = value(x.component(i)).abs());
-        let mut count = 1;
-        let acts = |force: K::Scalar| K::Scalar::DERIVATIVES || value(force) != 0.0;
-        for (row, force) in forces.iter().enumerate().filter(|(_, force)| acts(**force)) {
-            let Some(column) = columns.nth(row) else { continue };
-            sum = sum.add_scaled(*force, &column);
-            (0..terms.len()).for_each(|i| terms[i] += value(*force * column.component(i)).abs());
-            count += 1;
-        }
-        // Each term has roundings of its own, those of its factors and of the solution for λ.
-        let part = 16.0 * f64::from(count) * epsilon::<K::Scalar>();
-        for (i, terms) in terms.iter().enumerate().filter(|_| count > 1) {
-            let rounding = value(sum.component(i));
-            if rounding.abs() <= part * terms {
-                sum.set_component(i, sum.component(i) - K::Scalar::from_f64(rounding));
-            }
-        }
-        sum
-    }
-
     /// The impulses at these rows that cancel rates, all rows of contacts.
     fn cancelling(delassus: &K::Delassus, rows: &[usize], rates: &dyn Fn(usize) -> K::Scalar) -> Vec<K::Scalar> {
         let matrix = Matrix::from_fn(rows.len(), |i, j| delassus[(rows[i], rows[j])]);
@@ -324,7 +341,7 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
             if !K::Scalar::DERIVATIVES && impulses.iter().all(|impulse| value(*impulse) == 0.0) {
                 break;
             }
-            z = Self::pushed(&z, &response.columns, &impulses);
+            z = pushed::<K>(&z, &response.columns, &impulses);
         }
         z
     }
@@ -354,11 +371,10 @@ impl<K: ContactSystem> GaussSystem for InMode<'_, K> {
     }
 
     fn acceleration(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds, input: &K::Input) -> K::Speeds {
-        if !self.modes.iter().any(|mode| mode.is_closed()) {
+        if self.is_open() {
             return self.kernel.acceleration(t, q, z, input);
         }
-        let Loads { dynamics, forces } = self.loads(t, q, z, input);
-        Self::pushed(&dynamics.acceleration, &dynamics.response.columns, &forces)
+        self.loads(t, q, z, input).acceleration()
     }
 
     fn momentum(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> K::Speeds {
@@ -422,7 +438,7 @@ impl<K: ContactSystem> GaussSystem for InMode<'_, K> {
         z: &K::Speeds,
     ) -> Result<(K::Configuration, K::Speeds), ProjectionError> {
         let (q, z) = self.kernel.project(t, q, z)?;
-        if !self.modes.iter().any(|mode| mode.is_closed()) {
+        if self.is_open() {
             return Ok((q, z));
         }
         let q = self.close_gaps(t, q)?;

@@ -161,9 +161,10 @@ where
             instant.decide(&mut self.scales, &mut self.made)?;
             let fired = self.segment(&instant)?;
             let Some(last) = self.made.last() else { return Ok(()) };
-            let Some(fired) = fired.filter(|_| value(last.t) < value(self.end)) else { return Ok(()) };
+            instant = Instant { t: last.t, q: last.q, z: last.z, fired, first: false, ..instant };
+            instant.fired = fired.or_else(|| self.touches(&instant));
+            let Some(fired) = instant.fired else { return Ok(()) };
             self.count(value(last.t), fired)?;
-            instant = Instant { t: last.t, q: last.q, z: last.z, fired: Some(fired), first: false, ..instant };
         }
     }
 
@@ -215,7 +216,7 @@ where
     fn segment(&mut self, from: &Instant<'k, K>) -> Result<Option<Watched>, ContactError> {
         let rounding = from.sizes(&self.scales).of_rate;
         let system = InMode::with(self.kernel, &from.modes, (self.scales.rest(), &rounding));
-        let problem = InModeProblem { system: system.clone(), input: Rc::clone(&self.made.input) };
+        let problem = InModeProblem::new(system.clone(), Rc::clone(&self.made.input));
         let witnesses = self.witnesses(from, &problem);
         let watched: Vec<Watched> = witnesses.iter().map(|witness| witness.watched).collect();
         let functions = witnesses
@@ -240,6 +241,30 @@ where
         }
         self.check_end(&from.modes, (end, &last.q, &last.z))?;
         Ok(stopped)
+    }
+
+    /// What the end of a run falls on to the resolution of its time: a gap that closes, a slip that ends.
+    fn touches(&self, end: &Instant<'k, K>) -> Option<Watched> {
+        // In a segment of no length nothing changes. The derivatives of an end that an event falls on are those of the
+        // side from which it comes.
+        let moves = |t: K::Scalar| !K::Scalar::DERIVATIVES && value(t) < value(end.t);
+        let segment = self.made.segments.last().filter(|segment| moves(segment.trajectory.first().t))?;
+        let (sizes, gaps) = (end.sizes(&self.scales), self.kernel.gaps(end.t, &end.q));
+        let input = (self.made.input)(end.t, &end.q, &end.z);
+        let loads = segment.system.loads(end.t, &end.q, &end.z, &input);
+        let rate = |row: usize| value(sizes.rates.component(row));
+        let stops = |row: usize| {
+            let late = 4.0 * self.scales.resolution(value(end.t)) * value(loads.row_acceleration(row)).abs();
+            rate(row).abs() <= sizes.of_rate[row] + late
+        };
+        let mut each = K::CONTACTS.iter().zip(&end.modes).enumerate();
+        each.find_map(|(i, (contact, mode))| match mode {
+            Mode::Open if contact.has_gap() && rate(contact.normal) < -sizes.of_rate[contact.normal] => {
+                (value(gaps.component(i)) <= sizes.of_gap[i]).then_some(Watched::Gap(i))
+            }
+            Mode::Slides(_) => tangents(contact).all(stops).then_some(Watched::Slip(i)),
+            _ => None,
+        })
     }
 
     /// Refuses gaps and slips that have passed through zero unseen.
@@ -280,10 +305,7 @@ where
             found.push(witness);
         };
         let sizes = from.sizes(&self.scales);
-        let loads = from.modes.iter().any(|mode| mode.is_closed()).then(|| {
-            let input = (problem.input)(from.t, &from.q, &from.z);
-            problem.system.loads(from.t, &from.q, &from.z, &input)
-        });
+        let loads = (!problem.system.is_open()).then(|| problem.loads(from.t, &from.q, &from.z));
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             // Forces that are no more than rounding start above zero by as much.
             let least = loads.as_ref().map_or(0.0, |loads| loads.rounding(contact));

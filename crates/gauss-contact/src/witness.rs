@@ -62,15 +62,10 @@ impl<K: ContactSystem> Witness<'_, K> {
                 s[0] * reference[0] + s[1] * reference[1]
             }
             Watched::Speed(i, level) => norm(&slip_of(i)) - K::Scalar::from_f64(level),
-            Watched::Force(i) => {
-                let loads = self.problem.system.loads(t, q, z, &input());
-                loads.forces[K::CONTACTS[i].normal]
-            }
+            Watched::Force(i) => self.problem.loads(t, q, z).forces[K::CONTACTS[i].normal],
             Watched::Cone(i) => {
-                let input = input();
-                let loads = self.problem.system.loads(t, q, z, &input);
-                let contact = &K::CONTACTS[i];
-                loads.reserve(contact, Bounds::of(contact, &kernel.friction(t, q, z, &input)))
+                let (loads, contact) = (self.problem.loads(t, q, z), &K::CONTACTS[i]);
+                loads.reserve(contact, Bounds::of(contact, &kernel.friction(t, q, z, &input())))
             }
             Watched::Pushes(i) => self.pushes(i, t, q, z),
         }
@@ -88,7 +83,8 @@ impl<K: ContactSystem> Witness<'_, K> {
         let kernel = self.problem.system.kernel;
         let contact = &K::CONTACTS[i];
         let input = (self.problem.input)(t, q, z);
-        let delassus = kernel.contact_response(t, q).delassus;
+        let loads = self.problem.loads(t, q, z);
+        let delassus = &loads.dynamics.response.delassus;
         let along = self.problem.system.direction(contact, self.reference(i), (t, q, z));
         let against = Bounds::of(contact, &kernel.friction(t, q, z, &input)).against(along);
         let coupled = sum(tangents(contact).zip(against).map(|(row, f)| f * delassus[(contact.normal, row)]));
