@@ -586,3 +586,7 @@ fn turn<T: Real>(state: &mut State<T>, by: T) {
 #[cfg(test)]
 #[path = "solver_tests.rs"]
 mod tests;
+
+#[cfg(test)]
+#[path = "enumeration_tests.rs"]
+mod enumeration_tests;

@@ -3,15 +3,15 @@
 use super::*;
 
 /// Numbers in (0, 1): a linear congruence with the constants of Knuth's MMIX.
-struct Numbers(u64);
+pub(super) struct Numbers(pub(super) u64);
 
 impl Numbers {
-    fn next(&mut self) -> f64 {
+    pub(super) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((self.0 >> 11) as f64 + 0.5) / 9_007_199_254_740_992.0
     }
 
-    fn signed(&mut self) -> f64 {
+    pub(super) fn signed(&mut self) -> f64 {
         2.0 * self.next() - 1.0
     }
 }

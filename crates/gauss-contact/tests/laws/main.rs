@@ -3,6 +3,7 @@
 mod bounces;
 mod common;
 mod dry;
+mod edges;
 mod friction;
 mod hostile;
 mod spatial;
