@@ -3,7 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use gauss_runtime::real::Real;
+use gauss_runtime::real::{Real, largest_derivative};
 
 /// The value of a number, by which decisions are made.
 pub(crate) fn value<T: Real>(x: T) -> f64 {
@@ -169,8 +169,10 @@ pub(crate) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     sum(a.iter().zip(b).map(|(a, b)| *a * *b))
 }
 
+/// Of zeros without derivatives it is one, too.
 pub(crate) fn norm<T: Real>(a: &[T]) -> T {
-    dot(a, a).sqrt()
+    let zero = T::DERIVATIVES && a.iter().all(|x| value(*x) == 0.0 && largest_derivative(*x) == 0.0);
+    if zero { T::zero() } else { dot(a, a).sqrt() }
 }
 
 /// The norm of the values: of what may vanish, where the norm has no derivative.

@@ -84,6 +84,19 @@ struct Wheel<T> {
     g: T,
 }
 
+/// Something that lies on a table that goes up and down.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, y),
+    particle(mass = 3, position = [x, 0, y]),
+    contact(table, gap = y - a * sin(t), slip = rate(x), friction = 0.5),
+)]
+struct Shaken<T> {
+    a: T,
+    #[gauss(gravity)]
+    g: T,
+}
+
 /// A body in the air, over a floor.
 #[derive(GaussDynamics)]
 #[gauss(
@@ -329,6 +342,24 @@ fn single_precision_runs_too() {
     let wide = wide.run(SVector::from([0.0, 0.1]), SVector::from([2.0, 0.0]), 0.0..3.0).expect("stops");
     // The tolerance of speeds, three seconds long.
     assert!((f64::from(last.q[0]) - wide.last().expect("an end").q[0]).abs() < 3e-4);
+}
+
+/// It leaves where a sin t = g. Friction holds nothing, and its bound is zero there, too.
+#[test]
+fn what_leaves_has_derivatives() {
+    let [a, g, zero] = variables([12.0, 9.81, 0.0]);
+    let kernel = Shaken { a, g }.kernel().expect("a table");
+    let run = ContactRun::new(&kernel).adaptive(1e-12, 1e-12);
+    let run = run.run(SVector::zeros_of(), SVector::from([zero, a]), zero..number(1.5)).expect("leaves");
+    let [leaves] = run.events() else { panic!("{:?}", run.events()) };
+    assert_eq!(leaves.kind, EventKind::Leaves);
+    let wanted = (g / a).asin();
+    let (flight, last) = (number::<Three>(1.5) - wanted, run.last().expect("an end"));
+    let height = a * wanted.sin() + a * wanted.cos() * flight - g * flight * flight * number(0.5);
+    for (x, y) in parts(last.q[1]).into_iter().zip(parts(height)) {
+        // Forces are known to 1e-12 of 30 N, over their rate.
+        assert!((x - y).abs() < 1e-10, "{x} {y}");
+    }
 }
 
 /// Rolling: (I/r² + m) ẍ = motor/r − k x − c ẋ, with r the radius.

@@ -17,7 +17,7 @@ pub use acceptance::{cause, pace, projection, tolerance};
 #[cfg(feature = "alloc")]
 pub use events::each;
 pub use events::{event, search};
-pub(in crate::integrate) use events::{leaving, zero};
+pub(in crate::integrate) use events::{jump, leaving, zero};
 #[cfg(feature = "alloc")]
 pub use runs::{boxed, trajectory};
 pub use runs::{observer, run, simulation, summary};

@@ -25,8 +25,8 @@ const SPAN: f64 = 1.0 / 4096.0;
 const RESOLVED: f64 = 1e6;
 /// And no longer than the slower of configuration and speeds changes by this part of itself.
 const LONGEST: f64 = 1e-3;
-/// A function whose turning point is no further beyond zero than so many roundings touches zero: these are bounds, some ten
-/// times what rounding is.
+/// A function whose turning point is no further beyond zero than so many roundings touches zero: these are bounds, some
+/// ten times what rounding is.
 const TOUCHES: f64 = 4.0;
 /// Newton's steps.
 const MOST_STEPS: u32 = 12;
@@ -62,14 +62,14 @@ where
         let (mut state, mut rates, mut sum, mut before) = (*state, rates, S::Scalar::zero(), f64::INFINITY);
         for _ in 0..MOST_STEPS {
             let by = -left(&state) / slope;
+            if !by.is_finite() {
+                break;
+            }
             sum += by;
             let (last, all) = (largest_derivative(by), largest_derivative(sum));
             // Beyond that there is rounding alone.
             if last <= ENDS * all || last <= FAILS * all && last >= 0.5 * before {
                 return Ok(state);
-            }
-            if !by.is_finite() {
-                break;
             }
             state = one_step(&RungeKutta(Classical4), self.problem, &state, &rates, by)?;
             rates = self.problem.rates(&state);

@@ -54,6 +54,8 @@ use core::ops::Range;
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::control::Control;
+use crate::integrate::drive::jump::differs;
+pub use crate::integrate::drive::jump::{Jump, JumpFunction, NoJump};
 use crate::integrate::drive::leaving::{Leaving, OnZero, rounding};
 use crate::integrate::drive::projection::consistent;
 use crate::integrate::drive::search::{Crossing, Function, Looking, Made, side, value};
@@ -172,37 +174,6 @@ impl<E, G> Watched<E, G> {
     pub fn then<J>(self, jump: J, through: bool) -> Watched<E, G, JumpFunction<J>> {
         let Self { others, function, mark, .. } = self;
         Watched { others, function, jump: JumpFunction(jump), mark: Mark { through, ..mark } }
-    }
-}
-
-/// The effect of an event on the state.
-pub trait Jump<S: GaussSystem>: Sealed {
-    /// Changes it; whether it does.
-    fn jump(&mut self, state: &mut Sample<S>) -> bool;
-}
-
-/// No jump: the state stays as it is.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct NoJump;
-
-impl Sealed for NoJump {}
-
-impl<S: GaussSystem> Jump<S> for NoJump {
-    fn jump(&mut self, _: &mut Sample<S>) -> bool {
-        false
-    }
-}
-
-/// A jump by a function that changes the state.
-#[derive(Clone, Copy, Debug)]
-pub struct JumpFunction<J>(J);
-
-impl<J> Sealed for JumpFunction<J> {}
-
-impl<S: GaussSystem, J: FnMut(&mut Sample<S>)> Jump<S> for JumpFunction<J> {
-    fn jump(&mut self, state: &mut Sample<S>) -> bool {
-        (self.0)(state);
-        true
     }
 }
 
@@ -427,7 +398,19 @@ where
             let now = match here.take() {
                 // Its own time may have other derivatives than that of the event before.
                 Some((at, after, first, stopped_by)) => {
-                    report(number, &self.differentiated(&looking, number, at)?);
+                    match self.differentiated(&looking, number, at) {
+                        Ok(at) => report(number, &at),
+                        // Behind the end of the run nothing depends on it: it is not told of.
+                        Err(_) if stopped_by.is_some() => {
+                            self.each(|n, _, mark| {
+                                mark.next = mark.next.filter(|_| n != number);
+                                Ok(())
+                            })?;
+                            here = Some((at, after, first, stopped_by));
+                            continue;
+                        }
+                        Err(kind) => return Err(kind),
+                    }
                     let after = after.map(|after| self.differentiated(&looking, number, after)).transpose()?;
                     (at, after, first, stopped_by)
                 }
@@ -600,17 +583,6 @@ where
         });
         first
     }
-}
-
-/// Whether vectors differ in some lanes by more than a part of their size.
-fn differs<T: Real, V: VectorSpace<T>>(a: &V, b: &V, lanes: &Range<usize>, part: f64) -> bool {
-    lanes.clone().any(|lane| {
-        let size = (0..V::DIM).map(|i| a.component(i).lane(lane).abs()).fold(0.0, f64::max);
-        (0..V::DIM).any(|i| {
-            let off = (a.component(i).lane(lane) - b.component(i).lane(lane)).abs();
-            off > part * size || off.is_nan()
-        })
-    })
 }
 
 #[cfg(all(test, feature = "alloc"))]

@@ -4,6 +4,7 @@ pub(in crate::integrate) mod derivative;
 #[cfg(feature = "alloc")]
 pub mod each;
 pub mod event;
+pub(in crate::integrate) mod jump;
 pub(in crate::integrate) mod leaving;
 pub mod search;
 pub(in crate::integrate) mod zero;
