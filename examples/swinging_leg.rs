@@ -7,6 +7,7 @@
 
 use std::error::Error;
 
+use gauss_contact::{ContactRun, ContactTrajectory, EventKind};
 use gauss_examples::plots::write_page;
 use gauss_playback::{Playback, Shape};
 use gauss_runtime::prelude::*;
@@ -22,7 +23,7 @@ use gauss_runtime::prelude::*;
     body(thigh, rotation = rotation_y(-hip)),
     body(shank, parent = thigh, position = [0, 0, -length], rotation = rotation_y(knee)),
     // A knee does not bend forward.
-    stop(kneecap, along = knee, least = 0, stiffness = stiffness, width = 0.01, damping = damping),
+    range(knee, from = 0),
 )]
 struct Leg {
     #[gauss(body = about_center_of_mass)]
@@ -30,8 +31,6 @@ struct Leg {
     #[gauss(body = about_center_of_mass)]
     shank: Segment,
     length: f64,
-    stiffness: f64,
-    damping: f64,
     #[gauss(gravity)]
     g: f64,
 }
@@ -97,14 +96,8 @@ fn frequencies(m: [[f64; 2]; 2], k: [[f64; 2]; 2]) -> [f64; 2] {
 fn main() -> Result<(), Box<dyn Error>> {
     let g = 9.81;
     let (mass, depth, inertia) = lower_leg();
-    let leg = |stiffness: f64| Leg {
-        thigh: segment(THIGH.mass(), THIGH.depth(), THIGH.inertia()),
-        shank: segment(mass, depth, inertia),
-        length: THIGH.length,
-        stiffness,
-        damping: 0.0,
-        g,
-    };
+    let thigh = segment(THIGH.mass(), THIGH.depth(), THIGH.inertia());
+    let kernel = Leg { thigh, shank: segment(mass, depth, inertia), length: THIGH.length, g }.kernel()?;
 
     // By hand, in the angles of both segments from straight down.
     let about_hip = THIGH.inertia() + THIGH.mass() * THIGH.depth().powi(2) + mass * THIGH.length.powi(2);
@@ -113,9 +106,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         [[about_hip, coupled], [coupled, inertia + mass * depth * depth]],
         [[(THIGH.mass() * THIGH.depth() + mass * THIGH.length) * g, 0.0], [0.0, mass * depth * g]],
     );
-    // Of the scene without its kneecap: the lower right rows of the linear equations are −M⁻¹K.
+    // Without forces of the kneecap: the lower right rows of the linear equations are −M⁻¹K.
     let (down, still) = (SVector::zeros(), SVector::zeros());
-    let linear = leg(0.0).kernel()?.linearize(0.0, &down, &still, &()).by_state;
+    let linear = kernel.linearize(0.0, &down, &still, &()).by_state;
     let rows = linear.fixed_view::<2, 2>(2, 0);
     let (half, determinant) = (-0.5 * rows.trace(), rows.determinant());
     let root = (half * half - determinant).sqrt();
@@ -127,28 +120,29 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 
     // A step: the toes leave the ground with the thigh behind and the knee bent, both on their way.
-    let kernel = leg(2e3).kernel()?;
     let toe_off = LegState { hip: -0.2, knee: 0.7, hip_dot: 3.0, knee_dot: 5.5 };
-    let run = Simulation::new(&kernel).until(Crossing::Falling, |_t, q, _z| q[1]).adaptive(1e-10, 1e-10).run(
-        toe_off.q(),
-        toe_off.z(),
-        0.0..2.0,
-    )?;
-    let end = run.last();
-    let LegState { hip, knee_dot, .. } = LegState::of(&end.q, &end.z);
-    println!("the knee is straight after {:.3} s, with the thigh {hip:.2} rad in front", end.t);
-    let energy = |s: &Sample<LegKernel>| kernel.energy(s.t, &s.q, &s.z);
-    let lost = (energy(end) - energy(run.first())).abs();
+    let run = ContactRun::new(&kernel).adaptive(1e-10, 1e-10).run(toe_off.q(), toe_off.z(), 0.0..0.6)?;
+    let [straight, ..] = run.events() else { return Err("the knee stays bent".into()) };
+    let EventKind::Impact(impact) = straight.kind else { return Err("the knee does not strike".into()) };
+    let (swing, hip) = (run.segments()[0].trajectory(), run.at(straight.time)?.q[0]);
+    println!("the knee is straight after {:.3} s, with the thigh {hip:.2} rad in front;", straight.time);
+    println!("  the kneecap takes {:.2} J, and holds it straight to {:.2} rad", impact.energy_lost, end_of(&run)?.q[0]);
+    let energy = |s: &Sample<_>| kernel.energy(s.t, &s.q, &s.z);
+    let lost = (energy(swing.last()) - energy(swing.first())).abs();
     // Well within half a period of the slow oscillation, as a leg that swings ahead of a walker has to be; nothing
     // takes energy before the knee is straight.
-    if run.stopped_by() != Some(0) || end.t > 0.5 || hip < 0.0 || knee_dot > 0.0 || lost > 1e-8 {
+    if straight.time > 0.5 || hip < 0.0 || lost > 1e-8 || end_of(&run)?.q[1] != 0.0 {
         return Err("that is no step".into());
     }
-    write_page("swinging_leg", &page(&kernel, &run)?)
+    write_page("swinging_leg", &page(&kernel, run.iter().collect()))
+}
+
+fn end_of(run: &ContactTrajectory<'_, LegKernel>) -> Result<Sample<LegKernel>, &'static str> {
+    run.last().ok_or("no step was made")
 }
 
 /// The leg, and the weights of its segments.
-fn page(kernel: &LegKernel, path: &Trajectory<LegKernel>) -> Result<Playback<LegKernel>, IntegrationError> {
+fn page(kernel: &LegKernel, path: Vec<Sample<LegKernel>>) -> Playback<LegKernel> {
     let (mass, depth, _) = lower_leg();
     let weight = |s: &Sample<LegKernel>, frame: LegFrame, depth: f64, mass: f64| {
         let pose = kernel.pose_of(frame, s.t, &s.q);
@@ -156,7 +150,7 @@ fn page(kernel: &LegKernel, path: &Trajectory<LegKernel>) -> Result<Playback<Leg
     };
     let ankle = [0.0, 0.0, -SHANK.length];
     let foot = Shape::cuboid([FOOT.length, 0.08, 0.05]).at(&Isometry3::translation(0.08, 0.0, -SHANK.length - 0.02));
-    Ok(Playback::new("A leg that swings by its weight alone", path)?
+    Playback::of_samples("A leg that swings by its weight alone", path)
         .frames(kernel)
         .from_the_side()
         .shape("thigh", Shape::ball(0.07))
@@ -169,5 +163,5 @@ fn page(kernel: &LegKernel, path: &Trajectory<LegKernel>) -> Result<Playback<Leg
         .arrow("weight of shank and foot", 3e-3, |s| weight(s, LegFrame::shank, depth, mass))
         .curve("angle / °", "hip", |s| s.q[0].to_degrees())
         .curve("angle / °", "knee", |s| s.q[1].to_degrees())
-        .energy(kernel))
+        .energy(kernel)
 }
