@@ -81,6 +81,8 @@ pub(crate) struct Instant<'k, K: ContactSystem> {
     pub(crate) modes: Vec<Mode<K::Scalar>>,
     pub(crate) fired: Option<Watched>,
     pub(crate) first: bool,
+    /// Whether a contact that slides into Painlevé's paradox is stopped by an impulse.
+    pub(crate) jams: bool,
 }
 
 /// What is known of the contacts while modes are chosen.
@@ -141,7 +143,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         made: &mut ContactTrajectory<'k, K>,
     ) -> Result<(), ContactError> {
         scales.largest = scales.largest.max(self.z.max_norm());
-        self.check_paradox(made)?;
+        let jammed = self.check_paradox(scales, made)?;
         let slides = self.begins_to_slide(made);
         let closed = self.closed(scales)?;
         let before = self.sizes(scales);
@@ -166,13 +168,13 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             resting: contacts.clone().map(rests).collect(),
             leaves: self.fired.and_then(|fired| if let Watched::Force(i) = fired { Some(i) } else { None }),
             slides,
-            stuck: contacts.clone().map(|i| !struck && stuck(i)).collect(),
+            stuck: contacts.clone().map(|i| !struck && (stuck(i) || jammed == Some(i))).collect(),
             still,
         };
         let old = self.modes.clone();
         let mut events = Vec::new();
         loop {
-            let accelerations = self.choose(&mut choice, made)?;
+            let accelerations = self.choose(&mut choice, scales.law, made)?;
             let next = contacts.clone().find_map(|i| {
                 let candidate = struck && closed[i] && !choice.resting[i];
                 let kind = candidate.then(|| self.comes_to_rest(i, &accelerations, scales))??;
@@ -190,13 +192,51 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         Ok(())
     }
 
-    /// Ends the run where a sliding contact that was pushed apart by its force no longer is.
-    fn check_paradox(&self, made: &ContactTrajectory<'k, K>) -> Result<(), ContactError> {
-        let Some(Watched::Pushes(i)) = self.fired else { return Ok(()) };
+    /// Where a sliding contact that was pushed apart by its force no longer is: the contact, if it is stopped there;
+    /// else that is an error.
+    fn check_paradox(
+        &mut self,
+        scales: &Scales,
+        made: &mut ContactTrajectory<'k, K>,
+    ) -> Result<Option<usize>, ContactError> {
+        let Some(Watched::Pushes(i)) = self.fired else { return Ok(None) };
         let input = (made.input)(self.t, &self.q, &self.z);
         let bias = self.kernel.contact_dynamics(self.t, &self.q, &self.z, &input).bias;
         let presses = value(bias.component(K::CONTACTS[i].normal)) < 0.0;
+        if presses && self.jams {
+            let closed = (0..K::CONTACTS.len()).filter(|&n| self.modes[n].is_closed() && K::CONTACTS[n].has_gap());
+            self.jam(i, &closed.collect::<Vec<_>>(), scales.law, made)?;
+            return Ok(Some(i));
+        }
         Err(self.error(Some(i), if presses { ContactErrorKind::Inconsistent } else { ContactErrorKind::Indeterminate }))
+    }
+
+    /// Stops the slip of a contact by an impulse at a gap that is closed, with those that it makes at others: an impact
+    /// without collision. With forces alone there is no motion.
+    fn jam(
+        &mut self,
+        i: usize,
+        contacts: &[usize],
+        law: Impact,
+        made: &mut ContactTrajectory<'k, K>,
+    ) -> Result<(), ContactError> {
+        let friction = self.friction(made)?;
+        let rates = self.kernel.contact_rates(self.t, &self.q, &self.z);
+        let response = self.kernel.contact_response(self.t, &self.q);
+        let rows = rows::<K>(contacts);
+        let laws = contacts.iter().map(|&n| Law::new(&K::CONTACTS[n], Bounds::of(&K::CONTACTS[n], &friction), None));
+        let matrix = Matrix::from_fn(rows.len(), |a, b| response.delassus[(rows[a], rows[b])]);
+        let before = rows.iter().map(|&row| rates.component(row)).collect();
+        let solver = Contacts::new(laws.collect(), matrix, before);
+        let place = contacts.iter().position(|&n| n == i).unwrap_or(0);
+        let found = solver.where_sticks(place).map_err(|failure| self.failed(contacts, failure))?;
+        let mut impulses = vec![K::Scalar::zero(); K::ContactRows::DIM];
+        rows.iter().zip(&found.forces).for_each(|(&row, impulse)| impulses[row] = *impulse);
+        self.z = after::<K>(&response, &self.z, &impulses);
+        let residuals = contacts.iter().copied().zip(found.residuals).collect();
+        made.solves.push(SolveRecord { time: value(self.t), impact: true, residuals });
+        let impulses: Vec<f64> = impulses.iter().copied().map(value).collect();
+        self.record(contacts, &rates, &impulses, (law, made))
     }
 
     /// The direction in which a contact that stuck begins to slide: against its friction.
@@ -386,6 +426,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
     fn choose(
         &mut self,
         choice: &mut Choice<K::Scalar>,
+        law: Impact,
         made: &mut ContactTrajectory<'k, K>,
     ) -> Result<Vec<f64>, ContactError> {
         // Each time one of the two that are forced is given up.
@@ -400,7 +441,16 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             let matrix = Matrix::from_fn(rows.len(), |i, j| delassus[(rows[i], rows[j])]);
             let bias = rows.iter().map(|&row| dynamics.bias.component(row)).collect();
             let solver = Contacts::new(laws.clone(), matrix, bias);
-            let solution = solver.solve().map_err(|failure| self.failed(&contacts, failure))?;
+            let solution = match solver.solve() {
+                // A contact is stopped once: then its slip is not known to go on.
+                Err(Failure::Inconsistent(n)) if self.jams && laws[n].along().is_some() => {
+                    let gaps = contacts.iter().copied().filter(|&i| K::CONTACTS[i].has_gap());
+                    self.jam(contacts[n], &gaps.collect::<Vec<_>>(), law, made)?;
+                    choice.stuck[contacts[n]] = true;
+                    continue;
+                }
+                solved => solved.map_err(|failure| self.failed(&contacts, failure))?,
+            };
             let rate = |row: usize| {
                 let each =
                     rows.iter().zip(&solution.forces).map(|(&column, force)| value(delassus[(row, column)] * *force));

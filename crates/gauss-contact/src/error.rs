@@ -51,7 +51,8 @@ pub enum ContactErrorKind {
     InvalidInterval,
     /// Gaps, rates or coefficients of the contacts are not finite.
     NonFinite,
-    /// Painlevé's paradox: no contact force agrees with rigid bodies and Coulomb's law here.
+    /// Painlevé's paradox: no contact force agrees with rigid bodies and Coulomb's law here. See
+    /// [`ContactRun::impact_without_collision`](crate::ContactRun::impact_without_collision).
     Inconsistent,
     /// Painlevé's paradox: several motions agree with rigid bodies and Coulomb's law here.
     Indeterminate,
@@ -131,7 +132,7 @@ impl fmt::Display for ContactErrorKind {
             Self::EnergyGrows { law, before, after } => write!(
                 f,
                 "by the law {law:?} the impact would raise the kinetic energy from {before:e} to {after:e}; \
-                 `Impact::Moreau` keeps it from growing"
+                 `Impact::Moreau` and `Poisson` keep it from growing"
             ),
             Self::Zeno { impacts } => write!(f, "{impacts} impacts at one time do not end"),
             Self::Chatter { changes } => write!(f, "{changes} changes of modes at one time do not end"),

@@ -1,7 +1,8 @@
 //! What bounds the friction of a contact: a circle or an ellipse of forces.
 //!
 //! Friction along two axes is `(λ₁/μ₁)² + (λ₂/μ₂)² ≤ λ_N²`, and takes the most of the power of slip. With the larger
-//! μ and weights `κ_k = μ_k/μ` the ellipse of λ and s is the circle of `λ_k/κ_k` and `κ_k s_k`, whose products are the same.
+//! μ and weights `κ_k = μ_k/μ` the ellipse of λ and s is the circle of `λ_k/κ_k` and `κ_k s_k`, whose products are
+//! the same.
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::Contact;

@@ -15,8 +15,8 @@ use crate::solver::{Contacts, Failure, Law, Residual};
 /// What an impact does to velocities u⁻ of the contacts that are closed: `u⁺ = u⁻ + D Λ` with impulses Λ.
 ///
 /// A gap that opens before the impact may close after it, at e times its rate: it strikes again at once, which takes
-/// more energy away. Held to stay open instead, it would give energy: three balls that fall on one another would. Dry
-/// friction has no part in impacts: its force is bounded, and so is its impulse by zero in no time.
+/// more energy away. Held to stay open instead, it would give energy: three balls that fall on one another would.
+/// Dry friction has no part in impacts: its force is bounded, and so is its impulse by zero in no time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Impact {
@@ -29,6 +29,13 @@ pub enum Impact {
     /// a contact. Where all contacts have the same e, the energy cannot grow:
     /// `ΔT = Λᵀ ū − ½ (1 − e)/(1 + e) Λᵀ D Λ`, and neither term is positive (J. J. Moreau 1988).
     Moreau,
+    /// All contacts at once, in two phases. Compression ends with the laws of Signorini and Coulomb for velocities
+    /// without restitution; in restitution each contact passes on e times its normal impulse of compression, or more
+    /// if it would close again, with Coulomb's friction between that and the slip at the end (S. D. Poisson; for
+    /// several contacts C. Glocker & F. Pfeiffer 1995). Where all contacts have the same e the energy cannot grow,
+    /// with friction either: `ΔT ≤ −½ |Λ_R − e Λ_C|² − ½ (1 − e²) |Λ_C|²` in the metric of D, since friction of
+    /// restitution could be e times that of compression and takes no less power from the slip at the end.
+    Poisson,
     /// Newton's law for one contact after another, that which closes fastest first, as if the others were not there.
     /// Of Newton's cradle the last ball leaves alone.
     Sequential,
@@ -58,6 +65,9 @@ pub(crate) fn rows<K: ContactSystem>(contacts: &[usize]) -> Vec<usize> {
 impl<K: ContactSystem> Struck<'_, K> {
     /// The impulses that a law asks for.
     pub(crate) fn solve(&self, law: Impact) -> Result<Blow<K::Scalar>, Failure> {
+        if law == Impact::Poisson {
+            return self.poisson();
+        }
         let (zero, one) = (K::Scalar::zero(), K::Scalar::one());
         let rows = rows::<K>(self.contacts);
         let owner: Vec<usize> =

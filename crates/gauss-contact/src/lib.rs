@@ -10,7 +10,8 @@
 //! - Bounces that pile up end in rest ([`EventKind::Rests`]), with what was left out.
 //! - Contacts that depend on one another, as four legs of a table, have forces of least norm; the motion is unique.
 //! - Each solution of the laws has its residuals in the history ([`SolveRecord`]).
-//! - Where rigid bodies and Coulomb's law have no motion or several (Painlevé), the run ends with an error.
+//! - Where rigid bodies and Coulomb's law have no motion or several (Painlevé), the run ends with an error; where they
+//!   have none it can go on by an impulse ([`ContactRun::impact_without_collision`]).
 //!
 //! Limits: flights lower than some hundred roundings of the largest coordinate are rest, or an error where e = 1. A gap
 //! that opens and closes within a step is seen as far as [events](gauss_runtime::integrate::drive::event) are; one that
@@ -22,8 +23,9 @@
 //! followed as far as the bounces are; what rests moves with its closed gap, so that a start on a closed gap is
 //! differentiated along it. What has none ends with [`ContactErrorKind::Grazes`] or [`ContactErrorKind::Together`].
 //!
-//! Friction is Coulomb's, isotropic; with two tangents and a friction so large that it can reverse the effect of
-//! a normal force, uniqueness is not checked for contacts that begin to slide.
+//! Friction is Coulomb's, a circle or an ellipse, and dry friction of a given bound; with two tangents and a friction
+//! so large that it can reverse the effect of a normal force, uniqueness is not checked for contacts that begin to
+//! slide.
 
 #![no_std]
 #![forbid(unsafe_code)]
@@ -39,6 +41,7 @@ mod friction;
 mod history;
 mod impact;
 mod mode;
+mod poisson;
 mod problem;
 mod run;
 mod solver;

@@ -31,6 +31,7 @@ pub struct ContactRun<'k, K, C = NoControl, I = NoInput> {
     control: C,
     input: I,
     law: Impact,
+    jams: bool,
     tolerance: Tolerance,
     limit: usize,
 }
@@ -43,7 +44,8 @@ impl<'k, K: ContactSystem> ContactRun<'k, K> {
     pub fn new(kernel: &'k K) -> Self {
         const { assert!(K::Scalar::LANES == 1, "runs with contacts take one state at a time, no packs of numbers") }
         let tolerance = Tolerance { relative: 1e-9, absolute: 1e-9 };
-        Self { kernel, control: NoControl, input: NoInput, law: Impact::Newton, tolerance, limit: MOST_EVENTS }
+        let (law, limit) = (Impact::Newton, MOST_EVENTS);
+        Self { kernel, control: NoControl, input: NoInput, law, jams: false, tolerance, limit }
     }
 }
 
@@ -56,8 +58,8 @@ impl<'k, K: ContactSystem, C, I> ContactRun<'k, K, C, I> {
 
     /// Any method with its choice of steps.
     pub fn control<D>(self, control: D) -> ContactRun<'k, K, D, I> {
-        let Self { kernel, input, law, tolerance, limit, .. } = self;
-        ContactRun { kernel, control, input, law, tolerance, limit }
+        let Self { kernel, input, law, jams, tolerance, limit, .. } = self;
+        ContactRun { kernel, control, input, law, jams, tolerance, limit }
     }
 
     /// The speeds that count as rest where bounces pile up and where a slip along two tangents ends: `absolute`, plus
@@ -72,13 +74,21 @@ impl<'k, K: ContactSystem, C, I> ContactRun<'k, K, C, I> {
     where
         G: Fn(K::Scalar, &K::Configuration, &K::Speeds) -> K::Input,
     {
-        let Self { kernel, control, law, tolerance, limit, .. } = self;
-        ContactRun { kernel, control, input: Feedback(input), law, tolerance, limit }
+        let Self { kernel, control, law, jams, tolerance, limit, .. } = self;
+        ContactRun { kernel, control, input: Feedback(input), law, jams, tolerance, limit }
     }
 
     /// The law of impacts.
     pub fn law(mut self, law: Impact) -> Self {
         self.law = law;
+        self
+    }
+
+    /// At Painlevé's states without a motion ([`ContactErrorKind::Inconsistent`]) an impulse stops the slip, at a gap
+    /// that is closed and does not close further: an impact without collision, the only solution of the laws for
+    /// velocities but none at all (F. Génot & B. Brogliato 1999). Without this the run ends there.
+    pub fn impact_without_collision(mut self) -> Self {
+        self.jams = true;
         self
     }
 
@@ -119,14 +129,15 @@ impl<'k, K: ContactSystem, C, I> ContactRun<'k, K, C, I> {
         C: Control<InMode<'k, K>> + Clone + 'k,
         I: InputSource<K> + 'k,
     {
-        let Self { kernel, control, input, law, tolerance, limit } = self;
+        let Self { kernel, control, input, law, jams, tolerance, limit } = self;
         let input: InputOf<'k, K> = Rc::new(move |t, q, z| input.input(t, q, z));
         let (segments, events, solves) = (Vec::new(), Vec::new(), Vec::new());
         let made = ContactTrajectory { segments, events, solves, input };
         let scales =
             Scales { tolerance, largest: 0.0, law, start: value(interval.start), epsilon: epsilon::<K::Scalar>() };
         let end = interval.end;
-        let mut driver = Driver { kernel, control, made, scales, end, limit, last: f64::NEG_INFINITY, at_once: 0 };
+        let mut driver =
+            Driver { kernel, control, made, scales, jams, end, limit, last: f64::NEG_INFINITY, at_once: 0 };
         let error = driver.go((interval.start, q0.renormalise(), z0)).err();
         (driver.made, error)
     }
@@ -139,6 +150,7 @@ struct Driver<'k, K: ContactSystem, C> {
     made: ContactTrajectory<'k, K>,
     scales: Scales,
     end: K::Scalar,
+    jams: bool,
     limit: usize,
     /// The time of the last event, and how many there were at it.
     last: f64,
@@ -156,7 +168,7 @@ where
     fn go(&mut self, (t, q, z): (K::Scalar, K::Configuration, K::Speeds)) -> Result<(), ContactError> {
         self.check_start(t, &q, &z)?;
         let modes = vec![Mode::Open; K::CONTACTS.len()];
-        let mut instant = Instant { kernel: self.kernel, t, q, z, modes, fired: None, first: true };
+        let mut instant = Instant { kernel: self.kernel, t, q, z, modes, fired: None, first: true, jams: self.jams };
         loop {
             instant.decide(&mut self.scales, &mut self.made)?;
             let fired = self.segment(&instant)?;

@@ -98,6 +98,16 @@ pub struct Residual {
 }
 
 impl Residual {
+    /// The larger of each.
+    pub(crate) fn worse(self, other: Self) -> Self {
+        Self {
+            signorini: self.signorini.max(other.signorini),
+            coulomb: self.coulomb.max(other.coulomb),
+            dissipation: self.dissipation.max(other.dissipation),
+            rounding: self.rounding.max(other.rounding),
+        }
+    }
+
     fn worst(&self) -> f64 {
         [self.signorini, self.coulomb, self.dissipation]
             .into_iter()
@@ -192,8 +202,19 @@ impl<T: Real> Contacts<T> {
     /// The solution. What contacts do is found by values; forces and directions have the derivatives of the equations
     /// of what they do (implicit functions).
     pub(crate) fn solve(&self) -> Result<Solution<T>, Failure> {
+        self.values().on_circles().map(|found| self.followed(found))
+    }
+
+    /// The only solution, to rounding, in which a contact sticks.
+    pub(crate) fn where_sticks(&self, contact: usize) -> Result<Solution<T>, Failure> {
+        let values = self.values();
+        let found = values.choices(Some(contact)).map(|choices| values.all(&choices)).unwrap_or_default();
+        values.same(contact, found).map(|found| self.followed(found))
+    }
+
+    /// A solution in values with its derivatives, in forces and rates as they are.
+    fn followed(&self, found: Solution) -> Solution<T> {
         let number = T::from_f64;
-        let found = self.values().on_circles()?;
         let lifted = |state: &State| match *state {
             State::Leaves => State::Leaves,
             State::Closed => State::Closed,
@@ -206,7 +227,7 @@ impl<T: Real> Contacts<T> {
         } else {
             (states, found.forces.into_iter().map(number).collect())
         };
-        Ok(self.unscaled(Solution { rates: self.rates(&forces), forces, states, residuals: found.residuals }))
+        self.unscaled(Solution { rates: self.rates(&forces), forces, states, residuals: found.residuals })
     }
 
     fn tangents(&self, i: usize) -> core::ops::Range<usize> {
@@ -339,7 +360,7 @@ impl Contacts {
         }
         if let Some(contact) = (0..self.laws.len()).find(|&i| !self.is_regular(i)) {
             // Of directions that are to be found there are too many to try.
-            if self.laws[contact].slip.is_some() || self.choices().is_some() {
+            if self.laws[contact].slip.is_some() || self.choices(None).is_some() {
                 return self.only(contact);
             }
         }
@@ -363,7 +384,7 @@ impl Contacts {
                 }
             }
         }
-        match self.all() {
+        match self.choices(None).map(|choices| self.all(&choices)) {
             Some(mut found) if !found.is_empty() => Ok(found.swap_remove(0)),
             _ => Err(Failure::NotFound(best)),
         }
@@ -416,13 +437,18 @@ impl Contacts {
     /// Where solutions need not be unique: the only one, if it is.
     fn only(&self, contact: usize) -> Result<Solution, Failure> {
         let normal = self.first[contact];
-        let Some(mut found) = self.all() else {
+        let Some(found) = self.choices(None).map(|choices| self.all(&choices)) else {
             return Err(if self.b[normal] < 0.0 {
                 Failure::Inconsistent(contact)
             } else {
                 Failure::Indeterminate(contact)
             });
         };
+        self.same(contact, found)
+    }
+
+    /// One of several solutions with the same rates.
+    fn same(&self, contact: usize, mut found: Vec<Solution>) -> Result<Solution, Failure> {
         let Some(first) = found.first() else { return Err(Failure::Inconsistent(contact)) };
         let same = |other: &Solution| {
             let pairs = other.rates.iter().zip(&first.rates).enumerate();
@@ -432,9 +458,12 @@ impl Contacts {
     }
 
     /// The states that each contact may have; none where the combinations are too many, or directions are not of finite
-    /// number.
-    fn choices(&self) -> Option<Vec<Vec<State>>> {
-        let of = |law: &Law| {
+    /// number. One of them may be known to stick.
+    fn choices(&self, sticks: Option<usize>) -> Option<Vec<Vec<State>>> {
+        let of = |(i, law): (usize, &Law)| {
+            if sticks == Some(i) {
+                return Some(vec![State::Sticks]);
+            }
             let mut states = match (law.slip, law.tangents) {
                 (Some(_), _) | (None, 0) => vec![State::Closed],
                 (None, 1) => vec![State::Sticks, State::Slides([1.0, 0.0]), State::Slides([-1.0, 0.0])],
@@ -445,14 +474,13 @@ impl Contacts {
             }
             Some(states)
         };
-        let choices: Vec<Vec<State>> = self.laws.iter().map(of).collect::<Option<_>>()?;
+        let choices: Vec<Vec<State>> = self.laws.iter().enumerate().map(of).collect::<Option<_>>()?;
         let count = choices.iter().try_fold(1_usize, |count, of| count.checked_mul(of.len()));
         count.filter(|count| *count <= MOST_COMBINATIONS).map(|_| choices)
     }
 
     /// All combinations of states that agree with the laws.
-    fn all(&self) -> Option<Vec<Solution>> {
-        let choices = self.choices()?;
+    fn all(&self, choices: &[Vec<State>]) -> Vec<Solution> {
         let count = choices.iter().map(Vec::len).product::<usize>();
         let combination = |mut n: usize| {
             let state = |of: &Vec<State>| {
@@ -463,7 +491,7 @@ impl Contacts {
             choices.iter().map(state).collect::<Vec<_>>()
         };
         let solutions = (0..count).map(|n| self.in_states(combination(n)));
-        Some(solutions.filter(|found| found.residuals.iter().all(Residual::holds)).collect())
+        solutions.filter(|found| found.residuals.iter().all(Residual::holds)).collect()
     }
 
     /// One sweep over the contacts: each force is brought to its cone as if the others stayed.

@@ -76,6 +76,7 @@ fn newtons_cradle_has_the_answer_of_its_law() {
     for (law, wanted) in [
         (Impact::Newton, [-third, 2.0 * third, 2.0 * third]),
         (Impact::Moreau, [-third, 2.0 * third, 2.0 * third]),
+        (Impact::Poisson, [-third, 2.0 * third, 2.0 * third]),
         (Impact::Sequential, [0.0, 0.0, 1.0]),
     ] {
         let run = ContactRun::new(&kernel).adaptive(1e-10, 1e-10).law(law);

@@ -11,7 +11,7 @@ use crate::common::{Layout, Scene, V, numbers};
 
 const G: f64 = 9.81;
 
-struct Ground;
+pub struct Ground;
 impl Layout for Ground {
     const CONTACTS: &'static [Contact] = &[Contact::new("ground", 0, 1)];
 }
@@ -124,7 +124,7 @@ fn what_two_fingers_hold_does_not_creep() {
 }
 
 /// A rod of mass m and half length s in its plane, (x, y, θ): its lower end at (s cos θ, −s sin θ) from the centre.
-fn rod(mu: f64) -> Scene<Ground, 3, 1, 2> {
+pub fn rod(mu: f64) -> Scene<Ground, 3, 1, 2> {
     let (m, s) = (1.0, 1.0);
     Scene {
         mass: [m, m, m * s * s / 3.0].into(),
@@ -189,11 +189,11 @@ fn rectangle(mu: f64, [a, b]: [f64; 2]) -> Scene<Corners, 3, 2, 4> {
     }
 }
 
-fn square(mu: f64, a: f64) -> Scene<Corners, 3, 2, 4> {
+pub fn square(mu: f64, a: f64) -> Scene<Corners, 3, 2, 4> {
     rectangle(mu, [a, a])
 }
 
-struct Corners;
+pub struct Corners;
 impl Layout for Corners {
     const CONTACTS: &'static [Contact] = &[Contact::new("left", 0, 1), Contact::new("right", 2, 1)];
 }

@@ -6,4 +6,5 @@ mod dry;
 mod edges;
 mod friction;
 mod hostile;
+mod impacts;
 mod spatial;
