@@ -34,6 +34,7 @@
 
 extern crate alloc;
 
+mod balance;
 mod decide;
 mod dense;
 mod error;
@@ -48,6 +49,7 @@ mod solver;
 mod trajectory;
 mod witness;
 
+pub use balance::ContactBalance;
 pub use error::{ContactError, ContactErrorKind};
 pub use history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
 pub use impact::Impact;

@@ -347,7 +347,7 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
     }
 
     /// Wᵀλ.
-    fn generalised(&self, t: K::Scalar, q: &K::Configuration, forces: &[K::Scalar]) -> K::Speeds {
+    pub(crate) fn generalised(&self, t: K::Scalar, q: &K::Configuration, forces: &[K::Scalar]) -> K::Speeds {
         let jacobian = self.kernel.contact_jacobian(t, q);
         let each = forces.iter().enumerate().filter_map(|(row, force)| Some((force, jacobian.nth(row)?)));
         each.fold(K::Speeds::zero(), |sum, (force, column)| sum.add_scaled(*force, &column))

@@ -96,6 +96,14 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
         self.segment_at(t)?.trajectory.at(t).map(|state| sample(&state)).map_err(|error| integration(value(t), error))
     }
 
+    /// The states at some times, such as those of a table or a page.
+    ///
+    /// # Errors
+    /// Where the run does not cover one of them.
+    pub fn at_times(&self, times: impl IntoIterator<Item = K::Scalar>) -> Result<Vec<Sample<K>>, ContactError> {
+        times.into_iter().map(|t| self.at(t)).collect()
+    }
+
     /// The contact forces at a time, all rows: normal, then tangents, contact by contact; of dry friction tangents
     /// alone. Where contacts depend on one another they are those of least `Σ D_ii λ_i²`; the motion is the same for
     /// all others.

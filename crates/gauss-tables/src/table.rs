@@ -4,6 +4,7 @@ use std::fmt;
 
 use gauss_runtime::chart::Chart;
 use gauss_runtime::configuration::{Configuration, VectorSpace};
+use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::description::DescribedSystem;
 use gauss_runtime::forces::ForcedSystem;
 use gauss_runtime::integrate::{IntegrationError, Sample, Trajectory};
@@ -207,6 +208,41 @@ impl<S: GaussSystem> Table<S> {
         self.with(names, |Sample { t, q, z, .. }, put| {
             let powers = system.powers(*t, q, z, &input(*t, q, z));
             (0..S::ELEMENTS.len()).for_each(|i| put(powers.component(i)));
+        })
+    }
+
+    /// Gap, normal force, and of each tangent the slip and the friction of every contact: `NAME gap`, `NAME force`,
+    /// `NAME slip`, `NAME friction`, of two tangents `NAME slip 1`, and so on; of dry friction the last two. `forces` are all rows of contact forces
+    /// at a state, such as those that a run with contacts has at its time; where they are unknown their columns are
+    /// NaN.
+    #[must_use]
+    pub fn contacts(self, system: &S, forces: impl Fn(&Sample<S>) -> Option<S::ContactRows>) -> Self
+    where
+        S: ContactSystem,
+    {
+        let names = S::CONTACTS.iter().flat_map(|contact| {
+            let of_tangent = move |k: usize| if contact.tangents > 1 { format!(" {}", k + 1) } else { String::new() };
+            let tangential = (0..contact.tangents).flat_map(move |k| {
+                ["slip", "friction"].map(|what| format!("{} {what}{}", contact.name, of_tangent(k)))
+            });
+            let normal = ["gap", "force"].map(|what| format!("{} {what}", contact.name));
+            normal.into_iter().filter(|_| contact.has_gap()).chain(tangential)
+        });
+        self.with(names.map(|name| (name, "")), |sample, put| {
+            let (gaps, rates) =
+                (system.gaps(sample.t, &sample.q), system.contact_rates(sample.t, &sample.q, &sample.z));
+            let forces = forces(sample);
+            let force = |row: usize| forces.as_ref().map_or(S::Scalar::from_f64(f64::NAN), |rows| rows.component(row));
+            for (i, contact) in S::CONTACTS.iter().enumerate() {
+                if contact.has_gap() {
+                    put(gaps.component(i));
+                    put(force(contact.normal));
+                }
+                for row in contact.tangent_rows() {
+                    put(rates.component(row));
+                    put(force(row));
+                }
+            }
         })
     }
 
