@@ -51,10 +51,11 @@ pub enum Method {
     /// ∂C/∂ż at ż = 0; what holds weight and buoyancy.
     NonlinearEffects,
     GravityTorques,
-    /// g; ġ and s; Wᵀ; μ; e. Only with contacts.
+    /// g; ġ and s; Wᵀ; of each contact whose place is known its point, normal and tangents; μ; e. Only with contacts.
     Gaps,
     ContactRates,
     ContactJacobian,
+    ContactFrames,
     Friction,
     Restitution,
     /// A⁻¹Wᵀ and D = W A⁻¹Wᵀ; ż without contact forces, b = W ż + γ, and these.
@@ -98,7 +99,7 @@ impl Method {
         [Self::TotalMass, Self::CenterOfMass, Self::CentroidalMomentum, Self::CentroidalMatrix, Self::CentroidalBias];
 
     /// What a kernel has on request, but single frames, and with contacts.
-    pub const ASKED_FOR: [Self; 13] = [
+    pub const ASKED_FOR: [Self; 14] = [
         Self::Frames,
         Self::CenterOfMass,
         Self::CentroidalMomentum,
@@ -109,6 +110,7 @@ impl Method {
         Self::Gaps,
         Self::ContactRates,
         Self::ContactJacobian,
+        Self::ContactFrames,
         Self::Friction,
         Self::ContactResponse,
         Self::ContactDynamics,
@@ -156,6 +158,7 @@ impl Method {
             Method::Gaps => "gaps",
             Method::ContactRates => "contact_rates",
             Method::ContactJacobian => "contact_jacobian",
+            Method::ContactFrames => "contact_frames",
             Method::Friction => "friction",
             Method::Restitution => "restitution",
             Method::ContactResponse => "contact_response",

@@ -17,16 +17,18 @@
 use core::fmt::{self, Debug};
 use core::ops::{Index, Range};
 
+use nalgebra::Vector3;
+
 use crate::configuration::VectorSpace;
 use crate::forces::Columns;
+use crate::real::Real;
 use crate::system::GaussSystem;
 
 /// A system some of whose gaps may close, or with dry friction.
 ///
 /// Rows of contacts are numbered contact by contact: of each its normal, then its tangents; of dry friction only the
-/// tangents. Units are those of the gaps
-/// and of slips: with lengths λ is a force, with angles a torque. Bilateral constraints of the scene hold in all of it:
-/// A⁻¹ is then the inverse on the velocities that they admit.
+/// tangents. Units are those of the gaps and of slips: with lengths λ is a force, with angles a torque. Bilateral
+/// constraints of the scene hold in all of it: A⁻¹ is then the inverse on the velocities that they admit.
 pub trait ContactSystem: GaussSystem {
     /// `SVector<Scalar, C>`, C contacts: one component for each.
     type Gaps: VectorSpace<Self::Scalar>;
@@ -52,6 +54,18 @@ pub trait ContactSystem: GaussSystem {
 
     /// Wᵀ, `W = ∂(ġ, s)/∂z`: the generalised force of a unit contact force, column by column.
     fn contact_jacobian(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::ContactColumns;
+
+    /// Where a contact is, by its number among [`CONTACTS`](Self::CONTACTS); `None` of gaps and slips that are written
+    /// as expressions, of ranges and of dry friction.
+    fn contact_frame(
+        &self,
+        contact: usize,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+    ) -> Option<ContactFrame<Self::Scalar>> {
+        let _ = (contact, t, q);
+        None
+    }
 
     /// The bounds of friction, row by row: μ of each tangent of a contact, f of each slip of dry friction, in its
     /// generalised force; 0 of normals. Two tangents of a contact are the axes of an ellipse:
@@ -93,6 +107,40 @@ pub struct Contact {
     pub tangents: usize,
     /// What bounds its friction.
     pub kind: ContactKind,
+}
+
+/// Where a contact is. Components are along the observer's axes, points are from the observer's origin Ω.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ContactFrame<T> {
+    /// Where it touches; of an open contact the point of the first body that would.
+    pub point: Vector3<T>,
+    /// The normal, towards the first body; of length one.
+    pub normal: Vector3<T>,
+    tangents: [Vector3<T>; 2],
+    count: usize,
+}
+
+impl<T: Real> ContactFrame<T> {
+    /// From its parts; of tangents the first two, in the order of the rows.
+    pub fn new(point: Vector3<T>, normal: Vector3<T>, tangents: &[Vector3<T>]) -> Self {
+        let zero = Vector3::new(T::zero(), T::zero(), T::zero());
+        let tangent = |k: usize| tangents.get(k).copied().unwrap_or(zero);
+        Self { point, normal, tangents: [tangent(0), tangent(1)], count: tangents.len().min(2) }
+    }
+
+    /// The tangents of the slips, in the order of their rows; of length one.
+    pub fn tangents(&self) -> &[Vector3<T>] {
+        &self.tangents[..self.count]
+    }
+
+    /// The force on the first body at the point, from the forces of the rows of this contact.
+    pub fn force(&self, rows: &[T]) -> Vector3<T> {
+        let axes = core::iter::once(&self.normal).chain(self.tangents());
+        axes.zip(rows).fold(Vector3::new(T::zero(), T::zero(), T::zero()), |sum, (axis, force)| {
+            Vector3::new(axis[0].fma(*force, sum[0]), axis[1].fma(*force, sum[1]), axis[2].fma(*force, sum[2]))
+        })
+    }
 }
 
 /// What bounds the friction of a contact.

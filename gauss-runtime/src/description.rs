@@ -167,6 +167,8 @@ by_method! {
     contact_rates,
     /// Of [`ContactSystem::contact_jacobian`](crate::contact::ContactSystem::contact_jacobian).
     contact_jacobian,
+    /// Of [`ContactSystem::contact_frame`](crate::contact::ContactSystem::contact_frame): of all contacts together.
+    contact_frames,
     /// Of [`ContactSystem::friction`](crate::contact::ContactSystem::friction).
     friction,
     /// Of [`ContactSystem::contact_response`](crate::contact::ContactSystem::contact_response).

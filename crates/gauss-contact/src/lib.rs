@@ -56,7 +56,7 @@ pub use impact::Impact;
 pub use mode::{InMode, Mode};
 pub use run::ContactRun;
 pub use solver::Residual;
-pub use trajectory::{ContactTrajectory, Segment};
+pub use trajectory::{ContactForce, ContactTrajectory, Segment};
 
 /// The page of the crate, whose program is a test.
 #[cfg(doctest)]

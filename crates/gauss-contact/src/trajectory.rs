@@ -4,8 +4,9 @@ use alloc::rc::Rc;
 use alloc::vec::Vec;
 
 use gauss_runtime::configuration::VectorSpace;
-use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::contact::{Contact, ContactSystem};
 use gauss_runtime::integrate::{IntegrationErrorKind, Sample, Trajectory};
+use gauss_runtime::nalgebra::Vector3;
 
 use crate::dense::value;
 use crate::error::{ContactError, ContactErrorKind};
@@ -40,6 +41,18 @@ impl<'k, K: ContactSystem> Segment<'k, K> {
     pub fn trajectory(&self) -> &Trajectory<'k, InMode<'k, K>> {
         &self.trajectory
     }
+}
+
+/// A contact force as a vector: components along the observer's axes, the point is from Ω.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ContactForce<T = f64> {
+    /// The contact, by its place in [`ContactSystem::CONTACTS`].
+    pub contact: usize,
+    /// Where it acts.
+    pub point: Vector3<T>,
+    /// The force on the first body.
+    pub force: Vector3<T>,
 }
 
 /// A run with contacts: segments between events, and what happened at the events.
@@ -118,6 +131,24 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
         let mut forces = K::ContactRows::zero();
         loads.forces.iter().enumerate().for_each(|(row, force)| forces.set_component(row, *force));
         Ok(forces)
+    }
+
+    /// The contact forces at a time as vectors: of each closed contact whose place is known
+    /// ([`contact_frame`](ContactSystem::contact_frame)) its number, where it is, and the force on its first body there,
+    /// along the observer's axes.
+    ///
+    /// # Errors
+    /// Where the run does not cover the time.
+    pub fn force_vectors(&self, t: K::Scalar) -> Result<Vec<ContactForce<K::Scalar>>, ContactError> {
+        let (state, modes, forces) = (self.at(t)?, self.modes(t)?, self.forces(t)?);
+        let kernel = self.segment_at(t)?.system.kernel;
+        let closed = K::CONTACTS.iter().zip(modes).enumerate().filter(|(_, (_, mode))| mode.is_closed());
+        let vector = |(contact, (rows, _)): (usize, (&Contact, &Mode<K::Scalar>))| {
+            let frame = kernel.contact_frame(contact, t, &state.q)?;
+            let rows: Vec<K::Scalar> = rows.rows().map(|row| forces.component(row)).collect();
+            Some(ContactForce { contact, point: frame.point, force: frame.force(&rows) })
+        };
+        Ok(closed.filter_map(vector).collect())
     }
 
     /// The modes of the contacts at a time; at an event, those after it.

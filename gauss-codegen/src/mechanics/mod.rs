@@ -52,7 +52,7 @@ pub use check::faults::{Claims, SystemFault, check_system_against_definition, ha
 #[cfg(test)]
 pub use check::witness::acceleration_by_definition;
 pub use constraints::constraint::{Constraint, ConstraintKind};
-pub use constraints::contact::Contact;
+pub use constraints::contact::{Contact, ContactFrame};
 pub use constraints::elimination::{Elimination, Obstacle};
 pub use constraints::multipliers::Constraints;
 pub use derivatives::hessian::Hessian;

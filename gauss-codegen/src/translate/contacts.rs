@@ -31,11 +31,11 @@ impl<'g> Translator<'_, 'g> {
             }
             let restitution = coefficient(&written.restitution, LawKind::Restitution, "restitution")?;
             let forms = match &written.touching {
-                Touching::Gap { gap, slips } => vec![(Some(self.scalar(gap, tree)?), self.slips(slips, tree)?)],
-                Touching::Slip { slips, .. } => vec![(None, self.slips(slips, tree)?)],
+                Touching::Gap { gap, slips } => vec![(Some(self.scalar(gap, tree)?), self.slips(slips, tree)?, None)],
+                Touching::Slip { slips, .. } => vec![(None, self.slips(slips, tree)?, None)],
                 Touching::Point(contact) => {
                     let forms = self.shape(&name, contact, !friction.is_empty(), tree)?;
-                    forms.into_iter().map(|(gap, slips)| (Some(gap), slips)).collect()
+                    forms.into_iter().map(|(gap, slips, frame)| (Some(gap), slips, Some(frame))).collect()
                 }
                 Touching::Range { along, from, to } => {
                     let x = self.scalar(along, tree)?;
@@ -45,22 +45,22 @@ impl<'g> Translator<'_, 'g> {
                         self.note(LawKind::Limits, (&name, ""), e, vec![least, most]);
                     }
                     let gaps = least.map(|least| x - least).into_iter().chain(most.map(|most| most - x));
-                    gaps.map(|gap| (Some(gap), Vec::new())).collect()
+                    gaps.map(|gap| (Some(gap), Vec::new(), None)).collect()
                 }
             };
             if let (Touching::Point(_), Some(e)) = (&written.touching, written.friction.first())
-                && forms.iter().all(|(_, slips)| slips.is_empty())
+                && forms.iter().all(|(_, slips, _)| slips.is_empty())
             {
                 self.mistake(
                     e.span,
                     format!("nothing slips along `{name}`, so friction does nothing; remove `friction`"),
                 );
             }
-            contacts.extend(written.names.iter().zip(forms).map(|(name, (gap, slips))| {
+            contacts.extend(written.names.iter().zip(forms).map(|(name, (gap, slips, frame))| {
                 // Of two coefficients the one of the same tangent.
                 let friction = |k: usize| friction.get(k).or(friction.first()).copied();
                 let (slips, friction) = slips.into_iter().filter_map(|(k, slip)| Some((slip, friction(k)?))).unzip();
-                Contact { name: name.unraw().to_string(), gap, slips, friction, restitution, clause }
+                Contact { name: name.unraw().to_string(), gap, slips, friction, restitution, frame, clause }
             }));
         }
         Ok(contacts)

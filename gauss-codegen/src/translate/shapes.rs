@@ -2,7 +2,7 @@
 
 use crate::algebra::{Expr, Substitution};
 use crate::error::Result;
-use crate::mechanics::{Tree, add, cross, dot, subtract};
+use crate::mechanics::{ContactFrame, Tree, add, cross, dot, subtract};
 use crate::model::{Against, Copies, Expression, PointContact, Property};
 use crate::terms::{LawKind, Motion};
 
@@ -17,8 +17,8 @@ const LIMIT: usize = 400;
 /// Slips with the number of their tangent.
 pub(super) type Slips<'g> = Vec<(usize, Expr<'g>)>;
 
-/// Gap and slips.
-type Form<'g> = (Expr<'g>, Slips<'g>);
+/// Gap, slips, and where it touches.
+type Form<'g> = (Expr<'g>, Slips<'g>, ContactFrame<'g>);
 
 /// A place of a shape.
 struct Part<'g> {
@@ -139,13 +139,16 @@ impl<'g> Translator<'_, 'g> {
             }
         };
         let gap = facing.gap - depth;
+        let mut frame = ContactFrame { point: add(&part.position, &arm), axes: vec![*n] };
         if facing.tangents.is_empty() {
-            return Ok((gap, Vec::new()));
+            return Ok((gap, Vec::new(), frame));
         }
         let velocity = subtract(&self.velocity_at(part, &arm, tree), &facing.velocity);
         let slips = facing.tangents.iter().map(|tangent| dot(tangent, &velocity));
         // Across the plane of a motion nothing slips.
-        Ok((gap, slips.enumerate().filter(|(_, slip)| !slip.collected(LIMIT).is_zero()).collect()))
+        let slips: Slips<'g> = slips.enumerate().filter(|(_, slip)| !slip.collected(LIMIT).is_zero()).collect();
+        frame.axes.extend(slips.iter().map(|(k, _)| facing.tangents[*k]));
+        Ok((gap, slips, frame))
     }
 
     /// The velocity of the point of a body that is an arm away from a part; what is in no body does not turn.

@@ -25,7 +25,7 @@ pub use crate::centroidal::{CentroidalSystem, GravityTorques};
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart};
 pub use crate::configuration::Configuration;
 pub use crate::constraint::{ConstrainedSystem, ProjectionError, project};
-pub use crate::contact::{Contact, ContactDynamics, ContactResponse, ContactSystem};
+pub use crate::contact::{Contact, ContactDynamics, ContactFrame, ContactResponse, ContactSystem};
 pub use crate::description::{DescribedSystem, Equations, FrameOperations, OperationCount, Operations};
 pub use crate::error::{DragKind, ParameterError, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};

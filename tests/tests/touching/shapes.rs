@@ -176,3 +176,50 @@ fn balls_exchange_spin() {
         assert!((given - expected).amax() < 1e-9, "{given} {expected}");
     }
 }
+
+/// A force at the point of a contact, along its normal and tangents, has the generalised force that W gives it.
+fn frames_work_as_rows<K>(kernel: &K, q: &K::Configuration, count: usize)
+where
+    K: ContactSystem<Scalar = f64, Configuration = Isometry3<f64>, Speeds = SVector<f64, 6>>,
+{
+    let columns = kernel.contact_jacobian(0.0, q);
+    let mut seen = 0;
+    for (i, contact) in K::CONTACTS.iter().enumerate() {
+        let frame = kernel.contact_frame(i, 0.0, q).unwrap();
+        let rows: Vec<f64> = contact.rows().map(|row| 0.7 - 0.4 * (row % 5) as f64).collect();
+        let force = frame.force(&rows);
+        // Of u and ω in body axes, with the pole at O.
+        let arm = frame.point - q.translation.vector;
+        let wrench = [force, arm.cross(&force)].map(|v| q.rotation.inverse() * v);
+        let expected = contact.rows().zip(&rows).fold(SVector::<f64, 6>::zeros(), |sum, (row, force)| {
+            sum + gauss_runtime::forces::Columns::nth(&columns, row).unwrap() * *force
+        });
+        let found = SVector::<f64, 6>::from_fn(|k, _| wrench[k / 3][k % 3]);
+        // Products of numbers of order one, some tens of roundings.
+        assert!((found - expected).amax() < 64.0 * f64::EPSILON, "{contact}: {found} {expected}");
+        assert!((frame.normal.norm() - 1.0).abs() < 8.0 * f64::EPSILON);
+        seen += 1;
+    }
+    assert_eq!(seen, count);
+}
+
+#[test]
+fn frames_of_contacts_are_where_their_forces_act() {
+    let rotation = UnitQuaternion::from_euler_angles(0.4, -0.3, 1.1);
+    let pose = Isometry3::from_parts(Translation3::new(0.3, -0.2, 0.5), rotation);
+    frames_work_as_rows(&Cargo { mu: 0.1 }.kernel().unwrap(), &pose, 8);
+    let drum = Drum { r: 0.2, mu: 0.3, g: Vector3::new(0.0, 0.0, -G) };
+    frames_work_as_rows(&drum.kernel().unwrap(), &pose, 2);
+
+    // What a run gives: the box that rests is borne by its four lower corners.
+    let kernel = Cargo { mu: 0.1 }.kernel().unwrap();
+    let start = Isometry3::translation(1.0, 2.0, 0.2);
+    let run = ContactRun::new(&kernel).adaptive(1e-10, 1e-10).run(start, SVector::zeros(), 0.0..0.1).unwrap();
+    let vectors = run.force_vectors(0.05).unwrap();
+    assert_eq!(vectors.iter().map(|vector| vector.contact).collect::<Vec<_>>(), [0, 1, 2, 3]);
+    for vector in vectors {
+        assert!((vector.force - Vector3::new(0.0, 0.0, 0.5 * G)).amax() < 1e-12);
+        let corner = (vector.point - Vector3::new(1.0, 2.0, 0.0)).abs();
+        assert!((corner - Vector3::new(0.5, 0.3, 0.0)).amax() < 1e-12, "{corner}");
+    }
+}

@@ -81,6 +81,7 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
         | Method::GravityTorques
         | Method::Gaps
         | Method::ContactJacobian
+        | Method::ContactFrames
         | Method::Restitution
         | Method::ContactResponse => &[],
     }

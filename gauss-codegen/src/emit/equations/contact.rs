@@ -38,6 +38,7 @@ pub fn contact_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         let arguments = arguments_of(Method::ContactDynamics);
         derived.function_of("contact_dynamics", arguments, quote!(#private::ContactDynamics<Self>), body)
     };
+    let frames = frames(derived);
     let items = quote! {
         type Gaps = #private::SVector<#ty, #count>;
         type ContactRows = #private::SVector<#ty, #rows>;
@@ -45,6 +46,7 @@ pub fn contact_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         type Delassus = #private::SMatrix<#ty, #rows, #rows>;
         const CONTACTS: &'static [#private::Contact] = &[#(#listed),*];
         #(#methods)*
+        #frames
         #[inline]
         fn restitution(&self) -> Self::Gaps { #restitution }
         #[inline]
@@ -53,6 +55,35 @@ pub fn contact_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         #of_motion
     };
     Some(derived.implementation(quote!(ContactSystem), items))
+}
+
+/// The frame of one contact: all of them are computed, since only one of them is rarely wanted.
+fn frames(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let private = derived.private();
+    let (body, outputs) = derived.computed(derived.program(Method::ContactFrames)?);
+    let vector = |of: &[TokenStream]| quote!(#private::vector([#(#of),*]));
+    let mut vectors = outputs.chunks(3).map(vector);
+    let each = derived.subject.system.scene.contacts.iter().map(|contact| match &contact.frame {
+        None => quote!(::core::option::Option::None),
+        Some(frame) => {
+            let point = vectors.next();
+            let axes: Vec<TokenStream> = vectors.by_ref().take(frame.axes.len()).collect();
+            let (normal, tangents) = axes.split_first().map_or((None, &[][..]), |(normal, rest)| (Some(normal), rest));
+            quote!(::core::option::Option::Some(#private::ContactFrame::new(#point, #normal, &[#(#tangents),*])))
+        }
+    });
+    let each: Vec<TokenStream> = each.collect();
+    Some(quote! {
+        fn contact_frame(
+            &self,
+            __contact: ::core::primitive::usize,
+            __t: Self::Scalar,
+            __q: &Self::Configuration,
+        ) -> ::core::option::Option<#private::ContactFrame<Self::Scalar>> {
+            #body
+            [#(#each),*].get(__contact).copied().flatten()
+        }
+    })
 }
 
 /// The contacts with the numbers of their rows.

@@ -14,8 +14,19 @@ pub struct Contact<'g> {
     pub friction: Vec<Expr<'g>>,
     /// e, a constant.
     pub restitution: Option<Expr<'g>>,
+    /// Where it is, if that is known.
+    pub frame: Option<ContactFrame<'g>>,
     /// Which of the clauses it comes from.
     pub clause: usize,
+}
+
+/// Functions of t and q, components along the observer's axes.
+#[derive(Clone)]
+pub struct ContactFrame<'g> {
+    /// Where it touches, from Ω: of an open contact the point of the first body that would.
+    pub point: [Expr<'g>; 3],
+    /// The normal, then the tangents of the slips; of length one.
+    pub axes: Vec<[Expr<'g>; 3]>,
 }
 
 impl<'g> Contact<'g> {

@@ -28,9 +28,14 @@ impl<'g> System<'g> {
             normal.into_iter().chain(contact.friction.iter().copied()).collect::<Vec<_>>()
         };
         let responses = self.responses(accelerations);
+        let frame = |contact: &Contact<'g>| {
+            let frame = contact.frame.iter();
+            frame.flat_map(|frame| frame.point.iter().chain(frame.axes.iter().flatten())).copied().collect::<Vec<_>>()
+        };
         let rows = 0..self.contacts.rates.len();
         let transposed = (0..scene.speeds.len()).flat_map(|k| rows.clone().map(move |row| (row, k)));
-        vec![
+        let frames: Vec<Expr<'g>> = scene.contacts.iter().flat_map(frame).collect();
+        let mut formulas = vec![
             single(Method::Gaps, scene.contacts.iter().map(|contact| coefficient(contact.gap)).collect()),
             single(Method::ContactRates, self.contacts.rates.clone()),
             single(Method::ContactJacobian, transposed.map(|(row, k)| self.contacts.jacobian[row][k]).collect()),
@@ -47,7 +52,11 @@ impl<'g> System<'g> {
                 method: Method::ContactDynamics,
                 arrangements: responses.iter().map(|response| self.contact_dynamics(response)).collect(),
             },
-        ]
+        ];
+        if !frames.is_empty() {
+            formulas.push(single(Method::ContactFrames, frames));
+        }
+        formulas
     }
 
     /// The multipliers of the constraints that unit contact forces make, one list for each row; for checks.
