@@ -272,11 +272,17 @@ pub struct Tendon {
     pub damping: f64,
     /// The least and the most length without force.
     pub rest: [f64; 2],
+    /// The least and the most length.
+    pub limits: Option<[f64; 2]>,
 }
 
 /// A spring with a damper along a sum of distances.
 #[derive(Clone, Debug)]
 pub struct Cable {
+    /// As the file has it.
+    pub name: Option<String>,
+    /// Its element.
+    pub at: At,
     /// Two links, between whose origins it runs, with what the length changes by that distance.
     pub parts: Vec<([String; 2], f64)>,
     /// Force by length.
@@ -286,6 +292,8 @@ pub struct Cable {
     /// The least and the most length without force; where there are none, the length while all joints are where their
     /// springs have no force.
     pub rest: Option<[f64; 2]>,
+    /// The least and the most length.
+    pub limits: Option<[f64; 2]>,
 }
 
 /// A sum of coordinates, with their factors, is a polynomial of another, all from their references.

@@ -1,4 +1,5 @@
-//! Runs of shapes: a box that falls on a face, a cylinder that rolls, a bead on hills, spheres that rub.
+//! Runs of shapes: a box that falls on a face, a cylinder that rolls, a bead on hills, spheres that rub; and of robots
+//! whose files have limits.
 
 use gauss_contact::{ContactRun, EventKind, ImpactRecord, Mode};
 use gauss_runtime::prelude::*;
@@ -222,4 +223,30 @@ fn frames_of_contacts_are_where_their_forces_act() {
         let corner = (vector.point - Vector3::new(1.0, 2.0, 0.0)).abs();
         assert!((corner - Vector3::new(0.5, 0.3, 0.0)).amax() < 1e-12, "{corner}");
     }
+/// Limits of a file: of a joint, of a tendon along a joint, and of a rope.
+#[derive(GaussDynamics)]
+#[gauss(mjcf = "robots/limited.xml", limits = range)]
+struct Limited;
+
+#[test]
+fn limits_of_a_file_are_stops() {
+    let names: Vec<&str> = LimitedKernel::CONTACTS.iter().map(|contact| contact.name).collect();
+    assert_eq!(names, ["elbow_from", "elbow_to", "reach_from", "reach_to", "rope_from", "rope_to"]);
+    let kernel = Limited.kernel().unwrap();
+    let q = SVector::from([0.1, 0.2, -0.05]);
+    let ends = [-60.0_f64.to_radians(), 40.0_f64.to_radians()];
+    // The rope is from 1 to 0.8 + drop.
+    let gaps = [0.1 - ends[0], ends[1] - 0.1, 0.4 + 1.0, 1.2 - 0.4, 0.25, 0.7 - 0.25];
+    assert!((kernel.gaps(0.0, &q) - SVector::from(gaps)).amax() < 1e-15);
+    // Turns about the second axis lower what lies along the first one.
+    let run =
+        ContactRun::new(&kernel).adaptive(1e-10, 1e-10).run(SVector::zeros(), SVector::zeros(), 0.0..1.0).unwrap();
+    let end = run.last().unwrap();
+    assert_eq!(end.z.amax(), 0.0);
+    let gaps = kernel.gaps(1.0, &end.q);
+    assert!([1, 3, 5].iter().all(|&k| gaps[k].abs() < 1e-15), "{gaps}");
+    // A moment of m g l cos q; half of it along a tendon that is 2 q; the weight.
+    let held = [2.0 * 0.5 * G * ends[1].cos(), 0.5 * 0.3 * G * 0.6_f64.cos(), 3.0 * G];
+    let forces = run.forces(1.0).unwrap();
+    assert!((0..3).all(|k| (forces[2 * k + 1] - held[k]).abs() < 1e-12 && forces[2 * k] == 0.0), "{forces} {held:?}");
 }

@@ -57,10 +57,12 @@ impl<'a> File<'a> {
         for tendon in &mut description.tendons {
             tendon.stiffness *= f64::from(!springs);
             tendon.damping *= f64::from(!dampers);
+            tendon.limits = tendon.limits.filter(|_| !limits);
         }
         for cable in &mut description.cables {
             cable.stiffness *= f64::from(!springs);
             cable.damping *= f64::from(!dampers);
+            cable.limits = cable.limits.filter(|_| !limits);
         }
         if equalities {
             description.closures.clear();

@@ -26,9 +26,7 @@ const CLASS: Attributes = ("class", Acts);
 const PLACE: &[Attributes] = &[("pos quat axisangle euler xyaxes zaxis", Acts)];
 const HELD: &[Attributes] = &[("name", NAME), ("class active", Acts), ("solref solimp", SOLVER)];
 const TENDON: &[Attributes] = &[
-    ("name class stiffness damping springlength", Acts),
-    ("range", Warned("limits of tendons are not modelled", "0")),
-    ("limited", Harmless("whether `range` limits, of which there is a warning")),
+    ("name class stiffness damping springlength range limited", Acts),
     ("frictionloss", Warned("dry friction of tendons is not modelled", "0")),
     (
         "armature",

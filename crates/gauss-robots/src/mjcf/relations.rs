@@ -130,8 +130,8 @@ impl<'a> File<'a> {
     }
 
     /// The stiffness, the damping, and the lengths without force; none where they are those that joints have where
-    /// their springs have no force.
-    fn law(&mut self, node: Node<'a, 'a>) -> ([f64; 2], Option<[f64; 2]>) {
+    /// their springs have no force. Then the lengths that it can have.
+    fn law(&mut self, node: Node<'a, 'a>) -> ([f64; 2], [Option<[f64; 2]>; 2]) {
         let tags = &["tendon"];
         let factors = ["stiffness", "damping"]
             .map(|name| self.numbers::<1>(node, tags, name, None).map_or(0.0, |[amount]| amount));
@@ -145,7 +145,10 @@ impl<'a> File<'a> {
         if rest.is_some_and(|[least, most]| least > most) {
             self.reading.fault(node, "`springlength` is from the least to the most");
         }
-        (factors, rest)
+        let range = self.numbers::<2>(node, tags, "range", None);
+        let word = self.text(node, tags, "limited", None);
+        let limits = range.and_then(|range| self.limited(node, range, word));
+        (factors, [rest, limits])
     }
 
     fn fixed(&mut self, node: Node<'a, 'a>) {
@@ -155,14 +158,14 @@ impl<'a> File<'a> {
             let factor = self.reading.required_number(joint, "coef");
             along.extend(name.zip(factor));
         }
-        let ([stiffness, damping], rest) = self.law(node);
+        let ([stiffness, damping], [rest, limits]) = self.law(node);
         let joints = &self.description.joints;
         let at_spring = |name: &String| joints.iter().find(|joint| joint.name == *name).map_or(0.0, |joint| joint.rest);
         let at_springs: f64 = along.iter().map(|(name, factor)| factor * at_spring(name)).sum();
         let rest = rest.unwrap_or([at_springs; 2]);
         let name = self.reading.text(node, "name").map(str::to_owned);
         let at = self.reading.at(node);
-        self.description.tendons.push(Tendon { name, at, along, stiffness, damping, rest });
+        self.description.tendons.push(Tendon { name, at, along, stiffness, damping, rest, limits });
     }
 
     /// From site to site; a pulley begins a part whose length counts by its divisor.
@@ -191,7 +194,9 @@ impl<'a> File<'a> {
                 _ => return self.ignored(node, WRAPPED),
             }
         }
-        let ([stiffness, damping], rest) = self.law(node);
-        self.description.cables.push(Cable { parts, stiffness, damping, rest });
+        let ([stiffness, damping], [rest, limits]) = self.law(node);
+        let name = self.reading.text(node, "name").map(str::to_owned);
+        let at = self.reading.at(node);
+        self.description.cables.push(Cable { name, at, parts, stiffness, damping, rest, limits });
     }
 }

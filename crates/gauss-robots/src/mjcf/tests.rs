@@ -443,6 +443,8 @@ const SAMPLES: &[(&str, &str, &str)] = &[
     ("tendon/fixed", r#"name="t""#, r#"stiffness="7""#),
     ("tendon/fixed", r#"name="t""#, r#"damping="7""#),
     ("tendon/fixed", r#"name="t""#, r#"springlength="7""#),
+    ("tendon/fixed", r#"name="t""#, r#"range="-7 7""#),
+    ("tendon/fixed", r#"name="t" range="-7 7""#, r#"limited="false""#),
     ("spatial/site", "", r#"!site="s""#),
     ("spatial/pulley", "", r#"!divisor="3""#),
     ("fixed/joint", r#"coef="1""#, r#"!joint="a""#),

@@ -1,6 +1,6 @@
 //! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating`,
 //! `inputs = all | none | transmissions | actuators`, `joint_friction = smooth(width) | none`,
-//! `limits = stop(…) | none`, `saturation = clamp | none`, `parameters = inertial`, `ignore(…)`.
+//! `limits = range | stop(…) | none`, `saturation = clamp | none`, `parameters = inertial`, `ignore(…)`.
 
 use super::arguments;
 use super::arithmetic;
@@ -66,10 +66,16 @@ pub enum Friction {
     None,
 }
 
-/// What becomes of the limits of joints.
+/// What becomes of the limits of joints and tendons.
 #[cfg_attr(not(any(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "files of robots are not read"))]
 pub enum Limits {
-    Stop { stiffness: Expression, width: Expression, damping: Option<Expression> },
+    /// They are contacts.
+    Range,
+    Stop {
+        stiffness: Expression,
+        width: Expression,
+        damping: Option<Expression>,
+    },
     None,
 }
 
@@ -116,7 +122,7 @@ const INPUTS: &Table<Inputs> = &[
     ("actuators", Inputs::Actuators),
 ];
 const FRICTION: &Table<bool> = &[("smooth", true), ("none", false)];
-const LIMITS: &Table<bool> = &[("stop", true), ("none", false)];
+const LIMITS: &Table<bool> = &[("range", false), ("stop", true), ("none", false)];
 const SATURATION: &Table<Saturation> = &[("clamp", Saturation::Clamp), ("none", Saturation::None)];
 const STOP: &Table<()> = &[("stiffness", ()), ("width", ()), ("damping", ())];
 const PARAMETERS: &Table<()> = &[("inertial", ())];
@@ -229,17 +235,22 @@ fn refuse_brackets(group: &Group, word: &Ident, noun: &str, context: &mut Contex
 }
 
 /// A word, and what is in its brackets if it takes some.
-fn read_law(clause: &Clause, table: &Table<bool>, example: &str, context: &mut Context) -> Option<Option<Group>> {
+fn read_law(
+    clause: &Clause,
+    table: &Table<bool>,
+    example: &str,
+    context: &mut Context,
+) -> Option<(Ident, Option<Group>)> {
     let word = clause.bare_word(table, context)?;
     let takes = words::resolve(&format!("`{}`", clause.name), &word.ident, table, context).ok()?;
     match (takes, word.arguments) {
-        (false, None) => Some(None),
+        (false, None) => Some((word.ident, None)),
         (false, Some(group)) => {
             refuse_brackets(&group, &word.ident, &clause.word(), context);
             None
         }
         (true, Some(group)) if group.delimiter() == Delimiter::Parenthesis && !group.stream().is_empty() => {
-            Some(Some(group))
+            Some((word.ident, Some(group)))
         }
         (true, _) => {
             context.error(word.ident.span(), format!("`{}` is empty; write `{} = {example}`", word.ident, clause.name));
@@ -249,14 +260,17 @@ fn read_law(clause: &Clause, table: &Table<bool>, example: &str, context: &mut C
 }
 
 fn read_friction(clause: &Clause, context: &mut Context) -> Option<Friction> {
-    let Some(group) = read_law(clause, FRICTION, "smooth(0.01)", context)? else { return Some(Friction::None) };
+    let (_, Some(group)) = read_law(clause, FRICTION, "smooth(0.01)", context)? else { return Some(Friction::None) };
     let tokens: Vec<TokenTree> = group.stream().into_iter().collect();
     arithmetic::read("friction", &tokens, context).map(Friction::Smooth)
 }
 
 fn read_limits(clause: &Clause, context: &mut Context) -> Option<Limits> {
     const EXAMPLE: &str = "stop(stiffness = 1e4, width = 0.01)";
-    let Some(group) = read_law(clause, LIMITS, EXAMPLE, context)? else { return Some(Limits::None) };
+    let group = match read_law(clause, LIMITS, EXAMPLE, context)? {
+        (_, Some(group)) => group,
+        (word, None) => return Some(if word == "range" { Limits::Range } else { Limits::None }),
+    };
     let owner = Owner::Action { word: "stop", example: "an argument such as `stiffness = 1e4`" };
     let (arguments, _) = arguments::arguments(&group, owner, context);
     let (mut stiffness, mut width, mut damping) = (None, None, None);

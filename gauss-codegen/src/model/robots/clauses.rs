@@ -202,6 +202,7 @@ impl<'a> Robot<'a> {
         statements.bodies.splice(0..0, bodies);
         self.add_armatures(statements);
         statements.constraints.splice(0..0, self.constraints(&text.names()));
+        statements.contacts.splice(0..0, self.ranges());
         let gravity = statements.role_clauses.iter().find(|clause| clause.role == Role::Gravity);
         let forces = self.forces(gravity);
         let own = self.gravity().filter(|_| gravity.is_none() && !self.gravity_in_field);

@@ -1,14 +1,12 @@
-//! Loads in the joints: damping, dry friction, limits, the inertia of rotors; weights that are held.
+//! Loads in the joints: damping, dry friction, the inertia of rotors; weights that are held.
 
 use proc_macro2::Ident;
-use quote::format_ident;
-use syn::ext::IdentExt;
 
 use super::clauses::Robot;
-use crate::model::language::robots::{Friction, Limits};
+use crate::model::language::robots::Friction;
 use crate::model::scene::clauses::{RoleClause, RoleValue};
-use crate::model::scene::elements::argument::{ALONG, AT, AXES, BODY, DAMPING, LEAST, MOST, STIFFNESS, VALUE, WIDTH};
-use crate::model::scene::elements::{FORCE, STOP};
+use crate::model::scene::elements::FORCE;
+use crate::model::scene::elements::argument::{AT, AXES, BODY, VALUE};
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 use crate::model::scene::forces::{ForceAxes, ForceClause};
 use gauss_robots::description::{Joint, JointKind, Note};
@@ -41,9 +39,8 @@ impl Robot<'_> {
         if !friction.is_empty() {
             forces.push(ForceClause::drive(name("joint_friction"), friction, span));
         }
-        let (stops, limits) = self.stops();
-        forces.extend(stops);
-        notes.extend(limits);
+        forces.extend(self.stops());
+        notes.extend(self.notes_of_limits());
         notes.extend(self.notes_of_ranges());
         self.notes.extend(notes);
         forces
@@ -189,30 +186,5 @@ impl Robot<'_> {
             }
         }
         (rates, notes)
-    }
-
-    /// Stops at the limits of joints, where their laws are said.
-    fn stops(&self) -> (Vec<ForceClause>, Option<Note>) {
-        let writer = self.writer;
-        let limited: Vec<_> = self.scalar_joints().filter(|(_, joint, ..)| joint.limits != [None; 2]).collect();
-        let Some((_, first, ..)) = limited.first() else { return (Vec::new(), None) };
-        let Some(Limits::Stop { stiffness, width, damping }) = &self.clauses.limits else {
-            let text = "the limits of joints do not act; write `limits = stop(stiffness = …, width = …)` for stops there, or \
-                        `limits = none`";
-            let note = Note::ignored(first.at, "limit", text);
-            return (Vec::new(), self.clauses.limits.is_none().then_some(note));
-        };
-        let stop = |(index, joint, ..): &(usize, &Joint, &Ident, f64)| {
-            let along = self.values(*index, 0.0).into_iter().next()?;
-            let [least, most] = joint.limits.map(|limit| limit.map(|limit| writer.number(limit)));
-            let (stiffness, width, damping) = (stiffness.clone(), width.clone(), damping.clone());
-            let name =
-                format_ident!("{}_limits", self.coordinates[self.structure.coupling_of[*index].joint][0].ident.unraw());
-            let name = (self.structure.coupling_of[*index].joint == *index).then_some(name);
-            let stop = ForceClause::new(&STOP, name, writer.span).with(ALONG, Some(along));
-            let stop = stop.with(LEAST, least).with(MOST, most).with(STIFFNESS, Some(stiffness));
-            Some(stop.with(WIDTH, Some(width)).with(DAMPING, damping))
-        };
-        (limited.iter().filter_map(stop).collect(), None)
     }
 }

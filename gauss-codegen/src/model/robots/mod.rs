@@ -8,6 +8,7 @@
 //! | `joints` | a joint → position and rotation of its link |
 //! | `clauses` | a description → clauses, before those of the struct |
 //! | `drives`, `efforts`, `ranges` | inputs; what they do; how much of it at most |
+//! | `limits` | those of joints and tendons |
 //! | `laws`, `springs`, `relations` | other forces in joints; springs of all kinds; relations of links besides the tree |
 //! | `inertias` | mass data that no body has |
 //! | `states` | states with names, mass data for fields |
@@ -18,6 +19,7 @@ mod efforts;
 mod inertias;
 mod joints;
 mod laws;
+mod limits;
 mod names;
 mod ranges;
 mod relations;

@@ -100,7 +100,8 @@ impl Robot<'_> {
     pub fn tendons(&self) -> (Vec<ForceClause>, Vec<Note>) {
         let writer = self.writer;
         let (mut forces, mut notes) = (Vec::new(), Vec::new());
-        for tendon in self.description.tendons.iter().filter(|tendon| tendon.stiffness > 0.0 || tendon.damping > 0.0) {
+        let springs = |tendon: &&Tendon| tendon.stiffness > 0.0 || tendon.damping > 0.0;
+        for tendon in self.description.tendons.iter().filter(|tendon| springs(tendon) || tendon.limits.is_some()) {
             let Some(along) = self.length(&tendon.along) else {
                 notes.push(Note::ignored(
                     tendon.at,
@@ -109,6 +110,9 @@ impl Robot<'_> {
                 ));
                 continue;
             };
+            if !springs(&tendon) {
+                continue;
+            }
             let number = |value: f64| (value != 0.0).then(|| writer.number(value));
             forces.push(if tendon.rest[0] == tendon.rest[1] {
                 ForceClause::new(&SPRING, None, writer.span)
@@ -155,19 +159,9 @@ impl Robot<'_> {
     /// Along lengths between points: a potential where one length has no force, else forces on the points.
     pub fn cables(&self) -> Vec<ForceClause> {
         let writer = self.writer;
-        let index = |name: &String| self.description.links.iter().position(|link| link.name == *name);
         let mut forces = Vec::new();
         for cable in self.description.cables.iter().filter(|cable| cable.stiffness > 0.0 || cable.damping > 0.0) {
-            let parts: Option<Vec<([usize; 2], f64)>> = cable
-                .parts
-                .iter()
-                .map(|(ends, factor)| Some(([index(&ends[0])?, index(&ends[1])?], *factor)))
-                .collect();
-            let Some(parts) = parts else { continue };
-            let owner = |link: usize| self.structure.owner_of[link];
-            if parts.iter().all(|([a, b], _)| owner(*a) == owner(*b)) {
-                continue;
-            }
+            let Some(parts) = self.moving_parts(cable) else { continue };
             let rest = cable.rest.unwrap_or_else(|| [self.length_at_springs(&parts); 2]);
             if rest[0] != rest[1] {
                 forces.extend(self.pulls(cable, &parts, rest));
@@ -185,6 +179,15 @@ impl Robot<'_> {
         forces
     }
 
+    /// The links between which a cable runs, with their factors; `None` where its length stays.
+    pub fn moving_parts(&self, cable: &Cable) -> Option<Vec<([usize; 2], f64)>> {
+        let index = |name: &String| self.description.links.iter().position(|link| link.name == *name);
+        let part = |(ends, factor): &([String; 2], f64)| Some(([index(&ends[0])?, index(&ends[1])?], *factor));
+        let parts: Vec<_> = cable.parts.iter().map(part).collect::<Option<_>>()?;
+        let owner = |link: usize| self.structure.owner_of[link];
+        parts.iter().any(|([a, b], _): &([usize; 2], f64)| owner(*a) != owner(*b)).then_some(parts)
+    }
+
     fn point(&self, link: usize) -> Expression {
         self.writer.property(&self.links[link], Property::Position)
     }
@@ -196,7 +199,7 @@ impl Robot<'_> {
         [arm, self.writer.call(FunctionName::Sqrt, vec![square])]
     }
 
-    fn length_of(&self, parts: &[([usize; 2], f64)]) -> Expression {
+    pub fn length_of(&self, parts: &[([usize; 2], f64)]) -> Expression {
         let writer = self.writer;
         let terms = parts.iter().map(|(ends, factor)| {
             let [_, length] = self.arm(*ends);

@@ -186,8 +186,8 @@ fn what_is_told() {
                 true
             ),
             told(
-                "3:1: the limits of joints do not act; write `limits = stop(stiffness = …, width = …)` for stops there, or \
-                 `limits = none`",
+                "3:1: the limits of joints and tendons do not act; write `limits = range` for exact stops, which a \
+                 `ContactRun` runs, `limits = stop(stiffness = …, width = …)` for stops that give way, or `limits = none`",
                 true
             ),
         ]
@@ -217,6 +217,32 @@ fn what_is_told() {
     assert_eq!(
         remarks(&named, ""),
         [told("4:1: the link `arm` is called `arm_link`", false), told("5:1: <antenna> is not read", true),]
+    );
+}
+
+/// Limits as contacts: of a joint by its coordinate, of one that follows it by its own name.
+#[test]
+fn limits_become_ranges() {
+    let follows = "<mimic joint=\"elbow\" multiplier=\"2\"/><limit lower=\"-1\" upper=\"3\"/>";
+    let text = robot(
+        &(joint("elbow", "revolute", "base", "arm", "<limit lower=\"-1\" upper=\"1\"/>")
+            + &link("arm")
+            + &joint("finger", "revolute", "arm", "hand", follows)
+            + &link("hand")),
+    );
+    let names = |clauses: &str| -> Vec<String> {
+        model(&text, clauses, "").contacts.iter().flat_map(|clause| &clause.names).map(ToString::to_string).collect()
+    };
+    assert_eq!(names(", limits = range"), ["elbow_from", "elbow_to", "finger_from", "finger_to"]);
+    assert!(names(", limits = none").is_empty() && names("").is_empty());
+    assert_eq!(remarks(&text, ", limits = range"), []);
+    assert_eq!(
+        mistakes(&text, ", limits = range, range(elbow, to = 0.5)", ""),
+        ["two contacts are called `elbow_to`; rename one of the two"]
+    );
+    assert_eq!(
+        mistakes(&text, ", limits = range(1.0)", ""),
+        ["`range` takes nothing in brackets; write `limits = range`"]
     );
 }
 

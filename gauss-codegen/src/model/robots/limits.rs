@@ -1,0 +1,101 @@
+//! Limits of joints and tendons: contacts, stops that give way, or nothing.
+
+use std::collections::HashSet;
+
+use proc_macro2::Ident;
+use quote::format_ident;
+use syn::ext::IdentExt;
+
+use super::clauses::Robot;
+use super::names;
+use crate::model::language::robots::Limits;
+use crate::model::scene::contacts::{ContactClause, Touching};
+use crate::model::scene::elements::STOP;
+use crate::model::scene::elements::argument::{ALONG, DAMPING, LEAST, MOST, STIFFNESS, WIDTH};
+use crate::model::scene::expression::Expression;
+use crate::model::scene::forces::ForceClause;
+use gauss_robots::description::{At, Note};
+
+/// What has limits.
+struct Limited {
+    at: At,
+    along: Expression,
+    limits: [Option<f64>; 2],
+    /// Of a joint that follows no other.
+    coordinate: Option<Ident>,
+    /// What it is called where it is no coordinate.
+    called: String,
+}
+
+impl Robot<'_> {
+    /// Joints, then tendons along joints, then tendons through sites.
+    fn limited(&self) -> Vec<Limited> {
+        let mut limited = Vec::new();
+        for (index, joint, ..) in self.scalar_joints().filter(|(_, joint, ..)| joint.limits != [None; 2]) {
+            let own = self.structure.coupling_of[index].joint == index;
+            let coordinate = self.coordinates[index].first().filter(|_| own).map(|q| q.ident.clone());
+            let along = self.values(index, 0.0).into_iter().next();
+            let (at, limits, called) = (joint.at, joint.limits, joint.name.clone());
+            limited.extend(along.map(|along| Limited { at, along, limits, coordinate, called }));
+        }
+        let named = |name: &Option<String>| name.clone().unwrap_or_else(|| "tendon".to_owned());
+        let mut add = |at: At, along: Option<Expression>, limits: Option<[f64; 2]>, called: String| {
+            let found = along.zip(limits.map(|limits| limits.map(Some)));
+            limited.extend(found.map(|(along, limits)| Limited { at, along, limits, coordinate: None, called }));
+        };
+        for tendon in &self.description.tendons {
+            add(tendon.at, self.length(&tendon.along), tendon.limits, named(&tendon.name));
+        }
+        for cable in &self.description.cables {
+            let length = self.moving_parts(cable).map(|parts| self.length_of(&parts));
+            add(cable.at, length, cable.limits, named(&cable.name));
+        }
+        limited
+    }
+
+    /// That limits do not act, where nothing is said of them.
+    pub fn notes_of_limits(&self) -> Option<Note> {
+        let first = self.limited().into_iter().next().filter(|_| self.clauses.limits.is_none())?;
+        let text = "the limits of joints and tendons do not act; write `limits = range` for exact stops, which a \
+                    `ContactRun` runs, `limits = stop(stiffness = …, width = …)` for stops that give way, or `limits = none`";
+        Some(Note::ignored(first.at, "limit", text))
+    }
+
+    /// Stops that give way, where their law is said.
+    pub fn stops(&self) -> Vec<ForceClause> {
+        let writer = self.writer;
+        let Some(Limits::Stop { stiffness, width, damping }) = &self.clauses.limits else { return Vec::new() };
+        let stop = |limited: Limited| {
+            let [least, most] = limited.limits.map(|limit| limit.map(|limit| writer.number(limit)));
+            let name = limited.coordinate.map(|q| format_ident!("{}_limits", q.unraw()));
+            let stop = ForceClause::new(&STOP, name, writer.span).with(ALONG, Some(limited.along));
+            let stop = stop.with(LEAST, least).with(MOST, most).with(STIFFNESS, Some(stiffness.clone()));
+            stop.with(WIDTH, Some(width.clone())).with(DAMPING, damping.clone())
+        };
+        self.limited().into_iter().map(stop).collect()
+    }
+
+    /// Exact stops, where they are asked for: contacts by the names of coordinates, of joints that follow others, and
+    /// of tendons.
+    pub fn ranges(&self) -> Vec<ContactClause> {
+        let writer = self.writer;
+        if !matches!(self.clauses.limits, Some(Limits::Range)) {
+            return Vec::new();
+        }
+        let coordinates = self.coordinates.iter().flatten().map(|q| q.ident.unraw().to_string());
+        let mut taken: HashSet<String> = coordinates.collect();
+        let range = |limited: Limited| {
+            let name = limited.coordinate.map(|q| q.unraw().to_string()).unwrap_or_else(|| {
+                let free = names::free(&limited.called, "limits", |word| !taken.contains(word));
+                taken.insert(free.clone());
+                free
+            });
+            let [from, to] = limited.limits.map(|limit| limit.map(|limit| writer.number(limit)));
+            let ends = [("from", &from), ("to", &to)].into_iter().filter(|(_, limit)| limit.is_some());
+            let names = ends.map(|(end, _)| format_ident!("{name}_{end}", span = writer.span)).collect();
+            let touching = Touching::Range { along: limited.along, from, to };
+            ContactClause { names, touching, friction: Vec::new(), restitution: None }
+        };
+        self.limited().into_iter().map(range).collect()
+    }
+}
