@@ -16,8 +16,9 @@ use crate::error::{ContactError, ContactErrorKind};
 use crate::friction::Bounds;
 use crate::history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
 use crate::impact::{Impact, Struck, after, rows};
+use crate::law::Law;
 use crate::mode::{InMode, Mode, UNCLOSED, largest_derivative_of, slip, tangents, terms};
-use crate::solver::{Contacts, Failure, Law, State};
+use crate::solver::{Contacts, Failure, State};
 use crate::trajectory::ContactTrajectory;
 use crate::witness::Watched;
 

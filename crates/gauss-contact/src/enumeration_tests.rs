@@ -6,7 +6,10 @@
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
+use gauss_runtime::contact::Contact;
+
 use super::*;
+use crate::friction::Bounds;
 use crate::solver::tests::Numbers;
 
 fn exact(x: f64) -> BigRational {

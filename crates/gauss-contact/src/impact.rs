@@ -10,7 +10,8 @@ use gauss_runtime::real::Real;
 
 use crate::dense::Matrix;
 use crate::friction::Bounds;
-use crate::solver::{Contacts, Failure, Law, Residual};
+use crate::law::Law;
+use crate::solver::{Contacts, Failure, Residual};
 
 /// What an impact does to velocities u⁻ of the contacts that are closed: `u⁺ = u⁻ + D Λ` with impulses Λ.
 ///

@@ -19,8 +19,8 @@
 //!
 //! Scalars are any of one lane. Values decide what happens; where numbers carry derivatives, so do times of events,
 //! impulses and forces, and the end of a run has those of the run through its events. Derivatives are those of the
-//! modes that the run has: where a slip or a gap is at the edge of two modes, one-sided. Of bounces that pile up they are
-//! followed as far as the bounces are; what rests moves with its closed gap, so that a start on a closed gap is
+//! modes that the run has: where a slip or a gap is at the edge of two modes, one-sided. Of bounces that pile up they
+//! are followed as far as the bounces are; what rests moves with its closed gap, so that a start on a closed gap is
 //! differentiated along it. What has none ends with [`ContactErrorKind::Grazes`] or [`ContactErrorKind::Together`].
 //!
 //! Friction is Coulomb's, a circle or an ellipse, and dry friction of a given bound; with two tangents and a friction
@@ -41,6 +41,7 @@ mod error;
 mod friction;
 mod history;
 mod impact;
+mod law;
 mod mode;
 mod poisson;
 mod problem;

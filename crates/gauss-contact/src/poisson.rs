@@ -10,7 +10,8 @@ use gauss_runtime::real::Real;
 use crate::dense::{Matrix, epsilon, value};
 use crate::friction::Bounds;
 use crate::impact::{Blow, Struck, rows};
-use crate::solver::{Contacts, Failure, Law, Residual};
+use crate::law::Law;
+use crate::solver::{Contacts, Failure, Residual};
 
 /// The impulses of restitution on the rows that were struck, and the rates after it.
 struct Restitution<T> {

@@ -18,59 +18,10 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use gauss_runtime::contact::Contact;
 use gauss_runtime::real::Real;
 
 use crate::dense::{Decomposition, Matrix, norm, size, sum, value};
-use crate::friction::Bounds;
-
-/// What is known of a contact before its force is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Law<T = f64> {
-    /// Of a gap; else of dry friction.
-    has_normal: bool,
-    /// 0 without friction, else 1 or 2.
-    tangents: usize,
-    /// μ, or f.
-    friction: T,
-    /// ŝ on the circle where it slides already.
-    slip: Option<[T; 2]>,
-    /// By which forces and slips are scaled to a circle.
-    bounds: Bounds<T>,
-}
-
-impl<T: Real> Law<T> {
-    /// `slip`: the direction in which it slides already.
-    pub(crate) fn new(contact: &Contact, bounds: Bounds<T>, slip: Option<[T; 2]>) -> Self {
-        Self {
-            has_normal: contact.has_gap(),
-            tangents: contact.tangents,
-            friction: bounds.largest,
-            slip: slip.map(|along| bounds.on_circle(along)),
-            bounds,
-        }
-    }
-
-    /// The values.
-    fn values(&self) -> Law {
-        Law {
-            has_normal: self.has_normal,
-            tangents: self.tangents,
-            friction: value(self.friction),
-            slip: self.slip.map(|slip| slip.map(value)),
-            bounds: self.bounds.values(),
-        }
-    }
-
-    /// The direction of slip where it slides already.
-    pub(crate) fn along(&self) -> Option<[T; 2]> {
-        self.slip.map(|direction| self.bounds.slip_of(direction))
-    }
-
-    fn rows(&self) -> usize {
-        usize::from(self.has_normal) + self.tangents
-    }
-}
+use crate::law::{Law, scales};
 
 /// What a contact does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -596,11 +547,6 @@ impl Contacts {
         let off: Vec<f64> = friction.iter().zip(&wanted).map(|(f, w)| f - w).collect();
         Residual { signorini, coulomb, dissipation: norm(&off), rounding }
     }
-}
-
-/// By what forces of the rows of a contact are those of the circle, and slips in reverse.
-fn scales<T: Real>(law: &Law<T>) -> impl Iterator<Item = T> + use<T> {
-    core::iter::repeat_n(T::one(), usize::from(law.has_normal)).chain(law.bounds.weights.into_iter().take(law.tangents))
 }
 
 /// Turns the direction of a contact.

@@ -1,6 +1,9 @@
 //! Random problems against enumeration and against the laws themselves, checked anew.
 
+use gauss_runtime::contact::Contact;
+
 use super::*;
+use crate::friction::Bounds;
 
 /// Numbers in (0, 1): a linear congruence with the constants of Knuth's MMIX.
 pub(super) struct Numbers(pub(super) u64);

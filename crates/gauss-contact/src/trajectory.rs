@@ -134,8 +134,8 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
     }
 
     /// The contact forces at a time as vectors: of each closed contact whose place is known
-    /// ([`contact_frame`](ContactSystem::contact_frame)) its number, where it is, and the force on its first body there,
-    /// along the observer's axes.
+    /// ([`contact_frame`](ContactSystem::contact_frame)) its number, where it is, and the force on its first body
+    /// there, along the observer's axes.
     ///
     /// # Errors
     /// Where the run does not cover the time.

@@ -311,6 +311,24 @@ impl IntegrationErrorKind {
             _ => Ok(()),
         }
     }
+
+    /// What a run was given that it cannot have.
+    fn of_request(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::InvalidStep { step } => write!(f, "the step is {step}; it must be finite and not zero"),
+            Self::InvalidTolerance { relative, absolute } => write!(
+                f,
+                "tolerances {relative:e} (relative) and {absolute:e} (absolute) must be finite, not negative, not both 0"
+            ),
+            Self::OutsideRun { time } => write!(f, "the run does not cover t = {time}"),
+            Self::InvalidInterval => f.write_str("the interval of time has an end that is not finite"),
+            Self::Contacts => f.write_str(
+                "the scene has contacts, and this run has no contact forces: run it by `ContactRun` of the crate \
+                 `gauss-contact`, or leave contacts out on purpose by `without_contacts()`",
+            ),
+            _ => Ok(()),
+        }
+    }
 }
 
 impl fmt::Display for IntegrationErrorKind {
@@ -364,17 +382,11 @@ impl fmt::Display for IntegrationErrorKind {
             Self::Projection { .. } | Self::ProjectionTooFar { .. } | Self::InconsistentStart { .. } => {
                 self.of_constraints(f)
             }
-            Self::InvalidStep { step } => write!(f, "the step is {step}; it must be finite and not zero"),
-            Self::InvalidTolerance { relative, absolute } => write!(
-                f,
-                "tolerances {relative:e} (relative) and {absolute:e} (absolute) must be finite, not negative, not both 0"
-            ),
-            Self::OutsideRun { time } => write!(f, "the run does not cover t = {time}"),
-            Self::InvalidInterval => f.write_str("the interval of time has an end that is not finite"),
-            Self::Contacts => f.write_str(
-                "the scene has contacts, and this run has no contact forces: run it by `ContactRun` of the crate \
-                 `gauss-contact`, or leave contacts out on purpose by `without_contacts()`",
-            ),
+            Self::InvalidStep { .. }
+            | Self::InvalidTolerance { .. }
+            | Self::OutsideRun { .. }
+            | Self::InvalidInterval
+            | Self::Contacts => self.of_request(f),
         }
     }
 }

@@ -400,14 +400,10 @@ where
                 Some((at, after, first, stopped_by)) => {
                     match self.differentiated(&looking, number, at) {
                         Ok(at) => report(number, &at),
-                        // Behind the end of the run nothing depends on it: it is not told of.
+                        // Behind the end of the run nothing depends on it: no more events are told of.
                         Err(_) if stopped_by.is_some() => {
-                            self.each(|n, _, mark| {
-                                mark.next = mark.next.filter(|_| n != number);
-                                Ok(())
-                            })?;
                             here = Some((at, after, first, stopped_by));
-                            continue;
+                            break;
                         }
                         Err(kind) => return Err(kind),
                     }
