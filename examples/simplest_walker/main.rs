@@ -24,7 +24,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let long = Gait::find(FOOT, 0.009, LONG)?;
     tell("  long gait", &long);
     tell("  short gait", &Gait::find(FOOT, 0.009, SHORT)?);
-    println!("  published, to 1e-10: angle 0.20031090049483, rate -0.19983247291764; multipliers by differences\n");
+    println!(
+        "  published, to 1e-10: angle 0.20031090049483, rate -0.19983247291764; the multipliers that stand beside them,"
+    );
+    println!(
+        "  -0.19120868949940 ± 0.55633363687106 i, differ in the third digit: differences of whole steps have those above\n"
+    );
 
     println!("Feet of some mass:");
     let mut gait = long;
