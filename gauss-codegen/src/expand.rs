@@ -128,7 +128,8 @@ mod tests {
     #[test]
     fn contacts_that_nothing_changes() {
         let found = mistakes(
-            "contact(o, point = hub, plane = [1, 0, 0]), contact(p, gap = x - x + y - y, slip = v, friction = 1), contact(q, gap = y, slip = [v * w, s - s], friction = 1),
+            "contact(o, point = hub, plane = [1, 0, 0]), contact(flat, point = [x, y, 0], plane = [0, 1, 0], friction = 1),
+             contact(p, gap = x - x + y - y, slip = v, friction = 1), contact(q, gap = y, slip = [v * w, s - s], friction = 1),
              range(r, along = hub.z, to = 2), contact(u, point = hub, plane = [1, 0, 0]),
              dry_friction(b, slip = [s - s, w * w], bound = 1)",
         );

@@ -223,6 +223,8 @@ fn frames_of_contacts_are_where_their_forces_act() {
         let corner = (vector.point - Vector3::new(1.0, 2.0, 0.0)).abs();
         assert!((corner - Vector3::new(0.5, 0.3, 0.0)).amax() < 1e-12, "{corner}");
     }
+}
+
 /// Limits of a file: of a joint, of a tendon along a joint, and of a rope.
 #[derive(GaussDynamics)]
 #[gauss(mjcf = "robots/limited.xml", limits = range)]

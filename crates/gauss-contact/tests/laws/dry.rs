@@ -397,3 +397,71 @@ fn an_arm_that_is_let_go_loses_what_its_joints_take() {
     assert!((worn - lost).abs() < 1e-7, "{worn} {lost}");
     assert_eq!(run.at(39.0).unwrap().q, end.q);
 }
+
+/// Two brakes on one shaft.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(a),
+    body(shaft, rotation = rotation_z(a), mass = 1, inertia = [1, 1, 1]),
+    input(motor),
+    drive(a = motor),
+    dry_friction(front, slip = rate(a), bound = f),
+    dry_friction(rear, slip = -2 * rate(a), bound = g),
+)]
+struct Shaft {
+    f: f64,
+    g: f64,
+}
+
+#[test]
+fn brakes_that_depend_on_one_another_hold_together() {
+    let (f, g) = (1.0, 1.5);
+    let kernel = Shaft { f, g }.kernel().unwrap();
+    let motor = |t: f64, _: &SVector<f64, 1>, _: &SVector<f64, 1>| SVector::from([t]);
+    let run = ContactRun::new(&kernel).input(motor).adaptive(1e-11, 1e-11);
+    let run = run.run(SVector::zeros(), SVector::zeros(), 0.0..5.0).unwrap();
+    // Together they hold f + 2 g; then the shaft turns with t − 4, and t − 4 is all that is left of the motor.
+    let end = run.last().unwrap();
+    assert!((end.z[0] - 0.5).abs() < 1e-10, "{}", end.z);
+    assert_eq!((run.at(3.99).unwrap().z[0], run.at(3.99).unwrap().q[0]), (0.0, 0.0));
+}
+
+/// A sledge on a plane, with runners.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, y, z),
+    particle(mass = m, position = [x, y, z]),
+    contact(snow, point = [x, y, z], friction = [along, across], along = [1, 0, 0]),
+)]
+struct Sledge {
+    m: f64,
+    along: f64,
+    across: f64,
+    #[gauss(gravity)]
+    g: f64,
+}
+
+#[test]
+fn a_sledge_slides_as_a_puck_with_the_bounds_of_its_weight() {
+    let (m, g, along, across) = (2.0, 9.81, 0.1, 0.3);
+    let sledge = Sledge { m, along, across, g }.kernel().unwrap();
+    let puck = Puck { m, along: along * m * g, across: across * m * g }.kernel().unwrap();
+    let whole = ContactRun::new(&sledge).adaptive(1e-10, 1e-10);
+    let whole = whole.run(SVector::zeros(), [3.0, 1.0, 0.0].into(), 0.0..4.0).unwrap();
+    let free = |_: f64, _: &V<2>, _: &V<2>| V::zeros();
+    let flat = ContactRun::new(&puck).input(free).adaptive(1e-10, 1e-10).run(V::zeros(), [3.0, 1.0].into(), 0.0..4.0);
+    let flat = flat.unwrap();
+    assert_eq!((whole.events().len(), flat.events().len()), (1, 1), "{:?}", whole.events());
+    for t in [0.5, 1.5, 4.0] {
+        let (a, b) = (whole.at(t).unwrap(), flat.at(t).unwrap());
+        // Some fifty steps with errors of 1e-10 of numbers up to 5.
+        assert!((a.q.xy() - b.q).amax() < 2.5e-8 && (a.z.xy() - b.z).amax() < 2.5e-8, "{t} {} {}", a.q, b.q);
+    }
+    assert_eq!((whole.last().unwrap().z.amax(), whole.modes(3.9).unwrap()), (0.0, &[Mode::Sticks][..]));
+    // Friction is against (μ₁² s₁, μ₂² s₂), but for slips that count as rest: 1e-10 and 1e-10 of 3, over slips near 1.
+    let (s, forces) = (whole.at(0.5).unwrap().z, whole.forces(0.5).unwrap());
+    let off = forces[1] / forces[2] - along * along * s[0] / (across * across * s[1]);
+    assert!(off.abs() < 1e-8, "{off:e}");
+    let size = f64::hypot(forces[1] / along, forces[2] / across);
+    assert!((forces[0] - m * g).abs() < 1e-12 && (size - m * g).abs() < 1e-12, "{forces}");
+}
