@@ -13,6 +13,7 @@ use gauss_runtime::integrate::{
     Adaptive, Control, Crossing, Feedback, InputSource, IntegrationErrorKind, NoInput, Simulation,
 };
 use gauss_runtime::real::Real;
+use gauss_runtime::system::GaussSystem;
 
 use crate::decide::{Instant, Rounding, Scales};
 use crate::dense::{epsilon, value};
@@ -311,9 +312,12 @@ where
     /// What ends the segment from here.
     fn witnesses(&self, from: &Instant<'k, K>, problem: &InModeProblem<'k, K>) -> Vec<Witness<'k, K>> {
         let mut found = Vec::new();
+        // The run starts there: what brings closed gaps to zero moves others by rounding, and below zero none closes.
+        let start = problem.system.project(from.t, &from.q, &from.z);
+        let (q, z) = start.unwrap_or((from.q, from.z));
         let mut watch = |watched: Watched, shift: &dyn Fn(f64) -> f64| {
             let mut witness = Witness { problem: problem.clone(), watched, shift: 0.0 };
-            witness.shift = shift(value(witness.bare(from.t, &from.q, &from.z)));
+            witness.shift = shift(value(witness.bare(from.t, &q, &z)));
             found.push(witness);
         };
         let sizes = from.sizes(&self.scales);
