@@ -47,6 +47,8 @@ mod poisson;
 mod problem;
 mod run;
 mod solver;
+mod start;
+mod steps;
 mod trajectory;
 mod witness;
 
@@ -57,6 +59,7 @@ pub use impact::Impact;
 pub use mode::{InMode, Mode};
 pub use run::ContactRun;
 pub use solver::Residual;
+pub use steps::{ContactStepper, ContactSteps, StepReport, StepSample, StepScheme};
 pub use trajectory::{ContactForce, ContactTrajectory, Segment};
 
 /// The page of the crate, whose program is a test.

@@ -158,23 +158,25 @@ fn corrections<T: Real>() -> usize {
 
 /// `x + Σ λ column`, where components that are no more than the rounding of their terms are 0: what rests does not
 /// creep.
-fn pushed<K: ContactSystem>(x: &K::Speeds, columns: &K::ContactColumns, forces: &[K::Scalar]) -> K::Speeds {
-    let (mut sum, mut terms) = (*x, vec![0.0; K::Speeds::DIM]);
-    (0..terms.len()).for_each(|i| terms[i] = value(x.component(i)).abs());
+pub(crate) fn pushed<K: ContactSystem>(x: &K::Speeds, columns: &K::ContactColumns, forces: &[K::Scalar]) -> K::Speeds {
+    let number = K::Scalar::from_f64;
+    let (mut sum, mut terms) = (*x, K::Speeds::zero());
+    let mut add = |i: usize, term: f64| terms.set_component(i, terms.component(i) + number(term.abs()));
+    (0..K::Speeds::DIM).for_each(|i| add(i, value(x.component(i))));
     let mut count = 1;
     let acts = |force: K::Scalar| K::Scalar::DERIVATIVES || value(force) != 0.0;
     for (row, force) in forces.iter().enumerate().filter(|(_, force)| acts(**force)) {
         let Some(column) = columns.nth(row) else { continue };
         sum = sum.add_scaled(*force, &column);
-        (0..terms.len()).for_each(|i| terms[i] += value(*force * column.component(i)).abs());
+        (0..K::Speeds::DIM).for_each(|i| add(i, value(*force * column.component(i))));
         count += 1;
     }
     // Each term has roundings of its own, those of its factors and of the solution for λ.
     let part = 16.0 * f64::from(count) * epsilon::<K::Scalar>();
-    for (i, terms) in terms.iter().enumerate().filter(|_| count > 1) {
+    for i in 0..if count > 1 { K::Speeds::DIM } else { 0 } {
         let rounding = value(sum.component(i));
-        if rounding.abs() <= part * terms {
-            sum.set_component(i, sum.component(i) - K::Scalar::from_f64(rounding));
+        if rounding.abs() <= part * value(terms.component(i)) {
+            sum.set_component(i, sum.component(i) - number(rounding));
         }
     }
     sum

@@ -182,29 +182,10 @@ where
     }
 
     fn check_start(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> Result<(), ContactError> {
-        let stop = |contact: Option<usize>, kind| {
-            Err(ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: value(t), kind })
-        };
         if !(t.is_finite() && self.end.is_finite() && value(t) <= value(self.end)) {
-            return stop(None, ContactErrorKind::InvalidInterval);
+            return Err(ContactError { contact: None, time: value(t), kind: ContactErrorKind::InvalidInterval });
         }
-        if !(q.is_finite() && z.is_finite()) {
-            return stop(None, ContactErrorKind::NonFinite);
-        }
-        let (gaps, restitution) = (self.kernel.gaps(t, q), self.kernel.restitution());
-        for i in 0..K::CONTACTS.len() {
-            let (gap, e) = (value(gaps.component(i)), value(restitution.component(i)));
-            if !(0.0..=1.0).contains(&e) {
-                return stop(Some(i), ContactErrorKind::InvalidRestitution { restitution: e });
-            }
-            if !gap.is_finite() {
-                return stop(Some(i), ContactErrorKind::NonFinite);
-            }
-            if gap < -Rounding::of::<K>(q).half_of_the_digits() {
-                return stop(Some(i), ContactErrorKind::NegativeGap { gap });
-            }
-        }
-        Ok(())
+        crate::start::check(self.kernel, t, q, z)
     }
 
     /// Counts events that do not move the time.

@@ -59,7 +59,7 @@ impl Residual {
         }
     }
 
-    fn worst(&self) -> f64 {
+    pub(crate) fn worst(&self) -> f64 {
         [self.signorini, self.coulomb, self.dissipation]
             .into_iter()
             .fold(0.0, |worst, r| if r <= worst { worst } else { r })

@@ -1,0 +1,37 @@
+//! What must hold of the state in which a motion with contacts starts.
+
+use gauss_runtime::configuration::{Configuration, VectorSpace};
+use gauss_runtime::contact::ContactSystem;
+
+use crate::decide::Rounding;
+use crate::dense::value;
+use crate::error::{ContactError, ContactErrorKind};
+
+/// Refuses states that are not finite, gaps that are negative by more than rounding, and restitution beyond [0, 1].
+pub(crate) fn check<K: ContactSystem>(
+    kernel: &K,
+    t: K::Scalar,
+    q: &K::Configuration,
+    z: &K::Speeds,
+) -> Result<(), ContactError> {
+    let stop = |contact: Option<usize>, kind| {
+        Err(ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: value(t), kind })
+    };
+    if !(q.is_finite() && z.is_finite()) {
+        return stop(None, ContactErrorKind::NonFinite);
+    }
+    let (gaps, restitution) = (kernel.gaps(t, q), kernel.restitution());
+    for i in 0..K::CONTACTS.len() {
+        let (gap, e) = (value(gaps.component(i)), value(restitution.component(i)));
+        if !(0.0..=1.0).contains(&e) {
+            return stop(Some(i), ContactErrorKind::InvalidRestitution { restitution: e });
+        }
+        if !gap.is_finite() {
+            return stop(Some(i), ContactErrorKind::NonFinite);
+        }
+        if gap < -Rounding::of::<K>(q).half_of_the_digits() {
+            return stop(Some(i), ContactErrorKind::NegativeGap { gap });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,70 @@
+//! The laws of a step by rows: which rows are normals, and which together are friction of what size.
+
+use gauss_runtime::configuration::VectorSpace;
+use gauss_runtime::contact::ContactSystem;
+
+use crate::error::ContactErrorKind;
+use crate::friction::Bounds;
+
+use super::impulses::MOST_ROWS;
+
+/// The most friction sets of a step: one of each contact.
+pub(crate) const MOST: usize = 64;
+
+/// The normal of a gap, or friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Cone {
+    /// The row of the normal, if there is a gap.
+    pub(crate) normal: Option<usize>,
+    /// Rows of friction: from, and how many.
+    pub(crate) first: usize,
+    pub(crate) count: usize,
+    /// μ, or of dry friction the bound of its impulse; the largest of its rows.
+    pub(crate) friction: f64,
+    /// Whether its laws hold in this step.
+    pub(crate) acts: bool,
+}
+
+impl Cone {
+    pub(crate) fn tangents(&self) -> core::ops::Range<usize> {
+        self.first..self.first + self.count
+    }
+
+    /// The largest friction under impulses.
+    pub(crate) fn radius(&self, impulses: &[f64]) -> f64 {
+        self.friction * self.normal.map_or(1.0, |row| impulses[row].max(0.0))
+    }
+}
+
+/// The contacts of a system in a step.
+pub(crate) struct Laws {
+    pub(crate) cones: [Cone; MOST],
+    /// By what forces of rows are those of circles, and slips in reverse: 1 but for friction that differs by direction.
+    pub(crate) scales: [f64; MOST_ROWS],
+}
+
+impl Laws {
+    /// Cones that do not act yet, of friction in all rows. An error is the contact whose friction is no bound, with it.
+    pub(crate) fn new<K: ContactSystem<Scalar = f64>>(
+        h: f64,
+        friction: &K::ContactRows,
+    ) -> Result<Self, (usize, ContactErrorKind)> {
+        let none = Cone { normal: None, first: 0, count: 0, friction: 0.0, acts: false };
+        let mut laws = Self { cones: [none; MOST], scales: [1.0; MOST_ROWS] };
+        for (i, contact) in K::CONTACTS.iter().enumerate() {
+            if let Some(friction) = Bounds::of(contact, friction).invalid() {
+                return Err((i, ContactErrorKind::InvalidFriction { friction }));
+            }
+            let tangents = contact.tangent_rows();
+            let largest = tangents.clone().map(|row| friction.component(row)).fold(0.0, f64::max);
+            let normal = contact.has_gap().then_some(contact.normal);
+            if largest > 0.0 {
+                tangents.clone().for_each(|row| laws.scales[row] = friction.component(row) / largest);
+            }
+            // A force that is bounded by f has an impulse of h f.
+            let friction = if normal.is_some() { largest } else { h * largest };
+            laws.cones[i] = Cone { normal, first: tangents.start, count: tangents.len(), friction, acts: false };
+        }
+        Ok(laws)
+    }
+}

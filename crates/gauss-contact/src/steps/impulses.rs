@@ -1,0 +1,427 @@
+//! Impulses of a step that satisfy the laws of Signorini and Coulomb, found in memory that is given.
+//!
+//! Rates after the step are `u = D P + b`. Of each contact that acts `0 ≤ P_N ⊥ u_N ≥ 0`, `|P_T| ≤ μ P_N`, and where
+//! `u_T ≠ 0`: `P_T = −μ P_N u_T/|u_T|`; dry friction has its bound in the place of μ P_N. A semismooth Newton method (P.
+//! Alart & A. Curnier 1991) begins with the impulses of the step before: contacts leave, stick or slide as these say, the
+//! equations of these states are linear but for directions of slip, and their solution tells the next states. Where that
+//! comes to no end, projected Gauss–Seidel sweeps (J. J. Moreau) bring the impulses nearer first.
+//!
+//! Contacts may depend on one another: a small multiple of the diagonal pulls towards the impulses before (a proximal
+//! point), which at the end of the iteration are the solution. Of impulses that are not unique these are near to those
+//! of the step before; rates are unique in any case but Painlevé's.
+
+use crate::mode::Mode;
+use crate::solver::Residual;
+
+use super::cones::{Cone, MOST};
+use super::linear::{factorise, solve};
+
+/// The most rows of contacts.
+pub(crate) const MOST_ROWS: usize = 256;
+/// By what part of the diagonal impulses are pulled towards those before.
+const PULL: f64 = 1e-8;
+/// Rounds of sweeps and corrections.
+const ROUNDS: u32 = 8;
+/// Corrections of a round.
+const CORRECTIONS: usize = 30;
+/// Roundings of each product of a row that its sum may be off by.
+const ROUNDINGS: f64 = 64.0;
+
+/// What a contact does in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum State {
+    Leaves,
+    /// Without friction.
+    Closed,
+    Sticks,
+    /// The direction of `P_T − u_T/d`, against the slip, and by what part of its length friction is smaller.
+    Slides([f64; 3], f64),
+}
+
+impl State {
+    /// Whether the equations are the same.
+    fn is_as(&self, other: &Self) -> bool {
+        !matches!(self, Self::Slides(..)) && self == other
+    }
+}
+
+/// How a solution was found.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Found {
+    /// The worst of all contacts.
+    pub(crate) residual: Residual,
+    /// Whether it is within the tolerance.
+    pub(crate) holds: bool,
+    /// How many corrections and sweeps there were.
+    pub(crate) corrections: u32,
+    pub(crate) sweeps: u32,
+}
+
+/// The laws of a step in memory. All but `matrix` and `right` is for all rows of the system.
+pub(crate) struct Impulses<'m> {
+    /// D, row by row.
+    pub(crate) delassus: &'m mut [f64],
+    pub(crate) b: &'m mut [f64],
+    /// P; what it holds is where the search begins.
+    pub(crate) impulses: &'m mut [f64],
+    /// u.
+    pub(crate) rates: &'m mut [f64],
+    best: &'m mut [f64],
+    solution: &'m mut [f64],
+    right: &'m mut [f64],
+    matrix: &'m mut [f64],
+    /// Rows of the unknowns.
+    unknown: [usize; MOST_ROWS],
+    order: [usize; MOST_ROWS],
+}
+
+impl<'m> Impulses<'m> {
+    /// How many numbers it needs for so many rows.
+    pub(crate) const fn memory(rows: usize) -> usize {
+        2 * rows * rows + 6 * rows
+    }
+
+    pub(crate) fn new(memory: &'m mut [f64], rows: usize) -> Self {
+        let (delassus, memory) = memory.split_at_mut(rows * rows);
+        let (matrix, memory) = memory.split_at_mut(rows * rows);
+        let (b, memory) = memory.split_at_mut(rows);
+        let (impulses, memory) = memory.split_at_mut(rows);
+        let (rates, memory) = memory.split_at_mut(rows);
+        let (best, memory) = memory.split_at_mut(rows);
+        let (solution, memory) = memory.split_at_mut(rows);
+        let right = &mut memory[..rows];
+        let (unknown, order) = ([0; MOST_ROWS], [0; MOST_ROWS]);
+        Self { delassus, b, impulses, rates, best, solution, right, matrix, unknown, order }
+    }
+
+    fn row(&self, row: usize) -> &[f64] {
+        let n = self.b.len();
+        &self.delassus[row * n..(row + 1) * n]
+    }
+
+    fn at(&self, i: usize, j: usize) -> f64 {
+        self.delassus[i * self.b.len() + j]
+    }
+
+    fn rate(&self, row: usize) -> f64 {
+        self.row(row).iter().zip(&*self.impulses).fold(self.b[row], |sum, (d, impulse)| sum + d * impulse)
+    }
+
+    fn update(&mut self) {
+        (0..self.b.len()).for_each(|row| self.rates[row] = self.rate(row));
+    }
+
+    /// The sizes of the terms of a rate.
+    fn terms(&self, row: usize) -> f64 {
+        let products = self.row(row).iter().zip(&*self.impulses).map(|(d, impulse)| (d * impulse).abs());
+        products.fold(self.b[row].abs(), |sum, term| sum + term)
+    }
+
+    /// The largest diagonal entry of friction.
+    fn scale(&self, cone: &Cone) -> f64 {
+        cone.tangents().map(|row| self.at(row, row)).fold(0.0, f64::max)
+    }
+
+    /// `d P_T − u_T`, at most three, and its length.
+    fn wanted(&self, cone: &Cone, scale: f64) -> ([f64; 3], f64) {
+        let mut wanted = [0.0; 3];
+        for (wanted, row) in wanted.iter_mut().zip(cone.tangents()) {
+            *wanted = scale * self.impulses[row] - self.rates[row];
+        }
+        (wanted, norm(&wanted))
+    }
+
+    /// What a contact does, judged by impulses and rates.
+    fn state(&self, cone: &Cone) -> State {
+        if !cone.acts {
+            return State::Leaves;
+        }
+        let pressed = cone.normal.map_or(1.0, |row| self.impulses[row] - self.rates[row] / self.at(row, row));
+        if pressed <= 0.0 {
+            return State::Leaves;
+        }
+        let scale = self.scale(cone);
+        if cone.count == 0 || cone.friction == 0.0 || scale == 0.0 {
+            return State::Closed;
+        }
+        let (wanted, size) = self.wanted(cone, scale);
+        let largest = cone.friction * pressed * scale;
+        if size <= largest {
+            return State::Sticks;
+        }
+        State::Slides(wanted.map(|x| x / size), largest / size)
+    }
+
+    /// What a contact does, in forces and slips as they are: rows were scaled. Slips within the tolerance are none.
+    pub(crate) fn mode(&self, cone: &Cone, scales: &[f64], tolerance: f64) -> Mode {
+        let terms = cone.tangents().map(|row| self.terms(row)).fold(0.0, f64::max);
+        let slip = cone.tangents().map(|row| self.rates[row].abs()).fold(0.0, f64::max);
+        match self.state(cone) {
+            State::Slides(..) if slip <= tolerance * terms => Mode::Sticks,
+            State::Leaves => Mode::Open,
+            State::Closed => Mode::Closed,
+            State::Sticks => Mode::Sticks,
+            State::Slides(against, _) => {
+                let mut along = [0.0; 3];
+                along.iter_mut().zip(cone.tangents()).zip(against).for_each(|((x, row), y)| *x = -y / scales[row]);
+                let size = norm(&along);
+                Mode::Slides([along[0] / size, along[1] / size])
+            }
+        }
+    }
+
+    /// Finds the impulses from those that are there.
+    pub(crate) fn solve(&mut self, cones: &[Cone], tolerance: f64) -> Found {
+        let mut found = Found::default();
+        for row in
+            cones.iter().filter(|cone| !cone.acts).flat_map(|cone| cone.normal.into_iter().chain(cone.tangents()))
+        {
+            self.impulses[row] = 0.0;
+        }
+        self.update();
+        (found.residual, found.holds) = self.worst(cones, tolerance);
+        self.best.copy_from_slice(self.impulses);
+        if !cones.iter().any(|cone| cone.acts) {
+            return found;
+        }
+        // Also where those of the step before satisfy the laws within the tolerance: what rests is to rest exactly.
+        for round in 0..ROUNDS {
+            if round > 0 {
+                self.impulses.copy_from_slice(self.best);
+                (0..8 << round).for_each(|_| self.sweep(cones));
+                found.sweeps += 8 << round;
+                self.update();
+            }
+            if self.correct(cones, tolerance, &mut found) {
+                return found;
+            }
+        }
+        self.impulses.copy_from_slice(self.best);
+        self.update();
+        found
+    }
+
+    /// Newton's method; whether it ends with a solution.
+    fn correct(&mut self, cones: &[Cone], tolerance: f64, found: &mut Found) -> bool {
+        let mut states = [State::Leaves; MOST];
+        let mut known = 0;
+        let mut worse = 0;
+        for n in 0..CORRECTIONS {
+            let mut same = n > 0;
+            for (state, cone) in states.iter_mut().zip(cones) {
+                let next = self.state(cone);
+                same &= state.is_as(&next);
+                *state = next;
+            }
+            if !same {
+                match self.factors(cones, &states) {
+                    Some(count) => known = count,
+                    None => return false,
+                }
+            }
+            self.right_sides(cones, &states, known);
+            solve(
+                &self.matrix[..known * known],
+                &self.order[..known],
+                &self.right[..known],
+                &mut self.solution[..known],
+            );
+            self.impulses.fill(0.0);
+            (0..known).for_each(|k| self.impulses[self.unknown[k]] = self.solution[k]);
+            self.update();
+            found.corrections += 1;
+            let (residual, holds) = self.worst(cones, tolerance);
+            if n == 0 || residual.worst() < found.residual.worst() || holds {
+                (found.residual, found.holds) = (residual, holds);
+                self.best.copy_from_slice(self.impulses);
+                worse = 0;
+            } else {
+                worse += 1;
+            }
+            if holds {
+                return true;
+            }
+            if worse > 8 || !residual.worst().is_finite() {
+                return false;
+            }
+        }
+        false
+    }
+
+    /// Factors of the equations in given states; how many unknowns there are. `None` where they have no solution.
+    fn factors(&mut self, cones: &[Cone], states: &[State]) -> Option<usize> {
+        let mut count = 0;
+        for (cone, state) in cones.iter().zip(states) {
+            let rows = match state {
+                State::Leaves => continue,
+                State::Closed => cone.first..cone.first,
+                State::Sticks | State::Slides(..) => cone.tangents(),
+            };
+            for row in cone.normal.into_iter().chain(rows) {
+                self.unknown[count] = row;
+                count += 1;
+            }
+        }
+        let mut k = 0;
+        for (cone, state) in cones.iter().zip(states) {
+            if *state == State::Leaves {
+                continue;
+            }
+            if let Some(normal) = cone.normal {
+                self.equal(k, count, normal);
+                k += 1;
+            }
+            match state {
+                State::Sticks => {
+                    for row in cone.tangents() {
+                        self.equal(k, count, row);
+                        k += 1;
+                    }
+                }
+                State::Slides(along, part) => {
+                    let scale = self.scale(cone);
+                    for a in 0..cone.count {
+                        for c in 0..count {
+                            let entry = self.sliding_entry(cone, (along, *part, scale), a, self.unknown[c]);
+                            self.matrix[k * count + c] = entry;
+                        }
+                        k += 1;
+                    }
+                }
+                State::Leaves | State::Closed => {}
+            }
+        }
+        factorise(&mut self.matrix[..count * count], &mut self.order[..count]).then_some(count)
+    }
+
+    /// The equation of a rate that is zero.
+    fn equal(&mut self, k: usize, count: usize, row: usize) {
+        for c in 0..count {
+            let entry = self.at(row, self.unknown[c]);
+            self.matrix[k * count + c] = if self.unknown[c] == row { entry * (1.0 + PULL) } else { entry };
+        }
+    }
+
+    /// Of `d P_a − d μ P_N t_a − part Σ_b (δ_ab − t_a t_b) (d P_b − u_b) = 0`, which is Coulomb's law to first order in
+    /// the direction t: the factor of an impulse.
+    fn sliding_entry(&self, cone: &Cone, (along, part, scale): (&[f64; 3], f64, f64), a: usize, column: usize) -> f64 {
+        let mut entry = if column == cone.first + a { scale } else { 0.0 };
+        if cone.normal == Some(column) {
+            entry -= scale * cone.friction * along[a];
+        }
+        for (b, row) in cone.tangents().enumerate() {
+            let across = f64::from(u8::from(a == b)) - along[a] * along[b];
+            let own = if column == row { scale } else { 0.0 };
+            entry -= part * across * (own - self.at(row, column));
+        }
+        entry
+    }
+
+    fn right_sides(&mut self, cones: &[Cone], states: &[State], count: usize) {
+        let mut k = 0;
+        for (cone, state) in cones.iter().zip(states) {
+            if *state == State::Leaves {
+                continue;
+            }
+            let pulled = |this: &Self, row: usize| PULL * this.at(row, row) * this.impulses[row] - this.b[row];
+            if let Some(normal) = cone.normal {
+                self.right[k] = pulled(self, normal);
+                k += 1;
+            }
+            match state {
+                State::Sticks => {
+                    for row in cone.tangents() {
+                        self.right[k] = pulled(self, row);
+                        k += 1;
+                    }
+                }
+                State::Slides(along, part) => {
+                    let scale = self.scale(cone);
+                    for a in 0..cone.count {
+                        let fixed = if cone.normal.is_none() { scale * cone.friction * along[a] } else { 0.0 };
+                        let each = cone.tangents().enumerate();
+                        let turned: f64 = each
+                            .map(|(b, row)| (f64::from(u8::from(a == b)) - along[a] * along[b]) * self.b[row])
+                            .sum();
+                        self.right[k] = fixed - part * turned;
+                        k += 1;
+                    }
+                }
+                State::Leaves | State::Closed => {}
+            }
+        }
+        debug_assert_eq!(k, count);
+    }
+
+    /// One sweep over the contacts: each impulse is brought to its cone as if the others stayed.
+    fn sweep(&mut self, cones: &[Cone]) {
+        for cone in cones.iter().filter(|cone| cone.acts) {
+            if let Some(normal) = cone.normal {
+                let diagonal = self.at(normal, normal);
+                if diagonal > 0.0 {
+                    self.impulses[normal] = (self.impulses[normal] - self.rate(normal) / diagonal).max(0.0);
+                }
+            }
+            let scale: f64 = cone.tangents().map(|row| self.at(row, row)).sum();
+            if scale > 0.0 {
+                let largest = cone.radius(self.impulses);
+                let mut wanted = [0.0; 3];
+                for (wanted, row) in wanted.iter_mut().zip(cone.tangents()) {
+                    *wanted = self.impulses[row] - self.rate(row) / scale;
+                }
+                let size = norm(&wanted);
+                let part = if size > largest { largest / size } else { 1.0 };
+                cone.tangents().zip(wanted).for_each(|(row, impulse)| self.impulses[row] = part * impulse);
+            }
+        }
+    }
+
+    /// The worst residuals, and whether they are within the tolerance, a part of the largest rate, or rounding.
+    fn worst(&self, cones: &[Cone], tolerance: f64) -> (Residual, bool) {
+        let acting = || cones.iter().filter(|cone| cone.acts);
+        let rows = || acting().flat_map(|cone| cone.normal.into_iter().chain(cone.tangents()));
+        let largest = rows().map(|row| self.terms(row)).fold(0.0, f64::max);
+        let rounding = ROUNDINGS * (1 + self.b.len()) as f64 * f64::EPSILON;
+        let mut worst = Residual::default();
+        let mut holds = true;
+        for cone in acting() {
+            let residual = self.residual(cone, rounding);
+            // Written so that what is not a number does not hold.
+            holds &= residual.worst() <= residual.rounding.max(tolerance * largest);
+            worst = worst.worse(residual);
+        }
+        (worst, holds)
+    }
+
+    fn residual(&self, cone: &Cone, rounding: f64) -> Residual {
+        let pressed = cone.normal.map_or(0.0, |row| self.at(row, row) * self.impulses[row]);
+        let signorini = cone.normal.map_or(0.0, |row| nan_or(self.rates[row], f64::min, pressed).abs());
+        let scale = self.scale(cone);
+        let terms = cone.normal.into_iter().chain(cone.tangents()).map(|row| self.terms(row)).fold(0.0, f64::max);
+        let mut residual = Residual { signorini, rounding: rounding * terms, ..Residual::default() };
+        if cone.count > 0 {
+            let largest = scale * cone.radius(self.impulses);
+            let mut friction = [0.0; 3];
+            friction.iter_mut().zip(cone.tangents()).for_each(|(x, row)| *x = scale * self.impulses[row]);
+            residual.coulomb = nan_or(norm(&friction) - largest, f64::max, 0.0);
+            let (wanted, size) = self.wanted(cone, scale);
+            let part = if size > largest { largest / size } else { 1.0 };
+            let off: [f64; 3] = core::array::from_fn(|k| friction[k] - part * wanted[k]);
+            residual.dissipation = norm(&off);
+        }
+        residual
+    }
+}
+
+/// The smaller or larger of two; NaN where there is one.
+fn nan_or(a: f64, choose: fn(f64, f64) -> f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { choose(a, b) }
+}
+
+fn norm(x: &[f64; 3]) -> f64 {
+    gauss_runtime::real::Real::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])
+}
+
+#[cfg(test)]
+#[path = "impulses_tests.rs"]
+mod tests;

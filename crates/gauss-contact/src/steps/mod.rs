@@ -1,0 +1,21 @@
+//! Steps of fixed length in velocities and impulses, for many contacts.
+//!
+//! A step of length h goes half of the way with the speeds before it, finds there the impulses P with which speeds
+//! after the step satisfy the laws (J. J. Moreau 1988; M. Jean 1999),
+//!
+//! `z⁺ = z + h ż₀ + A⁻¹WᵀP`, `u⁺ = u + h b + D P`,
+//!
+//! and goes the other half with the speeds after it. All impacts of a step are solved at once. What counts as closed is
+//! decided by the gap that the step would end with. Then positions and speeds are projected: closed gaps are zero, so
+//! are their rates and the slips of what sticks. No event is sought, so that dozens of contacts, and impacts that pile
+//! up, are no more work than one; the time of an impact is known to a step.
+
+mod cones;
+mod impulses;
+mod linear;
+mod projection;
+mod run;
+mod stepper;
+
+pub use run::{ContactSteps, StepSample};
+pub use stepper::{ContactStepper, StepReport, StepScheme};

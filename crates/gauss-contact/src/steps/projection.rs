@@ -1,0 +1,144 @@
+//! The end of a step: closed gaps brought to zero, then their rates and the slips of what sticks.
+
+use gauss_runtime::configuration::{Configuration, VectorSpace};
+use gauss_runtime::constraint::{ConstraintLevel, ProjectionError, ProjectionFailure};
+use gauss_runtime::contact::{ContactResponse, ContactSystem};
+use gauss_runtime::integrate::problem::state::TangentOf;
+use gauss_runtime::real::Real;
+
+use crate::mode::{Mode, pushed};
+
+use super::impulses::MOST_ROWS;
+use super::linear::{factorise, solve};
+
+/// By what part of the diagonal a matrix is made regular where contacts depend on one another: corrections are repeated.
+const PULL: f64 = 1e-10;
+/// Corrections at most. With the matrix of half of the step each leaves a part of the order of the step.
+const CORRECTIONS: usize = 12;
+
+/// Memory for projections.
+pub(crate) struct Projection<'m> {
+    matrix: &'m mut [f64],
+    right: &'m mut [f64],
+    solution: &'m mut [f64],
+    /// The solution in all rows.
+    all: &'m mut [f64],
+    rows: [usize; MOST_ROWS],
+    order: [usize; MOST_ROWS],
+    count: usize,
+}
+
+impl<'m> Projection<'m> {
+    /// How many numbers it needs for so many rows.
+    pub(crate) const fn memory(rows: usize) -> usize {
+        rows * rows + 3 * rows
+    }
+
+    pub(crate) fn new(memory: &'m mut [f64], rows: usize) -> Self {
+        let (matrix, memory) = memory.split_at_mut(rows * rows);
+        let (right, memory) = memory.split_at_mut(rows);
+        let (solution, memory) = memory.split_at_mut(rows);
+        let (rows, order) = ([0; MOST_ROWS], [0; MOST_ROWS]);
+        Self { matrix, right, solution, all: memory, rows, order, count: 0 }
+    }
+
+    /// Factors of D at some rows.
+    fn factorise<K: ContactSystem<Scalar = f64>>(&mut self, delassus: &K::Delassus, rows: impl Iterator<Item = usize>) {
+        let mut count = 0;
+        for row in rows.filter(|&row| delassus[(row, row)] > 0.0) {
+            self.rows[count] = row;
+            count += 1;
+        }
+        self.count = count;
+        for i in 0..count {
+            for j in 0..count {
+                let entry = delassus[(self.rows[i], self.rows[j])];
+                self.matrix[i * count + j] = if i == j { entry * (1.0 + PULL) } else { entry };
+            }
+        }
+        factorise(&mut self.matrix[..count * count], &mut self.order[..count]);
+    }
+
+    /// Impulses that take away rates, in all rows.
+    fn cancelling(&mut self, rate: impl Fn(usize) -> f64) -> &[f64] {
+        let n = self.count;
+        (0..n).for_each(|k| self.right[k] = -rate(self.rows[k]));
+        solve(&self.matrix[..n * n], &self.order[..n], &self.right[..n], &mut self.solution[..n]);
+        self.all.fill(0.0);
+        (0..n).for_each(|k| self.all[self.rows[k]] = self.solution[k]);
+        self.all
+    }
+
+    /// Gaps of closed contacts brought to zero, and those that are negative.
+    pub(crate) fn close<K: ContactSystem<Scalar = f64>>(
+        &mut self,
+        kernel: &K,
+        (t, mut q): (f64, K::Configuration),
+        response: &ContactResponse<K>,
+        closed: &dyn Fn(usize) -> bool,
+    ) -> Result<K::Configuration, ProjectionError> {
+        let mut held = [false; super::cones::MOST];
+        let mut left = f64::INFINITY;
+        let mut size = 0.0;
+        for n in 0..CORRECTIONS {
+            let gaps = kernel.gaps(t, &q);
+            let mut grown = n == 0;
+            for (i, contact) in K::CONTACTS.iter().enumerate().filter(|(_, contact)| contact.has_gap()) {
+                let joins = !held[i] && (closed(i) || gaps.component(i) < 0.0) && contact.has_gap();
+                held[i] |= joins;
+                grown |= joins;
+            }
+            let gap = |i: usize| if held[i] { gaps.component(i) } else { 0.0 };
+            size = (0..K::CONTACTS.len()).map(|i| gap(i).abs()).fold(0.0, f64::max);
+            // There is nothing to gain where a correction no longer halves what is left.
+            if size == 0.0 || (!grown && size >= 0.5 * left) {
+                break;
+            }
+            left = size;
+            if grown {
+                let rows = K::CONTACTS.iter().enumerate().filter(|(i, _)| held[*i]).map(|(_, contact)| contact.normal);
+                self.factorise::<K>(&response.delassus, rows);
+            }
+            let of_row = |row: usize| K::CONTACTS.iter().position(|contact| contact.normal == row && contact.has_gap());
+            let impulses = self.cancelling(|row| of_row(row).map_or(0.0, gap));
+            let zero = K::Speeds::zero();
+            let moved = pushed::<K>(&zero, &response.columns, impulses);
+            // ψ is affine in z: what an impulse adds to it is an increment of the configuration.
+            let still = kernel.kinematics(t, &q, &zero);
+            q = q.advance(&kernel.kinematics(t, &q, &moved).add_scaled(-1.0, &still));
+        }
+        let magnitude = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
+        // Half of the digits: what is farther off was not on its way to zero.
+        if size.is_nan() || size > Real::sqrt(f64::EPSILON) * magnitude.max(1e-3) {
+            return Err(ProjectionError::new(ConstraintLevel::Position, ProjectionFailure::NotConverged, size));
+        }
+        Ok(q)
+    }
+
+    /// Rates of closed gaps, and slips of what sticks, brought to zero.
+    pub(crate) fn stop<K: ContactSystem<Scalar = f64>>(
+        &mut self,
+        kernel: &K,
+        (t, q, mut z): (f64, &K::Configuration, K::Speeds),
+        response: &ContactResponse<K>,
+        mode: &dyn Fn(usize) -> Mode,
+    ) -> K::Speeds {
+        let rows = K::CONTACTS.iter().enumerate().flat_map(|(i, contact)| match mode(i) {
+            Mode::Open => 0..0,
+            Mode::Sticks => contact.rows(),
+            Mode::Closed | Mode::Slides(_) => contact.normal..contact.tangent_rows().start,
+        });
+        self.factorise::<K>(&response.delassus, rows);
+        let mut left = f64::INFINITY;
+        for _ in 0..CORRECTIONS {
+            let rates = kernel.contact_rates(t, q, &z);
+            let size = self.rows[..self.count].iter().map(|&row| rates.component(row).abs()).fold(0.0, f64::max);
+            if size == 0.0 || size >= 0.5 * left {
+                break;
+            }
+            left = size;
+            z = pushed::<K>(&z, &response.columns, self.cancelling(|row| rates.component(row)));
+        }
+        z
+    }
+}

@@ -1,0 +1,324 @@
+//! One step after another.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::fmt;
+
+use gauss_runtime::configuration::{Configuration, VectorSpace};
+use gauss_runtime::constraint::ProjectionError;
+use gauss_runtime::contact::{ContactDynamics, ContactSystem};
+
+use crate::error::{ContactError, ContactErrorKind};
+use crate::mode::{Mode, pushed};
+use crate::solver::Residual;
+
+use super::cones::{Laws, MOST};
+use super::impulses::{Found, Impulses, MOST_ROWS};
+use super::projection::Projection;
+
+/// How a step takes the motion between impacts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum StepScheme {
+    /// Moreau and Jean's, θ = ½: accelerations at half of the step, with the speeds before it. Of second order where
+    /// forces depend on places alone, else of first.
+    MoreauJean,
+    /// The same with the speeds at half of the step, by the accelerations of the step before: of second order between
+    /// impacts, for the same work.
+    #[default]
+    Midpoint,
+}
+
+/// What a step did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct StepReport {
+    /// The worst residuals of all contacts, in the units of rates.
+    pub residual: Residual,
+    /// The largest gap below zero before the projection, as a positive number.
+    pub penetration: f64,
+    /// Contacts with an impulse.
+    pub closed: usize,
+    /// Corrections of the solver: systems of linear equations that were solved.
+    pub corrections: u32,
+    /// Sweeps of the solver, where corrections alone came to no end.
+    pub sweeps: u32,
+}
+
+/// A system on its way in steps; all that a step needs is in memory that was there before.
+///
+/// Impacts go by Newton's law, all of a step at once. `M` is the memory: `Vec<f64>`, or an array of at least
+/// [`MEMORY`](Self::MEMORY) numbers for programs that do not allocate.
+pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
+    pub(super) kernel: &'k K,
+    pub(super) t: f64,
+    pub(super) q: K::Configuration,
+    pub(super) z: K::Speeds,
+    scheme: StepScheme,
+    tolerance: f64,
+    memory: M,
+    impulses: K::ContactRows,
+    /// Of the last step, between impacts.
+    acceleration: Option<K::Speeds>,
+    pub(super) modes: [Mode; MOST],
+    report: StepReport,
+}
+
+impl<K: ContactSystem<Scalar = f64>, M> fmt::Debug for ContactStepper<'_, K, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { t, q, z, report, .. } = self;
+        f.debug_struct("ContactStepper").field("t", t).field("q", q).field("z", z).field("report", report).finish()
+    }
+}
+
+impl<'k, K: ContactSystem<Scalar = f64>> ContactStepper<'k, K> {
+    /// A system in the state (q, z) at a time.
+    ///
+    /// # Errors
+    /// `NegativeGap`, `InvalidRestitution`, `NonFinite`: as runs from event to event.
+    pub fn new(kernel: &'k K, t: f64, q: K::Configuration, z: K::Speeds) -> Result<Self, ContactError> {
+        Self::with_memory(kernel, (t, q, z), vec![0.0; Self::MEMORY])
+    }
+}
+
+impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, M> {
+    const ROWS: usize = K::ContactRows::DIM;
+    /// How many numbers steps need.
+    pub const MEMORY: usize = Impulses::memory(Self::ROWS) + Projection::memory(Self::ROWS);
+
+    /// Like [`new`](ContactStepper::new), in memory of one's own.
+    ///
+    /// # Errors
+    /// As there.
+    ///
+    /// # Panics
+    /// Where the memory has less than [`MEMORY`](Self::MEMORY) numbers.
+    pub fn with_memory(
+        kernel: &'k K,
+        (t, q, z): (f64, K::Configuration, K::Speeds),
+        mut memory: M,
+    ) -> Result<Self, ContactError> {
+        const {
+            assert!(K::CONTACTS.len() <= MOST, "steps take up to 64 contacts");
+            assert!(Self::ROWS <= MOST_ROWS, "steps take up to 256 rows of contacts");
+        }
+        assert!(memory.as_mut().len() >= Self::MEMORY, "steps of this system need {} numbers", Self::MEMORY);
+        crate::start::check(kernel, t, &q, &z)?;
+        let q = q.renormalise();
+        let mut stepper = Self {
+            kernel,
+            t,
+            q,
+            z,
+            scheme: StepScheme::default(),
+            tolerance: 1e-12,
+            memory,
+            impulses: K::ContactRows::zero(),
+            acceleration: None,
+            modes: [Mode::Open; MOST],
+            report: StepReport::default(),
+        };
+        stepper.find_closed();
+        Ok(stepper)
+    }
+
+    /// How the motion between impacts is taken.
+    #[must_use]
+    pub fn scheme(mut self, scheme: StepScheme) -> Self {
+        self.scheme = scheme;
+        self
+    }
+
+    /// How far from the laws a solution may be, as a part of the largest rate, in place of 10⁻¹²; rounding is always
+    /// allowed for.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: f64) -> Self {
+        self.tolerance = tolerance;
+        self
+    }
+
+    /// The time.
+    pub fn time(&self) -> f64 {
+        self.t
+    }
+
+    /// The configuration.
+    pub fn configuration(&self) -> &K::Configuration {
+        &self.q
+    }
+
+    /// The quasi-velocities.
+    pub fn speeds(&self) -> &K::Speeds {
+        &self.z
+    }
+
+    /// The impulses of the last step, row by row: over the length of the step they are its mean forces.
+    pub fn impulses(&self) -> &K::ContactRows {
+        &self.impulses
+    }
+
+    /// What the contacts did in the last step.
+    pub fn modes(&self) -> &[Mode] {
+        &self.modes[..K::CONTACTS.len()]
+    }
+
+    /// What the last step did.
+    pub fn report(&self) -> StepReport {
+        self.report
+    }
+
+    /// What touches at the start: gaps of zero, to rounding, that do not open.
+    fn find_closed(&mut self) {
+        let (gaps, rates) = (self.kernel.gaps(self.t, &self.q), self.kernel.contact_rates(self.t, &self.q, &self.z));
+        let near = crate::decide::Rounding::of::<K>(&self.q).half_of_the_digits();
+        for (i, contact) in K::CONTACTS.iter().enumerate() {
+            if contact.has_gap() && gaps.component(i) <= near && rates.component(contact.normal) <= 0.0 {
+                self.modes[i] = Mode::Closed;
+            }
+        }
+    }
+
+    /// One step of length `h`, under an input that stays. Where it is an error, the state is that before the step.
+    ///
+    /// # Errors
+    /// `Unsolved` where no impulses were found that satisfy the laws, `InvalidFriction`, `NonFinite`, `Projection`.
+    pub fn step(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
+        let (kernel, t, q, z) = (self.kernel, self.t, self.q, self.z);
+        let error = |contact: Option<usize>, kind| ContactError {
+            contact: contact.map(|i| K::CONTACTS[i].name),
+            time: t,
+            kind,
+        };
+        if !(h > 0.0 && h.is_finite()) {
+            return Err(error(None, ContactErrorKind::InvalidInterval));
+        }
+        let t_middle = t + 0.5 * h;
+        let q_middle = q.advance(&kernel.kinematics(t, &q, &z).scale(0.5 * h));
+        let z_middle = match (self.scheme, self.acceleration) {
+            (StepScheme::Midpoint, Some(acceleration)) => z.add_scaled(0.5 * h, &acceleration),
+            _ => z,
+        };
+        let friction = kernel.friction(t_middle, &q_middle, &z_middle, input);
+        let laws = Laws::new::<K>(h, &friction).map_err(|(i, kind)| error(Some(i), kind))?;
+        let dynamics = kernel.contact_dynamics(t_middle, &q_middle, &z_middle, input);
+        let (mut impulses, mut modes) = (self.impulses, self.modes);
+        let solved = self.solve(h, laws, &dynamics, (&mut impulses, &mut modes));
+        let solved = solved.map_err(|kind| error(None, kind))?;
+        let free = z.add_scaled(h, &dynamics.acceleration);
+        let z = pushed_rows::<K>(&free, &dynamics.response.columns, &impulses);
+        let t = t + h;
+        let q = q_middle.advance(&kernel.kinematics(t_middle, &q_middle, &z).scale(0.5 * h));
+        let (q, z) = if K::CONSTRAINED { kernel.project(t, &q, &z).map_err(projection(&error))? } else { (q, z) };
+        let gaps = kernel.gaps(t, &q);
+        let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
+        let mut projected = Projection::new(of_projection, K::ContactRows::DIM);
+        let rests = |i: usize| K::CONTACTS[i].has_gap() && solved.rests[i];
+        let q = projected.close(kernel, (t, q), &dynamics.response, &rests).map_err(projection(&error))?;
+        let mode = |i: usize| if solved.rests[i] { modes[i] } else { Mode::Open };
+        let z = projected.stop(kernel, (t, &q, z), &dynamics.response, &mode);
+        if !(q.is_finite() && z.is_finite()) {
+            return Err(error(None, ContactErrorKind::NonFinite));
+        }
+        self.acceleration = (!solved.struck).then(|| z.add_scaled(-1.0, &self.z).scale(1.0 / h));
+        (self.t, self.q, self.z, self.impulses, self.modes) = (t, q, z, impulses, modes);
+        let deepest = |i: usize| if K::CONTACTS[i].has_gap() { -gaps.component(i) } else { 0.0 };
+        self.report = StepReport {
+            residual: solved.found.residual,
+            penetration: (0..K::CONTACTS.len()).map(deepest).fold(0.0, f64::max),
+            closed: self.modes().iter().filter(|mode| mode.is_closed()).count(),
+            corrections: solved.found.corrections,
+            sweeps: solved.found.sweeps,
+        };
+        Ok(self.report)
+    }
+
+    /// Impulses and modes of a step; impulses are those of the step before at first.
+    fn solve(
+        &mut self,
+        h: f64,
+        mut laws: Laws,
+        dynamics: &ContactDynamics<K>,
+        (impulses, modes): (&mut K::ContactRows, &mut [Mode; MOST]),
+    ) -> Result<Solved, ContactErrorKind> {
+        let rows = K::ContactRows::DIM;
+        let (kernel, t, q, z) = (self.kernel, self.t, &self.q, &self.z);
+        let (gaps, before, e) = (kernel.gaps(t, q), kernel.contact_rates(t, q, z), kernel.restitution());
+        let scales = laws.scales;
+        let mut problem = Impulses::new(&mut self.memory.as_mut()[..Impulses::memory(rows)], rows);
+        for row in 0..rows {
+            problem.b[row] = scales[row] * (before.component(row) + h * dynamics.bias.component(row));
+            problem.impulses[row] = impulses.component(row) / scales[row];
+            for column in 0..rows {
+                let entry = scales[row] * dynamics.response.delassus[(row, column)] * scales[column];
+                problem.delassus[row * rows + column] = entry;
+            }
+        }
+        // What an impact passes on is a part of the rate before it.
+        let passed_on = |i: usize| -e.component(i) * before.component(K::CONTACTS[i].normal).min(0.0);
+        let end = |i: usize, rate: f64| gaps.component(i) + 0.5 * h * (before.component(K::CONTACTS[i].normal) + rate);
+        for (i, contact) in K::CONTACTS.iter().enumerate() {
+            let free = problem.b[contact.normal];
+            laws.cones[i].acts = !contact.has_gap() || self.modes[i].is_closed() || end(i, free) <= 0.0;
+            if contact.has_gap() {
+                problem.b[contact.normal] -= passed_on(i);
+            }
+        }
+        let cones = &mut laws.cones[..K::CONTACTS.len()];
+        // A contact that others press closed takes part as well.
+        let mut found = Found::default();
+        loop {
+            let next = problem.solve(cones, self.tolerance);
+            let (corrections, sweeps) = (found.corrections + next.corrections, found.sweeps + next.sweeps);
+            found = Found { corrections, sweeps, ..next };
+            let mut added = false;
+            for (i, cone) in cones.iter_mut().enumerate().filter(|(_, cone)| !cone.acts) {
+                cone.acts = end(i, problem.rates[K::CONTACTS[i].normal] + passed_on(i)) < 0.0;
+                added |= cone.acts;
+            }
+            if !added {
+                break;
+            }
+        }
+        if !found.holds {
+            let finite = found.residual.worst().is_finite();
+            let unsolved = ContactErrorKind::Unsolved { residual: found.residual };
+            return Err(if finite { unsolved } else { ContactErrorKind::NonFinite });
+        }
+        let mut solved = Solved { found, rests: [false; MOST], struck: false };
+        for (i, cone) in cones.iter().enumerate() {
+            let was_open = !self.modes[i].is_closed();
+            modes[i] = problem.mode(cone, &scales, self.tolerance);
+            let closes = modes[i].is_closed() && K::CONTACTS[i].has_gap();
+            solved.struck |= closes && was_open;
+            solved.rests[i] = modes[i].is_closed() && (!closes || passed_on(i) == 0.0);
+        }
+        (0..rows).for_each(|row| impulses.set_component(row, scales[row] * problem.impulses[row]));
+        Ok(solved)
+    }
+}
+
+/// What the laws of a step came to.
+struct Solved {
+    found: Found,
+    /// Contacts that are closed after the step.
+    rests: [bool; MOST],
+    /// Whether a gap has closed.
+    struck: bool,
+}
+
+fn projection(
+    error: &impl Fn(Option<usize>, ContactErrorKind) -> ContactError,
+) -> impl Fn(ProjectionError) -> ContactError {
+    move |cause| error(None, ContactErrorKind::Projection(cause))
+}
+
+fn pushed_rows<K: ContactSystem<Scalar = f64>>(
+    z: &K::Speeds,
+    columns: &K::ContactColumns,
+    rows: &K::ContactRows,
+) -> K::Speeds {
+    let mut all = [0.0; MOST_ROWS];
+    let all = &mut all[..K::ContactRows::DIM];
+    all.iter_mut().enumerate().for_each(|(row, impulse)| *impulse = rows.component(row));
+    pushed::<K>(z, columns, all)
+}
