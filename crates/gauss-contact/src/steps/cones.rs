@@ -30,6 +30,11 @@ impl Cone {
         self.first..self.first + self.count
     }
 
+    /// All its rows.
+    pub(crate) fn rows(&self) -> core::ops::Range<usize> {
+        self.normal.unwrap_or(self.first)..self.first + self.count
+    }
+
     /// The largest friction under impulses.
     pub(crate) fn radius(&self, impulses: &[f64]) -> f64 {
         self.friction * self.normal.map_or(1.0, |row| impulses[row].max(0.0))

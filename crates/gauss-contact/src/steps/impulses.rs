@@ -14,7 +14,7 @@ use crate::mode::Mode;
 use crate::solver::Residual;
 
 use super::cones::{Cone, MOST};
-use super::linear::{factorise, solve};
+use super::linear::{dot, factorise, solve, summed};
 
 /// The most rows of contacts.
 pub(crate) const MOST_ROWS: usize = 256;
@@ -66,6 +66,8 @@ pub(crate) struct Impulses<'m> {
     pub(crate) impulses: &'m mut [f64],
     /// u.
     pub(crate) rates: &'m mut [f64],
+    /// The sizes of the terms of each rate.
+    terms: &'m mut [f64],
     best: &'m mut [f64],
     solution: &'m mut [f64],
     right: &'m mut [f64],
@@ -78,7 +80,7 @@ pub(crate) struct Impulses<'m> {
 impl<'m> Impulses<'m> {
     /// How many numbers it needs for so many rows.
     pub(crate) const fn memory(rows: usize) -> usize {
-        2 * rows * rows + 6 * rows
+        2 * rows * rows + 7 * rows
     }
 
     pub(crate) fn new(memory: &'m mut [f64], rows: usize) -> Self {
@@ -87,11 +89,12 @@ impl<'m> Impulses<'m> {
         let (b, memory) = memory.split_at_mut(rows);
         let (impulses, memory) = memory.split_at_mut(rows);
         let (rates, memory) = memory.split_at_mut(rows);
+        let (terms, memory) = memory.split_at_mut(rows);
         let (best, memory) = memory.split_at_mut(rows);
         let (solution, memory) = memory.split_at_mut(rows);
         let right = &mut memory[..rows];
         let (unknown, order) = ([0; MOST_ROWS], [0; MOST_ROWS]);
-        Self { delassus, b, impulses, rates, best, solution, right, matrix, unknown, order }
+        Self { delassus, b, impulses, rates, terms, best, solution, right, matrix, unknown, order }
     }
 
     fn row(&self, row: usize) -> &[f64] {
@@ -104,17 +107,16 @@ impl<'m> Impulses<'m> {
     }
 
     fn rate(&self, row: usize) -> f64 {
-        self.row(row).iter().zip(&*self.impulses).fold(self.b[row], |sum, (d, impulse)| sum + d * impulse)
+        self.b[row] + dot(self.row(row), self.impulses)
     }
 
-    fn update(&mut self) {
-        (0..self.b.len()).for_each(|row| self.rates[row] = self.rate(row));
-    }
-
-    /// The sizes of the terms of a rate.
-    fn terms(&self, row: usize) -> f64 {
-        let products = self.row(row).iter().zip(&*self.impulses).map(|(d, impulse)| (d * impulse).abs());
-        products.fold(self.b[row].abs(), |sum, term| sum + term)
+    /// The rates of the rows that act, with their terms.
+    fn update(&mut self, cones: &[Cone]) {
+        for row in cones.iter().flat_map(Cone::rows) {
+            self.rates[row] = self.rate(row);
+            let products = summed(self.row(row), self.impulses, |d, impulse| (d * impulse).abs());
+            self.terms[row] = self.b[row].abs() + products;
+        }
     }
 
     /// The largest diagonal entry of friction.
@@ -154,7 +156,7 @@ impl<'m> Impulses<'m> {
 
     /// What a contact does, in forces and slips as they are: rows were scaled. Slips within the tolerance are none.
     pub(crate) fn mode(&self, cone: &Cone, scales: &[f64], tolerance: f64) -> Mode {
-        let terms = cone.tangents().map(|row| self.terms(row)).fold(0.0, f64::max);
+        let terms = cone.tangents().map(|row| self.terms[row]).fold(0.0, f64::max);
         let slip = cone.tangents().map(|row| self.rates[row].abs()).fold(0.0, f64::max);
         match self.state(cone) {
             State::Slides(..) if slip <= tolerance * terms => Mode::Sticks,
@@ -173,12 +175,10 @@ impl<'m> Impulses<'m> {
     /// Finds the impulses from those that are there.
     pub(crate) fn solve(&mut self, cones: &[Cone], tolerance: f64) -> Found {
         let mut found = Found::default();
-        for row in
-            cones.iter().filter(|cone| !cone.acts).flat_map(|cone| cone.normal.into_iter().chain(cone.tangents()))
-        {
+        for row in cones.iter().filter(|cone| !cone.acts).flat_map(|cone| cone.rows()) {
             self.impulses[row] = 0.0;
         }
-        self.update();
+        self.update(cones);
         (found.residual, found.holds) = self.worst(cones, tolerance);
         self.best.copy_from_slice(self.impulses);
         if !cones.iter().any(|cone| cone.acts) {
@@ -190,14 +190,14 @@ impl<'m> Impulses<'m> {
                 self.impulses.copy_from_slice(self.best);
                 (0..8 << round).for_each(|_| self.sweep(cones));
                 found.sweeps += 8 << round;
-                self.update();
+                self.update(cones);
             }
             if self.correct(cones, tolerance, &mut found) {
                 return found;
             }
         }
         self.impulses.copy_from_slice(self.best);
-        self.update();
+        self.update(cones);
         found
     }
 
@@ -228,7 +228,7 @@ impl<'m> Impulses<'m> {
             );
             self.impulses.fill(0.0);
             (0..known).for_each(|k| self.impulses[self.unknown[k]] = self.solution[k]);
-            self.update();
+            self.update(cones);
             found.corrections += 1;
             let (residual, holds) = self.worst(cones, tolerance);
             if n == 0 || residual.worst() < found.residual.worst() || holds {
@@ -379,8 +379,8 @@ impl<'m> Impulses<'m> {
     /// The worst residuals, and whether they are within the tolerance, a part of the largest rate, or rounding.
     fn worst(&self, cones: &[Cone], tolerance: f64) -> (Residual, bool) {
         let acting = || cones.iter().filter(|cone| cone.acts);
-        let rows = || acting().flat_map(|cone| cone.normal.into_iter().chain(cone.tangents()));
-        let largest = rows().map(|row| self.terms(row)).fold(0.0, f64::max);
+        let rows = || acting().flat_map(|cone| cone.rows());
+        let largest = rows().map(|row| self.terms[row]).fold(0.0, f64::max);
         let rounding = ROUNDINGS * (1 + self.b.len()) as f64 * f64::EPSILON;
         let mut worst = Residual::default();
         let mut holds = true;
@@ -397,7 +397,7 @@ impl<'m> Impulses<'m> {
         let pressed = cone.normal.map_or(0.0, |row| self.at(row, row) * self.impulses[row]);
         let signorini = cone.normal.map_or(0.0, |row| nan_or(self.rates[row], f64::min, pressed).abs());
         let scale = self.scale(cone);
-        let terms = cone.normal.into_iter().chain(cone.tangents()).map(|row| self.terms(row)).fold(0.0, f64::max);
+        let terms = cone.rows().map(|row| self.terms[row]).fold(0.0, f64::max);
         let mut residual = Residual { signorini, rounding: rounding * terms, ..Residual::default() };
         if cone.count > 0 {
             let largest = scale * cone.radius(self.impulses);

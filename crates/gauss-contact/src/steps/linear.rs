@@ -1,5 +1,22 @@
 //! Dense linear systems in memory that is given: factors by elimination with row pivots.
 
+/// The scalar product.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    summed(a, b, |a, b| a * b)
+}
+
+/// The sum over pairs, in four sums that do not wait for one another.
+pub(crate) fn summed(a: &[f64], b: &[f64], product: impl Fn(f64, f64) -> f64) -> f64 {
+    let mut sums = [0.0; 4];
+    let (a, rest_a) = a.as_chunks::<4>();
+    let (b, rest_b) = b.as_chunks::<4>();
+    for (a, b) in a.iter().zip(b) {
+        (0..4).for_each(|k| sums[k] += product(a[k], b[k]));
+    }
+    let rest: f64 = rest_a.iter().zip(rest_b).map(|(a, b)| product(*a, *b)).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
 /// Replaces a matrix, row by row, by its factors; `order` takes the rows in the order of their pivots. Whether no pivot
 /// vanished.
 pub(crate) fn factorise(matrix: &mut [f64], order: &mut [usize]) -> bool {
@@ -34,12 +51,11 @@ pub(crate) fn solve(factors: &[f64], order: &[usize], right: &[f64], x: &mut [f6
     let n = order.len();
     for k in 0..n {
         let row = &factors[k * n..k * n + k];
-        x[k] = right[order[k]] - row.iter().zip(&x[..k]).map(|(l, x)| l * x).sum::<f64>();
+        x[k] = right[order[k]] - dot(row, &x[..k]);
     }
     for k in (0..n).rev() {
         let row = &factors[k * n + k + 1..(k + 1) * n];
-        let known: f64 = row.iter().zip(&x[k + 1..n]).map(|(u, x)| u * x).sum();
-        x[k] = (x[k] - known) / factors[k * n + k];
+        x[k] = (x[k] - dot(row, &x[k + 1..n])) / factors[k * n + k];
     }
 }
 

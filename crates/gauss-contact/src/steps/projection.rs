@@ -8,6 +8,7 @@ use gauss_runtime::real::Real;
 
 use crate::mode::{Mode, pushed};
 
+use super::cones::MOST;
 use super::impulses::MOST_ROWS;
 use super::linear::{factorise, solve};
 
@@ -69,76 +70,87 @@ impl<'m> Projection<'m> {
         self.all
     }
 
-    /// Gaps of closed contacts brought to zero, and those that are negative.
+    /// Gaps of closed contacts brought to zero, and those that are negative; with the gaps there, and how far the lowest
+    /// was below zero.
     pub(crate) fn close<K: ContactSystem<Scalar = f64>>(
         &mut self,
         kernel: &K,
         (t, mut q): (f64, K::Configuration),
         response: &ContactResponse<K>,
-        closed: &dyn Fn(usize) -> bool,
-    ) -> Result<K::Configuration, ProjectionError> {
-        let mut held = [false; super::cones::MOST];
-        let mut left = f64::INFINITY;
-        let mut size = 0.0;
+        closed: &[bool; MOST],
+    ) -> Result<(K::Configuration, K::Gaps, f64), ProjectionError> {
+        let magnitude = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
+        let mut gaps = kernel.gaps(t, &q);
+        let each = || K::CONTACTS.iter().enumerate().filter(|(_, contact)| contact.has_gap());
+        let lowest = each().map(|(i, _)| gaps.component(i)).fold(0.0, f64::min);
+        let mut held = [false; MOST];
+        let (mut left, mut size) = (f64::INFINITY, 0.0);
         for n in 0..CORRECTIONS {
-            let gaps = kernel.gaps(t, &q);
             let mut grown = n == 0;
-            for (i, contact) in K::CONTACTS.iter().enumerate().filter(|(_, contact)| contact.has_gap()) {
-                let joins = !held[i] && (closed(i) || gaps.component(i) < 0.0) && contact.has_gap();
+            for (i, _) in each() {
+                let joins = !held[i] && (closed[i] || gaps.component(i) < 0.0);
                 held[i] |= joins;
                 grown |= joins;
             }
             let gap = |i: usize| if held[i] { gaps.component(i) } else { 0.0 };
             size = (0..K::CONTACTS.len()).map(|i| gap(i).abs()).fold(0.0, f64::max);
-            // There is nothing to gain where a correction no longer halves what is left.
-            if size == 0.0 || (!grown && size >= 0.5 * left) {
+            // Below rounding, or where a correction no longer halves what is left, there is nothing to gain.
+            if size <= 2.0 * f64::EPSILON * magnitude || (!grown && size >= 0.5 * left) {
                 break;
             }
             left = size;
             if grown {
-                let rows = K::CONTACTS.iter().enumerate().filter(|(i, _)| held[*i]).map(|(_, contact)| contact.normal);
-                self.factorise::<K>(&response.delassus, rows);
+                self.factorise::<K>(
+                    &response.delassus,
+                    each().filter(|(i, _)| held[*i]).map(|(_, contact)| contact.normal),
+                );
             }
-            let of_row = |row: usize| K::CONTACTS.iter().position(|contact| contact.normal == row && contact.has_gap());
-            let impulses = self.cancelling(|row| of_row(row).map_or(0.0, gap));
+            let of_row = |row: usize| each().find(|(_, contact)| contact.normal == row).map_or(0.0, |(i, _)| gap(i));
+            let impulses = self.cancelling(of_row);
             let zero = K::Speeds::zero();
             let moved = pushed::<K>(&zero, &response.columns, impulses);
             // ψ is affine in z: what an impulse adds to it is an increment of the configuration.
             let still = kernel.kinematics(t, &q, &zero);
             q = q.advance(&kernel.kinematics(t, &q, &moved).add_scaled(-1.0, &still));
+            gaps = kernel.gaps(t, &q);
         }
-        let magnitude = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
         // Half of the digits: what is farther off was not on its way to zero.
         if size.is_nan() || size > Real::sqrt(f64::EPSILON) * magnitude.max(1e-3) {
             return Err(ProjectionError::new(ConstraintLevel::Position, ProjectionFailure::NotConverged, size));
         }
-        Ok(q)
+        Ok((q, gaps, -lowest))
     }
 
-    /// Rates of closed gaps, and slips of what sticks, brought to zero.
+    /// Rates of closed gaps, and slips of what sticks, brought to zero where they are more than rounding; with all rates
+    /// there.
     pub(crate) fn stop<K: ContactSystem<Scalar = f64>>(
         &mut self,
         kernel: &K,
         (t, q, mut z): (f64, &K::Configuration, K::Speeds),
         response: &ContactResponse<K>,
-        mode: &dyn Fn(usize) -> Mode,
-    ) -> K::Speeds {
-        let rows = K::CONTACTS.iter().enumerate().flat_map(|(i, contact)| match mode(i) {
-            Mode::Open => 0..0,
-            Mode::Sticks => contact.rows(),
-            Mode::Closed | Mode::Slides(_) => contact.normal..contact.tangent_rows().start,
-        });
-        self.factorise::<K>(&response.delassus, rows);
+        (mode, rounding): (&dyn Fn(usize) -> Mode, f64),
+    ) -> (K::Speeds, K::ContactRows) {
+        let rows = || {
+            K::CONTACTS.iter().enumerate().flat_map(|(i, contact)| match mode(i) {
+                Mode::Open => 0..0,
+                Mode::Sticks => contact.rows(),
+                Mode::Closed | Mode::Slides(_) => contact.normal..contact.tangent_rows().start,
+            })
+        };
+        let mut rates = kernel.contact_rates(t, q, &z);
         let mut left = f64::INFINITY;
-        for _ in 0..CORRECTIONS {
-            let rates = kernel.contact_rates(t, q, &z);
-            let size = self.rows[..self.count].iter().map(|&row| rates.component(row).abs()).fold(0.0, f64::max);
-            if size == 0.0 || size >= 0.5 * left {
+        for n in 0..CORRECTIONS {
+            let size = rows().map(|row| rates.component(row).abs()).fold(0.0, f64::max);
+            if size <= rounding || size >= 0.5 * left {
                 break;
             }
             left = size;
+            if n == 0 {
+                self.factorise::<K>(&response.delassus, rows());
+            }
             z = pushed::<K>(&z, &response.columns, self.cancelling(|row| rates.component(row)));
+            rates = kernel.contact_rates(t, q, &z);
         }
-        z
+        (z, rates)
     }
 }

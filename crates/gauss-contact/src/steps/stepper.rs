@@ -58,6 +58,9 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     tolerance: f64,
     memory: M,
     impulses: K::ContactRows,
+    /// At the state.
+    gaps: K::Gaps,
+    rates: K::ContactRows,
     /// Of the last step, between impacts.
     acceleration: Option<K::Speeds>,
     pub(super) modes: [Mode; MOST],
@@ -114,6 +117,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             tolerance: 1e-12,
             memory,
             impulses: K::ContactRows::zero(),
+            gaps: kernel.gaps(t, &q),
+            rates: kernel.contact_rates(t, &q, &z),
             acceleration: None,
             modes: [Mode::Open; MOST],
             report: StepReport::default(),
@@ -169,7 +174,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 
     /// What touches at the start: gaps of zero, to rounding, that do not open.
     fn find_closed(&mut self) {
-        let (gaps, rates) = (self.kernel.gaps(self.t, &self.q), self.kernel.contact_rates(self.t, &self.q, &self.z));
+        let (gaps, rates) = (self.gaps, self.rates);
         let near = crate::decide::Rounding::of::<K>(&self.q).half_of_the_digits();
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             if contact.has_gap() && gaps.component(i) <= near && rates.component(contact.normal) <= 0.0 {
@@ -209,22 +214,24 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let t = t + h;
         let q = q_middle.advance(&kernel.kinematics(t_middle, &q_middle, &z).scale(0.5 * h));
         let (q, z) = if K::CONSTRAINED { kernel.project(t, &q, &z).map_err(projection(&error))? } else { (q, z) };
-        let gaps = kernel.gaps(t, &q);
         let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
         let mut projected = Projection::new(of_projection, K::ContactRows::DIM);
-        let rests = |i: usize| K::CONTACTS[i].has_gap() && solved.rests[i];
-        let q = projected.close(kernel, (t, q), &dynamics.response, &rests).map_err(projection(&error))?;
+        let closed = projected.close(kernel, (t, q), &dynamics.response, &solved.rests);
+        let (q, gaps, penetration) = closed.map_err(projection(&error))?;
         let mode = |i: usize| if solved.rests[i] { modes[i] } else { Mode::Open };
-        let z = projected.stop(kernel, (t, &q, z), &dynamics.response, &mode);
+        // What begins to rest is brought to zero to the last bit, and stays there.
+        let changes = (0..K::CONTACTS.len()).any(|i| modes[i] != self.modes[i]);
+        let rounding = if changes { 0.0 } else { solved.found.residual.rounding };
+        let (z, rates) = projected.stop(kernel, (t, &q, z), &dynamics.response, (&mode, rounding));
         if !(q.is_finite() && z.is_finite()) {
             return Err(error(None, ContactErrorKind::NonFinite));
         }
         self.acceleration = (!solved.struck).then(|| z.add_scaled(-1.0, &self.z).scale(1.0 / h));
         (self.t, self.q, self.z, self.impulses, self.modes) = (t, q, z, impulses, modes);
-        let deepest = |i: usize| if K::CONTACTS[i].has_gap() { -gaps.component(i) } else { 0.0 };
+        (self.gaps, self.rates) = (gaps, rates);
         self.report = StepReport {
             residual: solved.found.residual,
-            penetration: (0..K::CONTACTS.len()).map(deepest).fold(0.0, f64::max),
+            penetration,
             closed: self.modes().iter().filter(|mode| mode.is_closed()).count(),
             corrections: solved.found.corrections,
             sweeps: solved.found.sweeps,
@@ -241,8 +248,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         (impulses, modes): (&mut K::ContactRows, &mut [Mode; MOST]),
     ) -> Result<Solved, ContactErrorKind> {
         let rows = K::ContactRows::DIM;
-        let (kernel, t, q, z) = (self.kernel, self.t, &self.q, &self.z);
-        let (gaps, before, e) = (kernel.gaps(t, q), kernel.contact_rates(t, q, z), kernel.restitution());
+        let (gaps, before, e) = (self.gaps, self.rates, self.kernel.restitution());
         let scales = laws.scales;
         let mut problem = Impulses::new(&mut self.memory.as_mut()[..Impulses::memory(rows)], rows);
         for row in 0..rows {
