@@ -18,8 +18,10 @@ use super::linear::{dot, factorise, solve, summed};
 
 /// The most rows of contacts.
 pub(crate) const MOST_ROWS: usize = 256;
-/// By what part of the diagonal impulses are pulled towards those before.
+/// By what part of the diagonal impulses are pulled towards those before, where contacts depend on one another.
 const PULL: f64 = 1e-8;
+/// Contacts do where this is left of a column.
+const DEPENDENT: f64 = 1e-11;
 /// Rounds of sweeps and corrections.
 const ROUNDS: u32 = 8;
 /// Corrections of a round.
@@ -75,6 +77,8 @@ pub(crate) struct Impulses<'m> {
     /// Rows of the unknowns.
     unknown: [usize; MOST_ROWS],
     order: [usize; MOST_ROWS],
+    /// Whether contacts depend on one another, as far as is known.
+    pub(crate) dependent: bool,
 }
 
 impl<'m> Impulses<'m> {
@@ -94,7 +98,7 @@ impl<'m> Impulses<'m> {
         let (solution, memory) = memory.split_at_mut(rows);
         let right = &mut memory[..rows];
         let (unknown, order) = ([0; MOST_ROWS], [0; MOST_ROWS]);
-        Self { delassus, b, impulses, rates, terms, best, solution, right, matrix, unknown, order }
+        Self { delassus, b, impulses, rates, terms, best, solution, right, matrix, unknown, order, dependent: false }
     }
 
     fn row(&self, row: usize) -> &[f64] {
@@ -214,7 +218,11 @@ impl<'m> Impulses<'m> {
                 *state = next;
             }
             if !same {
-                match self.factors(cones, &states) {
+                let found = self.factors(cones, &states).or_else(|| {
+                    let again = !core::mem::replace(&mut self.dependent, true);
+                    again.then(|| self.factors(cones, &states)).flatten()
+                });
+                match found {
                     Some(count) => known = count,
                     None => return false,
                 }
@@ -291,14 +299,19 @@ impl<'m> Impulses<'m> {
                 State::Leaves | State::Closed => {}
             }
         }
-        factorise(&mut self.matrix[..count * count], &mut self.order[..count]).then_some(count)
+        let part = if self.dependent { 0.0 } else { DEPENDENT };
+        factorise(&mut self.matrix[..count * count], &mut self.order[..count], part).then_some(count)
+    }
+
+    fn pull(&self) -> f64 {
+        if self.dependent { PULL } else { 0.0 }
     }
 
     /// The equation of a rate that is zero.
     fn equal(&mut self, k: usize, count: usize, row: usize) {
         for c in 0..count {
             let entry = self.at(row, self.unknown[c]);
-            self.matrix[k * count + c] = if self.unknown[c] == row { entry * (1.0 + PULL) } else { entry };
+            self.matrix[k * count + c] = if self.unknown[c] == row { entry * (1.0 + self.pull()) } else { entry };
         }
     }
 
@@ -323,7 +336,7 @@ impl<'m> Impulses<'m> {
             if *state == State::Leaves {
                 continue;
             }
-            let pulled = |this: &Self, row: usize| PULL * this.at(row, row) * this.impulses[row] - this.b[row];
+            let pulled = |this: &Self, row: usize| this.pull() * this.at(row, row) * this.impulses[row] - this.b[row];
             if let Some(normal) = cone.normal {
                 self.right[k] = pulled(self, normal);
                 k += 1;

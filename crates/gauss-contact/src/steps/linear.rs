@@ -18,12 +18,14 @@ pub(crate) fn summed(a: &[f64], b: &[f64], product: impl Fn(f64, f64) -> f64) ->
 }
 
 /// Replaces a matrix, row by row, by its factors; `order` takes the rows in the order of their pivots. Whether no pivot
-/// vanished.
-pub(crate) fn factorise(matrix: &mut [f64], order: &mut [usize]) -> bool {
+/// is smaller than a part of the largest entry of its column.
+pub(crate) fn factorise(matrix: &mut [f64], order: &mut [usize], part: f64) -> bool {
     let n = order.len();
     order.iter_mut().enumerate().for_each(|(i, row)| *row = i);
     for k in 0..n {
         let size = |i: &usize| matrix[*i * n + k].abs();
+        // Of the factors above and of what is left: an entry of the column to begin with is not far from these.
+        let column = (0..n).map(|i| size(&i)).fold(0.0, f64::max);
         let Some(pivot) = (k..n).max_by(|a, b| size(a).total_cmp(&size(b))) else { return true };
         if pivot != k {
             (0..n).for_each(|j| matrix.swap(pivot * n + j, k * n + j));
@@ -32,7 +34,7 @@ pub(crate) fn factorise(matrix: &mut [f64], order: &mut [usize]) -> bool {
         let (above, below) = matrix.split_at_mut((k + 1) * n);
         let first = &above[k * n..];
         let diagonal = first[k];
-        if diagonal == 0.0 || !diagonal.is_finite() {
+        if diagonal.abs() <= part * column || !diagonal.is_finite() {
             return false;
         }
         for row in below.chunks_exact_mut(n) {
@@ -72,10 +74,10 @@ mod tests {
         let x = [3.0, -1.0, 2.0];
         let right: Vec<f64> = matrix.chunks(3).map(|row| row.iter().zip(&x).map(|(a, x)| a * x).sum()).collect();
         let (mut factors, mut order, mut found) = (matrix, [0; 3], [0.0; 3]);
-        assert!(factorise(&mut factors, &mut order));
+        assert!(factorise(&mut factors, &mut order, 0.0));
         solve(&factors, &order, &right, &mut found);
         // Six products of numbers up to 12 stand behind each.
         found.iter().zip(&x).for_each(|(a, b)| assert!((a - b).abs() <= 6.0 * 12.0 * f64::EPSILON, "{a} {b}"));
-        assert!(!factorise(&mut [1.0, 2.0, 2.0, 4.0], &mut [0; 2]));
+        assert!(!factorise(&mut [1.0, 2.0, 2.0, 4.0], &mut [0; 2], 0.0));
     }
 }

@@ -57,7 +57,7 @@ impl<'m> Projection<'m> {
                 self.matrix[i * count + j] = if i == j { entry * (1.0 + PULL) } else { entry };
             }
         }
-        factorise(&mut self.matrix[..count * count], &mut self.order[..count]);
+        factorise(&mut self.matrix[..count * count], &mut self.order[..count], 0.0);
     }
 
     /// Impulses that take away rates, in all rows.

@@ -58,6 +58,8 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     tolerance: f64,
     memory: M,
     impulses: K::ContactRows,
+    /// Whether contacts depended on one another in the last step.
+    dependent: bool,
     /// At the state.
     gaps: K::Gaps,
     rates: K::ContactRows,
@@ -117,6 +119,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             tolerance: 1e-12,
             memory,
             impulses: K::ContactRows::zero(),
+            dependent: false,
             gaps: kernel.gaps(t, &q),
             rates: kernel.contact_rates(t, &q, &z),
             acceleration: None,
@@ -221,6 +224,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let mode = |i: usize| if solved.rests[i] { modes[i] } else { Mode::Open };
         // What begins to rest is brought to zero to the last bit, and stays there.
         let changes = (0..K::CONTACTS.len()).any(|i| modes[i] != self.modes[i]);
+        self.dependent &= !changes;
         let rounding = if changes { 0.0 } else { solved.found.residual.rounding };
         let (z, rates) = projected.stop(kernel, (t, &q, z), &dynamics.response, (&mode, rounding));
         if !(q.is_finite() && z.is_finite()) {
@@ -251,6 +255,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let (gaps, before, e) = (self.gaps, self.rates, self.kernel.restitution());
         let scales = laws.scales;
         let mut problem = Impulses::new(&mut self.memory.as_mut()[..Impulses::memory(rows)], rows);
+        problem.dependent = self.dependent;
         for row in 0..rows {
             problem.b[row] = scales[row] * (before.component(row) + h * dynamics.bias.component(row));
             problem.impulses[row] = impulses.component(row) / scales[row];
@@ -285,6 +290,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
                 break;
             }
         }
+        self.dependent = problem.dependent;
         if !found.holds {
             let finite = found.residual.worst().is_finite();
             let unsolved = ContactErrorKind::Unsolved { residual: found.residual };
