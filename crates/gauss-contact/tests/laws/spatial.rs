@@ -9,15 +9,13 @@ use crate::common::{Layout, Scene, V, numbers};
 
 const G: f64 = 9.81;
 
-struct Plane;
+pub struct Plane;
 impl Layout for Plane {
     const CONTACTS: &'static [Contact] = &[Contact::new("plane", 0, 2)];
 }
 
-#[test]
-fn a_sphere_that_is_set_down_sliding_rolls_with_five_sevenths() {
-    // (x, y, h, and three angles of a sphere, whose inertia is the same about all axes): slip v + ω × (−r e₃).
-    let (m, r, mu) = (2.0, 0.1, 0.3);
+/// A sphere on a plane: (x, y, h, and three angles), its inertia the same about all axes, its slip v + ω × (−r e₃).
+pub fn sphere(m: f64, r: f64, mu: f64) -> Scene<Plane, 6, 1, 3> {
     let inertia = 0.4 * m * r * r;
     let rows = SMatrix::<f64, 3, 6>::from_row_slice(&[
         0., 0., 1., 0., 0., 0., //
@@ -26,7 +24,13 @@ fn a_sphere_that_is_set_down_sliding_rolls_with_five_sevenths() {
     ]);
     let weight = V::from([0.0, 0.0, -m * G, 0.0, 0.0, 0.0]);
     let mass = V::from([m, m, m, inertia, inertia, inertia]);
-    let kernel: Scene<Plane, 6, 1, 3> = Scene::linear(mass, weight, V::from([-r]), rows).friction([mu]);
+    Scene::linear(mass, weight, V::from([-r]), rows).friction([mu])
+}
+
+#[test]
+fn a_sphere_that_is_set_down_sliding_rolls_with_five_sevenths() {
+    let (r, mu) = (0.1, 0.3);
+    let kernel = sphere(2.0, r, mu);
     let (v, direction) = (2.0, [0.6, 0.8]);
     let start = V::from([0.0, 0.0, r, 0.0, 0.0, 0.0]);
     let speeds = V::from([v * direction[0], v * direction[1], 0.0, 0.0, 0.0, 0.0]);
@@ -73,25 +77,29 @@ fn a_block_across_an_incline_turns_downhill_and_stops() {
     assert_eq!(end.z, V::<3>::zeros());
 }
 
-struct Room;
+pub struct Room;
 impl Layout for Room {
     const CONTACTS: &'static [Contact] =
         &[Contact::new("floor", 0, 2), Contact::new("wall", 3, 2), Contact::new("other wall", 6, 2)];
 }
 
-#[test]
-fn points_that_are_thrown_into_a_corner_of_a_room_come_to_rest() {
-    // The normal of each contact is a tangent of the two others.
+/// A point in a corner: the normal of each contact is a tangent of the two others.
+pub fn room(mass: f64, weight: V<3>) -> Scene<Room, 3, 3, 9> {
     let rows = SMatrix::<f64, 9, 3>::from_row_slice(&[
         0., 0., 1., 1., 0., 0., 0., 1., 0., //
         1., 0., 0., 0., 1., 0., 0., 0., 1., //
         0., 1., 0., 0., 0., 1., 1., 0., 0.,
     ]);
+    Scene::linear(V::repeat(mass), weight, V::zeros(), rows)
+}
+
+#[test]
+fn points_that_are_thrown_into_a_corner_of_a_room_come_to_rest() {
     let mut number = numbers(11);
     for n in 0..30 {
         let (e, law) = ([0.0, 0.4, 0.8][n % 3], [Impact::Newton, Impact::Moreau][n % 2]);
         let (mass, weight) = (1.5, V::from([-4.0 - 3.0 * number(), -4.0 - 3.0 * number(), -1.5 * G]));
-        let kernel: Scene<Room, 3, 3, 9> = Scene::linear(V::repeat(mass), weight, V::zeros(), rows);
+        let kernel = room(mass, weight);
         let kernel = kernel.friction([0.3 + 0.3 * number(), 0.2, 0.1]).restitution([e; 3]);
         let start = V::from([1.0 + number(), 1.0 + number(), 1.0 + number()]);
         let speeds = V::from([3.0 * number(), 3.0 * number(), 3.0 * number()]);
