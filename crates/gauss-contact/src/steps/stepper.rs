@@ -5,7 +5,6 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::constraint::ProjectionError;
 use gauss_runtime::contact::{ContactDynamics, ContactSystem};
 
 use crate::error::{ContactError, ContactErrorKind};
@@ -191,56 +190,111 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     /// # Errors
     /// `Unsolved` where no impulses were found that satisfy the laws, `InvalidFriction`, `NonFinite`, `Projection`.
     pub fn step(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
-        let (kernel, t, q, z) = (self.kernel, self.t, self.q, self.z);
-        let error = |contact: Option<usize>, kind| ContactError {
-            contact: contact.map(|i| K::CONTACTS[i].name),
-            time: t,
-            kind,
-        };
         if !(h > 0.0 && h.is_finite()) {
-            return Err(error(None, ContactErrorKind::InvalidInterval));
+            return Err(self.error(None, ContactErrorKind::InvalidInterval));
         }
-        let t_middle = t + 0.5 * h;
-        let q_middle = q.advance(&kernel.kinematics(t, &q, &z).scale(0.5 * h));
-        let z_middle = match (self.scheme, self.acceleration) {
-            (StepScheme::Midpoint, Some(acceleration)) => z.add_scaled(0.5 * h, &acceleration),
-            _ => z,
+        let (kernel, t, q, z) = (self.kernel, self.t, self.q, self.z);
+        let middle = Middle {
+            t: t + 0.5 * h,
+            q: q.advance(&kernel.kinematics(t, &q, &z).scale(0.5 * h)),
+            z: match (self.scheme, self.acceleration) {
+                (StepScheme::Midpoint, Some(acceleration)) => z.add_scaled(0.5 * h, &acceleration),
+                _ => z,
+            },
         };
-        let friction = kernel.friction(t_middle, &q_middle, &z_middle, input);
-        let laws = Laws::new::<K>(h, &friction).map_err(|(i, kind)| error(Some(i), kind))?;
-        let dynamics = kernel.contact_dynamics(t_middle, &q_middle, &z_middle, input);
+        let end = match self.flight(h, &middle, input)? {
+            Some(end) => end,
+            None => self.touching(h, &middle, input)?,
+        };
+        if !(end.q.is_finite() && end.z.is_finite()) {
+            return Err(self.error(None, ContactErrorKind::NonFinite));
+        }
+        self.acceleration = (!end.struck).then(|| end.z.add_scaled(-1.0, &z).scale(1.0 / h));
+        self.t = t + h;
+        (self.q, self.z, self.impulses, self.modes) = (end.q, end.z, end.impulses, end.modes);
+        (self.gaps, self.rates, self.report) = (end.gaps, end.rates, end.report);
+        Ok(self.report)
+    }
+
+    fn error(&self, contact: Option<usize>, kind: ContactErrorKind) -> ContactError {
+        ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: self.t, kind }
+    }
+
+    /// The gap with which a contact ends a step, given its rate there.
+    fn gap_at_end(&self, h: f64, i: usize, rate: f64) -> f64 {
+        self.gaps.component(i) + 0.5 * h * (self.rates.component(K::CONTACTS[i].normal) + rate)
+    }
+
+    /// The second half of a step, and what keeps bilateral constraints.
+    fn second_half(
+        &self,
+        h: f64,
+        middle: &Middle<K>,
+        z: K::Speeds,
+    ) -> Result<(K::Configuration, K::Speeds), ContactError> {
+        let q = middle.q.advance(&self.kernel.kinematics(middle.t, &middle.q, &z).scale(0.5 * h));
+        if !K::CONSTRAINED {
+            return Ok((q, z));
+        }
+        let projected = self.kernel.project(self.t + h, &q, &z);
+        projected.map_err(|cause| self.error(None, ContactErrorKind::Projection(cause)))
+    }
+
+    /// A step in which no gap closes: the motion without contacts is all that it needs.
+    fn flight(&self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Option<End<K>>, ContactError> {
+        let is_open = |i: &usize| K::CONTACTS[*i].has_gap() && !self.modes[*i].is_closed();
+        let contacts = 0..K::CONTACTS.len();
+        if !contacts.clone().all(|i| is_open(&i)) {
+            return Ok(None);
+        }
+        let kernel = self.kernel;
+        let z = self.z.add_scaled(h, &kernel.acceleration(middle.t, &middle.q, &middle.z, input));
+        let after = kernel.contact_rates(middle.t, &middle.q, &z);
+        if !contacts.clone().all(|i| self.gap_at_end(h, i, after.component(K::CONTACTS[i].normal)) > 0.0) {
+            return Ok(None);
+        }
+        let (q, z) = self.second_half(h, middle, z)?;
+        let gaps = kernel.gaps(self.t + h, &q);
+        if !contacts.clone().all(|i| gaps.component(i) >= 0.0) {
+            return Ok(None);
+        }
+        let rates = kernel.contact_rates(self.t + h, &q, &z);
+        let (impulses, modes, report) = (K::ContactRows::zero(), self.modes, StepReport::default());
+        Ok(Some(End { q, z, gaps, rates, impulses, modes, report, struck: false }))
+    }
+
+    /// A step in which contacts may act.
+    fn touching(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<End<K>, ContactError> {
+        let kernel = self.kernel;
+        let friction = kernel.friction(middle.t, &middle.q, &middle.z, input);
+        let laws = Laws::new::<K>(h, &friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
+        let dynamics = kernel.contact_dynamics(middle.t, &middle.q, &middle.z, input);
         let (mut impulses, mut modes) = (self.impulses, self.modes);
         let solved = self.solve(h, laws, &dynamics, (&mut impulses, &mut modes));
-        let solved = solved.map_err(|kind| error(None, kind))?;
-        let free = z.add_scaled(h, &dynamics.acceleration);
+        let solved = solved.map_err(|kind| self.error(None, kind))?;
+        let free = self.z.add_scaled(h, &dynamics.acceleration);
         let z = pushed_rows::<K>(&free, &dynamics.response.columns, &impulses);
-        let t = t + h;
-        let q = q_middle.advance(&kernel.kinematics(t_middle, &q_middle, &z).scale(0.5 * h));
-        let (q, z) = if K::CONSTRAINED { kernel.project(t, &q, &z).map_err(projection(&error))? } else { (q, z) };
-        let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
-        let mut projected = Projection::new(of_projection, K::ContactRows::DIM);
-        let closed = projected.close(kernel, (t, q), &dynamics.response, &solved.rests);
-        let (q, gaps, penetration) = closed.map_err(projection(&error))?;
-        let mode = |i: usize| if solved.rests[i] { modes[i] } else { Mode::Open };
+        let (q, z) = self.second_half(h, middle, z)?;
         // What begins to rest is brought to zero to the last bit, and stays there.
         let changes = (0..K::CONTACTS.len()).any(|i| modes[i] != self.modes[i]);
         self.dependent &= !changes;
         let rounding = if changes { 0.0 } else { solved.found.residual.rounding };
-        let (z, rates) = projected.stop(kernel, (t, &q, z), &dynamics.response, (&mode, rounding));
-        if !(q.is_finite() && z.is_finite()) {
-            return Err(error(None, ContactErrorKind::NonFinite));
-        }
-        self.acceleration = (!solved.struck).then(|| z.add_scaled(-1.0, &self.z).scale(1.0 / h));
-        (self.t, self.q, self.z, self.impulses, self.modes) = (t, q, z, impulses, modes);
-        (self.gaps, self.rates) = (gaps, rates);
-        self.report = StepReport {
+        let (start, t) = (self.t, self.t + h);
+        let failed = |cause| ContactError { contact: None, time: start, kind: ContactErrorKind::Projection(cause) };
+        let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
+        let mut projection = Projection::new(of_projection, K::ContactRows::DIM);
+        let closed = projection.close(kernel, (t, q), &dynamics.response, &solved.rests);
+        let (q, gaps, penetration) = closed.map_err(failed)?;
+        let mode = |i: usize| if solved.rests[i] { modes[i] } else { Mode::Open };
+        let (z, rates) = projection.stop(kernel, (t, &q, z), &dynamics.response, (&mode, rounding));
+        let report = StepReport {
             residual: solved.found.residual,
             penetration,
-            closed: self.modes().iter().filter(|mode| mode.is_closed()).count(),
+            closed: modes.iter().filter(|mode| mode.is_closed()).count(),
             corrections: solved.found.corrections,
             sweeps: solved.found.sweeps,
         };
-        Ok(self.report)
+        Ok(End { q, z, gaps, rates, impulses, modes, report, struck: solved.struck })
     }
 
     /// Impulses and modes of a step; impulses are those of the step before at first.
@@ -309,6 +363,26 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     }
 }
 
+/// The state at half of a step, with the speeds at which accelerations are taken.
+struct Middle<K: ContactSystem> {
+    t: f64,
+    q: K::Configuration,
+    z: K::Speeds,
+}
+
+/// The end of a step.
+struct End<K: ContactSystem> {
+    q: K::Configuration,
+    z: K::Speeds,
+    gaps: K::Gaps,
+    rates: K::ContactRows,
+    impulses: K::ContactRows,
+    modes: [Mode; MOST],
+    report: StepReport,
+    /// Whether a gap has closed.
+    struck: bool,
+}
+
 /// What the laws of a step came to.
 struct Solved {
     found: Found,
@@ -316,12 +390,6 @@ struct Solved {
     rests: [bool; MOST],
     /// Whether a gap has closed.
     struck: bool,
-}
-
-fn projection(
-    error: &impl Fn(Option<usize>, ContactErrorKind) -> ContactError,
-) -> impl Fn(ProjectionError) -> ContactError {
-    move |cause| error(None, ContactErrorKind::Projection(cause))
 }
 
 fn pushed_rows<K: ContactSystem<Scalar = f64>>(
