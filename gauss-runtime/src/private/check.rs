@@ -110,6 +110,16 @@ impl<T: Real> ParameterCheck<T> {
         }
     }
 
+    /// A length that is finite and greater than zero, also its square.
+    pub fn positive_length(&mut self, field: &'static str, value: T) {
+        if self.finite_so_far(field, &[value]) {
+            self.each_lane(field, |lane| {
+                let positive = value.lane(lane) > 0.0 && (value * value).lane(lane) > 0.0;
+                (!positive).then_some((value.lane(lane), Rule::PositiveLength))
+            });
+        }
+    }
+
     /// The square of the length of a direction: finite and greater than zero.
     pub fn direction(&mut self, field: &'static str, square: T) {
         if self.finite_so_far(field, &[square]) {

@@ -59,6 +59,12 @@ fn coefficients_and_directions_of_contacts() {
         check.direction("n", 1e-30);
     });
     assert!(none.is_empty(), "{none:?}");
+    assert!(found(|check| check.positive_length("stone.semi_axes", 1e-150)).is_empty());
+    // Of the last one the square is 0.
+    for wrong in [0.0, -0.2, 1e-200] {
+        let violation = only(|check| check.positive_length("stone.semi_axes", wrong));
+        assert_eq!((violation.value, violation.rule), (wrong, Rule::PositiveLength));
+    }
     for wrong in [-0.1, 1.0 + f64::EPSILON, 7.0] {
         let violation = only(|check| check.restitution("e", wrong));
         assert_eq!((violation.value, violation.rule), (wrong, Rule::Restitution));
