@@ -78,11 +78,17 @@ const seeAll = () => {
     dot(c, z) + Math.max(Math.abs(dot(c, y)), Math.abs(dot(c, x)) / wide) / Math.tan(0.3));
   stage.distance = 1.1 * Math.max(...needed) || distanceTo(radius);
 };
-const buffers = { traces: [], grid: null };
-if (stage) {
+// Everything, or near the body that the camera goes with; until the camera is moved by hand.
+let moved = false;
+const look = () => {
+  if (!stage || moved) return;
   seeAll();
   const largest = Math.max(...bodies.map(reach));
   if (data.follow !== null) stage.distance = Math.min(stage.distance, distanceTo(2.5 * (reach(bodies[data.follow]) || largest)));
+};
+const buffers = { traces: [], grid: null };
+if (stage) {
+  look();
   buffers.traces = traces.map((trace) => stage.tube(clock.map((_, n) => {
     const { at, axes } = poseAt(bodies[trace.body], [n, n, 0]);
     return add(at, turned3(axes, trace.point));
@@ -165,14 +171,14 @@ const legend = byId("legend");
 bodies.forEach((body, k) => { if (body.shapes.length) key(legend, body.name, body.shapes[0].colour || bodyColour(k)); });
 arrows.forEach((arrow, k) => key(legend, arrow.name, arrowColour(k)));
 const touched = new Set(contacts.flatMap(({ touches }) => touches));
-Object.keys(TOUCHES).filter((touch) => touched.has(touch)).forEach((touch) => key(legend, touch, TOUCHES[touch]));
+Object.keys(TOUCHES).filter((touch) => touched.has(touch)).forEach((touch) => key(legend, `contact ${touch}`, TOUCHES[touch]));
 if (stage) AXES.forEach(({ name, colour }) => key(legend, name, colour));
 if (stage) key(legend, `squares of ${Number(buffers.grid.side.toPrecision(3))}`, "var(--line)");
 
 byId("play").addEventListener("click", toggle);
 byId("slider").addEventListener("input", (event) => { playing = false; seek(begin + event.target.value * span); });
 ["traces", "arrows", "follow"].forEach((id) => byId(id).addEventListener("change", draw));
-window.addEventListener("resize", draw);
+window.addEventListener("resize", () => { look(); draw(); });
 window.addEventListener("keydown", (event) => {
   if (["SELECT", "INPUT", "BUTTON"].includes(event.target.tagName)) return;
   if (event.key === " ") { event.preventDefault(); toggle(); }
@@ -181,11 +187,14 @@ window.addEventListener("keydown", (event) => {
 });
 if (stage) {
   const released = () => { byId("follow").value = ""; };
-  steer(stage, byId("stage"), { changed: () => draw(), released, all: seeAll });
+  const changed = () => { moved = true; draw(); };
+  steer(stage, byId("stage"), { changed, released, all: seeAll });
 }
 // `#t=1.5` opens the page at that time.
 const wanted = /[#&]t=([-+.\de]+)/.exec(location.hash);
 if (wanted) now = Math.min(Math.max(Number(wanted[1]), Math.min(begin, end)), Math.max(begin, end));
+// The legend above has taken its place.
+look();
 draw();
 document.body.dataset.bodies = JSON.stringify(bodies.map((body) => poseAt(body, place(now)).at));
 document.body.dataset.ready = stage ? "yes" : "without WebGL";
