@@ -110,11 +110,12 @@ impl<T: Real> ParameterCheck<T> {
         }
     }
 
-    /// A length that is finite and greater than zero, also its square.
+    /// A length that is greater than zero, also the square of its quarter, which rounding makes zero; both are finite.
     pub fn positive_length(&mut self, field: &'static str, value: T) {
-        if self.finite_so_far(field, &[value]) {
+        let quarter = value * T::from_f64(0.25);
+        if self.finite_so_far(field, &[value, quarter * quarter]) {
             self.each_lane(field, |lane| {
-                let positive = value.lane(lane) > 0.0 && (value * value).lane(lane) > 0.0;
+                let positive = value.lane(lane) > 0.0 && (quarter * quarter).lane(lane) > 0.0;
                 (!positive).then_some((value.lane(lane), Rule::PositiveLength))
             });
         }

@@ -65,6 +65,7 @@ fn coefficients_and_directions_of_contacts() {
         let violation = only(|check| check.positive_length("stone.semi_axes", wrong));
         assert_eq!((violation.value, violation.rule), (wrong, Rule::PositiveLength));
     }
+    assert_eq!(only(|check| check.positive_length("stone.semi_axes", 1e200)).rule, Rule::Finite);
     for wrong in [-0.1, 1.0 + f64::EPSILON, 7.0] {
         let violation = only(|check| check.restitution("e", wrong));
         assert_eq!((violation.value, violation.rule), (wrong, Rule::Restitution));
