@@ -232,6 +232,7 @@ fn messages_say_value_rule_and_remedy() {
         Rule::Finite,
         Rule::PositiveMass,
         Rule::NonNegative,
+        Rule::PositiveLength,
         Rule::SymmetricInertia { row: 0, col: 1 },
         Rule::PositiveDefiniteInertia,
         Rule::InertiaAboutCenterOfMass,
