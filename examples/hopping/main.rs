@@ -1,15 +1,16 @@
 //! Jumps and hand-overs: a runner on a springy leg, whose flights and stances are two kernels, and a ball that bounces
-//! until infinitely many impacts pile up.
+//! until infinitely many impacts have piled up, and rests.
 //!
 //! `cargo run --release --example hopping [-- FOLDER]` draws the picture into `FOLDER`, by default `target/gauss`.
 
 mod model;
 mod picture;
 
+use gauss_contact::{ContactRun, EventKind};
 use gauss_examples::plots::{write, write_page};
-use gauss_tables::Tabulate;
+use gauss_tables::Table;
 
-use model::{Ball, Runner, bounce};
+use model::{Ball, Runner};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let runner = Runner::human();
@@ -37,19 +38,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
 
     let ball = Ball { m: 0.1, g: 9.81 }.kernel()?;
-    let (path, error) = bounce(&ball, 0.7, 10.0);
+    let bounces = ContactRun::new(&ball).adaptive(1e-10, 1e-12).run([1.0].into(), [0.0].into(), 0.0..3.0)?;
+    let impacts = bounces.events().iter().filter(|event| matches!(event.kind, EventKind::Impact(_))).count();
+    let rest = bounces.events().last().ok_or("it never lands")?;
     // Flights are 0.7 as long from impact to impact.
     let rests = (2.0_f64 / 9.81).sqrt() * (1.0 + 2.0 * 0.7 / 0.3);
-    println!(
-        "A ball that keeps 0.7 of its speed rests after {rests:.9} s; after {} impacts, at {:.9} s:",
-        path.events().len(),
-        path.last().t
-    );
-    if let Some(error) = error {
-        println!("  {}", error.kind);
-    }
-    let table = path.table_at((0..=5).map(|n| 0.5 * f64::from(n)))?.column("height", |s| s.q[0]).energies(&ball);
+    println!("A ball that keeps 0.7 of its speed: {impacts} impacts, then rest at {:.9} s, as it should", rest.time);
+    println!("at {rests:.9} s. The force of the floor is its weight then.");
+    let table = Table::new(bounces.at_times((0..=6).map(|n| 0.5 * f64::from(n)))?);
+    let table = table.column("height", |s| s.q[0]).contacts(&ball, |s| bounces.forces(s.t).ok()).energies(&ball);
     print!("\n{table}");
-    write("hopping", &picture::draw(&runner, &run, &ball, &path)?)?;
+    write("hopping", &picture::draw(&runner, &run, &ball, &bounces)?)?;
     write_page("hopping", &picture::page(&runner, &run)?)
 }

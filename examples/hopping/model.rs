@@ -150,24 +150,16 @@ impl Runner {
     }
 }
 
-/// A ball above a floor.
+/// A ball above a floor, at each impact with 0.7 of its speed.
 #[derive(GaussDynamics)]
-#[gauss(coordinates(height), particle(mass = m, position = [0, 0, height]))]
+#[gauss(
+    coordinates(y),
+    particle(mass = m, position = [0, 0, y]),
+    contact(floor, gap = y, restitution = 0.7),
+)]
 pub struct Ball {
     #[gauss(unit = "kg")]
     pub m: f64,
     #[gauss(gravity, unit = "m/s^2")]
     pub g: f64,
-}
-
-/// A ball let go at 1 m, that keeps a part of its speed at each impact.
-///
-/// # Errors
-/// When infinitely many impacts pile up before the end.
-pub fn bounce(kernel: &BallKernel, kept: f64, seconds: f64) -> (Trajectory<'_, BallKernel>, Option<IntegrationError>) {
-    Simulation::new(kernel)
-        .event(Crossing::Falling, |_, q, _| q[0])
-        .then(move |state| state.z[0] *= -kept)
-        .adaptive(1e-10, 1e-12)
-        .attempt(SVector::from([1.0]), SVector::from([0.0]), 0.0..seconds)
 }

@@ -3,10 +3,11 @@
 use std::error::Error;
 
 use gauss_charts::drawing::{COLOURS, INK};
+use gauss_contact::ContactTrajectory;
 use gauss_examples::plots::{Line, Plot, sheet};
-use gauss_playback::{Playback, Shape};
+use gauss_playback::{Playback, Shape, Touch};
 use gauss_runtime::prelude::*;
-use gauss_tables::Tabulate;
+use gauss_tables::Table;
 
 use crate::model::{BallKernel, Flight, FlightKernel, Moment, Run, Runner, StanceKernel};
 
@@ -21,7 +22,7 @@ pub fn draw(
     runner: &Runner,
     run: &Run,
     ball: &BallKernel,
-    bounces: &Trajectory<'_, BallKernel>,
+    bounces: &ContactTrajectory<'_, BallKernel>,
 ) -> Result<String, Box<dyn Error>> {
     let title = "A runner whose flights and stances are two kernels, and a ball that bounces";
     sheet(title, (1600, 1300), &[vec![path(run)], vec![apices(runner)?, heights(ball, bounces)?]])
@@ -61,9 +62,9 @@ fn apices(runner: &Runner) -> Result<Plot<'static>, Box<dyn Error>> {
     Ok(Plot::new("Heights of apices from several starts", ("step", 0.0..8.0), ("m", 0.9..1.2), lines))
 }
 
-fn heights(ball: &BallKernel, path: &Trajectory<'_, BallKernel>) -> Result<Plot<'static>, Box<dyn Error>> {
-    let end = path.last().t;
-    let table = path.table_at((0..=600).map(|n| end * (f64::from(n) / 600.0).min(1.0)))?;
+fn heights(ball: &BallKernel, bounces: &ContactTrajectory<'_, BallKernel>) -> Result<Plot<'static>, Box<dyn Error>> {
+    let end = 3.0;
+    let table = Table::new(bounces.at_times((0..=600).map(|n| end * (f64::from(n) / 600.0)))?);
     let table = table.column("height", |s| s.q[0]).energies(ball);
     let column = |name: &str| -> Vec<(f64, f64)> {
         let (times, values) = (table.get("t").unwrap_or_default(), table.get(name).unwrap_or_default());
@@ -129,7 +130,7 @@ pub fn page(runner: &Runner, run: &Run) -> Result<Playback<FlightKernel>, Parame
         .from_the_side()
         .rod("hip", "foot", 0.012)
         .trace("hip", [0.0; 3])
-        .arrow("force of the ground", 5e-4, |s| (foot(s), push(s)))
+        .contact("foot", 5e-4, |s| (if stance(s).is_some() { Touch::Sticks } else { Touch::Open }, foot(s), push(s)))
         .arrow("weight", 5e-4, |s| (hip(s), Vector3::new(0.0, 0.0, -runner.m * runner.g)))
         .curve("force of the leg / N", "leg", |s| push(s).norm())
         .curve("energy / J", "kinetic", |s| flight.kinetic_energy(s.t, &s.q, &s.z))

@@ -2,13 +2,14 @@
 //! complexity, and scaling*, J. Biomechanical Engineering 120, 1998): its gaits by Newton's method with derivatives
 //! through the heel strike, and the two numbers that tell whether it walks on.
 //!
-//! `cargo run --release --example simplest_walker [-- FOLDER]` draws the picture into `FOLDER`, by default
-//! `target/gauss`.
+//! `cargo run --release --example simplest_walker [-- FOLDER]` draws the picture and the page that plays into `FOLDER`,
+//! by default `target/gauss`.
 
 mod model;
+mod page;
 mod picture;
 
-use gauss_examples::plots::write;
+use gauss_examples::plots::{write, write_page};
 use gauss_runtime::prelude::*;
 
 use model::{FOOT, Gait, LONG, SHORT, WalkerKernel};
@@ -37,5 +38,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         gait = Gait::find(foot, 0.009, gait.start)?;
         tell(&format!("  {foot:e} of the hip"), &gait);
     }
-    write("simplest_walker", &picture::draw(&long)?)
+    write("simplest_walker", &picture::draw(&long)?)?;
+    write_page("simplest_walker", &page::page(&long, 6)?)
 }

@@ -1,12 +1,14 @@
 //! What touches, exactly: bounces that pile up to rest, stick and slip on a belt, a ball that slides until it rolls.
 //!
-//! `cargo run --release --example touching [-- FOLDER]` draws the picture into `FOLDER`, by default `target/gauss`.
+//! `cargo run --release --example touching [-- FOLDER]` draws the picture, and the three motions as pages that play,
+//! into `FOLDER`, by default `target/gauss`.
 
+mod pages;
 mod picture;
 mod scenes;
 
 use gauss_contact::{ContactRun, ContactTrajectory, EventKind};
-use gauss_examples::plots::write;
+use gauss_examples::plots::{write, write_page};
 use gauss_runtime::prelude::*;
 
 use scenes::{Ball, BallKernel, Belt, BeltKernel, Billiard, BilliardKernel, BilliardState};
@@ -49,7 +51,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("  2|s|/(7μg) = {:.9} s. The motion with what its contact does takes", 2.0 * slip / (7.0 * 0.2 * 9.81));
     println!("  {}", BilliardKernel::OPERATIONS.contact_dynamics);
 
-    write("touching", &picture::draw(&bounces, &block, &shot)?)
+    write("touching", &picture::draw(&bounces, &block, &shot)?)?;
+    write_page("bouncing_ball", &pages::ball(&ball, &bounces)?)?;
+    write_page("block_on_a_belt", &pages::block(&belt, &block)?)?;
+    write_page("billiard_ball", &pages::billiard(&table, &shot)?)
 }
 
 fn impacts<K: ContactSystem<Scalar = f64>>(run: &ContactTrajectory<'_, K>) -> usize {

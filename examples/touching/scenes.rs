@@ -7,7 +7,7 @@ use gauss_runtime::prelude::*;
 #[gauss(
     coordinates(height),
     particle(mass = 1, position = [0, 0, height]),
-    contact(floor, gap = height, restitution = e),
+    contact(floor, point = [0, 0, height], restitution = e),
 )]
 pub struct Ball {
     pub e: f64,

@@ -7,9 +7,10 @@
 mod picture;
 mod toy;
 
-use gauss_contact::{ContactRun, ContactTrajectory, EventKind, Mode};
+use gauss_contact::{ContactRun, ContactTrajectory, EventKind};
 use gauss_examples::plots::{write, write_page};
 use gauss_playback::{Playback, Shape};
+use gauss_runtime::contact::ContactFrame;
 use gauss_runtime::prelude::*;
 
 use toy::{TOY, WoodpeckerKernel};
@@ -45,7 +46,6 @@ fn page(
     kernel: &WoodpeckerKernel,
     run: &ContactTrajectory<'_, WoodpeckerKernel>,
 ) -> Result<Playback<WoodpeckerKernel>, Box<dyn std::error::Error>> {
-    let times = (0..=1200).map(|n| if n == 1200 { END } else { END * f64::from(n) / 1200.0 });
     let long = |x: f64| CENTIMETRES * x;
     let sleeve = |s: &Sample<WoodpeckerKernel>| turned([0.0, long(s.q[0])], s.q[1]);
     let bird = |s: &Sample<WoodpeckerKernel>| {
@@ -55,30 +55,23 @@ fn page(
     let still = |_: &Sample<WoodpeckerKernel>| Isometry3::identity();
     let pole = Shape::cylinder(long(TOY.r), 16.0).at(&Isometry3::translation(0.0, 0.0, -3.0)).colour("#b08d57");
     let wall = |x: f64| Shape::cuboid([0.1, 0.9, long(2.0 * TOY.hm)]).at(&Isometry3::translation(x, 0.0, 0.0));
-    let beak = Shape::rod([-1.2, 0.0, 0.8], [-long(TOY.ls), 0.0, long(TOY.hs)], 0.12).colour("#d55e00");
-    let page = Playback::of_samples("A woodpecker toy", run.at_times(times)?)
+    let beak = Shape::rod([-0.8, 0.0, 1.4], [-long(TOY.ls), 0.0, long(TOY.hs)], 0.12).colour("#d55e00");
+    let head = Shape::ball(0.5).at(&Isometry3::translation(-0.8, 0.0, 1.4));
+    let page = Playback::of_contacts("A woodpecker toy", run)?
         .body("pole", still, [pole])
-        .body("sleeve", sleeve, [wall(long(TOY.rm) + 0.05), wall(-long(TOY.rm) - 0.05)])
-        .body(
-            "bird",
-            bird,
-            [Shape::ellipsoid([0.7, 0.6, 1.5]), Shape::ball(0.5).at(&Isometry3::translation(-0.8, 0.0, 1.4)), beak],
-        )
+        .body("sleeve", sleeve, [1.0, -1.0].map(|side| wall(side * (long(TOY.rm) + 0.05)).colour("#666666")))
+        .body("bird", bird, [Shape::ellipsoid([0.7, 0.6, 1.5]).colour("#0072b2"), head.colour("#0072b2"), beak])
         .from_the_side();
-    // Forces of the two edges of the sleeve, named by what the edge does: arrows have colours by their names.
-    let edges = [("lower", 1, -TOY.hm), ("upper", 2, TOY.hm)];
-    let page = edges.into_iter().fold(page, |page, (name, contact, height)| {
-        [("sticks", true), ("slides", false)].into_iter().fold(page, |page, (what, sticks)| {
-            page.arrow(&format!("{name} {what}"), 20.0, |s| {
-                let at = Vector3::new(long(TOY.r), 0.0, long(s.q[0] + TOY.rm * s.q[1] + height));
-                let mode = run.modes(s.t).map_or(Mode::Open, |modes| modes[contact]);
-                let shown = mode.is_closed() && sticks == (mode == Mode::Sticks);
-                let force = run.forces(s.t).ok().filter(|_| shown);
-                let row = 2 * contact;
-                (at, force.map_or(Vector3::zeros(), |rows| Vector3::new(rows[row], 0.0, rows[row + 1])))
-            })
-        })
-    });
+    // Gaps are linear in the angles: where beak and edges are on the pole the scene does not say.
+    let touches = |contact: usize, s: &Sample<WoodpeckerKernel>| {
+        let height = match contact {
+            0 => s.q[0] + TOY.lm * s.q[1] + (TOY.lg - TOY.ls) * s.q[2] + TOY.hs,
+            1 => s.q[0] + TOY.rm * s.q[1] - TOY.hm,
+            _ => s.q[0] + TOY.rm * s.q[1] + TOY.hm,
+        };
+        Some(ContactFrame::new(Vector3::new(long(TOY.r), 0.0, long(height)), Vector3::x(), &[Vector3::z()]))
+    };
+    let page = page.follow("bird").contacts_at(kernel, 8.0, run, touches);
     Ok(page.curve("angle / rad", "sleeve", |s| s.q[1]).curve("angle / rad", "bird", |s| s.q[2]).energy(kernel))
 }
 

@@ -32,6 +32,8 @@ pub enum Rule {
     NonNegativeStiffness,
     /// A stop sets in over a distance that is greater than zero.
     PositiveWidth,
+    /// A semi-axis of an ellipsoid is greater than zero, and so is its square.
+    PositiveLength,
     /// The lower limit of a stop, the value, is below its upper one.
     LimitsInOrder {
         /// The upper limit.
@@ -143,6 +145,11 @@ impl fmt::Display for Violation {
                 f,
                 "`{field}` is {value}: a stiffness is 0 or greater, and pulls back; check its sign, or write what pushes \
                  away as a `potential`"
+            ),
+            Rule::PositiveLength => write!(
+                f,
+                "`{field}` is {value}: a semi-axis of an ellipsoid is greater than 0, and so is its square; of what is flat \
+                 write `rim = …`, or its points"
             ),
             Rule::PositiveWidth => write!(
                 f,

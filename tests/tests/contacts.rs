@@ -2,6 +2,8 @@
 //! `contact_rates` along the motion (dual numbers, and differences), charts against one another.
 
 mod common;
+#[path = "contacts/ellipsoids.rs"]
+mod ellipsoids;
 #[path = "contacts/shapes.rs"]
 mod shapes;
 

@@ -2,6 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
+use crate::contact::Touch;
 use crate::shape::Shape;
 pub use crate::shape::{can_be_shown, pose};
 
@@ -28,6 +29,7 @@ pub struct Page {
     pub rods: Vec<Rod>,
     pub traces: Vec<Trace>,
     pub arrows: Vec<Arrow>,
+    pub contacts: Vec<Contact>,
     pub panels: Vec<Panel>,
 }
 
@@ -62,6 +64,16 @@ pub struct Arrow {
 }
 
 #[derive(Serialize)]
+pub struct Contact {
+    pub name: String,
+    /// What it does at each time.
+    pub touches: Vec<Touch>,
+    /// Point and force for each time.
+    #[serde(serialize_with = "short")]
+    pub values: Vec<[f64; 6]>,
+}
+
+#[derive(Serialize)]
 pub struct Panel {
     pub title: String,
     pub curves: Vec<Curve>,
@@ -90,6 +102,7 @@ impl Page {
             rods: Vec::new(),
             traces: Vec::new(),
             arrows: Vec::new(),
+            contacts: Vec::new(),
             panels: Vec::new(),
         }
     }

@@ -13,7 +13,7 @@ use crate::page::{self, Arrow, Body, Curve, Page, Panel, Rod, Trace};
 use crate::shape::Shape;
 
 /// Pictures of a run: at 60 a second it takes ten seconds to play.
-const PICTURES: u32 = 600;
+pub(crate) const PICTURES: u32 = 600;
 
 /// Of a number that cannot be shown.
 const OUT_OF_RANGE: &str = "is not finite, or larger than a page can show (1.7e38)";
@@ -21,9 +21,9 @@ const OUT_OF_RANGE: &str = "is not finite, or larger than a page can show (1.7e3
 /// A motion to be shown. What is added to it is computed at once, for all times; mistakes are gathered and told by
 /// [`html`](Self::html) and [`write`](Self::write).
 pub struct Playback<S: GaussSystem<Scalar = f64>> {
-    samples: Vec<Sample<S>>,
-    page: Page,
-    mistakes: Vec<String>,
+    pub(crate) samples: Vec<Sample<S>>,
+    pub(crate) page: Page,
+    pub(crate) mistakes: Vec<String>,
 }
 
 impl<S: GaussSystem<Scalar = f64>> Playback<S> {
@@ -263,7 +263,7 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
     }
 
     /// Notes the first time at which what is shown has a number that the page cannot show.
-    fn look_at<const N: usize>(&mut self, what: &str, rows: &[[f64; N]]) {
+    pub(crate) fn look_at<const N: usize>(&mut self, what: &str, rows: &[[f64; N]]) {
         if let Some(n) = rows.iter().position(|row| !page::can_be_shown(row)) {
             self.mistakes.push(format!("the {what} {OUT_OF_RANGE} at t = {}", self.samples[n].t));
         }

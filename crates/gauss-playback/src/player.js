@@ -1,7 +1,7 @@
 // The clock, what is drawn at a time, and what mouse and keys do.
 
 const data = JSON.parse(document.getElementById("data").textContent);
-const { times: clock, bodies, rods, traces, arrows } = data;
+const { times: clock, bodies, rods, traces, arrows, contacts } = data;
 const byId = (id) => document.getElementById(id);
 const [begin, end] = [clock[0], clock.at(-1)];
 const span = end - begin;
@@ -43,7 +43,7 @@ const bounds = (() => {
       take(add(at, turned3(axes, shape.pose.slice(0, 3))), half);
     }
   });
-  for (const arrow of arrows) for (const row of arrow.values) {
+  for (const arrow of [...arrows, ...contacts]) for (const row of arrow.values) {
     const from = row.slice(0, 3);
     for (const point of [from, add(from, row.slice(3))]) take(point, [0, 0, 0]);
   }
@@ -78,11 +78,17 @@ const seeAll = () => {
     dot(c, z) + Math.max(Math.abs(dot(c, y)), Math.abs(dot(c, x)) / wide) / Math.tan(0.3));
   stage.distance = 1.1 * Math.max(...needed) || distanceTo(radius);
 };
-const buffers = { traces: [], grid: null };
-if (stage) {
+// Everything, or near the body that the camera goes with; until the camera is moved by hand.
+let moved = false;
+const look = () => {
+  if (!stage || moved) return;
   seeAll();
   const largest = Math.max(...bodies.map(reach));
   if (data.follow !== null) stage.distance = Math.min(stage.distance, distanceTo(2.5 * (reach(bodies[data.follow]) || largest)));
+};
+const buffers = { traces: [], grid: null };
+if (stage) {
+  look();
   buffers.traces = traces.map((trace) => stage.tube(clock.map((_, n) => {
     const { at, axes } = poseAt(bodies[trace.body], [n, n, 0]);
     return add(at, turned3(axes, trace.point));
@@ -92,6 +98,8 @@ if (stage) {
   buffers.grid = floorOf(stage, middle, radius, height);
 }
 
+// What contacts do, and its colours.
+const TOUCHES = { open: "#9aa0a6", closed: "#56b4e9", sticks: "#009e73", slides: "#d55e00" };
 const arrowColour = (k) => COLOURS[(bodies.filter((b) => b.shapes.length).length + k + 1) % COLOURS.length];
 
 const drawStage = (where, style) => {
@@ -118,6 +126,13 @@ const drawStage = (where, style) => {
     const row = mixed(arrow.values, where);
     stage.arrow(row.slice(0, 3), row.slice(3), 0.003 * stage.distance, colourOf(arrowColour(k)));
   });
+  // Before all else: they lie under bodies and on floors.
+  stage.before(() => contacts.forEach(({ touches, values }) => {
+    const row = mixed(values, where), colour = colourOf(TOUCHES[touches[where[2] < 1 ? where[0] : where[1]]]);
+    const size = (touches[where[0]] === "open" ? 0.005 : 0.007) * stage.distance;
+    stage.draw("ellipsoid", axesOf([0, 0, 0, 1]), row.slice(0, 3), [size, size, size], colour);
+    if (byId("arrows").checked) stage.arrow(row.slice(0, 3), row.slice(3), 0.003 * stage.distance, colour);
+  }));
 };
 
 const draw = () => {
@@ -155,13 +170,15 @@ byId("follow").value = data.follow ?? "";
 const legend = byId("legend");
 bodies.forEach((body, k) => { if (body.shapes.length) key(legend, body.name, body.shapes[0].colour || bodyColour(k)); });
 arrows.forEach((arrow, k) => key(legend, arrow.name, arrowColour(k)));
+const touched = new Set(contacts.flatMap(({ touches }) => touches));
+Object.keys(TOUCHES).filter((touch) => touched.has(touch)).forEach((touch) => key(legend, `contact ${touch}`, TOUCHES[touch]));
 if (stage) AXES.forEach(({ name, colour }) => key(legend, name, colour));
 if (stage) key(legend, `squares of ${Number(buffers.grid.side.toPrecision(3))}`, "var(--line)");
 
 byId("play").addEventListener("click", toggle);
 byId("slider").addEventListener("input", (event) => { playing = false; seek(begin + event.target.value * span); });
 ["traces", "arrows", "follow"].forEach((id) => byId(id).addEventListener("change", draw));
-window.addEventListener("resize", draw);
+window.addEventListener("resize", () => { look(); draw(); });
 window.addEventListener("keydown", (event) => {
   if (["SELECT", "INPUT", "BUTTON"].includes(event.target.tagName)) return;
   if (event.key === " ") { event.preventDefault(); toggle(); }
@@ -170,11 +187,14 @@ window.addEventListener("keydown", (event) => {
 });
 if (stage) {
   const released = () => { byId("follow").value = ""; };
-  steer(stage, byId("stage"), { changed: () => draw(), released, all: seeAll });
+  const changed = () => { moved = true; draw(); };
+  steer(stage, byId("stage"), { changed, released, all: seeAll });
 }
 // `#t=1.5` opens the page at that time.
 const wanted = /[#&]t=([-+.\de]+)/.exec(location.hash);
 if (wanted) now = Math.min(Math.max(Number(wanted[1]), Math.min(begin, end)), Math.max(begin, end));
+// The legend above has taken its place.
+look();
 draw();
 document.body.dataset.bodies = JSON.stringify(bodies.map((body) => poseAt(body, place(now)).at));
 document.body.dataset.ready = stage ? "yes" : "without WebGL";

@@ -136,6 +136,13 @@ class Stage {
     gl.drawArrays(gl.TRIANGLES, 0, count ?? mesh.count);
   }
 
+  // What is drawn meanwhile is before all else.
+  before(draw) {
+    this.gl.depthRange(0, 0.01);
+    draw();
+    this.gl.depthRange(0, 1);
+  }
+
   // Points joined in pairs.
   lines(buffer, count, ink) {
     const gl = this.gl, { program, places } = this.line;

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 use std::process::Command;
 
-use gauss_playback::{Playback, Shape};
+use gauss_playback::{Playback, Shape, Touch};
 use gauss_runtime::prelude::*;
 
 /// A body that falls.
@@ -29,6 +29,7 @@ fn the_page_shows_where_bodies_are() -> Result<(), Box<dyn Error>> {
     Playback::with_pictures("A stone", &path, 101)?
         .body("stone", |s| stone.pose(s.t, &s.q), [Shape::ball(0.3)])
         .trace("stone", [0.3, 0.0, 0.0])
+        .contact("ground", 0.1, |s| (Touch::Slides, Vector3::new(s.t, 0.0, 0.0), Vector3::z()))
         .energy(&stone)
         .write(&file)?;
 

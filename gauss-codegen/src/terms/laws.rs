@@ -13,6 +13,8 @@ pub enum LawKind {
     Damping,
     /// An armature, or the level of dry friction.
     NonNegative,
+    /// A semi-axis of an ellipsoid.
+    Length,
     /// The mass of a particle.
     MassInSum,
     /// Of a bushing, row by row.

@@ -1,10 +1,11 @@
-//! Points, spheres, rims, boxes, capsules and cylinders against planes, grounds and spheres: their gaps and slips.
+//! Points, spheres, ellipsoids, rims, boxes, capsules and cylinders against planes, grounds and spheres: their gaps and slips.
 
 use crate::algebra::{Expr, Substitution};
 use crate::error::Result;
 use crate::mechanics::{ContactFrame, Tree, add, cross, dot, subtract};
 use crate::model::{Against, Copies, Expression, PointContact, Property};
 use crate::terms::{LawKind, Motion};
+use proc_macro2::Span;
 
 use super::translator::{Translator, bug};
 use super::value::Value;
@@ -33,6 +34,8 @@ enum About<'g> {
     Sphere(Expr<'g>),
     /// A circle of this radius about an axis of length one, in the axes of the body.
     Rim(Expr<'g>, Triple<'g>),
+    /// An ellipsoid of these semi-axes along the axes of the body; where it is written.
+    Ellipsoid(Triple<'g>, Span),
 }
 
 /// What a place is opposite to.
@@ -59,13 +62,7 @@ impl<'g> Translator<'_, 'g> {
         rubs: bool,
         tree: &Tree<'g>,
     ) -> Result<Vec<Form<'g>>> {
-        let about = match &contact.rim {
-            None => About::Sphere(self.length_or_zero((name, "radius"), contact.radius.as_ref(), tree)?),
-            Some([rim, axis]) => {
-                let axis = self.direction((name, "axis"), axis, self.vector(axis, tree)?);
-                About::Rim(self.length((name, "rim"), rim, tree)?, axis)
-            }
-        };
+        let about = self.about(name, contact, tree)?;
         let parts = self.parts_of(name, contact, &about, tree)?;
         let opposite = match &contact.against {
             Against::Plane { normal, height, along } => {
@@ -78,6 +75,25 @@ impl<'g> Translator<'_, 'g> {
             }
         };
         parts.iter().map(|part| self.touch(part, &about, &opposite(part), tree)).collect()
+    }
+
+    /// What is about each place of a shape.
+    fn about(&self, name: &str, contact: &PointContact, tree: &Tree<'g>) -> Result<About<'g>> {
+        if let Some(semi_axes) = &contact.semi_axes {
+            let mut lengths = [self.graph.zero(); 3];
+            for (length, e) in lengths.iter_mut().zip(semi_axes) {
+                *length = self.scalar(e, tree)?;
+                self.note(LawKind::Length, (name, "semi_axes"), e, vec![*length]);
+            }
+            return Ok(About::Ellipsoid(lengths, semi_axes[0].span));
+        }
+        Ok(match &contact.rim {
+            None => About::Sphere(self.length_or_zero((name, "radius"), contact.radius.as_ref(), tree)?),
+            Some([rim, axis]) => {
+                let axis = self.direction((name, "axis"), axis, self.vector(axis, tree)?);
+                About::Rim(self.length((name, "rim"), rim, tree)?, axis)
+            }
+        })
     }
 
     /// The places of a shape.
@@ -125,7 +141,8 @@ impl<'g> Translator<'_, 'g> {
     /// Gap and slips of one part.
     fn touch(&self, part: &Part<'g>, about: &About<'g>, facing: &Facing<'g>, tree: &Tree<'g>) -> Result<Form<'g>> {
         let n = &facing.normal;
-        // From the point to where it touches: against the normal, of a rim as far as its plane allows.
+        // From the point to where it touches: against the normal, of a rim as far as its plane allows, of an ellipsoid
+        // to where the normal is its own.
         let (depth, arm) = match about {
             About::Sphere(radius) => (*radius, n.map(|e| -*radius * e)),
             About::Rim(rim, axis) => {
@@ -136,6 +153,16 @@ impl<'g> Translator<'_, 'g> {
                 // n − a (n·a) = (a × n) × a.
                 let scale = (-*rim * sine.recip()).group();
                 (*rim * sine, cross(&across.map(Expr::group), &axis).map(|e| scale * e))
+            }
+            About::Ellipsoid(semi_axes, span) => {
+                let link = part.link.ok_or_else(|| bug(*span))?;
+                let axes = tree.links[link].axes();
+                // A unit sphere, stretched: its point −S n/|S n|, S n the normal times the semi-axes, is stretched too.
+                let n = axes.to_body(n);
+                let stretched: Triple<'g> = std::array::from_fn(|k| (semi_axes[k] * n[k]).group());
+                let depth = self.divisor(dot(&stretched, &stretched).group().sqrt(), *span);
+                let scale = (-depth.recip()).group();
+                (depth, axes.to_space(&std::array::from_fn(|k| scale * semi_axes[k] * stretched[k])).map(Expr::group))
             }
         };
         let gap = facing.gap - depth;

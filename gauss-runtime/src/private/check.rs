@@ -110,6 +110,17 @@ impl<T: Real> ParameterCheck<T> {
         }
     }
 
+    /// A length that is greater than zero, also the square of its quarter, which rounding makes zero; both are finite.
+    pub fn positive_length(&mut self, field: &'static str, value: T) {
+        let quarter = value * T::from_f64(0.25);
+        if self.finite_so_far(field, &[value, quarter * quarter]) {
+            self.each_lane(field, |lane| {
+                let positive = value.lane(lane) > 0.0 && (quarter * quarter).lane(lane) > 0.0;
+                (!positive).then_some((value.lane(lane), Rule::PositiveLength))
+            });
+        }
+    }
+
     /// The square of the length of a direction: finite and greater than zero.
     pub fn direction(&mut self, field: &'static str, square: T) {
         if self.finite_so_far(field, &[square]) {

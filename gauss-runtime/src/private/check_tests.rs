@@ -59,6 +59,13 @@ fn coefficients_and_directions_of_contacts() {
         check.direction("n", 1e-30);
     });
     assert!(none.is_empty(), "{none:?}");
+    assert!(found(|check| check.positive_length("stone.semi_axes", 1e-150)).is_empty());
+    // Of the last one the square is 0.
+    for wrong in [0.0, -0.2, 1e-200] {
+        let violation = only(|check| check.positive_length("stone.semi_axes", wrong));
+        assert_eq!((violation.value, violation.rule), (wrong, Rule::PositiveLength));
+    }
+    assert_eq!(only(|check| check.positive_length("stone.semi_axes", 1e200)).rule, Rule::Finite);
     for wrong in [-0.1, 1.0 + f64::EPSILON, 7.0] {
         let violation = only(|check| check.restitution("e", wrong));
         assert_eq!((violation.value, violation.rule), (wrong, Rule::Restitution));
@@ -225,6 +232,7 @@ fn messages_say_value_rule_and_remedy() {
         Rule::Finite,
         Rule::PositiveMass,
         Rule::NonNegative,
+        Rule::PositiveLength,
         Rule::SymmetricInertia { row: 0, col: 1 },
         Rule::PositiveDefiniteInertia,
         Rule::InertiaAboutCenterOfMass,

@@ -38,6 +38,7 @@ fn written(
             LawKind::Width => quote!(width),
             LawKind::Limits => quote!(limits),
             LawKind::NonNegative | LawKind::Friction => quote!(non_negative),
+            LawKind::Length => quote!(positive_length),
             LawKind::Restitution => quote!(restitution),
             LawKind::Direction => quote!(direction),
             LawKind::MassInSum => quote!(mass_in_sum),
@@ -52,6 +53,7 @@ fn written(
             LawKind::Stiffness
             | LawKind::Width
             | LawKind::NonNegative
+            | LawKind::Length
             | LawKind::Friction
             | LawKind::Restitution
             | LawKind::Direction
@@ -125,6 +127,7 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
             | LawKind::Width
             | LawKind::Limits
             | LawKind::NonNegative
+            | LawKind::Length
             | LawKind::StiffnessMatrix
             | LawKind::Friction
             | LawKind::Restitution

@@ -89,8 +89,8 @@ fn check_point(
         );
     }
     let rubs = !clause.friction.is_empty();
-    let needs_body =
-        contact.rim.is_some() || matches!(contact.copies, Copies::Corners(_)) || (contact.radius.is_some() && rubs);
+    let turns = contact.rim.is_some() || contact.semi_axes.is_some() || matches!(contact.copies, Copies::Corners(_));
+    let needs_body = turns || (contact.radius.is_some() && rubs);
     let mut needing = vec![&contact.point];
     needing.extend(end);
     let needing = needing.into_iter().filter(|_| needs_body);
@@ -101,8 +101,8 @@ fn check_point(
     for point in needing.chain(turned).filter(|point| !is_of_body(point, statements)) {
         context.error(
             point.span,
-            "a box, a rim, or a sphere with friction, turns with its body; write `point = ball.position` of the body, or the \
-             name of a point that is fixed in it",
+            "a box, a rim, an ellipsoid, or a sphere with friction, turns with its body; write `point = ball.position` of the \
+             body, or the name of a point that is fixed in it",
         );
     }
     if let Against::Sphere { center, along: None, .. } = &contact.against

@@ -19,6 +19,7 @@ const CONTACT: &Table<()> = &[
     ("radius", ()),
     ("rim", ()),
     ("axis", ()),
+    ("semi_axes", ()),
     ("length", ()),
     ("edges", ()),
     ("end", ()),
@@ -42,6 +43,7 @@ const NEEDS: &Table<&str> = &[
     ("axis", "rim"),
     ("rim", "axis"),
     ("length", "rim"),
+    ("semi_axes", "point"),
     ("edges", "point"),
     ("end", "point"),
     ("over", "height"),
@@ -55,6 +57,16 @@ const EXCLUDES: &[(&str, &str, &str)] = &[
     ("rim", "other", "a rim touches a plane alone; write the gap to another sphere as `gap = …`"),
     ("plane", "other", "a point touches a plane or another sphere; write a clause for each"),
     ("height", "other", "a point touches a plane or another sphere; write a clause for each"),
+    ("semi_axes", "radius", "an ellipsoid has three semi-axes and a sphere a radius; keep one of the two"),
+    ("semi_axes", "rim", "an ellipsoid has three semi-axes and a disk has a rim; write a clause for each"),
+    ("semi_axes", "edges", "an ellipsoid has no corners; write a clause for each"),
+    ("semi_axes", "end", "a capsule has spheres at its ends; write a clause for each ellipsoid"),
+    ("semi_axes", "other", "an ellipsoid touches a plane alone: its distance from a sphere has no closed form"),
+    (
+        "semi_axes",
+        "over",
+        "which point of an ellipsoid is nearest to such a ground has no closed form; remove `semi_axes`",
+    ),
     ("edges", "rim", "a box has corners and a disk has a rim; write a clause for each"),
     ("edges", "end", "a box has corners and a capsule has two ends; write a clause for each"),
     ("end", "rim", "a capsule has two ends and a disk has a rim; for a cylinder write `length = …` with the rim"),
@@ -150,12 +162,13 @@ pub fn read_range(clause: &Clause, context: &mut Context) -> Option<ContactClaus
     Some(ContactClause { names, touching, friction: Vec::new(), restitution })
 }
 
-/// The edges of a box.
-fn three(edges: Expression, context: &mut Context) -> Option<[Expression; 3]> {
-    match edges.kind {
-        ExpressionKind::Vector(edges) => Some(edges.map(|edge| *edge)),
+/// Three lengths along the axes of a body; `what` and `word` say of what shape.
+fn three(lengths: Expression, [what, word]: [&str; 2], context: &mut Context) -> Option<[Expression; 3]> {
+    match lengths.kind {
+        ExpressionKind::Vector(lengths) => Some(lengths.map(|length| *length)),
         _ => {
-            context.error(edges.span, "the edges of a box are three lengths in brackets; write `edges = [a, b, c]`");
+            let message = format!("the {what} are three lengths in brackets; write `{word} = [a, b, c]`");
+            context.error(lengths.span, message);
             None
         }
     }
@@ -265,11 +278,13 @@ impl Written {
         let mut value = |word: &str, example: &str| self.value(word, example, context);
         let (point, radius) = (value("point", "tip"), value("radius", "r"));
         let (rim, axis) = (value("rim", "r"), value("axis", "[0, 0, 1]"));
-        let (length, edges, end) = (value("length", "l"), value("edges", "[a, b, c]"), value("end", "toe"));
+        let (length, end) = (value("length", "l"), value("end", "toe"));
+        let (edges, semi_axes) = (value("edges", "[a, b, c]"), value("semi_axes", "[a, b, c]"));
         let (normal, height, along) = (value("plane", "[0, 0, 1]"), value("height", "h"), value("along", "[1, 0, 0]"));
         let (other, other_radius) = (value("other", "top"), value("other_radius", "r"));
         let over = self.find("over").map(|argument| horizontal(argument, context));
-        let edges = edges.map(|edges| three(edges, context));
+        let edges = edges.map(|edges| three(edges, ["edges of a box", "edges"], context));
+        let semi_axes = semi_axes.map(|axes| three(axes, ["semi-axes of an ellipsoid", "semi_axes"], context));
         let against = match (other, over) {
             (Some(center), _) => Against::Sphere { center, radius: other_radius, along },
             (None, Some(names)) => {
@@ -286,7 +301,11 @@ impl Written {
             _ => Copies::One,
         };
         let rim = rim.zip(axis).map(|(radius, axis)| [radius, axis]);
-        Some(Touching::Point(Box::new(PointContact { point: point?, radius, rim, copies, against })))
+        let semi_axes = match semi_axes {
+            Some(axes) => Some(axes?),
+            None => None,
+        };
+        Some(Touching::Point(Box::new(PointContact { point: point?, radius, rim, semi_axes, copies, against })))
     }
 
     /// Whether the arguments of a contact go together; if not, that is noted.

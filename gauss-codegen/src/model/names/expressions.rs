@@ -173,6 +173,7 @@ impl PointContact {
         if let Some([of_rim, axis]) = &self.rim {
             placed.extend([(radius, of_rim), (Place::Direction, axis)]);
         }
+        placed.extend(self.semi_axes.iter().flatten().map(|value| (constant("semi-axis"), value)));
         match &self.copies {
             Copies::One => {}
             Copies::Corners(edges) => placed.extend(edges.iter().map(|edge| (constant("edge"), edge))),

@@ -48,7 +48,8 @@ pub enum Touching {
     },
 }
 
-/// A point, the sphere about it, or the rim of a disk about it, perhaps at several places, and what it may touch.
+/// A point, the sphere or the ellipsoid about it, or the rim of a disk about it, perhaps at several places, and what it
+/// may touch.
 #[derive(Clone)]
 pub struct PointContact {
     /// A vector of t and q: observer axes from Ω.
@@ -57,6 +58,8 @@ pub struct PointContact {
     pub radius: Option<Expression>,
     /// Radius, and the axis in the axes of the body that has the point: of fields and numbers.
     pub rim: Option<[Expression; 2]>,
+    /// Of the ellipsoid: along the axes of the body that has the point, scalars of fields and numbers.
+    pub semi_axes: Option<[Expression; 3]>,
     /// Where else it is.
     pub copies: Copies,
     /// What it may touch.
@@ -134,7 +137,8 @@ impl PointContact {
     /// Its points, lengths, radii and heights.
     pub fn lengths(&self) -> Vec<&Expression> {
         let of_rim = self.rim.iter().map(|[radius, _]| radius);
-        let own = std::iter::once(&self.point).chain(&self.radius).chain(of_rim).chain(self.copies.expressions());
+        let own = std::iter::once(&self.point).chain(&self.radius).chain(of_rim);
+        let own = own.chain(self.semi_axes.iter().flatten()).chain(self.copies.expressions());
         match &self.against {
             Against::Plane { height, .. } => own.chain(height).collect(),
             Against::Ground(height) => own.chain([height]).collect(),
@@ -145,7 +149,8 @@ impl PointContact {
     fn each_expression(&mut self, change: &mut dyn FnMut(&mut Expression)) {
         change(&mut self.point);
         let copies = self.copies.expressions_mut();
-        self.radius.iter_mut().chain(self.rim.iter_mut().flatten()).chain(copies).for_each(&mut *change);
+        let about = self.radius.iter_mut().chain(self.rim.iter_mut().flatten());
+        about.chain(self.semi_axes.iter_mut().flatten()).chain(copies).for_each(&mut *change);
         match &mut self.against {
             Against::Plane { normal, height, along } => {
                 normal.iter_mut().chain(height).chain(along).for_each(change);

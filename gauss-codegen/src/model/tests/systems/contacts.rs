@@ -31,6 +31,7 @@ fn accepted() {
          contact(rub, point = tip, radius = l, other = hull.position, other_radius = l, along = c, friction = k), \
          contact(case, point = tip, edges = [l, 0.0, 2 * l], friction = k), contact(shin, point = tip, end = hull.position), \
          contact(drum, point = tip, rim = l, axis = c, length = k), \
+         contact(egg, point = tip, semi_axes = [l, 2 * l, k], plane = c, height = l * t), \
          contact(hill, point = tip, height = k * sin(x) + theta_0 * t, over = [x, theta_0]), \
          dry_friction(theta, bound = k), dry_friction(v, bound = k * abs(v)), \
          dry_friction(brake, slip = [v - k, tip.velocity.x], bound = [k, k + abs(grip)])",
@@ -73,6 +74,7 @@ fn accepted() {
             "case_0, case_1, case_2, case_3: tip above None",
             "shin_0, shin_1: tip above None",
             "drum_0, drum_1: tip above None",
+            "egg: tip above Some(\"c\")",
             "hill: tip over (Add (Multiply k (sin place 0)) (Multiply place 1 t))",
             "theta: slips [\"(rate theta)\"], bounds [\"k\"]",
             "v: slips [\"v\"], bounds [\"(Multiply k (abs v))\"]",
@@ -135,6 +137,49 @@ fn clauses() {
             ("2", "`over` gives names to the horizontal coordinates; write `over = [x, y]`"),
             ("edges", "a box has corners and a capsule has two ends; write a clause for each"),
         ],
+    );
+}
+
+#[test]
+fn ellipsoids() {
+    mistakes(
+        "contact(a, point = tip, semi_axes = l), contact(b, gap = theta, semi_axes = [l, l, l]), \
+         contact(d, point = tip, semi_axes = [l, l, l], radius = l), \
+         contact(e, point = tip, semi_axes = [l, l, l], rim = l, axis = c), \
+         contact(f, point = tip, semi_axes = [l, l, l], edges = [l, l, l]), \
+         contact(g, point = tip, semi_axes = [l, l, l], end = hull.position), \
+         contact(h, point = tip, semi_axes = [l, l, l], other = hull.position), \
+         contact(i, point = tip, semi_axes = [l, l, l], height = x, over = x), contact(j, point = tip, semi_axis = [l, l, l])",
+        &[
+            ("l", "the semi-axes of an ellipsoid are three lengths in brackets; write `semi_axes = [a, b, c]`"),
+            ("semi_axes", "`semi_axes` goes with `point = …`; add it, or remove `semi_axes`"),
+            ("semi_axes", "an ellipsoid has three semi-axes and a sphere a radius; keep one of the two"),
+            ("semi_axes", "an ellipsoid has three semi-axes and a disk has a rim; write a clause for each"),
+            ("semi_axes", "an ellipsoid has no corners; write a clause for each"),
+            ("semi_axes", "a capsule has spheres at its ends; write a clause for each ellipsoid"),
+            ("semi_axes", "an ellipsoid touches a plane alone: its distance from a sphere has no closed form"),
+            (
+                "semi_axes",
+                "which point of an ellipsoid is nearest to such a ground has no closed form; remove `semi_axes`",
+            ),
+            ("semi_axis", "unknown argument of `contact`: `semi_axis`; did you mean `semi_axes`?"),
+        ],
+    );
+    mistakes(
+        "contact(a, point = tip, semi_axes = [l, theta, c]), contact(b, point = tip, semi_axes = [l, k, t])",
+        &[
+            ("theta", "`theta` varies, and the semi-axis of a contact is constant; write numbers and fields only"),
+            ("c", "the semi-axis of a contact is a scalar, found a vector; write one number or the name of a field"),
+            ("t", "`t` varies, and the semi-axis of a contact is constant; write numbers and fields only"),
+        ],
+    );
+    mistakes(
+        "contact(a, point = [0, 0, theta], semi_axes = [l, l, l])",
+        &[(
+            "[",
+            "a box, a rim, an ellipsoid, or a sphere with friction, turns with its body; write `point = ball.position` of \
+             the body, or the name of a point that is fixed in it",
+        )],
     );
 }
 
@@ -246,8 +291,8 @@ fn what_does_not_move() {
             ),
             (
                 "[",
-                "a box, a rim, or a sphere with friction, turns with its body; write `point = ball.position` of the body, or \
-                 the name of a point that is fixed in it",
+                "a box, a rim, an ellipsoid, or a sphere with friction, turns with its body; write `point = ball.position` of \
+                 the body, or the name of a point that is fixed in it",
             ),
             (
                 "c",
@@ -256,13 +301,13 @@ fn what_does_not_move() {
             ),
             (
                 "[",
-                "a box, a rim, or a sphere with friction, turns with its body; write `point = ball.position` of the body, or \
-                 the name of a point that is fixed in it",
+                "a box, a rim, an ellipsoid, or a sphere with friction, turns with its body; write `point = ball.position` of \
+                 the body, or the name of a point that is fixed in it",
             ),
             (
                 "[",
-                "a box, a rim, or a sphere with friction, turns with its body; write `point = ball.position` of the body, or \
-                 the name of a point that is fixed in it",
+                "a box, a rim, an ellipsoid, or a sphere with friction, turns with its body; write `point = ball.position` of \
+                 the body, or the name of a point that is fixed in it",
             ),
             (
                 "[",
