@@ -18,14 +18,20 @@ use super::linear::{dot, factorise, solve, summed};
 
 /// The most rows of contacts.
 pub(crate) const MOST_ROWS: usize = 256;
-/// By what part of the diagonal impulses are pulled towards those before, where contacts depend on one another.
-const PULL: f64 = 1e-8;
+/// By what part of the diagonal impulses are pulled towards those before at first, where contacts depend on one another.
+/// What cannot stick all at once, as two corners that an impact parts, or cannot all stay closed, drifts to the bound of
+/// its friction or to zero by the inverse of that; corrections that gain nothing pull less, those that go too far more.
+const PULL: f64 = 1e-5;
+const LEAST_PULL: f64 = 1e-9;
+const MOST_PULL: f64 = 1e-3;
 /// Contacts do where this is left of a column.
 const DEPENDENT: f64 = 1e-11;
+/// What is looked for at first, as a part of the tolerance.
+const STRICT: f64 = 1e-4;
 /// Rounds of sweeps and corrections.
-const ROUNDS: u32 = 8;
+const ROUNDS: u32 = 11;
 /// Corrections of a round.
-const CORRECTIONS: usize = 30;
+const CORRECTIONS: usize = 60;
 /// Roundings of each product of a row that its sum may be off by.
 const ROUNDINGS: f64 = 64.0;
 
@@ -71,6 +77,7 @@ pub(crate) struct Impulses<'m> {
     /// The sizes of the terms of each rate.
     terms: &'m mut [f64],
     best: &'m mut [f64],
+    swept: &'m mut [f64],
     solution: &'m mut [f64],
     right: &'m mut [f64],
     matrix: &'m mut [f64],
@@ -79,12 +86,13 @@ pub(crate) struct Impulses<'m> {
     order: [usize; MOST_ROWS],
     /// Whether contacts depend on one another, as far as is known.
     pub(crate) dependent: bool,
+    pull: f64,
 }
 
 impl<'m> Impulses<'m> {
     /// How many numbers it needs for so many rows.
     pub(crate) const fn memory(rows: usize) -> usize {
-        2 * rows * rows + 7 * rows
+        2 * rows * rows + 8 * rows
     }
 
     pub(crate) fn new(memory: &'m mut [f64], rows: usize) -> Self {
@@ -95,10 +103,26 @@ impl<'m> Impulses<'m> {
         let (rates, memory) = memory.split_at_mut(rows);
         let (terms, memory) = memory.split_at_mut(rows);
         let (best, memory) = memory.split_at_mut(rows);
+        let (swept, memory) = memory.split_at_mut(rows);
         let (solution, memory) = memory.split_at_mut(rows);
         let right = &mut memory[..rows];
         let (unknown, order) = ([0; MOST_ROWS], [0; MOST_ROWS]);
-        Self { delassus, b, impulses, rates, terms, best, solution, right, matrix, unknown, order, dependent: false }
+        Self {
+            delassus,
+            b,
+            impulses,
+            rates,
+            terms,
+            best,
+            swept,
+            solution,
+            right,
+            matrix,
+            unknown,
+            order,
+            dependent: false,
+            pull: 0.0,
+        }
     }
 
     fn row(&self, row: usize) -> &[f64] {
@@ -190,18 +214,33 @@ impl<'m> Impulses<'m> {
         }
         // Also where those of the step before satisfy the laws within the tolerance: what rests is to rest exactly.
         for round in 0..ROUNDS {
+            // From the impulses of the step before; from none, since dependent contacts may press against one another
+            // up to the bounds of their friction; then from sweeps that go on from where they were.
+            if round == 1 {
+                self.swept.fill(0.0);
+            }
             if round > 0 {
-                self.impulses.copy_from_slice(self.best);
-                (0..8 << round).for_each(|_| self.sweep(cones));
-                found.sweeps += 8 << round;
+                self.impulses.copy_from_slice(self.swept);
+                let sweeps = if round == 1 { 0 } else { 4 << round };
+                (0..sweeps).for_each(|_| self.sweep(cones));
+                found.sweeps += sweeps;
+                self.swept.copy_from_slice(self.impulses);
                 self.update(cones);
             }
-            if self.correct(cones, tolerance, &mut found) {
+            self.pull = PULL;
+            if self.correct(cones, STRICT * tolerance, &mut found) {
                 return found;
             }
+            // Where contacts depend on one another rates of places that moved agree only to the order of the step.
+            if round > 0 {
+                self.impulses.copy_from_slice(self.best);
+                self.update(cones);
+                (found.residual, found.holds) = self.worst(cones, tolerance);
+                if found.holds {
+                    return found;
+                }
+            }
         }
-        self.impulses.copy_from_slice(self.best);
-        self.update(cones);
         found
     }
 
@@ -209,9 +248,9 @@ impl<'m> Impulses<'m> {
     fn correct(&mut self, cones: &[Cone], tolerance: f64, found: &mut Found) -> bool {
         let mut states = [State::Leaves; MOST];
         let mut known = 0;
-        let mut worse = 0;
+        let (mut last, mut changed) = (f64::INFINITY, false);
         for n in 0..CORRECTIONS {
-            let mut same = n > 0;
+            let mut same = n > 0 && !changed;
             for (state, cone) in states.iter_mut().zip(cones) {
                 let next = self.state(cone);
                 same &= state.is_as(&next);
@@ -239,19 +278,25 @@ impl<'m> Impulses<'m> {
             self.update(cones);
             found.corrections += 1;
             let (residual, holds) = self.worst(cones, tolerance);
-            if n == 0 || residual.worst() < found.residual.worst() || holds {
+            let size = residual.worst();
+            if n == 0 || size < found.residual.worst() || holds {
                 (found.residual, found.holds) = (residual, holds);
                 self.best.copy_from_slice(self.impulses);
-                worse = 0;
-            } else {
-                worse += 1;
             }
             if holds {
                 return true;
             }
-            if worse > 8 || !residual.worst().is_finite() {
+            if !size.is_finite() || (n > 12 && !self.dependent) {
                 return false;
             }
+            let pull = self.pull;
+            if size > 3.0 * last {
+                self.pull = (10.0 * pull).min(MOST_PULL);
+            } else if size > 0.3 * last {
+                self.pull = (0.1 * pull).max(LEAST_PULL);
+            }
+            changed = self.dependent && self.pull != pull;
+            last = size;
         }
         false
     }
@@ -304,7 +349,7 @@ impl<'m> Impulses<'m> {
     }
 
     fn pull(&self) -> f64 {
-        if self.dependent { PULL } else { 0.0 }
+        if self.dependent { self.pull } else { 0.0 }
     }
 
     /// The equation of a rate that is zero.
@@ -318,7 +363,7 @@ impl<'m> Impulses<'m> {
     /// Of `d P_a − d μ P_N t_a − part Σ_b (δ_ab − t_a t_b) (d P_b − u_b) = 0`, which is Coulomb's law to first order in
     /// the direction t: the factor of an impulse.
     fn sliding_entry(&self, cone: &Cone, (along, part, scale): (&[f64; 3], f64, f64), a: usize, column: usize) -> f64 {
-        let mut entry = if column == cone.first + a { scale } else { 0.0 };
+        let mut entry = if column == cone.first + a { scale * (1.0 + self.pull()) } else { 0.0 };
         if cone.normal == Some(column) {
             entry -= scale * cone.friction * along[a];
         }
@@ -356,7 +401,7 @@ impl<'m> Impulses<'m> {
                         let turned: f64 = each
                             .map(|(b, row)| (f64::from(u8::from(a == b)) - along[a] * along[b]) * self.b[row])
                             .sum();
-                        self.right[k] = fixed - part * turned;
+                        self.right[k] = fixed - part * turned + self.pull() * scale * self.impulses[cone.first + a];
                         k += 1;
                     }
                 }

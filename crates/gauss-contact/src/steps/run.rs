@@ -39,7 +39,7 @@ pub struct StepSample<K: ContactSystem<Scalar = f64>> {
 impl<'k, K: ContactSystem<Scalar = f64>> ContactSteps<'k, K> {
     /// Steps of length `h` of a system without inputs.
     pub fn new(kernel: &'k K, h: f64) -> Self {
-        Self { kernel, h, input: NoInput, scheme: StepScheme::default(), tolerance: 1e-12 }
+        Self { kernel, h, input: NoInput, scheme: StepScheme::default(), tolerance: 1e-8 }
     }
 }
 

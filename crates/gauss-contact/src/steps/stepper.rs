@@ -42,6 +42,22 @@ pub struct StepReport {
     pub corrections: u32,
     /// Sweeps of the solver, where corrections alone came to no end.
     pub sweeps: u32,
+    /// In how many parts the step was made, where no impulses were found for all of it; else 0.
+    pub parts: u32,
+}
+
+impl StepReport {
+    /// Of two parts of a step.
+    fn and(self, later: Self) -> Self {
+        Self {
+            residual: self.residual.worse(later.residual),
+            penetration: self.penetration.max(later.penetration),
+            closed: later.closed,
+            corrections: self.corrections + later.corrections,
+            sweeps: self.sweeps + later.sweeps,
+            parts: self.parts.max(1) + later.parts.max(1),
+        }
+    }
 }
 
 /// A system on its way in steps; all that a step needs is in memory that was there before.
@@ -67,6 +83,9 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) modes: [Mode; MOST],
     report: StepReport,
 }
+
+/// How often a step is halved where no impulses are found for it.
+const HALVINGS: u32 = 4;
 
 impl<K: ContactSystem<Scalar = f64>, M> fmt::Debug for ContactStepper<'_, K, M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -115,7 +134,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             q,
             z,
             scheme: StepScheme::default(),
-            tolerance: 1e-12,
+            tolerance: 1e-8,
             memory,
             impulses: K::ContactRows::zero(),
             dependent: false,
@@ -136,8 +155,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         self
     }
 
-    /// How far from the laws a solution may be, as a part of the largest rate, in place of 10⁻¹²; rounding is always
-    /// allowed for.
+    /// How far from the laws a solution may be, as a part of the largest rate, in place of 10⁻⁸. A ten thousandth of that
+    /// is looked for first, and rounding is always allowed for; what was found is in the report.
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
@@ -185,7 +204,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
     }
 
-    /// One step of length `h`, under an input that stays. Where it is an error, the state is that before the step.
+    /// One step of length `h`, under an input that stays. Where no impulses are found for it, it is made in up to 16
+    /// parts. Where it is an error, the state is that before the step.
     ///
     /// # Errors
     /// `Unsolved` where no impulses were found that satisfy the laws, `InvalidFriction`, `NonFinite`, `Projection`.
@@ -193,6 +213,32 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         if !(h > 0.0 && h.is_finite()) {
             return Err(self.error(None, ContactErrorKind::InvalidInterval));
         }
+        let before = (self.t, self.q, self.z, self.gaps, self.rates, self.impulses, self.modes, self.acceleration);
+        let made = self.in_parts(h, input, HALVINGS);
+        match made {
+            Ok(report) => self.report = report,
+            Err(_) => {
+                (self.t, self.q, self.z, self.gaps, self.rates, self.impulses, self.modes, self.acceleration) = before;
+            }
+        }
+        made
+    }
+
+    /// A step, or both halves of it.
+    fn in_parts(&mut self, h: f64, input: &K::Input, halvings: u32) -> Result<StepReport, ContactError> {
+        match self.whole(h, input) {
+            Err(ContactError { kind: ContactErrorKind::Unsolved { .. }, .. }) if halvings > 0 => {
+                let first = self.in_parts(0.5 * h, input, halvings - 1)?;
+                let impulses = self.impulses;
+                let second = self.in_parts(0.5 * h, input, halvings - 1)?;
+                self.impulses = self.impulses.add_scaled(1.0, &impulses);
+                Ok(first.and(second))
+            }
+            made => made,
+        }
+    }
+
+    fn whole(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
         let (kernel, t, q, z) = (self.kernel, self.t, self.q, self.z);
         let middle = Middle {
             t: t + 0.5 * h,
@@ -212,8 +258,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         self.acceleration = (!end.struck).then(|| end.z.add_scaled(-1.0, &z).scale(1.0 / h));
         self.t = t + h;
         (self.q, self.z, self.impulses, self.modes) = (end.q, end.z, end.impulses, end.modes);
-        (self.gaps, self.rates, self.report) = (end.gaps, end.rates, end.report);
-        Ok(self.report)
+        (self.gaps, self.rates) = (end.gaps, end.rates);
+        Ok(end.report)
     }
 
     fn error(&self, contact: Option<usize>, kind: ContactErrorKind) -> ContactError {
@@ -270,9 +316,15 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let laws = Laws::new::<K>(h, &friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
         let dynamics = kernel.contact_dynamics(middle.t, &middle.q, &middle.z, input);
         let (mut impulses, mut modes) = (self.impulses, self.modes);
-        let solved = self.solve(h, laws, &dynamics, (&mut impulses, &mut modes));
-        let solved = solved.map_err(|kind| self.error(None, kind))?;
         let free = self.z.add_scaled(h, &dynamics.acceleration);
+        let known = self.dependent;
+        let mut solved =
+            self.solve(h, (&laws, &dynamics), self.free_rates(h, middle, &dynamics), (&mut impulses, &mut modes));
+        if solved.is_err() && self.dependent && !known {
+            solved =
+                self.solve(h, (&laws, &dynamics), self.free_rates(h, middle, &dynamics), (&mut impulses, &mut modes));
+        }
+        let solved = solved.map_err(|kind| self.error(None, kind))?;
         let z = pushed_rows::<K>(&free, &dynamics.response.columns, &impulses);
         let (q, z) = self.second_half(h, middle, z)?;
         // What begins to rest is brought to zero to the last bit, and stays there.
@@ -293,25 +345,37 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             closed: modes.iter().filter(|mode| mode.is_closed()).count(),
             corrections: solved.found.corrections,
             sweeps: solved.found.sweeps,
+            parts: 0,
         };
         Ok(End { q, z, gaps, rates, impulses, modes, report, struck: solved.struck })
+    }
+
+    /// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that depend
+    /// on one another both are taken at half of the step, where they agree with one another to rounding; that is of first
+    /// order.
+    fn free_rates(&self, h: f64, middle: &Middle<K>, dynamics: &ContactDynamics<K>) -> [K::ContactRows; 2] {
+        if !self.dependent {
+            return [self.rates, self.rates.add_scaled(h, &dynamics.bias)];
+        }
+        let free = self.z.add_scaled(h, &dynamics.acceleration);
+        [self.z, free].map(|z| self.kernel.contact_rates(middle.t, &middle.q, &z))
     }
 
     /// Impulses and modes of a step; impulses are those of the step before at first.
     fn solve(
         &mut self,
         h: f64,
-        mut laws: Laws,
-        dynamics: &ContactDynamics<K>,
+        (laws, dynamics): (&Laws, &ContactDynamics<K>),
+        [before, free]: [K::ContactRows; 2],
         (impulses, modes): (&mut K::ContactRows, &mut [Mode; MOST]),
     ) -> Result<Solved, ContactErrorKind> {
         let rows = K::ContactRows::DIM;
-        let (gaps, before, e) = (self.gaps, self.rates, self.kernel.restitution());
+        let (gaps, e) = (self.gaps, self.kernel.restitution());
         let scales = laws.scales;
         let mut problem = Impulses::new(&mut self.memory.as_mut()[..Impulses::memory(rows)], rows);
         problem.dependent = self.dependent;
         for row in 0..rows {
-            problem.b[row] = scales[row] * (before.component(row) + h * dynamics.bias.component(row));
+            problem.b[row] = scales[row] * free.component(row);
             problem.impulses[row] = impulses.component(row) / scales[row];
             for column in 0..rows {
                 let entry = scales[row] * dynamics.response.delassus[(row, column)] * scales[column];
@@ -321,14 +385,15 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         // What an impact passes on is a part of the rate before it.
         let passed_on = |i: usize| -e.component(i) * before.component(K::CONTACTS[i].normal).min(0.0);
         let end = |i: usize, rate: f64| gaps.component(i) + 0.5 * h * (before.component(K::CONTACTS[i].normal) + rate);
+        let mut cones = laws.cones;
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             let free = problem.b[contact.normal];
-            laws.cones[i].acts = !contact.has_gap() || self.modes[i].is_closed() || end(i, free) <= 0.0;
+            cones[i].acts = !contact.has_gap() || self.modes[i].is_closed() || end(i, free) <= 0.0;
             if contact.has_gap() {
                 problem.b[contact.normal] -= passed_on(i);
             }
         }
-        let cones = &mut laws.cones[..K::CONTACTS.len()];
+        let cones = &mut cones[..K::CONTACTS.len()];
         // A contact that others press closed takes part as well.
         let mut found = Found::default();
         loop {
