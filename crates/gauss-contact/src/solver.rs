@@ -564,3 +564,7 @@ mod tests;
 #[cfg(test)]
 #[path = "enumeration_tests.rs"]
 mod enumeration_tests;
+
+#[cfg(test)]
+#[path = "convex_tests.rs"]
+mod convex_tests;
