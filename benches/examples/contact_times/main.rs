@@ -1,7 +1,7 @@
 //! Runs from event to event beside steps of fixed length: a bouncing ball and the woodpecker toy with the steps and times
 //! of published programs.
 //!
-//! `cargo run --release -p gauss-benches --example touching [-- rounds]`: microseconds per simulated second, errors,
+//! `cargo run --release -p gauss-benches --example contact_times [-- rounds]`: microseconds per simulated second, errors,
 //! events and steps. The steps are ours (`steps.rs`); their lengths and the spans are those of the examples of Siconos:
 //! `BouncingBallTS` (h = 0.005 s, 10 s) and `WoodPecker` (h = 2·10⁻⁵ s, 0.3 s), both with θ = ½.
 

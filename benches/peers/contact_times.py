@@ -1,6 +1,6 @@
-"""The scenes of `--example touching` in Siconos (4.4, Debian's package python3-siconos): its steps, in its own time.
+"""The scenes of `--example contact_times` in Siconos (4.4, Debian's package python3-siconos): its steps, in its own time.
 
-    python3 touching.py [ROUNDS] [ANGLE PERIOD Y SLEEVE BIRD]
+    python3 contact_times.py [ROUNDS] [ANGLE PERIOD Y SLEEVE BIRD]
 
 The five numbers are printed by the example: the start of the bird, and what the woodpecker comes to. Each figure is the
 median of whole runs, building the model left out; the loop over steps is in Python, each step is compiled code.
