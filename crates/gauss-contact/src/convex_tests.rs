@@ -145,8 +145,8 @@ impl Seen {
     }
 }
 
-/// Draws by the hundred, every other one with masses from 2⁻²⁰ to 2²⁰. With these few may be refused: rows that are
-/// nearly parallel in the metric of A⁻¹ make sweeps slow, and rates of one row rounding of another.
+/// Draws by the hundred, every other one with masses from 2⁻²⁰ to 2²⁰. With these friction along two tangents may
+/// be refused: where slips in one direction are a million times easier than across, directions are not found.
 fn run(
     seed: u64,
     kinds: impl Fn(&mut Numbers, usize) -> Vec<Contact>,
@@ -176,7 +176,7 @@ fn gaps(_: &mut Numbers, n: usize) -> Vec<Contact> {
 fn gaps_without_friction_have_the_motion_of_a_convex_solver() {
     // Up to twelve, so that more of them than dimensions are zero; then forces are not unique.
     let mut seen = run(31, gaps, |_, _| ());
-    assert!(seen.half() < 1e-15 && seen.rough == 0 && seen.refused[0] == 0 && seen.refused[1] < 2, "{seen:?}");
+    assert!(seen.half() < 1e-15 && seen.rough == 0 && seen.refused == [0, 0], "{seen:?}");
 }
 
 #[test]
