@@ -4,6 +4,8 @@
 mod history;
 #[path = "touching/published.rs"]
 mod published;
+#[path = "touching/random.rs"]
+mod random;
 #[path = "touching/shapes.rs"]
 mod shapes;
 
