@@ -1,4 +1,4 @@
-"""The scenes of `--example contact_times` in Siconos (4.4, Debian's package python3-siconos): its steps, in its own time.
+"""The scenes of `--example contact_times` in Siconos (4.4, Debian's python3-siconos): its steps, in its time.
 
     python3 contact_times.py [ROUNDS] [ANGLE PERIOD Y SLEEVE BIRD]
 
@@ -93,7 +93,8 @@ def report(name, step, span, make, errors, rounds):
         stepping, *_rest, count = keep = make(step)
         seconds.append(run(stepping, count, lambda t: None))
         del keep
-    print(f"{name}, steps of {step:g} s: {statistics.median(seconds) * 1e6 / span:.0f} µs per simulated second, {errors}")
+    middle = statistics.median(seconds) * 1e6 / span
+    print(f"{name}, steps of {step:g} s: {middle:.0f} µs per simulated second, {errors}")
 
 
 def main():

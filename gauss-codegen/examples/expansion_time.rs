@@ -6,9 +6,9 @@
 //! First every size of structure beside what is aimed at, then one body in every chart. Cargo compiles macros without
 //! optimisation unless told otherwise, so the figures are taken on an unoptimised build of `gauss-codegen`.
 //!
-//! With a name (`body`, `torpedo`, `top`, `arm`, `quadruped`, `standing`, `spatial`, `planar`, or a file that describes a
-//! robot that floats, for which the feature `urdf` is needed) one expansion, for a profiler: where a machine is shared,
-//! instructions are counted (`valgrind --tool=callgrind`).
+//! With a name (`body`, `torpedo`, `top`, `arm`, `quadruped`, `standing`, `spatial`, `planar`, or a file that describes
+//! a robot that floats, for which the feature `urdf` is needed) one expansion, for a profiler: where a machine is
+//! shared, instructions are counted (`valgrind --tool=callgrind`).
 
 mod structures;
 

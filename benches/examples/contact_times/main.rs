@@ -1,9 +1,9 @@
-//! Runs from event to event beside steps of fixed length: a bouncing ball and the woodpecker toy with the steps and times
-//! of published programs.
+//! Runs from event to event beside steps of fixed length: a bouncing ball and the woodpecker toy with the steps and
+//! times of published programs.
 //!
-//! `cargo run --release -p gauss-benches --example contact_times [-- rounds]`: microseconds per simulated second, errors,
-//! events and steps. The steps are ours (`steps.rs`); their lengths and the spans are those of the examples of Siconos:
-//! `BouncingBallTS` (h = 0.005 s, 10 s) and `WoodPecker` (h = 2·10⁻⁵ s, 0.3 s), both with θ = ½.
+//! `cargo run --release -p gauss-benches --example contact_times [-- rounds]`: microseconds per simulated second,
+//! errors, events and steps. The steps are ours (`steps.rs`); their lengths and the spans are those of the examples of
+//! Siconos: `BouncingBallTS` (h = 0.005 s, 10 s) and `WoodPecker` (h = 2·10⁻⁵ s, 0.3 s), both with θ = ½.
 
 #[path = "../../../examples/woodpecker/toy.rs"]
 mod toy;
@@ -126,7 +126,8 @@ fn ball_by_steps(kernel: &BallKernel, h: f64) -> Way<'_> {
 
 type Vector = SVector<f64, 3>;
 
-/// The angle of the bird at a turn of the motion that repeats itself, while the sleeve leans on its lower edge and sticks.
+/// The angle of the bird at a turn of the motion that repeats itself, while the sleeve leans on its lower edge and
+/// sticks.
 ///
 /// The return map from turn to turn has the eigenvalue −0.84: after 200 turns nothing is left of the start.
 fn turn(kernel: &WoodpeckerKernel) -> Result<f64, Box<dyn Error>> {

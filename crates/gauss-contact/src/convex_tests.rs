@@ -1,7 +1,7 @@
 //! Laws that are a minimum, against a convex solver that does not know D, in many digits.
 //!
-//! Entries of W have four bits, units of rows and roots of masses are powers of two, so that D and b are exact as `f64`:
-//! the solver and the witness have the same problem.
+//! Entries of W have four bits, units of rows and roots of masses are powers of two, so that D and b are exact as
+//! `f64`: the solver and the witness have the same problem.
 
 use gauss_runtime::contact::Contact;
 
@@ -84,8 +84,8 @@ fn posed(convex: &Convex, frictions: &[f64]) -> Contacts {
 ///
 /// The solver promises rates to `256 (1 + R) ε` of their terms; ρ is the norm of these over the sizes of the rows. The
 /// minimum is strongly convex: what is wrong with forces by ρ moves x by no more than that. What is wrong with rates of
-/// rows that are zero moves x by `|D̂⁻¹|^½` times it, D̂ of these rows at length 1; its trace is no less. They are those
-/// of the solver and those of the minimum.
+/// rows that are zero moves x by `|D̂⁻¹|^½` times it, D̂ of these rows at length 1; its trace is no less. They are
+/// those of the solver and those of the minimum.
 fn bound(convex: &Convex, contacts: &Contacts, found: &Solution, minimum: &Minimum) -> f64 {
     let rounding = |row: usize| contacts.rounding(row, &found.forces) / size(&convex.w[row]);
     let rho = (0..contacts.b.len()).map(|row| rounding(row).powi(2)).sum::<f64>().sqrt();

@@ -1,8 +1,8 @@
 //! A convex solver (`clarabel`), and its answer taken on to a hundred digits.
 //!
-//! In axes in which A = 1 the scene is: `½|x − x₀|² + Σ f |T x + c|` is least where `N x + c ≥ 0`. The convex solver has
-//! x to some digits and tells which gaps stay closed and which slips are zero. With these as equations the minimum is
-//! smooth; Newton's method with residuals in long numbers has it to as many digits as are wanted. Neither knows D.
+//! In axes in which A = 1 the scene is: `½|x − x₀|² + Σ f |T x + c|` is least where `N x + c ≥ 0`. The convex solver
+//! has x to some digits and tells which gaps stay closed and which slips are zero. With these as equations the minimum
+//! is smooth; Newton's method with residuals in long numbers has it to as many digits as are wanted. Neither knows D.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -160,8 +160,8 @@ impl Convex {
         Rough { x, closed, sticks }
     }
 
-    /// The minimum, from what the convex solver has: where equations leave a gap negative, a force that pulls or friction
-    /// beyond its bound, they are changed there. Nothing where that does not end.
+    /// The minimum, from what the convex solver has: where equations leave a gap negative, a force that pulls or
+    /// friction beyond its bound, they are changed there. Nothing where that does not end.
     pub(super) fn refined(&self, rough: &Rough) -> Option<Minimum> {
         let mut x: Vec<Long> = rough.x.iter().map(|x| Long::new(*x)).collect();
         let rows = |i: usize| {

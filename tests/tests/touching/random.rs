@@ -125,7 +125,8 @@ struct Seen {
 /// The laws of Signorini and Coulomb between forces and rates, or impulses and velocities, as they are written.
 ///
 /// `bounds`: μ of each contact, f of dry friction. `slips`: before, of what slides already. Rates are held to 10⁻⁹ of
-/// the terms that they are sums of: some roundings times the condition of A and of D, below 10⁶ by numbers from 0.1 to 10.
+/// the terms that they are sums of: some roundings times the condition of A and of D, below 10⁶ by numbers from 0.1 to
+/// 10.
 struct Laws<'a, const R: usize> {
     matrix: SMatrix<f64, R, R>,
     forces: SVector<f64, R>,
