@@ -514,7 +514,8 @@ impl Contacts {
     fn in_states(&self, states: Vec<State>) -> Solution {
         let (states, forces) = self.settled(states);
         let rates = self.rates(&forces);
-        let residuals = (0..self.laws.len()).map(|i| self.residual(i, &forces, &rates)).collect();
+        let shared = self.shared_rounding(&forces);
+        let residuals = (0..self.laws.len()).map(|i| self.residual(i, &forces, &rates, shared)).collect();
         Solution { forces, rates, states, residuals }
     }
 
@@ -524,13 +525,25 @@ impl Contacts {
         ROUNDINGS * (1 + self.b.len()) as f64 * f64::EPSILON * terms.fold(self.b[row].abs(), |sum, term| sum + term)
     }
 
-    fn residual(&self, i: usize, forces: &[f64], rates: &[f64]) -> Residual {
+    /// The rounding of the worst row, over `√D_ii`: in the norm of energy the motion is known no better than that, and
+    /// the rate of a row is its product with a row of length `√D_ii`.
+    fn shared_rounding(&self, forces: &[f64]) -> f64 {
+        let over = |row: usize| (self.length(row) > 0.0).then(|| self.rounding(row, forces) / self.length(row));
+        (0..self.b.len()).filter_map(over).fold(0.0, f64::max)
+    }
+
+    fn length(&self, row: usize) -> f64 {
+        Real::sqrt(self.matrix.at(row, row))
+    }
+
+    fn residual(&self, i: usize, forces: &[f64], rates: &[f64], shared: f64) -> Residual {
         let law = self.laws[i];
         let signorini = self
             .normal(i)
             .map_or(0.0, |normal| Real::min(rates[normal], self.matrix.at(normal, normal) * forces[normal]).abs());
         let rows = self.first[i]..self.tangents(i).end;
-        let rounding = rows.fold(0.0_f64, |most, row| most.max(self.rounding(row, forces)));
+        let of_row = |row: usize| self.rounding(row, forces).max(shared * self.length(row));
+        let rounding = rows.map(of_row).fold(0.0, f64::max);
         let scale = self.tangent_scale(i);
         let friction: Vec<f64> = self.tangents(i).map(|row| scale * forces[row]).collect();
         let largest = scale * self.largest(i, forces);
@@ -564,3 +577,7 @@ mod tests;
 #[cfg(test)]
 #[path = "enumeration_tests.rs"]
 mod enumeration_tests;
+
+#[cfg(test)]
+#[path = "convex_tests.rs"]
+mod convex_tests;
