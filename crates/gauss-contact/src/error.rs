@@ -40,7 +40,7 @@ pub enum ContactErrorKind {
         /// e.
         restitution: f64,
     },
-    /// A coefficient of friction, or a bound of dry friction, that is negative, not finite, or zero along one of two
+    /// A coefficient of friction, or a bound of dry friction, that is negative, not finite, or zero along some of the
     /// axes alone.
     InvalidFriction {
         /// μ, or f.
@@ -115,7 +115,7 @@ impl fmt::Display for ContactErrorKind {
             Self::InvalidFriction { friction } => {
                 write!(
                     f,
-                    "the bound of friction is {friction}; it must be finite and not negative, and zero along both axes \
+                    "the bound of friction is {friction}; it must be finite and not negative, and zero along all axes \
                      or none"
                 )
             }

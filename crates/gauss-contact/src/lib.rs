@@ -23,8 +23,8 @@
 //! are followed as far as the bounces are; what rests moves with its closed gap, so that a start on a closed gap is
 //! differentiated along it. What has none ends with [`ContactErrorKind::Grazes`] or [`ContactErrorKind::Together`].
 //!
-//! Friction is Coulomb's, a circle or an ellipse, and dry friction of a given bound; with two tangents and a friction
-//! so large that it can reverse the effect of a normal force, uniqueness is not checked for contacts that begin to
+//! Friction is Coulomb's, a circle, an ellipse, or with drilling an ellipsoid; dry friction of a given bound; and
+//! resistance to rolling in proportion to a normal force. With several rows and a friction so large that it can reverse the effect of a normal force, uniqueness is not checked for contacts that begin to
 //! slide.
 
 #![no_std]

@@ -20,8 +20,8 @@ impl Numbers {
 }
 
 /// Of a contact with isotropic friction.
-fn law(tangents: usize, friction: f64, slip: Option<[f64; 2]>) -> Law {
-    Law::new(&Contact::new("", 0, tangents), Bounds { largest: friction, weights: [1.0; 2] }, slip)
+fn law(tangents: usize, friction: f64, slip: Option<[f64; 3]>) -> Law {
+    Law::new(&Contact::new("", 0, tangents), Bounds { largest: friction, weights: [1.0; 3] }, slip)
 }
 
 /// Rows of contacts in a space of some dimensions, and Delassus' matrix of them with unit masses.
@@ -124,8 +124,8 @@ fn one_contact_has_the_forces_of_its_closed_form() {
         (found.forces, found.states[0])
     };
     assert_eq!(solve([-4.0, 1.0], 0.5), (vec![2.0, -0.5], State::Sticks));
-    assert_eq!(solve([-4.0, 3.0], 0.5), (vec![2.0, -1.0], State::Slides([1.0, 0.0])));
-    assert_eq!(solve([-4.0, -3.0], 0.5), (vec![2.0, 1.0], State::Slides([-1.0, 0.0])));
+    assert_eq!(solve([-4.0, 3.0], 0.5), (vec![2.0, -1.0], State::Slides([1.0, 0.0, 0.0])));
+    assert_eq!(solve([-4.0, -3.0], 0.5), (vec![2.0, 1.0], State::Slides([-1.0, 0.0, 0.0])));
     assert_eq!(solve([4.0, 1.0], 0.5), (vec![0.0, 0.0], State::Leaves));
 }
 
@@ -134,7 +134,7 @@ fn painleves_states_are_told_apart() {
     // p = 1 − 2 · 0.8 < 0.
     let solve = |b: f64| {
         let matrix = Matrix::from_fn(2, |i, j| if i == j { 1.0 } else { 0.8 });
-        Contacts::new(vec![law(1, 2.0, Some([1.0, 0.0]))], matrix, vec![b, 0.0]).solve()
+        Contacts::new(vec![law(1, 2.0, Some([1.0, 0.0, 0.0]))], matrix, vec![b, 0.0]).solve()
     };
     assert!(matches!(solve(-1.0), Err(Failure::Inconsistent(0))));
     assert!(matches!(solve(1.0), Err(Failure::Indeterminate(0))));
@@ -206,7 +206,7 @@ fn ellipses_and_bounds_hold_their_laws_together() {
             let first = bounds.next().unwrap_or(0.0);
             let second = bounds.next().unwrap_or(first);
             let largest = first.max(second);
-            laws.push(Law::new(contact, Bounds { largest, weights: [first / largest, second / largest] }, None));
+            laws.push(Law::new(contact, Bounds { largest, weights: [first / largest, second / largest, 1.0] }, None));
         }
         let solver = Contacts::new(laws.clone(), matrix.clone(), b.clone());
         let found = solver.solve().unwrap_or_else(|failure| panic!("{n} {failure:?}"));
