@@ -562,6 +562,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
     fn changes(&self, old: &[Mode<K::Scalar>], events: &mut Vec<ContactEvent>) {
         for (contact, (old, new)) in old.iter().zip(&self.modes).enumerate() {
             let reverses = |a: &[K::Scalar; 3], b: &[K::Scalar; 3]| value(dot(a, b)) < 0.0;
+            let turned = |i: usize| self.fired == Some(Watched::Slip(i)) && tangents(&K::CONTACTS[i]).len() > 1;
             let kind = match (old, new) {
                 (Mode::Open, Mode::Sticks | Mode::Slides(_)) | (Mode::Sticks | Mode::Slides(_), Mode::Open)
                     if !K::CONTACTS[contact].has_gap() =>
@@ -574,6 +575,8 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
                 (old, Mode::Open) if old.is_closed() => EventKind::Leaves,
                 (Mode::Sticks, Mode::Slides(along)) => EventKind::Slides(along.map(value)),
                 (Mode::Slides(_), Mode::Sticks) => EventKind::Sticks,
+                // Of several rows the slip may turn by as much on its way.
+                (Mode::Slides(_), Mode::Slides(_)) if turned(contact) => continue,
                 (Mode::Slides(before), Mode::Slides(along)) if reverses(before, along) => {
                     EventKind::Reverses(along.map(value))
                 }

@@ -324,7 +324,7 @@ where
         let loads = (!problem.system.is_open()).then(|| problem.loads(from.t, &from.q, &from.z));
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             // Forces that are no more than rounding start above zero by as much.
-            let least = loads.as_ref().map_or(0.0, |loads| loads.rounding(contact));
+            let least = loads.as_ref().map_or(0.0, |loads| loads.rounding(contact).max(f64::MIN_POSITIVE));
             let above = move |value: f64| if value > least { 0.0 } else { least - value };
             let from_zero = |bound: f64| move |value: f64| if value.abs() <= bound { -value } else { 0.0 };
             match from.modes[i] {

@@ -2,11 +2,11 @@
 
 use crate::error::Result;
 use crate::mechanics::{Contact, Tree};
-use crate::model::{Expression, Touching};
+use crate::model::{ContactClause, Expression, Touching};
 use crate::terms::LawKind;
 use crate::words::Unraw;
 
-use super::shapes::Slips;
+use super::shapes::{Asked, Form, Slips};
 use super::translator::Translator;
 
 impl<'g> Translator<'_, 'g> {
@@ -30,13 +30,22 @@ impl<'g> Translator<'_, 'g> {
                 friction.push(value);
             }
             let restitution = coefficient(&written.restitution, LawKind::Restitution, "restitution")?;
+            let asked = Asked {
+                rubs: !friction.is_empty(),
+                drilling: written.drilling.as_ref().map(|e| self.length((&name, "drilling"), e, tree)).transpose()?,
+                rolls: written.rolling.is_some(),
+            };
+            let rolling = coefficient(&written.rolling, LawKind::Friction, "rolling")?;
+            let form = |gap, slips| Form { gap, slips, spin: None, rolls: Vec::new(), frame: None };
             let forms = match &written.touching {
-                Touching::Gap { gap, slips } => vec![(Some(self.scalar(gap, tree)?), self.slips(slips, tree)?, None)],
-                Touching::Slip { slips, .. } => vec![(None, self.slips(slips, tree)?, None)],
-                Touching::Point(contact) => {
-                    let forms = self.shape(&name, contact, !friction.is_empty(), tree)?;
-                    forms.into_iter().map(|(gap, slips, frame)| (Some(gap), slips, Some(frame))).collect()
+                Touching::Gap { gap, slips, spin, rolls } => {
+                    let spin = spin.as_ref().map(|spin| self.scalar(spin, tree)).transpose()?;
+                    let spin = asked.drilling.zip(spin).map(|(radius, spin)| radius * spin);
+                    let (gap, slips) = (Some(self.scalar(gap, tree)?), self.slips(slips, tree)?);
+                    vec![Form { spin, rolls: self.slips(rolls, tree)?, ..form(gap, slips) }]
                 }
+                Touching::Slip { slips, .. } => vec![form(None, self.slips(slips, tree)?)],
+                Touching::Point(contact) => self.shape(&name, contact, &asked, tree)?,
                 Touching::Range { along, from, to } => {
                     let x = self.scalar(along, tree)?;
                     let limit = |e: &Option<_>| e.as_ref().map(|e| self.scalar(e, tree)).transpose();
@@ -45,25 +54,51 @@ impl<'g> Translator<'_, 'g> {
                         self.note(LawKind::Limits, (&name, ""), e, vec![least, most]);
                     }
                     let gaps = least.map(|least| x - least).into_iter().chain(most.map(|most| most - x));
-                    gaps.map(|gap| (Some(gap), Vec::new(), None)).collect()
+                    gaps.map(|gap| form(Some(gap), Vec::new())).collect()
                 }
             };
-            if let (Touching::Point(_), Some(e)) = (&written.touching, written.friction.first())
-                && forms.iter().all(|(_, slips, _)| slips.is_empty())
-            {
-                self.mistake(
-                    e.span,
-                    format!("nothing slips along `{name}`, so friction does nothing; remove `friction`"),
-                );
-            }
-            contacts.extend(written.names.iter().zip(forms).map(|(name, (gap, slips, frame))| {
+            self.refuse_idle(&name, written, &forms);
+            let each = 1 + usize::from(written.rolling.is_some());
+            for (names, form) in written.names.chunks(each).zip(forms) {
                 // Of two coefficients the one of the same tangent.
-                let friction = |k: usize| friction.get(k).or(friction.first()).copied();
-                let (slips, friction) = slips.into_iter().filter_map(|(k, slip)| Some((slip, friction(k)?))).unzip();
-                Contact { name: name.unraw().to_string(), gap, slips, friction, restitution, frame, clause }
-            }));
+                let of = |k: usize| friction.get(k).or(friction.first()).copied();
+                let slips = form.slips.into_iter().chain(form.spin.map(|spin| (0, spin)));
+                let (slips, friction) = slips.filter_map(|(k, slip)| Some((slip, of(k)?))).unzip();
+                let [name, named_rolling] =
+                    [names.first(), names.get(1)].map(|name| name.map(|n| n.unraw().to_string()));
+                let (on, drills) = (contacts.len(), form.spin.is_some());
+                let (gap, frame, name) = (form.gap, form.frame, name.unwrap_or_default());
+                let contact =
+                    Contact { name, gap, slips, drills, friction, rolls_on: None, restitution, frame, clause };
+                let resists = |(name, rho)| {
+                    let slips: Vec<_> = form.rolls.iter().map(|(_, roll)| *roll).collect();
+                    let (friction, rolls_on) = (vec![rho; slips.len()], Some(on));
+                    let (gap, drills, restitution, frame) = (None, false, None, None);
+                    Contact { name, gap, slips, drills, friction, rolls_on, restitution, frame, clause }
+                };
+                contacts.push(contact);
+                contacts.extend(named_rolling.zip(rolling).map(resists));
+            }
         }
         Ok(contacts)
+    }
+
+    /// Notes friction, drilling and rolling of a shape along which nothing moves.
+    fn refuse_idle(&self, name: &str, written: &ContactClause, forms: &[Form<'g>]) {
+        if !matches!(written.touching, Touching::Point(_)) {
+            return;
+        }
+        let idle = |of: fn(&Form<'g>) -> bool| forms.iter().all(of);
+        let cases = [
+            (written.friction.first(), idle(|form| form.slips.is_empty()), "slips along", "friction"),
+            (written.drilling.as_ref(), idle(|form| form.spin.is_none()), "spins about the normal of", "drilling"),
+            (written.rolling.as_ref(), idle(|form| form.rolls.is_empty()), "rolls along", "rolling"),
+        ];
+        for (e, idle, what, word) in cases {
+            if let Some(e) = e.filter(|_| idle) {
+                self.mistake(e.span, format!("nothing {what} `{name}`, so {word} does nothing; remove `{word}`"));
+            }
+        }
     }
 
     fn slips(&self, slips: &[Expression], tree: &Tree<'g>) -> Result<Slips<'g>> {

@@ -36,7 +36,7 @@ pub fn check(statements: &Statements, well: &[bool], context: &mut Context) {
     for (clause, _) in statements.contacts.iter().zip(well).filter(|(_, well)| **well) {
         check_axes(clause, context);
         match &clause.touching {
-            Touching::Gap { gap, slips } => {
+            Touching::Gap { gap, slips, spin, rolls } => {
                 if !moving.in_place(gap) {
                     context.error(
                         gap.span,
@@ -45,6 +45,13 @@ pub fn check(statements: &Statements, well: &[bool], context: &mut Context) {
                     );
                 }
                 check_slips(slips, context);
+                for turn in spin.iter().chain(rolls).filter(|turn| !moving.in_velocity(turn)) {
+                    context.error(
+                        turn.span,
+                        "this contains no velocity of anything that moves; write a component of \
+                         `ball.angular_velocity`, a speed, or the time derivative `rate(…)`",
+                    );
+                }
             }
             Touching::Slip { slips, .. } => check_slips(slips, context),
             Touching::Point(contact) => check_point(statements, clause, contact, &moving, context),
@@ -57,8 +64,15 @@ pub fn check(statements: &Statements, well: &[bool], context: &mut Context) {
     }
 }
 
-/// Friction of two axes has two slips.
+/// Friction of two axes has two slips, and no drilling.
 fn check_axes(clause: &ContactClause, context: &mut Context) {
+    if let (Some(_), [_, second]) = (&clause.drilling, &clause.friction[..]) {
+        context.error(
+            second.span,
+            "friction of drilling goes with the same friction along both tangents; write one coefficient, or remove \
+             `drilling`",
+        );
+    }
     if let Touching::Gap { slips, .. } | Touching::Slip { slips, .. } = &clause.touching
         && let ([_], [_, second]) = (&slips[..], &clause.friction[..])
     {
@@ -104,6 +118,17 @@ fn check_point(
             "a box, a rim, or a sphere with friction, turns with its body; write `point = ball.position` of the body, or the \
              name of a point that is fixed in it",
         );
+    }
+    if clause.drilling.is_some() || clause.rolling.is_some() {
+        let touched = other.filter(|center| moving.in_place(center));
+        let points = std::iter::once(&contact.point).chain(end).chain(touched);
+        for point in points.filter(|point| !needs_body && !is_of_body(point, statements)) {
+            context.error(
+                point.span,
+                "what drills or rolls turns with its body; write `point = ball.position` of the body, or the name of a point \
+                 that is fixed in it",
+            );
+        }
     }
     if let Against::Sphere { center, along: None, .. } = &contact.against
         && rubs

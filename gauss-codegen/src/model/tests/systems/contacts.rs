@@ -38,7 +38,7 @@ fn accepted() {
     let shown = model.contacts.iter().map(|clause| {
         let names: Vec<String> = clause.names.iter().map(ToString::to_string).collect();
         let touching = match &clause.touching {
-            Touching::Gap { gap, slips } => {
+            Touching::Gap { gap, slips, .. } => {
                 format!("gap {}, slips {:?}", show(gap), slips.iter().map(show).collect::<Vec<_>>())
             }
             Touching::Slip { slips, .. } => {
