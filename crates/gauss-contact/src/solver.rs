@@ -337,8 +337,11 @@ impl Contacts {
             }
         }
         let mut best = Residual { signorini: f64::INFINITY, ..Residual::default() };
-        for round in 0..ROUNDS {
-            (0..8 << round).for_each(|_| self.sweep(&mut forces));
+        let rows = self.laws.iter().map(|law| law.tangents).max().unwrap_or(0);
+        // Spins and tangents are in units of their own: one step for all rows would be small for some.
+        let steps = (0..ROUNDS).map(|round| (round, rows > 2)).chain((0..ROUNDS).map(|round| (round, true)));
+        for (round, exactly) in steps.take(if rows == 2 { 2 } else { 1 } * ROUNDS as usize) {
+            (0..8 << round).for_each(|_| self.sweep(&mut forces, exactly));
             let mut states = self.states(&forces, &self.rates(&forces));
             for _ in 0..20 {
                 let found = self.in_states(states.clone());
@@ -482,8 +485,9 @@ impl Contacts {
         solutions.filter(|found| found.residuals.iter().all(Residual::holds)).collect()
     }
 
-    /// One sweep over the contacts: each force is brought to its cone as if the others stayed.
-    fn sweep(&self, forces: &mut [f64]) {
+    /// One sweep over the contacts: each force is brought to its cone as if the others stayed; friction by a step that
+    /// is short enough for all of its rows, or exactly.
+    fn sweep(&self, forces: &mut [f64], exactly: bool) {
         for i in 0..self.laws.len() {
             let Law { friction, slip, .. } = self.laws[i];
             if let Some(normal) = self.normal(i) {
@@ -506,7 +510,10 @@ impl Contacts {
                 continue;
             }
             let scale = self.matrix_norm(i);
-            if scale > 0.0 {
+            if exactly && self.laws[i].tangents > 1 {
+                let friction = self.friction(i, forces, largest);
+                self.tangents(i).zip(friction).for_each(|(row, force)| forces[row] = force);
+            } else if scale > 0.0 {
                 let rates: Vec<f64> = self.tangents(i).map(|row| self.rate(row, forces)).collect();
                 let wanted: Vec<f64> =
                     self.tangents(i).zip(&rates).map(|(row, rate)| forces[row] - rate / scale).collect();
@@ -515,6 +522,40 @@ impl Contacts {
                 self.tangents(i).zip(&wanted).for_each(|(row, force)| forces[row] = part * force);
             }
         }
+    }
+
+    /// The friction of a contact while other forces stay: the f of `|f| ≤ largest` that makes `½ fᵀDf + wᵀf` least.
+    /// Where that is on the sphere, `(D + m) f = −w` with an m > 0, which Newton's method finds from below (J. J. Moré
+    /// & D. C. Sorensen 1983).
+    fn friction(&self, i: usize, forces: &[f64], largest: f64) -> Vec<f64> {
+        let rows = self.tangents(i);
+        let (first, count) = (rows.start, rows.len());
+        let others = |row: usize| {
+            rows.clone().fold(self.rate(row, forces), |rate, j| self.matrix.at(row, j).fma(-forces[j], rate))
+        };
+        let against: Vec<f64> = rows.clone().map(|row| -others(row)).collect();
+        let (mut more, mut found) = (0.0, vec![0.0; count]);
+        // From below it needs no more than some ten steps.
+        for _ in 0..if largest > 0.0 { 50 } else { 0 } {
+            let entry = |a: usize, b: usize| self.matrix.at(first + a, first + b) + if a == b { more } else { 0.0 };
+            let matrix = Matrix::from_fn(count, entry);
+            let factors = Decomposition::new(&matrix, |a| matrix.at(a, a));
+            found = factors.solve(&against);
+            let length = norm(&found);
+            let beyond = length / largest - 1.0;
+            if (more == 0.0 && beyond <= 0.0) || beyond.abs() <= 8.0 * f64::EPSILON {
+                break;
+            }
+            let change = crate::dense::dot(&found, &factors.solve(&found));
+            let next = more + beyond * length * length / change;
+            if !(next > more && next.is_finite()) {
+                break;
+            }
+            more = next;
+        }
+        let length = norm(&found);
+        let part = if length > largest { largest / length } else { 1.0 };
+        found.into_iter().map(|f| part * f).collect()
     }
 
     /// A bound of the tangential block of a contact.
