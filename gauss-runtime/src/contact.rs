@@ -30,9 +30,10 @@ use crate::system::GaussSystem;
 
 /// A system some of whose gaps may close, or with dry friction.
 ///
-/// Rows of contacts are numbered contact by contact: of each its normal, then its tangents, then its spin where there is
-/// friction of drilling; of dry friction and rolling resistance only the tangents. Units are those of the gaps and of slips: with lengths λ is a force, with angles a torque. Bilateral
-/// constraints of the scene hold in all of it: A⁻¹ is then the inverse on the velocities that they admit.
+/// Rows of contacts are numbered contact by contact: of each its normal, then its tangents, then its spin where there
+/// is friction of drilling; of dry friction and rolling resistance only the tangents. Units are those of the gaps and
+/// of slips: with lengths λ is a force, with angles a torque. Bilateral constraints of the scene hold in all of it: A⁻¹
+/// is then the inverse on the velocities that they admit.
 pub trait ContactSystem: GaussSystem {
     /// `SVector<Scalar, C>`, C contacts: one component for each.
     type Gaps: VectorSpace<Self::Scalar>;

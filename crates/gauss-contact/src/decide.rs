@@ -16,8 +16,8 @@ use crate::error::{ContactError, ContactErrorKind};
 use crate::friction::Bounds;
 use crate::history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
 use crate::impact::{Impact, Struck, after, rows};
-use crate::law::Law;
-use crate::mode::{InMode, Mode, UNCLOSED, carrier, largest_derivative_of, slip, tangents, terms};
+use crate::law::{Law, carrier};
+use crate::mode::{InMode, Mode, UNCLOSED, largest_derivative_of, slip, tangents, terms};
 use crate::solver::{Contacts, Failure, State};
 use crate::trajectory::ContactTrajectory;
 use crate::witness::Watched;
@@ -197,7 +197,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             events.push(ContactEvent { time: value(self.t), contact: i, kind });
         }
         if !self.first {
-            self.changes(&old, &mut events);
+            self.changes(&old, &choice.stuck, &mut events);
         }
         made.events.append(&mut events);
         Ok(())
@@ -559,10 +559,11 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
     }
 
     /// Changes of modes as events.
-    fn changes(&self, old: &[Mode<K::Scalar>], events: &mut Vec<ContactEvent>) {
+    fn changes(&self, old: &[Mode<K::Scalar>], stopped: &[bool], events: &mut Vec<ContactEvent>) {
         for (contact, (old, new)) in old.iter().zip(&self.modes).enumerate() {
             let reverses = |a: &[K::Scalar; 3], b: &[K::Scalar; 3]| value(dot(a, b)) < 0.0;
-            let turned = |i: usize| self.fired == Some(Watched::Slip(i)) && tangents(&K::CONTACTS[i]).len() > 1;
+            let several = |i: usize| tangents(&K::CONTACTS[i]).len() > 1;
+            let turned = |i: usize| self.fired == Some(Watched::Slip(i)) && several(i) && !stopped[i];
             let kind = match (old, new) {
                 (Mode::Open, Mode::Sticks | Mode::Slides(_)) | (Mode::Sticks | Mode::Slides(_), Mode::Open)
                     if !K::CONTACTS[contact].has_gap() =>
@@ -575,7 +576,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
                 (old, Mode::Open) if old.is_closed() => EventKind::Leaves,
                 (Mode::Sticks, Mode::Slides(along)) => EventKind::Slides(along.map(value)),
                 (Mode::Slides(_), Mode::Sticks) => EventKind::Sticks,
-                // Of several rows the slip may turn by as much on its way.
+                // A slip of several rows may turn by as much on its way.
                 (Mode::Slides(_), Mode::Slides(_)) if turned(contact) => continue,
                 (Mode::Slides(before), Mode::Slides(along)) if reverses(before, along) => {
                     EventKind::Reverses(along.map(value))

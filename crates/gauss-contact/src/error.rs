@@ -6,7 +6,7 @@ use gauss_runtime::constraint::ProjectionError;
 use gauss_runtime::integrate::IntegrationError;
 
 use crate::impact::Impact;
-use crate::solver::Residual;
+use crate::residual::Residual;
 
 /// A run with contacts that cannot go on: where, when, and why. The part that was made is kept: see
 /// [`ContactRun::attempt`](crate::ContactRun::attempt), whose last sample is the position.

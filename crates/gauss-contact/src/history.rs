@@ -2,7 +2,7 @@
 
 use gauss_runtime::contact::ContactSystem;
 
-use crate::solver::Residual;
+use crate::residual::Residual;
 
 /// A change of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,9 +10,9 @@ use gauss_runtime::real::Real;
 
 use crate::dense::Matrix;
 use crate::friction::Bounds;
-use crate::law::Law;
-use crate::mode::carrier;
-use crate::solver::{Contacts, Failure, Residual};
+use crate::law::{Law, carrier};
+use crate::residual::Residual;
+use crate::solver::{Contacts, Failure};
 
 /// What an impact does to velocities u⁻ of the contacts that are closed: `u⁺ = u⁻ + D Λ` with impulses Λ.
 ///

@@ -69,6 +69,11 @@ impl<T: Real> Law<T> {
     }
 }
 
+/// The contact that has the gap: of rolling resistance another one.
+pub(crate) fn carrier(contacts: &[Contact], i: usize) -> usize {
+    contacts[i].rolls_on().unwrap_or(i)
+}
+
 /// By what forces of the rows of a contact are those of the circle, and slips in reverse.
 pub(crate) fn scales<T: Real>(law: &Law<T>) -> impl Iterator<Item = T> + use<T> {
     core::iter::repeat_n(T::one(), usize::from(law.has_normal)).chain(law.bounds.weights.into_iter().take(law.tangents))

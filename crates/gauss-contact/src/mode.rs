@@ -21,6 +21,7 @@ use gauss_runtime::system::{GaussSystem, Smoothness};
 use crate::dense::{Decomposition, Matrix, dot, epsilon, norm, size, sum, value};
 use crate::friction::Bounds;
 use crate::impact::after;
+use crate::law::carrier;
 
 /// What a contact does during a part of a run. Dry friction sticks or slides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,11 +110,6 @@ pub(crate) fn tangents(contact: &Contact) -> core::ops::Range<usize> {
     contact.friction_rows()
 }
 
-/// The contact that has the gap: of rolling resistance another one.
-pub(crate) fn carrier(contacts: &[Contact], i: usize) -> usize {
-    contacts[i].rolls_on().unwrap_or(i)
-}
-
 /// The row of the normal force that bounds friction; none of dry friction.
 pub(crate) fn presses<K: ContactSystem>(contact: &Contact) -> Option<usize> {
     let carrier = contact.rolls_on().map_or(contact, |on| &K::CONTACTS[on]);
@@ -133,9 +129,9 @@ pub(crate) fn terms<T: Real, V: VectorSpace<T>>(column: &V, z: &V) -> f64 {
 }
 
 /// Where the slip of a contact with several rows of friction leads, as a smooth function beyond the line or plane
-/// through zero that is perpendicular to `reference`: mirrored there, so that a motion that stops passes on straight. What is across the
-/// reference by rounding alone has no direction, however small the slip is. Slips of about `rest` keep to the
-/// reference: they turn at a rate of friction over slip, without bound where the slip begins.
+/// through zero that is perpendicular to `reference`: mirrored there, so that a motion that stops passes on straight.
+/// What is across the reference by rounding alone has no direction, however small the slip is. Slips of about `rest`
+/// keep to the reference: they turn at a rate of friction over slip, without bound where the slip begins.
 fn direction<T: Real>(reference: [T; 3], slip: [T; 3], rounding: f64, rest: f64) -> [T; 3] {
     let along = dot(&slip, &reference);
     let across = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| slip[j] * reference[i] - slip[i] * reference[j]);

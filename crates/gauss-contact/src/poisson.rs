@@ -10,9 +10,9 @@ use gauss_runtime::real::Real;
 use crate::dense::{Matrix, epsilon, value};
 use crate::friction::Bounds;
 use crate::impact::{Blow, Struck, rows};
-use crate::law::Law;
-use crate::mode::carrier;
-use crate::solver::{Contacts, Failure, Residual};
+use crate::law::{Law, carrier};
+use crate::residual::Residual;
+use crate::solver::{Contacts, Failure};
 
 /// The impulses of restitution on the rows that were struck, and the rates after it.
 struct Restitution<T> {

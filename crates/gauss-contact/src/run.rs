@@ -63,8 +63,9 @@ impl<'k, K: ContactSystem, C, I> ContactRun<'k, K, C, I> {
         ContactRun { kernel, control, input, law, jams, tolerance, limit }
     }
 
-    /// The speeds that count as rest where bounces pile up and where a slip of several rows of friction ends: `absolute`, plus
-    /// `relative` times the largest speed at an event so far. Each such place adds an error of that size.
+    /// The speeds that count as rest where bounces pile up and where a slip of several rows of friction ends:
+    /// `absolute`, plus `relative` times the largest speed at an event so far. Each such place adds an error of that
+    /// size.
     pub fn tolerance(mut self, relative: f64, absolute: f64) -> Self {
         self.tolerance = Tolerance { relative, absolute };
         self

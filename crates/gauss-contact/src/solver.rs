@@ -20,10 +20,13 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use gauss_runtime::real::{Real, largest_derivative};
+use gauss_runtime::real::Real;
 
+use crate::ball::least_in_ball;
 use crate::dense::{Decomposition, Matrix, norm, size, sum, value};
+use crate::frame::Frame;
 use crate::law::{Law, scales};
+use crate::residual::Residual;
 
 /// What a contact does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,42 +37,6 @@ pub(crate) enum State<T = f64> {
     Sticks,
     /// Begins to slide in this direction.
     Slides([T; 3]),
-}
-
-/// How far a contact is from its laws, in units of u: a velocity after an impact, else an acceleration.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct Residual {
-    /// `min(u_N, D_NN λ_N)`, without its sign: 0 where the gap does not close and nothing pulls.
-    pub signorini: f64,
-    /// By how much friction is larger than μ λ_N, times D_TT.
-    pub coulomb: f64,
-    /// How far friction is from the force within μ λ_N that opposes slip most, times D_TT.
-    pub dissipation: f64,
-    /// What rounding makes of these.
-    pub rounding: f64,
-}
-
-impl Residual {
-    /// The larger of each.
-    pub(crate) fn worse(self, other: Self) -> Self {
-        Self {
-            signorini: self.signorini.max(other.signorini),
-            coulomb: self.coulomb.max(other.coulomb),
-            dissipation: self.dissipation.max(other.dissipation),
-            rounding: self.rounding.max(other.rounding),
-        }
-    }
-
-    fn worst(&self) -> f64 {
-        [self.signorini, self.coulomb, self.dissipation]
-            .into_iter()
-            .fold(0.0, |worst, r| if r <= worst { worst } else { r })
-    }
-
-    fn holds(&self) -> bool {
-        self.worst() <= self.rounding
-    }
 }
 
 #[derive(Debug)]
@@ -218,7 +185,8 @@ impl<T: Real> Contacts<T> {
         // Of derivatives each leaves 10⁻⁷.
         let turns = if T::DERIVATIVES { 3 } else { 0 };
         for n in 0..if turning.is_empty() { 0 } else { 60 } {
-            let frames: Vec<Frame<T>> = states.iter().map(Frame::of).collect();
+            let direction = |state: &State<T>| if let State::Slides(along) = state { *along } else { [T::zero(); 3] };
+            let frames: Vec<Frame<T>> = states.iter().map(|state| Frame::of(direction(state))).collect();
             let miss = self.misses(&turning, &frames, &forces);
             let before = size(&miss);
             // Differences of 10⁻⁷ rad: Newton's method in seven digits a step.
@@ -524,38 +492,15 @@ impl Contacts {
         }
     }
 
-    /// The friction of a contact while other forces stay: the f of `|f| ≤ largest` that makes `½ fᵀDf + wᵀf` least.
-    /// Where that is on the sphere, `(D + m) f = −w` with an m > 0, which Newton's method finds from below (J. J. Moré
-    /// & D. C. Sorensen 1983).
+    /// The friction of a contact that would be right if other forces stayed.
     fn friction(&self, i: usize, forces: &[f64], largest: f64) -> Vec<f64> {
         let rows = self.tangents(i);
-        let (first, count) = (rows.start, rows.len());
+        let block = Matrix::from_fn(rows.len(), |a, b| self.matrix.at(rows.start + a, rows.start + b));
         let others = |row: usize| {
             rows.clone().fold(self.rate(row, forces), |rate, j| self.matrix.at(row, j).fma(-forces[j], rate))
         };
-        let against: Vec<f64> = rows.clone().map(|row| -others(row)).collect();
-        let (mut more, mut found) = (0.0, vec![0.0; count]);
-        // From below it needs no more than some ten steps.
-        for _ in 0..if largest > 0.0 { 50 } else { 0 } {
-            let entry = |a: usize, b: usize| self.matrix.at(first + a, first + b) + if a == b { more } else { 0.0 };
-            let matrix = Matrix::from_fn(count, entry);
-            let factors = Decomposition::new(&matrix, |a| matrix.at(a, a));
-            found = factors.solve(&against);
-            let length = norm(&found);
-            let beyond = length / largest - 1.0;
-            if (more == 0.0 && beyond <= 0.0) || beyond.abs() <= 8.0 * f64::EPSILON {
-                break;
-            }
-            let change = crate::dense::dot(&found, &factors.solve(&found));
-            let next = more + beyond * length * length / change;
-            if !(next > more && next.is_finite()) {
-                break;
-            }
-            more = next;
-        }
-        let length = norm(&found);
-        let part = if length > largest { largest / length } else { 1.0 };
-        found.into_iter().map(|f| part * f).collect()
+        let rates: Vec<f64> = rows.clone().map(others).collect();
+        least_in_ball(&block, &rates, largest)
     }
 
     /// A bound of the tangential block of a contact.
@@ -627,40 +572,6 @@ impl Contacts {
     }
 }
 
-/// A direction of slip with two that are normal to it and to one another, in whose planes it turns. Of two rows the
-/// first is along them.
-#[derive(Clone, Copy)]
-struct Frame<T> {
-    along: [T; 3],
-    across: [[T; 3]; 2],
-}
-
-impl<T: Real> Frame<T> {
-    fn of(state: &State<T>) -> Self {
-        let zero = [T::zero(); 3];
-        let State::Slides(along) = *state else { return Self { along: zero, across: [zero; 2] } };
-        let [x, y, z] = along;
-        if value(z) == 0.0 && largest_derivative(z) == 0.0 {
-            return Self { along, across: [[-y, x, z], [z, z, T::one()]] };
-        }
-        // The axis that is farthest from the direction, times it.
-        let farthest = (0..3).min_by(|&i, &j| value(along[i]).abs().total_cmp(&value(along[j]).abs())).unwrap_or(0);
-        let axis = core::array::from_fn(|k| if k == farthest { T::one() } else { T::zero() });
-        let first = cross(axis, along);
-        let size = norm(&first);
-        let first = first.map(|e| e / size);
-        Self { along, across: [first, cross(along, first)] }
-    }
-
-    /// Turns the direction in the plane with one of the others.
-    fn turn(&mut self, plane: usize, by: T) {
-        let (sine, cosine) = by.sin_cos();
-        let (a, b) = (self.along, self.across[plane]);
-        self.along = core::array::from_fn(|k| cosine * a[k] + sine * b[k]);
-        self.across[plane] = core::array::from_fn(|k| cosine * b[k] - sine * a[k]);
-    }
-}
-
 /// States with the directions of frames.
 fn along<T: Real>(states: &[State<T>], frames: &[Frame<T>]) -> Vec<State<T>> {
     let of = |(state, frame): (&State<T>, &Frame<T>)| match state {
@@ -668,10 +579,6 @@ fn along<T: Real>(states: &[State<T>], frames: &[Frame<T>]) -> Vec<State<T>> {
         state => *state,
     };
     states.iter().zip(frames).map(of).collect()
-}
-
-fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[cfg(test)]

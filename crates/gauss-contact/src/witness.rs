@@ -4,9 +4,10 @@ use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::real::Real;
 
-use crate::dense::{dot, norm};
+use crate::dense::{dot, norm, value};
 use crate::friction::Bounds;
-use crate::mode::{Mode, carrier, slip, tangents};
+use crate::law::carrier;
+use crate::mode::{Mode, slip, tangents};
 use crate::problem::InModeProblem;
 
 /// What is watched, by the number of the contact. All of them fall to zero.
@@ -61,7 +62,15 @@ impl<K: ContactSystem> Witness<'_, K> {
                 let (s, reference) = (slip_of(i), self.reference(i));
                 dot(&s, &reference)
             }
-            Watched::Speed(i, level) => norm(&slip_of(i)) - K::Scalar::from_f64(level),
+            Watched::Speed(i, level) => {
+                let slip = slip_of(i);
+                let speed = norm(&slip);
+                // Of a slip that has gone straight it falls on beyond zero: its time has derivatives wherever near zero
+                // it is found.
+                let along = value(dot(&slip, &self.reference(i)));
+                let beyond = K::Scalar::DERIVATIVES && along < -0.99 * value(speed);
+                (if beyond { -speed } else { speed }) - K::Scalar::from_f64(level)
+            }
             Watched::Force(i) => self.problem.loads(t, q, z).forces[K::CONTACTS[i].normal],
             Watched::Cone(i) => {
                 let (loads, contact) = (self.problem.loads(t, q, z), &K::CONTACTS[i]);

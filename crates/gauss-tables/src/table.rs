@@ -213,9 +213,9 @@ impl<S: GaussSystem> Table<S> {
 
     /// Gap, normal force, and of each tangent the slip and the friction of every contact: `NAME gap`, `NAME force`,
     /// `NAME slip`, `NAME friction`, of two tangents `NAME slip 1`, and so on, with friction of drilling `NAME spin`,
-    /// `NAME drilling`; of dry friction and rolling resistance slips and friction alone. `forces` are all rows of contact
-    /// forces at a state, such as those that a run with contacts has at its time; where they are unknown their columns
-    /// are NaN.
+    /// `NAME drilling`; of dry friction and rolling resistance slips and friction alone. `forces` are all rows of
+    /// contact forces at a state, such as those that a run with contacts has at its time; where they are unknown their
+    /// columns are NaN.
     #[must_use]
     pub fn contacts(self, system: &S, forces: impl Fn(&Sample<S>) -> Option<S::ContactRows>) -> Self
     where

@@ -1,5 +1,8 @@
 //! What may touch, in symbols: gaps, slips, coefficients.
 
+use proc_macro2::Ident;
+
+use crate::algebra::Expr;
 use crate::error::Result;
 use crate::mechanics::{Contact, Tree};
 use crate::model::{ContactClause, Expression, Touching};
@@ -8,6 +11,41 @@ use crate::words::Unraw;
 
 use super::shapes::{Asked, Form, Slips};
 use super::translator::Translator;
+
+/// What is known of the friction and the impacts of all contacts of a clause.
+struct Coefficients<'g> {
+    friction: Vec<Expr<'g>>,
+    restitution: Option<Expr<'g>>,
+    rolling: Option<Expr<'g>>,
+}
+
+impl<'g> Coefficients<'g> {
+    /// A contact, which is to have a number, and the resistance to rolling on it.
+    fn contacts(
+        &self,
+        clause: usize,
+        names: &[Ident],
+        form: Form<'g>,
+        number: usize,
+    ) -> impl Iterator<Item = Contact<'g>> {
+        // Of two coefficients the one of the same tangent.
+        let of = |k: usize| self.friction.get(k).or(self.friction.first()).copied();
+        let drills = form.spin.is_some();
+        let slips = form.slips.into_iter().chain(form.spin.map(|spin| (0, spin)));
+        let (slips, friction) = slips.filter_map(|(k, slip)| Some((slip, of(k)?))).unzip();
+        let mut names = names.iter().map(|name| name.unraw().to_string());
+        let (gap, restitution, frame) = (form.gap, self.restitution, form.frame);
+        let name = names.next().unwrap_or_default();
+        let contact = Contact { name, gap, slips, drills, friction, rolls_on: None, restitution, frame, clause };
+        let rolling = names.next().zip(self.rolling).map(|(name, rho)| {
+            let slips: Vec<_> = form.rolls.iter().map(|(_, roll)| *roll).collect();
+            let (friction, rolls_on) = (vec![rho; slips.len()], Some(number));
+            let (gap, drills, restitution, frame) = (None, false, None, None);
+            Contact { name, gap, slips, drills, friction, rolls_on, restitution, frame, clause }
+        });
+        std::iter::once(contact).chain(rolling)
+    }
+}
 
 impl<'g> Translator<'_, 'g> {
     /// All contacts in the order in which they are written; of a range the lower limit first.
@@ -58,26 +96,10 @@ impl<'g> Translator<'_, 'g> {
                 }
             };
             self.refuse_idle(&name, written, &forms);
+            let coefficients = Coefficients { friction, restitution, rolling };
             let each = 1 + usize::from(written.rolling.is_some());
             for (names, form) in written.names.chunks(each).zip(forms) {
-                // Of two coefficients the one of the same tangent.
-                let of = |k: usize| friction.get(k).or(friction.first()).copied();
-                let slips = form.slips.into_iter().chain(form.spin.map(|spin| (0, spin)));
-                let (slips, friction) = slips.filter_map(|(k, slip)| Some((slip, of(k)?))).unzip();
-                let [name, named_rolling] =
-                    [names.first(), names.get(1)].map(|name| name.map(|n| n.unraw().to_string()));
-                let (on, drills) = (contacts.len(), form.spin.is_some());
-                let (gap, frame, name) = (form.gap, form.frame, name.unwrap_or_default());
-                let contact =
-                    Contact { name, gap, slips, drills, friction, rolls_on: None, restitution, frame, clause };
-                let resists = |(name, rho)| {
-                    let slips: Vec<_> = form.rolls.iter().map(|(_, roll)| *roll).collect();
-                    let (friction, rolls_on) = (vec![rho; slips.len()], Some(on));
-                    let (gap, drills, restitution, frame) = (None, false, None, None);
-                    Contact { name, gap, slips, drills, friction, rolls_on, restitution, frame, clause }
-                };
-                contacts.push(contact);
-                contacts.extend(named_rolling.zip(rolling).map(resists));
+                contacts.extend(coefficients.contacts(clause, names, form, contacts.len()));
             }
         }
         Ok(contacts)

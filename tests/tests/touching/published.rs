@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use gauss_contact::{ContactRun, EventKind, Mode};
 use gauss_runtime::nalgebra::Unit;
 use gauss_runtime::prelude::*;
+use gauss_tables::Table;
 
 /// The woodpecker toy of R. I. Leine, Ch. Glocker & D. H. van Campen, *Nonlinear dynamics of the woodpecker toy*, ASME
 /// DETC2001/VIB-21608 (2001): a sleeve with play on a pole, a bird on a spring. Angles are small: heights and gaps are
@@ -78,9 +79,9 @@ struct SliderCrank {
     g: f64,
 }
 
-/// The tippe top of R. I. Leine & Ch. Glocker, *A set-valued force law for spatial Coulomb–Contensou friction*, European
-/// Journal of Mechanics A 22 (2003) 193–216: two spheres about points of its axis, on patches of a radius of 0.5 mm. Here
-/// friction is the ellipsoid of a uniform pressure on them.
+/// The tippe top of R. I. Leine & Ch. Glocker, *A set-valued force law for spatial Coulomb–Contensou friction*,
+/// European Journal of Mechanics A 22 (2003) 193–216: two spheres about points of its axis, on patches of a radius of
+/// 0.5 mm. Here friction is the ellipsoid of a uniform pressure on them.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(pose: Pose),
@@ -286,8 +287,8 @@ fn a_tippe_top_turns_over_and_stands_on_its_stem() {
     assert!(matches!(strikes.kind, EventKind::Impact(_)) && strikes.name::<TippeTopKernel>() == "stem");
     assert!(leaves.kind == EventKind::Leaves && leaves.name::<TippeTopKernel>() == "head");
     assert!(closes.kind == EventKind::Closes && closes.name::<TippeTopKernel>() == "stem");
-    // (own) by tolerances of 1e-8 to 1e-11, whose errors are 93 times as large: directions of slip near zero are known to
-    // speeds of the tolerance.
+    // (own) by tolerances of 1e-8 to 1e-11, whose errors are 93 times as large: directions of slip near zero are known
+    // to speeds of the tolerance.
     assert!((strikes.time - 1.373_317_717).abs() < 2e-7, "{}", strikes.time);
     // It goes over the equator, and stands from then on.
     assert!(tilt(&run, 0.0) < 0.11 && tilt(&run, 0.9) < FRAC_PI_2 && tilt(&run, 1.05) > FRAC_PI_2);
@@ -296,6 +297,15 @@ fn a_tippe_top_turns_over_and_stands_on_its_stem() {
     // The sense of its spin in space is kept, that about its axis is reversed.
     let end = run.last().unwrap();
     assert!(end.z[5] < -90.0 && (end.q.rotation * Vector3::new(end.z[3], end.z[4], end.z[5])).z > 90.0);
+    let table: Table<TippeTopKernel> = Table::new(run.at_times([0.5]).unwrap());
+    let table = table.contacts(&kernel, |s| run.forces(s.t).ok());
+    let names: Vec<&str> = table.names().filter(|name| name.starts_with("head")).collect();
+    let friction = ["head friction 1", "head friction 2", "head drilling"];
+    assert_eq!(names[2..], ["head slip 1", friction[0], "head slip 2", friction[1], "head spin", friction[2]]);
+    let of = |name: &str| table.get(name).unwrap()[0];
+    // All the friction there is, together.
+    let size = friction.iter().map(|name| of(name).powi(2)).sum::<f64>().sqrt();
+    assert!((size / (0.3 * of("head force")) - 1.0).abs() < 1e-12, "{size}");
     // Energy falls; where it comes from is known to the errors of steps, 1e-9 of 12 mJ each.
     let energies: Vec<f64> = run.iter().map(|s| kernel.energy(s.t, &s.q, &s.z)).collect();
     assert!(energies.windows(2).all(|pair| pair[1] <= pair[0] + 1e-10 * pair[0]));

@@ -39,7 +39,8 @@ fn stops<'a>(run: &'a Made<'_>, contact: usize) -> Vec<&'a gauss_contact::Contac
     run.events().iter().filter(|event| event.contact == contact && event.kind == EventKind::Sticks).collect()
 }
 
-/// Energies do not grow from sample to sample by more than steps err: 1e-11 of their terms, a hundred roundings of them.
+/// Energies do not grow from sample to sample by more than steps err: 1e-11 of their terms, a hundred roundings of
+/// them.
 #[track_caller]
 fn loses_energy<K: gauss_runtime::contact::ContactSystem<Scalar = f64>>(kernel: &K, run: &ContactTrajectory<'_, K>) {
     let energies: Vec<f64> = run.iter().map(|s| kernel.energy(s.t, &s.q, &s.z)).collect();

@@ -119,15 +119,10 @@ fn check_point(
              name of a point that is fixed in it",
         );
     }
-    if clause.drilling.is_some() || clause.rolling.is_some() {
+    if (clause.drilling.is_some() || clause.rolling.is_some()) && !needs_body {
         let touched = other.filter(|center| moving.in_place(center));
-        let points = std::iter::once(&contact.point).chain(end).chain(touched);
-        for point in points.filter(|point| !needs_body && !is_of_body(point, statements)) {
-            context.error(
-                point.span,
-                "what drills or rolls turns with its body; write `point = ball.position` of the body, or the name of a point \
-                 that is fixed in it",
-            );
+        for point in std::iter::once(&contact.point).chain(end).chain(touched) {
+            check_turning(point, statements, context);
         }
     }
     if let Against::Sphere { center, along: None, .. } = &contact.against
@@ -147,6 +142,17 @@ fn check_point(
             normal.span,
             "the tangents of a normal that is not written in numbers are not known; add `along = [1, 0, 0]`, a direction \
              that is not that of the normal",
+        );
+    }
+}
+
+/// The point of what drills or rolls is one of a body.
+fn check_turning(point: &Expression, statements: &Statements, context: &mut Context) {
+    if !is_of_body(point, statements) {
+        context.error(
+            point.span,
+            "what drills or rolls turns with its body; write `point = ball.position` of the body, or the name of a point \
+             that is fixed in it",
         );
     }
 }

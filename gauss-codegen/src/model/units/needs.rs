@@ -168,7 +168,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Spins are angular velocities; the radius of drilling and the arm of rolling resistance are in the unit of the gap.
+    /// Spins are angular velocities; the radius of drilling and the arm of rolling resistance are in the unit of the
+    /// gap.
     fn turns(&mut self, clause: &ContactClause, of_gap: Option<(String, Dimension)>) {
         if let Touching::Gap { spin, rolls, .. } = &clause.touching {
             let rate = Need::new("a spin and a roll are", ANGULAR_VELOCITY);
