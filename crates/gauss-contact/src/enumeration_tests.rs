@@ -163,7 +163,7 @@ fn drawn(numbers: &mut Numbers, tangents: usize, frictions: &[f64], dimensions: 
     }
     let free: Vec<f64> = (0..dimensions).map(|_| short()).collect();
     let b = w.iter().map(|row| crate::dense::dot(row, &free)).collect();
-    let bounds = |&largest: &f64| Bounds { largest, weights: [1.0; 2] };
+    let bounds = |&largest: &f64| Bounds { largest, weights: [1.0; 3] };
     let law = |friction| Law::new(&Contact::new("", 0, tangents), bounds(friction), None);
     let laws = frictions.iter().map(law).collect();
     Contacts::new(laws, Matrix::from_fn(rows, |i, j| crate::dense::dot(&w[i], &w[j])), b)

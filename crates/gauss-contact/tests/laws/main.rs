@@ -8,3 +8,4 @@ mod friction;
 mod hostile;
 mod impacts;
 mod spatial;
+mod turning;
