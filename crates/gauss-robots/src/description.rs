@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::collision::Collision;
 use super::rotation::{Matrix, Rotation, Triple};
 
 /// A place in the file, counted from one.
@@ -106,6 +107,10 @@ pub struct Description {
     pub tendons: Vec<Tendon>,
     /// Springs along sums of distances.
     pub cables: Vec<Cable>,
+    /// Shapes of links that touch others.
+    pub collisions: Vec<Collision>,
+    /// Names of links of which no two touch.
+    pub excluded: Vec<[String; 2]>,
     /// States with names.
     pub postures: Vec<Posture>,
     /// The acceleration of free fall in observer's axes, if the file gives one.
