@@ -48,7 +48,7 @@ impl<'g> Translator<'_, 'g> {
                     gaps.map(|gap| (Some(gap), Vec::new(), None)).collect()
                 }
             };
-            if let (Touching::Point(_), Some(e)) = (&written.touching, written.friction.first())
+            if let (Touching::Point(_), Some(e), false) = (&written.touching, written.friction.first(), written.of_file)
                 && forms.iter().all(|(_, slips, _)| slips.is_empty())
             {
                 self.mistake(

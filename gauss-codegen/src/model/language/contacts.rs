@@ -103,7 +103,7 @@ pub fn read_contact(clause: &Clause, context: &mut Context) -> Option<ContactCla
         Touching::Point(contact) if contact.copies.count() > 1 => (0..contact.copies.count()).map(numbered).collect(),
         _ => vec![name],
     };
-    Some(ContactClause { names, touching, friction: friction?, restitution })
+    Some(ContactClause { names, touching, friction: friction?, restitution, of_file: false })
 }
 
 /// `dry_friction(x, bound = …)` of the coordinate or the speed x, or `dry_friction(name, slip = …, bound = …)`; `None`
@@ -122,7 +122,7 @@ pub fn read_dry_friction(clause: &Clause, context: &mut Context) -> Option<Conta
     let names = vec![written.name?];
     let touching = Touching::Slip { slips: slips?, named };
     let friction = bound.filter(|bound| !bound.is_empty())?;
-    Some(ContactClause { names, touching, friction, restitution: None })
+    Some(ContactClause { names, touching, friction, restitution: None, of_file: false })
 }
 
 /// `range(x, from = …, to = …, restitution = …)` of the coordinate x, or `range(name, along = …, …)`; `None` if
@@ -147,7 +147,7 @@ pub fn read_range(clause: &Clause, context: &mut Context) -> Option<ContactClaus
         return None;
     }
     let touching = Touching::Range { along: along?, from, to };
-    Some(ContactClause { names, touching, friction: Vec::new(), restitution })
+    Some(ContactClause { names, touching, friction: Vec::new(), restitution, of_file: false })
 }
 
 /// The edges of a box.

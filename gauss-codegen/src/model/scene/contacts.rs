@@ -16,6 +16,8 @@ pub struct ContactClause {
     pub friction: Vec<Expression>,
     /// The coefficient e: a scalar of fields and numbers.
     pub restitution: Option<Expression>,
+    /// Made of the file of a robot: friction that does nothing is no mistake.
+    pub of_file: bool,
 }
 
 /// What may touch.
