@@ -314,3 +314,57 @@ fn written<'a>(node: Node<'a, 'a>, names: &[&str], matters: bool, reading: &mut 
     }
     number
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::read;
+    use crate::collision::{Collision, Shape};
+    use crate::description::Fault;
+    use crate::text::{Text, Written};
+
+    fn shapes(inside: &str) -> Result<Vec<Collision>, Vec<Fault>> {
+        let text = format!("<robot name=\"r\"><link name=\"a\">{inside}</link></robot>");
+        let text = Text::of(Written::new(String::new(), PathBuf::new(), text));
+        read(&text).map(|description| description.collisions)
+    }
+
+    /// By <https://wiki.ros.org/urdf/XML/link> sizes are whole ones: edges, and the length of a cylinder about its
+    /// centre; that of a capsule, which newer versions have, is between the centres of its ends.
+    #[test]
+    fn shapes_that_touch() {
+        let found = shapes(
+            r#"<collision name="c"><origin xyz="1 2 3" rpy="0 1.5707963267948966 0"/>
+            <geometry><cylinder radius="0.1" length="0.6"/></geometry></collision>
+            <collision><geometry><box size="1 2 3"/></geometry></collision>
+            <collision><geometry><capsule radius="0.1" length="0.6"/></geometry></collision>
+            <collision><geometry><mesh filename="m.stl"/></geometry></collision><collision/>"#,
+        )
+        .unwrap();
+        assert_eq!((found[0].name.as_deref(), found[0].position), (Some("c"), [1.0, 2.0, 3.0]));
+        assert_eq!(found[0].rotation, [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]);
+        let unread = |what: &str| Shape::Unread(what.to_owned());
+        let expected = [
+            Shape::Cylinder { radius: 0.1, half: 0.3 },
+            Shape::Box { half: [0.5, 1.0, 1.5] },
+            Shape::Capsule { radius: 0.1, half: 0.3 },
+            unread("a mesh"),
+            unread("an element without a shape"),
+        ];
+        assert!(found.iter().map(|own| &own.shape).eq(&expected), "{found:?}");
+        assert!(found.iter().all(|own| own.surface.is_none() && own.link == "a"));
+    }
+
+    #[test]
+    fn sizes_that_are_none() {
+        let message = |shape: &str| {
+            let found = shapes(&format!("<collision><geometry>{shape}</geometry></collision>"));
+            found.unwrap_err()[0].message.clone()
+        };
+        assert_eq!(message("<sphere/>"), "<sphere>: the attribute `radius` is missing");
+        assert_eq!(message("<box/>"), "<box>: the attribute `size` is missing");
+        assert_eq!(message("<box size=\"1 -1 1\"/>"), "<box>: its edges are zero or more");
+        assert_eq!(message("<sphere radius=\"-1\"/>"), "<sphere>: `radius` is zero or more, found `-1`");
+    }
+}

@@ -121,3 +121,111 @@ impl<'a> File<'a> {
         self.description.links.iter().any(|link| link.name == name)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use crate::collision::{Collision, Shape, Surface};
+    use crate::description::{Description, Fault};
+    use crate::mjcf::read;
+    use crate::text::{Text, Written};
+
+    fn described(inside: &str) -> Result<Description, Vec<Fault>> {
+        let text = format!("<mujoco>{inside}</mujoco>");
+        read(&Text::of(Written::new(String::new(), PathBuf::new(), text)))
+    }
+
+    fn body(inside: &str) -> Vec<Collision> {
+        let text = format!(
+            r#"<default><default class="c"><geom size="0.1 0.2 0.3" condim="1" friction="0.5"/></default></default>
+            <worldbody><body name="b"><joint/>{inside}</body></worldbody>"#
+        );
+        described(&text).expect("a file").collisions
+    }
+
+    #[test]
+    fn shapes_and_their_sizes() {
+        let shape = |geom: &str| body(geom).remove(0).shape;
+        assert_eq!(shape(r#"<geom size="0.2"/>"#), Shape::Sphere { radius: 0.2 });
+        assert_eq!(shape(r#"<geom class="c" type="capsule"/>"#), Shape::Capsule { radius: 0.1, half: 0.2 });
+        assert_eq!(shape(r#"<geom class="c" type="cylinder"/>"#), Shape::Cylinder { radius: 0.1, half: 0.2 });
+        assert_eq!(shape(r#"<geom class="c" type="box"/>"#), Shape::Box { half: [0.1, 0.2, 0.3] });
+        assert_eq!(shape(r#"<geom type="ellipsoid" size="1 1 1"/>"#), Shape::Sphere { radius: 1.0 });
+        // Between ends a box is as wide as deep.
+        let ends = r#"<geom class="c" type="box" fromto="0 0 0 0 0 -1"/>"#;
+        assert_eq!(shape(ends), Shape::Box { half: [0.1, 0.1, 0.5] });
+        for (geom, what) in [
+            (r#"<geom class="c" type="ellipsoid"/>"#, "a geom of type `ellipsoid`"),
+            (r#"<geom type="capsule" size="0.1"/>"#, "a geom of type `capsule`"),
+            (r#"<geom type="hfield" hfield="h"/>"#, "a geom of type `hfield`"),
+        ] {
+            assert_eq!(shape(geom), Shape::Unread(what.to_owned()), "{geom}");
+        }
+    }
+
+    /// In frames, between ends, with the third axis from the second end to the first.
+    #[test]
+    fn places_of_shapes() {
+        let found = body(r#"<frame pos="1 0 0" euler="0 90 0"><geom size="0.2" pos="0 0 2"/></frame>"#);
+        assert_eq!((found[0].position, found[0].link.as_str()), ([3.0, 0.0, 0.0], "b"));
+        let capsule = body(r#"<geom name="g" type="capsule" size="0.1" fromto="0 0 0 2 0 0"/>"#).remove(0);
+        assert_eq!((capsule.position, capsule.name), ([1.0, 0.0, 0.0], Some("g".to_owned())));
+        assert_eq!(capsule.rotation.map(|row| row[2]), [-1.0, 0.0, 0.0]);
+        assert_eq!(capsule.shape, Shape::Capsule { radius: 0.1, half: 1.0 });
+    }
+
+    #[test]
+    fn surfaces() {
+        let surface = |geom: &str| body(geom).remove(0).surface;
+        let usual = Surface::default();
+        assert_eq!((usual.kind, usual.affinity, usual.dimension, usual.friction), (1, 1, 3, 1.0));
+        assert_eq!(surface(r#"<geom size="1"/>"#), Some(usual.clone()));
+        let said = r#"<geom class="c" contype="4" conaffinity="0" priority="-2" margin="0.01" gap="0"/>"#;
+        let expected =
+            Surface { kind: 4, affinity: 0, dimension: 1, priority: -2, friction: 0.5, unread: vec!["margin"] };
+        assert_eq!(surface(said), Some(expected));
+        // All bits, as MuJoCo has them.
+        assert_eq!(surface(r#"<geom size="1" contype="-1"/>"#).unwrap().kind, u32::MAX);
+        // What is only seen touches nothing.
+        assert!(body(r#"<geom size="1" contype="0" conaffinity="0"/>"#).is_empty());
+        let off = r#"<option><flag contact="disable"/></option><worldbody><geom size="1"/></worldbody>"#;
+        assert!(described(off).unwrap().collisions.is_empty());
+    }
+
+    #[test]
+    fn exclusions() {
+        let world = r#"<worldbody><body name="a"><joint/><geom size="1"/></body></worldbody>"#;
+        let with = |pair: &str| described(&format!("{world}<contact><exclude {pair}/></contact>"));
+        let read = with(r#"body1="a" body2="world""#).unwrap();
+        assert!(read.excludes(["world", "a"]) && read.excludes(["a", "world"]) && !read.excludes(["a", "a"]));
+        let message = |pair: &str| with(pair).unwrap_err()[0].message.clone();
+        assert_eq!(
+            message(r#"body1="a" body2="b""#),
+            "<exclude>: it is about `b`, which is no body; did you mean `a`?"
+        );
+        assert_eq!(message(r#"body1="a""#), "<exclude>: the attribute `body2` is missing");
+    }
+
+    /// Copies have exclusions of their own.
+    #[test]
+    fn exclusions_of_copies() {
+        let text = r#"<mujoco><worldbody><replicate count="2"><body name="a"><joint/><geom size="1"/></body></replicate>
+            </worldbody><contact><exclude body1="a" body2="world"/></contact></mujoco>"#;
+        let (text, faults) = crate::mjcf::included(Written::new(String::new(), PathBuf::new(), text.to_owned()));
+        assert!(faults.is_empty(), "{faults:?}");
+        let read = read(&text).unwrap();
+        assert!(read.excludes(["world", "a0"]) && read.excludes(["world", "a1"]), "{:?}", read.excluded);
+    }
+
+    #[test]
+    fn what_is_refused() {
+        let message = |geom: &str| {
+            let text = format!("<worldbody><body name=\"b\"><joint/><geom size=\"1\" {geom}/></body></worldbody>");
+            described(&text).unwrap_err()[0].message.clone()
+        };
+        assert_eq!(message("condim=\"2\""), "<geom>: `condim` is 1, 3, 4 or 6, found `2`");
+        assert_eq!(message("contype=\"0.5\""), "<geom>: `contype` is a whole number, found `0.5`");
+        assert_eq!(message("friction=\"-1\""), "<geom>: `friction` is three numbers at most, which are zero or more");
+    }
+}

@@ -161,3 +161,111 @@ fn what_is_told() {
     let nothing = "4:92: shapes that touch nothing: 2; `ground(…)` lets them touch a plane";
     assert!(remarks(&text, "").contains(&told(nothing, false)));
 }
+
+#[cfg(feature = "mjcf")]
+mod mjcf {
+    use super::names;
+    use crate::model::tests::robots::{Scratch, read};
+    use crate::model::{Against, Model, Touching};
+
+    /// A world with a body that falls.
+    fn file(world: &str, body: &str, rest: &str) -> Scratch {
+        let text = format!(
+            "<mujoco>\n<worldbody>{world}\n<body name=\"leg\"><freejoint/><inertial pos=\"0 0 0\" mass=\"1\" \
+             diaginertia=\"1 1 1\"/>\n{body}\n</body></worldbody>{rest}</mujoco>"
+        );
+        Scratch::called(&text, "xml")
+    }
+
+    fn model(world: &str, body: &str, rest: &str, clause: &str) -> Model {
+        let file = file(world, body, rest);
+        read(&file.of(&format!(", {clause}"), "")).unwrap_or_else(|error| panic!("{world} {body}: {error}"))
+    }
+
+    fn touching(world: &str, body: &str, rest: &str, clause: &str) -> Vec<(String, Option<f64>)> {
+        let contacts = model(world, body, rest, clause).contacts;
+        let friction = contacts.iter().map(|clause| clause.friction.first().and_then(|mu| mu.literal()));
+        names(&contacts).into_iter().zip(friction).collect()
+    }
+
+    const FLOOR: &str = "<geom type=\"plane\" name=\"floor\" size=\"1 1 1\" friction=\"0.7\"/>";
+
+    /// Without a plane in the file the ground says nothing of its own.
+    #[test]
+    fn surfaces_of_both() {
+        let foot = |more: &str| format!("<geom name=\"foot\" size=\"0.1\" friction=\"0.4\" {more}/>");
+        let of =
+            |world: &str, more: &str, clause: &str| touching(world, &foot(more), "", clause).pop().map(|(_, mu)| mu);
+        assert_eq!(of("", "", "ground"), Some(Some(0.4)));
+        assert_eq!(of("", "condim=\"1\"", "ground"), Some(None));
+        assert_eq!(of("", "condim=\"1\"", "ground(friction = 0.2)"), Some(Some(0.2)));
+        assert_eq!(of(FLOOR, "", "ground"), Some(Some(0.7)));
+        assert_eq!(of(FLOOR, "condim=\"1\"", "ground"), Some(Some(0.7)));
+        assert_eq!(of(FLOOR, "priority=\"1\"", "ground"), Some(Some(0.4)));
+        assert_eq!(of(FLOOR, "condim=\"1\" priority=\"1\"", "ground"), Some(None));
+        // A plane of the struct stands for those of the file.
+        assert_eq!(of(FLOOR, "", "ground(height = 0)"), Some(Some(0.4)));
+    }
+
+    #[test]
+    fn planes_bits_and_exclusions() {
+        let ramp = "<frame pos=\"0 0 1\"><geom type=\"plane\" name=\"ramp\" size=\"1 1 1\" zaxis=\"3 0 4\"/></frame>";
+        let foot = "<geom name=\"foot\" size=\"0.1\"/>";
+        let worlds = format!("{FLOOR}{ramp}");
+        let both = model(&worlds, foot, "", "ground").contacts;
+        assert_eq!(names(&both), ["foot", "foot_2"]);
+        let Touching::Point(contact) = &both[1].touching else { panic!("a point") };
+        let Against::Plane { normal: Some(normal), height: Some(height), .. } = &contact.against else {
+            panic!("a plane")
+        };
+        let [x, y, z] = normal.literal_components().unwrap();
+        assert!((x - 0.6).abs() < 1e-15 && y == 0.0 && (z - 0.8).abs() < 1e-15);
+        assert!((height.literal().unwrap() - 0.8).abs() < 1e-15);
+        let count = |body: &str, rest: &str| {
+            let file = file(&worlds, body, rest);
+            read(&file.of(", ground", "")).map_or(0, |model| model.contacts.len())
+        };
+        assert_eq!(count("<geom size=\"0.1\" contype=\"2\" conaffinity=\"2\"/>", ""), 0);
+        assert_eq!(count("<geom size=\"0.1\" contype=\"2\" conaffinity=\"3\"/>", ""), 2);
+        assert_eq!(count(foot, "<contact><exclude body1=\"world\" body2=\"leg\"/></contact>"), 0);
+        assert_eq!(count(foot, "<option><flag contact=\"disable\"/></option>"), 0);
+    }
+
+    /// What a file says of contacts, and is not modelled, is a warning where it would act.
+    #[test]
+    fn what_does_not_act() {
+        let warned = |world: &str, body: &str, clause: &str| -> Vec<String> {
+            let described = model(world, body, "", clause).item.described.expect("a file");
+            let ignored = described.remarks.into_iter().filter(|remark| remark.ignored);
+            ignored.map(|remark| remark.text.split_once("xml:").expect("a place").1.to_owned()).collect()
+        };
+        let foot = "<geom name=\"foot\" size=\"0.1\"/>";
+        assert!(warned("", foot, "ground").is_empty());
+        let rolling = "<geom name=\"foot\" size=\"0.1\" condim=\"6\" margin=\"0.01\"/>";
+        assert_eq!(
+            warned("", rolling, "ground"),
+            [
+                "4:1: there is no friction of turning and rolling (`condim` 4 and 6)",
+                "4:1: `margin` of geoms does not act: they touch where they meet",
+            ]
+        );
+        assert!(warned("", rolling, "ignore(nothing)").is_empty());
+        let step = "<geom name=\"step\" type=\"box\" size=\"1 1 1\"/>";
+        let text = "2:12: the geom `step` of `world` does not touch: it is a shape of the world that is no plane";
+        assert_eq!(warned(step, foot, "ground"), [text]);
+        let mesh = format!("{foot}<geom type=\"mesh\" mesh=\"m\" mass=\"0\"/>");
+        assert_eq!(
+            warned("", &mesh, "ground"),
+            ["4:31: the geom of `leg` does not touch: it is a geom of type `mesh`"]
+        );
+    }
+
+    /// What only rises has nothing to rub; that is no mistake of the struct.
+    #[test]
+    fn friction_that_does_nothing_is_no_mistake() {
+        let text = "<mujoco><worldbody><body name=\"leg\"><joint type=\"slide\"/><geom size=\"0.1\"/></body></worldbody></mujoco>";
+        let file = Scratch::called(text, "xml");
+        let derived = crate::Derivation::new(&syn::parse_str(&file.of(", ground", "")).expect("a struct"));
+        assert!(derived.is_ok());
+    }
+}
