@@ -42,8 +42,8 @@ fn a_quadruped_stands_on_its_feet() {
     assert!((lands - (2.0 * 0.01 / G).sqrt()).abs() < 1e-9, "{lands}");
     assert_eq!(run.modes(1.9).unwrap(), [Mode::Sticks; 4]);
 
-    // Where feet stick nothing slips: velocities of parts that move at some m/s, to rounding; gaps are closed to rounding.
-    // Feet roll as their shanks turn: places less that keep within the tolerance of some hundred steps.
+    // Where feet stick nothing slips: velocities of parts that move at some m/s, to rounding; gaps are closed to
+    // rounding. Feet roll as their shanks turn: places less that keep within the tolerance of some hundred steps.
     let place = |foot: usize, q: &(Isometry3<f64>, SVector<f64, 8>)| {
         let turn = q.0.rotation.euler_angles().1 + q.1[2 * foot] + q.1[2 * foot + 1];
         kernel.contact_frame(foot, 0.0, q).unwrap().point - Vector3::x() * (0.02 * turn)

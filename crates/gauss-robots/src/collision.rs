@@ -1,6 +1,6 @@
 //! Shapes of links that touch, and which of them touch each other.
 
-use super::description::{At, Description};
+use super::at::At;
 use super::rotation::{Matrix, Triple};
 
 /// A shape of a link.
@@ -114,15 +114,6 @@ impl Surface {
             std::cmp::Ordering::Less => other.alone(),
             std::cmp::Ordering::Equal => larger.alone(),
         }
-    }
-}
-
-impl Description {
-    /// Whether the file keeps two links from touching.
-    #[must_use]
-    pub fn excludes(&self, links: [&str; 2]) -> bool {
-        let [a, b] = links;
-        self.excluded.iter().any(|[c, d]| (c == a && d == b) || (c == b && d == a))
     }
 }
 

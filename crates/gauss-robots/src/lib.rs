@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![deny(missing_docs)]
 
+mod at;
 pub mod collision;
 pub mod description;
 mod hull;
