@@ -1,6 +1,6 @@
 //! Robots whose files have shapes that touch a ground: which contacts they have, and that they stand.
 
-use gauss_contact::{ContactRun, EventKind, Mode};
+use gauss_contact::{ContactErrorKind, ContactRun, EventKind, Mode};
 use gauss_runtime::forces::Columns;
 use gauss_runtime::prelude::*;
 
@@ -195,4 +195,64 @@ fn a_sole_slides_by_the_friction_of_its_file() {
     let forces = run.force_vectors(0.4).unwrap();
     let sum: Vector3<f64> = forces.iter().map(|force| force.force).sum();
     assert!((sum - Vector3::new(0.0, 0.0, 4.0 * G)).amax() < 1e-10 && forces.len() == 4, "{sum}");
+}
+
+/// A fixed base, and cylinders by points.
+#[derive(GaussDynamics)]
+#[gauss(
+    urdf = "robots/post.urdf",
+    gravity = 9.81,
+    inputs = none,
+    ground(links = [post], friction = 0.5, restitution = e, height = h, cylinders = 6),
+)]
+struct Post {
+    e: f64,
+    h: f64,
+}
+
+#[test]
+fn a_post_stands_on_points_of_its_rim() {
+    let kernel = Post { e: 0.5, h: -0.1 }.kernel().unwrap();
+    assert_eq!(PostKernel::CONTACTS.len(), 12);
+    let start = SVector::from([0.25, 0.0]);
+    let run = ContactRun::new(&kernel).adaptive(1e-10, 1e-10).run(start, SVector::zeros(), 0.0..0.3).unwrap();
+    // The lower face is at −0.2 from the centre, 0.15 above the ground.
+    let lands = run.events().first().unwrap().time;
+    let fall = (2.0_f64 * 0.15 / G).sqrt();
+    assert!((lands - fall).abs() < 1e-9, "{lands}");
+    // It leaves with half of its speed: at 0.3 s it is above the ground.
+    let end = run.last().unwrap();
+    let up = 0.3 - fall;
+    let above = 0.5 * G * fall * up - 0.5 * G * up * up;
+    assert!((end.q[0] - 0.1 - above).abs() < 1e-9, "{}", end.q);
+    let rest = Post { e: 0.0, h: -0.1 }.kernel().unwrap();
+    let run = ContactRun::new(&rest).adaptive(1e-10, 1e-10).run(start, SVector::zeros(), 0.0..0.5).unwrap();
+    let forces = run.forces(0.4).unwrap();
+    // Alike, of least norm, on the six points of the lower rim; along the rail nothing rubs.
+    assert!((0..12).all(|k| (forces[k] - if k < 6 { 2.0 * G / 6.0 } else { 0.0 }).abs() < 1e-12), "{forces}");
+}
+
+/// Rims of a lever that is upright at first.
+#[derive(GaussDynamics)]
+#[gauss(urdf = "robots/post.urdf", gravity = 9.81, inputs = none, ground(links = [lever], friction = 0.5, height = h))]
+struct Lever {
+    h: f64,
+}
+
+/// A rim that lies flat harms nothing while it is above the ground; on it there is no lowest point, which a run says.
+#[test]
+fn a_rim_that_lies_flat() {
+    let run = |h: f64, rate: f64| {
+        let kernel = Lever { h }.kernel().unwrap();
+        let run = ContactRun::new(&kernel).adaptive(1e-8, 1e-8);
+        run.run(SVector::zeros(), [0.0, rate].into(), 0.0..0.1).map(|run| run.last().unwrap().q[1])
+    };
+    // Its centre of mass is in the hinge, so that it turns on.
+    assert_eq!(run(0.0, 0.0).unwrap(), 0.0);
+    assert!((run(0.0, 2.0).unwrap() - 0.2).abs() < 1e-9);
+    // Both rims at 1 ± 0.2: the lower one is on the ground.
+    for rate in [0.0, 0.5] {
+        let error = run(0.8, rate).unwrap_err();
+        assert_eq!((error.contact, error.kind), (Some("lever_0"), ContactErrorKind::NonFinite));
+    }
 }

@@ -1,6 +1,6 @@
 //! What of a file touches the ground: which shapes, by what names, and what is refused and told.
 
-use super::{joint, link, mistakes, model, remarks, robot};
+use super::{Scratch, joint, link, mistakes, model, remarks, robot};
 use crate::model::{Against, ContactClause, Copies, Touching};
 
 /// A slider with shapes, and what hangs on it.
@@ -160,6 +160,21 @@ fn what_is_told() {
     );
     let nothing = "4:92: shapes that touch nothing: 2; `ground(…)` lets them touch a plane";
     assert!(remarks(&text, "").contains(&told(nothing, false)));
+}
+
+/// A cylinder that never leans has no lowest point of its rims.
+#[test]
+fn a_cylinder_that_stands_has_points_alone() {
+    let file = Scratch::new(&legs(&shape("", "", ROD), ""));
+    let of = |clause: &str| crate::Derivation::new(&syn::parse_str(&file.of(clause, "")).expect("a struct"));
+    assert!(of(", ground(friction = 0.5, cylinders = 6)").is_ok());
+    let why = of(", ground").err().map(|error| error.to_string());
+    let flat = "`trunk_0` always lies flat, where no point of its rim is the lowest; write points of the rim, or \
+                `cylinders = 8` in the `ground(…)` of a robot's file";
+    assert_eq!(why.as_deref(), Some(flat));
+    // Turned to lie it has one.
+    let lying = Scratch::new(&legs(&shape("", "rpy=\"1 0 0\"", ROD), ""));
+    assert!(crate::Derivation::new(&syn::parse_str(&lying.of(", ground", "")).expect("a struct")).is_ok());
 }
 
 #[cfg(feature = "mjcf")]
