@@ -274,6 +274,14 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let closed: Vec<bool> = (0..K::CONTACTS.len())
             .map(|i| self.modes[i].is_closed() || landed == Some(i) || value(gaps.component(i)) <= sizes.of_gap[i])
             .collect();
+        // A rim that lies flat on the ground has no rate, whose rounding would hide that the gap is zero.
+        let is_unknown = |&i: &usize| {
+            let (contact, gap) = (&K::CONTACTS[i], value(gaps.component(i)));
+            contact.has_gap() && gap <= sizes.rounding[i] && !sizes.rates.component(contact.normal).is_finite()
+        };
+        if let Some(unknown) = (0..closed.len()).find(is_unknown) {
+            return Err(self.error(Some(unknown), ContactErrorKind::NonFinite));
+        }
         // What else closes at this time has to do so nearby, too.
         let known = |i: usize| {
             let late = value(sizes.rates.component(K::CONTACTS[i].normal)).abs() * largest_derivative(self.t);

@@ -107,7 +107,7 @@ impl<'g> Translator<'_, 'g> {
 
     /// Notes friction, drilling and rolling of a shape along which nothing moves.
     fn refuse_idle(&self, name: &str, written: &ContactClause, forms: &[Form<'g>]) {
-        if !matches!(written.touching, Touching::Point(_)) {
+        if written.of_file || !matches!(written.touching, Touching::Point(_)) {
             return;
         }
         let idle = |of: fn(&Form<'g>) -> bool| forms.iter().all(of);

@@ -94,7 +94,11 @@ impl<'g> Translator<'_, 'g> {
                 self.sphere(name, (center, radius), along.as_ref().filter(|_| rubs), tree)?
             }
         };
-        parts.iter().map(|part| self.touch((part, &about), &opposite(part), asked, tree)).collect()
+        let facing: Vec<(&Part<'g>, Facing<'g>)> = parts.iter().map(|part| (part, opposite(part))).collect();
+        if let Some([rim, _]) = &contact.rim {
+            self.refuse_flat((name, rim), &about, &facing, tree);
+        }
+        facing.iter().map(|(part, facing)| self.touch((part, &about), facing, asked, tree)).collect()
     }
 
     /// What is about each place of a shape.
@@ -156,6 +160,32 @@ impl<'g> Translator<'_, 'g> {
             _ => None,
         };
         Ok(Part { position: self.vector(point, tree)?, link })
+    }
+
+    /// A rim whose axis is always normal to the plane.
+    fn refuse_flat(
+        &self,
+        (name, rim): (&str, &Expression),
+        about: &About<'g>,
+        facing: &[(&Part<'g>, Facing<'g>)],
+        tree: &Tree<'g>,
+    ) {
+        let About::Rim(_, axis) = about else { return };
+        let is_flat = |(part, facing): &(&Part<'g>, Facing<'g>)| {
+            part.link.is_some_and(|link| {
+                let across = cross(&tree.links[link].axes().to_space(axis), &facing.normal);
+                self.vanishes(dot(&across, &across))
+            })
+        };
+        if facing.iter().any(is_flat) {
+            self.mistake(
+                rim.span,
+                format!(
+                    "`{name}` always lies flat, where no point of its rim is the lowest; write points of the rim, or \
+                     `cylinders = 8` in the `ground(…)` of a robot's file"
+                ),
+            );
+        }
     }
 
     /// Gap and slips of one part.

@@ -129,7 +129,7 @@ pub fn read_contact(clause: &Clause, context: &mut Context) -> Option<ContactCla
     };
     let rolls = |name: &Ident| rolling.as_ref().map(|_| format_ident!("{}_rolling", name.unraw(), span = name.span()));
     let names = names.into_iter().flat_map(|name| [Some(name.clone()), rolls(&name)]).flatten().collect();
-    Some(ContactClause { names, touching, friction: friction?, restitution, drilling, rolling })
+    Some(ContactClause { names, touching, friction: friction?, restitution, drilling, rolling, of_file: false })
 }
 
 /// `dry_friction(x, bound = …)` of the coordinate or the speed x, or `dry_friction(name, slip = …, bound = …)`; `None`
@@ -148,7 +148,7 @@ pub fn read_dry_friction(clause: &Clause, context: &mut Context) -> Option<Conta
     let names = vec![written.name?];
     let touching = Touching::Slip { slips: slips?, named };
     let friction = bound.filter(|bound| !bound.is_empty())?;
-    Some(ContactClause { names, touching, friction, restitution: None, drilling: None, rolling: None })
+    Some(ContactClause { names, touching, friction, restitution: None, drilling: None, rolling: None, of_file: false })
 }
 
 /// `range(x, from = …, to = …, restitution = …)` of the coordinate x, or `range(name, along = …, …)`; `None` if
@@ -173,7 +173,15 @@ pub fn read_range(clause: &Clause, context: &mut Context) -> Option<ContactClaus
         return None;
     }
     let touching = Touching::Range { along: along?, from, to };
-    Some(ContactClause { names, touching, friction: Vec::new(), restitution, drilling: None, rolling: None })
+    Some(ContactClause {
+        names,
+        touching,
+        friction: Vec::new(),
+        restitution,
+        drilling: None,
+        rolling: None,
+        of_file: false,
+    })
 }
 
 /// Three lengths along the axes of a body; `what` and `word` say of what shape.

@@ -21,6 +21,8 @@ pub struct ContactClause {
     /// The arm ρ of rolling resistance, a scalar as `friction`; only with that. Each contact has another one with it,
     /// whose name follows its own among the names.
     pub rolling: Option<Expression>,
+    /// Made of the file of a robot: friction that does nothing is no mistake.
+    pub of_file: bool,
 }
 
 /// What may touch.
