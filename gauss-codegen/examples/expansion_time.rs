@@ -6,9 +6,9 @@
 //! First every size of structure beside what is aimed at, then one body in every chart. Cargo compiles macros without
 //! optimisation unless told otherwise, so the figures are taken on an unoptimised build of `gauss-codegen`.
 //!
-//! With a name (`body`, `torpedo`, `top`, `arm`, `quadruped`, `spatial`, `planar`, or a file that describes a robot
-//! that floats, for which the feature `urdf` is needed) one expansion, for a profiler: where a machine is shared,
-//! instructions are counted (`valgrind --tool=callgrind`).
+//! With a name (`body`, `torpedo`, `top`, `arm`, `quadruped`, `standing`, `spatial`, `planar`, or a file that describes
+//! a robot that floats, for which the feature `urdf` is needed) one expansion, for a profiler: where a machine is
+//! shared, instructions are counted (`valgrind --tool=callgrind`).
 
 mod structures;
 
@@ -17,6 +17,12 @@ use std::time::{Duration, Instant};
 /// Runs of each unless another number is given, fewer where they would take longer than this.
 const RUNS: usize = 15;
 const PATIENCE: Duration = Duration::from_secs(3);
+
+/// Feet of a quadruped on a floor, with friction.
+const FEET: &str = ", point(p0, body = b2, at = [0.1, 0, -0.32]), contact(foot0, point = p0, friction = 0.6), \
+                    point(p1, body = b5, at = [0.1, 0, -0.32]), contact(foot1, point = p1, friction = 0.6), \
+                    point(p2, body = b8, at = [-0.1, 0, -0.32]), contact(foot2, point = p2, friction = 0.6), \
+                    point(p3, body = b11, at = [-0.1, 0, -0.32]), contact(foot3, point = p3, friction = 0.6)";
 
 fn runs() -> usize {
     std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(RUNS)
@@ -64,6 +70,7 @@ fn named(name: &str) -> String {
         "top" => structures::top(""),
         "arm" => structures::arm(""),
         "quadruped" => structures::quadruped(true, ""),
+        "standing" => structures::quadruped(true, FEET),
         "spatial" => structures::spatial(8),
         "planar" => structures::planar(16, true),
         file => {
@@ -108,6 +115,8 @@ fn sizes() {
     for n in [2, 4, 8] {
         report(&format!("chain of {n} links in space, two angles each"), &structures::spatial(n), "");
     }
+    report("quadruped", &structures::quadruped(true, ""), "");
+    report("quadruped, four feet with friction", &structures::quadruped(true, FEET), "");
     println!();
 }
 

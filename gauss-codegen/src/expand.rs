@@ -102,7 +102,7 @@ mod tests {
         let source = "#[gauss(coordinates(a, b, x), particle(mass = m, position = [cos(a), 0, sin(a)]),
              body(rod, rotation = rotation_y(b), mass = m, inertia = m), particle(mass = m, position = [x, 0, 0]),
              constraint(position = cos(a) + 2 * cos(b) - x), range(x, to = m),
-             contact(floor, gap = a + t * b, slip = rate(x * a), friction = m), dry_friction(brake, slip = rate(b * x), bound = m),
+             contact(floor, gap = a + t * b, slip = rate(x * a), friction = m, spin = rate(x), drilling = m, roll = rate(b), rolling = m), dry_friction(brake, slip = rate(b * x), bound = m),
              range(b, from = m))] struct Crank { m: f64 }";
         let input: DeriveInput = syn::parse_str(source).expect("a struct");
         let model = model::parse(&input).expect("a valid scene");
@@ -113,8 +113,8 @@ mod tests {
         let claims = Claims::of(&formulas);
         assert!(check_system_against_definition(&system, &claims).is_ok());
         let [right, ..] = claims.contacts else { panic!("no way to form the motion") };
-        // Three accelerations, five rows, three by five columns, five by five of D.
-        assert_eq!(right.len(), 3 + 5 + 15 + 25);
+        // Three accelerations, seven rows, three by seven columns, seven by seven of D.
+        assert_eq!(right.len(), 3 + 7 + 21 + 49);
         for k in 0..right.len() {
             let mut wrong = right.clone();
             wrong[k] = wrong[k] + graph.number(Rational::new(1, 1000));
@@ -149,6 +149,20 @@ mod tests {
                 ("*", &curved.replace("`q`", "`b`")),
             ]
         );
+        let found = mistakes(
+            "contact(p, gap = y, slip = v, friction = 1, spin = s - s, drilling = 2, roll = [v, w * w], rolling = 1)",
+        );
+        let [drills, rolls] = &found[..] else { panic!("{found:?}") };
+        assert_eq!(*drills, ("-".to_owned(), "no speed changes this slip of `p`; leave it out".to_owned()));
+        assert_eq!(*rolls, ("*".to_owned(), curved.replace("`q`", "`p_rolling`")));
+        let found = mistakes(
+            "point(edge, body = wheel, at = [1, 0, 0]),
+             contact(o, point = edge, plane = [0, 1, 0], friction = 1, drilling = 2, rolling = 1),
+             contact(u, point = edge, friction = 1, drilling = 1, rolling = 3)",
+        );
+        let spins = "nothing spins about the normal of `o`, so drilling does nothing; remove `drilling`";
+        let rolls = "nothing rolls along `u`, so rolling does nothing; remove `rolling`";
+        assert_eq!(found, [("2".to_owned(), spins.to_owned()), ("3".to_owned(), rolls.to_owned())]);
         let found = mistakes("contact(o, point = hub, height = x, over = x, friction = 2), contact(p, gap = y)");
         let idle = "nothing slips along `o`, so friction does nothing; remove `friction`";
         assert_eq!(found, [("2".to_owned(), idle.to_owned())]);

@@ -173,7 +173,9 @@ pub fn refuse_contacts(given: &Given<'_>, system: &System<'_>) -> Result<()> {
     let mut rows = system.contacts.jacobian.iter();
     for contact in &system.scene.contacts {
         let place = &given.contacts[contact.clause];
-        let spans = place.gap.into_iter().map(|gap| (gap, true)).chain(place.slips.iter().map(|slip| (*slip, false)));
+        let slips = if contact.rolls_on.is_some() { &place.rolls } else { &place.slips };
+        let gap = place.gap.filter(|_| contact.gap.is_some());
+        let spans = gap.into_iter().map(|gap| (gap, true)).chain(slips.iter().map(|slip| (*slip, false)));
         let count = usize::from(contact.gap.is_some()) + contact.slips.len();
         for ((span, of_gap), row) in spans.zip(rows.by_ref().take(count)) {
             let message = match (system.contacts.is_still(row), system.contacts.is_affine(row, &system.scene.speeds)) {

@@ -178,6 +178,12 @@ fn contacts_are_printed_by_their_names() {
         contact(wall_2, gap = y - x, slip = rate(x + y), friction = mu))] struct Corner { l: f64, mu: f64 }";
     let rubbing = "#[gauss(coordinates(x, y), particle(mass = 1, position = [x, y, 0]), dry_friction(x, bound = f),
         dry_friction(belt, slip = [rate(x), rate(y) - v], bound = [f, 2 * f]))] struct Rubbing { f: f64, v: f64 }";
+    let turning =
+        "#[gauss(coordinates(x, h, a), particle(mass = 1, position = [x, 0, h]), body(top, rotation = rotation_z(a),
+        mass = 1, inertia = 1), contact(ice, gap = h, slip = rate(x), friction = mu, spin = rate(a), drilling = l,
+        roll = rate(x) / l, rolling = rho))] struct Turning { l: f64, mu: f64, rho: f64 }";
+    let rolling = "rolling resistance: a torque against each slip, of the size ρ times the force of the gap; at rest any torque \
+                   that is not larger";
     let gaps = "gaps: none becomes negative; each adds a force that is not negative, and zero where it is open";
     let dry = "dry friction: a force against each slip, of the size f; at rest any force that is not larger";
     for (name, source, title, lines) in [
@@ -194,6 +200,13 @@ fn contacts_are_printed_by_their_names() {
                 "  f_belt2 = ",
             ],
         ),
+        (
+            "Turning",
+            turning,
+            gaps,
+            vec!["  g_ice = h", "  s_ice1 = x\u{307}", "  s_ice2 = ", "  μ_ice = mu", "", rolling],
+        ),
+        ("Turning", turning, rolling, vec!["  s_ice_rolling = ", "  ρ_ice_rolling = rho"]),
         ("Rolling", *source, gaps, vec!["  g_floor = ", "  s_floor1 = ", "  s_floor2 = ", "  μ_floor = mu"]),
         (
             "Corner",

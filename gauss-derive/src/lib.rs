@@ -143,6 +143,7 @@
 /// | `constraint(position = expr)`, `constraint(velocity = expr)` | what is zero: a scalar, or a vector for three constraints at once, less those that are the same combination of the others everywhere, as across the plane of a loop |
 /// | `contact(name, gap = expr, slip = expr, friction = mu, restitution = e)` | what may touch: a gap that does not become negative, a scalar as in constraints of positions. With friction the slip, the velocity along a tangent in the unit of the gap's rate, or `[expr, expr]` along two tangents that are normal to each other; μ may depend on all that forces do, e is made of numbers and fields. The kernel implements `ContactSystem`: its equations are those of the motion without contact forces, of which a solver makes use |
 /// | `contact(name, point = tip, radius = r, plane = [0, 0, 1], height = h, along = [1, 0, 0], friction = mu)` | the same by geometry: a point (its name, `ball.position`, `[x, y, z]`), or the sphere of that radius about it, above a plane with this normal (in observer's axes, of any length; by default k₃, in plane motion k₂), whose distance from Ω may depend on `t`. The slip is that of the material point that touches, along two tangents, the first one as near to `along` as can be, and left out where it is always zero |
+/// | `contact(…, friction = mu, drilling = l, rolling = rho)` | friction of drilling: the angular velocity about the normal times the length l, of fields and numbers, is a row more, and the sphere `λ₁² + λ₂² + λ₃² ≤ (μ λ_N)²` bounds all three; l is 2/3 of the radius of a patch with uniform pressure, 3π/16 with Hertz'. Rolling resistance: a contact `name_rolling` without a gap, whose torque against the angular velocity about the tangents is at most ρ λ_N; ρ is a length and may depend on what μ may. Of a gap of one's own these rates are `spin = w` and `roll = w` or `[a, b]` |
 /// | `contact(name, point = wheel.position, rim = r, axis = [0, 1, 0], plane = …)` | the rim of a disk about the point; the axis is in the axes of the body. Where the disk lies flat the point that touches is not determined |
 /// | `contact(name, point = stone.position, semi_axes = [a, b, c], plane = …)` | an ellipsoid about the point, with these semi-axes, each greater than 0, along the axes of its body, above a plane |
 /// | `contact(name, point = hull.position, edges = [a, b, c], plane = …)` | a box about the point, with these edges along the axes of its body: a contact for each corner, `name_0` to `name_7`; the bits of the number, from the lowest, say on which side it is along each edge. Along an edge written `0` there is one corner: four in all for plane motion |
@@ -179,6 +180,7 @@
 /// | `inputs = actuators` | the controls of transmissions and actuators, by their names and with their gears, gains and biases: of a motor its torque, of a servo where it is to go |
 /// | `joint_friction = smooth(w)`, `none` | dry friction f as −f v/√(v² + w²), v the rate of the joint; or none, as without the clause, but without the warning |
 /// | `limits = stop(stiffness = k, width = e, damping = c)`, `none` | the limits of joints as stops; or none, as without the clause, but without the warning |
+/// | `ground(links = [left_foot, right_foot], friction = mu, restitution = e, plane = [0, 0, 1], height = h, along = [1, 0, 0], cylinders = 8)`, `ground` | contacts of the file's shapes with a plane, as if they had been written by `contact(…)`; each argument may be left out. All links that move, or those that are named; the plane is as of `contact(…)`, or without `plane` and `height` those of the file; without `friction` that of the geoms. Spheres, boxes, capsules, and cylinders by their rims or by so many points for each. Several clauses are several planes |
 /// | `saturation = clamp`, `none` | controls, forces and efforts are kept in their ranges: what is beyond is cut off exactly, so that derivatives are zero there. `ctrlrange` and `forcerange` belong to actuators, and act with `inputs = actuators`; `actuatorfrcrange`, and `effort` of a URDF unless it is zero, to joints. Or they do not act, as without the clause, but without the warning |
 /// | `parameters = inertial` | the mass data of every link that moves are fields `#[gauss(body)] upper_arm: RigidBody<f64>`; such fields can also be there for some links alone. `Arm::from_file(…)` has the values of the file; the other fields of the struct are its arguments, in their order |
 /// | `ignore(gazebo, contact)` | elements and attributes of the file that are known not to act: no warnings of these |
@@ -202,6 +204,14 @@
 /// The force elements are called `efforts`, `joint_damping`, `joint_friction`, and `elbow_limits`. A URDF has no
 /// `gravity`: without the clause or a field nothing weighs. Rotors of transmissions (`rotorInertia`) are armatures,
 /// with the square of `mechanicalReduction`.
+///
+/// Contacts with a ground have the names of their shapes, or else of their links; where a shape has several, with
+/// numbers from zero: `sole_0`. A name that is taken gets a number: `foot_2`, `sole_2_0`. The points that they are of
+/// are `foot_point`, unless they are origins of links. Of MJCF `contype`, `conaffinity`, `priority`, `condim`, sliding
+/// `friction` and `<exclude>` act as MuJoCo has them; planes of what is fixed are the ground. Of a ground that is the
+/// struct's own the bits are 1, it is excluded as `world` is, and the friction is that of the geom. Links do not touch
+/// each other. What is not read (meshes, ellipsoids, height fields, shapes of the world that are no planes, `margin`,
+/// friction of turning and rolling, pairs) is a warning where it would act.
 ///
 /// Of MJCF there are read: bodies, frames, joints of all kinds, several in a body, about anchors, with references,
 /// damping, dry friction, springs (`elbow_spring`), also of balls and free joints, `springdamper` of joints that move
@@ -230,7 +240,7 @@
 /// warned of, or that is harmless. Whatever acts in the file and not in the equations (elements and attributes that are
 /// not known, laws of joints with several speeds, actuators with states) is a warning of the compiler with its line,
 /// one for all of a kind. The page of the kernel lists these, names that are no identifiers or taken and have been
-/// changed, and elements without effect on the motion, such as looks and shapes for contacts. Numbers of the file are
+/// changed, and elements without effect on the motion, such as looks. Numbers of the file are
 /// literals. Mistakes in it are shown at its name, with line and column: `robots/arm.urdf:12:3: …`; so are inertias
 /// that no body has, unless `waive(triangle_inequality = arm)` allows them.
 ///

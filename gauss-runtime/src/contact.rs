@@ -12,6 +12,10 @@
 //! Dry friction of a given bound f, as in a brake or a joint, is a contact without a normal: its rows are slips s, and
 //! its forces are at most f.
 //!
+//! Friction of drilling is a row after the tangents: the relative angular velocity about the normal times a length,
+//! so that all rows of friction are velocities and all of their forces are bounded together (P. Contensou 1963).
+//! Rolling resistance is a contact of its own without a gap, whose bound is a multiple of the normal force of another.
+//!
 //! `#[gauss(contact(…), range(…), dry_friction(…))]` has the derive write it.
 
 use core::fmt::{self, Debug};
@@ -26,9 +30,10 @@ use crate::system::GaussSystem;
 
 /// A system some of whose gaps may close, or with dry friction.
 ///
-/// Rows of contacts are numbered contact by contact: of each its normal, then its tangents; of dry friction only the
-/// tangents. Units are those of the gaps and of slips: with lengths λ is a force, with angles a torque. Bilateral
-/// constraints of the scene hold in all of it: A⁻¹ is then the inverse on the velocities that they admit.
+/// Rows of contacts are numbered contact by contact: of each its normal, then its tangents, then its spin where there
+/// is friction of drilling; of dry friction and rolling resistance only the tangents. Units are those of the gaps and
+/// of slips: with lengths λ is a force, with angles a torque. Bilateral constraints of the scene hold in all of it: A⁻¹
+/// is then the inverse on the velocities that they admit.
 pub trait ContactSystem: GaussSystem {
     /// `SVector<Scalar, C>`, C contacts: one component for each.
     type Gaps: VectorSpace<Self::Scalar>;
@@ -45,11 +50,13 @@ pub trait ContactSystem: GaussSystem {
     /// The contacts, in the order in which they are written. Names are unique.
     const CONTACTS: &'static [Contact];
 
-    /// g(t, q) of each contact: positive where it is open; 0 of dry friction.
+    /// g(t, q) of each contact: positive where it is open; 0 of dry friction and of rolling resistance.
     fn gaps(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Gaps;
 
-    /// ġ, then the slip s of each tangent, contact by contact; of contacts with a gap they are velocities of the first
-    /// body's point at the contact relative to what it touches.
+    /// ġ, then the slip s of each tangent and the spin, contact by contact; of contacts with a gap they are velocities
+    /// of the first body's point at the contact relative to what it touches. The spin is the relative angular velocity
+    /// about the normal times the radius of drilling; slips of rolling resistance are relative angular velocities about
+    /// the tangents.
     fn contact_rates(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> Self::ContactRows;
 
     /// Wᵀ, `W = ∂(ġ, s)/∂z`: the generalised force of a unit contact force, column by column.
@@ -67,9 +74,9 @@ pub trait ContactSystem: GaussSystem {
         None
     }
 
-    /// The bounds of friction, row by row: μ of each tangent of a contact, f of each slip of dry friction, in its
-    /// generalised force; 0 of normals. Two tangents of a contact are the axes of an ellipse:
-    /// `(λ₁/μ₁)² + (λ₂/μ₂)² ≤ λ_N²`, or with f in the place of μ `… ≤ 1`.
+    /// The bounds of friction, row by row: μ of each tangent of a contact and of its spin, f of each slip of dry
+    /// friction, in its generalised force, ρ of rolling resistance; 0 of normals. The rows of a contact are the axes of
+    /// an ellipse or an ellipsoid: `(λ₁/μ₁)² + (λ₂/μ₂)² + (λ₃/μ₃)² ≤ λ_N²`, or with f in the place of μ `… ≤ 1`.
     fn friction(
         &self,
         t: Self::Scalar,
@@ -105,6 +112,8 @@ pub struct Contact {
     pub normal: usize,
     /// How many tangents it has: 0 without friction, 1 where motion or scene is plane, else 2.
     pub tangents: usize,
+    /// Whether a row of friction of drilling follows the tangents.
+    pub drills: bool,
     /// What bounds its friction.
     pub kind: ContactKind,
 }
@@ -151,25 +160,51 @@ pub enum ContactKind {
     Gap,
     /// Nothing but [`friction`](ContactSystem::friction): there is no gap and no normal.
     DryFriction,
+    /// The force along the normal of another contact: a torque resists rolling of at most ρ times it. There is no gap.
+    Rolling {
+        /// That contact, by its place in [`CONTACTS`](ContactSystem::CONTACTS); it comes before this one.
+        on: usize,
+    },
 }
 
 impl Contact {
     /// A contact with a gap.
     #[must_use]
     pub const fn new(name: &'static str, normal: usize, tangents: usize) -> Self {
-        Self { name, normal, tangents, kind: ContactKind::Gap }
+        Self { name, normal, tangents, drills: false, kind: ContactKind::Gap }
     }
 
     /// Dry friction along one slip or two, of which the first row is given.
     #[must_use]
     pub const fn dry_friction(name: &'static str, first: usize, tangents: usize) -> Self {
-        Self { name, normal: first, tangents, kind: ContactKind::DryFriction }
+        Self { name, normal: first, tangents, drills: false, kind: ContactKind::DryFriction }
+    }
+
+    /// Rolling resistance about one tangent or two of the contact number `on`, of which the first row is given.
+    #[must_use]
+    pub const fn rolling(name: &'static str, first: usize, tangents: usize, on: usize) -> Self {
+        Self { name, normal: first, tangents, drills: false, kind: ContactKind::Rolling { on } }
+    }
+
+    /// With a row of friction of drilling after its tangents.
+    #[must_use]
+    pub const fn with_drilling(self) -> Self {
+        Self { drills: true, ..self }
     }
 
     /// Whether it has a gap and a normal.
     #[must_use]
     pub const fn has_gap(&self) -> bool {
         matches!(self.kind, ContactKind::Gap)
+    }
+
+    /// The contact whose normal force bounds its friction, where that is another one: of rolling resistance.
+    #[must_use]
+    pub const fn rolls_on(&self) -> Option<usize> {
+        match self.kind {
+            ContactKind::Rolling { on } => Some(on),
+            _ => None,
+        }
     }
 
     /// The rows of its tangents.
@@ -179,10 +214,17 @@ impl Contact {
         first..first + self.tangents
     }
 
+    /// The rows of its friction: the tangents, then the spin where there is friction of drilling.
+    #[must_use]
+    pub const fn friction_rows(&self) -> Range<usize> {
+        let tangents = self.tangent_rows();
+        tangents.start..tangents.end + self.drills as usize
+    }
+
     /// All its rows.
     #[must_use]
     pub const fn rows(&self) -> Range<usize> {
-        self.normal..self.tangent_rows().end
+        self.normal..self.friction_rows().end
     }
 }
 

@@ -6,6 +6,8 @@ mod ellipsoids;
 mod history;
 #[path = "touching/published.rs"]
 mod published;
+#[path = "touching/random.rs"]
+mod random;
 #[path = "touching/shapes.rs"]
 mod shapes;
 

@@ -4,19 +4,19 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::contact::{Contact, ContactSystem};
 use gauss_runtime::forces::Columns;
 use gauss_runtime::integrate::drive::tolerance::Tolerance;
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::{Real, largest_derivative};
 use gauss_runtime::system::GaussSystem;
 
-use crate::dense::{Matrix, epsilon, norm, size, sum, value};
+use crate::dense::{Matrix, dot, epsilon, norm, size, sum, value};
 use crate::error::{ContactError, ContactErrorKind};
 use crate::friction::Bounds;
 use crate::history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
 use crate::impact::{Impact, Struck, after, rows};
-use crate::law::Law;
+use crate::law::{Law, carrier};
 use crate::mode::{InMode, Mode, UNCLOSED, largest_derivative_of, slip, tangents, terms};
 use crate::solver::{Contacts, Failure, State};
 use crate::trajectory::ContactTrajectory;
@@ -93,11 +93,21 @@ struct Choice<T> {
     /// Opens although it is on zero: its force has fallen to zero.
     leaves: Option<usize>,
     /// Begins to slide in this direction: friction has reached its bound.
-    slides: Option<(usize, [T; 2])>,
+    slides: Option<(usize, [T; 3])>,
     /// Slips below are zero.
     still: Vec<f64>,
     /// The slip is zero whatever its number is.
     stuck: Vec<bool>,
+}
+
+/// Whether impacts act on it: not on dry friction, whose force is bounded.
+fn takes_impulses(contact: &Contact) -> bool {
+    contact.has_gap() || contact.rolls_on().is_some()
+}
+
+/// A contact with the resistance to rolling on it.
+fn with_rolling<K: ContactSystem>(i: usize) -> impl Iterator<Item = usize> {
+    (0..K::CONTACTS.len()).filter(move |&n| carrier(K::CONTACTS, n) == i)
 }
 
 impl<'k, K: ContactSystem> Instant<'k, K> {
@@ -130,9 +140,8 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             (0..rounding.len()).for_each(|n| rounding[n] += value(moved.component(n) - here.component(n)).abs());
         }
         let late = 4.0 * scales.resolution(value(*t));
-        let within = |(contact, rounding): (&gauss_runtime::contact::Contact, &f64)| {
-            late.fma(value(rates.component(contact.normal)).abs(), *rounding)
-        };
+        let within =
+            |(contact, rounding): (&Contact, &f64)| late.fma(value(rates.component(contact.normal)).abs(), *rounding);
         let of_gap = K::CONTACTS.iter().zip(&rounding).map(within).collect();
         Sizes { of_rate: of_rate.collect(), of_gap, rounding, rates }
     }
@@ -154,13 +163,14 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let mut still: Vec<f64> = before.of_rate.iter().zip(&now.of_rate).map(|(a, b)| a.max(*b)).collect();
         still.iter_mut().zip(noise.iter().flatten()).for_each(|(still, noise)| *still += noise);
         let rests = |i: usize| {
+            let i = carrier(K::CONTACTS, i);
             let contact = &K::CONTACTS[i];
             closed[i] && (!contact.has_gap() || value(now.rates.component(contact.normal)) <= still[contact.normal])
         };
         let stuck = |i: usize| match self.fired {
             Some(Watched::Speed(n, _)) if n == i => true,
             Some(Watched::Slip(n)) if n == i => {
-                K::CONTACTS[i].tangents == 1 || size(&slip(&K::CONTACTS[i], &now.rates)) <= scales.rest()
+                tangents(&K::CONTACTS[i]).len() == 1 || size(&slip(&K::CONTACTS[i], &now.rates)) <= scales.rest()
             }
             _ => matches!(self.modes[i], Mode::Sticks),
         };
@@ -177,17 +187,17 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         loop {
             let accelerations = self.choose(&mut choice, scales.law, made)?;
             let next = contacts.clone().find_map(|i| {
-                let candidate = struck && closed[i] && !choice.resting[i];
+                let candidate = struck && closed[i] && !choice.resting[i] && K::CONTACTS[i].has_gap();
                 let kind = candidate.then(|| self.comes_to_rest(i, &accelerations, scales))??;
                 Some((i, kind))
             });
             let Some((i, kind)) = next else { break };
-            choice.resting[i] = true;
+            with_rolling::<K>(i).for_each(|n| choice.resting[n] = true);
             self.leave_out_bounces(i, &choice, made)?;
             events.push(ContactEvent { time: value(self.t), contact: i, kind });
         }
         if !self.first {
-            self.changes(&old, &mut events);
+            self.changes(&old, &choice.stuck, &mut events);
         }
         made.events.append(&mut events);
         Ok(())
@@ -205,7 +215,8 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let bias = self.kernel.contact_dynamics(self.t, &self.q, &self.z, &input).bias;
         let presses = value(bias.component(K::CONTACTS[i].normal)) < 0.0;
         if presses && self.jams {
-            let closed = (0..K::CONTACTS.len()).filter(|&n| self.modes[n].is_closed() && K::CONTACTS[n].has_gap());
+            let closed =
+                (0..K::CONTACTS.len()).filter(|&n| self.modes[n].is_closed() && takes_impulses(&K::CONTACTS[n]));
             self.jam(i, &closed.collect::<Vec<_>>(), scales.law, made)?;
             return Ok(Some(i));
         }
@@ -225,7 +236,10 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let rates = self.kernel.contact_rates(self.t, &self.q, &self.z);
         let response = self.kernel.contact_response(self.t, &self.q);
         let rows = rows::<K>(contacts);
-        let laws = contacts.iter().map(|&n| Law::new(&K::CONTACTS[n], Bounds::of(&K::CONTACTS[n], &friction), None));
+        let laws = contacts.iter().map(|&n| {
+            let contact = &K::CONTACTS[n];
+            Law::new(contact, Bounds::of(contact, &friction), None).among(contact, contacts)
+        });
         let matrix = Matrix::from_fn(rows.len(), |a, b| response.delassus[(rows[a], rows[b])]);
         let before = rows.iter().map(|&row| rates.component(row)).collect();
         let solver = Contacts::new(laws.collect(), matrix, before);
@@ -241,7 +255,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
     }
 
     /// The direction in which a contact that stuck begins to slide: against its friction.
-    fn begins_to_slide(&self, made: &ContactTrajectory<'k, K>) -> Option<(usize, [K::Scalar; 2])> {
+    fn begins_to_slide(&self, made: &ContactTrajectory<'k, K>) -> Option<(usize, [K::Scalar; 3])> {
         let Some(Watched::Cone(i)) = self.fired else { return None };
         let system = InMode::new(self.kernel, &self.modes);
         let loads = system.loads(self.t, &self.q, &self.z, &(made.input)(self.t, &self.q, &self.z));
@@ -260,6 +274,14 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let closed: Vec<bool> = (0..K::CONTACTS.len())
             .map(|i| self.modes[i].is_closed() || landed == Some(i) || value(gaps.component(i)) <= sizes.of_gap[i])
             .collect();
+        // A rim that lies flat on the ground has no rate, whose rounding would hide that the gap is zero.
+        let is_unknown = |&i: &usize| {
+            let (contact, gap) = (&K::CONTACTS[i], value(gaps.component(i)));
+            contact.has_gap() && gap <= sizes.rounding[i] && !sizes.rates.component(contact.normal).is_finite()
+        };
+        if let Some(unknown) = (0..closed.len()).find(is_unknown) {
+            return Err(self.error(Some(unknown), ContactErrorKind::NonFinite));
+        }
         // What else closes at this time has to do so nearby, too.
         let known = |i: usize| {
             let late = value(sizes.rates.component(K::CONTACTS[i].normal)).abs() * largest_derivative(self.t);
@@ -307,15 +329,16 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             let sizes = self.sizes(scales);
             let rate = |i: usize| value(sizes.rates.component(K::CONTACTS[i].normal));
             let rounding = |row: usize| sizes.of_rate[row] + noise[row];
-            let touches = |&i: &usize| closed[i] && K::CONTACTS[i].has_gap();
-            let strikes = |i: &usize| touches(i) && rate(*i) < -rounding(K::CONTACTS[*i].normal);
+            let touches = |&i: &usize| closed[carrier(K::CONTACTS, i)] && takes_impulses(&K::CONTACTS[i]);
+            let strikes =
+                |i: &usize| touches(i) && K::CONTACTS[*i].has_gap() && rate(*i) < -rounding(K::CONTACTS[*i].normal);
             let fastest = (0..closed.len()).filter(strikes).min_by(|&a, &b| rate(a).total_cmp(&rate(b)));
             let Some(fastest) = fastest else { return Ok((count > 0).then_some(noise)) };
             if count == most {
                 return Err(self.error(Some(fastest), ContactErrorKind::Zeno { impacts: count }));
             }
             let contacts: Vec<usize> = match scales.law {
-                Impact::Sequential => vec![fastest],
+                Impact::Sequential => with_rolling::<K>(fastest).collect(),
                 _ => (0..closed.len()).filter(touches).collect(),
             };
             let response = self.kernel.contact_response(self.t, &self.q);
@@ -351,18 +374,19 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let (mut lost, mut terms) = (0.0, 0.0);
         for &i in contacts {
             let contact = &K::CONTACTS[i];
-            let three = |of: &dyn Fn(usize) -> f64| {
-                let mut three = [0.0; 3];
-                (0..=contact.tangents.min(2)).for_each(|k| three[k] = of(contact.normal + k));
-                three
+            let first = usize::from(!contact.has_gap());
+            let four = |of: &dyn Fn(usize) -> f64| {
+                let mut four = [0.0; 4];
+                contact.rows().zip(&mut four[first..]).for_each(|(row, entry)| *entry = of(row));
+                four
             };
-            let (u, v) = (three(&|row| value(before.component(row))), three(&|row| value(now.component(row))));
-            let impulse = three(&|row| impulses[row]);
-            let work: Vec<f64> = (0..3).map(|k| 0.5 * impulse[k] * (u[k] + v[k])).collect();
+            let (u, v) = (four(&|row| value(before.component(row))), four(&|row| value(now.component(row))));
+            let impulse = four(&|row| impulses[row]);
+            let work: Vec<f64> = (0..4).map(|k| 0.5 * impulse[k] * (u[k] + v[k])).collect();
             let energy_lost = -work.iter().sum::<f64>();
             lost += energy_lost;
-            terms += (0..3).map(|k| (impulse[k] * u[k]).abs() + (impulse[k] * v[k]).abs()).sum::<f64>();
-            if impulse != [0.0; 3] {
+            terms += (0..4).map(|k| (impulse[k] * u[k]).abs() + (impulse[k] * v[k]).abs()).sum::<f64>();
+            if impulse != [0.0; 4] {
                 let kind = EventKind::Impact(ImpactRecord { before: u, after: v, impulse, energy_lost });
                 made.events.push(ContactEvent { time: value(self.t), contact: i, kind });
             }
@@ -406,11 +430,13 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let response = self.kernel.contact_response(self.t, &self.q);
         let mut impulses = vec![K::Scalar::zero(); K::ContactRows::DIM];
         impulses[contact.normal] = K::Scalar::one();
-        let along = slip(contact, &rates);
-        if size(&along) > norm(&choice.still[tangents(contact)]) {
-            let length = norm(&along);
-            let against = Bounds::of(contact, &self.friction(made)?).against(along.map(|s| s / length));
-            tangents(contact).zip(against).for_each(|(row, force)| impulses[row] = force);
+        for contact in with_rolling::<K>(i).map(|n| &K::CONTACTS[n]) {
+            let along = slip(contact, &rates);
+            if size(&along) > norm(&choice.still[tangents(contact)]) {
+                let length = norm(&along);
+                let against = Bounds::of(contact, &self.friction(made)?).against(along.map(|s| s / length));
+                tangents(contact).zip(against).for_each(|(row, force)| impulses[row] = force);
+            }
         }
         let unit = impulses.iter().enumerate().map(|(row, part)| response.delassus[(contact.normal, row)] * *part);
         let lifted = sum(unit);
@@ -432,8 +458,8 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
     ) -> Result<Vec<f64>, ContactError> {
         // Each time one of the two that are forced is given up.
         loop {
-            let contacts: Vec<usize> =
-                (0..K::CONTACTS.len()).filter(|&i| choice.resting[i] && choice.leaves != Some(i)).collect();
+            let stays = |i: usize| choice.resting[i] && choice.leaves != Some(carrier(K::CONTACTS, i));
+            let contacts: Vec<usize> = (0..K::CONTACTS.len()).filter(|&i| stays(i)).collect();
             let laws = self.bring_to_rest(&contacts, choice, made)?;
             let input = (made.input)(self.t, &self.q, &self.z);
             let dynamics = self.kernel.contact_dynamics(self.t, &self.q, &self.z, &input);
@@ -445,7 +471,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             let solution = match solver.solve() {
                 // A contact is stopped once: then its slip is not known to go on.
                 Err(Failure::Inconsistent(n)) if self.jams && laws[n].along().is_some() => {
-                    let gaps = contacts.iter().copied().filter(|&i| K::CONTACTS[i].has_gap());
+                    let gaps = contacts.iter().copied().filter(|&i| takes_impulses(&K::CONTACTS[i]));
                     self.jam(contacts[n], &gaps.collect::<Vec<_>>(), law, made)?;
                     choice.stuck[contacts[n]] = true;
                     continue;
@@ -503,7 +529,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             let slips: Vec<_> = contacts.iter().map(|&i| self.slides(i, choice)).collect();
             let mut modes = vec![Mode::Open; K::CONTACTS.len()];
             for (&i, slip) in contacts.iter().zip(&slips) {
-                modes[i] = match (K::CONTACTS[i].tangents, slip) {
+                modes[i] = match (tangents(&K::CONTACTS[i]).len(), slip) {
                     (0, _) => Mode::Closed,
                     (_, Some(along)) => Mode::Slides(*along),
                     _ => Mode::Sticks,
@@ -520,16 +546,17 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             stopped.into_iter().for_each(|i| choice.stuck[i] = true);
         };
         let friction = self.friction(made)?;
-        let law = |(&i, slip): (&usize, Option<[K::Scalar; 2]>)| {
+        let law = |(&i, slip): (&usize, Option<[K::Scalar; 3]>)| {
             let contact = &K::CONTACTS[i];
             let forced = choice.slides.filter(|(n, _)| *n == i).map(|(_, along)| along);
-            Law::new(contact, Bounds::of(contact, &friction), slip.or(forced).filter(|_| contact.tangents > 0))
+            let along = slip.or(forced).filter(|_| !tangents(contact).is_empty());
+            Law::new(contact, Bounds::of(contact, &friction), along).among(contact, contacts)
         };
         Ok(contacts.iter().zip(slips).map(law).collect())
     }
 
     /// The direction in which a contact slides.
-    fn slides(&self, i: usize, choice: &Choice<K::Scalar>) -> Option<[K::Scalar; 2]> {
+    fn slides(&self, i: usize, choice: &Choice<K::Scalar>) -> Option<[K::Scalar; 3]> {
         let contact = &K::CONTACTS[i];
         let along = slip(contact, &self.kernel.contact_rates(self.t, &self.q, &self.z));
         let moves = !choice.stuck[i] && size(&along) > norm(&choice.still[tangents(contact)]);
@@ -540,16 +567,25 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
     }
 
     /// Changes of modes as events.
-    fn changes(&self, old: &[Mode<K::Scalar>], events: &mut Vec<ContactEvent>) {
+    fn changes(&self, old: &[Mode<K::Scalar>], stopped: &[bool], events: &mut Vec<ContactEvent>) {
         for (contact, (old, new)) in old.iter().zip(&self.modes).enumerate() {
-            let reverses = |a: &[K::Scalar; 2], b: &[K::Scalar; 2]| value(a[0] * b[0] + a[1] * b[1]) < 0.0;
+            let reverses = |a: &[K::Scalar; 3], b: &[K::Scalar; 3]| value(dot(a, b)) < 0.0;
+            let several = |i: usize| tangents(&K::CONTACTS[i]).len() > 1;
+            let turned = |i: usize| self.fired == Some(Watched::Slip(i)) && several(i) && !stopped[i];
             let kind = match (old, new) {
+                (Mode::Open, Mode::Sticks | Mode::Slides(_)) | (Mode::Sticks | Mode::Slides(_), Mode::Open)
+                    if !K::CONTACTS[contact].has_gap() =>
+                {
+                    continue;
+                }
                 (Mode::Open, new) if new.is_closed() && events.iter().all(|event| event.contact != contact) => {
                     EventKind::Closes
                 }
                 (old, Mode::Open) if old.is_closed() => EventKind::Leaves,
                 (Mode::Sticks, Mode::Slides(along)) => EventKind::Slides(along.map(value)),
                 (Mode::Slides(_), Mode::Sticks) => EventKind::Sticks,
+                // A slip of several rows may turn by as much on its way.
+                (Mode::Slides(_), Mode::Slides(_)) if turned(contact) => continue,
                 (Mode::Slides(before), Mode::Slides(along)) if reverses(before, along) => {
                     EventKind::Reverses(along.map(value))
                 }

@@ -6,7 +6,7 @@ use gauss_runtime::constraint::ProjectionError;
 use gauss_runtime::integrate::IntegrationError;
 
 use crate::impact::Impact;
-use crate::solver::Residual;
+use crate::residual::Residual;
 
 /// A run with contacts that cannot go on: where, when, and why. The part that was made is kept: see
 /// [`ContactRun::attempt`](crate::ContactRun::attempt), whose last sample is the position.
@@ -40,7 +40,7 @@ pub enum ContactErrorKind {
         /// e.
         restitution: f64,
     },
-    /// A coefficient of friction, or a bound of dry friction, that is negative, not finite, or zero along one of two
+    /// A coefficient of friction, or a bound of dry friction, that is negative, not finite, or zero along some of the
     /// axes alone.
     InvalidFriction {
         /// μ, or f.
@@ -115,7 +115,7 @@ impl fmt::Display for ContactErrorKind {
             Self::InvalidFriction { friction } => {
                 write!(
                     f,
-                    "the bound of friction is {friction}; it must be finite and not negative, and zero along both axes \
+                    "the bound of friction is {friction}; it must be finite and not negative, and zero along all axes \
                      or none"
                 )
             }

@@ -2,7 +2,7 @@
 
 use gauss_runtime::contact::ContactSystem;
 
-use crate::solver::Residual;
+use crate::residual::Residual;
 
 /// A change of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,22 +45,23 @@ pub enum EventKind {
     Leaves,
     /// The slip ends.
     Sticks,
-    /// The slip begins, in this direction along the tangents.
-    Slides([f64; 2]),
+    /// The slip begins, in this direction along the tangents and, with friction of drilling, of the spin.
+    Slides([f64; 3]),
     /// The slip turns round at once.
-    Reverses([f64; 2]),
+    Reverses([f64; 3]),
 }
 
-/// An impact at one contact. Entries are along the normal, then along the tangents.
+/// An impact at one contact. Entries are along the normal, then along the tangents, and of the spin with friction of
+/// drilling; of rolling resistance the first is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ImpactRecord {
     /// Rates before.
-    pub before: [f64; 3],
+    pub before: [f64; 4],
     /// Rates after.
-    pub after: [f64; 3],
+    pub after: [f64; 4],
     /// The impulse.
-    pub impulse: [f64; 3],
+    pub impulse: [f64; 4],
     /// The kinetic energy that it takes away: −Λ·(u⁺ + u⁻)/2, of which the sum over simultaneous ones is the loss.
     pub energy_lost: f64,
 }

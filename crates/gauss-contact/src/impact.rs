@@ -4,20 +4,22 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use gauss_runtime::configuration::VectorSpace;
-use gauss_runtime::contact::{ContactResponse, ContactSystem};
+use gauss_runtime::contact::{Contact, ContactResponse, ContactSystem};
 use gauss_runtime::forces::Columns;
 use gauss_runtime::real::Real;
 
 use crate::dense::Matrix;
 use crate::friction::Bounds;
-use crate::law::Law;
-use crate::solver::{Contacts, Failure, Residual};
+use crate::law::{Law, carrier};
+use crate::residual::Residual;
+use crate::solver::{Contacts, Failure};
 
 /// What an impact does to velocities u⁻ of the contacts that are closed: `u⁺ = u⁻ + D Λ` with impulses Λ.
 ///
 /// A gap that opens before the impact may close after it, at e times its rate: it strikes again at once, which takes
 /// more energy away. Held to stay open instead, it would give energy: three balls that fall on one another would.
-/// Dry friction has no part in impacts: its force is bounded, and so is its impulse by zero in no time.
+/// Dry friction has no part in impacts: its force is bounded, and so is its impulse by zero in no time. Rolling
+/// resistance has: its impulse is bounded by ρ times that of the normal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Impact {
@@ -72,8 +74,8 @@ impl<K: ContactSystem> Struck<'_, K> {
         let (zero, one) = (K::Scalar::zero(), K::Scalar::one());
         let rows = rows::<K>(self.contacts);
         let owner: Vec<usize> =
-            self.contacts.iter().flat_map(|&i| core::iter::repeat_n(i, 1 + K::CONTACTS[i].tangents)).collect();
-        let e = |i: usize| self.restitution.component(i);
+            self.contacts.iter().flat_map(|&i| core::iter::repeat_n(i, K::CONTACTS[i].rows().len())).collect();
+        let e = |i: usize| self.restitution.component(carrier(K::CONTACTS, i));
         let delassus = &self.response.delassus;
         let moreau = law == Impact::Moreau;
         let entry = |a: usize, b: usize| {
@@ -81,12 +83,12 @@ impl<K: ContactSystem> Struck<'_, K> {
             delassus[(rows[a], rows[b])] / part
         };
         let before = |a: usize| {
-            let normal = K::CONTACTS[owner[a]].normal == rows[a];
+            let struck = &K::CONTACTS[owner[a]];
+            let normal = struck.has_gap() && struck.normal == rows[a];
             let part = if normal && !moreau { one + e(owner[a]) } else { one };
             part * self.rates.component(rows[a])
         };
-        let law_of = |&i: &usize| Law::new(&K::CONTACTS[i], Bounds::of(&K::CONTACTS[i], self.friction), None);
-        let laws = self.contacts.iter().map(law_of).collect();
+        let laws = self.contacts.iter().map(|&i| self.law(&K::CONTACTS[i])).collect();
         let b = (0..rows.len()).map(before).collect();
         let contacts = Contacts::new(laws, Matrix::from_fn(rows.len(), entry), b);
         let solution = contacts.solve()?;
@@ -94,6 +96,10 @@ impl<K: ContactSystem> Struck<'_, K> {
         rows.iter().zip(&solution.forces).for_each(|(&row, impulse)| impulses[row] = *impulse);
         let residuals = self.contacts.iter().copied().zip(solution.residuals).collect();
         Ok(Blow { impulses, residuals })
+    }
+
+    pub(crate) fn law(&self, contact: &Contact) -> Law<K::Scalar> {
+        Law::new(contact, Bounds::of(contact, self.friction), None).among(contact, self.contacts)
     }
 }
 

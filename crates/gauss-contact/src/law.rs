@@ -11,32 +11,47 @@ use crate::friction::Bounds;
 pub(crate) struct Law<T = f64> {
     /// Of a gap; else of dry friction.
     pub(crate) has_normal: bool,
-    /// 0 without friction, else 1 or 2.
+    /// The law, among those of the same problem, whose normal force bounds friction: of rolling resistance.
+    pub(crate) on: Option<usize>,
+    /// Rows of friction: 0 without, else 1 to 3.
     pub(crate) tangents: usize,
     /// μ, or f.
     pub(crate) friction: T,
     /// ŝ on the circle where it slides already.
-    pub(crate) slip: Option<[T; 2]>,
+    pub(crate) slip: Option<[T; 3]>,
     /// By which forces and slips are scaled to a circle.
     pub(crate) bounds: Bounds<T>,
 }
 
 impl<T: Real> Law<T> {
     /// `slip`: the direction in which it slides already.
-    pub(crate) fn new(contact: &Contact, bounds: Bounds<T>, slip: Option<[T; 2]>) -> Self {
+    pub(crate) fn new(contact: &Contact, bounds: Bounds<T>, slip: Option<[T; 3]>) -> Self {
         Self {
             has_normal: contact.has_gap(),
-            tangents: contact.tangents,
+            on: None,
+            tangents: contact.friction_rows().len(),
             friction: bounds.largest,
             slip: slip.map(|along| bounds.on_circle(along)),
             bounds,
         }
     }
 
+    /// Of the friction of a contact alone, with bounds that are known.
+    pub(crate) fn dry(contact: &Contact, bounds: Bounds<T>) -> Self {
+        Self { has_normal: false, ..Self::new(contact, bounds, None) }
+    }
+
+    /// As a part of a problem of these contacts, in their order.
+    pub(crate) fn among(self, contact: &Contact, contacts: &[usize]) -> Self {
+        let place = |on: usize| contacts.iter().position(|&i| i == on);
+        Self { on: contact.rolls_on().and_then(place), ..self }
+    }
+
     /// The values.
     pub(crate) fn values(&self) -> Law {
         Law {
             has_normal: self.has_normal,
+            on: self.on,
             tangents: self.tangents,
             friction: value(self.friction),
             slip: self.slip.map(|slip| slip.map(value)),
@@ -45,13 +60,18 @@ impl<T: Real> Law<T> {
     }
 
     /// The direction of slip where it slides already.
-    pub(crate) fn along(&self) -> Option<[T; 2]> {
+    pub(crate) fn along(&self) -> Option<[T; 3]> {
         self.slip.map(|direction| self.bounds.slip_of(direction))
     }
 
     pub(crate) fn rows(&self) -> usize {
         usize::from(self.has_normal) + self.tangents
     }
+}
+
+/// The contact that has the gap: of rolling resistance another one.
+pub(crate) fn carrier(contacts: &[Contact], i: usize) -> usize {
+    contacts[i].rolls_on().unwrap_or(i)
 }
 
 /// By what forces of the rows of a contact are those of the circle, and slips in reverse.

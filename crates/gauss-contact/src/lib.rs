@@ -23,9 +23,9 @@
 //! are followed as far as the bounces are; what rests moves with its closed gap, so that a start on a closed gap is
 //! differentiated along it. What has none ends with [`ContactErrorKind::Grazes`] or [`ContactErrorKind::Together`].
 //!
-//! Friction is Coulomb's, a circle or an ellipse, and dry friction of a given bound; with two tangents and a friction
-//! so large that it can reverse the effect of a normal force, uniqueness is not checked for contacts that begin to
-//! slide.
+//! Friction is Coulomb's, a circle, an ellipse, or with drilling an ellipsoid; dry friction of a given bound; and
+//! resistance to rolling in proportion to a normal force. With several rows and a friction so large that it can reverse
+//! the effect of a normal force, uniqueness is not checked for contacts that begin to slide.
 
 #![no_std]
 #![forbid(unsafe_code)]
@@ -35,9 +35,11 @@
 extern crate alloc;
 
 mod balance;
+mod ball;
 mod decide;
 mod dense;
 mod error;
+mod frame;
 mod friction;
 mod history;
 mod impact;
@@ -45,6 +47,7 @@ mod law;
 mod mode;
 mod poisson;
 mod problem;
+mod residual;
 mod run;
 mod solver;
 mod start;
@@ -57,8 +60,8 @@ pub use error::{ContactError, ContactErrorKind};
 pub use history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
 pub use impact::Impact;
 pub use mode::{InMode, Mode};
+pub use residual::Residual;
 pub use run::ContactRun;
-pub use solver::Residual;
 pub use steps::{ContactStepper, ContactSteps, StepReport, StepSample, StepScheme};
 pub use trajectory::{ContactForce, ContactTrajectory, Segment};
 

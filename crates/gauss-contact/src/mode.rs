@@ -18,9 +18,10 @@ use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::{Real, largest_derivative};
 use gauss_runtime::system::{GaussSystem, Smoothness};
 
-use crate::dense::{Decomposition, Matrix, epsilon, norm, sum, value};
+use crate::dense::{Decomposition, Matrix, dot, epsilon, norm, size, sum, value};
 use crate::friction::Bounds;
 use crate::impact::after;
+use crate::law::carrier;
 
 /// What a contact does during a part of a run. Dry friction sticks or slides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,9 +32,9 @@ pub enum Mode<T = f64> {
     Closed,
     /// The gap is closed, if there is one, and the slip is zero.
     Sticks,
-    /// The gap is closed, if there is one, and the slip has this direction along the tangents; of two tangents, at the
-    /// start.
-    Slides([T; 2]),
+    /// The gap is closed, if there is one, and the slip has this direction along the tangents and, with friction of
+    /// drilling, the spin after them; of more than one row, at the start.
+    Slides([T; 3]),
 }
 
 impl<T> Mode<T> {
@@ -99,19 +100,25 @@ impl<K: ContactSystem> Loads<K> {
 
     /// The force that friction of a contact may not exceed, over the friction that it has.
     pub(crate) fn reserve(&self, contact: &Contact, bounds: Bounds<K::Scalar>) -> K::Scalar {
-        let pressed = if contact.has_gap() { self.forces[contact.normal] } else { K::Scalar::one() };
-        bounds.largest * pressed - bounds.size(&self.forces[contact.tangent_rows()])
+        let pressed = presses::<K>(contact).map_or(K::Scalar::one(), |normal| self.forces[normal]);
+        bounds.largest * pressed - bounds.size(&self.forces[contact.friction_rows()])
     }
 }
 
-/// The rows of tangents.
+/// The rows of friction.
 pub(crate) fn tangents(contact: &Contact) -> core::ops::Range<usize> {
-    contact.tangent_rows()
+    contact.friction_rows()
 }
 
-/// The slip of a contact.
-pub(crate) fn slip<T: Real, V: VectorSpace<T>>(contact: &Contact, rates: &V) -> [T; 2] {
-    let mut slip = [T::zero(); 2];
+/// The row of the normal force that bounds friction; none of dry friction.
+pub(crate) fn presses<K: ContactSystem>(contact: &Contact) -> Option<usize> {
+    let carrier = contact.rolls_on().map_or(contact, |on| &K::CONTACTS[on]);
+    carrier.has_gap().then_some(carrier.normal)
+}
+
+/// The slip of a contact, with its spin.
+pub(crate) fn slip<T: Real, V: VectorSpace<T>>(contact: &Contact, rates: &V) -> [T; 3] {
+    let mut slip = [T::zero(); 3];
     tangents(contact).zip(&mut slip).for_each(|(row, s)| *s = rates.component(row));
     slip
 }
@@ -121,24 +128,24 @@ pub(crate) fn terms<T: Real, V: VectorSpace<T>>(column: &V, z: &V) -> f64 {
     (0..V::DIM).map(|j| value(column.component(j) * z.component(j)).abs()).sum()
 }
 
-/// Where the slip of a contact with two tangents leads, as a smooth function beyond the line through zero that is
-/// perpendicular to `reference`: mirrored there, so that a motion that stops passes on straight. What is across the
-/// reference by rounding alone has no direction, however small the slip is. Slips of about `rest` keep to the
-/// reference: they turn at a rate of friction over slip, without bound where the slip begins.
-fn direction<T: Real>(reference: [T; 2], [x, y]: [T; 2], rounding: f64, rest: f64) -> [T; 2] {
-    let along = x * reference[0] + y * reference[1];
-    let across = y * reference[0] - x * reference[1];
-    let straight = value(across).abs() <= rounding;
+/// Where the slip of a contact with several rows of friction leads, as a smooth function beyond the line or plane
+/// through zero that is perpendicular to `reference`: mirrored there, so that a motion that stops passes on straight.
+/// What is across the reference by rounding alone has no direction, however small the slip is. Slips of about `rest`
+/// keep to the reference: they turn at a rate of friction over slip, without bound where the slip begins.
+fn direction<T: Real>(reference: [T; 3], slip: [T; 3], rounding: f64, rest: f64) -> [T; 3] {
+    let along = dot(&slip, &reference);
+    let across = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| slip[j] * reference[i] - slip[i] * reference[j]);
+    let straight = size(&across) <= rounding;
     if straight && (!T::DERIVATIVES || value(along).abs() <= rounding) {
         return reference;
     }
     let back = (T::from_f64(-2.0) * along).max(T::zero()) + T::from_f64(rest);
-    let slip = [back.fma(reference[0], x), back.fma(reference[1], y)];
-    let size = norm(&slip);
-    let turned = slip.map(|s| s / size);
+    let slip: [T; 3] = core::array::from_fn(|k| back.fma(reference[k], slip[k]));
+    let length = norm(&slip);
+    let turned = slip.map(|s| s / length);
     // Derivatives are those of the slip.
     let kept = |k: usize| turned[k] + T::from_f64(value(reference[k]) - value(turned[k]));
-    if straight { [kept(0), kept(1)] } else { turned }
+    if straight { core::array::from_fn(kept) } else { turned }
 }
 
 /// What is left of the derivative of a closed gap is rounding up to this part of those of the configuration.
@@ -208,14 +215,17 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
 
     fn closed(&self) -> impl Iterator<Item = (usize, &'static Contact, Mode<K::Scalar>)> {
         let each = K::CONTACTS.iter().zip(self.modes.iter()).enumerate();
-        each.filter(|(_, (_, mode))| mode.is_closed()).map(|(i, (contact, mode))| (i, contact, *mode))
+        // Where a contact is open, nothing resists rolling on it.
+        let closed = |i: usize| self.modes.get(carrier(K::CONTACTS, i)).is_some_and(Mode::is_closed);
+        let closed = each.filter(move |(i, (_, mode))| mode.is_closed() && closed(*i));
+        closed.map(|(i, (contact, mode))| (i, contact, *mode))
     }
 
     /// The rows of constraints: normals of closed contacts, tangents of those that stick where `velocities`.
     fn rows(&self, velocities: bool) -> Vec<usize> {
         let of = |(_, contact, mode): (usize, &Contact, Mode<K::Scalar>)| {
             let all = contact.rows();
-            if velocities && matches!(mode, Mode::Sticks) { all } else { all.start..contact.tangent_rows().start }
+            if velocities && matches!(mode, Mode::Sticks) { all } else { all.start..contact.friction_rows().start }
         };
         self.closed().flat_map(of).collect()
     }
@@ -224,10 +234,10 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
     pub(crate) fn direction(
         &self,
         contact: &Contact,
-        reference: [K::Scalar; 2],
+        reference: [K::Scalar; 3],
         (t, q, z): (K::Scalar, &K::Configuration, &K::Speeds),
-    ) -> [K::Scalar; 2] {
-        if contact.tangents < 2 {
+    ) -> [K::Scalar; 3] {
+        if contact.friction_rows().len() < 2 {
             return reference;
         }
         let jacobian = self.kernel.contact_jacobian(t, q);
@@ -257,6 +267,11 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
             if contact.has_gap() {
                 rows.push(contact.normal);
                 with.push(core::iter::once((contact.normal, one)).chain(against).collect());
+            } else if let Some(normal) = presses::<K>(contact) {
+                let pressing = rows.iter().zip(&mut with).find(|(row, _)| **row == normal);
+                if let Some((_, with)) = pressing {
+                    with.extend(against);
+                }
             } else {
                 against.into_iter().for_each(|(row, force)| forces[row] = force);
             }

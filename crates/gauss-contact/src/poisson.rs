@@ -4,14 +4,15 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use gauss_runtime::configuration::VectorSpace;
-use gauss_runtime::contact::{Contact, ContactSystem};
+use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::real::Real;
 
 use crate::dense::{Matrix, epsilon, value};
 use crate::friction::Bounds;
 use crate::impact::{Blow, Struck, rows};
-use crate::law::Law;
-use crate::solver::{Contacts, Failure, Residual};
+use crate::law::{Law, carrier};
+use crate::residual::Residual;
+use crate::solver::{Contacts, Failure};
 
 /// The impulses of restitution on the rows that were struck, and the rates after it.
 struct Restitution<T> {
@@ -38,7 +39,7 @@ impl<K: ContactSystem> Struck<'_, K> {
         for _ in 0..2 * first.len() + 2 {
             let found = self.restitution(&first, &matrix, (&compression.rates, &least), &more)?;
             let mut changed = false;
-            for n in 0..first.len() {
+            for n in (0..first.len()).filter(|&n| K::CONTACTS[self.contacts[n]].has_gap()) {
                 let normal = first[n];
                 let terms = matrix.row(normal).iter().zip(&found.impulses).map(|(d, x)| value(*d * *x).abs());
                 let size = terms.fold(value(compression.rates[normal]).abs(), |sum, x| sum + x);
@@ -67,10 +68,6 @@ impl<K: ContactSystem> Struck<'_, K> {
         Err(Failure::NotFound(worst))
     }
 
-    fn law(&self, contact: &Contact) -> Law<K::Scalar> {
-        Law::new(contact, Bounds::of(contact, self.friction), None)
-    }
-
     /// Restitution where the contacts that pass on `more` keep their gaps, and the others have the `least` impulses,
     /// which bound their friction.
     fn restitution(
@@ -85,17 +82,21 @@ impl<K: ContactSystem> Struck<'_, K> {
         for (n, &i) in self.contacts.iter().enumerate() {
             let contact = &K::CONTACTS[i];
             let all = first[n]..first[n] + contact.rows().len();
-            if more[n] {
+            // The contact with the normal impulse.
+            let carries = self.contacts.iter().position(|&c| c == carrier(K::CONTACTS, i)).unwrap_or(n);
+            if more[carries] {
                 rows.extend(all);
-                laws.push(self.law(contact));
+                let on = owners.iter().position(|owner| *owner == carries);
+                laws.push(Law { on, ..self.law(contact) });
                 owners.push(n);
             } else {
-                impulses[first[n]] = least[n];
-                if contact.tangents > 0 && value(least[n]) > 0.0 {
-                    rows.extend(all.start + 1..all.end);
-                    let dry = Contact::dry_friction(contact.name, 0, contact.tangents);
+                if contact.has_gap() {
+                    impulses[first[n]] = least[n];
+                }
+                if !contact.friction_rows().is_empty() && value(least[carries]) > 0.0 {
+                    rows.extend(all.end - contact.friction_rows().len()..all.end);
                     let bounds = Bounds::of(contact, self.friction);
-                    laws.push(Law::new(&dry, Bounds { largest: bounds.largest * least[n], ..bounds }, None));
+                    laws.push(Law::dry(contact, Bounds { largest: bounds.largest * least[carries], ..bounds }));
                     owners.push(n);
                 }
             }

@@ -63,8 +63,9 @@ impl<'k, K: ContactSystem, C, I> ContactRun<'k, K, C, I> {
         ContactRun { kernel, control, input, law, jams, tolerance, limit }
     }
 
-    /// The speeds that count as rest where bounces pile up and where a slip along two tangents ends: `absolute`, plus
-    /// `relative` times the largest speed at an event so far. Each such place adds an error of that size.
+    /// The speeds that count as rest where bounces pile up and where a slip of several rows of friction ends:
+    /// `absolute`, plus `relative` times the largest speed at an event so far. Each such place adds an error of that
+    /// size.
     pub fn tolerance(mut self, relative: f64, absolute: f64) -> Self {
         self.tolerance = Tolerance { relative, absolute };
         self
@@ -278,7 +279,7 @@ where
                 Mode::Open if value(gaps.component(i)) < -(bound + late) => {
                     return stop(ContactErrorKind::Penetration { gap: value(gaps.component(i)) });
                 }
-                Mode::Slides(reference) if contact.tangents == 1 => {
+                Mode::Slides(reference) if tangents(contact).len() == 1 => {
                     let along = value(slip(contact, &rates)[0] * reference[0]);
                     if along < -self.scales.rest().max(bound) {
                         return stop(ContactErrorKind::Chatter { changes: 1 });
@@ -305,10 +306,11 @@ where
         let loads = (!problem.system.is_open()).then(|| problem.loads(from.t, &from.q, &from.z));
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             // Forces that are no more than rounding start above zero by as much.
-            let least = loads.as_ref().map_or(0.0, |loads| loads.rounding(contact));
+            let least = loads.as_ref().map_or(0.0, |loads| loads.rounding(contact).max(f64::MIN_POSITIVE));
             let above = move |value: f64| if value > least { 0.0 } else { least - value };
             let from_zero = |bound: f64| move |value: f64| if value.abs() <= bound { -value } else { 0.0 };
             match from.modes[i] {
+                Mode::Open if !contact.has_gap() => {}
                 Mode::Open if value(sizes.rates.component(contact.normal)) > sizes.of_rate[contact.normal] => {
                     watch(Watched::Gap(i), &from_zero(sizes.of_gap[i]));
                 }
@@ -330,7 +332,7 @@ where
                     }
                     let rounding = tangents(contact).map(|row| sizes.of_rate[row]).fold(0.0, f64::max);
                     watch(Watched::Slip(i), &from_zero(rounding));
-                    if contact.tangents == 2 {
+                    if tangents(contact).len() > 1 {
                         watch(Watched::Speed(i, self.scales.rest()), &|_| 0.0);
                     }
                     if contact.has_gap() {

@@ -7,8 +7,10 @@
 //! - `|λ_T| ≤ μ λ_N`, and where `u_T ≠ 0`: `λ_T = −μ λ_N u_T/|u_T|` (Coulomb).
 //!
 //! Of a contact that slides already, the direction ŝ of its friction is known: `λ_T = −μ λ_N ŝ`, whatever u_T is.
-//! Dry friction has no normal, and its bound f in the place of μ λ_N: forces that make `½ λᵀDλ + bᵀλ` least, as Gauss'
-//! principle asks, which is the same as `C + Σ f |u_T|`. Friction of two axes is scaled to a circle (`Bounds`).
+//! Friction has up to three rows: two tangents and a spin. Rolling resistance has no normal of its own: its bound is
+//! a multiple of the normal force of another contact. Dry friction has none at all, and its bound f in the place of
+//! μ λ_N: forces that make `½ λᵀDλ + bᵀλ` least, as Gauss'
+//! principle asks, which is the same as `C + Σ f |u_T|`. Friction of several axes is scaled to a circle (`Bounds`).
 //!
 //! Projected Gauss–Seidel sweeps find which contacts leave, stick and slide; then the equations of these states are
 //! solved to rounding, and the laws are checked. States that violate them are corrected by the same rule until they do
@@ -20,8 +22,11 @@ use alloc::vec::Vec;
 
 use gauss_runtime::real::Real;
 
+use crate::ball::least_in_ball;
 use crate::dense::{Decomposition, Matrix, norm, size, sum, value};
+use crate::frame::Frame;
 use crate::law::{Law, scales};
+use crate::residual::Residual;
 
 /// What a contact does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,43 +36,7 @@ pub(crate) enum State<T = f64> {
     Closed,
     Sticks,
     /// Begins to slide in this direction.
-    Slides([T; 2]),
-}
-
-/// How far a contact is from its laws, in units of u: a velocity after an impact, else an acceleration.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct Residual {
-    /// `min(u_N, D_NN λ_N)`, without its sign: 0 where the gap does not close and nothing pulls.
-    pub signorini: f64,
-    /// By how much friction is larger than μ λ_N, times D_TT.
-    pub coulomb: f64,
-    /// How far friction is from the force within μ λ_N that opposes slip most, times D_TT.
-    pub dissipation: f64,
-    /// What rounding makes of these.
-    pub rounding: f64,
-}
-
-impl Residual {
-    /// The larger of each.
-    pub(crate) fn worse(self, other: Self) -> Self {
-        Self {
-            signorini: self.signorini.max(other.signorini),
-            coulomb: self.coulomb.max(other.coulomb),
-            dissipation: self.dissipation.max(other.dissipation),
-            rounding: self.rounding.max(other.rounding),
-        }
-    }
-
-    pub(crate) fn worst(&self) -> f64 {
-        [self.signorini, self.coulomb, self.dissipation]
-            .into_iter()
-            .fold(0.0, |worst, r| if r <= worst { worst } else { r })
-    }
-
-    fn holds(&self) -> bool {
-        self.worst() <= self.rounding
-    }
+    Slides([T; 3]),
 }
 
 #[derive(Debug)]
@@ -139,6 +108,16 @@ impl<T: Real> Contacts<T> {
         self.laws[i].has_normal.then(|| self.first[i])
     }
 
+    /// The row of the normal force that bounds friction; none of dry friction.
+    fn presses(&self, i: usize) -> Option<usize> {
+        self.normal(self.laws[i].on.unwrap_or(i))
+    }
+
+    /// Contacts whose friction the normal force of this one bounds, but for its own.
+    fn pressed_by(&self, i: usize) -> impl Iterator<Item = usize> {
+        (0..self.laws.len()).filter(move |&j| self.laws[j].on == Some(i))
+    }
+
     /// What is known in values.
     fn values(&self) -> Contacts {
         let laws = self.laws.iter().map(Law::values).collect();
@@ -194,29 +173,33 @@ impl<T: Real> Contacts<T> {
         self.matrix.row(row).iter().zip(forces).fold(self.b[row], |sum, (d, force)| d.fma(*force, sum))
     }
 
-    /// Given states with their forces. Directions of two tangents are those of the slip.
+    /// Given states with their forces. Directions of two rows or three are those of the slip.
     fn settled(&self, mut states: Vec<State<T>>) -> (Vec<State<T>>, Vec<T>) {
+        // The contacts whose directions turn, with the numbers of the planes in which they do.
         let free = |(i, state): (usize, &State<T>)| {
-            (matches!(state, State::Slides(_)) && self.laws[i].tangents == 2).then_some(i)
+            let planes = if matches!(state, State::Slides(_)) { self.laws[i].tangents.saturating_sub(1) } else { 0 };
+            (0..planes).map(move |plane| (i, plane))
         };
-        let turning: Vec<usize> = states.iter().enumerate().filter_map(free).collect();
+        let turning: Vec<(usize, usize)> = states.iter().enumerate().flat_map(free).collect();
         let mut forces = self.forces_in(&states);
         // Of derivatives each leaves 10⁻⁷.
         let turns = if T::DERIVATIVES { 3 } else { 0 };
         for n in 0..if turning.is_empty() { 0 } else { 60 } {
-            let miss = self.misses(&turning, &states, &forces);
+            let direction = |state: &State<T>| if let State::Slides(along) = state { *along } else { [T::zero(); 3] };
+            let frames: Vec<Frame<T>> = states.iter().map(|state| Frame::of(direction(state))).collect();
+            let miss = self.misses(&turning, &frames, &forces);
             let before = size(&miss);
             // Differences of 10⁻⁷ rad: Newton's method in seven digits a step.
             let turned = |k: usize, by: T| {
-                let mut states = states.clone();
-                turn(&mut states[turning[k]], by);
-                states
+                let mut frames = frames.clone();
+                frames[turning[k].0].turn(turning[k].1, by);
+                frames
             };
             let short = T::from_f64(1e-7);
             let differences: Vec<Vec<T>> = (0..turning.len())
                 .map(|k| {
-                    let states = turned(k, short);
-                    let near = self.misses(&turning, &states, &self.forces_in(&states));
+                    let frames = turned(k, short);
+                    let near = self.misses(&turning, &frames, &self.forces_in(&along(&states, &frames)));
                     near.iter().zip(&miss).map(|(near, miss)| (*near - *miss) / short).collect()
                 })
                 .collect();
@@ -224,26 +207,24 @@ impl<T: Real> Contacts<T> {
             let by = Decomposition::new(&jacobian, |i| jacobian.at(i, i).abs()).solve(&miss);
             let longest = by.iter().fold(0.0_f64, |longest, by| longest.max(value(*by).abs()));
             let part = if longest > 0.5 { 0.5 / longest } else { 1.0 };
-            let mut next = states.clone();
-            turning.iter().zip(&by).for_each(|(&i, by)| turn(&mut next[i], T::from_f64(-part) * *by));
-            let found = self.forces_in(&next);
+            let mut next = frames.clone();
+            turning.iter().zip(&by).for_each(|(&(i, plane), by)| next[i].turn(plane, T::from_f64(-part) * *by));
+            let turned = along(&states, &next);
+            let found = self.forces_in(&turned);
             let ended = part == 1.0 && longest < 1e-5 && size(&self.misses(&turning, &next, &found)) >= before;
             if ended && n >= turns {
                 break;
             }
-            (states, forces) = (next, found);
+            (states, forces) = (turned, found);
         }
         (states, forces)
     }
 
-    /// The sines of the angles from the directions of contacts to their slip, times its size.
-    fn misses(&self, turning: &[usize], states: &[State<T>], forces: &[T]) -> Vec<T> {
-        let miss = |&i: &usize| match states[i] {
-            State::Slides([x, y]) => {
-                let tangents = self.tangents(i);
-                y * self.rate(tangents.start, forces) - x * self.rate(tangents.start + 1, forces)
-            }
-            _ => T::zero(),
+    /// The sines of the angles from the directions of contacts to their slip in the planes of turns, times its size.
+    fn misses(&self, turning: &[(usize, usize)], frames: &[Frame<T>], forces: &[T]) -> Vec<T> {
+        let miss = |&(i, plane): &(usize, usize)| {
+            let each = self.tangents(i).zip(frames[i].across[plane]);
+            -sum(each.map(|(row, across)| across * self.rate(row, forces)))
         };
         turning.iter().map(miss).collect()
     }
@@ -269,7 +250,15 @@ impl<T: Real> Contacts<T> {
                     rows.push(normal);
                     with.push(core::iter::once((normal, T::one())).chain(along).collect());
                 }
-                None => along.for_each(|(row, force)| forces[row] = force),
+                None => match self.presses(i) {
+                    // Where that contact leaves there is no unknown, and no friction.
+                    Some(normal) => {
+                        if let Some(pressing) = rows.iter().position(|row| *row == normal) {
+                            with[pressing].extend(along);
+                        }
+                    }
+                    None => along.for_each(|(row, force)| forces[row] = force),
+                },
             }
             if matches!(state, State::Sticks) {
                 self.tangents(i).for_each(|row| {
@@ -295,7 +284,7 @@ impl<T: Real> Contacts<T> {
 impl Contacts {
     /// The largest friction of a contact under forces.
     fn largest(&self, i: usize, forces: &[f64]) -> f64 {
-        self.laws[i].friction * self.normal(i).map_or(1.0, |normal| Real::max(forces[normal], 0.0))
+        self.laws[i].friction * self.presses(i).map_or(1.0, |normal| Real::max(forces[normal], 0.0))
     }
 
     /// `|D_TT|` of a contact, the largest of its tangents.
@@ -316,8 +305,11 @@ impl Contacts {
             }
         }
         let mut best = Residual { signorini: f64::INFINITY, ..Residual::default() };
-        for round in 0..ROUNDS {
-            (0..8 << round).for_each(|_| self.sweep(&mut forces));
+        let rows = self.laws.iter().map(|law| law.tangents).max().unwrap_or(0);
+        // Spins and tangents are in units of their own: one step for all rows would be small for some.
+        let steps = (0..ROUNDS).map(|round| (round, rows > 2)).chain((0..ROUNDS).map(|round| (round, true)));
+        for (round, exactly) in steps.take(if rows == 2 { 2 } else { 1 } * ROUNDS as usize) {
+            (0..8 << round).for_each(|_| self.sweep(&mut forces, exactly));
             let mut states = self.states(&forces, &self.rates(&forces));
             for _ in 0..20 {
                 let found = self.in_states(states.clone());
@@ -349,10 +341,21 @@ impl Contacts {
         for (i, state) in states.iter_mut().enumerate() {
             let free = self.laws[i].tangents > 0 && self.laws[i].slip.is_none();
             match state {
+                State::Leaves if self.laws[i].on.is_some() => {}
                 State::Leaves if still(self.first[i]) && !free => *state = State::Closed,
                 State::Leaves if still(self.first[i]) && self.tangents(i).all(still) => *state = State::Sticks,
                 State::Slides(_) if self.tangents(i).all(still) => *state = State::Sticks,
                 _ => {}
+            }
+        }
+        // What rolls on one that carries now.
+        for (i, law) in self.laws.iter().enumerate() {
+            let carried = law.on.is_some_and(|on| states[on] != State::Leaves);
+            match law.slip {
+                _ if !carried || states[i] != State::Leaves => {}
+                Some(_) => states[i] = State::Closed,
+                None if self.tangents(i).all(still) => states[i] = State::Sticks,
+                None => {}
             }
         }
         if states == found.states {
@@ -362,7 +365,8 @@ impl Contacts {
         let carries = |i: usize| {
             let normal = self.first[i];
             let pressed = self.matrix.at(normal, normal) * shared.forces[normal];
-            found.states[i] != State::Leaves
+            self.laws[i].on.is_some()
+                || found.states[i] != State::Leaves
                 || pressed > self.rounding(normal, &shared.forces)
                 || shared.states[i] == State::Leaves
         };
@@ -374,15 +378,19 @@ impl Contacts {
     /// a known direction `p = D_NN − μ D_NT ŝ > 0` (P. Painlevé 1895).
     fn is_regular(&self, i: usize) -> bool {
         let Some(normal) = self.normal(i) else { return true };
-        let Law { friction, slip, .. } = self.laws[i];
-        let coupling: Vec<f64> = self.tangents(i).map(|row| self.matrix.at(normal, row)).collect();
-        let against = match slip {
-            Some(slip) => coupling.iter().zip(slip).map(|(d, s)| d * s).sum(),
-            None => norm(&coupling),
-        };
         let diagonal = self.matrix.at(normal, normal);
-        let terms = diagonal + friction * norm(&coupling);
-        diagonal - friction * against > ROUNDINGS * f64::EPSILON * terms || terms == 0.0
+        let (mut left, mut terms) = (diagonal, diagonal);
+        for j in core::iter::once(i).chain(self.pressed_by(i)) {
+            let Law { friction, slip, .. } = self.laws[j];
+            let coupling: Vec<f64> = self.tangents(j).map(|row| self.matrix.at(normal, row)).collect();
+            let against = match slip {
+                Some(slip) => coupling.iter().zip(slip).map(|(d, s)| d * s).sum(),
+                None => norm(&coupling),
+            };
+            left -= friction * against;
+            terms += friction * norm(&coupling);
+        }
+        left > ROUNDINGS * f64::EPSILON * terms || terms == 0.0
     }
 
     /// Where solutions need not be unique: the only one, if it is.
@@ -417,7 +425,7 @@ impl Contacts {
             }
             let mut states = match (law.slip, law.tangents) {
                 (Some(_), _) | (None, 0) => vec![State::Closed],
-                (None, 1) => vec![State::Sticks, State::Slides([1.0, 0.0]), State::Slides([-1.0, 0.0])],
+                (None, 1) => vec![State::Sticks, State::Slides([1.0, 0.0, 0.0]), State::Slides([-1.0, 0.0, 0.0])],
                 _ => return None,
             };
             if law.has_normal {
@@ -445,8 +453,9 @@ impl Contacts {
         solutions.filter(|found| found.residuals.iter().all(Residual::holds)).collect()
     }
 
-    /// One sweep over the contacts: each force is brought to its cone as if the others stayed.
-    fn sweep(&self, forces: &mut [f64]) {
+    /// One sweep over the contacts: each force is brought to its cone as if the others stayed; friction by a step that
+    /// is short enough for all of its rows, or exactly.
+    fn sweep(&self, forces: &mut [f64], exactly: bool) {
         for i in 0..self.laws.len() {
             let Law { friction, slip, .. } = self.laws[i];
             if let Some(normal) = self.normal(i) {
@@ -469,7 +478,10 @@ impl Contacts {
                 continue;
             }
             let scale = self.matrix_norm(i);
-            if scale > 0.0 {
+            if exactly && self.laws[i].tangents > 1 {
+                let friction = self.friction(i, forces, largest);
+                self.tangents(i).zip(friction).for_each(|(row, force)| forces[row] = force);
+            } else if scale > 0.0 {
                 let rates: Vec<f64> = self.tangents(i).map(|row| self.rate(row, forces)).collect();
                 let wanted: Vec<f64> =
                     self.tangents(i).zip(&rates).map(|(row, rate)| forces[row] - rate / scale).collect();
@@ -478,6 +490,17 @@ impl Contacts {
                 self.tangents(i).zip(&wanted).for_each(|(row, force)| forces[row] = part * force);
             }
         }
+    }
+
+    /// The friction of a contact that would be right if other forces stayed.
+    fn friction(&self, i: usize, forces: &[f64], largest: f64) -> Vec<f64> {
+        let rows = self.tangents(i);
+        let block = Matrix::from_fn(rows.len(), |a, b| self.matrix.at(rows.start + a, rows.start + b));
+        let others = |row: usize| {
+            rows.clone().fold(self.rate(row, forces), |rate, j| self.matrix.at(row, j).fma(-forces[j], rate))
+        };
+        let rates: Vec<f64> = rows.clone().map(others).collect();
+        least_in_ball(&block, &rates, largest)
     }
 
     /// A bound of the tangential block of a contact.
@@ -489,7 +512,7 @@ impl Contacts {
     fn states(&self, forces: &[f64], rates: &[f64]) -> Vec<State> {
         let state = |i: usize| {
             let law = self.laws[i];
-            let (diagonal, pressed) = self.normal(i).map_or((1.0, 1.0), |normal| {
+            let (diagonal, pressed) = self.presses(i).map_or((1.0, 1.0), |normal| {
                 let diagonal = self.matrix.at(normal, normal);
                 (diagonal, diagonal * forces[normal] - rates[normal])
             });
@@ -505,7 +528,7 @@ impl Contacts {
             if size * diagonal <= law.friction * pressed * scale || size == 0.0 {
                 return State::Sticks;
             }
-            State::Slides([-wanted[0] / size, wanted.get(1).map_or(0.0, |w| -w / size)])
+            State::Slides(core::array::from_fn(|k| wanted.get(k).map_or(0.0, |w| -w / size)))
         };
         (0..self.laws.len()).map(state).collect()
     }
@@ -514,7 +537,8 @@ impl Contacts {
     fn in_states(&self, states: Vec<State>) -> Solution {
         let (states, forces) = self.settled(states);
         let rates = self.rates(&forces);
-        let residuals = (0..self.laws.len()).map(|i| self.residual(i, &forces, &rates)).collect();
+        let shared = self.shared_rounding(&forces);
+        let residuals = (0..self.laws.len()).map(|i| self.residual(i, &forces, &rates, shared)).collect();
         Solution { forces, rates, states, residuals }
     }
 
@@ -524,13 +548,25 @@ impl Contacts {
         ROUNDINGS * (1 + self.b.len()) as f64 * f64::EPSILON * terms.fold(self.b[row].abs(), |sum, term| sum + term)
     }
 
-    fn residual(&self, i: usize, forces: &[f64], rates: &[f64]) -> Residual {
+    /// The rounding of the worst row, over `√D_ii`: in the norm of energy the motion is known no better than that, and
+    /// the rate of a row is its product with a row of length `√D_ii`.
+    fn shared_rounding(&self, forces: &[f64]) -> f64 {
+        let over = |row: usize| (self.length(row) > 0.0).then(|| self.rounding(row, forces) / self.length(row));
+        (0..self.b.len()).filter_map(over).fold(0.0, f64::max)
+    }
+
+    fn length(&self, row: usize) -> f64 {
+        Real::sqrt(self.matrix.at(row, row))
+    }
+
+    fn residual(&self, i: usize, forces: &[f64], rates: &[f64], shared: f64) -> Residual {
         let law = self.laws[i];
         let signorini = self
             .normal(i)
             .map_or(0.0, |normal| Real::min(rates[normal], self.matrix.at(normal, normal) * forces[normal]).abs());
         let rows = self.first[i]..self.tangents(i).end;
-        let rounding = rows.fold(0.0_f64, |most, row| most.max(self.rounding(row, forces)));
+        let of_row = |row: usize| self.rounding(row, forces).max(shared * self.length(row));
+        let rounding = rows.map(of_row).fold(0.0, f64::max);
         let scale = self.tangent_scale(i);
         let friction: Vec<f64> = self.tangents(i).map(|row| scale * forces[row]).collect();
         let largest = scale * self.largest(i, forces);
@@ -549,12 +585,13 @@ impl Contacts {
     }
 }
 
-/// Turns the direction of a contact.
-fn turn<T: Real>(state: &mut State<T>, by: T) {
-    if let State::Slides([x, y]) = state {
-        let (sine, cosine) = by.sin_cos();
-        (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
-    }
+/// States with the directions of frames.
+fn along<T: Real>(states: &[State<T>], frames: &[Frame<T>]) -> Vec<State<T>> {
+    let of = |(state, frame): (&State<T>, &Frame<T>)| match state {
+        State::Slides(_) => State::Slides(frame.along),
+        state => *state,
+    };
+    states.iter().zip(frames).map(of).collect()
 }
 
 #[cfg(test)]
@@ -564,3 +601,7 @@ mod tests;
 #[cfg(test)]
 #[path = "enumeration_tests.rs"]
 mod enumeration_tests;
+
+#[cfg(test)]
+#[path = "convex_tests.rs"]
+mod convex_tests;

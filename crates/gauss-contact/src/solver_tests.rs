@@ -20,8 +20,8 @@ impl Numbers {
 }
 
 /// Of a contact with isotropic friction.
-fn law(tangents: usize, friction: f64, slip: Option<[f64; 2]>) -> Law {
-    Law::new(&Contact::new("", 0, tangents), Bounds { largest: friction, weights: [1.0; 2] }, slip)
+fn law(tangents: usize, friction: f64, slip: Option<[f64; 3]>) -> Law {
+    Law::new(&Contact::new("", 0, tangents), Bounds { largest: friction, weights: [1.0; 3] }, slip)
 }
 
 /// Rows of contacts in a space of some dimensions, and Delassus' matrix of them with unit masses.
@@ -124,8 +124,8 @@ fn one_contact_has_the_forces_of_its_closed_form() {
         (found.forces, found.states[0])
     };
     assert_eq!(solve([-4.0, 1.0], 0.5), (vec![2.0, -0.5], State::Sticks));
-    assert_eq!(solve([-4.0, 3.0], 0.5), (vec![2.0, -1.0], State::Slides([1.0, 0.0])));
-    assert_eq!(solve([-4.0, -3.0], 0.5), (vec![2.0, 1.0], State::Slides([-1.0, 0.0])));
+    assert_eq!(solve([-4.0, 3.0], 0.5), (vec![2.0, -1.0], State::Slides([1.0, 0.0, 0.0])));
+    assert_eq!(solve([-4.0, -3.0], 0.5), (vec![2.0, 1.0], State::Slides([-1.0, 0.0, 0.0])));
     assert_eq!(solve([4.0, 1.0], 0.5), (vec![0.0, 0.0], State::Leaves));
 }
 
@@ -134,16 +134,23 @@ fn painleves_states_are_told_apart() {
     // p = 1 − 2 · 0.8 < 0.
     let solve = |b: f64| {
         let matrix = Matrix::from_fn(2, |i, j| if i == j { 1.0 } else { 0.8 });
-        Contacts::new(vec![law(1, 2.0, Some([1.0, 0.0]))], matrix, vec![b, 0.0]).solve()
+        Contacts::new(vec![law(1, 2.0, Some([1.0, 0.0, 0.0]))], matrix, vec![b, 0.0]).solve()
     };
     assert!(matches!(solve(-1.0), Err(Failure::Inconsistent(0))));
     assert!(matches!(solve(1.0), Err(Failure::Indeterminate(0))));
     assert!(matches!(solve(f64::NAN), Err(Failure::NonFinite)));
 }
 
-/// Holds the laws of a contact or of dry friction with friction of two axes, as they are written; whether it slides.
+/// Holds the laws of a contact, of resistance to rolling on one, or of dry friction with friction of several axes, as
+/// they are written; whether it slides.
 #[track_caller]
-fn hold(contact: &Contact, bounds: Bounds, first: usize, (matrix, b): (&Matrix, &[f64]), forces: &[f64]) -> bool {
+fn hold(
+    contact: &Contact,
+    bounds: Bounds,
+    (first, on): (usize, usize),
+    (matrix, b): (&Matrix, &[f64]),
+    forces: &[f64],
+) -> bool {
     let tangents = first + usize::from(contact.has_gap())..first + contact.rows().len();
     let size = |row: usize| {
         let terms = matrix.row(row).iter().zip(forces).map(|(d, f)| (d * f).abs());
@@ -157,8 +164,10 @@ fn hold(contact: &Contact, bounds: Bounds, first: usize, (matrix, b): (&Matrix, 
         assert!(force >= -1e-11 * of_force && rate >= -1e-11 * size(first));
         assert!((force / of_force).min(rate / size(first)) <= 1e-11);
         largest *= force.max(0.0);
+    } else if contact.rolls_on().is_some() {
+        largest *= forces[on].max(0.0);
     }
-    // Σ (λ_k/κ_k)² ≤ bound², and where it slides λ is −bound (κ₁² s₁, κ₂² s₂)/|(κ₁ s₁, κ₂ s₂)|.
+    // Σ (λ_k/κ_k)² ≤ bound², and where it slides λ is −bound (κ₁² s₁, κ₂² s₂, …)/|(κ₁ s₁, κ₂ s₂, …)|.
     let weights = bounds.weights;
     let on: Vec<f64> = tangents.clone().zip(weights).map(|(row, w)| forces[row] / w).collect();
     let off: Vec<f64> = tangents.clone().zip(weights).map(|(row, w)| rate(row) * w).collect();
@@ -172,51 +181,104 @@ fn hold(contact: &Contact, bounds: Bounds, first: usize, (matrix, b): (&Matrix, 
     slides
 }
 
-/// Contacts and dry friction in one system, with friction of two axes.
+/// Some contacts with up to three rows of friction, some with resistance to rolling, and dry friction.
+fn several(numbers: &mut Numbers, count: usize) -> Vec<Contact> {
+    let mut contacts = Vec::new();
+    for _ in 0..count {
+        let tangents = 1 + usize::from(numbers.next() > 0.5);
+        if numbers.next() > 0.6 {
+            contacts.push(Contact::dry_friction("", 0, tangents));
+            continue;
+        }
+        let on = contacts.len();
+        let contact = Contact::new("", 0, tangents);
+        contacts.push(if numbers.next() > 0.5 { contact.with_drilling() } else { contact });
+        if numbers.next() > 0.5 {
+            contacts.push(Contact::rolling("", 0, 1 + usize::from(numbers.next() > 0.5), on));
+        }
+    }
+    contacts
+}
+
+/// Contacts, resistance to rolling and dry friction in one system, with friction of up to three axes.
 #[test]
-fn ellipses_and_bounds_hold_their_laws_together() {
+fn ellipsoids_and_bounds_hold_their_laws_together() {
     let mut numbers = Numbers(23);
-    let (mut sticks, mut slides) = (0, 0);
-    for n in 0..400 {
-        let count = 1 + n % 5;
-        let contacts: Vec<Contact> = (0..count)
-            .map(|_| {
-                let tangents = 1 + usize::from(numbers.next() > 0.5);
-                if numbers.next() > 0.5 {
-                    Contact::new("", 0, tangents)
-                } else {
-                    Contact::dry_friction("", 0, tangents)
-                }
-            })
-            .collect();
-        let rows: usize = contacts.iter().map(|contact| contact.rows().len()).sum();
-        let (matrix, b) = random(&mut numbers, 0, rows, rows + 1);
+    // Of each kind: dry friction, one or two rows, drilling, rolling.
+    let (mut sticks, mut slides) = ([0; 4], [0; 4]);
+    for n in 0..600 {
+        let contacts = several(&mut numbers, 1 + n % 4);
+        let first = |i: usize| contacts[..i].iter().map(|contact| contact.rows().len()).sum::<usize>();
+        let rows = first(contacts.len());
+        // In so many dimensions rows are near to normal to one another: much sticks, where slips are slow.
+        let (matrix, mut b) = random(&mut numbers, 0, rows, 6 * rows);
+        for i in (0..contacts.len()).filter(|i| (n + i) % 2 == 0) {
+            let slips = first(i) + usize::from(contacts[i].has_gap())..first(i + 1);
+            slips.for_each(|row| b[row] *= 0.01);
+        }
         // Units of forces are as the rows': bounds are some part of what would stop all of it.
         let scale = |row: usize| b[row].abs() / matrix.at(row, row);
-        let mut next = 0;
+        let among: Vec<usize> = (0..contacts.len()).collect();
         let mut laws = Vec::new();
-        for contact in &contacts {
-            let first = next;
-            next += contact.rows().len();
-            let tangents = first + usize::from(contact.has_gap())..next;
-            let mut bounds = tangents.map(|row| match contact.has_gap() {
-                true => 0.3 * numbers.next() * (matrix.at(first, first) / matrix.at(row, row)).sqrt(),
+        for (i, contact) in contacts.iter().enumerate() {
+            let normal = first(contact.rolls_on().unwrap_or(i));
+            let tangents = first(i) + usize::from(contact.has_gap())..first(i + 1);
+            let mut bounds = tangents.map(|row| match contact.has_gap() || contact.rolls_on().is_some() {
+                true => 0.6 * numbers.next() * (matrix.at(normal, normal) / matrix.at(row, row)).sqrt(),
                 false => 10.0_f64.powf(2.0 * numbers.signed()) * scale(row),
             });
-            let first = bounds.next().unwrap_or(0.0);
-            let second = bounds.next().unwrap_or(first);
-            let largest = first.max(second);
-            laws.push(Law::new(contact, Bounds { largest, weights: [first / largest, second / largest] }, None));
+            let one = bounds.next().unwrap_or(0.0);
+            let each = [one, bounds.next().unwrap_or(one), bounds.next().unwrap_or(one)];
+            let largest = each.into_iter().fold(0.0, f64::max);
+            let bounds = Bounds { largest, weights: each.map(|bound| bound / largest) };
+            laws.push(Law::new(contact, bounds, None).among(contact, &among));
         }
         let solver = Contacts::new(laws.clone(), matrix.clone(), b.clone());
         let found = solver.solve().unwrap_or_else(|failure| panic!("{n} {failure:?}"));
-        let mut next = 0;
-        for (contact, law) in contacts.iter().zip(&laws) {
-            let slid = hold(contact, law.bounds, next, (&matrix, &b), &found.forces);
-            next += contact.rows().len();
-            sticks += usize::from(!slid);
-            slides += usize::from(slid);
+        for (i, (contact, law)) in contacts.iter().zip(&laws).enumerate() {
+            let rows = (first(i), first(contact.rolls_on().unwrap_or(i)));
+            let slid = hold(contact, law.bounds, rows, (&matrix, &b), &found.forces);
+            let kind = match (contact.rolls_on(), contact.drills) {
+                (Some(_), _) => 3,
+                (None, true) => 2,
+                (None, false) => usize::from(contact.has_gap()),
+            };
+            if slid { slides[kind] += 1 } else { sticks[kind] += 1 }
         }
     }
-    assert!(sticks > 50 && slides > 100, "{sticks} {slides}");
+    assert!(sticks.iter().all(|n| *n > 30) && slides.iter().all(|n| *n > 100), "{sticks:?} {slides:?}");
+}
+
+/// One contact with a spin and with resistance to rolling against the friction that does the most negative work.
+#[test]
+fn friction_of_drilling_takes_the_most_of_the_power() {
+    let mut numbers = Numbers(3);
+    let contacts = [Contact::new("", 0, 2).with_drilling(), Contact::rolling("", 4, 2, 0)];
+    for n in 0..100 {
+        let (matrix, b) = random(&mut numbers, 0, 6, 7);
+        let bound = |row: usize| (matrix.at(0, 0) / matrix.at(row, row)).sqrt();
+        let each = [1, 2, 3].map(|row| 0.2 * bound(row));
+        let largest = each.into_iter().fold(0.0, f64::max);
+        let law = |k: usize, bounds| Law::new(&contacts[k], bounds, None).among(&contacts[k], &[0, 1]);
+        let rolling = 0.1 * bound(4).min(bound(5));
+        let laws = vec![
+            law(0, Bounds { largest, weights: each.map(|bound| bound / largest) }),
+            law(1, Bounds { largest: rolling, weights: [1.0; 3] }),
+        ];
+        let found = Contacts::new(laws, matrix.clone(), b.clone()).solve().unwrap();
+        let forces = &found.forces;
+        let rate = |row: usize| matrix.row(row).iter().zip(forces).fold(b[row], |sum, (d, f)| sum + d * f);
+        let power: f64 = (1..4).map(|row| forces[row] * rate(row)).sum();
+        let of_rolling: f64 = (4..6).map(|row| forces[row] * rate(row)).sum();
+        let size: f64 = (1..6).map(|row| (forces[row] * rate(row)).abs()).sum();
+        for _ in 0..200 {
+            let x = [numbers.signed(), numbers.signed(), numbers.signed()];
+            let outside = norm(&x).max(1.0);
+            let inside = x.map(|x| x / outside * forces[0]);
+            let other: f64 = (0..3).map(|k| each[k] * inside[k] * rate(1 + k)).sum();
+            assert!(other >= power - 1e-11 * size, "{n}");
+            let other: f64 = (0..2).map(|k| rolling * inside[k] * rate(4 + k)).sum();
+            assert!(other >= of_rolling - 1e-11 * size, "{n}");
+        }
+    }
 }

@@ -117,9 +117,9 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
         times.into_iter().map(|t| self.at(t)).collect()
     }
 
-    /// The contact forces at a time, all rows: normal, then tangents, contact by contact; of dry friction tangents
-    /// alone. Where contacts depend on one another they are those of least `Σ D_ii λ_i²`; the motion is the same for
-    /// all others.
+    /// The contact forces at a time, all rows: normal, then tangents, then the spin, contact by contact; of dry
+    /// friction and rolling resistance tangents alone. Where contacts depend on one another they are those of least
+    /// `Σ D_ii λ_i²`; the motion is the same for all others.
     ///
     /// # Errors
     /// Where the run does not cover the time.

@@ -4,8 +4,9 @@ use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::real::Real;
 
-use crate::dense::{norm, sum};
+use crate::dense::{dot, norm, value};
 use crate::friction::Bounds;
+use crate::law::carrier;
 use crate::mode::{Mode, slip, tangents};
 use crate::problem::InModeProblem;
 
@@ -18,7 +19,7 @@ pub(crate) enum Watched {
     Force(usize),
     /// The slip along the direction at the start of the segment.
     Slip(usize),
-    /// |s| of a contact with two tangents, above a level.
+    /// |s| of a contact with several rows of friction, above a level.
     Speed(usize, f64),
     /// μ λ_N − |λ_T| of a contact that sticks, f − |λ| of dry friction.
     Cone(usize),
@@ -59,9 +60,17 @@ impl<K: ContactSystem> Witness<'_, K> {
             Watched::Gap(i) => kernel.gaps(t, q).component(i),
             Watched::Slip(i) => {
                 let (s, reference) = (slip_of(i), self.reference(i));
-                s[0] * reference[0] + s[1] * reference[1]
+                dot(&s, &reference)
             }
-            Watched::Speed(i, level) => norm(&slip_of(i)) - K::Scalar::from_f64(level),
+            Watched::Speed(i, level) => {
+                let slip = slip_of(i);
+                let speed = norm(&slip);
+                // Of a slip that has gone straight it falls on beyond zero: its time has derivatives wherever near zero
+                // it is found.
+                let along = value(dot(&slip, &self.reference(i)));
+                let beyond = K::Scalar::DERIVATIVES && along < -0.99 * value(speed);
+                (if beyond { -speed } else { speed }) - K::Scalar::from_f64(level)
+            }
             Watched::Force(i) => self.problem.loads(t, q, z).forces[K::CONTACTS[i].normal],
             Watched::Cone(i) => {
                 let (loads, contact) = (self.problem.loads(t, q, z), &K::CONTACTS[i]);
@@ -71,24 +80,35 @@ impl<K: ContactSystem> Witness<'_, K> {
         }
     }
 
-    fn reference(&self, i: usize) -> [K::Scalar; 2] {
+    fn reference(&self, i: usize) -> [K::Scalar; 3] {
         match self.problem.system.modes()[i] {
             Mode::Slides(reference) => reference,
-            _ => [K::Scalar::zero(); 2],
+            _ => [K::Scalar::zero(); 3],
         }
     }
 
     /// p over its own first term.
     fn pushes(&self, i: usize, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> K::Scalar {
         let kernel = self.problem.system.kernel;
-        let contact = &K::CONTACTS[i];
+        let normal = K::CONTACTS[i].normal;
         let input = (self.problem.input)(t, q, z);
         let loads = self.problem.loads(t, q, z);
         let delassus = &loads.dynamics.response.delassus;
-        let along = self.problem.system.direction(contact, self.reference(i), (t, q, z));
-        let against = Bounds::of(contact, &kernel.friction(t, q, z, &input)).against(along);
-        let coupled = sum(tangents(contact).zip(against).map(|(row, f)| f * delassus[(contact.normal, row)]));
-        let diagonal = delassus[(contact.normal, contact.normal)];
+        let friction = kernel.friction(t, q, z, &input);
+        let mut coupled = K::Scalar::zero();
+        // With the resistance to rolling on it.
+        for n in (0..K::CONTACTS.len()).filter(|&n| carrier(K::CONTACTS, n) == i) {
+            let contact = &K::CONTACTS[n];
+            if !matches!(self.problem.system.modes()[n], Mode::Slides(_)) {
+                continue;
+            }
+            let along = self.problem.system.direction(contact, self.reference(n), (t, q, z));
+            let against = Bounds::of(contact, &friction).against(along);
+            for (row, f) in tangents(contact).zip(against) {
+                coupled += f * delassus[(normal, row)];
+            }
+        }
+        let diagonal = delassus[(normal, normal)];
         K::Scalar::one() + coupled / diagonal.max(K::Scalar::from_f64(f64::MIN_POSITIVE))
     }
 }

@@ -2,25 +2,9 @@
 
 use std::path::PathBuf;
 
+pub use super::at::At;
+use super::collision::Collision;
 use super::rotation::{Matrix, Rotation, Triple};
-
-/// A place in the file, counted from one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct At {
-    /// Of the files that are read, that of the clause being 0, those that it includes after it.
-    pub file: u32,
-    /// From one; 0 where the whole file is meant.
-    pub line: u32,
-    /// In characters, from one.
-    pub column: u32,
-}
-
-impl At {
-    /// The line in the words of a message about another place.
-    pub fn line_from(self, other: At) -> String {
-        if self.file == other.file { self.line.to_string() } else { format!("{} of another file", self.line) }
-    }
-}
 
 /// What is wrong, and where.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,6 +90,10 @@ pub struct Description {
     pub tendons: Vec<Tendon>,
     /// Springs along sums of distances.
     pub cables: Vec<Cable>,
+    /// Shapes of links that touch others.
+    pub collisions: Vec<Collision>,
+    /// Names of links of which no two touch.
+    pub excluded: Vec<[String; 2]>,
     /// States with names.
     pub postures: Vec<Posture>,
     /// The acceleration of free fall in observer's axes, if the file gives one.
@@ -114,6 +102,15 @@ pub struct Description {
     pub notes: Vec<Note>,
     /// Files besides those of the text, such as meshes, whose numbers the description holds.
     pub files: Vec<PathBuf>,
+}
+
+impl Description {
+    /// Whether the file keeps two links from touching.
+    #[must_use]
+    pub fn excludes(&self, links: [&str; 2]) -> bool {
+        let [a, b] = links;
+        self.excluded.iter().any(|[c, d]| (c == a && d == b) || (c == b && d == a))
+    }
 }
 
 /// A body with axes of its own.

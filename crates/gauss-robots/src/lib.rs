@@ -1,6 +1,8 @@
 #![doc = include_str!("../README.md")]
 #![deny(missing_docs)]
 
+mod at;
+pub mod collision;
 pub mod description;
 mod hull;
 mod mesh;
@@ -19,6 +21,7 @@ use std::path::Path;
 
 use description::{At, Description, Fault};
 pub use mimic::Coupling;
+pub use names::unknown;
 pub use structure::Structure;
 pub use text::{Text, Written};
 

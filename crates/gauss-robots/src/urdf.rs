@@ -2,6 +2,7 @@
 
 use roxmltree::Node;
 
+use super::collision::{Collision, Shape};
 use super::description::{Description, Drive, Fault, Inertial, Joint, JointKind, Link, Mimic, Note};
 use super::names::unknown;
 use super::rotation::{Rotation, Triple, direction, turned_tensor};
@@ -23,8 +24,14 @@ pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
         reading.fault(robot, "a URDF file is a <robot>");
     }
     refuse_macros(robot, &mut reading);
-    description.links =
-        reading.children(robot, "link").into_iter().filter_map(|node| link(node, &mut reading)).collect();
+    for node in reading.children(robot, "link") {
+        let own = link(node, &mut reading);
+        if let Some(link) = &own {
+            let shapes = reading.children(node, "collision");
+            description.collisions.extend(shapes.into_iter().map(|shape| collision(shape, &link.name, &mut reading)));
+        }
+        description.links.extend(own);
+    }
     description.joints =
         reading.children(robot, "joint").into_iter().filter_map(|node| joint(node, &mut reading)).collect();
     for node in reading.children(robot, "transmission") {
@@ -84,13 +91,65 @@ fn mass_data<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Option<Inerti
     Some(Inertial { mass, center, inertia }.settled())
 }
 
+/// A shape that touches; what is none that is read says so.
+fn collision<'a>(node: Node<'a, 'a>, link: &str, reading: &mut Reading<'a>) -> Collision {
+    let (position, rotation) = place(node, reading);
+    let name = reading.text(node, "name").filter(|name| !name.is_empty()).map(str::to_owned);
+    let shapes = reading.child(node, "geometry").map(|geometry| reading.elements(geometry)).unwrap_or_default();
+    let shape = shapes.first().and_then(|shape| {
+        let tag = shape.tag_name().name();
+        Some(match tag {
+            "sphere" => Shape::Sphere { radius: length(*shape, "radius", reading)? },
+            "capsule" => {
+                let [radius, along] = ["radius", "length"].map(|name| length(*shape, name, reading));
+                Shape::Capsule { radius: radius?, half: along? / 2.0 }
+            }
+            "cylinder" => {
+                let [radius, along] = ["radius", "length"].map(|name| length(*shape, name, reading));
+                Shape::Cylinder { radius: radius?, half: along? / 2.0 }
+            }
+            "box" => Shape::Box { half: edges(*shape, reading)?.map(|edge| edge / 2.0) },
+            _ => Shape::Unread(format!("a {tag}")),
+        })
+    });
+    let shape = shape.unwrap_or_else(|| Shape::Unread("an element without a shape".to_owned()));
+    let (at, link, rotation) = (reading.at(node), link.to_owned(), rotation.matrix);
+    Collision { name, at, link, position, rotation, shape, surface: None }
+}
+
+fn length<'a>(node: Node<'a, 'a>, name: &'static str, reading: &mut Reading<'a>) -> Option<f64> {
+    if node.attribute(name).is_none() {
+        reading.fault(node, format!("the attribute `{name}` is missing"));
+        return None;
+    }
+    Some(reading.amount(node, name))
+}
+
+fn edges<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Option<Triple> {
+    let Some(edges) = reading.numbers::<3>(node, "size") else {
+        if node.attribute("size").is_none() {
+            reading.fault(node, "the attribute `size` is missing");
+        }
+        return None;
+    };
+    if edges.iter().any(|edge| *edge < 0.0) {
+        reading.fault(node, "its edges are zero or more");
+    }
+    Some(edges)
+}
+
 /// `<origin xyz="…" rpy="…"/>` of an element.
-fn origin<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> (Triple, Rotation) {
+fn place<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> (Triple, Rotation) {
     let Some(origin) = reading.child(node, "origin") else { return ([0.0; 3], Rotation::none()) };
     let position = reading.numbers(origin, "xyz").unwrap_or_default();
-    let angles: Triple = reading.numbers(origin, "rpy").unwrap_or_default();
+    (position, Rotation::from_angles(reading.numbers(origin, "rpy").unwrap_or_default()))
+}
+
+/// The same; angles that are nearly quarter turns are told of.
+fn origin<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> (Triple, Rotation) {
+    let (position, rotation) = place(node, reading);
+    let Some(origin) = reading.children(node, "origin").first().copied() else { return (position, rotation) };
     let quarter = std::f64::consts::FRAC_PI_2;
-    let rotation = Rotation::from_angles(angles);
     for angle in rotation.angles {
         let off = (angle / quarter).round() * quarter - angle;
         if off != 0.0 && off.abs() < 1e-3 && angle.abs() > 0.1 {
@@ -254,4 +313,58 @@ fn written<'a>(node: Node<'a, 'a>, names: &[&str], matters: bool, reading: &mut 
         Some(_) => {}
     }
     number
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::read;
+    use crate::collision::{Collision, Shape};
+    use crate::description::Fault;
+    use crate::text::{Text, Written};
+
+    fn shapes(inside: &str) -> Result<Vec<Collision>, Vec<Fault>> {
+        let text = format!("<robot name=\"r\"><link name=\"a\">{inside}</link></robot>");
+        let text = Text::of(Written::new(String::new(), PathBuf::new(), text));
+        read(&text).map(|description| description.collisions)
+    }
+
+    /// By <https://wiki.ros.org/urdf/XML/link> sizes are whole ones: edges, and the length of a cylinder about its
+    /// centre; that of a capsule, which newer versions have, is between the centres of its ends.
+    #[test]
+    fn shapes_that_touch() {
+        let found = shapes(
+            r#"<collision name="c"><origin xyz="1 2 3" rpy="0 1.5707963267948966 0"/>
+            <geometry><cylinder radius="0.1" length="0.6"/></geometry></collision>
+            <collision><geometry><box size="1 2 3"/></geometry></collision>
+            <collision><geometry><capsule radius="0.1" length="0.6"/></geometry></collision>
+            <collision><geometry><mesh filename="m.stl"/></geometry></collision><collision/>"#,
+        )
+        .unwrap();
+        assert_eq!((found[0].name.as_deref(), found[0].position), (Some("c"), [1.0, 2.0, 3.0]));
+        assert_eq!(found[0].rotation, [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]);
+        let unread = |what: &str| Shape::Unread(what.to_owned());
+        let expected = [
+            Shape::Cylinder { radius: 0.1, half: 0.3 },
+            Shape::Box { half: [0.5, 1.0, 1.5] },
+            Shape::Capsule { radius: 0.1, half: 0.3 },
+            unread("a mesh"),
+            unread("an element without a shape"),
+        ];
+        assert!(found.iter().map(|own| &own.shape).eq(&expected), "{found:?}");
+        assert!(found.iter().all(|own| own.surface.is_none() && own.link == "a"));
+    }
+
+    #[test]
+    fn sizes_that_are_none() {
+        let message = |shape: &str| {
+            let found = shapes(&format!("<collision><geometry>{shape}</geometry></collision>"));
+            found.unwrap_err()[0].message.clone()
+        };
+        assert_eq!(message("<sphere/>"), "<sphere>: the attribute `radius` is missing");
+        assert_eq!(message("<box/>"), "<box>: the attribute `size` is missing");
+        assert_eq!(message("<box size=\"1 -1 1\"/>"), "<box>: its edges are zero or more");
+        assert_eq!(message("<sphere radius=\"-1\"/>"), "<sphere>: `radius` is zero or more, found `-1`");
+    }
 }

@@ -12,11 +12,21 @@ pub const ELEMENTS: &[Element] = &[
     element("", "robot", &[&[("name", NAME), ("version schemaLocation", Harmless("the version of the format"))]]),
     element("robot", "link", &[&[("name", Acts), ("type", Harmless("a word for programs that show it"))]]),
     element("link", "inertial", &[]),
-    element("joint inertial", "origin", &[&[("xyz rpy", Acts), ("quat_xyzw", Warned("`rpy` is read", ""))]]),
+    element("joint inertial collision", "origin", &[&[("xyz rpy", Acts), ("quat_xyzw", Warned("`rpy` is read", ""))]]),
     element("inertial", "mass", &[&[("value", Acts)]]),
     element("inertial", "inertia", &[&[("ixx ixy ixz iyy iyz izz", Acts)]]),
     whole("link", "visual", LOOKS),
-    whole("link", "collision", Harmless("shapes that touch: contacts are not modelled")),
+    element("link", "collision", &[&[("name", Acts), ("group", Harmless("a word for programs that load it"))]]),
+    whole("collision", "verbose", Harmless("a word for programs that load it")),
+    element("collision", "geometry", &[]),
+    element("geometry", "sphere", &[&[("radius", Acts)]]),
+    element("geometry", "capsule cylinder", &[&[("radius length", Acts)]]),
+    element("geometry", "box", &[&[("size", Acts)]]),
+    element(
+        "geometry",
+        "mesh",
+        &[&[("filename scale", Harmless("where it is to touch, that it does not is a warning"))]],
+    ),
     whole("robot", "material", LOOKS),
     whole("robot link", "sensor", Harmless("what is measured")),
     whole("robot", "version", Harmless("the version of the format")),
@@ -81,6 +91,10 @@ mod tests {
         <link name="b">
             <inertial><origin @inertial/origin{}/><mass @inertial/mass{ value="1"}/>
                 <inertia @inertial/inertia{ ixx="1" iyy="2" izz="3"}/></inertial>@in/link{}
+            <collision @link/collision{}><origin @collision/origin{}/><geometry>
+                <sphere @geometry/sphere{ radius="1"}/></geometry>@in/collision{}</collision>
+            <collision><geometry><cylinder @geometry/cylinder{ radius="1" length="2"}/></geometry></collision>
+            <collision><geometry><box @geometry/box{ size="1 2 3"}/></geometry></collision>
         </link>
         <joint @robot/joint{ name="j" type="revolute"}>
             <parent @joint/parent{ link="a"}/><child @joint/child{ link="b"}/><origin @joint/origin{}/>
@@ -107,6 +121,11 @@ mod tests {
         ("inertial/inertia", r#"ixx="1" iyy="2" izz="3""#, r#"ixy="1""#),
         ("inertial/inertia", r#"ixx="1" iyy="2" izz="3""#, r#"ixz="1""#),
         ("inertial/inertia", r#"ixx="1" iyy="2" izz="3""#, r#"iyz="1""#),
+        ("link/collision", "", r#"name="z""#),
+        ("geometry/sphere", "", r#"!radius="1""#),
+        ("geometry/cylinder", r#"length="1""#, r#"!radius="1""#),
+        ("geometry/cylinder", r#"radius="1""#, r#"!length="1""#),
+        ("geometry/box", "", r#"!size="1 1 1""#),
         ("robot/joint", r#"type="revolute""#, r#"!name="j""#),
         ("robot/joint", r#"name="j""#, r#"!type="revolute""#),
         ("joint/parent", "", r#"!link="a""#),

@@ -212,21 +212,25 @@ impl<S: GaussSystem> Table<S> {
     }
 
     /// Gap, normal force, and of each tangent the slip and the friction of every contact: `NAME gap`, `NAME force`,
-    /// `NAME slip`, `NAME friction`, of two tangents `NAME slip 1`, and so on; of dry friction the last two. `forces`
-    /// are all rows of contact forces at a state, such as those that a run with contacts has at its time; where they
-    /// are unknown their columns are NaN.
+    /// `NAME slip`, `NAME friction`, of two tangents `NAME slip 1`, and so on, with friction of drilling `NAME spin`,
+    /// `NAME drilling`; of dry friction and rolling resistance slips and friction alone. `forces` are all rows of
+    /// contact forces at a state, such as those that a run with contacts has at its time; where they are unknown their
+    /// columns are NaN.
     #[must_use]
     pub fn contacts(self, system: &S, forces: impl Fn(&Sample<S>) -> Option<S::ContactRows>) -> Self
     where
         S: ContactSystem,
     {
         let names = S::CONTACTS.iter().flat_map(|contact| {
+            let drills = contact.drills;
+            let drilling = ["spin", "drilling"].map(|what| format!("{} {what}", contact.name));
             let of_tangent = move |k: usize| if contact.tangents > 1 { format!(" {}", k + 1) } else { String::new() };
             let tangential = (0..contact.tangents).flat_map(move |k| {
                 ["slip", "friction"].map(|what| format!("{} {what}{}", contact.name, of_tangent(k)))
             });
             let normal = ["gap", "force"].map(|what| format!("{} {what}", contact.name));
-            normal.into_iter().filter(|_| contact.has_gap()).chain(tangential)
+            let drilling = drilling.into_iter().filter(move |_| drills);
+            normal.into_iter().filter(|_| contact.has_gap()).chain(tangential).chain(drilling)
         });
         self.with(names.map(|name| (name, "")), |sample, put| {
             let (gaps, rates) =
@@ -238,7 +242,7 @@ impl<S: GaussSystem> Table<S> {
                     put(gaps.component(i));
                     put(force(contact.normal));
                 }
-                for row in contact.tangent_rows() {
+                for row in contact.friction_rows() {
                     put(rates.component(row));
                     put(force(row));
                 }

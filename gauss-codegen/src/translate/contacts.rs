@@ -1,13 +1,51 @@
 //! What may touch, in symbols: gaps, slips, coefficients.
 
+use proc_macro2::Ident;
+
+use crate::algebra::Expr;
 use crate::error::Result;
 use crate::mechanics::{Contact, Tree};
-use crate::model::{Expression, Touching};
+use crate::model::{ContactClause, Expression, Touching};
 use crate::terms::LawKind;
 use crate::words::Unraw;
 
-use super::shapes::Slips;
+use super::shapes::{Asked, Form, Slips};
 use super::translator::Translator;
+
+/// What is known of the friction and the impacts of all contacts of a clause.
+struct Coefficients<'g> {
+    friction: Vec<Expr<'g>>,
+    restitution: Option<Expr<'g>>,
+    rolling: Option<Expr<'g>>,
+}
+
+impl<'g> Coefficients<'g> {
+    /// A contact, which is to have a number, and the resistance to rolling on it.
+    fn contacts(
+        &self,
+        clause: usize,
+        names: &[Ident],
+        form: Form<'g>,
+        number: usize,
+    ) -> impl Iterator<Item = Contact<'g>> {
+        // Of two coefficients the one of the same tangent.
+        let of = |k: usize| self.friction.get(k).or(self.friction.first()).copied();
+        let drills = form.spin.is_some();
+        let slips = form.slips.into_iter().chain(form.spin.map(|spin| (0, spin)));
+        let (slips, friction) = slips.filter_map(|(k, slip)| Some((slip, of(k)?))).unzip();
+        let mut names = names.iter().map(|name| name.unraw().to_string());
+        let (gap, restitution, frame) = (form.gap, self.restitution, form.frame);
+        let name = names.next().unwrap_or_default();
+        let contact = Contact { name, gap, slips, drills, friction, rolls_on: None, restitution, frame, clause };
+        let rolling = names.next().zip(self.rolling).map(|(name, rho)| {
+            let slips: Vec<_> = form.rolls.iter().map(|(_, roll)| *roll).collect();
+            let (friction, rolls_on) = (vec![rho; slips.len()], Some(number));
+            let (gap, drills, restitution, frame) = (None, false, None, None);
+            Contact { name, gap, slips, drills, friction, rolls_on, restitution, frame, clause }
+        });
+        std::iter::once(contact).chain(rolling)
+    }
+}
 
 impl<'g> Translator<'_, 'g> {
     /// All contacts in the order in which they are written; of a range the lower limit first.
@@ -30,13 +68,22 @@ impl<'g> Translator<'_, 'g> {
                 friction.push(value);
             }
             let restitution = coefficient(&written.restitution, LawKind::Restitution, "restitution")?;
+            let asked = Asked {
+                rubs: !friction.is_empty(),
+                drilling: written.drilling.as_ref().map(|e| self.length((&name, "drilling"), e, tree)).transpose()?,
+                rolls: written.rolling.is_some(),
+            };
+            let rolling = coefficient(&written.rolling, LawKind::Friction, "rolling")?;
+            let form = |gap, slips| Form { gap, slips, spin: None, rolls: Vec::new(), frame: None };
             let forms = match &written.touching {
-                Touching::Gap { gap, slips } => vec![(Some(self.scalar(gap, tree)?), self.slips(slips, tree)?, None)],
-                Touching::Slip { slips, .. } => vec![(None, self.slips(slips, tree)?, None)],
-                Touching::Point(contact) => {
-                    let forms = self.shape(&name, contact, !friction.is_empty(), tree)?;
-                    forms.into_iter().map(|(gap, slips, frame)| (Some(gap), slips, Some(frame))).collect()
+                Touching::Gap { gap, slips, spin, rolls } => {
+                    let spin = spin.as_ref().map(|spin| self.scalar(spin, tree)).transpose()?;
+                    let spin = asked.drilling.zip(spin).map(|(radius, spin)| radius * spin);
+                    let (gap, slips) = (Some(self.scalar(gap, tree)?), self.slips(slips, tree)?);
+                    vec![Form { spin, rolls: self.slips(rolls, tree)?, ..form(gap, slips) }]
                 }
+                Touching::Slip { slips, .. } => vec![form(None, self.slips(slips, tree)?)],
+                Touching::Point(contact) => self.shape(&name, contact, &asked, tree)?,
                 Touching::Range { along, from, to } => {
                     let x = self.scalar(along, tree)?;
                     let limit = |e: &Option<_>| e.as_ref().map(|e| self.scalar(e, tree)).transpose();
@@ -45,25 +92,35 @@ impl<'g> Translator<'_, 'g> {
                         self.note(LawKind::Limits, (&name, ""), e, vec![least, most]);
                     }
                     let gaps = least.map(|least| x - least).into_iter().chain(most.map(|most| most - x));
-                    gaps.map(|gap| (Some(gap), Vec::new(), None)).collect()
+                    gaps.map(|gap| form(Some(gap), Vec::new())).collect()
                 }
             };
-            if let (Touching::Point(_), Some(e)) = (&written.touching, written.friction.first())
-                && forms.iter().all(|(_, slips, _)| slips.is_empty())
-            {
-                self.mistake(
-                    e.span,
-                    format!("nothing slips along `{name}`, so friction does nothing; remove `friction`"),
-                );
+            self.refuse_idle(&name, written, &forms);
+            let coefficients = Coefficients { friction, restitution, rolling };
+            let each = 1 + usize::from(written.rolling.is_some());
+            for (names, form) in written.names.chunks(each).zip(forms) {
+                contacts.extend(coefficients.contacts(clause, names, form, contacts.len()));
             }
-            contacts.extend(written.names.iter().zip(forms).map(|(name, (gap, slips, frame))| {
-                // Of two coefficients the one of the same tangent.
-                let friction = |k: usize| friction.get(k).or(friction.first()).copied();
-                let (slips, friction) = slips.into_iter().filter_map(|(k, slip)| Some((slip, friction(k)?))).unzip();
-                Contact { name: name.unraw().to_string(), gap, slips, friction, restitution, frame, clause }
-            }));
         }
         Ok(contacts)
+    }
+
+    /// Notes friction, drilling and rolling of a shape along which nothing moves.
+    fn refuse_idle(&self, name: &str, written: &ContactClause, forms: &[Form<'g>]) {
+        if written.of_file || !matches!(written.touching, Touching::Point(_)) {
+            return;
+        }
+        let idle = |of: fn(&Form<'g>) -> bool| forms.iter().all(of);
+        let cases = [
+            (written.friction.first(), idle(|form| form.slips.is_empty()), "slips along", "friction"),
+            (written.drilling.as_ref(), idle(|form| form.spin.is_none()), "spins about the normal of", "drilling"),
+            (written.rolling.as_ref(), idle(|form| form.rolls.is_empty()), "rolls along", "rolling"),
+        ];
+        for (e, idle, what, word) in cases {
+            if let Some(e) = e.filter(|_| idle) {
+                self.mistake(e.span, format!("nothing {what} `{name}`, so {word} does nothing; remove `{word}`"));
+            }
+        }
     }
 
     fn slips(&self, slips: &[Expression], tree: &Tree<'g>) -> Result<Slips<'g>> {

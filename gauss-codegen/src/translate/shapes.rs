@@ -18,8 +18,25 @@ const LIMIT: usize = 400;
 /// Slips with the number of their tangent.
 pub(super) type Slips<'g> = Vec<(usize, Expr<'g>)>;
 
-/// Gap, slips, and where it touches.
-type Form<'g> = (Expr<'g>, Slips<'g>, ContactFrame<'g>);
+/// What is derived of a contact.
+pub(super) struct Form<'g> {
+    pub(super) gap: Option<Expr<'g>>,
+    pub(super) slips: Slips<'g>,
+    /// The angular velocity about the normal, times the radius of drilling.
+    pub(super) spin: Option<Expr<'g>>,
+    /// Angular velocities about the tangents.
+    pub(super) rolls: Slips<'g>,
+    /// Where it touches, if that is known.
+    pub(super) frame: Option<ContactFrame<'g>>,
+}
+
+/// What friction a contact is to have.
+pub(super) struct Asked<'g> {
+    pub(super) rubs: bool,
+    /// The radius of drilling.
+    pub(super) drilling: Option<Expr<'g>>,
+    pub(super) rolls: bool,
+}
 
 /// A place of a shape.
 struct Part<'g> {
@@ -48,6 +65,8 @@ struct Facing<'g> {
     tangents: Vec<Triple<'g>>,
     /// Of the point of it that is touched.
     velocity: Triple<'g>,
+    /// The body that is touched, where it turns.
+    link: Option<usize>,
 }
 
 /// [`Facing`] as a function of the place.
@@ -59,9 +78,10 @@ impl<'g> Translator<'_, 'g> {
         &self,
         name: &str,
         contact: &PointContact,
-        rubs: bool,
+        asked: &Asked<'g>,
         tree: &Tree<'g>,
     ) -> Result<Vec<Form<'g>>> {
+        let rubs = asked.rubs;
         let about = self.about(name, contact, tree)?;
         let parts = self.parts_of(name, contact, &about, tree)?;
         let opposite = match &contact.against {
@@ -74,7 +94,11 @@ impl<'g> Translator<'_, 'g> {
                 self.sphere(name, (center, radius), along.as_ref().filter(|_| rubs), tree)?
             }
         };
-        parts.iter().map(|part| self.touch(part, &about, &opposite(part), tree)).collect()
+        let facing: Vec<(&Part<'g>, Facing<'g>)> = parts.iter().map(|part| (part, opposite(part))).collect();
+        if let Some([rim, _]) = &contact.rim {
+            self.refuse_flat((name, rim), &about, &facing, tree);
+        }
+        facing.iter().map(|(part, facing)| self.touch((part, &about), facing, asked, tree)).collect()
     }
 
     /// What is about each place of a shape.
@@ -138,8 +162,40 @@ impl<'g> Translator<'_, 'g> {
         Ok(Part { position: self.vector(point, tree)?, link })
     }
 
+    /// A rim whose axis is always normal to the plane.
+    fn refuse_flat(
+        &self,
+        (name, rim): (&str, &Expression),
+        about: &About<'g>,
+        facing: &[(&Part<'g>, Facing<'g>)],
+        tree: &Tree<'g>,
+    ) {
+        let About::Rim(_, axis) = about else { return };
+        let is_flat = |(part, facing): &(&Part<'g>, Facing<'g>)| {
+            part.link.is_some_and(|link| {
+                let across = cross(&tree.links[link].axes().to_space(axis), &facing.normal);
+                self.vanishes(dot(&across, &across))
+            })
+        };
+        if facing.iter().any(is_flat) {
+            self.mistake(
+                rim.span,
+                format!(
+                    "`{name}` always lies flat, where no point of its rim is the lowest; write points of the rim, or \
+                     `cylinders = 8` in the `ground(…)` of a robot's file"
+                ),
+            );
+        }
+    }
+
     /// Gap and slips of one part.
-    fn touch(&self, part: &Part<'g>, about: &About<'g>, facing: &Facing<'g>, tree: &Tree<'g>) -> Result<Form<'g>> {
+    fn touch(
+        &self,
+        (part, about): (&Part<'g>, &About<'g>),
+        facing: &Facing<'g>,
+        asked: &Asked<'g>,
+        tree: &Tree<'g>,
+    ) -> Result<Form<'g>> {
         let n = &facing.normal;
         // From the point to where it touches: against the normal, of a rim as far as its plane allows, of an ellipsoid
         // to where the normal is its own.
@@ -165,17 +221,40 @@ impl<'g> Translator<'_, 'g> {
                 (depth, axes.to_space(&std::array::from_fn(|k| scale * semi_axes[k] * stretched[k])).map(Expr::group))
             }
         };
-        let gap = facing.gap - depth;
+        let gap = Some(facing.gap - depth);
         let mut frame = ContactFrame { point: add(&part.position, &arm), axes: vec![*n] };
         if facing.tangents.is_empty() {
-            return Ok((gap, Vec::new(), frame));
+            return Ok(Form { gap, slips: Vec::new(), spin: None, rolls: Vec::new(), frame: Some(frame) });
         }
         let velocity = subtract(&self.velocity_at(part, &arm, tree), &facing.velocity);
         let slips = facing.tangents.iter().map(|tangent| dot(tangent, &velocity));
         // Across the plane of a motion nothing slips.
         let slips: Slips<'g> = slips.enumerate().filter(|(_, slip)| !slip.collected(LIMIT).is_zero()).collect();
         frame.axes.extend(slips.iter().map(|(k, _)| facing.tangents[*k]));
-        Ok((gap, slips, frame))
+        let (spin, rolls) = self.turns([part.link, facing.link], facing, asked, tree);
+        Ok(Form { gap, slips, spin, rolls, frame: Some(frame) })
+    }
+
+    /// The rates of drilling and rolling of a body on another one, as far as they are asked for and do not vanish.
+    fn turns(
+        &self,
+        links: [Option<usize>; 2],
+        facing: &Facing<'g>,
+        asked: &Asked<'g>,
+        tree: &Tree<'g>,
+    ) -> (Option<Expr<'g>>, Slips<'g>) {
+        if asked.drilling.is_none() && !asked.rolls {
+            return (None, Vec::new());
+        }
+        let still = [self.graph.zero(); 3];
+        let [own, other] =
+            links.map(|link| link.map_or(still, |link| self.velocity_of(link, Property::AngularVelocity, tree)));
+        let relative = subtract(&own, &other);
+        let turns = |rate: &Expr<'g>| !rate.collected(LIMIT).is_zero();
+        let spin = asked.drilling.map(|radius| radius * dot(&facing.normal, &relative)).filter(turns);
+        let tangents = facing.tangents.iter().filter(|_| asked.rolls);
+        let rolls = tangents.map(|tangent| dot(tangent, &relative)).enumerate().filter(|(_, rate)| turns(rate));
+        (spin, rolls.collect())
     }
 
     /// The velocity of the point of a body that is an arm away from a part; what is in no body does not turn.
@@ -210,7 +289,7 @@ impl<'g> Translator<'_, 'g> {
         let tangents = first.map_or(Vec::new(), |first| vec![first, cross(&n, &first)]);
         Ok(Box::new(move |part| {
             let gap = dot(&n, &part.position) - height;
-            Facing { gap, normal: n, tangents: tangents.clone(), velocity: [self.graph.zero(); 3] }
+            Facing { gap, normal: n, tangents: tangents.clone(), velocity: [self.graph.zero(); 3], link: None }
         }))
     }
 
@@ -241,6 +320,7 @@ impl<'g> Translator<'_, 'g> {
                 normal,
                 tangents: if rubs { vec![first, cross(&normal, &first)] } else { Vec::new() },
                 velocity,
+                link: None,
             }
         }))
     }
@@ -269,12 +349,13 @@ impl<'g> Translator<'_, 'g> {
                 vec![first, cross(&normal, &first)]
             });
             let velocity = self.velocity_at(&other, &normal.map(|e| radius * e), tree);
-            Facing { gap: distance - radius, normal, tangents: tangents.unwrap_or_default(), velocity }
+            let (gap, link) = (distance - radius, other.link);
+            Facing { gap, normal, tangents: tangents.unwrap_or_default(), velocity, link }
         }))
     }
 
     /// A radius or a length, which `kernel()` checks.
-    fn length(&self, argument: (&str, &str), e: &Expression, tree: &Tree<'g>) -> Result<Expr<'g>> {
+    pub(super) fn length(&self, argument: (&str, &str), e: &Expression, tree: &Tree<'g>) -> Result<Expr<'g>> {
         let value = self.scalar(e, tree)?;
         self.note(LawKind::NonNegative, argument, e, vec![value]);
         Ok(value)

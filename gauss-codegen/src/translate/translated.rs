@@ -103,7 +103,10 @@ pub struct ConstraintPlace {
 pub struct ContactPlace {
     /// `None`: it has none.
     pub gap: Option<Span>,
+    /// With the spin.
     pub slips: Vec<Span>,
+    /// Of the rolling resistance that goes with it.
+    pub rolls: Vec<Span>,
 }
 
 /// The speeds that stay where constraints are solved for the others.

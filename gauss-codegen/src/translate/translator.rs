@@ -88,16 +88,21 @@ fn place(clause: &model::ConstraintClause) -> ConstraintPlace {
 
 fn contact_place(clause: &model::ContactClause) -> ContactPlace {
     match &clause.touching {
-        model::Touching::Gap { gap, slips } => {
-            ContactPlace { gap: Some(gap.span), slips: slips.iter().map(|slip| slip.span).collect() }
-        }
+        model::Touching::Gap { gap, slips, spin, rolls } => ContactPlace {
+            gap: Some(gap.span),
+            slips: slips.iter().chain(spin).map(|slip| slip.span).collect(),
+            rolls: rolls.iter().map(|roll| roll.span).collect(),
+        },
         model::Touching::Point(contact) => {
-            ContactPlace { gap: Some(contact.point.span), slips: vec![contact.point.span; 2] }
+            let point = contact.point.span;
+            ContactPlace { gap: Some(point), slips: vec![point; 3], rolls: vec![point; 2] }
         }
         model::Touching::Slip { slips, .. } => {
-            ContactPlace { gap: None, slips: slips.iter().map(|slip| slip.span).collect() }
+            ContactPlace { gap: None, slips: slips.iter().map(|slip| slip.span).collect(), rolls: Vec::new() }
         }
-        model::Touching::Range { along, .. } => ContactPlace { gap: Some(along.span), slips: Vec::new() },
+        model::Touching::Range { along, .. } => {
+            ContactPlace { gap: Some(along.span), slips: Vec::new(), rolls: Vec::new() }
+        }
     }
 }
 

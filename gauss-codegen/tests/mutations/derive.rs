@@ -63,8 +63,11 @@ fn scene_of(mutation: Mutation) -> TokenStream {
         Mutation::Robot(robot) => robot,
     };
     let path = file(format);
+    // A ground that nothing touches is a mistake, and the rest of the file is not seen.
+    let touches = text.contains("<collision") || text.contains("conaffinity");
+    let ground = if touches { ", ground(friction = 0.5)" } else { "" };
     std::fs::write(&path, text).expect("a folder for files that do not stay");
-    format!("#[gauss({format} = {path:?}, gravity = 9.81)] struct Robot;").parse().expect("tokens")
+    format!("#[gauss({format} = {path:?}, gravity = 9.81{ground})] struct Robot;").parse().expect("tokens")
 }
 
 /// At the start of a line, whatever the test harness has written before.

@@ -3,7 +3,7 @@
 use super::random::Random;
 
 /// The robots of the tests, with the word of the clause that reads each.
-const ROBOTS: [(&str, &str); 8] = [
+const ROBOTS: [(&str, &str); 10] = [
     ("urdf", include_str!("../../../tests/robots/gripper.urdf")),
     ("urdf", include_str!("../../../tests/robots/five_bar.urdf")),
     ("urdf", include_str!("../../../tests/robots/panda.urdf")),
@@ -12,6 +12,8 @@ const ROBOTS: [(&str, &str); 8] = [
     ("mjcf", include_str!("../../../tests/robots/linkage.xml")),
     ("mjcf", include_str!("../../../tests/robots/loop.xml")),
     ("mjcf", include_str!("../../../tests/robots/quadrotor.xml")),
+    ("urdf", include_str!("../../../tests/robots/shapes.urdf")),
+    ("mjcf", include_str!("../../../tests/robots/footed.xml")),
 ];
 
 const VALUES: &str = "0 1 -1 0.5 1e308 1e-308 1e19 3.4e38 1e400 nan inf 90 true false all main x y z body joint fixed revolute ball free \
@@ -19,7 +21,7 @@ const VALUES: &str = "0 1 -1 0.5 1e308 1e-308 1e19 3.4e38 1e400 nan inf 90 true 
 
 const WORDS: &str = "body joint link geom inertial origin mass inertia axis limit dynamics mimic default frame site general motor position \
     velocity equality connect weld tendon fixed spatial actuator include keyframe key compiler option freejoint file name class \
-    childclass type pos quat euler axisangle range ref stiffness damping armature gear kp kv xyz rpy parent child";
+    childclass type pos quat euler axisangle range ref contype conaffinity condim friction size fromto collision stiffness damping armature gear kp kv xyz rpy parent child";
 
 /// A file, and the word that reads it.
 pub struct Robot {

@@ -394,3 +394,73 @@ fn a_system_is_linearised_in_its_mode() {
     assert!((found.by_state - expected.by_state).amax() < 1e-12 && (found.rate - expected.rate).amax() < 1e-12);
     assert!((found.by_input - expected.by_input).amax() < 1e-12);
 }
+
+/// A disk on its face, that slides and spins.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, y, h, angle),
+    body(disk, position = [x, y, h], rotation = rotation_z(angle), mass = 0.4, inertia = [0.4, 0.4, 0.2 * r * r]),
+    contact(ice, gap = h, slip = [rate(x), rate(y)], spin = rate(angle), friction = mu, drilling = 2 * r / 3),
+)]
+struct Curling<T> {
+    r: T,
+    mu: T,
+    #[gauss(gravity)]
+    g: T,
+}
+
+/// A ball that rolls out.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(pose: Pose),
+    body(ball, position = pose.position, rotation = pose.rotation, mass = 0.2, inertia = 0.08 * r * r),
+    contact(green, point = ball.position, radius = r, friction = 0.3, drilling = 0.1 * r, rolling = rho),
+)]
+struct Putt<T> {
+    r: T,
+    rho: T,
+    #[gauss(gravity)]
+    g: T,
+}
+
+#[test]
+fn what_slides_and_spins_has_the_derivatives_of_its_units() {
+    // Lengths are as speeds squared over μ g.
+    fn way<T: Real>([mu, v, w]: [T; 3]) -> T {
+        let kernel = Curling { r: number(0.3), mu, g: number(9.81) }.kernel().expect("a disk");
+        let zero = T::zero();
+        let run = ContactRun::new(&kernel).adaptive(1e-11, 1e-11).tolerance(1e-9, 1e-9);
+        let run = run.run(SVector::from([zero; 4]), SVector::from([v, zero, zero, w]), zero..number(2.0));
+        let run = run.expect("stops");
+        assert_eq!(run.modes(number(1.9)).expect("inside"), [Mode::Sticks]);
+        run.last().expect("an end").q[0]
+    }
+    let values @ [mu, v, w] = [0.25, 2.0, 7.0];
+    let [x, by_mu, by_v, by_w] = parts(way(variables(values)));
+    // The slip ends at 1e-9 (1 + 7), far above the errors of steps, so that its end is seen to pass; what is left of
+    // the way is less than that squared. Steps of 1e-11, some hundred.
+    assert!((by_mu + x / mu).abs() < 1e-8 && (v * by_v + w * by_w - 2.0 * x).abs() < 1e-8, "{x} {by_mu} {by_v} {by_w}");
+    // Spin takes friction away from the slip.
+    assert!(by_w > 0.01);
+}
+
+#[test]
+fn what_rolls_out_has_the_derivatives_of_its_closed_form() {
+    fn way<T: Real>([rho, v, r]: [T; 3]) -> T {
+        let kernel = Putt { r, rho, g: number(9.81) }.kernel().expect("a ball");
+        let zero = T::zero();
+        let start = place(r);
+        let z = SVector::from([v, zero, zero, zero, v / r, zero]);
+        let run = ContactRun::new(&kernel).adaptive(1e-11, 1e-11).tolerance(1e-9, 1e-9);
+        let run = run.run(start, z, zero..number(3.0)).expect("stops");
+        assert_eq!(run.modes(number(2.9)).expect("inside"), [Mode::Sticks; 2]);
+        run.last().expect("an end").q.translation.x
+    }
+    let values @ [rho, v, r] = [0.001, 0.5, 0.03];
+    let found = parts(way(variables(values)));
+    let x = 0.7 * v * v * r / (rho * 9.81);
+    for (found, wanted) in found.into_iter().zip([x, -x / rho, 2.0 * x / v, x / r]) {
+        // Some hundred steps of 1e-11 of angular velocities of 17.
+        assert!((found - wanted).abs() < 1e-7 * wanted.abs(), "{found} {wanted}");
+    }
+}

@@ -16,6 +16,8 @@ pub(crate) const MOST: usize = 64;
 pub(crate) struct Cone {
     /// The row of the normal, if there is a gap.
     pub(crate) normal: Option<usize>,
+    /// The row of the normal whose impulse bounds friction: its own, or of rolling resistance that of another contact.
+    pub(crate) pressed: Option<usize>,
     /// Rows of friction: from, and how many.
     pub(crate) first: usize,
     pub(crate) count: usize,
@@ -37,7 +39,7 @@ impl Cone {
 
     /// The largest friction under impulses.
     pub(crate) fn radius(&self, impulses: &[f64]) -> f64 {
-        self.friction * self.normal.map_or(1.0, |row| impulses[row].max(0.0))
+        self.friction * self.pressed.map_or(1.0, |row| impulses[row].max(0.0))
     }
 }
 
@@ -54,21 +56,22 @@ impl Laws {
         h: f64,
         friction: &K::ContactRows,
     ) -> Result<Self, (usize, ContactErrorKind)> {
-        let none = Cone { normal: None, first: 0, count: 0, friction: 0.0, acts: false };
+        let none = Cone { normal: None, pressed: None, first: 0, count: 0, friction: 0.0, acts: false };
         let mut laws = Self { cones: [none; MOST], scales: [1.0; MOST_ROWS] };
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             if let Some(friction) = Bounds::of(contact, friction).invalid() {
                 return Err((i, ContactErrorKind::InvalidFriction { friction }));
             }
-            let tangents = contact.tangent_rows();
-            let largest = tangents.clone().map(|row| friction.component(row)).fold(0.0, f64::max);
+            let rows = contact.friction_rows();
+            let largest = rows.clone().map(|row| friction.component(row)).fold(0.0, f64::max);
             let normal = contact.has_gap().then_some(contact.normal);
+            let pressed = contact.rolls_on().map(|on| K::CONTACTS[on].normal).or(normal);
             if largest > 0.0 {
-                tangents.clone().for_each(|row| laws.scales[row] = friction.component(row) / largest);
+                rows.clone().for_each(|row| laws.scales[row] = friction.component(row) / largest);
             }
             // A force that is bounded by f has an impulse of h f.
-            let friction = if normal.is_some() { largest } else { h * largest };
-            laws.cones[i] = Cone { normal, first: tangents.start, count: tangents.len(), friction, acts: false };
+            let friction = if pressed.is_some() { largest } else { h * largest };
+            laws.cones[i] = Cone { normal, pressed, first: rows.start, count: rows.len(), friction, acts: false };
         }
         Ok(laws)
     }

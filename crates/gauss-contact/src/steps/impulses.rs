@@ -11,7 +11,7 @@
 //! of the step before; rates are unique in any case but Painlevé's.
 
 use crate::mode::Mode;
-use crate::solver::Residual;
+use crate::residual::Residual;
 
 use super::cones::{Cone, MOST};
 use super::linear::{dot, factorise, solve, summed};
@@ -166,7 +166,7 @@ impl<'m> Impulses<'m> {
         if !cone.acts {
             return State::Leaves;
         }
-        let pressed = cone.normal.map_or(1.0, |row| self.impulses[row] - self.rates[row] / self.at(row, row));
+        let pressed = cone.pressed.map_or(1.0, |row| self.impulses[row] - self.rates[row] / self.at(row, row));
         if pressed <= 0.0 {
             return State::Leaves;
         }
@@ -195,7 +195,7 @@ impl<'m> Impulses<'m> {
                 let mut along = [0.0; 3];
                 along.iter_mut().zip(cone.tangents()).zip(against).for_each(|((x, row), y)| *x = -y / scales[row]);
                 let size = norm(&along);
-                Mode::Slides([along[0] / size, along[1] / size])
+                Mode::Slides(along.map(|x| x / size))
             }
         }
     }
@@ -364,7 +364,7 @@ impl<'m> Impulses<'m> {
     /// the direction t: the factor of an impulse.
     fn sliding_entry(&self, cone: &Cone, (along, part, scale): (&[f64; 3], f64, f64), a: usize, column: usize) -> f64 {
         let mut entry = if column == cone.first + a { scale * (1.0 + self.pull()) } else { 0.0 };
-        if cone.normal == Some(column) {
+        if cone.pressed == Some(column) {
             entry -= scale * cone.friction * along[a];
         }
         for (b, row) in cone.tangents().enumerate() {
@@ -396,7 +396,7 @@ impl<'m> Impulses<'m> {
                 State::Slides(along, part) => {
                     let scale = self.scale(cone);
                     for a in 0..cone.count {
-                        let fixed = if cone.normal.is_none() { scale * cone.friction * along[a] } else { 0.0 };
+                        let fixed = if cone.pressed.is_none() { scale * cone.friction * along[a] } else { 0.0 };
                         let each = cone.tangents().enumerate();
                         let turned: f64 = each
                             .map(|(b, row)| (f64::from(u8::from(a == b)) - along[a] * along[b]) * self.b[row])

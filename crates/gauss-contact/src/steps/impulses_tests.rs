@@ -44,7 +44,14 @@ impl Random {
                 frame[k].iter_mut().zip(&normal).for_each(|(t, n)| *t -= (1.0 - part) * along * n);
             }
             rows.append(&mut frame);
-            cones.push(Cone { normal: Some(first), first: first + 1, count: tangents, friction: mu, acts: true });
+            cones.push(Cone {
+                normal: Some(first),
+                pressed: Some(first),
+                first: first + 1,
+                count: tangents,
+                friction: mu,
+                acts: true,
+            });
         }
         let free: Vec<f64> = (0..dimensions).map(|_| number()).collect();
         let b = rows.iter().map(|row| dot(row, &free)).collect();
@@ -139,7 +146,14 @@ fn sixty_four_contacts_on_a_plate_carry_it() {
         rows.push(vec![0.0, 0.0, 1.0, *y, -*x, 0.0]);
         rows.push(vec![1.0, 0.0, 0.0, 0.0, 0.0, -*y]);
         rows.push(vec![0.0, 1.0, 0.0, 0.0, 0.0, *x]);
-        cones.push(Cone { normal: Some(first), first: first + 1, count: 2, friction: 0.5, acts: true });
+        cones.push(Cone {
+            normal: Some(first),
+            pressed: Some(first),
+            first: first + 1,
+            count: 2,
+            friction: 0.5,
+            acts: true,
+        });
     }
     let b = |free: [f64; 6], rows: &[Vec<f64>]| rows.iter().map(|row| dot(row, &free)).collect::<Vec<_>>();
     // Pressed, and pushed along by less and by more than friction holds.

@@ -8,8 +8,9 @@ use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::{ContactDynamics, ContactSystem};
 
 use crate::error::{ContactError, ContactErrorKind};
+use crate::law::carrier;
 use crate::mode::{Mode, pushed};
-use crate::solver::Residual;
+use crate::residual::Residual;
 
 use super::cones::{Laws, MOST};
 use super::impulses::{Found, Impulses, MOST_ROWS};
@@ -23,7 +24,7 @@ pub enum StepScheme {
     /// forces depend on places alone, else of first.
     MoreauJean,
     /// The same with the speeds at half of the step, by the accelerations of the step before: of second order between
-    /// impacts, for the same work.
+    /// impacts, for the same work but in steps after impacts, which are made twice.
     #[default]
     Midpoint,
 }
@@ -239,18 +240,19 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     }
 
     fn whole(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
-        let (kernel, t, q, z) = (self.kernel, self.t, self.q, self.z);
-        let middle = Middle {
-            t: t + 0.5 * h,
-            q: q.advance(&kernel.kinematics(t, &q, &z).scale(0.5 * h)),
-            z: match (self.scheme, self.acceleration) {
-                (StepScheme::Midpoint, Some(acceleration)) => z.add_scaled(0.5 * h, &acceleration),
-                _ => z,
+        let (t, q, z) = (self.t, self.q, self.z);
+        let q = q.advance(&self.kernel.kinematics(t, &q, &z).scale(0.5 * h));
+        let middle = |z: K::Speeds| Middle { t: t + 0.5 * h, q, z };
+        let end = match (self.scheme, self.acceleration) {
+            (StepScheme::MoreauJean, _) => self.attempt(h, &middle(z), input)?,
+            (StepScheme::Midpoint, Some(acceleration)) => {
+                self.attempt(h, &middle(z.add_scaled(0.5 * h, &acceleration)), input)?
+            }
+            // At the start and after impacts no acceleration is known: the step is made twice.
+            (StepScheme::Midpoint, None) => match self.attempt(h, &middle(z), input)? {
+                end if end.struck => end,
+                end => self.attempt(h, &middle(z.add_scaled(1.0, &end.z).scale(0.5)), input)?,
             },
-        };
-        let end = match self.flight(h, &middle, input)? {
-            Some(end) => end,
-            None => self.touching(h, &middle, input)?,
         };
         if !(end.q.is_finite() && end.z.is_finite()) {
             return Err(self.error(None, ContactErrorKind::NonFinite));
@@ -260,6 +262,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         (self.q, self.z, self.impulses, self.modes) = (end.q, end.z, end.impulses, end.modes);
         (self.gaps, self.rates) = (end.gaps, end.rates);
         Ok(end.report)
+    }
+
+    fn attempt(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<End<K>, ContactError> {
+        match self.flight(h, middle, input)? {
+            Some(end) => Ok(end),
+            None => self.touching(h, middle, input),
+        }
     }
 
     fn error(&self, contact: Option<usize>, kind: ContactErrorKind) -> ContactError {
@@ -288,20 +297,20 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 
     /// A step in which no gap closes: the motion without contacts is all that it needs.
     fn flight(&self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Option<End<K>>, ContactError> {
-        let is_open = |i: &usize| K::CONTACTS[*i].has_gap() && !self.modes[*i].is_closed();
-        let contacts = 0..K::CONTACTS.len();
-        if !contacts.clone().all(|i| is_open(&i)) {
+        let is_open = |i: usize| K::CONTACTS[carrier(K::CONTACTS, i)].has_gap() && !self.modes[i].is_closed();
+        if !(0..K::CONTACTS.len()).all(is_open) {
             return Ok(None);
         }
+        let gaps_of = || (0..K::CONTACTS.len()).filter(|i| K::CONTACTS[*i].has_gap());
         let kernel = self.kernel;
         let z = self.z.add_scaled(h, &kernel.acceleration(middle.t, &middle.q, &middle.z, input));
         let after = kernel.contact_rates(middle.t, &middle.q, &z);
-        if !contacts.clone().all(|i| self.gap_at_end(h, i, after.component(K::CONTACTS[i].normal)) > 0.0) {
+        if !gaps_of().all(|i| self.gap_at_end(h, i, after.component(K::CONTACTS[i].normal)) > 0.0) {
             return Ok(None);
         }
         let (q, z) = self.second_half(h, middle, z)?;
         let gaps = kernel.gaps(self.t + h, &q);
-        if !contacts.clone().all(|i| gaps.component(i) >= 0.0) {
+        if !gaps_of().all(|i| gaps.component(i) >= 0.0) {
             return Ok(None);
         }
         let rates = kernel.contact_rates(self.t + h, &q, &z);
@@ -388,7 +397,11 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let mut cones = laws.cones;
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             let free = problem.b[contact.normal];
-            cones[i].acts = !contact.has_gap() || self.modes[i].is_closed() || end(i, free) <= 0.0;
+            // Rolling resistance comes after the contact that it is of.
+            cones[i].acts = match contact.rolls_on() {
+                Some(on) => cones[on].acts,
+                None => !contact.has_gap() || self.modes[i].is_closed() || end(i, free) <= 0.0,
+            };
             if contact.has_gap() {
                 problem.b[contact.normal] -= passed_on(i);
             }
@@ -401,9 +414,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             let (corrections, sweeps) = (found.corrections + next.corrections, found.sweeps + next.sweeps);
             found = Found { corrections, sweeps, ..next };
             let mut added = false;
-            for (i, cone) in cones.iter_mut().enumerate().filter(|(_, cone)| !cone.acts) {
-                cone.acts = end(i, problem.rates[K::CONTACTS[i].normal] + passed_on(i)) < 0.0;
-                added |= cone.acts;
+            for i in 0..cones.len() {
+                let closes = |i: usize| end(i, problem.rates[K::CONTACTS[i].normal] + passed_on(i)) < 0.0;
+                if !cones[i].acts {
+                    let on = K::CONTACTS[i].rolls_on();
+                    cones[i].acts = on.map_or_else(|| closes(i), |on| cones[on].acts);
+                    added |= cones[i].acts;
+                }
             }
             if !added {
                 break;
@@ -421,7 +438,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             modes[i] = problem.mode(cone, &scales, self.tolerance);
             let closes = modes[i].is_closed() && K::CONTACTS[i].has_gap();
             solved.struck |= closes && was_open;
-            solved.rests[i] = modes[i].is_closed() && (!closes || passed_on(i) == 0.0);
+            let carries = carrier(K::CONTACTS, i);
+            solved.rests[i] = modes[i].is_closed() && (!K::CONTACTS[carries].has_gap() || passed_on(carries) == 0.0);
         }
         (0..rows).for_each(|row| impulses.set_component(row, scales[row] * problem.impulses[row]));
         Ok(solved)

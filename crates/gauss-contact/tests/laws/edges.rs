@@ -201,7 +201,7 @@ fn friction_of_zero_is_no_friction_and_of_infinity_is_refused() {
     let run = run.run(V::zeros(), [4.0, 0.0].into(), 0.0..3.0).expect("runs");
     assert_eq!(
         (run.last().expect("a sample").z[0], run.modes(2.0).expect("inside")),
-        (4.0, &[Mode::Slides([1.0, 0.0])][..])
+        (4.0, &[Mode::Slides([1.0, 0.0, 0.0])][..])
     );
     for (mu, e) in [(f64::INFINITY, 0.0), (0.1, -0.1), (0.1, 1.0 + 1e-15)] {
         let kernel = block(1.0, mu, e);

@@ -140,7 +140,7 @@ fn painleves_rod_is_stopped_by_an_impulse_where_that_is_wanted() {
     assert!((hit.impulse[0] - normal).abs() < 1e-14 && (hit.impulse[1] + normal * a / b).abs() < 1e-14, "{hit:?}");
     assert!(hit.after[0].abs() < 1e-15 && hit.after[1].abs() < 1e-15, "{hit:?}");
     assert!((hit.energy_lost - 0.5 * slip * slip * a / (a * d - b * b)).abs() < 1e-14);
-    assert!(run.modes(0.0).unwrap() != [Mode::Slides([1.0, 0.0])]);
+    assert!(run.modes(0.0).unwrap() != [Mode::Slides([1.0, 0.0, 0.0])]);
 
     // From all angles on, also where the motion leads to such states.
     for n in 1..300 {

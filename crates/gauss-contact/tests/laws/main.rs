@@ -9,3 +9,4 @@ mod hostile;
 mod impacts;
 mod spatial;
 mod steps;
+mod turning;

@@ -41,7 +41,7 @@ fn what_slides_stops_at_its_time() {
         assert_eq!((end.state.z, end.state.q[1]), (V::zeros(), 0.0));
         // Within the step in which it stops it goes on at less than μ g h for half of it.
         assert!((end.state.q[0] - way).abs() <= mu * g * h * h, "{h} {}", end.state.q[0] - way);
-        assert_eq!(run[0].modes, [Mode::Slides([1.0, 0.0])]);
+        assert_eq!(run[0].modes, [Mode::Slides([1.0, 0.0, 0.0])]);
     }
 }
 
@@ -160,7 +160,8 @@ fn points_in_a_room_come_to_rest() {
         assert!(run.iter().all(|step| step.state.q.min() >= -8.0 * f64::EPSILON), "{n}");
         for i in 0..3 {
             let [normal, x, y] = [0, 1, 2].map(|k| end.impulses[3 * i + k]);
-            assert!(normal >= 0.0 && x.hypot(y) <= kernel.friction[i] * normal * (1.0 + 1e-12), "{n}");
+            // A few times the tolerance of steps, 1e-8.
+            assert!(normal >= 0.0 && x.hypot(y) <= kernel.friction[i] * normal * (1.0 + 1e-7), "{n}");
         }
     }
 }

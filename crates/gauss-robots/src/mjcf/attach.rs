@@ -64,6 +64,16 @@ impl<'a> File<'a> {
             }
             joint
         }));
+        own.collisions.extend(other.description.collisions.into_iter().map(|mut collision| {
+            if collision.link == WORLD {
+                collision.link = parent.to_owned();
+                let own = put(place, (collision.position, Rotation::from_matrix(&collision.rotation)));
+                (collision.position, collision.rotation) = (own.0, own.1.matrix);
+            }
+            collision
+        }));
+        let hung = |name: String| if name == WORLD { parent.to_owned() } else { name };
+        own.excluded.extend(other.description.excluded.into_iter().map(|pair| pair.map(hung)));
         own.closures.extend(other.description.closures);
         own.polynomials.extend(other.description.polynomials);
         own.tendons.extend(other.description.tendons);

@@ -13,4 +13,5 @@ pub struct Disabled {
     pub equalities: bool,
     pub frictions: bool,
     pub limits: bool,
+    pub contacts: bool,
 }

@@ -10,7 +10,7 @@ use crate::text::Text;
 use crate::xml::own_descendants;
 
 /// Sections whose elements refer to bodies, joints and sites, in this order: actuators and equalities refer to tendons.
-pub const SECTIONS: [&str; 3] = ["tendon", "equality", "actuator"];
+pub const SECTIONS: [&str; 4] = ["tendon", "equality", "contact", "actuator"];
 
 /// An element with a name, as others refer to it: what it is, and its name.
 pub type Named<'a> = (&'static str, &'a str);
@@ -54,7 +54,7 @@ impl Affix<'_> {
 pub fn name_of<'a>(node: Node<'a, 'a>) -> Option<Named<'a>> {
     let around = node.parent_element().map_or("", |parent| parent.tag_name().name());
     let kind = match node.tag_name().name() {
-        _ if matches!(around, "equality" | "actuator") => "other",
+        _ if matches!(around, "equality" | "contact" | "actuator") => "other",
         "joint" | "freejoint" => "joint",
         "fixed" | "spatial" => "tendon",
         "body" => "body",

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `classes`, `rotations` | defaults of elements; the ways to write a rotation |
 //! | `joints` | the joints of a body |
+//! | `collisions` | geoms that touch, and what is kept from touching |
 //! | `masses`, `shells`, `meshes`, `bounds` | mass data: of `<inertial>`, of geoms, of files; what they are at least |
 //! | `options`, `disabled` | gravity, what is switched off |
 //! | `reference` | of every attribute what becomes of it |
@@ -20,6 +21,7 @@ mod actuators;
 mod attach;
 mod bounds;
 mod classes;
+mod collisions;
 mod disabled;
 mod gains;
 mod include;
@@ -128,7 +130,7 @@ fn model(text: &Text, around: Option<(&str, &File<'_>)>) -> Result<Model, Vec<Fa
             file.reading.children(asset, tag);
         }
     }
-    file.reading.children(root, "contact");
+    file.reading.children(root, "contact").into_iter().for_each(|section| file.exclusions(section));
     file.reading.note_unread();
     let File { mut description, reading, sites, controls, .. } = file;
     description.notes = reading.notes;
@@ -216,7 +218,7 @@ impl<'a> File<'a> {
                 "body" => self.body(child, parent, class, place),
                 "site" => self.site(child, parent, class, place),
                 "attach" => self.attach(child, parent, place),
-                "geom" => self.reading.see(child),
+                "geom" => self.collision(child, parent, class, place),
                 "frame" => {
                     self.reading.see(child);
                     let class = self.reading.text(child, "childclass").or(class);

@@ -21,7 +21,8 @@ impl<'a> File<'a> {
                 let off = |word: &'static str| self.reading.text(flag, word) == Some("disable");
                 is_off |= off("gravity");
                 // `passive` is what `spring` and `damper` were called together.
-                let Disabled { actuation, clamps, springs, dampers, equalities, frictions, limits, .. } = &mut disabled;
+                let Disabled { actuation, clamps, springs, dampers, equalities, frictions, limits, contacts, .. } =
+                    &mut disabled;
                 *actuation |= off("actuation");
                 *clamps |= off("clampctrl");
                 *springs |= off("spring") || off("passive");
@@ -29,6 +30,7 @@ impl<'a> File<'a> {
                 *equalities |= off("equality") || off("constraint");
                 *frictions |= off("frictionloss") || off("constraint");
                 *limits |= off("limit") || off("constraint");
+                *contacts |= off("contact") || off("constraint");
             }
         }
         let is_said = is_off || disabled != Disabled::default() || all.iter().any(|node| node.has_attribute("gravity"));
@@ -45,7 +47,7 @@ impl<'a> File<'a> {
 
     /// Takes away what is switched off, once all is read.
     pub fn switch_off(&mut self) {
-        let Disabled { springs, dampers, equalities, frictions, limits, .. } = self.disabled;
+        let Disabled { springs, dampers, equalities, frictions, limits, contacts, .. } = self.disabled;
         let description = &mut self.description;
         for joint in &mut description.joints {
             joint.stiffness *= f64::from(!springs);
@@ -63,6 +65,9 @@ impl<'a> File<'a> {
             cable.stiffness *= f64::from(!springs);
             cable.damping *= f64::from(!dampers);
             cable.limits = cable.limits.filter(|_| !limits);
+        }
+        if contacts {
+            description.collisions.clear();
         }
         if equalities {
             description.closures.clear();

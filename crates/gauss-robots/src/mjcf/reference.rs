@@ -7,7 +7,7 @@ use crate::reference::{Attributes, Element, element, whole};
 const NAME: Verdict = Harmless("a name that nothing asks for");
 const LOOKS: Verdict = Harmless("how it looks");
 const USER: Verdict = Harmless("data that MuJoCo only keeps");
-const CONTACT: Verdict = Harmless("how geoms touch: contacts are not modelled");
+const CONTACT: Verdict = Harmless("how MuJoCo finds contacts, and how softly it holds them: they hold exactly here");
 const SOLVER: Verdict = Harmless("how MuJoCo solves, and how softly it holds constraints: they hold exactly here");
 const SPEED: Verdict = Harmless("how fast and with how much memory MuJoCo runs");
 const FITTED: Verdict = Harmless("how shapes are fitted to meshes: where a mass depends on that, it is a mistake");
@@ -73,7 +73,7 @@ pub const ELEMENTS: &[Element] = &[
     element("mujoco default", "default", &[&[CLASS]]),
     element("default", "mesh", &[MESH]),
     whole("default", "texture material camera light", LOOKS),
-    whole("default", "pair", CONTACT),
+    whole("default", "pair", Harmless("of pairs, each of which is warned of")),
     element("default", "equality", &[HELD]),
     element("default", "tendon", &[TENDON]),
     element(
@@ -108,8 +108,12 @@ pub const ELEMENTS: &[Element] = &[
     whole("body worldbody frame geom mesh", "plugin", Warned("plugins are not read", "")),
     // What joins and drives joints.
     element("mujoco", "contact tendon equality actuator keyframe", &[]),
-    whole("contact", "exclude", CONTACT),
-    whole("contact", "pair", Warned("contacts are not modelled", "")),
+    element("contact", "exclude", &[&[("name", NAME), ("body1 body2", Acts)]]),
+    whole(
+        "contact",
+        "pair",
+        Warned("of pairs no contacts are read; `ground(…)` and `contact(…)` of the struct make them", ""),
+    ),
     element("tendon", "fixed", &[TENDON]),
     element("tendon", "spatial", &[TENDON]),
     element("spatial", "site", &[&[("site", Acts)]]),
@@ -166,15 +170,19 @@ const OPTION: &[Attributes] = &[
     ("wind", Harmless("acts by `density` and `viscosity`, of which there is a warning")),
     ("magnetic", Harmless("of sensors")),
     ("timestep integrator", Harmless("a simulation has its own")),
-    ("impratio cone o_margin o_solref o_solimp o_friction noslip_iterations noslip_tolerance", CONTACT),
-    ("collision mpr_iterations mpr_tolerance ccd_iterations ccd_tolerance sdf_iterations sdf_initpoints", CONTACT),
+    ("impratio cone noslip_iterations noslip_tolerance", CONTACT),
+    ("o_margin o_solref o_solimp o_friction", Harmless("act by `override`, of which there is a warning")),
+    ("collision", Warned("geoms touch by their bits", "all dynamic")),
+    ("mpr_iterations mpr_tolerance ccd_iterations ccd_tolerance sdf_iterations sdf_initpoints", CONTACT),
     ("tolerance ls_tolerance jacobian solver iterations ls_iterations", SOLVER),
     ("sleep_tolerance apirate", SPEED),
 ];
 
 const FLAG: &[Attributes] = &[
-    ("gravity actuation clampctrl spring damper passive equality constraint frictionloss limit", Acts),
-    ("contact filterparent override multiccd nativeccd midphase", CONTACT),
+    ("gravity actuation clampctrl spring damper passive equality constraint frictionloss limit contact", Acts),
+    ("override", Warned("geoms have the friction that they say", "disable")),
+    ("filterparent", Harmless("of links that touch each other, which they do not here")),
+    ("multiccd nativeccd midphase", CONTACT),
     ("warmstart refsafe diagexact island eulerdamp", SOLVER),
     ("energy fwdinv invdiscrete sensor sensornoise", Harmless("what is computed beside the motion")),
     ("autoreset sleep speculative ipc", SPEED),
@@ -199,11 +207,11 @@ const JOINT: &[Attributes] = &[
 ];
 
 const GEOM: &[Attributes] = &[
-    ("class type size fromto mass density shellinertia group mesh", Acts),
-    ("name", NAME),
-    ("hfield", Harmless("ground, which has no mass")),
+    ("name class type size fromto mass density shellinertia group mesh", Acts),
+    ("contype conaffinity condim priority friction margin gap adhesion surfacevel", Acts),
+    ("hfield", Harmless("ground, which has no mass: where it is to touch, that it does not is a warning")),
     ("fitscale", FITTED),
-    ("contype conaffinity condim priority friction solmix solref solimp margin gap adhesion surfacevel", CONTACT),
+    ("solmix solref solimp", CONTACT),
     ("fluidshape fluidcoef", Harmless("act by `density` and `viscosity` of <option>, of which there is a warning")),
     ("rgba material castshadow", LOOKS),
     ("user", USER),

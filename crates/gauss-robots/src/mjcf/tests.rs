@@ -301,7 +301,7 @@ const FILE: &str = r#"<mujoco @/mujoco{}>
   </body>
   <body name="d"><freejoint @body/freejoint{}/><geom size="1"/></body>
 </worldbody>
-<contact>@in/contact{}</contact>
+<contact><exclude @contact/exclude{ body1="b" body2="c"}/>@in/contact{}</contact>
 <tendon><fixed @tendon/fixed{ name="t"}><joint @fixed/joint{ joint="a" coef="1"}/></fixed>
   <fixed name="u" class="t" stiffness="1" damping="1"><joint joint="a" coef="1"/></fixed>
   <spatial @tendon/spatial{ name="v" stiffness="1"}><site site="g"/><pulley @spatial/pulley{ divisor="2"}/>
@@ -372,6 +372,7 @@ const SAMPLES: &[(&str, &str, &str)] = &[
     ("option/flag", "", r#"constraint="disable""#),
     ("option/flag", "", r#"frictionloss="disable""#),
     ("option/flag", "", r#"limit="disable""#),
+    ("option/flag", "", r#"contact="disable""#),
     ("default/equality", "", r#"active="false""#),
     ("worldbody/frame", "", r#"childclass="other""#),
     ("worldbody/frame", "", r#"pos="1 2 3""#),
@@ -430,6 +431,18 @@ const SAMPLES: &[(&str, &str, &str)] = &[
     ("body/geom", r#"type="box" size="1 2 3""#, r#"euler="1 2 3""#),
     ("body/geom", r#"type="box" size="1 2 3""#, r#"xyaxes="1 2 3 4 5 7""#),
     ("body/geom", r#"type="box" size="1 2 3""#, r#"zaxis="1 2 3""#),
+    ("body/geom", r#"size="1""#, r#"name="z""#),
+    ("body/geom", r#"size="1""#, r#"contype="2""#),
+    ("body/geom", r#"size="1""#, r#"conaffinity="2""#),
+    ("body/geom", r#"size="1""#, r#"condim="1""#),
+    ("body/geom", r#"size="1""#, r#"priority="2""#),
+    ("body/geom", r#"size="1""#, r#"friction="0.5 0.1""#),
+    ("body/geom", r#"size="1""#, r#"margin="0.5""#),
+    ("body/geom", r#"size="1""#, r#"gap="0.5""#),
+    ("body/geom", r#"size="1""#, r#"adhesion="0.5""#),
+    ("body/geom", r#"size="1""#, r#"surfacevel="0 0 1 0 0 0""#),
+    ("contact/exclude", r#"body2="c""#, r#"!body1="b""#),
+    ("contact/exclude", r#"body1="b""#, r#"!body2="c""#),
     ("body/site", "", r#"name="z""#),
     ("body/site", r#"name="z""#, r#"class="other""#),
     ("body/site", r#"name="z""#, r#"pos="1 2 3""#),

@@ -91,10 +91,14 @@ fn listed(derived: &Derived<'_, '_>) -> Vec<TokenStream> {
     let private = derived.private();
     let mut next = 0;
     let contacts = derived.subject.system.scene.contacts.iter().map(|contact| {
-        let (name, first, tangents) = (&contact.name, next, contact.slips.len());
-        next += usize::from(contact.gap.is_some()) + tangents;
-        let kind = if contact.gap.is_some() { quote!(new) } else { quote!(dry_friction) };
-        quote!(#private::Contact::#kind(#name, #first, #tangents))
+        let (name, first, rows) = (&contact.name, next, contact.slips.len());
+        next += usize::from(contact.gap.is_some()) + rows;
+        let (tangents, drilling) = if contact.drills { (rows - 1, quote!(.with_drilling())) } else { (rows, quote!()) };
+        match (contact.gap, contact.rolls_on) {
+            (Some(_), _) => quote!(#private::Contact::new(#name, #first, #tangents)#drilling),
+            (None, Some(on)) => quote!(#private::Contact::rolling(#name, #first, #tangents, #on)),
+            (None, None) => quote!(#private::Contact::dry_friction(#name, #first, #tangents)),
+        }
     });
     contacts.collect()
 }

@@ -1,4 +1,6 @@
 //! Contacts as they are given.
+//!
+//! Friction of drilling is a slip more: the angular velocity about the normal times a radius.
 
 use crate::algebra::{Expr, Substitution};
 
@@ -6,12 +8,16 @@ use crate::algebra::{Expr, Substitution};
 #[derive(Clone)]
 pub struct Contact<'g> {
     pub name: String,
-    /// A function of t and q; `None` of dry friction.
+    /// A function of t and q; `None` of dry friction and of rolling resistance.
     pub gap: Option<Expr<'g>>,
     /// Functions of t, q and z, affine in z.
     pub slips: Vec<Expr<'g>>,
-    /// Of each slip μ, or the bound of dry friction: functions of t, q, z and inputs.
+    /// Whether the last of the slips is that of drilling.
+    pub drills: bool,
+    /// Of each slip μ, or the bound of dry friction, or ρ: functions of t, q, z and inputs.
     pub friction: Vec<Expr<'g>>,
+    /// Of rolling resistance the contact whose normal force bounds it, by its number; it comes before this one.
+    pub rolls_on: Option<usize>,
     /// e, a constant.
     pub restitution: Option<Expr<'g>>,
     /// Where it is, if that is known.
@@ -25,7 +31,7 @@ pub struct Contact<'g> {
 pub struct ContactFrame<'g> {
     /// Where it touches, from Ω: of an open contact the point of the first body that would.
     pub point: [Expr<'g>; 3],
-    /// The normal, then the tangents of the slips; of length one.
+    /// The normal, then the tangents of the slips, without drilling; of length one.
     pub axes: Vec<[Expr<'g>; 3]>,
 }
 

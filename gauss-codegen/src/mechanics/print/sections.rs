@@ -2,6 +2,7 @@
 
 use crate::algebra::Expr;
 
+use crate::mechanics::constraints::contact::Contact;
 use crate::mechanics::print::equations::{PrintedForces, Row, Section};
 use crate::mechanics::print::names::Name;
 use crate::mechanics::scene::Coordinate;
@@ -47,19 +48,29 @@ impl<'g> System<'g> {
         sections
     }
 
-    /// Gaps, slips and coefficients of friction; then dry friction.
-    pub(in crate::mechanics) fn contact_sections(&self) -> [Section<'g>; 2] {
+    /// Gaps, slips and coefficients of friction; then rolling resistance, and dry friction.
+    pub(in crate::mechanics) fn contact_sections(&self) -> [Section<'g>; 3] {
         let gaps = "gaps: none becomes negative; each adds a force that is not negative, and zero where it is open";
         let dry = "dry friction: a force against each slip, of the size f; at rest any force that is not larger";
-        [(gaps, false), (dry, true)].map(|(title, dry)| self.contact_section(title, dry))
+        let rolling = "rolling resistance: a torque against each slip, of the size ρ times the force of the gap; at rest any \
+                       torque that is not larger";
+        [(gaps, "μ", "\\mu"), (rolling, "ρ", "\\rho"), (dry, "f", "f")].map(|(title, letter, latex)| {
+            let is_of = |contact: &&Contact<'g>| match (contact.gap, contact.rolls_on) {
+                (Some(_), _) => letter == "μ",
+                (None, Some(_)) => letter == "ρ",
+                (None, None) => letter == "f",
+            };
+            let contacts: Vec<&Contact<'g>> = self.scene.contacts.iter().filter(is_of).collect();
+            Self::contact_section(title, (letter, latex), &contacts)
+        })
     }
 
-    fn contact_section(&self, title: &str, dry: bool) -> Section<'g> {
+    fn contact_section(title: &str, (letter, latex): (&str, &str), contacts: &[&Contact<'g>]) -> Section<'g> {
         let named = |letter: &str, latex: &str, name: &str| {
             Name::new(letter, latex).of(&Name::new(name, &format!("\\text{{{}}}", name.replace('_', "\\_"))))
         };
         let mut rows = Vec::new();
-        for contact in self.scene.contacts.iter().filter(|contact| contact.gap.is_none() == dry) {
+        for contact in contacts {
             rows.extend(contact.gap.map(|gap| Row::Definition(named("g", "g", &contact.name), legible(gap))));
             let slip = named("s", "s", &contact.name);
             let several = contact.slips.len() > 1;
@@ -67,7 +78,7 @@ impl<'g> System<'g> {
                 let name = if several { slip.index(k) } else { slip.clone() };
                 Row::Definition(name, legible(*e))
             }));
-            let bound = if dry { named("f", "f", &contact.name) } else { named("μ", "\\mu", &contact.name) };
+            let bound = named(letter, latex, &contact.name);
             let isotropic = contact.friction.iter().all(|e| *e == contact.friction[0]);
             let bounds = &contact.friction[..contact.friction.len().min(if isotropic { 1 } else { 2 })];
             rows.extend(bounds.iter().enumerate().map(|(k, e)| {

@@ -36,7 +36,7 @@ pub fn check(statements: &Statements, well: &[bool], context: &mut Context) {
     for (clause, _) in statements.contacts.iter().zip(well).filter(|(_, well)| **well) {
         check_axes(clause, context);
         match &clause.touching {
-            Touching::Gap { gap, slips } => {
+            Touching::Gap { gap, slips, spin, rolls } => {
                 if !moving.in_place(gap) {
                     context.error(
                         gap.span,
@@ -45,6 +45,13 @@ pub fn check(statements: &Statements, well: &[bool], context: &mut Context) {
                     );
                 }
                 check_slips(slips, context);
+                for turn in spin.iter().chain(rolls).filter(|turn| !moving.in_velocity(turn)) {
+                    context.error(
+                        turn.span,
+                        "this contains no velocity of anything that moves; write a component of \
+                         `ball.angular_velocity`, a speed, or the time derivative `rate(…)`",
+                    );
+                }
             }
             Touching::Slip { slips, .. } => check_slips(slips, context),
             Touching::Point(contact) => check_point(statements, clause, contact, &moving, context),
@@ -57,8 +64,15 @@ pub fn check(statements: &Statements, well: &[bool], context: &mut Context) {
     }
 }
 
-/// Friction of two axes has two slips.
+/// Friction of two axes has two slips, and no drilling.
 fn check_axes(clause: &ContactClause, context: &mut Context) {
+    if let (Some(_), [_, second]) = (&clause.drilling, &clause.friction[..]) {
+        context.error(
+            second.span,
+            "friction of drilling goes with the same friction along both tangents; write one coefficient, or remove \
+             `drilling`",
+        );
+    }
     if let Touching::Gap { slips, .. } | Touching::Slip { slips, .. } = &clause.touching
         && let ([_], [_, second]) = (&slips[..], &clause.friction[..])
     {
@@ -105,6 +119,12 @@ fn check_point(
              body, or the name of a point that is fixed in it",
         );
     }
+    if (clause.drilling.is_some() || clause.rolling.is_some()) && !needs_body {
+        let touched = other.filter(|center| moving.in_place(center));
+        for point in std::iter::once(&contact.point).chain(end).chain(touched) {
+            check_turning(point, statements, context);
+        }
+    }
     if let Against::Sphere { center, along: None, .. } = &contact.against
         && rubs
     {
@@ -122,6 +142,17 @@ fn check_point(
             normal.span,
             "the tangents of a normal that is not written in numbers are not known; add `along = [1, 0, 0]`, a direction \
              that is not that of the normal",
+        );
+    }
+}
+
+/// The point of what drills or rolls is one of a body.
+fn check_turning(point: &Expression, statements: &Statements, context: &mut Context) {
+    if !is_of_body(point, statements) {
+        context.error(
+            point.span,
+            "what drills or rolls turns with its body; write `point = ball.position` of the body, or the name of a point \
+             that is fixed in it",
         );
     }
 }

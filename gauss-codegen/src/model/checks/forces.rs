@@ -121,7 +121,7 @@ pub fn check_effect(statements: &Statements, context: &mut Context) {
     let mut used = HashSet::new();
     let of_forces =
         statements.forces.iter().flat_map(|clause| clause.expressions()).map(|(_, _, expression)| expression);
-    let of_contacts = statements.contacts.iter().flat_map(|clause| &clause.friction);
+    let of_contacts = statements.contacts.iter().flat_map(|clause| clause.friction.iter().chain(&clause.rolling));
     of_forces.chain(of_contacts).for_each(|expression| expression.put_names(&mut used));
     for input in statements.inputs.iter().flat_map(|names| &names.names) {
         let ident = &input.ident;

@@ -31,6 +31,10 @@ const CONTACT: &Table<()> = &[
     ("other_radius", ()),
     ("friction", ()),
     ("restitution", ()),
+    ("drilling", ()),
+    ("spin", ()),
+    ("rolling", ()),
+    ("roll", ()),
 ];
 /// The first goes with the second alone.
 const NEEDS: &Table<&str> = &[
@@ -48,11 +52,17 @@ const NEEDS: &Table<&str> = &[
     ("end", "point"),
     ("over", "height"),
     ("other_radius", "other"),
+    ("drilling", "friction"),
+    ("rolling", "friction"),
+    ("spin", "drilling"),
+    ("roll", "rolling"),
 ];
 /// The first does not go with the second, and why.
 const EXCLUDES: &[(&str, &str, &str)] = &[
     ("gap", "point", "`point` already gives the gap; remove `gap`, or remove `point`"),
     ("slip", "point", "the slip of a point follows from its motion; remove `slip`"),
+    ("spin", "point", "the spin of a point follows from the motion of its body; remove `spin`"),
+    ("roll", "point", "how a point rolls follows from the motion of its body; remove `roll`"),
     ("rim", "radius", "`rim` is the radius of a disk and `radius` that of a sphere; keep one of the two"),
     ("rim", "other", "a rim touches a plane alone; write the gap to another sphere as `gap = …`"),
     ("plane", "other", "a point touches a plane or another sphere; write a clause for each"),
@@ -109,13 +119,17 @@ pub fn read_contact(clause: &Clause, context: &mut Context) -> Option<ContactCla
         context
             .error(slip.name.span(), "without friction the slip does nothing; add `friction = mu`, or remove `slip`");
     }
+    written.check_turns(of_point, context);
+    let (drilling, rolling) = (written.value("drilling", "2 * r / 3", context), written.value("rolling", "d", context));
     let (name, touching) = (written.name?, touching.filter(|_| well)?);
     let numbered = |k| format_ident!("{}_{k}", name.unraw(), span = name.span());
-    let names = match &touching {
+    let names: Vec<Ident> = match &touching {
         Touching::Point(contact) if contact.copies.count() > 1 => (0..contact.copies.count()).map(numbered).collect(),
         _ => vec![name],
     };
-    Some(ContactClause { names, touching, friction: friction?, restitution })
+    let rolls = |name: &Ident| rolling.as_ref().map(|_| format_ident!("{}_rolling", name.unraw(), span = name.span()));
+    let names = names.into_iter().flat_map(|name| [Some(name.clone()), rolls(&name)]).flatten().collect();
+    Some(ContactClause { names, touching, friction: friction?, restitution, drilling, rolling, of_file: false })
 }
 
 /// `dry_friction(x, bound = …)` of the coordinate or the speed x, or `dry_friction(name, slip = …, bound = …)`; `None`
@@ -134,7 +148,7 @@ pub fn read_dry_friction(clause: &Clause, context: &mut Context) -> Option<Conta
     let names = vec![written.name?];
     let touching = Touching::Slip { slips: slips?, named };
     let friction = bound.filter(|bound| !bound.is_empty())?;
-    Some(ContactClause { names, touching, friction, restitution: None })
+    Some(ContactClause { names, touching, friction, restitution: None, drilling: None, rolling: None, of_file: false })
 }
 
 /// `range(x, from = …, to = …, restitution = …)` of the coordinate x, or `range(name, along = …, …)`; `None` if
@@ -159,7 +173,15 @@ pub fn read_range(clause: &Clause, context: &mut Context) -> Option<ContactClaus
         return None;
     }
     let touching = Touching::Range { along: along?, from, to };
-    Some(ContactClause { names, touching, friction: Vec::new(), restitution })
+    Some(ContactClause {
+        names,
+        touching,
+        friction: Vec::new(),
+        restitution,
+        drilling: None,
+        rolling: None,
+        of_file: false,
+    })
 }
 
 /// Three lengths along the axes of a body; `what` and `word` say of what shape.
@@ -262,8 +284,31 @@ impl Written {
 
     /// What a gap is said to be, with slips.
     fn of_gap(&self, context: &mut Context) -> Option<Touching> {
-        let gap = self.value("gap", "z - r", context);
-        Some(Touching::Gap { gap: gap?, slips: self.one_or_two("slip", "v", context)? })
+        let (gap, spin) = (self.value("gap", "z - r", context), self.value("spin", "w", context));
+        let (slips, rolls) = (self.one_or_two("slip", "v", context), self.one_or_two("roll", "w", context));
+        Some(Touching::Gap { gap: gap?, slips: slips?, spin, rolls: rolls? })
+    }
+
+    /// Drilling and rolling have their rates, where no point says them.
+    fn check_turns(&self, of_point: bool, context: &mut Context) {
+        let rates = [
+            (
+                "drilling",
+                "spin",
+                "friction of drilling acts along a spin; add `spin = w`, the angular velocity about the normal",
+            ),
+            (
+                "rolling",
+                "roll",
+                "rolling resistance acts along angular velocities; add `roll = w`, that about the tangent, or `roll = [a, b]` \
+                 of two tangents",
+            ),
+        ];
+        for (word, rate, message) in rates.into_iter().filter(|_| !of_point) {
+            if let Some(argument) = self.find(word).filter(|_| self.lacks(rate)) {
+                context.error(argument.name.span(), message);
+            }
+        }
     }
 
     /// The expressions of an argument that has one for each tangent; none where it is not given.

@@ -10,6 +10,7 @@ pub mod context;
 pub mod declarations;
 pub mod fields;
 pub mod functions;
+pub mod ground;
 pub mod kind;
 pub mod nesting;
 pub mod own_functions;

@@ -1,11 +1,12 @@
 //! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating`,
 //! `inputs = all | none | transmissions | actuators`, `joint_friction = smooth(width) | none`,
-//! `limits = range | stop(…) | none`, `saturation = clamp | none`, `parameters = inertial`, `ignore(…)`.
+//! `limits = range | stop(…) | none`, `ground(…)`, `saturation = clamp | none`, `parameters = inertial`, `ignore(…)`.
 
 use super::arguments;
 use super::arithmetic;
 use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
+use super::ground::{self, Ground};
 use super::words::{self, Table};
 use crate::model::scene::expression::Expression;
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenTree};
@@ -19,6 +20,8 @@ pub struct RobotClauses {
     pub inputs: Option<Inputs>,
     pub friction: Option<Friction>,
     pub limits: Option<Limits>,
+    /// What the shapes of links touch.
+    pub grounds: Vec<Ground>,
     pub saturation: Option<Saturation>,
     /// The word `parameters` of `parameters = inertial`.
     pub inertial: Option<Ident>,
@@ -94,6 +97,7 @@ pub enum RobotTopic {
     Inputs,
     Friction,
     Limits,
+    Ground,
     Saturation,
     Parameters,
     Ignore,
@@ -109,6 +113,7 @@ pub const OPTIONS: &Table<RobotTopic> = &[
     ("inputs", RobotTopic::Inputs),
     ("joint_friction", RobotTopic::Friction),
     ("limits", RobotTopic::Limits),
+    ("ground", RobotTopic::Ground),
     ("saturation", RobotTopic::Saturation),
     ("parameters", RobotTopic::Parameters),
     ("ignore", RobotTopic::Ignore),
@@ -150,7 +155,8 @@ impl RobotClauses {
             RobotTopic::Limits => self.limits.is_some(),
             RobotTopic::Saturation => self.saturation.is_some(),
             RobotTopic::Parameters => self.inertial.is_some(),
-            RobotTopic::Ignore => false,
+            // Each is a plane of its own.
+            RobotTopic::Ground | RobotTopic::Ignore => false,
         };
         if twice {
             let name = &clause.name;
@@ -162,6 +168,7 @@ impl RobotClauses {
             RobotTopic::Inputs => self.inputs = self.inputs.or(read_word("inputs", clause, INPUTS, context)),
             RobotTopic::Friction => self.friction = self.friction.take().or(read_friction(clause, context)),
             RobotTopic::Limits => self.limits = self.limits.take().or(read_limits(clause, context)),
+            RobotTopic::Ground => self.grounds.extend(ground::read(clause, context)),
             RobotTopic::Saturation => {
                 self.saturation = self.saturation.or(read_word("saturation", clause, SATURATION, context));
             }

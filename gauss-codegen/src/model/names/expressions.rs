@@ -144,8 +144,8 @@ impl ContactClause {
     /// Its expressions, with their places.
     pub fn placed(&self) -> Vec<(Place, &Expression)> {
         let mut placed = match &self.touching {
-            Touching::Gap { gap, slips } => {
-                let slips = slips.iter().map(|slip| (Place::Slip, slip));
+            Touching::Gap { gap, slips, spin, rolls } => {
+                let slips = slips.iter().chain(spin).chain(rolls).map(|slip| (Place::Slip, slip));
                 std::iter::once((Place::Gap, gap)).chain(slips).collect::<Vec<_>>()
             }
             Touching::Point(contact) => contact.placed(),
@@ -159,6 +159,9 @@ impl ContactClause {
         placed.extend(self.friction.iter().map(|friction| (bounds, friction)));
         let restitution = Place::Constant { word: "coefficient of restitution", of: Holder::Contact };
         placed.extend(self.restitution.iter().map(|value| (restitution, value)));
+        let drilling = Place::Constant { word: "radius of drilling", of: Holder::Contact };
+        placed.extend(self.drilling.iter().map(|value| (drilling, value)));
+        placed.extend(self.rolling.iter().map(|value| (Place::Rolling, value)));
         placed
     }
 }

@@ -68,6 +68,8 @@ pub enum Place {
     Friction,
     /// The largest force of dry friction.
     Bound,
+    /// The arm of rolling resistance of a contact.
+    Rolling,
     /// The point of a contact, or of what it touches.
     Touching,
     /// The normal or a tangent of a plane, the axis of a rim.
@@ -116,7 +118,7 @@ impl Place {
         match self {
             Place::Kinematics(None) => true,
             Place::Kinematics(Some(CoordinateKind::Scalar)) | Place::Mass | Place::Potential => kind == Kind::Scalar,
-            Place::Gap | Place::Slip | Place::Friction | Place::Bound => kind == Kind::Scalar,
+            Place::Gap | Place::Slip | Place::Friction | Place::Bound | Place::Rolling => kind == Kind::Scalar,
             Place::Limited | Place::Limit => kind == Kind::Scalar,
             Place::Drive | Place::Along(_) | Place::Constant { .. } | Place::Dissipation | Place::Coefficient(_) => {
                 kind == Kind::Scalar
@@ -176,6 +178,7 @@ impl Place {
             Place::Gap => ("a gap is a scalar", "write one number, such as `ball.position.z - r`"),
             Place::Slip => ("a slip is a scalar", "write one number, such as `dot(tip.velocity, [1, 0, 0])`"),
             Place::Friction => ("a coefficient of friction is a scalar", "write one number or the name of a field"),
+            Place::Rolling => ("the arm of rolling resistance is a scalar", "write one number or the name of a field"),
             Place::Bound => ("the bound of dry friction is a scalar", "write one number or the name of a field"),
             Place::Touching => {
                 ("the point of a contact is a vector", "write the name of a point, `arm.position` or `[x, y, z]`")
@@ -270,6 +273,7 @@ impl Place {
                 | Place::Coefficient(_)
                 | Place::Friction
                 | Place::Bound
+                | Place::Rolling
                 | Place::Definition
         )
     }
@@ -279,7 +283,7 @@ impl Place {
         let constant = matches!(self, Place::Constant { of: Holder::Contact, .. });
         let of_point = matches!(self, Place::Touching | Place::Direction | Place::Height);
         let of_gap = matches!(self, Place::Gap | Place::Slip | Place::Limited | Place::Limit);
-        constant || of_point || of_gap || matches!(self, Place::Friction | Place::Bound)
+        constant || of_point || of_gap || matches!(self, Place::Friction | Place::Bound | Place::Rolling)
     }
 
     /// Nothing that moves with the system may stand here, but time may.
@@ -322,6 +326,7 @@ impl Place {
             Place::Slip => "a slip",
             Place::Friction => "a coefficient of friction",
             Place::Bound => "the bound of dry friction",
+            Place::Rolling => "the arm of rolling resistance",
             Place::Touching => "the point of a contact",
             Place::Direction => "a direction",
             Place::Height => "the height of a plane",
@@ -454,7 +459,7 @@ impl Place {
     pub fn refuses_kinks(self) -> Option<String> {
         match self {
             Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) => None,
-            Place::Friction | Place::Bound | Place::Definition => None,
+            Place::Friction | Place::Bound | Place::Rolling | Place::Definition => None,
             Place::Dissipation => Some("forces are derivatives of a dissipation function".into()),
             place if place.is_constant() => None,
             place => Some(format!("{} is differentiated", place.subject())),
@@ -465,7 +470,7 @@ impl Place {
     pub fn refuses_kink(self, function: FunctionName) -> Option<String> {
         match self {
             Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) => None,
-            Place::Friction | Place::Bound | Place::Definition => None,
+            Place::Friction | Place::Bound | Place::Rolling | Place::Definition => None,
             place if place.is_constant() => Some(format!(
                 "`{}` stands in values of forces only; make the number a field of the struct",
                 function.word()

@@ -77,6 +77,7 @@ pub struct Robot<'a> {
     pub in_field: Vec<bool>,
     pub gravity_in_field: bool,
     pub notes: Vec<Note>,
+    pub names: Names,
 }
 
 impl<'a> Robot<'a> {
@@ -117,6 +118,7 @@ impl<'a> Robot<'a> {
             in_field,
             gravity_in_field,
             notes,
+            names,
         }
     }
 
@@ -202,7 +204,9 @@ impl<'a> Robot<'a> {
         statements.bodies.splice(0..0, bodies);
         self.add_armatures(statements);
         statements.constraints.splice(0..0, self.constraints(&text.names()));
-        statements.contacts.splice(0..0, self.ranges());
+        let made = self.touching(context);
+        statements.points.splice(0..0, made.points);
+        statements.contacts.splice(0..0, self.ranges().into_iter().chain(made.contacts));
         let gravity = statements.role_clauses.iter().find(|clause| clause.role == Role::Gravity);
         let forces = self.forces(gravity);
         let own = self.gravity().filter(|_| gravity.is_none() && !self.gravity_in_field);

@@ -94,7 +94,15 @@ impl Robot<'_> {
             let ends = [("from", &from), ("to", &to)].into_iter().filter(|(_, limit)| limit.is_some());
             let names = ends.map(|(end, _)| format_ident!("{name}_{end}", span = writer.span)).collect();
             let touching = Touching::Range { along: limited.along, from, to };
-            ContactClause { names, touching, friction: Vec::new(), restitution: None }
+            ContactClause {
+                names,
+                touching,
+                friction: Vec::new(),
+                restitution: None,
+                drilling: None,
+                rolling: None,
+                of_file: true,
+            }
         };
         self.limited().into_iter().map(range).collect()
     }

@@ -9,6 +9,7 @@
 //! | `clauses` | a description → clauses, before those of the struct |
 //! | `drives`, `efforts`, `ranges` | inputs; what they do; how much of it at most |
 //! | `limits` | those of joints and tendons |
+//! | `ground`, `touching` | planes and what touches them; contacts of shapes |
 //! | `laws`, `springs`, `relations` | other forces in joints; springs of all kinds; relations of links besides the tree |
 //! | `inertias` | mass data that no body has |
 //! | `states` | states with names, mass data for fields |
@@ -16,6 +17,7 @@
 mod clauses;
 mod drives;
 mod efforts;
+mod ground;
 mod inertias;
 mod joints;
 mod laws;
@@ -26,5 +28,6 @@ mod relations;
 mod source;
 mod springs;
 mod states;
+mod touching;
 
 pub use clauses::compose;

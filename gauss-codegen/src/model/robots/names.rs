@@ -9,6 +9,7 @@ use crate::model::names::naming::is_reserved;
 use gauss_robots::description::{At, Note};
 
 /// Identifiers that are taken.
+#[derive(Clone)]
 pub struct Names {
     span: Span,
     taken: HashSet<String>,

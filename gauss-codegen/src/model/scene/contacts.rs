@@ -16,17 +16,28 @@ pub struct ContactClause {
     pub friction: Vec<Expression>,
     /// The coefficient e: a scalar of fields and numbers.
     pub restitution: Option<Expression>,
+    /// The radius of friction of drilling: a scalar of fields and numbers; only with friction, and spin.
+    pub drilling: Option<Expression>,
+    /// The arm ρ of rolling resistance, a scalar as `friction`; only with that. Each contact has another one with it,
+    /// whose name follows its own among the names.
+    pub rolling: Option<Expression>,
+    /// Made of the file of a robot: friction that does nothing is no mistake.
+    pub of_file: bool,
 }
 
 /// What may touch.
 #[derive(Clone)]
 pub enum Touching {
-    /// `gap = …, slip = …`.
+    /// `gap = …, slip = …, spin = …, roll = …`.
     Gap {
         /// A scalar of t and q that is not negative.
         gap: Expression,
         /// One or two scalars of t, q and z with friction, else none.
         slips: Vec<Expression>,
+        /// The angular velocity about the normal with drilling, a scalar of t, q and z.
+        spin: Option<Expression>,
+        /// The same about the tangents with rolling, one or two.
+        rolls: Vec<Expression>,
     },
     /// `point = …` of a point, a sphere or a rim.
     Point(Box<PointContact>),
@@ -168,9 +179,9 @@ impl ContactClause {
     /// Calls `change` with each of its expressions.
     pub fn each_expression(&mut self, change: &mut dyn FnMut(&mut Expression)) {
         match &mut self.touching {
-            Touching::Gap { gap, slips } => {
+            Touching::Gap { gap, slips, spin, rolls } => {
                 change(gap);
-                slips.iter_mut().for_each(&mut *change);
+                slips.iter_mut().chain(spin).chain(rolls).for_each(&mut *change);
             }
             Touching::Point(contact) => contact.each_expression(change),
             Touching::Slip { slips, .. } => slips.iter_mut().for_each(&mut *change),
@@ -179,6 +190,7 @@ impl ContactClause {
                 from.iter_mut().chain(to).for_each(&mut *change);
             }
         }
-        self.friction.iter_mut().chain(&mut self.restitution).for_each(change);
+        let of_turns = self.drilling.iter_mut().chain(&mut self.rolling);
+        self.friction.iter_mut().chain(&mut self.restitution).chain(of_turns).for_each(change);
     }
 }

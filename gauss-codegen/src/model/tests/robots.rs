@@ -1,6 +1,7 @@
 //! Robots from files: what is read, what is refused and where, what is told.
 
 mod drives;
+mod ground;
 #[cfg(feature = "mjcf")]
 mod mjcf;
 
@@ -262,11 +263,12 @@ fn what_is_not_read() {
         told("3:112: the attribute `yaw` of <origin> is not read", true),
         told("3:143: the attribute `backlash` of <dynamics> is not read", true),
         told("5:1: <gazebo> does not act: what Gazebo adds is not read; likewise in lines 6, 7", true),
-        told("8:20: not read, as it has no part in the motion, how many times: visual (2), collision (1)", false),
+        told("8:20: not read, as it has no part in the motion, how many times: visual (2)", false),
+        told("8:38: shapes that touch nothing: 1; `ground(…)` lets them touch a plane", false),
     ];
     assert_eq!(remarks(&text, ""), all);
     let known = remarks(&text, ", ignore(gazebo, backlash)");
-    assert_eq!(known.iter().map(|(_, ignored)| *ignored).collect::<Vec<_>>(), [true, false, false, false]);
+    assert_eq!(known.iter().map(|(_, ignored)| *ignored).collect::<Vec<_>>(), [true, false, false, false, false]);
     let many: String = (0..5)
         .map(|k| {
             let (parent, child) = (if k == 0 { "base".to_owned() } else { format!("l{}", k - 1) }, format!("l{k}"));

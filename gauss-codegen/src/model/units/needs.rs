@@ -140,7 +140,7 @@ impl Checker<'_> {
         }
         let (first, others, what, unit) = match &clause.touching {
             Touching::Slip { .. } => return,
-            Touching::Gap { gap, slips } => (gap, slips.iter().collect(), "a slip with this gap is", Unit::Rate),
+            Touching::Gap { gap, slips, .. } => (gap, slips.iter().collect(), "a slip with this gap is", Unit::Rate),
             Touching::Point(contact) => {
                 let lengths = Need::new("points, radii and heights of a contact are", LENGTH);
                 contact.lengths().into_iter().for_each(|e| self.require(e, &lengths));
@@ -150,7 +150,8 @@ impl Checker<'_> {
                 (along, from.iter().chain(to).collect::<Vec<_>>(), "the limit of this range is", Unit::Extent)
             }
         };
-        let needed = extent(self.value(first)).and_then(|extent| extent.unit(unit));
+        let of_gap = extent(self.value(first));
+        let needed = of_gap.as_ref().and_then(|extent| extent.unit(unit));
         for other in others {
             match &needed {
                 Some((text, dimension)) => self.require(other, &Need::new(what, (text, *dimension))),
@@ -159,10 +160,33 @@ impl Checker<'_> {
                 }
             }
         }
+        self.turns(clause, of_gap.and_then(|extent| extent.unit(Unit::Extent)));
         let friction = clause.friction.iter().map(|e| (e, "a coefficient of friction is"));
         let restitution = clause.restitution.iter().map(|e| (e, "a coefficient of restitution is"));
         for (e, what) in friction.chain(restitution) {
             self.require(e, &Need::new(what, NONE));
+        }
+    }
+
+    /// Spins are angular velocities; the radius of drilling and the arm of rolling resistance are in the unit of the
+    /// gap.
+    fn turns(&mut self, clause: &ContactClause, of_gap: Option<(String, Dimension)>) {
+        if let Touching::Gap { spin, rolls, .. } = &clause.touching {
+            let rate = Need::new("a spin and a roll are", ANGULAR_VELOCITY);
+            spin.iter().chain(rolls).for_each(|e| self.require(e, &rate));
+        }
+        let arm = match (&clause.touching, &of_gap) {
+            (Touching::Point(_), _) => Some(LENGTH),
+            (_, Some((text, dimension))) => Some((&text[..], *dimension)),
+            _ => None,
+        };
+        for e in clause.drilling.iter().chain(&clause.rolling) {
+            match arm {
+                Some(arm) => self.require(e, &Need::new("radii of drilling and arms of rolling resistance are", arm)),
+                None => {
+                    self.value(e);
+                }
+            }
         }
     }
 

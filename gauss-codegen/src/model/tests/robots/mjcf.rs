@@ -40,7 +40,9 @@ fn what_is_told_and_refused() {
         (
             format!("{hinge}<contact><pair geom1=\"a\"/></contact>"),
             "",
-            Some("3:50: <pair> does not act: contacts are not modelled"),
+            Some(
+                "3:50: <pair> does not act: of pairs no contacts are read; `ground(…)` and `contact(…)` of the struct make them",
+            ),
         ),
         (format!("{hinge}<tendon><spatial name=\"s\"/></tendon>"), "", None),
         (

@@ -39,7 +39,7 @@ fn accepted() {
     let shown = model.contacts.iter().map(|clause| {
         let names: Vec<String> = clause.names.iter().map(ToString::to_string).collect();
         let touching = match &clause.touching {
-            Touching::Gap { gap, slips } => {
+            Touching::Gap { gap, slips, .. } => {
                 format!("gap {}, slips {:?}", show(gap), slips.iter().map(show).collect::<Vec<_>>())
             }
             Touching::Slip { slips, .. } => {
@@ -327,6 +327,29 @@ fn units() {
         )
     };
     system(&scene("contact(a, gap = l * sin(x), slip = l / s + rate(x), friction = l / l, restitution = 0.5)"));
+    system(&scene(
+        "contact(a, gap = l * sin(x), slip = l / s + rate(x), friction = 1, spin = 1 / s + rate(x), drilling = l, \
+         roll = 1 / s + rate(x), rolling = l)",
+    ));
+    check(
+        &scene(
+            "contact(a, gap = l * sin(x), slip = l / s + rate(x), friction = 1, spin = l / s + rate(x), drilling = s, \
+             roll = 1 / s + rate(x), rolling = 1 / l)",
+        ),
+        &[
+            ("+", "this sum is in m/s, and a spin and a roll are in rad/s; multiply it by a coefficient in 1/m"),
+            (
+                "s",
+                "`s` is in s, and radii of drilling and arms of rolling resistance are in m; multiply it by a coefficient in \
+                 m/s, or correct its unit",
+            ),
+            (
+                "/",
+                "this quotient is in 1/m, and radii of drilling and arms of rolling resistance are in m; multiply it by a \
+                 coefficient in m^2, such as a field with this unit: numbers have none",
+            ),
+        ],
+    );
     system(&scene("dry_friction(x, bound = f * l), dry_friction(belt, slip = l / s + rate(x), bound = f)"));
     check(
         &scene("dry_friction(belt, slip = [l / s + rate(x), 1 / s + rate(x)], bound = [f * l, f * l])"),
@@ -409,5 +432,85 @@ fn dry_friction() {
             "unknown name `knee`; expected a coordinate (`pose` or `theta`), a speed (`u`, `w` or `v`), a field (`l`, `k` or \
              `c`), a body (`hull` or `arm`), a frame (`quay`), a point (`tip`) or `t`",
         )],
+    );
+}
+
+#[test]
+fn drilling_and_rolling() {
+    let model = system(&arm(
+        "input(grip), contact(ball, point = hull.position, radius = l, friction = k, drilling = 2 * l / 3, rolling = grip), \
+         contact(case, point = tip, edges = [l, 0, 0], friction = k, rolling = k * abs(v)), \
+         contact(foot, point = tip, friction = k, drilling = l), \
+         contact(disk, gap = theta, slip = [v, w.x], friction = k, spin = w.z, drilling = l, roll = [w.x, w.y], rolling = k)",
+    ));
+    let names = model.contacts.iter().map(|clause| clause.names.iter().map(ToString::to_string).collect::<Vec<_>>());
+    assert_eq!(
+        names.collect::<Vec<_>>(),
+        [
+            &["ball", "ball_rolling"][..],
+            &["case_0", "case_0_rolling", "case_1", "case_1_rolling"],
+            &["foot"],
+            &["disk", "disk_rolling"]
+        ]
+    );
+    let spins = "what drills or rolls turns with its body; write `point = ball.position` of the body, or the name of a point \
+                 that is fixed in it";
+    let still = "this contains no velocity of anything that moves; write a component of `ball.angular_velocity`, a speed, or \
+                 the time derivative `rate(…)`";
+    mistakes(
+        "contact(a, point = tip, drilling = l), contact(b, point = tip, rolling = l), \
+         contact(d, point = tip, friction = k, drilling = l, spin = v), \
+         contact(e, point = tip, friction = k, rolling = l, roll = v), \
+         contact(f, gap = theta, slip = v, friction = k, drilling = l), \
+         contact(g, gap = theta, slip = v, friction = k, rolling = l), \
+         contact(h, gap = theta, slip = v, friction = k, spin = v), contact(i, gap = theta, slip = v, friction = k, roll = v), \
+         contact(m, gap = theta, slip = v, friction = k, roll = [v, v, v], rolling = l), range(theta, to = k, drilling = l), \
+         contact(n, point = tip, friction = k, driling = l)",
+        &[
+            ("drilling", "`drilling` goes with `friction = …`; add it, or remove `drilling`"),
+            ("rolling", "`rolling` goes with `friction = …`; add it, or remove `rolling`"),
+            ("spin", "the spin of a point follows from the motion of its body; remove `spin`"),
+            ("roll", "how a point rolls follows from the motion of its body; remove `roll`"),
+            (
+                "drilling",
+                "friction of drilling acts along a spin; add `spin = w`, the angular velocity about the normal",
+            ),
+            (
+                "rolling",
+                "rolling resistance acts along angular velocities; add `roll = w`, that about the tangent, or `roll = [a, b]` \
+                 of two tangents",
+            ),
+            ("spin", "`spin` goes with `drilling = …`; add it, or remove `spin`"),
+            ("roll", "`roll` goes with `rolling = …`; add it, or remove `roll`"),
+            ("[", "`roll` is one scalar or two, one for each tangent, found 3; write `roll = v` or `roll = [u, v]`"),
+            ("drilling", "unknown argument of `range`: `drilling`; expected `along`, `from`, `to` or `restitution`"),
+            ("driling", "unknown argument of `contact`: `driling`; did you mean `drilling`?"),
+        ],
+    );
+    mistakes(
+        "contact(a, point = tip, friction = [k, k], drilling = l), contact(b, point = tip, friction = k, drilling = theta), \
+         contact(d, point = tip, friction = k, rolling = c), contact(e, point = [0, 0, theta], friction = k, drilling = l), \
+         contact(f, point = tip, other = [0, theta, 0], along = c, friction = k, rolling = l), \
+         contact(g, gap = theta, slip = v, friction = k, spin = theta, drilling = l), \
+         contact(h, gap = theta, slip = v, friction = k, roll = [v, l], rolling = l), \
+         contact(a_rolling, gap = theta), contact(a, gap = -theta, slip = v, friction = k, roll = v, rolling = l)",
+        &[
+            ("a", "two contacts are called `a`; rename one of the two"),
+            ("a", "two contacts are called `a_rolling`; rename one of the two"),
+            (
+                "theta",
+                "`theta` varies, and the radius of drilling of a contact is constant; write numbers and fields only",
+            ),
+            ("c", "the arm of rolling resistance is a scalar, found a vector; write one number or the name of a field"),
+            (
+                "k",
+                "friction of drilling goes with the same friction along both tangents; write one coefficient, or remove \
+                 `drilling`",
+            ),
+            ("[", spins),
+            ("[", spins),
+            ("theta", still),
+            ("l", still),
+        ],
     );
 }

@@ -1,0 +1,198 @@
+//! The ground: planes of the struct, or of the file, and the links that touch them.
+
+use proc_macro2::Ident;
+
+use super::clauses::Robot;
+use super::touching::Made;
+use crate::model::language::context::Context;
+use crate::model::language::ground::Ground;
+use crate::model::scene::contacts::Against;
+use gauss_robots::collision::{Collision, Shape, Surface, Touch};
+use gauss_robots::description::{Description, Note};
+use gauss_robots::rotation::{Triple, turned};
+use gauss_robots::unknown;
+
+/// What holds all bodies of an MJCF file.
+const WORLD: &str = "world";
+
+/// A plane, with the shape of the file that it is.
+struct Plane<'a> {
+    against: Against,
+    of: Option<&'a Collision>,
+}
+
+impl Robot<'_> {
+    /// Contacts of links with planes, as far as they are asked for.
+    pub fn touching(&mut self, context: &mut Context) -> Made {
+        let mut made = Made::new(self.names.clone(), self.writer);
+        let mut notes = self.notes_of_shapes();
+        for ground in &self.clauses.grounds {
+            let links = self.links_on(ground, context);
+            let planes = self.planes(ground);
+            let (earlier, mut own) = (made.count(), Vec::new());
+            for collision in &self.description.collisions {
+                let Some(link) = self.link_of(collision).filter(|link| links.contains(link)) else { continue };
+                for plane in &planes {
+                    let Some(touch) = touch(collision, plane.of, self.description) else { continue };
+                    match &collision.shape {
+                        Shape::Plane => own.push(unread(collision, "a plane of a link that moves")),
+                        Shape::Unread(what) => own.push(unread(collision, what)),
+                        _ => {
+                            made.add(collision, &self.links[link], &plane.against, ground, &touch);
+                            own.extend(beyond(collision, plane.of, &touch));
+                        }
+                    }
+                }
+            }
+            own.extend(self.steps(ground));
+            own.dedup();
+            match made.count() - earlier {
+                0 => refuse_idle(ground, &own, context),
+                count => notes.extend(self.told(count)),
+            }
+            notes.extend(own);
+        }
+        self.notes.extend(notes);
+        made
+    }
+
+    /// That shapes touch nothing, where nothing is said of them.
+    fn notes_of_shapes(&self) -> Vec<Note> {
+        let mut shapes = self.description.collisions.iter().filter(|collision| {
+            collision.shape != Shape::Plane && self.link_of(collision).is_some_and(|link| self.moves(link))
+        });
+        let first = shapes.next().filter(|_| self.clauses.grounds.is_empty());
+        let text = |count: usize| format!("shapes that touch nothing: {count}; `ground(…)` lets them touch a plane");
+        first.map(|first| Note::told(first.at, text(1 + shapes.count()))).into_iter().collect()
+    }
+
+    fn told(&self, count: usize) -> Option<Note> {
+        let first = self.description.collisions.first()?;
+        let text = format!("contacts with the ground: {count}; `links = […]` chooses those of some links");
+        Some(Note::told(first.at, text))
+    }
+
+    fn link_of(&self, collision: &Collision) -> Option<usize> {
+        self.description.links.iter().position(|link| link.name == collision.link)
+    }
+
+    /// Those that a ground names, or all that move.
+    fn links_on(&self, ground: &Ground, context: &mut Context) -> Vec<usize> {
+        let Some(names) = &ground.links else {
+            return (0..self.links.len()).filter(|link| self.moves(*link)).collect();
+        };
+        let mut chosen = Vec::new();
+        for name in names {
+            let Some(link) = self.links.iter().position(|link| link == name) else {
+                let word = name.to_string();
+                let known: Vec<String> = self.links.iter().map(Ident::to_string).collect();
+                let which = unknown("link", &word, known.iter().map(String::as_str));
+                context.error(name.span(), format!("`ground` is touched by {which}"));
+                continue;
+            };
+            let has_shape = self.description.collisions.iter().any(|collision| self.link_of(collision) == Some(link));
+            if chosen.contains(&link) {
+                context.error(name.span(), format!("`{name}` is named twice; remove one of the two"));
+            } else if !self.moves(link) {
+                context.error(name.span(), format!("the link `{name}` does not move; remove it"));
+            } else if !has_shape {
+                context.error(
+                    name.span(),
+                    format!(
+                        "the link `{name}` has no shape that touches; remove it, or write `contact(…)` of a point of it"
+                    ),
+                );
+            }
+            chosen.push(link);
+        }
+        chosen
+    }
+
+    /// The plane that a ground says, those of the file, or that through Ω.
+    fn planes(&self, ground: &Ground) -> Vec<Plane<'_>> {
+        let writer = self.writer;
+        let plane = |normal, height| Against::Plane { normal, height, along: ground.along.clone() };
+        let own = || vec![Plane { against: plane(ground.normal.clone(), ground.height.clone()), of: None }];
+        if ground.normal.is_some() || ground.height.is_some() {
+            return own();
+        }
+        let fixed = self.description.collisions.iter().filter_map(|collision| {
+            let link = self.link_of(collision).filter(|link| !self.moves(*link))?;
+            if collision.shape != Shape::Plane {
+                return None;
+            }
+            let (at, matrix) = self.structure.at_rest(self.description, link);
+            let moved = turned(&matrix, &collision.position);
+            let place: Triple = std::array::from_fn(|i| at[i] + moved[i]);
+            let normal = turned(&matrix, &collision.rotation.map(|row| row[2]));
+            let height: f64 = (0..3).map(|i| normal[i] * place[i]).sum();
+            let level = normal == [0.0, 0.0, 1.0];
+            let height = (height != 0.0).then(|| writer.number(height));
+            let normal = writer.triple(&normal).filter(|_| !level);
+            Some(Plane { against: plane(normal, height), of: Some(collision) })
+        });
+        let fixed: Vec<_> = fixed.collect();
+        if fixed.is_empty() { own() } else { fixed }
+    }
+
+    /// Shapes of the world that are no planes, where its planes are asked for.
+    fn steps(&self, ground: &Ground) -> Vec<Note> {
+        if ground.normal.is_some() || ground.height.is_some() {
+            return Vec::new();
+        }
+        let is_step = |collision: &&Collision| {
+            let of_world = collision.surface.is_some() && self.link_of(collision) == Some(self.structure.root);
+            of_world && !self.moves(self.structure.root) && collision.shape != Shape::Plane
+        };
+        let steps = self.description.collisions.iter().filter(is_step);
+        steps.map(|collision| unread(collision, "a shape of the world that is no plane")).collect()
+    }
+}
+
+/// What a shape has with a plane, or with one that says nothing: `None` if the file keeps them from touching.
+fn touch(collision: &Collision, plane: Option<&Collision>, description: &Description) -> Option<Touch> {
+    let Some(own) = &collision.surface else { return Some(Touch { friction: 0.0, turns: false }) };
+    let link = plane.map_or(WORLD, |plane| plane.link.as_str());
+    let of_plane = plane.and_then(|plane| plane.surface.as_ref());
+    let meets = own.meets(of_plane.unwrap_or(&Surface::default()));
+    let meets = meets && !description.excludes([&collision.link, link]);
+    meets.then(|| of_plane.map_or_else(|| own.alone(), |plane| own.with(plane)))
+}
+
+fn refuse_idle(ground: &Ground, notes: &[Note], context: &mut Context) {
+    let why: Vec<&str> = notes.iter().map(|note| note.text.as_str()).take(3).collect();
+    let why = if why.is_empty() { String::new() } else { format!(" ({})", why.join("; ")) };
+    context.error(
+        ground.span,
+        format!(
+            "nothing of the file touches this ground{why}; a link that moves needs a sphere, box, capsule or cylinder, \
+             or write `contact(…)` of your own points"
+        ),
+    );
+}
+
+/// The word by which `ignore(…)` knows it.
+fn word(collision: &Collision) -> &'static str {
+    if collision.surface.is_some() { "geom" } else { "collision" }
+}
+
+fn unread(collision: &Collision, what: &str) -> Note {
+    let name = collision.name.as_ref().map(|name| format!(" `{name}`")).unwrap_or_default();
+    let text = format!("the {}{name} of `{}` does not touch: it is {what}", word(collision), collision.link);
+    Note::ignored(collision.at, word(collision), text).about("shapes")
+}
+
+/// What a file says of a contact that is not modelled.
+fn beyond(collision: &Collision, plane: Option<&Collision>, touch: &Touch) -> Vec<Note> {
+    let turns = touch.turns.then(|| {
+        let text = "there is no friction of turning and rolling (`condim` 4 and 6)";
+        Note::ignored(collision.at, "condim", text).about("condim")
+    });
+    let surfaces = [Some(collision), plane].into_iter().flatten();
+    let names = surfaces.flat_map(|own| own.surface.iter().map(move |surface| (own, surface)));
+    let attributes = names.flat_map(|(own, surface)| surface.unread.iter().map(move |name| (own.at, *name)));
+    let attributes = attributes.map(|(at, name)| {
+        Note::ignored(at, name, format!("`{name}` of geoms does not act: they touch where they meet")).about(name)
+    });
+    turns.into_iter().chain(attributes).collect()
+}

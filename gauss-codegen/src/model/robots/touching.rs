@@ -1,0 +1,206 @@
+//! A shape against a plane → contacts, and the points that they are of.
+
+use std::collections::HashSet;
+use std::f64::consts::TAU;
+
+use proc_macro2::Ident;
+
+use super::joints::Writer;
+use super::names::{self, Names};
+use crate::model::language::ground::Ground;
+use crate::model::language::words::UNNAMED;
+use crate::model::names::naming::is_reserved;
+use crate::model::scene::clauses::PointClause;
+use crate::model::scene::contacts::{Against, ContactClause, Copies, PointContact, Touching};
+use crate::model::scene::expression::{Expression, Property};
+use gauss_robots::collision::{Collision, Shape, Touch};
+use gauss_robots::rotation::{Rotation, Triple, sine_and_cosine, turned};
+
+/// Clauses as they are made, with the names that are taken.
+pub struct Made {
+    pub points: Vec<PointClause>,
+    pub contacts: Vec<ContactClause>,
+    /// Names of contacts.
+    taken: HashSet<String>,
+    /// What those of each shape have in common.
+    shapes: HashSet<String>,
+    /// Of all that expressions name.
+    names: Names,
+    writer: Writer,
+}
+
+/// Where a shape touches.
+enum Form {
+    /// At points, each of them the centre of a sphere.
+    Spheres(Vec<Triple>, f64),
+    /// The two of a capsule.
+    Ends([Triple; 2], f64),
+    /// The corners of a box along the axes of its link.
+    Corners(Triple, Triple),
+    /// Rims of a radius about an axis, with their distance.
+    Rims(Triple, f64, Triple, f64),
+}
+
+impl Made {
+    pub fn new(names: Names, writer: Writer) -> Self {
+        Self { points: Vec::new(), contacts: Vec::new(), taken: HashSet::new(), shapes: HashSet::new(), names, writer }
+    }
+
+    /// How many contacts there are.
+    pub fn count(&self) -> usize {
+        self.contacts.iter().map(|clause| clause.names.len()).sum()
+    }
+
+    /// Contacts of one shape of a link with one plane.
+    pub fn add(&mut self, collision: &Collision, link: &Ident, against: &Against, ground: &Ground, touch: &Touch) {
+        let writer = self.writer;
+        let called = collision.name.as_ref().unwrap_or(&collision.link);
+        let size = |length: f64| (length != 0.0).then(|| writer.number(length));
+        let Some(form) = form(collision, ground.points) else { return };
+        let mut contacts: Vec<(Vec<Ident>, PointContact)> = Vec::new();
+        match form {
+            Form::Spheres(centers, radius) => {
+                let names = self.named(called, centers.len());
+                for (center, name) in centers.into_iter().zip(names) {
+                    let point = self.point(link, &name, center);
+                    let contact = self.contact(point, size(radius), against);
+                    contacts.push((vec![name], contact));
+                }
+            }
+            Form::Ends([first, last], radius) => {
+                let names = self.named(called, 2);
+                let (point, end) = (self.point(link, &names[0], first), self.point(link, &names[1], last));
+                let contact = self.contact(point, size(radius), against);
+                contacts.push((names, PointContact { copies: Copies::Ends(end), ..contact }));
+            }
+            Form::Corners(center, edges) => {
+                let copies = Copies::Corners(edges.map(|edge| writer.number(edge)));
+                let names = self.named(called, copies.count());
+                let point = self.point(link, &names[0], center);
+                contacts.push((names, PointContact { copies, ..self.contact(point, None, against) }));
+            }
+            Form::Rims(center, radius, axis, length) => {
+                let copies = if length == 0.0 { Copies::One } else { Copies::Rims(writer.number(length)) };
+                let names = self.named(called, copies.count());
+                let point = self.point(link, &names[0], center);
+                let rim = Some([writer.number(radius), writer.vector(axis.map(|c| writer.number(c)))]);
+                contacts.push((names, PointContact { copies, rim, ..self.contact(point, None, against) }));
+            }
+        }
+        let friction = match ground.friction.as_slice() {
+            [] => size(touch.friction).into_iter().collect(),
+            own => own.to_vec(),
+        };
+        self.contacts.extend(contacts.into_iter().map(|(names, contact)| ContactClause {
+            names,
+            touching: Touching::Point(Box::new(contact)),
+            friction: friction.clone(),
+            restitution: ground.restitution.clone(),
+            drilling: None,
+            rolling: None,
+            of_file: true,
+        }));
+    }
+
+    fn contact(&self, point: Expression, radius: Option<Expression>, against: &Against) -> PointContact {
+        PointContact { point, radius, rim: None, semi_axes: None, copies: Copies::One, against: against.clone() }
+    }
+
+    /// A point of a link: its origin, or one with the name of the contact and `_point`.
+    fn point(&mut self, link: &Ident, contact: &Ident, at: Triple) -> Expression {
+        let writer = self.writer;
+        let Some(at) = writer.triple(&at) else { return writer.property(link, Property::Position) };
+        let name = self.names.chosen(&format!("{contact}_point"));
+        let expression = writer.name(&name);
+        self.points.push(PointClause { name, body: link.clone(), at, span: writer.span });
+        expression
+    }
+
+    /// Names of the contacts of one shape: its own, or with numbers from zero; what is taken gets a number before.
+    fn named(&mut self, called: &str, count: usize) -> Vec<Ident> {
+        let word = names::free(called, "contact", |word| word != UNNAMED && !is_reserved(word));
+        let all = |word: &String| match count {
+            1 => vec![word.clone()],
+            _ => (0..count).map(|k| format!("{word}_{k}")).collect(),
+        };
+        let is_free =
+            |word: &String| !self.shapes.contains(word) && all(word).iter().all(|name| !self.taken.contains(name));
+        let numbered = (2..).map(|n| format!("{word}_{n}"));
+        let chosen = [word.clone()].into_iter().chain(numbered).find(is_free).unwrap_or_default();
+        let names = all(&chosen);
+        self.taken.extend(names.iter().cloned());
+        self.shapes.insert(chosen);
+        names.iter().map(|name| Ident::new(name, self.writer.span)).collect()
+    }
+}
+
+/// Where a shape touches; rims by some points, if so many are given.
+fn form(collision: &Collision, points: Option<u32>) -> Option<Form> {
+    let center = collision.position;
+    let placed = |own: Triple| -> Triple {
+        let moved = turned(&collision.rotation, &own);
+        std::array::from_fn(|i| center[i] + moved[i])
+    };
+    let ends = |half: f64, radius: f64| match half {
+        0.0 => Form::Spheres(vec![center], radius),
+        _ => Form::Ends([placed([0.0, 0.0, -half]), placed([0.0, 0.0, half])], radius),
+    };
+    let is_along = collision.rotation == Rotation::none().matrix;
+    Some(match collision.shape {
+        Shape::Sphere { radius } => Form::Spheres(vec![center], radius),
+        Shape::Capsule { radius, half } => ends(half, radius),
+        Shape::Cylinder { radius: 0.0, half } => ends(half, 0.0),
+        Shape::Cylinder { radius, half } => match points {
+            Some(points) => Form::Spheres(rims(radius, half, points).into_iter().map(placed).collect(), 0.0),
+            None => Form::Rims(center, radius, collision.rotation.map(|row| row[2]), 2.0 * half),
+        },
+        Shape::Box { half } if is_along => Form::Corners(center, half.map(|half| 2.0 * half)),
+        Shape::Box { half } => Form::Spheres(corners(half).into_iter().map(placed).collect(), 0.0),
+        Shape::Plane | Shape::Unread(_) => return None,
+    })
+}
+
+/// The corners of a box, in the order of those of `edges = …`.
+fn corners(half: Triple) -> Vec<Triple> {
+    let mut all = vec![[0.0; 3]];
+    for (k, half) in half.into_iter().enumerate().filter(|(_, half)| *half != 0.0) {
+        let moved = |corner: &Triple, by: f64| std::array::from_fn(|i| if i == k { by } else { corner[i] });
+        all = [-half, half].into_iter().flat_map(|by| all.iter().map(move |corner| moved(corner, by))).collect();
+    }
+    all
+}
+
+/// Points of the rims of a cylinder, the lower first.
+fn rims(radius: f64, half: f64, points: u32) -> Vec<Triple> {
+    let ends = if half == 0.0 { vec![0.0] } else { vec![-half, half] };
+    let around = |z: f64| {
+        (0..points).map(move |k| {
+            let [sine, cosine] = sine_and_cosine(TAU * f64::from(k) / f64::from(points));
+            [radius * cosine, radius * sine, z]
+        })
+    };
+    ends.into_iter().flat_map(around).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{corners, rims};
+
+    #[test]
+    fn corners_count_as_bits_do() {
+        let all = corners([1.0, 2.0, 3.0]);
+        let side = |number: usize, bit: usize| if number >> bit & 1 == 0 { -1.0 } else { 1.0 };
+        for (number, corner) in all.iter().enumerate() {
+            let expected = [0, 1, 2].map(|bit| side(number, bit) * [1.0, 2.0, 3.0][bit]);
+            assert_eq!(*corner, expected, "{number}");
+        }
+        assert_eq!(corners([1.0, 0.0, 3.0]).len(), 4);
+    }
+
+    #[test]
+    fn points_of_rims() {
+        let all = rims(2.0, 3.0, 4);
+        assert_eq!(all[..2], [[2.0, 0.0, -3.0], [0.0, 2.0, -3.0]]);
+        assert_eq!((all.len(), all[7], rims(1.0, 0.0, 5).len()), (8, [0.0, -2.0, 3.0], 5));
+    }
+}
