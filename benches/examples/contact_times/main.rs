@@ -2,23 +2,20 @@
 //! times of published programs.
 //!
 //! `cargo run --release -p gauss-benches --example contact_times [-- rounds]`: microseconds per simulated second,
-//! errors, events and steps. The steps are ours (`steps.rs`); their lengths and the spans are those of the examples of
-//! Siconos: `BouncingBallTS` (h = 0.005 s, 10 s) and `WoodPecker` (h = 2·10⁻⁵ s, 0.3 s), both with θ = ½.
+//! errors, events and steps. Lengths of steps and the spans are those of the examples of Siconos: `BouncingBallTS`
+//! (h = 0.005 s, 10 s) and `WoodPecker` (h = 2·10⁻⁵ s, 0.3 s), both with θ = ½.
 
 #[path = "../../../examples/woodpecker/toy.rs"]
 mod toy;
-
-mod steps;
 
 use std::error::Error;
 use std::time::Instant;
 
 use gauss_benches::measure::Spread;
-use gauss_contact::{ContactRun, ContactTrajectory, EventKind, Mode, Segment};
+use gauss_contact::{ContactError, ContactRun, ContactStepper, ContactTrajectory, EventKind, Mode, Segment};
 use gauss_runtime::prelude::*;
 use nalgebra::SVector;
 
-use steps::State;
 use toy::{TOY, WoodpeckerKernel};
 
 /// A ball over a floor.
@@ -101,27 +98,28 @@ fn ball_by_events(kernel: &BallKernel, tolerance: f64) -> Result<Way<'_>, Box<dy
     })
 }
 
-fn ball_by_steps(kernel: &BallKernel, h: f64) -> Way<'_> {
+fn ball_by_steps(kernel: &BallKernel, h: f64) -> Result<Way<'_>, Box<dyn Error>> {
     let count = (SPANS[0] / h).round() as usize;
-    let mut state = State::new([1.0].into(), [0.0].into());
+    let begin = move || ContactStepper::new(kernel, 0.0, [1.0].into(), [0.0].into());
+    let mut ball = begin()?;
     let (mut largest, mut rests) = (0.0_f64, 0.0);
     for _ in 0..count {
-        state.advance(kernel, h);
-        largest = largest.max((state.q[0] - closed_form(state.t).0).abs());
+        ball.step(h, &())?;
+        largest = largest.max((ball.configuration()[0] - closed_form(ball.time()).0).abs());
         // It rests from where each step presses.
-        rests = if state.impulses[0] == 0.0 { state.t } else { rests };
+        rests = if ball.impulses()[0] == 0.0 { ball.time() } else { rests };
     }
-    Way {
+    Ok(Way {
         name: format!("ball, steps of {h:.0e} s"),
         span: SPANS[0],
         outcome: Outcome { steps: count, events: None, errors: [largest, (rests - closed_form(0.0).1).abs()] },
         run: Box::new(move || {
-            let mut state = State::new([1.0].into(), [0.0].into());
-            (0..count).for_each(|_| state.advance(kernel, h));
-            std::hint::black_box(&state.q);
+            let mut ball = begin()?;
+            (0..count).try_for_each(|_| ball.step(h, &()).map(drop))?;
+            std::hint::black_box(ball.configuration());
             Ok(())
         }),
-    }
+    })
 }
 
 type Vector = SVector<f64, 3>;
@@ -191,18 +189,18 @@ fn woodpecker_by_events<'k>(
     })
 }
 
-fn stepped(kernel: &WoodpeckerKernel, bird: f64, h: f64) -> Option<Pecks> {
+fn stepped(kernel: &WoodpeckerKernel, bird: f64, h: f64) -> Result<Option<Pecks>, ContactError> {
     let (q, z) = start(bird);
-    let (mut state, mut times, mut struck) = (State::new(q, z), Vec::new(), false);
+    let (mut toy, mut times, mut struck) = (ContactStepper::new(kernel, 0.0, q, z)?, Vec::new(), false);
     for _ in 0..(SPANS[1] / h).round() as usize {
-        state.advance(kernel, h);
-        let strikes = state.impulses[0] > 0.0;
+        toy.step(h, &())?;
+        let strikes = toy.impulses()[0] > 0.0;
         if strikes && !struck {
-            times.push(state.t);
+            times.push(toy.time());
         }
         struck = strikes;
     }
-    pecks(times, state.q)
+    Ok(pecks(times, *toy.configuration()))
 }
 
 fn woodpecker_by_steps<'k>(
@@ -211,13 +209,13 @@ fn woodpecker_by_steps<'k>(
     h: f64,
     wanted: &Pecks,
 ) -> Result<Way<'k>, Box<dyn Error>> {
-    let found = stepped(kernel, bird, h).ok_or("it does not peck twice")?;
+    let found = stepped(kernel, bird, h)?.ok_or("it does not peck twice")?;
     Ok(Way {
         name: format!("woodpecker, steps of {h:.0e} s"),
         span: SPANS[1],
         outcome: Outcome { steps: (SPANS[1] / h).round() as usize, events: None, errors: off(&found, wanted) },
         run: Box::new(move || {
-            std::hint::black_box(stepped(kernel, bird, h));
+            std::hint::black_box(stepped(kernel, bird, h)?);
             Ok(())
         }),
     })
@@ -237,7 +235,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     for tolerance in TOLERANCES {
         ways.push(ball_by_events(&ball, tolerance)?);
     }
-    ways.extend([0.005, 0.0005].map(|h| ball_by_steps(&ball, h)));
+    for h in [0.005, 0.0005] {
+        ways.push(ball_by_steps(&ball, h)?);
+    }
     for tolerance in TOLERANCES {
         ways.push(woodpecker_by_events(&toy, bird, tolerance, &wanted)?);
     }

@@ -82,6 +82,8 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     /// Of the last step, between impacts.
     acceleration: Option<K::Speeds>,
     pub(super) modes: [Mode; MOST],
+    /// Of the step that is being made.
+    next: [Mode; MOST],
     report: StepReport,
 }
 
@@ -143,6 +145,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             rates: kernel.contact_rates(t, &q, &z),
             acceleration: None,
             modes: [Mode::Open; MOST],
+            next: [Mode::Open; MOST],
             report: StepReport::default(),
         };
         stepper.find_closed();
@@ -214,25 +217,23 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         if !(h > 0.0 && h.is_finite()) {
             return Err(self.error(None, ContactErrorKind::InvalidInterval));
         }
-        let before = (self.t, self.q, self.z, self.gaps, self.rates, self.impulses, self.modes, self.acceleration);
-        let made = self.in_parts(h, input, HALVINGS);
-        match made {
-            Ok(report) => self.report = report,
-            Err(_) => {
-                (self.t, self.q, self.z, self.gaps, self.rates, self.impulses, self.modes, self.acceleration) = before;
-            }
-        }
-        made
+        self.report = self.in_parts(h, input, HALVINGS)?;
+        Ok(self.report)
     }
 
     /// A step, or both halves of it.
     fn in_parts(&mut self, h: f64, input: &K::Input, halvings: u32) -> Result<StepReport, ContactError> {
         match self.whole(h, input) {
             Err(ContactError { kind: ContactErrorKind::Unsolved { .. }, .. }) if halvings > 0 => {
+                let before = (self.t, self.q, self.z, self.gaps, self.rates, self.acceleration);
+                let (modes, impulses) = (self.modes, self.impulses);
                 let first = self.in_parts(0.5 * h, input, halvings - 1)?;
-                let impulses = self.impulses;
-                let second = self.in_parts(0.5 * h, input, halvings - 1)?;
-                self.impulses = self.impulses.add_scaled(1.0, &impulses);
+                let of_first = self.impulses;
+                let second = self.in_parts(0.5 * h, input, halvings - 1).inspect_err(|_| {
+                    (self.t, self.q, self.z, self.gaps, self.rates, self.acceleration) = before;
+                    (self.modes, self.impulses) = (modes, impulses);
+                })?;
+                self.impulses = self.impulses.add_scaled(1.0, &of_first);
                 Ok(first.and(second))
             }
             made => made,
@@ -259,7 +260,10 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
         self.acceleration = (!end.struck).then(|| end.z.add_scaled(-1.0, &z).scale(1.0 / h));
         self.t = t + h;
-        (self.q, self.z, self.impulses, self.modes) = (end.q, end.z, end.impulses, end.modes);
+        (self.q, self.z, self.impulses) = (end.q, end.z, end.impulses);
+        if end.touches {
+            core::mem::swap(&mut self.modes, &mut self.next);
+        }
         (self.gaps, self.rates) = (end.gaps, end.rates);
         Ok(end.report)
     }
@@ -314,8 +318,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             return Ok(None);
         }
         let rates = kernel.contact_rates(self.t + h, &q, &z);
-        let (impulses, modes, report) = (K::ContactRows::zero(), self.modes, StepReport::default());
-        Ok(Some(End { q, z, gaps, rates, impulses, modes, report, struck: false }))
+        let (impulses, report) = (K::ContactRows::zero(), StepReport::default());
+        Ok(Some(End { q, z, gaps, rates, impulses, touches: false, report, struck: false }))
     }
 
     /// A step in which contacts may act.
@@ -324,20 +328,19 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let friction = kernel.friction(middle.t, &middle.q, &middle.z, input);
         let laws = Laws::new::<K>(h, &friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
         let dynamics = kernel.contact_dynamics(middle.t, &middle.q, &middle.z, input);
-        let (mut impulses, mut modes) = (self.impulses, self.modes);
+        let mut impulses = self.impulses;
         let free = self.z.add_scaled(h, &dynamics.acceleration);
         let known = self.dependent;
-        let mut solved =
-            self.solve(h, (&laws, &dynamics), self.free_rates(h, middle, &dynamics), (&mut impulses, &mut modes));
+        let mut solved = self.solve(h, (&laws, &dynamics), self.free_rates(h, middle, &dynamics), &mut impulses);
         if solved.is_err() && self.dependent && !known {
-            solved =
-                self.solve(h, (&laws, &dynamics), self.free_rates(h, middle, &dynamics), (&mut impulses, &mut modes));
+            solved = self.solve(h, (&laws, &dynamics), self.free_rates(h, middle, &dynamics), &mut impulses);
         }
         let solved = solved.map_err(|kind| self.error(None, kind))?;
         let z = pushed_rows::<K>(&free, &dynamics.response.columns, &impulses);
         let (q, z) = self.second_half(h, middle, z)?;
         // What begins to rest is brought to zero to the last bit, and stays there.
-        let changes = (0..K::CONTACTS.len()).any(|i| modes[i] != self.modes[i]);
+        let kind = |mode: &Mode| core::mem::discriminant(mode);
+        let changes = (0..K::CONTACTS.len()).any(|i| kind(&self.next[i]) != kind(&self.modes[i]));
         self.dependent &= !changes;
         let rounding = if changes { 0.0 } else { solved.found.residual.rounding };
         let (start, t) = (self.t, self.t + h);
@@ -346,17 +349,17 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let mut projection = Projection::new(of_projection, K::ContactRows::DIM);
         let closed = projection.close(kernel, (t, q), &dynamics.response, &solved.rests);
         let (q, gaps, penetration) = closed.map_err(failed)?;
-        let mode = |i: usize| if solved.rests[i] { modes[i] } else { Mode::Open };
+        let mode = |i: usize| if solved.rests[i] { self.next[i] } else { Mode::Open };
         let (z, rates) = projection.stop(kernel, (t, &q, z), &dynamics.response, (&mode, rounding));
         let report = StepReport {
             residual: solved.found.residual,
             penetration,
-            closed: modes.iter().filter(|mode| mode.is_closed()).count(),
+            closed: self.next[..K::CONTACTS.len()].iter().filter(|mode| mode.is_closed()).count(),
             corrections: solved.found.corrections,
             sweeps: solved.found.sweeps,
             parts: 0,
         };
-        Ok(End { q, z, gaps, rates, impulses, modes, report, struck: solved.struck })
+        Ok(End { q, z, gaps, rates, impulses, touches: true, report, struck: solved.struck })
     }
 
     /// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that depend
@@ -370,13 +373,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         [self.z, free].map(|z| self.kernel.contact_rates(middle.t, &middle.q, &z))
     }
 
-    /// Impulses and modes of a step; impulses are those of the step before at first.
+    /// Impulses of a step, at first those of the step before, and its modes.
     fn solve(
         &mut self,
         h: f64,
         (laws, dynamics): (&Laws, &ContactDynamics<K>),
         [before, free]: [K::ContactRows; 2],
-        (impulses, modes): (&mut K::ContactRows, &mut [Mode; MOST]),
+        impulses: &mut K::ContactRows,
     ) -> Result<Solved, ContactErrorKind> {
         let rows = K::ContactRows::DIM;
         let (gaps, e) = (self.gaps, self.kernel.restitution());
@@ -435,11 +438,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let mut solved = Solved { found, rests: [false; MOST], struck: false };
         for (i, cone) in cones.iter().enumerate() {
             let was_open = !self.modes[i].is_closed();
-            modes[i] = problem.mode(cone, &scales, self.tolerance);
-            let closes = modes[i].is_closed() && K::CONTACTS[i].has_gap();
+            self.next[i] = problem.mode(cone, &scales, self.tolerance);
+            let is_closed = self.next[i].is_closed();
+            let closes = is_closed && K::CONTACTS[i].has_gap();
             solved.struck |= closes && was_open;
             let carries = carrier(K::CONTACTS, i);
-            solved.rests[i] = modes[i].is_closed() && (!K::CONTACTS[carries].has_gap() || passed_on(carries) == 0.0);
+            solved.rests[i] = is_closed && (!K::CONTACTS[carries].has_gap() || passed_on(carries) == 0.0);
         }
         (0..rows).for_each(|row| impulses.set_component(row, scales[row] * problem.impulses[row]));
         Ok(solved)
@@ -460,7 +464,8 @@ struct End<K: ContactSystem> {
     gaps: K::Gaps,
     rates: K::ContactRows,
     impulses: K::ContactRows,
-    modes: [Mode; MOST],
+    /// Whether contacts may have changed their modes.
+    touches: bool,
     report: StepReport,
     /// Whether a gap has closed.
     struck: bool,
