@@ -34,6 +34,9 @@ pub struct Die {
 const STEP: f64 = 5e-4;
 const LONGEST: f64 = 4.0;
 
+/// How many of so many dice show each face, from the one.
+pub type Faces = [usize; 6];
+
 /// The end of a throw.
 pub struct Throw {
     /// The face that is up, where the die lies on one.

@@ -15,10 +15,7 @@ use std::time::Instant;
 use gauss_examples::plots::{write, write_page};
 use gauss_examples::runs;
 
-use die::{Die, Throw, throw};
-
-/// How many of so many dice show each face.
-pub type Faces = [usize; 6];
+use die::{Die, Faces, Throw, throw};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let count = runs(10_000);

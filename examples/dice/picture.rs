@@ -8,8 +8,7 @@ use gauss_examples::plots::{Line, Plot, sheet};
 use gauss_playback::{Playback, Shape, Touch};
 use gauss_runtime::prelude::*;
 
-use crate::Faces;
-use crate::die::{Die, DieKernel, path};
+use crate::die::{Die, DieKernel, Faces, path};
 
 /// A panel for each kind of dice.
 ///

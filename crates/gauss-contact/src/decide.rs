@@ -18,7 +18,8 @@ use crate::history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
 use crate::impact::{Impact, Struck, after, rows};
 use crate::law::{Law, carrier};
 use crate::mode::{InMode, Mode, UNCLOSED, largest_derivative_of, slip, tangents, terms};
-use crate::solver::{Contacts, Failure, State};
+use crate::solution::{Failure, State};
+use crate::solver::Contacts;
 use crate::trajectory::ContactTrajectory;
 use crate::witness::Watched;
 

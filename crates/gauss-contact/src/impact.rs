@@ -12,7 +12,8 @@ use crate::dense::Matrix;
 use crate::friction::Bounds;
 use crate::law::{Law, carrier};
 use crate::residual::Residual;
-use crate::solver::{Contacts, Failure};
+use crate::solution::Failure;
+use crate::solver::Contacts;
 
 /// What an impact does to velocities u⁻ of the contacts that are closed: `u⁺ = u⁻ + D Λ` with impulses Λ.
 ///

@@ -49,6 +49,7 @@ mod poisson;
 mod problem;
 mod residual;
 mod run;
+mod solution;
 mod solver;
 mod start;
 mod steps;

@@ -12,7 +12,8 @@ use crate::friction::Bounds;
 use crate::impact::{Blow, Struck, rows};
 use crate::law::{Law, carrier};
 use crate::residual::Residual;
-use crate::solver::{Contacts, Failure};
+use crate::solution::Failure;
+use crate::solver::Contacts;
 
 /// The impulses of restitution on the rows that were struck, and the rates after it.
 struct Restitution<T> {

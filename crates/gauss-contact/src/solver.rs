@@ -9,8 +9,8 @@
 //! Of a contact that slides already, the direction ŝ of its friction is known: `λ_T = −μ λ_N ŝ`, whatever u_T is.
 //! Friction has up to three rows: two tangents and a spin. Rolling resistance has no normal of its own: its bound is
 //! a multiple of the normal force of another contact. Dry friction has none at all, and its bound f in the place of
-//! μ λ_N: forces that make `½ λᵀDλ + bᵀλ` least, as Gauss'
-//! principle asks, which is the same as `C + Σ f |u_T|`. Friction of several axes is scaled to a circle (`Bounds`).
+//! μ λ_N: forces that make `½ λᵀDλ + bᵀλ` least, as Gauss' principle asks, which is the same as `C + Σ f |u_T|`.
+//! Friction of several axes is scaled to a circle (`Bounds`).
 //!
 //! Projected Gauss–Seidel sweeps find which contacts leave, stick and slide; then the equations of these states are
 //! solved to rounding, and the laws are checked. States that violate them are corrected by the same rule until they do
@@ -27,40 +27,7 @@ use crate::dense::{Decomposition, Matrix, norm, size, sum, value};
 use crate::frame::Frame;
 use crate::law::{Law, scales};
 use crate::residual::Residual;
-
-/// What a contact does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum State<T = f64> {
-    Leaves,
-    /// Stays closed; friction, if there is any, has a known direction.
-    Closed,
-    Sticks,
-    /// Begins to slide in this direction.
-    Slides([T; 3]),
-}
-
-#[derive(Debug)]
-pub(crate) struct Solution<T = f64> {
-    /// λ, all rows.
-    pub(crate) forces: Vec<T>,
-    /// u, all rows.
-    pub(crate) rates: Vec<T>,
-    pub(crate) states: Vec<State<T>>,
-    pub(crate) residuals: Vec<Residual>,
-}
-
-/// Why there is no solution that could be given.
-#[derive(Debug)]
-pub(crate) enum Failure {
-    /// A number is not finite.
-    NonFinite,
-    /// No state of this contact agrees with the laws.
-    Inconsistent(usize),
-    /// Several states of this contact do.
-    Indeterminate(usize),
-    /// None was found; how far the best one was from the laws.
-    NotFound(Residual),
-}
+use crate::solution::{Failure, Solution, State};
 
 /// The laws of some contacts at an instant.
 #[derive(Debug)]

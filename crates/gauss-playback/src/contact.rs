@@ -1,29 +1,15 @@
 //! Points that touch: a dot and an arrow, in the colour of what the contact does.
 
 use gauss_runtime::prelude::{GaussSystem, Sample, Vector3};
-use serde::Serialize;
 
 use crate::page::Contact;
 use crate::playback::Playback;
-
-/// What a contact does at a time: the colour of its dot and of its arrow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Touch {
-    /// It is open: a grey dot where it would touch.
-    Open,
-    /// It is closed, without friction.
-    Closed,
-    /// It is closed and does not slip.
-    Sticks,
-    /// It is closed and slips.
-    Slides,
-}
+use crate::touch::Touch;
 
 impl<S: GaussSystem<Scalar = f64>> Playback<S> {
     /// A contact: what it does, the point where it touches or would touch, and the force there, both by the observer.
-    /// The point is drawn as a dot and the force as an arrow, before all bodies, in a colour for each [`Touch`]. `scale`
-    /// is as that of [`arrow`](Self::arrow).
+    /// The point is drawn as a dot and the force as an arrow, before all bodies, in a colour for each [`Touch`].
+    /// `scale` is as that of [`arrow`](Self::arrow).
     ///
     /// Of a run of `gauss-contact` the method `contacts`, with the feature `contact`, shows all of them.
     #[must_use]
@@ -55,8 +41,8 @@ mod of_runs {
     use gauss_runtime::contact::{ContactFrame, ContactSystem};
     use gauss_runtime::prelude::Sample;
 
-    use super::Touch;
     use crate::playback::{PICTURES, Playback};
+    use crate::touch::Touch;
 
     impl<S: ContactSystem<Scalar = f64>> Playback<S> {
         /// The playback of a run with contacts, at 600 times equally far apart, and before and after each event: what

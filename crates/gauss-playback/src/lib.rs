@@ -36,8 +36,8 @@
 //! `Playback::shapes_of_urdf` gives them the boxes, cylinders and balls of their file.
 //!
 //! What touches is shown by [`Playback::contact`]: a dot and a force, in the colour of what the contact does. With the
-//! feature `contact` `Playback::of_contacts` is the playback of a run of `gauss-contact`, and `Playback::contacts` shows
-//! all of its contacts with their forces.
+//! feature `contact` `Playback::of_contacts` is the playback of a run of `gauss-contact`, and `Playback::contacts`
+//! shows all of its contacts with their forces.
 //!
 //! All lengths are in the units of the scene; the axes are the observer's, and k₃ points up on the screen.
 
@@ -48,10 +48,11 @@ mod error;
 mod page;
 mod playback;
 mod shape;
+mod touch;
 #[cfg(feature = "urdf")]
 mod urdf;
 
-pub use contact::Touch;
 pub use error::PlaybackError;
 pub use playback::Playback;
 pub use shape::Shape;
+pub use touch::Touch;

@@ -2,9 +2,9 @@
 
 use serde::{Serialize, Serializer};
 
-use crate::contact::Touch;
 use crate::shape::Shape;
 pub use crate::shape::{can_be_shown, pose};
+use crate::touch::Touch;
 
 const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");

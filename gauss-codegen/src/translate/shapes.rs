@@ -1,4 +1,5 @@
-//! Points, spheres, ellipsoids, rims, boxes, capsules and cylinders against planes, grounds and spheres: their gaps and slips.
+//! Points, spheres, ellipsoids, rims, boxes, capsules and cylinders against planes, grounds and spheres: their gaps and
+//! slips.
 
 use crate::algebra::{Expr, Substitution};
 use crate::error::Result;

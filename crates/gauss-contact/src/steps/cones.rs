@@ -6,10 +6,10 @@ use gauss_runtime::contact::ContactSystem;
 use crate::error::ContactErrorKind;
 use crate::friction::Bounds;
 
-use super::impulses::MOST_ROWS;
-
 /// The most friction sets of a step: one of each contact.
 pub(crate) const MOST: usize = 64;
+/// The most rows of contacts.
+pub(crate) const MOST_ROWS: usize = 256;
 
 /// The normal of a gap, or friction.
 #[derive(Clone, Copy, Debug, PartialEq)]

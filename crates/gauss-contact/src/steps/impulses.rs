@@ -1,10 +1,10 @@
 //! Impulses of a step that satisfy the laws of Signorini and Coulomb, found in memory that is given.
 //!
 //! Rates after the step are `u = D P + b`. Of each contact that acts `0 ≤ P_N ⊥ u_N ≥ 0`, `|P_T| ≤ μ P_N`, and where
-//! `u_T ≠ 0`: `P_T = −μ P_N u_T/|u_T|`; dry friction has its bound in the place of μ P_N. A semismooth Newton method (P.
-//! Alart & A. Curnier 1991) begins with the impulses of the step before: contacts leave, stick or slide as these say, the
-//! equations of these states are linear but for directions of slip, and their solution tells the next states. Where that
-//! comes to no end, projected Gauss–Seidel sweeps (J. J. Moreau) bring the impulses nearer first.
+//! `u_T ≠ 0`: `P_T = −μ P_N u_T/|u_T|`; dry friction has its bound in the place of μ P_N. A semismooth Newton method
+//! (P. Alart & A. Curnier 1991) begins with the impulses of the step before: contacts leave, stick or slide as these
+//! say, the equations of these states are linear but for directions of slip, and their solution tells the next states.
+//! Where that comes to no end, projected Gauss–Seidel sweeps (J. J. Moreau) bring the impulses nearer first.
 //!
 //! Contacts may depend on one another: a small multiple of the diagonal pulls towards the impulses before (a proximal
 //! point), which at the end of the iteration are the solution. Of impulses that are not unique these are near to those
@@ -13,14 +13,13 @@
 use crate::mode::Mode;
 use crate::residual::Residual;
 
-use super::cones::{Cone, MOST};
+use super::cones::{Cone, MOST, MOST_ROWS};
 use super::linear::{dot, factorise, solve, summed};
 
-/// The most rows of contacts.
-pub(crate) const MOST_ROWS: usize = 256;
-/// By what part of the diagonal impulses are pulled towards those before at first, where contacts depend on one another.
-/// What cannot stick all at once, as two corners that an impact parts, or cannot all stay closed, drifts to the bound of
-/// its friction or to zero by the inverse of that; corrections that gain nothing pull less, those that go too far more.
+/// By what part of the diagonal impulses are pulled towards those before at first, where contacts depend on one
+/// another. What cannot stick all at once, as two corners that an impact parts, or cannot all stay closed, drifts to
+/// the bound of its friction or to zero by the inverse of that; corrections that gain nothing pull less, those that go
+/// too far more.
 const PULL: f64 = 1e-5;
 const LEAST_PULL: f64 = 1e-9;
 const MOST_PULL: f64 = 1e-3;
@@ -125,6 +124,22 @@ impl<'m> Impulses<'m> {
         }
     }
 
+    /// A problem of so many rows: D, and for each row its rate without impulses and the impulse to begin with. Rows of
+    /// friction are scaled to circles.
+    pub(crate) fn set_up(
+        &mut self,
+        scales: &[f64],
+        delassus: impl Fn(usize, usize) -> f64,
+        row: impl Fn(usize) -> [f64; 2],
+    ) {
+        let n = self.b.len();
+        for i in 0..n {
+            let [rate, impulse] = row(i);
+            (self.b[i], self.impulses[i]) = (scales[i] * rate, impulse / scales[i]);
+            (0..n).for_each(|j| self.delassus[i * n + j] = scales[i] * delassus(i, j) * scales[j]);
+        }
+    }
+
     fn row(&self, row: usize) -> &[f64] {
         let n = self.b.len();
         &self.delassus[row * n..(row + 1) * n]
@@ -196,6 +211,36 @@ impl<'m> Impulses<'m> {
                 along.iter_mut().zip(cone.tangents()).zip(against).for_each(|((x, row), y)| *x = -y / scales[row]);
                 let size = norm(&along);
                 Mode::Slides(along.map(|x| x / size))
+            }
+        }
+    }
+
+    /// Finds the impulses; contacts that others press closed, judged by their number and rate, take part as well.
+    pub(crate) fn solve_with_more(
+        &mut self,
+        cones: &mut [Cone],
+        tolerance: f64,
+        closes: impl Fn(usize, f64) -> bool,
+    ) -> Found {
+        let mut found = Found::default();
+        loop {
+            let next = self.solve(cones, tolerance);
+            let (corrections, sweeps) = (found.corrections + next.corrections, found.sweeps + next.sweeps);
+            found = Found { corrections, sweeps, ..next };
+            let mut more = false;
+            for i in 0..cones.len() {
+                let Cone { normal, pressed, acts, .. } = cones[i];
+                let joins = match normal {
+                    Some(normal) => closes(i, self.rates[normal]),
+                    None => cones.iter().any(|cone| cone.acts && pressed.is_some() && cone.normal == pressed),
+                };
+                if !acts && joins {
+                    cones[i].acts = true;
+                    more = true;
+                }
+            }
+            if !more {
+                return found;
             }
         }
     }
@@ -360,8 +405,8 @@ impl<'m> Impulses<'m> {
         }
     }
 
-    /// Of `d P_a − d μ P_N t_a − part Σ_b (δ_ab − t_a t_b) (d P_b − u_b) = 0`, which is Coulomb's law to first order in
-    /// the direction t: the factor of an impulse.
+    /// Of `d P_a − d μ P_N t_a − part Σ_b (δ_ab − t_a t_b) (d P_b − u_b) = 0`, which is Coulomb's law to first order
+    /// in the direction t: the factor of an impulse.
     fn sliding_entry(&self, cone: &Cone, (along, part, scale): (&[f64; 3], f64, f64), a: usize, column: usize) -> f64 {
         let mut entry = if column == cone.first + a { scale * (1.0 + self.pull()) } else { 0.0 };
         if cone.pressed == Some(column) {

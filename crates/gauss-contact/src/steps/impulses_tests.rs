@@ -9,7 +9,8 @@ use super::*;
 use crate::dense::{Matrix, dot};
 use crate::friction::Bounds;
 use crate::law::Law;
-use crate::solver::{Contacts, Failure};
+use crate::solution::Failure;
+use crate::solver::Contacts;
 
 /// Numbers in (−1, 1): a linear congruence with the constants of Knuth's MMIX.
 fn numbers(mut seed: u64) -> impl FnMut() -> f64 {

@@ -8,11 +8,11 @@ use gauss_runtime::real::Real;
 
 use crate::mode::{Mode, pushed};
 
-use super::cones::MOST;
-use super::impulses::MOST_ROWS;
+use super::cones::{MOST, MOST_ROWS};
 use super::linear::{factorise, solve};
 
-/// By what part of the diagonal a matrix is made regular where contacts depend on one another: corrections are repeated.
+/// By what part of the diagonal a matrix is made regular where contacts depend on one another: corrections are
+/// repeated.
 const PULL: f64 = 1e-10;
 /// Corrections at most. With the matrix of half of the step each leaves a part of the order of the step.
 const CORRECTIONS: usize = 12;
@@ -70,8 +70,8 @@ impl<'m> Projection<'m> {
         self.all
     }
 
-    /// Gaps of closed contacts brought to zero, and those that are negative; with the gaps there, and how far the lowest
-    /// was below zero.
+    /// Gaps of closed contacts brought to zero, and those that are negative; with the gaps there, and how far the
+    /// lowest was below zero.
     pub(crate) fn close<K: ContactSystem<Scalar = f64>>(
         &mut self,
         kernel: &K,
@@ -121,8 +121,8 @@ impl<'m> Projection<'m> {
         Ok((q, gaps, -lowest))
     }
 
-    /// Rates of closed gaps, and slips of what sticks, brought to zero where they are more than rounding; with all rates
-    /// there.
+    /// Rates of closed gaps, and slips of what sticks, brought to zero where they are more than rounding; with all
+    /// rates there.
     pub(crate) fn stop<K: ContactSystem<Scalar = f64>>(
         &mut self,
         kernel: &K,

@@ -111,17 +111,19 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
     {
         let Self { kernel, h, input, scheme, tolerance } = self;
         let Range { start, end } = interval;
-        let count = ((end - start) / h - 1e-9).ceil().max(0.0);
-        if !(h > 0.0 && h.is_finite() && count.is_finite() && start <= end) {
+        let count = (end - start) / h - 1e-9;
+        // Rounded up.
+        let count = count as u64 + u64::from(count > (count as u64) as f64);
+        if !(h > 0.0 && h.is_finite() && start <= end && count < u64::MAX) {
             return Err(ContactError { contact: None, time: start, kind: ContactErrorKind::InvalidInterval });
         }
-        let h = (end - start) / count;
+        let h = (end - start) / count as f64;
         let mut stepper = ContactStepper::new(kernel, start, q0, z0)?.scheme(scheme).tolerance(tolerance);
-        for n in 1..=count as u64 {
+        for n in 1..=count {
             let (q, z) = (*stepper.configuration(), *stepper.speeds());
             stepper.step(h, &input.input(stepper.time(), &q, &z))?;
             // Times are multiples of the length, not sums of it.
-            stepper.t = (end - start).mul_add(n as f64 / count, start);
+            stepper.t = start + (end - start) * (n as f64 / count as f64);
             let (t, q, z) = (stepper.time(), *stepper.configuration(), *stepper.speeds());
             let state = Sample { t, q, z, p: kernel.momentum(t, &q, &z) };
             let (impulses, modes) = (*stepper.impulses(), stepper.modes().into());

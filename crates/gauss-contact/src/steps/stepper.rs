@@ -12,8 +12,8 @@ use crate::law::carrier;
 use crate::mode::{Mode, pushed};
 use crate::residual::Residual;
 
-use super::cones::{Laws, MOST};
-use super::impulses::{Found, Impulses, MOST_ROWS};
+use super::cones::{Laws, MOST, MOST_ROWS};
+use super::impulses::{Found, Impulses};
 use super::projection::Projection;
 
 /// How a step takes the motion between impacts.
@@ -159,8 +159,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         self
     }
 
-    /// How far from the laws a solution may be, as a part of the largest rate, in place of 10⁻⁸. A ten thousandth of that
-    /// is looked for first, and rounding is always allowed for; what was found is in the report.
+    /// How far from the laws a solution may be, as a part of the largest rate, in place of 10⁻⁸. A ten thousandth of
+    /// that is looked for first, and rounding is always allowed for; what was found is in the report.
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
@@ -362,9 +362,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         Ok(End { q, z, gaps, rates, impulses, touches: true, report, struck: solved.struck })
     }
 
-    /// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that depend
-    /// on one another both are taken at half of the step, where they agree with one another to rounding; that is of first
-    /// order.
+    /// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that
+    /// depend on one another both are taken at half of the step, where they agree with one another to rounding; that is
+    /// of first order.
     fn free_rates(&self, h: f64, middle: &Middle<K>, dynamics: &ContactDynamics<K>) -> [K::ContactRows; 2] {
         if !self.dependent {
             return [self.rates, self.rates.add_scaled(h, &dynamics.bias)];
@@ -386,14 +386,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let scales = laws.scales;
         let mut problem = Impulses::new(&mut self.memory.as_mut()[..Impulses::memory(rows)], rows);
         problem.dependent = self.dependent;
-        for row in 0..rows {
-            problem.b[row] = scales[row] * free.component(row);
-            problem.impulses[row] = impulses.component(row) / scales[row];
-            for column in 0..rows {
-                let entry = scales[row] * dynamics.response.delassus[(row, column)] * scales[column];
-                problem.delassus[row * rows + column] = entry;
-            }
-        }
+        let entry = |i: usize, j: usize| dynamics.response.delassus[(i, j)];
+        problem.set_up(&scales, entry, |row| [free.component(row), impulses.component(row)]);
         // What an impact passes on is a part of the rate before it.
         let passed_on = |i: usize| -e.component(i) * before.component(K::CONTACTS[i].normal).min(0.0);
         let end = |i: usize, rate: f64| gaps.component(i) + 0.5 * h * (before.component(K::CONTACTS[i].normal) + rate);
@@ -411,24 +405,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
         let cones = &mut cones[..K::CONTACTS.len()];
         // A contact that others press closed takes part as well.
-        let mut found = Found::default();
-        loop {
-            let next = problem.solve(cones, self.tolerance);
-            let (corrections, sweeps) = (found.corrections + next.corrections, found.sweeps + next.sweeps);
-            found = Found { corrections, sweeps, ..next };
-            let mut added = false;
-            for i in 0..cones.len() {
-                let closes = |i: usize| end(i, problem.rates[K::CONTACTS[i].normal] + passed_on(i)) < 0.0;
-                if !cones[i].acts {
-                    let on = K::CONTACTS[i].rolls_on();
-                    cones[i].acts = on.map_or_else(|| closes(i), |on| cones[on].acts);
-                    added |= cones[i].acts;
-                }
-            }
-            if !added {
-                break;
-            }
-        }
+        let closes = |i: usize, rate: f64| end(i, rate + passed_on(i)) < 0.0;
+        let found = problem.solve_with_more(cones, self.tolerance, closes);
         self.dependent = problem.dependent;
         if !found.holds {
             let finite = found.residual.worst().is_finite();

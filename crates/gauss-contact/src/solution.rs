@@ -1,0 +1,39 @@
+//! What a solver of the laws comes to.
+
+use alloc::vec::Vec;
+
+use crate::residual::Residual;
+
+/// What a contact does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum State<T = f64> {
+    Leaves,
+    /// Stays closed; friction, if there is any, has a known direction.
+    Closed,
+    Sticks,
+    /// Begins to slide in this direction.
+    Slides([T; 3]),
+}
+
+#[derive(Debug)]
+pub(crate) struct Solution<T = f64> {
+    /// λ, all rows.
+    pub(crate) forces: Vec<T>,
+    /// u, all rows.
+    pub(crate) rates: Vec<T>,
+    pub(crate) states: Vec<State<T>>,
+    pub(crate) residuals: Vec<Residual>,
+}
+
+/// Why there is no solution that could be given.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// A number is not finite.
+    NonFinite,
+    /// No state of this contact agrees with the laws.
+    Inconsistent(usize),
+    /// Several states of this contact do.
+    Indeterminate(usize),
+    /// None was found; how far the best one was from the laws.
+    NotFound(Residual),
+}
