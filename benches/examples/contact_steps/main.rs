@@ -109,8 +109,8 @@ where
 fn report(name: &str, standing: &Standing) {
     let time = Spread::of(standing.times.clone());
     println!(
-        "{name}: {:.2} µs a step ({:.2} to {:.2}); residual {:.0e} m/s, lowest gap {:.0e} m, feet move {:.0e} m in a second; {:.2} \
-         corrections a step",
+        "{name}: {:.2} µs a step ({:.2} to {:.2}); residual {:.0e} m/s, lowest gap {:.0e} m, feet move {:.0e} m in a \
+         second; {:.2} corrections a step",
         time.median,
         time.lower,
         time.upper,

@@ -13,6 +13,9 @@
 //! - Where rigid bodies and Coulomb's law have no motion or several (Painlevé), the run ends with an error; where they
 //!   have none it can go on by an impulse ([`ContactRun::impact_without_collision`]).
 //!
+//! For many contacts there are steps of one length in velocities and impulses ([`ContactSteps`], [`ContactStepper`]):
+//! up to 64 contacts, all impacts of a step at once, without events and without allocation.
+//!
 //! Limits: flights lower than some hundred roundings of the largest coordinate are rest, or an error where e = 1. A gap
 //! that opens and closes within a step is seen as far as [events](gauss_runtime::integrate::drive::event) are; one that
 //! is found closed too late ends the run with [`ContactErrorKind::Penetration`].

@@ -112,11 +112,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
         let Self { kernel, h, input, scheme, tolerance } = self;
         let Range { start, end } = interval;
         let count = (end - start) / h - 1e-9;
-        // Rounded up.
-        let count = count as u64 + u64::from(count > (count as u64) as f64);
-        if !(h > 0.0 && h.is_finite() && start <= end && count < u64::MAX) {
+        if !(h > 0.0 && h.is_finite() && start <= end && count < 1e15) {
             return Err(ContactError { contact: None, time: start, kind: ContactErrorKind::InvalidInterval });
         }
+        // Rounded up; a negative number becomes 0.
+        let whole = count as u64;
+        let count = whole + u64::from(count > whole as f64);
         let h = (end - start) / count as f64;
         let mut stepper = ContactStepper::new(kernel, start, q0, z0)?.scheme(scheme).tolerance(tolerance);
         for n in 1..=count {

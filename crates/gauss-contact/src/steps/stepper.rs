@@ -43,6 +43,9 @@ pub struct StepReport {
     pub corrections: u32,
     /// Sweeps of the solver, where corrections alone came to no end.
     pub sweeps: u32,
+    /// The work of contact impulses, of friction too: negative where they take energy away. Newton's law with friction
+    /// can give energy at an impact (T. R. Kane 1984); then it is positive.
+    pub work: f64,
     /// In how many parts the step was made, where no impulses were found for all of it; else 0.
     pub parts: u32,
 }
@@ -56,6 +59,7 @@ impl StepReport {
             closed: later.closed,
             corrections: self.corrections + later.corrections,
             sweeps: self.sweeps + later.sweeps,
+            work: self.work + later.work,
             parts: self.parts.max(1) + later.parts.max(1),
         }
     }
@@ -357,6 +361,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             closed: self.next[..K::CONTACTS.len()].iter().filter(|mode| mode.is_closed()).count(),
             corrections: solved.found.corrections,
             sweeps: solved.found.sweeps,
+            work: solved.work,
             parts: 0,
         };
         Ok(End { q, z, gaps, rates, impulses, touches: true, report, struck: solved.struck })
@@ -413,7 +418,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             let unsolved = ContactErrorKind::Unsolved { residual: found.residual };
             return Err(if finite { unsolved } else { ContactErrorKind::NonFinite });
         }
-        let mut solved = Solved { found, rests: [false; MOST], struck: false };
+        // Half of the rates before and after the impulses, times these.
+        let work = |row: usize| {
+            let given = problem.rates[row] - problem.b[row];
+            problem.impulses[row] * (scales[row] * free.component(row) + 0.5 * given)
+        };
+        let work = (0..rows).map(work).sum();
+        let mut solved = Solved { found, rests: [false; MOST], struck: false, work };
         for (i, cone) in cones.iter().enumerate() {
             let was_open = !self.modes[i].is_closed();
             self.next[i] = problem.mode(cone, &scales, self.tolerance);
@@ -456,6 +467,8 @@ struct Solved {
     rests: [bool; MOST],
     /// Whether a gap has closed.
     struck: bool,
+    /// Of the impulses.
+    work: f64,
 }
 
 fn pushed_rows<K: ContactSystem<Scalar = f64>>(

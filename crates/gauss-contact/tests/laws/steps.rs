@@ -165,3 +165,26 @@ fn points_in_a_room_come_to_rest() {
         }
     }
 }
+
+#[test]
+fn the_work_of_impulses_is_what_the_energy_changes_by() {
+    let mut number = numbers(31);
+    let mut given = 0;
+    for n in 0..200 {
+        let (mu, e) = ([0.0, 0.4, 0.9][n % 3], [0.0, 0.5, 0.9][n / 3 % 3]);
+        let kernel = Scene { restitution: V::from([e]), ..rod(mu) };
+        let angle = 0.8 + 0.6 * number();
+        let (q, z) = (V::from([0.0, angle.sin(), angle]), V::from([number(), -number().abs(), 3.0 * number()]));
+        // So short that weight does nothing: 1e-9 · 9.81 m/s.
+        let run = ContactSteps::new(&kernel, 1e-9).run(q, z, 0.0..1e-9);
+        // Beyond Painlevé's bound there may be no impulse.
+        let Ok(run) = run else { continue };
+        let energy = |z: &V<3>| kernel.kinetic_energy(0.0, &q, z);
+        let change = energy(&run[0].state.z) - energy(&z);
+        assert!((run[0].report.work - change).abs() < 1e-7, "{n} {} {change}", run[0].report.work);
+        // Without friction none is given.
+        assert!(mu > 0.0 || run[0].report.work <= 1e-12, "{n}");
+        given += usize::from(run[0].report.work > 1e-6);
+    }
+    assert!(given > 0, "{given}");
+}
