@@ -8,7 +8,7 @@
 //!
 //! Contacts may depend on one another: a small multiple of the diagonal pulls towards the impulses before (a proximal
 //! point), which at the end of the iteration are the solution. Of impulses that are not unique these are near to those
-//! of the step before; rates are unique in any case but Painlevé's.
+//! of the step before. Coulomb's law may have several solutions with other rates as well; one of them is found.
 
 use crate::mode::Mode;
 use crate::residual::Residual;
