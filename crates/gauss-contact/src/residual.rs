@@ -25,15 +25,32 @@ impl Residual {
         }
     }
 
-    /// The largest of the three.
+    /// The largest of the three; NaN where one is.
     pub(crate) fn worst(&self) -> f64 {
-        [self.signorini, self.coulomb, self.dissipation]
-            .into_iter()
-            .fold(0.0, |worst, r| if r <= worst { worst } else { r })
+        let larger = |worst: f64, r: f64| if r > worst || r.is_nan() { r } else { worst };
+        [self.signorini, self.coulomb, self.dissipation].into_iter().fold(0.0, larger)
     }
 
     /// Whether all of it is rounding.
     pub(crate) fn holds(&self) -> bool {
         self.worst() <= self.rounding
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Residual;
+
+    #[test]
+    fn what_is_no_number_does_not_hold() {
+        let good = Residual { rounding: 1.0, ..Residual::default() };
+        assert!(good.holds());
+        for k in 0..3 {
+            let mut each = [0.0; 3];
+            each[k] = f64::NAN;
+            let [signorini, coulomb, dissipation] = each;
+            let bad = Residual { signorini, coulomb, dissipation, ..good };
+            assert!(bad.worst().is_nan() && !bad.holds(), "{k}");
+        }
     }
 }
