@@ -49,7 +49,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let slip = f64::hypot(2.0 + 40.0 * 0.028, -60.0 * 0.028);
     println!("A billiard ball with side spin: a parabola until {:.9} s, then straight on;", rolls.time);
     println!("  2|s|/(7μg) = {:.9} s. The motion with what its contact does takes", 2.0 * slip / (7.0 * 0.2 * 9.81));
-    println!("  {}", BilliardKernel::OPERATIONS.contact_dynamics);
+    println!("  {}", BilliardKernel::OPERATIONS.impulse_dynamics);
 
     write("touching", &picture::draw(&bounces, &block, &shot)?)?;
     write_page("bouncing_ball", &pages::ball(&ball, &bounces)?)?;

@@ -58,9 +58,11 @@ pub enum Method {
     ContactFrames,
     Friction,
     Restitution,
-    /// A⁻¹Wᵀ and D = W A⁻¹Wᵀ; ż without contact forces, b = W ż + γ, and these.
-    ContactResponse,
-    ContactDynamics,
+    /// A⁻¹Wᵀ, of long trees its halves, and D = W A⁻¹Wᵀ; ż without contact forces, b = W ż + γ, and these.
+    ImpulseResponse,
+    ImpulseDynamics,
+    /// A⁻¹WᵀP from the halves of A⁻¹Wᵀ; of long trees.
+    ImpulseVelocities,
 }
 
 /// A quantity of a frame. Components are in its own axes, the pole is its origin.
@@ -99,7 +101,7 @@ impl Method {
         [Self::TotalMass, Self::CenterOfMass, Self::CentroidalMomentum, Self::CentroidalMatrix, Self::CentroidalBias];
 
     /// What a kernel has on request, but single frames, and with contacts.
-    pub const ASKED_FOR: [Self; 14] = [
+    pub const ASKED_FOR: [Self; 15] = [
         Self::Frames,
         Self::CenterOfMass,
         Self::CentroidalMomentum,
@@ -112,8 +114,9 @@ impl Method {
         Self::ContactJacobian,
         Self::ContactFrames,
         Self::Friction,
-        Self::ContactResponse,
-        Self::ContactDynamics,
+        Self::ImpulseResponse,
+        Self::ImpulseDynamics,
+        Self::ImpulseVelocities,
     ];
 
     /// What the generated method is called.
@@ -161,8 +164,9 @@ impl Method {
             Method::ContactFrames => "contact_frames",
             Method::Friction => "friction",
             Method::Restitution => "restitution",
-            Method::ContactResponse => "contact_response",
-            Method::ContactDynamics => "contact_dynamics",
+            Method::ImpulseResponse => "impulse_response",
+            Method::ImpulseDynamics => "impulse_dynamics",
+            Method::ImpulseVelocities => "impulse_velocities",
         }
     }
 }

@@ -44,6 +44,10 @@ pub trait ContactSystem: GaussSystem {
     /// `SMatrix<Scalar, DOF, R>`, one column for each row of the contacts.
     type ContactColumns: Columns<Self::Speeds> + Copy + Debug;
 
+    /// What makes velocities of contact impulses at a (t, q): A⁻¹Wᵀ, or of long trees the factors of A and L⁻¹ of each
+    /// row of W.
+    type ImpulseFactors: Copy + Debug;
+
     /// `SMatrix<Scalar, R, R>`, with entries by `(row, column)`.
     type Delassus: Copy + Debug + Index<(usize, usize), Output = Self::Scalar>;
 
@@ -88,17 +92,96 @@ pub trait ContactSystem: GaussSystem {
     /// The coefficient of restitution e of each contact; 0 where none is given.
     fn restitution(&self) -> Self::Gaps;
 
-    /// What contact impulses do at (t, q).
-    fn contact_response(&self, t: Self::Scalar, q: &Self::Configuration) -> ContactResponse<Self>;
+    /// What contact impulses do at (t, q), as it is needed for some of them: in steps.
+    fn impulse_response(&self, t: Self::Scalar, q: &Self::Configuration) -> ImpulseResponse<Self>;
 
-    /// The motion without contact forces at (t, q, z), with b = `W ż + γ` of it and what contact forces add.
+    /// The motion without contact forces at (t, q, z), with b = `W ż + γ` of it and what contact impulses do.
+    fn impulse_dynamics(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> ImpulseDynamics<Self>;
+
+    /// The speeds `z + A⁻¹WᵀP` after impulses P.
+    fn after_impulses(
+        &self,
+        z: &Self::Speeds,
+        factors: &Self::ImpulseFactors,
+        impulses: &Self::ContactRows,
+    ) -> AfterImpulses<Self::Speeds>;
+
+    /// `A⁻¹ Wᵀ`: the velocities that unit impulses make, column by column.
+    fn contact_columns(&self, factors: &Self::ImpulseFactors) -> Self::ContactColumns;
+
+    /// What contact impulses do at (t, q), column by column.
+    #[inline]
+    fn contact_response(&self, t: Self::Scalar, q: &Self::Configuration) -> ContactResponse<Self> {
+        let ImpulseResponse { factors, delassus } = self.impulse_response(t, q);
+        ContactResponse { columns: self.contact_columns(&factors), delassus }
+    }
+
+    /// The motion without contact forces at (t, q, z), with b = `W ż + γ` of it and what contact forces add, column by
+    /// column.
+    #[inline]
     fn contact_dynamics(
         &self,
         t: Self::Scalar,
         q: &Self::Configuration,
         z: &Self::Speeds,
         input: &Self::Input,
-    ) -> ContactDynamics<Self>;
+    ) -> ContactDynamics<Self> {
+        let ImpulseDynamics { acceleration, bias, response } = self.impulse_dynamics(t, q, z, input);
+        let ImpulseResponse { factors, delassus } = response;
+        let response = ContactResponse { columns: self.contact_columns(&factors), delassus };
+        ContactDynamics { acceleration, bias, response }
+    }
+}
+
+/// Speeds after contact impulses: the result of [`ContactSystem::after_impulses`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct AfterImpulses<V> {
+    /// The speeds.
+    pub speeds: V,
+    /// Of each speed the sizes of the terms that it is the sum of: what is no more than their rounding is none.
+    pub terms: V,
+}
+
+impl<V> AfterImpulses<V> {
+    /// From the speeds before and what impulses add to them.
+    pub fn of<T: Real>(z: &V, added: &V) -> Self
+    where
+        V: VectorSpace<T>,
+    {
+        let mut terms = V::zero();
+        (0..V::DIM).for_each(|k| terms.set_component(k, z.component(k).abs() + added.component(k).abs()));
+        Self { speeds: z.add_scaled(T::one(), added), terms }
+    }
+}
+
+/// [`ContactSystem::after_impulses`] by columns, of systems whose factors these are.
+pub fn after_impulses<S>(
+    z: &S::Speeds,
+    columns: &S::ContactColumns,
+    impulses: &S::ContactRows,
+) -> AfterImpulses<S::Speeds>
+where
+    S: ContactSystem + ?Sized,
+{
+    let (mut speeds, mut terms) = (*z, S::Speeds::zero());
+    let mut add = |k: usize, term: S::Scalar| terms.set_component(k, terms.component(k) + term.abs());
+    (0..S::Speeds::DIM).for_each(|k| add(k, z.component(k)));
+    for row in 0..S::ContactRows::DIM {
+        let impulse = impulses.component(row);
+        let acts = S::Scalar::DERIVATIVES || (0..S::Scalar::LANES).any(|lane| impulse.lane(lane) != 0.0);
+        if let Some(column) = columns.nth(row).filter(|_| acts) {
+            speeds = speeds.add_scaled(impulse, &column);
+            (0..S::Speeds::DIM).for_each(|k| add(k, impulse * column.component(k)));
+        }
+    }
+    AfterImpulses { speeds, terms }
 }
 
 /// One contact of a system.
@@ -234,6 +317,42 @@ impl fmt::Display for Contact {
     }
 }
 
+/// What contact impulses do: the result of [`ContactSystem::impulse_response`].
+#[non_exhaustive]
+pub struct ImpulseResponse<S: ContactSystem + ?Sized> {
+    /// What makes velocities of impulses: for [`after_impulses`](ContactSystem::after_impulses).
+    pub factors: S::ImpulseFactors,
+    /// `D = W A⁻¹ Wᵀ`, symmetric and positive semidefinite.
+    pub delassus: S::Delassus,
+}
+
+/// The motion without contact forces, and what impulses do: the result of [`ContactSystem::impulse_dynamics`].
+#[non_exhaustive]
+pub struct ImpulseDynamics<S: ContactSystem + ?Sized> {
+    /// ż without contact forces.
+    pub acceleration: S::Speeds,
+    /// `b = W A⁻¹ r + γ`: the rates of ġ and s without contact forces.
+    pub bias: S::ContactRows,
+    /// What contact impulses do.
+    pub response: ImpulseResponse<S>,
+}
+
+impl<S: ContactSystem + ?Sized> ImpulseResponse<S> {
+    /// From its parts, in the order of the fields.
+    #[inline(always)]
+    pub fn new(factors: S::ImpulseFactors, delassus: S::Delassus) -> Self {
+        Self { factors, delassus }
+    }
+}
+
+impl<S: ContactSystem + ?Sized> ImpulseDynamics<S> {
+    /// From its parts, in the order of the fields.
+    #[inline(always)]
+    pub fn new(acceleration: S::Speeds, bias: S::ContactRows, response: ImpulseResponse<S>) -> Self {
+        Self { acceleration, bias, response }
+    }
+}
+
 /// What contact impulses do: the result of [`ContactSystem::contact_response`].
 #[non_exhaustive]
 pub struct ContactResponse<S: ContactSystem + ?Sized> {
@@ -252,22 +371,6 @@ pub struct ContactDynamics<S: ContactSystem + ?Sized> {
     pub bias: S::ContactRows,
     /// What contact forces add.
     pub response: ContactResponse<S>,
-}
-
-impl<S: ContactSystem + ?Sized> ContactResponse<S> {
-    /// From its parts, in the order of the fields.
-    #[inline(always)]
-    pub fn new(columns: S::ContactColumns, delassus: S::Delassus) -> Self {
-        Self { columns, delassus }
-    }
-}
-
-impl<S: ContactSystem + ?Sized> ContactDynamics<S> {
-    /// From its parts, in the order of the fields.
-    #[inline(always)]
-    pub fn new(acceleration: S::Speeds, bias: S::ContactRows, response: ContactResponse<S>) -> Self {
-        Self { acceleration, bias, response }
-    }
 }
 
 macro_rules! copied {
@@ -290,6 +393,8 @@ macro_rules! copied {
 }
 
 copied! {
+    ImpulseResponse { factors delassus }
+    ImpulseDynamics { acceleration bias response }
     ContactResponse { columns delassus }
     ContactDynamics { acceleration bias response }
 }

@@ -171,10 +171,12 @@ by_method! {
     contact_frames,
     /// Of [`ContactSystem::friction`](crate::contact::ContactSystem::friction).
     friction,
-    /// Of [`ContactSystem::contact_response`](crate::contact::ContactSystem::contact_response).
-    contact_response,
-    /// Of [`ContactSystem::contact_dynamics`](crate::contact::ContactSystem::contact_dynamics).
-    contact_dynamics,
+    /// Of [`ContactSystem::impulse_response`](crate::contact::ContactSystem::impulse_response).
+    impulse_response,
+    /// Of [`ContactSystem::impulse_dynamics`](crate::contact::ContactSystem::impulse_dynamics).
+    impulse_dynamics,
+    /// Of [`ContactSystem::after_impulses`](crate::contact::ContactSystem::after_impulses), of long trees.
+    impulse_velocities,
     ;
     /// Of the other methods of [`FramedSystem`](crate::frames::FramedSystem), frame by frame in their order.
     of_frames: &'static [FrameOperations] = &[]

@@ -189,7 +189,7 @@ fn a_list_of_contacts() {
     assert_eq!(CrankKernel::<f64>::CONTACTS, [Contact::new("table", 0, 1), Contact::new("slide_to", 2, 0)]);
     let shapes = [Contact::new("rim", 0, 2), Contact::new("balls", 3, 0), Contact::new("slope", 4, 1)];
     assert_eq!(ShapesKernel::CONTACTS, shapes);
-    assert!(BallKernel::OPERATIONS.contact_dynamics.total() > BallKernel::OPERATIONS.contact_response.total());
+    assert!(BallKernel::OPERATIONS.impulse_dynamics.total() > BallKernel::OPERATIONS.impulse_response.total());
 }
 
 #[test]

@@ -127,7 +127,23 @@ fn places<K: ContactSystem<Scalar = f64>>(kernel: &K, q: &K::Configuration) -> V
     frames.flat_map(|frame| [frame.point.x, frame.point.y, frame.point.z]).collect()
 }
 
+/// All robots, or those that are named.
+fn is_wanted(name: &str) -> bool {
+    let mut names = std::env::args().skip(1).peekable();
+    names.peek().is_none() || names.any(|wanted| wanted == name)
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
+    if is_wanted("anymal") {
+        anymal()?;
+    }
+    if is_wanted("talos") {
+        talos()?;
+    }
+    Ok(())
+}
+
+fn anymal() -> Result<(), Box<dyn Error>> {
     let kernel = Anymal.kernel()?;
     let leg = |side: f64| [0.0, 0.6 * side, -1.1 * side];
     // In the order of the file: left fore, left hind, right fore, right hind.
@@ -135,8 +151,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let start = (Isometry3::translation(0.0, 0.0, 0.6), SVector::<f64, 12>::from_column_slice(&angles));
     let gains = (SVector::repeat(200.0), SVector::repeat(4.0));
     report("ANYmal", &stand(&kernel, start, gains, |q| places(&kernel, q))?);
-    println!("  {}", AnymalKernel::OPERATIONS.contact_dynamics);
+    println!("  {}", AnymalKernel::OPERATIONS.impulse_dynamics);
+    Ok(())
+}
 
+fn talos() -> Result<(), Box<dyn Error>> {
     let kernel = Talos.kernel()?;
     let mut angles = SVector::<f64, 32>::zeros();
     for leg in [0, 6] {
@@ -151,6 +170,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     let gains = (SVector::from_fn(|i, _| gain(i)[0]), SVector::from_fn(|i, _| gain(i)[1]));
     let start = (Isometry3::translation(0.0, 0.0, 1.1), angles);
     report("Talos", &stand(&kernel, start, gains, |q| places(&kernel, q))?);
-    println!("  {}", TalosKernel::OPERATIONS.contact_dynamics);
+    println!("  {}", TalosKernel::OPERATIONS.impulse_dynamics);
     Ok(())
 }

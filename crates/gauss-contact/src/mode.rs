@@ -12,7 +12,7 @@ use core::fmt;
 use gauss_runtime::chart::Chart;
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::constraint::{ConstraintLevel, ProjectionError, ProjectionFailure};
-use gauss_runtime::contact::{Contact, ContactDynamics, ContactSystem};
+use gauss_runtime::contact::{AfterImpulses, Contact, ContactDynamics, ContactSystem, after_impulses};
 use gauss_runtime::forces::Columns;
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::{Real, largest_derivative};
@@ -163,30 +163,35 @@ fn corrections<T: Real>() -> usize {
     if T::DERIVATIVES { 3 } else { 0 }
 }
 
-/// `x + Σ λ column`, where components that are no more than the rounding of their terms are 0: what rests does not
-/// creep.
-pub(crate) fn pushed<K: ContactSystem>(x: &K::Speeds, columns: &K::ContactColumns, forces: &[K::Scalar]) -> K::Speeds {
-    let number = K::Scalar::from_f64;
-    let (mut sum, mut terms) = (*x, K::Speeds::zero());
-    let mut add = |i: usize, term: f64| terms.set_component(i, terms.component(i) + number(term.abs()));
-    (0..K::Speeds::DIM).for_each(|i| add(i, value(x.component(i))));
-    let mut count = 1;
-    let acts = |force: K::Scalar| K::Scalar::DERIVATIVES || value(force) != 0.0;
-    for (row, force) in forces.iter().enumerate().filter(|(_, force)| acts(**force)) {
-        let Some(column) = columns.nth(row) else { continue };
-        sum = sum.add_scaled(*force, &column);
-        (0..K::Speeds::DIM).for_each(|i| add(i, value(*force * column.component(i))));
-        count += 1;
+/// Speeds after impulses of so many rows, where components that are no more than the rounding of their terms are 0:
+/// what rests does not creep.
+pub(crate) fn settled_speeds<V: VectorSpace<T>, T: Real>(after: AfterImpulses<V>, count: u32) -> V {
+    let AfterImpulses { mut speeds, terms, .. } = after;
+    if count == 0 {
+        return speeds;
     }
     // Each term has roundings of its own, those of its factors and of the solution for λ.
-    let part = 16.0 * f64::from(count) * epsilon::<K::Scalar>();
-    for i in 0..if count > 1 { K::Speeds::DIM } else { 0 } {
-        let rounding = value(sum.component(i));
+    let part = 16.0 * f64::from(count + 1) * epsilon::<T>();
+    for i in 0..V::DIM {
+        let rounding = value(speeds.component(i));
         if rounding.abs() <= part * value(terms.component(i)) {
-            sum.set_component(i, sum.component(i) - number(rounding));
+            speeds.set_component(i, speeds.component(i) - T::from_f64(rounding));
         }
     }
-    sum
+    speeds
+}
+
+/// `x + Σ λ column`, settled.
+pub(crate) fn pushed<K: ContactSystem>(x: &K::Speeds, columns: &K::ContactColumns, forces: &[K::Scalar]) -> K::Speeds {
+    let mut rows = K::ContactRows::zero();
+    forces.iter().enumerate().for_each(|(row, force)| rows.set_component(row, *force));
+    settled_speeds(after_impulses::<K>(x, columns, &rows), acting::<K>(&rows))
+}
+
+/// How many of the rows act.
+pub(crate) fn acting<K: ContactSystem>(rows: &K::ContactRows) -> u32 {
+    let acts = |row: &usize| K::Scalar::DERIVATIVES || value(rows.component(*row)) != 0.0;
+    (0..K::ContactRows::DIM).filter(acts).fold(0, |count, _| count + 1)
 }
 
 impl<'k, K: ContactSystem> InMode<'k, K> {

@@ -173,7 +173,9 @@ impl<'g> States<'_, 'g> {
         }
         let twist = self.system.twist();
         let residuals = &self.system.constraints.residuals;
-        for symbol in [&scene.speed_rates[..], &scene.inputs, residuals, self.weights].into_iter().flatten() {
+        let of_contacts = self.system.halves().map(|halves| [&halves.symbols[..], &halves.impulses]);
+        let given = [&scene.speed_rates[..], &scene.inputs, residuals, self.weights];
+        for symbol in given.into_iter().chain(of_contacts.into_iter().flatten()).flatten() {
             values.put(*symbol, values.random_of(*symbol, seed).signed(profile.decades));
         }
         for symbol in scene.speeds.iter().chain(twist) {

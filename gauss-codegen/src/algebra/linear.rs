@@ -266,6 +266,34 @@ pub struct FactoredColumns<'g> {
     pub pivots: Vec<Expr<'g>>,
 }
 
+impl<'g> FactoredColumns<'g> {
+    /// All entries: the pivots, then the columns.
+    pub fn entries(&self) -> impl Iterator<Item = Expr<'g>> {
+        self.pivots.iter().copied().chain(self.below.iter().flatten().map(|(_, entry)| *entry))
+    }
+
+    /// With other entries, in that order.
+    pub fn with_entries(&self, entries: impl IntoIterator<Item = Expr<'g>>) -> Self {
+        let mut entries = entries.into_iter();
+        let pivots = entries.by_ref().take(self.pivots.len()).collect();
+        let column = |column: &Vec<(usize, Expr<'g>)>| column.iter().map(|(row, _)| *row).zip(&mut entries).collect();
+        Self { order: self.order.clone(), pivots, below: self.below.iter().map(column).collect() }
+    }
+
+    /// L⁻ᵀD⁻¹ of what is half of a solution, in the order of elimination; in that of the unknowns.
+    pub fn substitute_back(&self, halfway: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let mut x = halfway.to_vec();
+        for k in (0..x.len()).rev() {
+            let known = self.below[k].iter().map(|&(row, entry)| entry * x[row]);
+            let numerator = known.fold(x[k], |sum, e| sum - e).group();
+            x[k] = (numerator * self.pivots[k]).group();
+        }
+        let mut solution = x.clone();
+        self.order.iter().zip(x).for_each(|(&unknown, value)| solution[unknown] = value);
+        solution
+    }
+}
+
 /// Unknowns that are coupled, in the order of elimination, and what is left of each column when its turn comes.
 struct FactoredBlock<'g> {
     order: Vec<usize>,
@@ -309,12 +337,16 @@ impl<'g> Factored<'g> {
         self.blocks.iter().flat_map(|block| &block.order).copied().collect()
     }
 
+    /// L⁻¹ of a right-hand side, in the order of elimination.
+    pub fn halfway(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        self.blocks.iter().flat_map(|block| block.halfway(right)).collect()
+    }
+
     /// x with `matrix · x = right`.
     pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let mut solution = right.to_vec();
         for block in &self.blocks {
-            let mut x: Vec<Expr<'g>> = block.order.iter().map(|&i| right[i].group()).collect();
-            (0..x.len()).for_each(|k| block.eliminate(k, &mut x));
+            let mut x = block.halfway(right);
             block.substitute_back(&mut x);
             block.put(x, &mut solution);
         }
@@ -352,6 +384,12 @@ impl<'g> FactoredBlock<'g> {
         let pivot_inverse = self.rest[k][k].group().recip();
         let rows = (k + 1..self.order.len()).filter(|&i| !self.rest[i][k].is_zero());
         rows.map(|i| (i, self.rest[i][k] * pivot_inverse)).collect()
+    }
+
+    fn halfway(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let mut x: Vec<Expr<'g>> = self.order.iter().map(|&i| right[i].group()).collect();
+        (0..x.len()).for_each(|k| self.eliminate(k, &mut x));
+        x
     }
 
     fn eliminate(&self, k: usize, x: &mut [Expr<'g>]) {

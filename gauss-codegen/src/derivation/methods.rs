@@ -44,10 +44,14 @@ fn of_method<'g>(
         Method::OfFrame(FrameQuantity::Jacobian | FrameQuantity::JacobianRate, _) | Method::CentroidalMatrix => {
             signature.program(name, &arguments, code, results(6, rows))
         }
-        Method::ContactResponse | Method::ContactDynamics => {
+        Method::ImpulseResponse | Method::ImpulseDynamics => {
             let lines = derived.subject.system.contacts.rates.len();
-            let mut results = vec![Results::new("columns", rows, lines), Results::new("delassus", lines, lines)];
-            if method == Method::ContactDynamics {
+            let effect = match derived.formal().factors.len() {
+                0 => Results::new("columns", rows, lines),
+                count => Results::new("factors", count, 1),
+            };
+            let mut results = vec![effect, Results::new("delassus", lines, lines)];
+            if method == Method::ImpulseDynamics {
                 results.splice(0..0, [Results::new("acceleration", rows, 1), Results::new("bias", lines, 1)]);
             }
             signature.program(name, &arguments, code, results)

@@ -56,6 +56,8 @@ impl<'g> Signature<'g> {
             argument(ArgumentKind::Accelerations, "acceleration", formal.speed_rates),
             argument(ArgumentKind::Twist, "twist", formal.twist),
             argument(ArgumentKind::Residuals, "residual", formal.residuals),
+            argument(ArgumentKind::Factors, "factors", formal.factors),
+            argument(ArgumentKind::Impulses, "impulses", formal.impulses),
             argument(ArgumentKind::Inputs, "input", formal.inputs),
             argument(ArgumentKind::Weights, "weights", formal.weights),
         ];

@@ -63,6 +63,9 @@ pub struct Formal<'a, 'g> {
     pub momenta: &'a [Expr<'g>],
     pub twist: &'a [Expr<'g>],
     pub residuals: &'a [Expr<'g>],
+    /// Only of long trees with contacts.
+    pub factors: &'a [Expr<'g>],
+    pub impulses: &'a [Expr<'g>],
     pub inputs: &'a [Expr<'g>],
     /// Only where second derivatives are wanted.
     pub weights: &'a [Expr<'g>],
@@ -100,12 +103,15 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     pub fn formal(&self) -> Formal<'a, 'g> {
         let Subject { system, constraints, .. } = &self.subject;
+        let halves = system.halves();
         Formal {
             speeds: &system.scene.speeds,
             speed_rates: &system.scene.speed_rates,
             momenta: &system.scene.momenta,
             twist: system.twist(),
             residuals: &constraints.residuals,
+            factors: halves.map_or(&[], |halves| &halves.symbols),
+            impulses: halves.map_or(&[], |halves| &halves.impulses),
             inputs: &system.scene.inputs,
             weights: self.weights,
         }
@@ -212,7 +218,8 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     fn all_arguments(&self) -> Vec<Argument<'g>> {
-        let Formal { speeds, speed_rates, momenta, twist, residuals, inputs, weights } = self.formal();
+        let Formal { speeds, speed_rates, momenta, twist, residuals, factors, impulses, inputs, weights } =
+            self.formal();
         let mut arguments = self.subject.configuration_arguments(&self.private());
         for (kind, symbols) in [
             (ArgumentKind::Speeds, speeds),
@@ -220,6 +227,8 @@ impl<'a, 'g> Derived<'a, 'g> {
             (ArgumentKind::Accelerations, speed_rates),
             (ArgumentKind::Twist, twist),
             (ArgumentKind::Residuals, residuals),
+            (ArgumentKind::Factors, factors),
+            (ArgumentKind::Impulses, impulses),
             (ArgumentKind::Inputs, inputs),
             (ArgumentKind::Weights, weights),
         ] {

@@ -2,7 +2,10 @@
 //! and every method of their kernels.
 
 mod arranged;
+mod halves;
 mod response;
+
+use std::cell::OnceCell;
 
 use crate::algebra::{Expr, Map, solve_pairs, solve_symmetric};
 
@@ -21,6 +24,8 @@ use crate::mechanics::loads::account::account_formulas;
 use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
 use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::mechanics::tidy::{compact, sums, tidy};
+
+use halves::Halves;
 
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
 pub const DENSE: usize = 10;
@@ -51,6 +56,8 @@ pub struct System<'g> {
     pub along: Map<u32, Expr<'g>>,
     /// A.
     pub matrix: Vec<Vec<Expr<'g>>>,
+    /// Those of A⁻¹Wᵀ, once they have been asked for.
+    halves: OnceCell<Option<Halves<'g>>>,
 }
 
 /// One way to form the equations; the cheapest wins.
@@ -90,6 +97,7 @@ impl<'g> System<'g> {
             driven,
             along,
             matrix,
+            halves: OnceCell::new(),
         };
         system.matrix = system.mass_matrix();
         let at_rest = system.at_rest();

@@ -41,6 +41,10 @@ pub enum ArgumentKind {
     Twist,
     /// The residuals of the constraints.
     Residuals,
+    /// What makes velocities of contact impulses: numbers of A and W, as `impulse_dynamics` gives them.
+    Factors,
+    /// Contact impulses, row by row.
+    Impulses,
     /// Values that arrive at run time.
     Inputs,
     /// The weights of the sum of the rates (V, ż) whose second derivatives are taken.
@@ -59,6 +63,8 @@ impl fmt::Display for ArgumentKind {
             ArgumentKind::Accelerations => "accelerations",
             ArgumentKind::Twist => "twist",
             ArgumentKind::Residuals => "residuals",
+            ArgumentKind::Factors => "factors",
+            ArgumentKind::Impulses => "impulses",
             ArgumentKind::Inputs => "inputs",
             ArgumentKind::Weights => "weights",
         })

@@ -40,8 +40,9 @@ const PINNED: [&str; 26] = [
     "contact_rates",
     "contact_jacobian",
     "friction",
-    "contact_response",
-    "contact_dynamics",
+    "impulse_response",
+    "impulse_dynamics",
+    "impulse_velocities",
 ];
 
 /// Of `kernel()`, which runs once.

@@ -6,6 +6,7 @@
 
 mod check;
 mod columns;
+mod contacts;
 mod containers;
 mod eigenvalues;
 mod one_body;
@@ -25,7 +26,9 @@ pub use crate::centroidal::{CentroidalSystem, GravityTorques};
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart};
 pub use crate::configuration::Configuration;
 pub use crate::constraint::{ConstrainedSystem, ProjectionError, project};
-pub use crate::contact::{Contact, ContactDynamics, ContactFrame, ContactResponse, ContactSystem};
+pub use crate::contact::{
+    AfterImpulses, Contact, ContactFrame, ContactSystem, ImpulseDynamics, ImpulseResponse, after_impulses,
+};
 pub use crate::description::{DescribedSystem, Equations, FrameOperations, OperationCount, Operations};
 pub use crate::error::{DragKind, ParameterError, ParameterWarnings};
 pub use crate::forces::{Element, ForcedSystem};
@@ -40,6 +43,7 @@ pub use crate::system::{Evaluated, GaussSystem, RigidBodySystem, Smoothness};
 pub use crate::table::{Cubic, Linear};
 pub use check::ParameterCheck;
 pub use columns::{Bundle, columns, each_column, filled, multiple, only_column, put, subtract_multiple, zeros};
+pub use contacts::contact_columns;
 pub use containers::{components, entries, isometry2, isometry3, matrix, product, quaternion, vector};
 pub(crate) use eigenvalues::eigenvalues;
 pub use nalgebra::{Isometry2, Isometry3, IsometryMatrix3, SMatrix, SVector, UnitQuaternion};

@@ -14,7 +14,7 @@ use crate::mode::Mode;
 use crate::residual::Residual;
 
 use super::cones::{Cone, MOST, MOST_ROWS};
-use super::linear::{dot, factorise, solve, summed};
+use super::linear::{dot, dot_and_size, factorise, factorise_symmetric, solve, solve_symmetric};
 
 /// By what part of the diagonal impulses are pulled towards those before at first, where contacts depend on one
 /// another. What cannot stick all at once, as two corners that an impact parts, or cannot all stay closed, drifts to
@@ -86,6 +86,8 @@ pub(crate) struct Impulses<'m> {
     /// Whether contacts depend on one another, as far as is known.
     pub(crate) dependent: bool,
     pull: f64,
+    /// Whether the factors are those of a symmetric matrix.
+    symmetric: bool,
 }
 
 impl<'m> Impulses<'m> {
@@ -121,6 +123,7 @@ impl<'m> Impulses<'m> {
             order,
             dependent: false,
             pull: 0.0,
+            symmetric: false,
         }
     }
 
@@ -156,9 +159,8 @@ impl<'m> Impulses<'m> {
     /// The rates of the rows that act, with their terms.
     fn update(&mut self, cones: &[Cone]) {
         for row in cones.iter().flat_map(Cone::rows) {
-            self.rates[row] = self.rate(row);
-            let products = summed(self.row(row), self.impulses, |d, impulse| (d * impulse).abs());
-            self.terms[row] = self.b[row].abs() + products;
+            let (sum, size) = dot_and_size(self.row(row), self.impulses);
+            (self.rates[row], self.terms[row]) = (self.b[row] + sum, self.b[row].abs() + size);
         }
     }
 
@@ -312,12 +314,12 @@ impl<'m> Impulses<'m> {
                 }
             }
             self.right_sides(cones, &states, known);
-            solve(
-                &self.matrix[..known * known],
-                &self.order[..known],
-                &self.right[..known],
-                &mut self.solution[..known],
-            );
+            let (factors, right, x) =
+                (&self.matrix[..known * known], &self.right[..known], &mut self.solution[..known]);
+            match self.symmetric {
+                true => solve_symmetric(factors, right, x),
+                false => solve(factors, &self.order[..known], right, x),
+            }
             self.impulses.fill(0.0);
             (0..known).for_each(|k| self.impulses[self.unknown[k]] = self.solution[k]);
             self.update(cones);
@@ -346,7 +348,8 @@ impl<'m> Impulses<'m> {
         false
     }
 
-    /// Factors of the equations in given states; how many unknowns there are. `None` where they have no solution.
+    /// Factors of the equations in given states; how many unknowns there are. `None` where they have no solution. Where
+    /// nothing slides the equations are those of D.
     fn factors(&mut self, cones: &[Cone], states: &[State]) -> Option<usize> {
         let mut count = 0;
         for (cone, state) in cones.iter().zip(states) {
@@ -359,6 +362,12 @@ impl<'m> Impulses<'m> {
                 self.unknown[count] = row;
                 count += 1;
             }
+        }
+        self.symmetric = !states[..cones.len()].iter().any(|state| matches!(state, State::Slides(..)));
+        if self.symmetric {
+            (0..count).for_each(|k| self.equal(k, count, self.unknown[k]));
+            let part = if self.dependent { 0.0 } else { DEPENDENT };
+            return factorise_symmetric(&mut self.matrix[..count * count], count, part).then_some(count);
         }
         let mut k = 0;
         for (cone, state) in cones.iter().zip(states) {
@@ -399,9 +408,11 @@ impl<'m> Impulses<'m> {
 
     /// The equation of a rate that is zero.
     fn equal(&mut self, k: usize, count: usize, row: usize) {
-        for c in 0..count {
-            let entry = self.at(row, self.unknown[c]);
-            self.matrix[k * count + c] = if self.unknown[c] == row { entry * (1.0 + self.pull()) } else { entry };
+        let n = self.b.len();
+        let (own, more) = (&self.delassus[row * n..(row + 1) * n], 1.0 + self.pull());
+        let entries = self.matrix[k * count..(k + 1) * count].iter_mut().zip(&self.unknown);
+        for (entry, &of) in entries {
+            *entry = if of == row { own[of] * more } else { own[of] };
         }
     }
 

@@ -2,18 +2,18 @@
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::constraint::{ConstraintLevel, ProjectionError, ProjectionFailure};
-use gauss_runtime::contact::{ContactResponse, ContactSystem};
+use gauss_runtime::contact::{ContactSystem, ImpulseResponse};
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 
-use crate::mode::{Mode, pushed};
+use crate::mode::{Mode, acting, settled_speeds};
 
 use super::cones::{MOST, MOST_ROWS};
-use super::linear::{factorise, solve};
+use super::linear::{factorise_symmetric, solve_symmetric};
 
 /// By what part of the diagonal a matrix is made regular where contacts depend on one another: corrections are
 /// repeated.
-const PULL: f64 = 1e-10;
+const PULLS: [f64; 3] = [1e-10, 1e-8, 1e-6];
 /// Corrections at most. With the matrix of half of the step each leaves a part of the order of the step.
 const CORRECTIONS: usize = 12;
 
@@ -22,52 +22,61 @@ pub(crate) struct Projection<'m> {
     matrix: &'m mut [f64],
     right: &'m mut [f64],
     solution: &'m mut [f64],
-    /// The solution in all rows.
-    all: &'m mut [f64],
     rows: [usize; MOST_ROWS],
-    order: [usize; MOST_ROWS],
     count: usize,
 }
 
 impl<'m> Projection<'m> {
     /// How many numbers it needs for so many rows.
     pub(crate) const fn memory(rows: usize) -> usize {
-        rows * rows + 3 * rows
+        rows * rows + 2 * rows
     }
 
     pub(crate) fn new(memory: &'m mut [f64], rows: usize) -> Self {
         let (matrix, memory) = memory.split_at_mut(rows * rows);
         let (right, memory) = memory.split_at_mut(rows);
-        let (solution, memory) = memory.split_at_mut(rows);
-        let (rows, order) = ([0; MOST_ROWS], [0; MOST_ROWS]);
-        Self { matrix, right, solution, all: memory, rows, order, count: 0 }
+        let solution = &mut memory[..rows];
+        Self { matrix, right, solution, rows: [0; MOST_ROWS], count: 0 }
     }
 
-    /// Factors of D at some rows.
-    fn factorise<K: ContactSystem<Scalar = f64>>(&mut self, delassus: &K::Delassus, rows: impl Iterator<Item = usize>) {
+    /// Factors of D at some rows; whether there are any.
+    fn factorise<K: ContactSystem<Scalar = f64>>(
+        &mut self,
+        delassus: &K::Delassus,
+        rows: impl Iterator<Item = usize>,
+    ) -> bool {
         let mut count = 0;
         for row in rows.filter(|&row| delassus[(row, row)] > 0.0) {
             self.rows[count] = row;
             count += 1;
         }
         self.count = count;
-        for i in 0..count {
-            for j in 0..count {
-                let entry = delassus[(self.rows[i], self.rows[j])];
-                self.matrix[i * count + j] = if i == j { entry * (1.0 + PULL) } else { entry };
+        // Rounding may ask for more where masses are far apart.
+        PULLS.into_iter().any(|pull| {
+            for i in 0..count {
+                for j in i..count {
+                    let entry = delassus[(self.rows[i], self.rows[j])];
+                    self.matrix[i * count + j] = if i == j { entry * (1.0 + pull) } else { entry };
+                }
             }
-        }
-        factorise(&mut self.matrix[..count * count], &mut self.order[..count], 0.0);
+            factorise_symmetric(&mut self.matrix[..count * count], count, 0.0)
+        })
     }
 
-    /// Impulses that take away rates, in all rows.
-    fn cancelling(&mut self, rate: impl Fn(usize) -> f64) -> &[f64] {
+    /// Speeds after impulses that take away rates.
+    fn pushed<K: ContactSystem<Scalar = f64>>(
+        &mut self,
+        kernel: &K,
+        z: &K::Speeds,
+        response: &ImpulseResponse<K>,
+        rate: impl Fn(usize) -> f64,
+    ) -> K::Speeds {
         let n = self.count;
         (0..n).for_each(|k| self.right[k] = -rate(self.rows[k]));
-        solve(&self.matrix[..n * n], &self.order[..n], &self.right[..n], &mut self.solution[..n]);
-        self.all.fill(0.0);
-        (0..n).for_each(|k| self.all[self.rows[k]] = self.solution[k]);
-        self.all
+        solve_symmetric(&self.matrix[..n * n], &self.right[..n], &mut self.solution[..n]);
+        let mut impulses = K::ContactRows::zero();
+        (0..n).for_each(|k| impulses.set_component(self.rows[k], self.solution[k]));
+        settled_speeds(kernel.after_impulses(z, &response.factors, &impulses), acting::<K>(&impulses))
     }
 
     /// Gaps of closed contacts brought to zero, and those that are negative; with the gaps there, and how far the
@@ -76,7 +85,7 @@ impl<'m> Projection<'m> {
         &mut self,
         kernel: &K,
         (t, mut q): (f64, K::Configuration),
-        response: &ContactResponse<K>,
+        response: &ImpulseResponse<K>,
         closed: &[bool; MOST],
     ) -> Result<(K::Configuration, K::Gaps, f64), ProjectionError> {
         let magnitude = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
@@ -99,16 +108,13 @@ impl<'m> Projection<'m> {
                 break;
             }
             left = size;
-            if grown {
-                self.factorise::<K>(
-                    &response.delassus,
-                    each().filter(|(i, _)| held[*i]).map(|(_, contact)| contact.normal),
-                );
+            let normals = each().filter(|(i, _)| held[*i]).map(|(_, contact)| contact.normal);
+            if grown && !self.factorise::<K>(&response.delassus, normals) {
+                break;
             }
             let of_row = |row: usize| each().find(|(_, contact)| contact.normal == row).map_or(0.0, |(i, _)| gap(i));
-            let impulses = self.cancelling(of_row);
             let zero = K::Speeds::zero();
-            let moved = pushed::<K>(&zero, &response.columns, impulses);
+            let moved = self.pushed(kernel, &zero, response, of_row);
             // ψ is affine in z: what an impulse adds to it is an increment of the configuration.
             let still = kernel.kinematics(t, &q, &zero);
             q = q.advance(&kernel.kinematics(t, &q, &moved).add_scaled(-1.0, &still));
@@ -127,7 +133,7 @@ impl<'m> Projection<'m> {
         &mut self,
         kernel: &K,
         (t, q, mut z): (f64, &K::Configuration, K::Speeds),
-        response: &ContactResponse<K>,
+        response: &ImpulseResponse<K>,
         (mode, rounding): (&dyn Fn(usize) -> Mode, f64),
     ) -> (K::Speeds, K::ContactRows) {
         let rows = || {
@@ -145,10 +151,10 @@ impl<'m> Projection<'m> {
                 break;
             }
             left = size;
-            if n == 0 {
-                self.factorise::<K>(&response.delassus, rows());
+            if n == 0 && !self.factorise::<K>(&response.delassus, rows()) {
+                break;
             }
-            z = pushed::<K>(&z, &response.columns, self.cancelling(|row| rates.component(row)));
+            z = self.pushed(kernel, &z, response, |row| rates.component(row));
             rates = kernel.contact_rates(t, q, &z);
         }
         (z, rates)

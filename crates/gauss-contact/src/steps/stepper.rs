@@ -5,11 +5,11 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::contact::{ContactDynamics, ContactSystem};
+use gauss_runtime::contact::{ContactSystem, ImpulseDynamics};
 
 use crate::error::{ContactError, ContactErrorKind};
 use crate::law::carrier;
-use crate::mode::{Mode, pushed};
+use crate::mode::{Mode, acting, settled_speeds};
 use crate::residual::Residual;
 
 use super::cones::{Laws, MOST, MOST_ROWS};
@@ -331,7 +331,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let kernel = self.kernel;
         let friction = kernel.friction(middle.t, &middle.q, &middle.z, input);
         let laws = Laws::new::<K>(h, &friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
-        let dynamics = kernel.contact_dynamics(middle.t, &middle.q, &middle.z, input);
+        let dynamics = kernel.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
         let mut impulses = self.impulses;
         let free = self.z.add_scaled(h, &dynamics.acceleration);
         let known = self.dependent;
@@ -340,7 +340,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             solved = self.solve(h, (&laws, &dynamics), self.free_rates(h, middle, &dynamics), &mut impulses);
         }
         let solved = solved.map_err(|kind| self.error(None, kind))?;
-        let z = pushed_rows::<K>(&free, &dynamics.response.columns, &impulses);
+        let after = kernel.after_impulses(&free, &dynamics.response.factors, &impulses);
+        let z = settled_speeds(after, acting::<K>(&impulses));
         let (q, z) = self.second_half(h, middle, z)?;
         // What begins to rest is brought to zero to the last bit, and stays there.
         let kind = |mode: &Mode| core::mem::discriminant(mode);
@@ -370,7 +371,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     /// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that
     /// depend on one another both are taken at half of the step, where they agree with one another to rounding; that is
     /// of first order.
-    fn free_rates(&self, h: f64, middle: &Middle<K>, dynamics: &ContactDynamics<K>) -> [K::ContactRows; 2] {
+    fn free_rates(&self, h: f64, middle: &Middle<K>, dynamics: &ImpulseDynamics<K>) -> [K::ContactRows; 2] {
         if !self.dependent {
             return [self.rates, self.rates.add_scaled(h, &dynamics.bias)];
         }
@@ -382,7 +383,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     fn solve(
         &mut self,
         h: f64,
-        (laws, dynamics): (&Laws, &ContactDynamics<K>),
+        (laws, dynamics): (&Laws, &ImpulseDynamics<K>),
         [before, free]: [K::ContactRows; 2],
         impulses: &mut K::ContactRows,
     ) -> Result<Solved, ContactErrorKind> {
@@ -469,15 +470,4 @@ struct Solved {
     struck: bool,
     /// Of the impulses.
     work: f64,
-}
-
-fn pushed_rows<K: ContactSystem<Scalar = f64>>(
-    z: &K::Speeds,
-    columns: &K::ContactColumns,
-    rows: &K::ContactRows,
-) -> K::Speeds {
-    let mut all = [0.0; MOST_ROWS];
-    let all = &mut all[..K::ContactRows::DIM];
-    all.iter_mut().enumerate().for_each(|(row, impulse)| *impulse = rows.component(row));
-    pushed::<K>(z, columns, all)
 }

@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use gauss_runtime::chart::Chart;
-use gauss_runtime::contact::{Contact, ContactDynamics, ContactResponse, ContactSystem};
+use gauss_runtime::contact::{AfterImpulses, Contact, ContactSystem, ImpulseDynamics, ImpulseResponse, after_impulses};
 use gauss_runtime::nalgebra::{SMatrix, SVector};
 use gauss_runtime::system::GaussSystem;
 
@@ -110,6 +110,7 @@ impl<L: Layout, const N: usize, const C: usize, const R: usize> ContactSystem fo
     type Gaps = V<C>;
     type ContactRows = V<R>;
     type ContactColumns = SMatrix<f64, N, R>;
+    type ImpulseFactors = Self::ContactColumns;
     type Delassus = SMatrix<f64, R, R>;
     const CONTACTS: &'static [Contact] = L::CONTACTS;
 
@@ -132,15 +133,21 @@ impl<L: Layout, const N: usize, const C: usize, const R: usize> ContactSystem fo
     fn restitution(&self) -> V<C> {
         self.restitution
     }
-    fn contact_response(&self, _: f64, q: &V<N>) -> ContactResponse<Self> {
+    fn impulse_response(&self, _: f64, q: &V<N>) -> ImpulseResponse<Self> {
         let rows = (self.rows)(q);
         let columns = SMatrix::<f64, N, R>::from_fn(|i, j| rows[(j, i)] / self.mass[i]);
-        ContactResponse::new(columns, rows * columns)
+        ImpulseResponse::new(columns, rows * columns)
     }
-    fn contact_dynamics(&self, t: f64, q: &V<N>, z: &V<N>, input: &()) -> ContactDynamics<Self> {
+    fn impulse_dynamics(&self, t: f64, q: &V<N>, z: &V<N>, input: &()) -> ImpulseDynamics<Self> {
         let free = self.acceleration(t, q, z, input);
         let bias = (self.rows)(q) * free + (self.gamma)(q, z);
-        ContactDynamics::new(free, bias, self.contact_response(t, q))
+        ImpulseDynamics::new(free, bias, self.impulse_response(t, q))
+    }
+    fn after_impulses(&self, z: &V<N>, columns: &Self::ImpulseFactors, impulses: &V<R>) -> AfterImpulses<V<N>> {
+        after_impulses::<Self>(z, columns, impulses)
+    }
+    fn contact_columns(&self, columns: &Self::ImpulseFactors) -> Self::ContactColumns {
+        *columns
     }
 }
 

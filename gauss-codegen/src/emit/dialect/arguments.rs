@@ -39,7 +39,7 @@ pub fn declare(program: &Program<'_>, arguments: &[Argument<'_>], names: &mut Ma
 
 /// The arguments that a method has after time and configuration.
 pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
-    use ArgumentKind::{Inputs, Momenta, Residuals, Speeds, Twist};
+    use ArgumentKind::{Factors, Impulses, Inputs, Momenta, Residuals, Speeds, Twist};
     match method {
         Method::Acceleration
         | Method::Multipliers
@@ -48,7 +48,7 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
         | Method::SuppliedPower
         | Method::NonlinearEffects
         | Method::Friction
-        | Method::ContactDynamics => OF_EQUATIONS,
+        | Method::ImpulseDynamics => OF_EQUATIONS,
         Method::Kinematics
         | Method::Momentum
         | Method::KineticEnergy
@@ -67,6 +67,7 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
         Method::Speeds => &[Twist],
         Method::PositionCorrection => &[Residuals],
         Method::VelocityCorrection => &[Speeds, Residuals],
+        Method::ImpulseVelocities => &[Factors, Impulses],
         Method::MassMatrix
         | Method::PotentialEnergy
         | Method::Pose
@@ -83,7 +84,7 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
         | Method::ContactJacobian
         | Method::ContactFrames
         | Method::Restitution
-        | Method::ContactResponse => &[],
+        | Method::ImpulseResponse => &[],
     }
 }
 
@@ -117,6 +118,8 @@ pub fn variable(kind: ArgumentKind) -> Ident {
         ArgumentKind::Accelerations => "__acceleration",
         ArgumentKind::Twist => "__twist",
         ArgumentKind::Residuals => "__residual",
+        ArgumentKind::Factors => "__factors",
+        ArgumentKind::Impulses => "__impulses",
         ArgumentKind::Inputs => "__input",
         ArgumentKind::Weights => "__weights",
     };
@@ -131,6 +134,8 @@ fn argument_type(private: &TokenStream, kind: ArgumentKind) -> TokenStream {
         ArgumentKind::Speeds | ArgumentKind::Momenta | ArgumentKind::Accelerations => quote!(&Self::Speeds),
         ArgumentKind::Twist => quote!(&#private::SVector<Self::Scalar, 6>),
         ArgumentKind::Residuals => quote!(&Self::Multipliers),
+        ArgumentKind::Factors => quote!(&Self::ImpulseFactors),
+        ArgumentKind::Impulses => quote!(&Self::ContactRows),
         ArgumentKind::Inputs => quote!(&Self::Input),
         ArgumentKind::Weights => {
             quote!(&<Self::Linearization as #private::LinearModel<Self::Scalar>>::Vector)

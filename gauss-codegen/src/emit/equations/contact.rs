@@ -6,10 +6,11 @@ use quote::quote;
 use crate::mechanics::Method;
 
 use crate::emit::derived::Derived;
-use crate::emit::dialect::arguments::arguments_of;
+use crate::emit::dialect::arguments::{arguments_of, declared};
+use crate::program::ArgumentKind;
 
 pub fn contact_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    let dynamics = derived.program(Method::ContactDynamics)?;
+    let dynamics = derived.program(Method::ImpulseDynamics)?;
     let (private, ty, n) = (derived.private(), derived.scalar().ty(), derived.degrees_of_freedom());
     let (count, rows) = (derived.subject.system.scene.contacts.len(), derived.subject.system.contacts.rates.len());
     let listed = listed(derived);
@@ -22,27 +23,34 @@ pub fn contact_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     ];
     let methods = methods.into_iter().filter_map(|(method, result)| derived.function(method, result));
     let of_impulses = {
-        let (mut body, outputs) = derived.computed(derived.program(Method::ContactResponse)?);
-        body.extend(response(derived, &outputs));
-        let arguments = arguments_of(Method::ContactResponse);
-        derived.function_of("contact_response", arguments, quote!(#private::ContactResponse<Self>), body)
+        let (mut body, outputs) = derived.computed(derived.program(Method::ImpulseResponse)?);
+        let (effect, delassus) = effect(derived, &outputs);
+        body.extend(quote!(#private::ImpulseResponse::new(#effect, #delassus)));
+        let arguments = arguments_of(Method::ImpulseResponse);
+        derived.function_of("impulse_response", arguments, quote!(#private::ImpulseResponse<Self>), body)
     };
     let of_motion = {
         let (mut body, outputs) = derived.computed(dynamics);
         let (acceleration, rest) = outputs.split_at(n);
         let (bias, rest) = rest.split_at(rows);
-        let response = response(derived, rest);
+        let (effect, delassus) = effect(derived, rest);
         body.extend(quote! {
-            #private::ContactDynamics::new(#private::vector([#(#acceleration),*]), #private::vector([#(#bias),*]), #response)
+            #private::ImpulseDynamics::new(
+                #private::vector([#(#acceleration),*]),
+                #private::vector([#(#bias),*]),
+                #private::ImpulseResponse::new(#effect, #delassus)
+            )
         });
-        let arguments = arguments_of(Method::ContactDynamics);
-        derived.function_of("contact_dynamics", arguments, quote!(#private::ContactDynamics<Self>), body)
+        let arguments = arguments_of(Method::ImpulseDynamics);
+        derived.function_of("impulse_dynamics", arguments, quote!(#private::ImpulseDynamics<Self>), body)
     };
+    let (factors, velocities) = velocities(derived)?;
     let frames = frames(derived);
     let items = quote! {
         type Gaps = #private::SVector<#ty, #count>;
         type ContactRows = #private::SVector<#ty, #rows>;
         type ContactColumns = #private::SMatrix<#ty, #n, #rows>;
+        type ImpulseFactors = #factors;
         type Delassus = #private::SMatrix<#ty, #rows, #rows>;
         const CONTACTS: &'static [#private::Contact] = &[#(#listed),*];
         #(#methods)*
@@ -53,6 +61,7 @@ pub fn contact_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         #of_impulses
         #[inline]
         #of_motion
+        #velocities
     };
     Some(derived.implementation(quote!(ContactSystem), items))
 }
@@ -103,14 +112,39 @@ fn listed(derived: &Derived<'_, '_>) -> Vec<TokenStream> {
     contacts.collect()
 }
 
-/// Rows of A⁻¹Wᵀ, then those of D.
-fn response(derived: &Derived<'_, '_>, outputs: &[TokenStream]) -> TokenStream {
+/// A⁻¹Wᵀ or the numbers of its halves, and D.
+fn effect(derived: &Derived<'_, '_>, outputs: &[TokenStream]) -> (TokenStream, TokenStream) {
     let (private, rows) = (derived.private(), derived.subject.system.contacts.rates.len());
-    let (columns, delassus) = outputs.split_at(derived.degrees_of_freedom() * rows);
+    let (effect, delassus) = outputs.split_at(outputs.len() - rows * rows);
     let matrix = |entries: &[TokenStream]| {
         let rows = entries.chunks(rows).map(|row| quote!([#(#row),*]));
         quote!(#private::matrix([#(#rows),*]))
     };
-    let (columns, delassus) = (matrix(columns), matrix(delassus));
-    quote!(#private::ContactResponse::new(#columns, #delassus))
+    let effect =
+        if derived.formal().factors.is_empty() { matrix(effect) } else { quote!(#private::vector([#(#effect),*])) };
+    (effect, matrix(delassus))
+}
+
+/// The type of what makes velocities of impulses, and the methods that do.
+fn velocities(derived: &Derived<'_, '_>) -> Option<(TokenStream, TokenStream)> {
+    let (private, ty) = (derived.private(), derived.scalar().ty());
+    let declared = declared(&private, &[ArgumentKind::Speeds, ArgumentKind::Factors, ArgumentKind::Impulses]);
+    let (factors, after, columns) = match derived.formal().factors.len() {
+        0 => {
+            let after = quote!(#private::after_impulses::<Self>(__z, __factors, __impulses));
+            (quote!(Self::ContactColumns), after, quote!(*__factors))
+        }
+        count => {
+            let velocities = derived.method_body(Method::ImpulseVelocities)?;
+            let after = quote!(#private::AfterImpulses::of(__z, &{ #velocities }));
+            (quote!(#private::SVector<#ty, #count>), after, quote!(#private::contact_columns(self, __factors)))
+        }
+    };
+    let methods = quote! {
+        #[inline]
+        fn after_impulses(&self, #(#declared),*) -> #private::AfterImpulses<Self::Speeds> { #after }
+        #[inline]
+        fn contact_columns(&self, __factors: &Self::ImpulseFactors) -> Self::ContactColumns { #columns }
+    };
+    Some((factors, methods))
 }

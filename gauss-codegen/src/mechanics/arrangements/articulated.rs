@@ -244,6 +244,11 @@ impl<'g> JointFactors<'g> {
         self.combinations.solve(right, |right| self.factored.solve(right))
     }
 
+    /// L⁻¹ of a right-hand side in the order of elimination, where the speeds of the joints are the user's.
+    pub fn halfway(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        self.factored.halfway(right)
+    }
+
     /// The factors as numbers, where the speeds of the joints are the user's.
     pub fn columns(&self) -> Option<FactoredColumns<'g>> {
         self.order().map(|_| self.factored.columns())

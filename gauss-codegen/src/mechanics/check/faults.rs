@@ -51,7 +51,7 @@ impl<'a, 'g> Claims<'a, 'g> {
             residuals: &formulas.gauss_residual,
             accelerations: &formulas.acceleration,
             multipliers: formulas.get(Method::Multipliers).and_then(|all| all.first()).map(Vec::as_slice),
-            contacts: formulas.get(Method::ContactDynamics).map_or(&[], Vec::as_slice),
+            contacts: formulas.get(Method::ImpulseDynamics).map_or(&[], Vec::as_slice),
         }
     }
 }

@@ -49,7 +49,10 @@ impl<'g, N: Number> Pushed<'_, '_, 'g, N> {
         agree(Method::ContactRates, &self.witness.values(&claimed), &expected)?;
         let arbitrary: Vec<N> = (0..rows).map(|k| N::number(0.4 + 0.3 * (k % 3) as f64)).collect();
         for claim in claims {
-            let values = self.witness.values(claim);
+            let (motion, effect) = claim.split_at(n + rows);
+            let (effect, delassus) = effect.split_at(effect.len() - rows * rows);
+            let columns = system.columns_of(effect);
+            let values = self.witness.values(&[motion, &columns, delassus].concat());
             let (still, rest) = values.split_at(n);
             let (bias, rest) = rest.split_at(rows);
             let (columns, delassus) = rest.split_at(n * rows);
@@ -64,7 +67,7 @@ impl<'g, N: Number> Pushed<'_, '_, 'g, N> {
                 Summed { value: if pressed < changes[row] { pressed } else { changes[row] }, terms }
             });
             let least: Vec<_> = least.collect();
-            agree(Method::ContactDynamics, &vec![N::number(0.0); least.len()], &least)?;
+            agree(Method::ImpulseDynamics, &vec![N::number(0.0); least.len()], &least)?;
         }
         Ok(Comparison::Agrees)
     }
@@ -108,7 +111,7 @@ impl<'g, N: Number> Pushed<'_, '_, 'g, N> {
             if !sums.iter().all(Summed::is_in_range) {
                 return Ok(None);
             }
-            agree(Method::ContactDynamics, &vec![zero; sums.len()], &sums)?;
+            agree(Method::ImpulseDynamics, &vec![zero; sums.len()], &sums)?;
         }
         Ok(Some(changes))
     }

@@ -1,4 +1,4 @@
-//! What contact forces do: A⁻¹Wᵀ, Delassus' matrix D = W A⁻¹Wᵀ, and the motion without them.
+//! What contact forces do: A⁻¹Wᵀ or its halves, Delassus' matrix D = W A⁻¹Wᵀ, and the motion without them.
 
 use crate::algebra::Expr;
 
@@ -6,12 +6,13 @@ use crate::mechanics::arrangements::articulated::Articulated;
 use crate::mechanics::constraints::contact::Contact;
 use crate::mechanics::formula::{Arrangements, Formula, Method};
 
-use super::System;
+use super::{Arrangement, System};
 
-/// One way to form the motion without contact forces, and the velocities that unit impulses make, one for each row.
+/// One way to form the motion without contact forces, and what these forces do: what makes velocities of impulses —
+/// A⁻¹Wᵀ, row by row of the speeds, or its halves — then D.
 struct Response<'g> {
     rates: Vec<Expr<'g>>,
-    columns: Vec<Vec<Expr<'g>>>,
+    effect: Vec<Expr<'g>>,
 }
 
 impl<'g> System<'g> {
@@ -45,14 +46,21 @@ impl<'g> System<'g> {
                 scene.contacts.iter().map(|contact| coefficient(contact.restitution)).collect(),
             ),
             Formula {
-                method: Method::ContactResponse,
-                arrangements: responses.iter().map(|response| self.response(response)).collect(),
+                method: Method::ImpulseResponse,
+                arrangements: match self.halves() {
+                    Some(_) => responses[..1].iter().map(|response| response.effect.clone()).collect(),
+                    None => responses.iter().map(|response| response.effect.clone()).collect(),
+                },
             },
             Formula {
-                method: Method::ContactDynamics,
+                method: Method::ImpulseDynamics,
                 arrangements: responses.iter().map(|response| self.contact_dynamics(response)).collect(),
             },
         ];
+        if let Some(halves) = self.halves() {
+            let velocities = halves.velocities(&halves.symbols, &halves.impulses);
+            formulas.push(single(Method::ImpulseVelocities, velocities));
+        }
         if !frames.is_empty() {
             formulas.push(single(Method::ContactFrames, frames));
         }
@@ -70,13 +78,17 @@ impl<'g> System<'g> {
     /// Both in the ways that are worth trying, each with the same factors of A in both.
     fn responses(&self, accelerations: &Arrangements<'g>) -> Vec<Response<'g>> {
         let rows = &self.contacts.jacobian;
+        if let Some(halves) = self.halves() {
+            let effect = [halves.entries(), halves.delassus()].concat();
+            let of = |rates: &Vec<Expr<'g>>| Response { rates: rates.clone(), effect: effect.clone() };
+            return accelerations.iter().map(of).collect();
+        }
+        let response = |rates, columns: Vec<Vec<Expr<'g>>>| Response { rates, effect: self.effect(&columns) };
         let arrangements = self.arrangements();
         if !self.constraints.is_empty() {
-            let of = |a| Response {
-                rates: self.acceleration(a).0,
-                columns: rows.iter().map(|row| self.constraints.respond(&a.matrix, row).0).collect(),
-            };
-            return arrangements.iter().map(of).collect();
+            let columns =
+                |a: &Arrangement<'g>| rows.iter().map(|row| self.constraints.respond(&a.matrix, row).0).collect();
+            return arrangements.iter().map(|a| response(self.acceleration(a).0, columns(a))).collect();
         }
         if let Some(body) = self.balance_of_all() {
             // z = A⁻¹ p of a free link: its momenta are homogeneous in its speeds.
@@ -85,18 +97,16 @@ impl<'g> System<'g> {
                 velocity.iter().map(|z| z.substitute(&impulse)).collect()
             };
             let velocities = body.velocities_of_momentum();
-            let of = |k: usize| Response {
-                rates: accelerations[k % accelerations.len()].clone(),
-                columns: rows.iter().map(|row| solved(&velocities[k % velocities.len()], row)).collect(),
-            };
+            let columns = |k: usize| rows.iter().map(|row| solved(&velocities[k % velocities.len()], row)).collect();
+            let of = |k: usize| response(accelerations[k % accelerations.len()].clone(), columns(k));
             return (0..accelerations.len().max(velocities.len())).map(of).collect();
         }
         let ways = self.accelerations(&arrangements).into_iter().zip(self.columns(&arrangements));
-        ways.map(|(rates, columns)| Response { rates, columns }).collect()
+        ways.map(|(rates, columns)| response(rates, columns)).collect()
     }
 
     /// A⁻¹ of every row, in the order of [`accelerations`](System::accelerations).
-    fn columns(&self, arrangements: &[super::Arrangement<'g>]) -> Vec<Vec<Vec<Expr<'g>>>> {
+    fn columns(&self, arrangements: &[Arrangement<'g>]) -> Vec<Vec<Vec<Expr<'g>>>> {
         let rows = &self.contacts.jacobian;
         let mut ways = Vec::new();
         for arrangement in arrangements {
@@ -113,7 +123,7 @@ impl<'g> System<'g> {
     }
 
     /// A⁻¹Wᵀ, row by row of the speeds, then D.
-    fn response(&self, Response { columns, .. }: &Response<'g>) -> Vec<Expr<'g>> {
+    fn effect(&self, columns: &[Vec<Expr<'g>>]) -> Vec<Expr<'g>> {
         let columns: Vec<Vec<Expr<'g>>> = columns.iter().map(|x| x.iter().map(|e| e.group()).collect()).collect();
         let rows = &self.contacts.jacobian;
         let mut outputs: Vec<Expr<'g>> =
@@ -129,7 +139,17 @@ impl<'g> System<'g> {
         let rates: Vec<Expr<'g>> = response.rates.iter().map(|e| e.group()).collect();
         let rows = self.contacts.jacobian.iter().zip(&self.contacts.bias);
         let bias = rows.map(|(row, bias)| product(row, &rates) + *bias);
-        rates.iter().copied().chain(bias).chain(self.response(response)).collect()
+        rates.iter().copied().chain(bias).chain(response.effect.iter().copied()).collect()
+    }
+
+    /// A⁻¹Wᵀ, row by row of the speeds, from what makes velocities of impulses.
+    pub(in crate::mechanics) fn columns_of(&self, effect: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let Some(halves) = self.halves() else { return effect.to_vec() };
+        let (zero, one) = (self.scene.graph.zero(), self.scene.graph.one());
+        let rows = self.contacts.rates.len();
+        let unit = |row: usize| (0..rows).map(|other| if other == row { one } else { zero }).collect::<Vec<_>>();
+        let columns: Vec<_> = (0..rows).map(|row| halves.velocities(effect, &unit(row))).collect();
+        (0..self.scene.speeds.len()).flat_map(|k| columns.iter().map(move |column| column[k])).collect()
     }
 }
 
