@@ -207,11 +207,12 @@
 ///
 /// Contacts with a ground have the names of their shapes, or else of their links; where a shape has several, with
 /// numbers from zero: `sole_0`. A name that is taken gets a number: `foot_2`, `sole_2_0`. The points that they are of
-/// are `foot_point`, unless they are origins of links. Of MJCF `contype`, `conaffinity`, `priority`, `condim`, sliding
-/// `friction` and `<exclude>` act as MuJoCo has them; planes of what is fixed are the ground. Of a ground that is the
-/// struct's own the bits are 1, it is excluded as `world` is, and the friction is that of the geom. Links do not touch
-/// each other. What is not read (meshes, ellipsoids, height fields, shapes of the world that are no planes, `margin`,
-/// friction of turning and rolling, pairs) is a warning where it would act.
+/// are `foot_point`, unless they are origins of links; an ellipsoid turned in its link has a frame, `foot_frame`. Of
+/// MJCF `contype`, `conaffinity`, `priority`, `condim`, sliding `friction` and `<exclude>` act as MuJoCo has them;
+/// planes of what is fixed are the ground. Of a ground that is the struct's own the bits are 1, it is excluded as
+/// `world` is, and the friction is that of the geom. Links do not touch each other. What is not read (meshes, height
+/// fields, shapes of the world that are no planes, `margin`, friction of turning and rolling, pairs) is a warning where
+/// it would act.
 ///
 /// Of MJCF there are read: bodies, frames, joints of all kinds, several in a body, about anchors, with references,
 /// damping, dry friction, springs (`elbow_spring`), also of balls and free joints, `springdamper` of joints that move

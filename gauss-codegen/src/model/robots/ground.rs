@@ -165,8 +165,8 @@ fn refuse_idle(ground: &Ground, notes: &[Note], context: &mut Context) {
     context.error(
         ground.span,
         format!(
-            "nothing of the file touches this ground{why}; a link that moves needs a sphere, box, capsule or cylinder, \
-             or write `contact(…)` of your own points"
+            "nothing of the file touches this ground{why}; a link that moves needs a sphere, box, capsule, cylinder \
+             or ellipsoid, or write `contact(…)` of your own points"
         ),
     );
 }
