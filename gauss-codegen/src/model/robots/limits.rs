@@ -102,6 +102,7 @@ impl Robot<'_> {
                 drilling: None,
                 rolling: None,
                 of_file: true,
+                links: [None, None],
             }
         };
         self.limited().into_iter().map(range).collect()

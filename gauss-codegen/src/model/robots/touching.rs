@@ -113,6 +113,7 @@ impl Made {
             drilling: None,
             rolling: None,
             of_file: true,
+            links: [Some(link.clone()), None],
         }));
     }
 
