@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::f64::consts::TAU;
 
 use proc_macro2::Ident;
+use syn::ext::IdentExt;
 
 use super::joints::Writer;
 use super::names::{self, Names};
@@ -46,9 +47,11 @@ enum Form {
 }
 
 impl Made {
-    pub fn new(names: Names, writer: Writer) -> Self {
+    /// Contacts are not to have the names of those that are `taken`.
+    pub fn new(names: Names, taken: impl IntoIterator<Item = Ident>, writer: Writer) -> Self {
         let (points, frames, contacts) = (Vec::new(), Vec::new(), Vec::new());
-        Self { points, frames, contacts, taken: HashSet::new(), shapes: HashSet::new(), names, writer }
+        let taken = taken.into_iter().map(|name| name.unraw().to_string()).collect();
+        Self { points, frames, contacts, taken, shapes: HashSet::new(), names, writer }
     }
 
     /// How many contacts there are.

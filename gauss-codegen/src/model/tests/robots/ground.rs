@@ -103,6 +103,19 @@ fn what_the_clause_says() {
     assert!(matches!(&rims[0].touching, Touching::Point(contact) if matches!(contact.copies, Copies::Rims(_))));
 }
 
+/// Contacts of joints come first, and keep their names.
+#[test]
+fn a_shape_with_the_name_of_a_joint() {
+    let limits = "<dynamics friction=\"2\"/><limit lower=\"-1\" upper=\"1\"/>";
+    let shapes = shape("lift", "", SPHERE) + &shape("lift_to", "", SPHERE);
+    let body = link("trunk").replace("</link>", &format!("{shapes}</link>"));
+    let text = robot(&(joint("lift", "prismatic", "base", "trunk", limits) + &body));
+    let found = contacts(&text, ", limits = range, joint_friction = dry, ground");
+    assert_eq!(names(&found), ["lift_from", "lift_to", "lift", "lift_2", "lift_to_2"]);
+    assert_eq!(found[1].friction.first().and_then(|bound| bound.literal()), Some(2.0));
+    assert!(matches!(found[1].touching, Touching::Slip { named: true, .. }));
+}
+
 #[test]
 fn mistakes_stand_at_their_words() {
     let mesh = shape("", "", "<mesh filename=\"a.stl\"/>");
