@@ -178,7 +178,7 @@
 /// | `base = fixed`, `base = floating` | of a URDF: the root is at Ω, which is the default, or moves freely: then the first coordinate is `base: Pose`, with the twist of the root in its own axes for speeds, linear before angular |
 /// | `inputs = all`, `none`, `transmissions` | an effort of every joint that turns or slides, the default of a URDF, of none, or of those that a transmission or an actuator drives, the default of MJCF |
 /// | `inputs = actuators` | the controls of transmissions and actuators, by their names and with their gears, gains and biases: of a motor its torque, of a servo where it is to go |
-/// | `joint_friction = smooth(w)`, `none` | dry friction f as −f v/√(v² + w²), v the rate of the joint; or none, as without the clause, but without the warning |
+/// | `joint_friction = dry`, `smooth(w)`, `none` | dry friction f (`<dynamics friction>`, `frictionloss` of hinges and slides) exactly, as `dry_friction(elbow, bound = f)`; or as −f v/√(v² + w²), v the rate of the joint; or none, as without the clause, but without the warning |
 /// | `limits = stop(stiffness = k, width = e, damping = c)`, `none` | the limits of joints as stops; or none, as without the clause, but without the warning |
 /// | `ground(links = [left_foot, right_foot], friction = mu, restitution = e, plane = [0, 0, 1], height = h, along = [1, 0, 0], cylinders = 8)`, `ground` | contacts of the file's shapes with a plane, as if they had been written by `contact(…)`; each argument may be left out. All links that move, or those that are named; the plane is as of `contact(…)`, or without `plane` and `height` those of the file; without `friction` that of the geoms. Spheres, boxes, capsules, and cylinders by their rims or by so many points for each. Several clauses are several planes |
 /// | `saturation = clamp`, `none` | controls, forces and efforts are kept in their ranges: what is beyond is cut off exactly, so that derivatives are zero there. `ctrlrange` and `forcerange` belong to actuators, and act with `inputs = actuators`; `actuatorfrcrange`, and `effort` of a URDF unless it is zero, to joints. Or they do not act, as without the clause, but without the warning |
@@ -207,11 +207,12 @@
 ///
 /// Contacts with a ground have the names of their shapes, or else of their links; where a shape has several, with
 /// numbers from zero: `sole_0`. A name that is taken gets a number: `foot_2`, `sole_2_0`. The points that they are of
-/// are `foot_point`, unless they are origins of links. Of MJCF `contype`, `conaffinity`, `priority`, `condim`, sliding
-/// `friction` and `<exclude>` act as MuJoCo has them; planes of what is fixed are the ground. Of a ground that is the
-/// struct's own the bits are 1, it is excluded as `world` is, and the friction is that of the geom. Links do not touch
-/// each other. What is not read (meshes, ellipsoids, height fields, shapes of the world that are no planes, `margin`,
-/// friction of turning and rolling, pairs) is a warning where it would act.
+/// are `foot_point`, unless they are origins of links; an ellipsoid turned in its link has a frame, `foot_frame`. Of
+/// MJCF `contype`, `conaffinity`, `priority`, `condim`, sliding `friction` and `<exclude>` act as MuJoCo has them;
+/// planes of what is fixed are the ground. Of a ground that is the struct's own the bits are 1, it is excluded as
+/// `world` is, and the friction is that of the geom. Links do not touch each other. What is not read (meshes, height
+/// fields, shapes of the world that are no planes, `margin`, friction of turning and rolling, pairs) is a warning where
+/// it would act.
 ///
 /// Of MJCF there are read: bodies, frames, joints of all kinds, several in a body, about anchors, with references,
 /// damping, dry friction, springs (`elbow_spring`), also of balls and free joints, `springdamper` of joints that move

@@ -199,6 +199,10 @@ pub struct Contact {
     pub drills: bool,
     /// What bounds its friction.
     pub kind: ContactKind,
+    /// The body that has the point that touches, then the one that is touched, by their names in the scene, which may
+    /// be those of frames, or of links of a robot's file; `None` of what is fixed, and of gaps and slips that are written
+    /// as expressions.
+    pub bodies: [Option<&'static str>; 2],
 }
 
 /// Where a contact is. Components are along the observer's axes, points are from the observer's origin Ω.
@@ -254,25 +258,31 @@ impl Contact {
     /// A contact with a gap.
     #[must_use]
     pub const fn new(name: &'static str, normal: usize, tangents: usize) -> Self {
-        Self { name, normal, tangents, drills: false, kind: ContactKind::Gap }
+        Self { name, normal, tangents, drills: false, kind: ContactKind::Gap, bodies: [None; 2] }
     }
 
     /// Dry friction along one slip or two, of which the first row is given.
     #[must_use]
     pub const fn dry_friction(name: &'static str, first: usize, tangents: usize) -> Self {
-        Self { name, normal: first, tangents, drills: false, kind: ContactKind::DryFriction }
+        Self { name, normal: first, tangents, drills: false, kind: ContactKind::DryFriction, bodies: [None; 2] }
     }
 
     /// Rolling resistance about one tangent or two of the contact number `on`, of which the first row is given.
     #[must_use]
     pub const fn rolling(name: &'static str, first: usize, tangents: usize, on: usize) -> Self {
-        Self { name, normal: first, tangents, drills: false, kind: ContactKind::Rolling { on } }
+        Self { name, normal: first, tangents, drills: false, kind: ContactKind::Rolling { on }, bodies: [None; 2] }
     }
 
     /// With a row of friction of drilling after its tangents.
     #[must_use]
     pub const fn with_drilling(self) -> Self {
         Self { drills: true, ..self }
+    }
+
+    /// Between bodies of these names: the one that has the point that touches, and the one that is touched.
+    #[must_use]
+    pub const fn between(self, bodies: [Option<&'static str>; 2]) -> Self {
+        Self { bodies, ..self }
     }
 
     /// Whether it has a gap and a normal.

@@ -1,6 +1,7 @@
 //! Robots whose files have shapes that touch a ground: which contacts they have, and that they stand.
 
 use gauss_contact::{ContactErrorKind, ContactRun, EventKind, Mode};
+use gauss_runtime::contact::Contact;
 use gauss_runtime::forces::Columns;
 use gauss_runtime::prelude::*;
 
@@ -156,6 +157,50 @@ fn every_shape_touches_as_in_clauses() {
             let [a, b]: [SVector<f64, 6>; 2] = [columns[0].nth(row).unwrap(), columns[1].nth(row).unwrap()];
             assert!((a - b).amax() < 256.0 * EPSILON, "{row}: {}", a - b);
         }
+    }
+}
+
+/// Ellipsoids of a file against a plane that is no level.
+#[derive(GaussDynamics)]
+#[gauss(mjcf = "robots/pebbles.xml", ground(plane = [1, 2, 2], height = -0.2))]
+struct Pebbles;
+
+/// The same in clauses; of the grain the third axis is from its second end to the first, so along −x of the body.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(flight: Pose),
+    body(stone, position = flight.position, rotation = flight.rotation, mass = 3, inertia = [0.2, 0.3, 0.4]),
+    contact(egg, point = stone.position, semi_axes = [0.3, 0.2, 0.5], friction = 1, plane = [1, 2, 2], height = -0.2),
+    point(core, body = stone, at = [0.1, -0.4, 0.2]),
+    contact(pip, point = core, semi_axes = [0.1, 0.2, 0.3], friction = 1, plane = [1, 2, 2], height = -0.2),
+    frame(
+        hull, parent = stone, position = [-0.4, 0, 0.1],
+        rotation = rotation_z(0.7) * rotation_y(-0.5) * rotation_x(0.3)
+    ),
+    contact(bean, point = hull.position, semi_axes = [0.6, 0.2, 0.4], plane = [1, 2, 2], height = -0.2),
+    frame(husk, parent = stone, position = [0.2, -0.5, -0.2], rotation = rotation_y(-pi / 2)),
+    contact(grain, point = husk.position, semi_axes = [0.05, 0.05, 0.2], friction = 1, plane = [1, 2, 2], height = -0.2),
+    point(seed, body = stone, at = [0.2, 0.3, 0.1]),
+    contact(pea, point = seed, radius = 0.25, friction = 1, plane = [1, 2, 2], height = -0.2),
+)]
+struct PebblesInClauses {}
+
+#[test]
+fn ellipsoids_touch_as_in_clauses() {
+    let of = |contacts: &[Contact]| contacts.iter().map(|own| (own.name, own.rows().len())).collect::<Vec<_>>();
+    let rows = [("egg", 3), ("pip", 3), ("bean", 1), ("grain", 3), ("pea", 3)];
+    assert_eq!((of(PebblesKernel::CONTACTS), of(PebblesInClausesKernel::CONTACTS)), (rows.to_vec(), rows.to_vec()));
+    let (file, clauses) = (Pebbles.kernel().unwrap(), PebblesInClauses {}.kernel().unwrap());
+    for k in 1..6 {
+        let part = |n: i32| f64::from(n * k).sin();
+        let turn = UnitQuaternion::from_euler_angles(part(1), part(2), part(3));
+        let q = Isometry3::from_parts(Translation3::new(part(4), part(5), 1.0 + part(6)), turn);
+        let z = SVector::from_fn(|i, _| part(7 + i as i32));
+        // Sums of some tens of products of numbers of order one, with a root; semi-axes differ by up to eight times.
+        let [a, b] = [file.gaps(0.0, &q), clauses.gaps(0.0, &q)];
+        assert!((a - b).amax() < 64.0 * EPSILON, "{}", a - b);
+        let [a, b] = [file.contact_rates(0.0, &q, &z), clauses.contact_rates(0.0, &q, &z)];
+        assert!((a - b).amax() < 256.0 * EPSILON, "{}", a - b);
     }
 }
 

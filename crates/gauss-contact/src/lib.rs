@@ -52,6 +52,7 @@ mod poisson;
 mod problem;
 mod residual;
 mod run;
+mod sensors;
 mod solution;
 mod solver;
 mod start;
@@ -66,8 +67,9 @@ pub use impact::Impact;
 pub use mode::{InMode, Mode};
 pub use residual::Residual;
 pub use run::ContactRun;
+pub use sensors::{ContactForce, ContactForces, ContactWrench, SensorError};
 pub use steps::{ContactStepper, ContactSteps, StepReport, StepSample, StepScheme};
-pub use trajectory::{ContactForce, ContactTrajectory, Segment};
+pub use trajectory::{ContactTrajectory, Segment};
 
 /// The page of the crate, whose program is a test.
 #[cfg(doctest)]

@@ -4,14 +4,14 @@ use alloc::rc::Rc;
 use alloc::vec::Vec;
 
 use gauss_runtime::configuration::VectorSpace;
-use gauss_runtime::contact::{Contact, ContactSystem};
+use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::integrate::{IntegrationErrorKind, Sample, Trajectory};
-use gauss_runtime::nalgebra::Vector3;
 
 use crate::dense::value;
 use crate::error::{ContactError, ContactErrorKind};
 use crate::history::{ContactEvent, SolveRecord};
 use crate::mode::{InMode, Mode};
+use crate::sensors::{ContactForce, ContactForces};
 
 /// The input as a function of time and state.
 pub(crate) type InputOf<'k, K> = Rc<
@@ -41,18 +41,6 @@ impl<'k, K: ContactSystem> Segment<'k, K> {
     pub fn trajectory(&self) -> &Trajectory<'k, InMode<'k, K>> {
         &self.trajectory
     }
-}
-
-/// A contact force as a vector: components along the observer's axes, the point is from Ω.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct ContactForce<T = f64> {
-    /// The contact, by its place in [`ContactSystem::CONTACTS`].
-    pub contact: usize,
-    /// Where it acts.
-    pub point: Vector3<T>,
-    /// The force on the first body.
-    pub force: Vector3<T>,
 }
 
 /// A run with contacts: segments between events, and what happened at the events.
@@ -140,15 +128,17 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
     /// # Errors
     /// Where the run does not cover the time.
     pub fn force_vectors(&self, t: K::Scalar) -> Result<Vec<ContactForce<K::Scalar>>, ContactError> {
-        let (state, modes, forces) = (self.at(t)?, self.modes(t)?, self.forces(t)?);
-        let kernel = self.segment_at(t)?.system.kernel;
-        let closed = K::CONTACTS.iter().zip(modes).enumerate().filter(|(_, (_, mode))| mode.is_closed());
-        let vector = |(contact, (rows, _)): (usize, (&Contact, &Mode<K::Scalar>))| {
-            let frame = kernel.contact_frame(contact, t, &state.q)?;
-            let rows: Vec<K::Scalar> = rows.rows().map(|row| forces.component(row)).collect();
-            Some(ContactForce { contact, point: frame.point, force: frame.force(&rows) })
-        };
-        Ok(closed.filter_map(vector).collect())
+        let (sensors, modes) = (self.sensors(t)?, self.modes(t)?);
+        let closed = modes.iter().enumerate().filter(|(_, mode)| mode.is_closed());
+        Ok(closed.filter_map(|(contact, _)| sensors.in_world(contact).ok()).collect())
+    }
+
+    /// What sensors at the contacts measure at a time: forces, the wrench on a body, the centre of pressure.
+    ///
+    /// # Errors
+    /// Where the run does not cover the time.
+    pub fn sensors(&self, t: K::Scalar) -> Result<ContactForces<'k, K>, ContactError> {
+        Ok(ContactForces::new(self.segment_at(t)?.system.kernel, t, self.at(t)?.q, self.forces(t)?))
     }
 
     /// The modes of the contacts at a time; at an event, those after it.

@@ -49,6 +49,11 @@ pub enum Shape {
         /// Half of its edges.
         half: Triple,
     },
+    /// Along its axes.
+    Ellipsoid {
+        /// Half of its widths; not all are equal.
+        semi_axes: Triple,
+    },
     /// All that lies below, the third axis being out of it.
     Plane,
     /// What is not read, in words: `a mesh`.

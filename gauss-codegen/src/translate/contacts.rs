@@ -34,14 +34,15 @@ impl<'g> Coefficients<'g> {
         let slips = form.slips.into_iter().chain(form.spin.map(|spin| (0, spin)));
         let (slips, friction) = slips.filter_map(|(k, slip)| Some((slip, of(k)?))).unzip();
         let mut names = names.iter().map(|name| name.unraw().to_string());
-        let (gap, restitution, frame) = (form.gap, self.restitution, form.frame);
+        let (gap, restitution, frame, bodies) = (form.gap, self.restitution, form.frame, form.bodies.clone());
         let name = names.next().unwrap_or_default();
-        let contact = Contact { name, gap, slips, drills, friction, rolls_on: None, restitution, frame, clause };
+        let contact =
+            Contact { name, gap, slips, drills, friction, rolls_on: None, restitution, frame, bodies, clause };
         let rolling = names.next().zip(self.rolling).map(|(name, rho)| {
             let slips: Vec<_> = form.rolls.iter().map(|(_, roll)| *roll).collect();
             let (friction, rolls_on) = (vec![rho; slips.len()], Some(number));
-            let (gap, drills, restitution, frame) = (None, false, None, None);
-            Contact { name, gap, slips, drills, friction, rolls_on, restitution, frame, clause }
+            let (gap, drills, restitution, frame, bodies) = (None, false, None, None, form.bodies);
+            Contact { name, gap, slips, drills, friction, rolls_on, restitution, frame, bodies, clause }
         });
         std::iter::once(contact).chain(rolling)
     }
@@ -74,7 +75,8 @@ impl<'g> Translator<'_, 'g> {
                 rolls: written.rolling.is_some(),
             };
             let rolling = coefficient(&written.rolling, LawKind::Friction, "rolling")?;
-            let form = |gap, slips| Form { gap, slips, spin: None, rolls: Vec::new(), frame: None };
+            let form =
+                |gap, slips| Form { gap, slips, spin: None, rolls: Vec::new(), frame: None, bodies: [None, None] };
             let forms = match &written.touching {
                 Touching::Gap { gap, slips, spin, rolls } => {
                     let spin = spin.as_ref().map(|spin| self.scalar(spin, tree)).transpose()?;
@@ -95,6 +97,7 @@ impl<'g> Translator<'_, 'g> {
                     gaps.map(|gap| form(Some(gap), Vec::new())).collect()
                 }
             };
+            let forms = forms.into_iter().map(|form| self.named(form, written)).collect::<Vec<_>>();
             self.refuse_idle(&name, written, &forms);
             let coefficients = Coefficients { friction, restitution, rolling };
             let each = 1 + usize::from(written.rolling.is_some());
@@ -103,6 +106,13 @@ impl<'g> Translator<'_, 'g> {
             }
         }
         Ok(contacts)
+    }
+
+    /// With the names of links of a file.
+    fn named(&self, form: Form<'g>, written: &ContactClause) -> Form<'g> {
+        let [first, other] = written.links.each_ref().map(|link| link.as_ref().map(|link| link.unraw().to_string()));
+        let [own, touched] = form.bodies;
+        Form { bodies: [first.or(own), other.or(touched)], ..form }
     }
 
     /// Notes friction, drilling and rolling of a shape along which nothing moves.

@@ -4,8 +4,9 @@
 use crate::algebra::{Expr, Substitution};
 use crate::error::Result;
 use crate::mechanics::{ContactFrame, Tree, add, cross, dot, subtract};
-use crate::model::{Against, Copies, Expression, PointContact, Property};
+use crate::model::{Against, BodyClause, Copies, Expression, ExpressionKind, PointContact, Property};
 use crate::terms::{LawKind, Motion};
+use crate::words::Unraw;
 use proc_macro2::Span;
 
 use super::translator::{Translator, bug};
@@ -29,6 +30,8 @@ pub(super) struct Form<'g> {
     pub(super) rolls: Slips<'g>,
     /// Where it touches, if that is known.
     pub(super) frame: Option<ContactFrame<'g>>,
+    /// Names of the bodies that touch, where they are known.
+    pub(super) bodies: [Option<String>; 2],
 }
 
 /// What friction a contact is to have.
@@ -44,6 +47,8 @@ struct Part<'g> {
     position: Triple<'g>,
     /// The body that has it, where that is known.
     link: Option<usize>,
+    /// The name of that body or frame.
+    body: Option<String>,
 }
 
 /// What is about each place of a shape.
@@ -95,11 +100,34 @@ impl<'g> Translator<'_, 'g> {
                 self.sphere(name, (center, radius), along.as_ref().filter(|_| rubs), tree)?
             }
         };
+        let touched = match &contact.against {
+            Against::Sphere { center, .. } => self.owner(center),
+            Against::Plane { .. } | Against::Ground(_) => None,
+        };
         let facing: Vec<(&Part<'g>, Facing<'g>)> = parts.iter().map(|part| (part, opposite(part))).collect();
         if let Some([rim, _]) = &contact.rim {
             self.refuse_flat((name, rim), &about, &facing, tree);
         }
-        facing.iter().map(|(part, facing)| self.touch((part, &about), facing, asked, tree)).collect()
+        let form = |(part, facing): &(&Part<'g>, Facing<'g>)| {
+            let form = self.touch((part, &about), facing, asked, tree)?;
+            Ok(Form { bodies: [part.body.clone(), touched.clone()], ..form })
+        };
+        facing.iter().map(form).collect()
+    }
+
+    /// The name of the body or frame that a point is fixed in, if it is one of such.
+    fn owner(&self, point: &Expression) -> Option<String> {
+        let owner = match &point.kind {
+            ExpressionKind::Name(name) => &self.model.points.iter().find(|own| own.name == *name)?.body,
+            ExpressionKind::Property(owner, Property::Position) => match &owner.kind {
+                ExpressionKind::Name(name) => name,
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let word = owner.unraw().to_string();
+        let is_body = |body: &BodyClause| body.name.as_ref().is_some_and(|name| name.unraw() == word);
+        self.model.bodies.iter().any(is_body).then_some(word)
     }
 
     /// What is about each place of a shape.
@@ -150,7 +178,7 @@ impl<'g> Translator<'_, 'g> {
                 0 => subtract(&sum, step),
                 _ => add(&sum, step),
             });
-            Part { position: sides, link: first.link }
+            Part { position: sides, link: first.link, body: first.body.clone() }
         };
         Ok((0..1 << steps.len()).map(corner).collect())
     }
@@ -160,7 +188,7 @@ impl<'g> Translator<'_, 'g> {
             Value::Local(local) if local.is_point => Some(local.link),
             _ => None,
         };
-        Ok(Part { position: self.vector(point, tree)?, link })
+        Ok(Part { position: self.vector(point, tree)?, link, body: self.owner(point) })
     }
 
     /// A rim whose axis is always normal to the plane.
@@ -225,7 +253,14 @@ impl<'g> Translator<'_, 'g> {
         let gap = Some(facing.gap - depth);
         let mut frame = ContactFrame { point: add(&part.position, &arm), axes: vec![*n] };
         if facing.tangents.is_empty() {
-            return Ok(Form { gap, slips: Vec::new(), spin: None, rolls: Vec::new(), frame: Some(frame) });
+            return Ok(Form {
+                gap,
+                slips: Vec::new(),
+                spin: None,
+                rolls: Vec::new(),
+                frame: Some(frame),
+                bodies: [None, None],
+            });
         }
         let velocity = subtract(&self.velocity_at(part, &arm, tree), &facing.velocity);
         let slips = facing.tangents.iter().map(|tangent| dot(tangent, &velocity));
@@ -233,7 +268,7 @@ impl<'g> Translator<'_, 'g> {
         let slips: Slips<'g> = slips.enumerate().filter(|(_, slip)| !slip.collected(LIMIT).is_zero()).collect();
         frame.axes.extend(slips.iter().map(|(k, _)| facing.tangents[*k]));
         let (spin, rolls) = self.turns([part.link, facing.link], facing, asked, tree);
-        Ok(Form { gap, slips, spin, rolls, frame: Some(frame) })
+        Ok(Form { gap, slips, spin, rolls, frame: Some(frame), bodies: [None, None] })
     }
 
     /// The rates of drilling and rolling of a body on another one, as far as they are asked for and do not vanish.

@@ -8,6 +8,7 @@ use gauss_runtime::integrate::{Feedback, InputSource, NoInput, Sample};
 
 use crate::error::{ContactError, ContactErrorKind};
 use crate::mode::Mode;
+use crate::sensors::ContactForces;
 
 use super::stepper::{ContactStepper, StepReport, StepScheme};
 
@@ -34,6 +35,13 @@ pub struct StepSample<K: ContactSystem<Scalar = f64>> {
     pub modes: Vec<Mode>,
     /// How the laws were solved.
     pub report: StepReport,
+}
+
+impl<K: ContactSystem<Scalar = f64>> StepSample<K> {
+    /// The mean forces of the step, with what sensors at the contacts of the kernel measure.
+    pub fn forces<'k>(&self, kernel: &'k K) -> ContactForces<'k, K> {
+        ContactForces::new(kernel, self.state.t, self.state.q, self.report.mean(&self.impulses))
+    }
 }
 
 impl<'k, K: ContactSystem<Scalar = f64>> ContactSteps<'k, K> {

@@ -11,6 +11,7 @@ use crate::error::{ContactError, ContactErrorKind};
 use crate::law::carrier;
 use crate::mode::{Mode, acting, settled_speeds};
 use crate::residual::Residual;
+use crate::sensors::ContactForces;
 
 use super::cones::{Laws, MOST, MOST_ROWS};
 use super::impulses::{Found, Impulses};
@@ -48,9 +49,16 @@ pub struct StepReport {
     pub work: f64,
     /// In how many parts the step was made, where no impulses were found for all of it; else 0.
     pub parts: u32,
+    /// The length of the step.
+    pub length: f64,
 }
 
 impl StepReport {
+    /// The mean forces of impulses over the step.
+    pub(super) fn mean<R: VectorSpace<f64>>(&self, impulses: &R) -> R {
+        if self.length > 0.0 { impulses.scale(1.0 / self.length) } else { R::zero() }
+    }
+
     /// Of two parts of a step.
     fn and(self, later: Self) -> Self {
         Self {
@@ -61,6 +69,7 @@ impl StepReport {
             sweeps: self.sweeps + later.sweeps,
             work: self.work + later.work,
             parts: self.parts.max(1) + later.parts.max(1),
+            length: self.length + later.length,
         }
     }
 }
@@ -191,6 +200,11 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         &self.impulses
     }
 
+    /// The mean forces of the last step, with what sensors at the contacts measure; zero before the first step.
+    pub fn forces(&self) -> ContactForces<'k, K> {
+        ContactForces::new(self.kernel, self.t, self.q, self.report.mean(&self.impulses))
+    }
+
     /// What the contacts did in the last step.
     pub fn modes(&self) -> &[Mode] {
         &self.modes[..K::CONTACTS.len()]
@@ -221,7 +235,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         if !(h > 0.0 && h.is_finite()) {
             return Err(self.error(None, ContactErrorKind::InvalidInterval));
         }
-        self.report = self.in_parts(h, input, HALVINGS)?;
+        self.report = StepReport { length: h, ..self.in_parts(h, input, HALVINGS)? };
         Ok(self.report)
     }
 
@@ -364,6 +378,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             sweeps: solved.found.sweeps,
             work: solved.work,
             parts: 0,
+            length: h,
         };
         Ok(End { q, z, gaps, rates, impulses, touches: true, report, struck: solved.struck })
     }

@@ -53,7 +53,7 @@ impl<'a> File<'a> {
             return Shape::Unread(format!("a geom of type `{kind}` that is fitted to a mesh"));
         }
         let size_at = |k: usize| size.get(k).copied().filter(|size| *size > 0.0);
-        // Between ends a box has the first size across.
+        // Between ends a box and an ellipsoid have the first size across.
         let edges = match half {
             Some(half) => size_at(0).map(|across| [across, across, half]),
             None => size_at(0).zip(size_at(1)).zip(size_at(2)).map(|((x, y), z)| [x, y, z]),
@@ -64,7 +64,10 @@ impl<'a> File<'a> {
             "capsule" => round.map(|(radius, half)| Shape::Capsule { radius, half }),
             "cylinder" => round.map(|(radius, half)| Shape::Cylinder { radius, half }),
             "box" => edges.map(|half| Shape::Box { half }),
-            "ellipsoid" => edges.filter(|[x, y, z]| x == y && y == z).map(|[radius, ..]| Shape::Sphere { radius }),
+            "ellipsoid" => edges.map(|semi_axes| match semi_axes {
+                [x, y, z] if x == y && y == z => Shape::Sphere { radius: x },
+                _ => Shape::Ellipsoid { semi_axes },
+            }),
             "plane" => Some(Shape::Plane),
             _ => None,
         };
@@ -155,8 +158,11 @@ mod tests {
         // Between ends a box is as wide as deep.
         let ends = r#"<geom class="c" type="box" fromto="0 0 0 0 0 -1"/>"#;
         assert_eq!(shape(ends), Shape::Box { half: [0.1, 0.1, 0.5] });
+        assert_eq!(shape(r#"<geom class="c" type="ellipsoid"/>"#), Shape::Ellipsoid { semi_axes: [0.1, 0.2, 0.3] });
+        let ends = r#"<geom class="c" type="ellipsoid" fromto="0 0 0 0 0 -1"/>"#;
+        assert_eq!(shape(ends), Shape::Ellipsoid { semi_axes: [0.1, 0.1, 0.5] });
         for (geom, what) in [
-            (r#"<geom class="c" type="ellipsoid"/>"#, "a geom of type `ellipsoid`"),
+            (r#"<geom type="ellipsoid" size="0.1 0.2"/>"#, "a geom of type `ellipsoid`"),
             (r#"<geom type="capsule" size="0.1"/>"#, "a geom of type `capsule`"),
             (r#"<geom type="hfield" hfield="h"/>"#, "a geom of type `hfield`"),
         ] {

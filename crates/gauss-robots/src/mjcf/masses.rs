@@ -134,11 +134,12 @@ impl<'a> File<'a> {
 }
 
 /// The volume of a shape, and its central moments by mass; `half` its length along the third axis, where its ends say
-/// it.
+/// it: what lies between ends is as deep as wide then, whatever the second size, as `mjCGeom::Compile` of MuJoCo's
+/// `src/user/user_objects.cc` has it.
 pub fn volume_and_moments(kind: &str, size: &[f64], half: Option<f64>) -> Option<(f64, Triple)> {
     let round = || Some((*size.first()?, half.or(size.get(1).copied())?));
     let three = || match half {
-        Some(half) => Some([*size.first()?, *size.get(1).or(size.first())?, half]),
+        Some(half) => Some([*size.first()?, *size.first()?, half]),
         None => Some([*size.first()?, *size.get(1)?, *size.get(2)?]),
     };
     // Moments from the mean squares of the distances along the axes.
@@ -176,6 +177,18 @@ pub fn volume_and_moments(kind: &str, size: &[f64], half: Option<f64>) -> Option
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Between ends the second size says nothing.
+    #[test]
+    fn what_lies_between_ends_is_as_deep_as_wide() {
+        for kind in ["box", "ellipsoid"] {
+            let whole = volume_and_moments(kind, &[0.3, 0.3, 0.7], None);
+            assert_eq!(volume_and_moments(kind, &[0.3], Some(0.7)), whole);
+            assert_eq!(volume_and_moments(kind, &[0.3, 0.5], Some(0.7)), whole);
+        }
+        let whole = area_and_moments("box", &[0.3, 0.3, 0.7], None);
+        assert_eq!(area_and_moments("box", &[0.3, 0.5], Some(0.7)), whole);
+    }
 
     /// Summed over many thin slices along the third axis, of two half-widths each.
     #[test]

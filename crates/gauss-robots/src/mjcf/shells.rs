@@ -24,7 +24,7 @@ pub fn area_and_moments(kind: &str, size: &[f64], half: Option<f64>) -> Option<(
         }
         "box" => {
             let halves = match half {
-                Some(half) => [r, size.get(1).copied().unwrap_or(r), half],
+                Some(half) => [r, r, half],
                 None => [r, *size.get(1)?, *size.get(2)?],
             };
             // Two faces across each axis.

@@ -103,13 +103,24 @@ fn listed(derived: &Derived<'_, '_>) -> Vec<TokenStream> {
         let (name, first, rows) = (&contact.name, next, contact.slips.len());
         next += usize::from(contact.gap.is_some()) + rows;
         let (tangents, drilling) = if contact.drills { (rows - 1, quote!(.with_drilling())) } else { (rows, quote!()) };
+        let between = between(&contact.bodies);
         match (contact.gap, contact.rolls_on) {
-            (Some(_), _) => quote!(#private::Contact::new(#name, #first, #tangents)#drilling),
-            (None, Some(on)) => quote!(#private::Contact::rolling(#name, #first, #tangents, #on)),
+            (Some(_), _) => quote!(#private::Contact::new(#name, #first, #tangents)#drilling #between),
+            (None, Some(on)) => quote!(#private::Contact::rolling(#name, #first, #tangents, #on)#between),
             (None, None) => quote!(#private::Contact::dry_friction(#name, #first, #tangents)),
         }
     });
     contacts.collect()
+}
+
+/// The names of bodies that touch, where one is known.
+fn between(bodies: &[Option<String>; 2]) -> TokenStream {
+    let name = |body: &Option<String>| match body {
+        Some(name) => quote!(::core::option::Option::Some(#name)),
+        None => quote!(::core::option::Option::None),
+    };
+    let names = bodies.iter().map(name);
+    if bodies.iter().any(Option::is_some) { quote!(.between([#(#names),*])) } else { quote!() }
 }
 
 /// A⁻¹Wᵀ or the numbers of its halves, and D.

@@ -22,6 +22,8 @@ pub struct Contact<'g> {
     pub restitution: Option<Expr<'g>>,
     /// Where it is, if that is known.
     pub frame: Option<ContactFrame<'g>>,
+    /// Names of the bodies that touch, where they are known: of the one that has the point, and of the other.
+    pub bodies: [Option<String>; 2],
     /// Which of the clauses it comes from.
     pub clause: usize,
 }

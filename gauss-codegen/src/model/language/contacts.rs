@@ -129,7 +129,16 @@ pub fn read_contact(clause: &Clause, context: &mut Context) -> Option<ContactCla
     };
     let rolls = |name: &Ident| rolling.as_ref().map(|_| format_ident!("{}_rolling", name.unraw(), span = name.span()));
     let names = names.into_iter().flat_map(|name| [Some(name.clone()), rolls(&name)]).flatten().collect();
-    Some(ContactClause { names, touching, friction: friction?, restitution, drilling, rolling, of_file: false })
+    Some(ContactClause {
+        names,
+        touching,
+        friction: friction?,
+        restitution,
+        drilling,
+        rolling,
+        of_file: false,
+        links: [None, None],
+    })
 }
 
 /// `dry_friction(x, bound = …)` of the coordinate or the speed x, or `dry_friction(name, slip = …, bound = …)`; `None`
@@ -148,7 +157,16 @@ pub fn read_dry_friction(clause: &Clause, context: &mut Context) -> Option<Conta
     let names = vec![written.name?];
     let touching = Touching::Slip { slips: slips?, named };
     let friction = bound.filter(|bound| !bound.is_empty())?;
-    Some(ContactClause { names, touching, friction, restitution: None, drilling: None, rolling: None, of_file: false })
+    Some(ContactClause {
+        names,
+        touching,
+        friction,
+        restitution: None,
+        drilling: None,
+        rolling: None,
+        of_file: false,
+        links: [None, None],
+    })
 }
 
 /// `range(x, from = …, to = …, restitution = …)` of the coordinate x, or `range(name, along = …, …)`; `None` if
@@ -181,6 +199,7 @@ pub fn read_range(clause: &Clause, context: &mut Context) -> Option<ContactClaus
         drilling: None,
         rolling: None,
         of_file: false,
+        links: [None, None],
     })
 }
 

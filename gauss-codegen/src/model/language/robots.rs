@@ -1,5 +1,5 @@
 //! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating`,
-//! `inputs = all | none | transmissions | actuators`, `joint_friction = smooth(width) | none`,
+//! `inputs = all | none | transmissions | actuators`, `joint_friction = dry | smooth(width) | none`,
 //! `limits = range | stop(…) | none`, `ground(…)`, `saturation = clamp | none`, `parameters = inertial`, `ignore(…)`.
 
 use super::arguments;
@@ -66,6 +66,8 @@ pub enum Inputs {
 pub enum Friction {
     /// Force times v/√(v² + w²), with this w.
     Smooth(Expression),
+    /// Exact dry friction: a contact without a normal.
+    Dry,
     None,
 }
 
@@ -126,7 +128,7 @@ const INPUTS: &Table<Inputs> = &[
     ("transmissions", Inputs::Transmissions),
     ("actuators", Inputs::Actuators),
 ];
-const FRICTION: &Table<bool> = &[("smooth", true), ("none", false)];
+const FRICTION: &Table<bool> = &[("dry", false), ("smooth", true), ("none", false)];
 const LIMITS: &Table<bool> = &[("range", false), ("stop", true), ("none", false)];
 const SATURATION: &Table<Saturation> = &[("clamp", Saturation::Clamp), ("none", Saturation::None)];
 const STOP: &Table<()> = &[("stiffness", ()), ("width", ()), ("damping", ())];
@@ -267,7 +269,10 @@ fn read_law(
 }
 
 fn read_friction(clause: &Clause, context: &mut Context) -> Option<Friction> {
-    let (_, Some(group)) = read_law(clause, FRICTION, "smooth(0.01)", context)? else { return Some(Friction::None) };
+    let group = match read_law(clause, FRICTION, "smooth(0.01)", context)? {
+        (_, Some(group)) => group,
+        (word, None) => return Some(if word == "dry" { Friction::Dry } else { Friction::None }),
+    };
     let tokens: Vec<TokenTree> = group.stream().into_iter().collect();
     arithmetic::read("friction", &tokens, context).map(Friction::Smooth)
 }

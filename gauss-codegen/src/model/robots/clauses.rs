@@ -205,8 +205,11 @@ impl<'a> Robot<'a> {
         self.add_armatures(statements);
         statements.constraints.splice(0..0, self.constraints(&text.names()));
         let made = self.touching(context);
+        let links = self.links.len();
+        statements.bodies.splice(links..links, made.frames);
         statements.points.splice(0..0, made.points);
-        statements.contacts.splice(0..0, self.ranges().into_iter().chain(made.contacts));
+        let of_joints = self.ranges().into_iter().chain(self.dry_friction());
+        statements.contacts.splice(0..0, of_joints.chain(made.contacts));
         let gravity = statements.role_clauses.iter().find(|clause| clause.role == Role::Gravity);
         let forces = self.forces(gravity);
         let own = self.gravity().filter(|_| gravity.is_none() && !self.gravity_in_field);

@@ -24,7 +24,8 @@ struct Plane<'a> {
 impl Robot<'_> {
     /// Contacts of links with planes, as far as they are asked for.
     pub fn touching(&mut self, context: &mut Context) -> Made {
-        let mut made = Made::new(self.names.clone(), self.writer);
+        let of_joints = self.ranges().into_iter().chain(self.dry_friction()).flat_map(|clause| clause.names);
+        let mut made = Made::new(self.names.clone(), of_joints, self.writer);
         let mut notes = self.notes_of_shapes();
         for ground in &self.clauses.grounds {
             let links = self.links_on(ground, context);
@@ -165,8 +166,8 @@ fn refuse_idle(ground: &Ground, notes: &[Note], context: &mut Context) {
     context.error(
         ground.span,
         format!(
-            "nothing of the file touches this ground{why}; a link that moves needs a sphere, box, capsule or cylinder, \
-             or write `contact(…)` of your own points"
+            "nothing of the file touches this ground{why}; a link that moves needs a sphere, box, capsule, cylinder \
+             or ellipsoid, or write `contact(…)` of your own points"
         ),
     );
 }

@@ -92,6 +92,11 @@ impl Writer {
         factors.into_iter().reduce(|a, b| self.times(a, b))
     }
 
+    /// From the axes of a frame to those of its parent; `None` where they are the same.
+    pub fn rotation(self, rotation: &Rotation) -> Option<Expression> {
+        self.product(self.constant(rotation))
+    }
+
     /// What the coordinate of a joint is, given that of the one it follows.
     pub fn coupled(self, leader: &Ident, coupling: &Coupling) -> Expression {
         let scaled = match coupling.multiplier {

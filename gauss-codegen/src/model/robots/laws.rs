@@ -161,11 +161,11 @@ impl Robot<'_> {
         for (_, joint, q, multiplier) in self.scalar_joints().filter(|(_, joint, ..)| joint.friction > 0.0) {
             let width = match &self.clauses.friction {
                 Some(Friction::Smooth(width)) => width,
-                Some(Friction::None) => continue,
+                Some(Friction::Dry | Friction::None) => continue,
                 None => {
                     let text = format!(
-                        "the dry friction of the joint `{}` does not act; write `joint_friction = smooth(width)` for a \
-                         law that is \
+                        "the dry friction of the joint `{}` does not act; write `joint_friction = dry` for exact \
+                         friction, which a `ContactRun` runs, `joint_friction = smooth(width)` for a law that is \
                          smooth over this width of its rate, or `joint_friction = none`",
                         joint.name
                     );

@@ -1,4 +1,4 @@
-//! Limits of joints and tendons: contacts, stops that give way, or nothing.
+//! Limits of joints and tendons, and dry friction of joints, as contacts; stops that give way.
 
 use std::collections::HashSet;
 
@@ -8,7 +8,7 @@ use syn::ext::IdentExt;
 
 use super::clauses::Robot;
 use super::names;
-use crate::model::language::robots::Limits;
+use crate::model::language::robots::{Friction, Limits};
 use crate::model::scene::contacts::{ContactClause, Touching};
 use crate::model::scene::elements::STOP;
 use crate::model::scene::elements::argument::{ALONG, DAMPING, LEAST, MOST, STIFFNESS, WIDTH};
@@ -102,8 +102,37 @@ impl Robot<'_> {
                 drilling: None,
                 rolling: None,
                 of_file: true,
+                links: [None, None],
             }
         };
         self.limited().into_iter().map(range).collect()
+    }
+
+    /// Exact dry friction, where it is asked for: contacts without a normal, by the names of coordinates. A joint that
+    /// moves m times as far as a coordinate resists it by |m| times its own force.
+    pub fn dry_friction(&self) -> Vec<ContactClause> {
+        let writer = self.writer;
+        if !matches!(self.clauses.friction, Some(Friction::Dry)) {
+            return Vec::new();
+        }
+        let mut bounds: Vec<(&Ident, f64)> = Vec::new();
+        for (_, joint, q, multiplier) in self.scalar_joints() {
+            let bound = joint.friction * multiplier.abs();
+            match bounds.iter_mut().find(|(name, _)| *name == q) {
+                Some((_, sum)) => *sum += bound,
+                None => bounds.push((q, bound)),
+            }
+        }
+        let clause = |(q, bound): (&Ident, f64)| ContactClause {
+            names: vec![q.clone()],
+            touching: Touching::Slip { slips: vec![writer.name(q)], named: true },
+            friction: vec![writer.number(bound)],
+            restitution: None,
+            drilling: None,
+            rolling: None,
+            of_file: true,
+            links: [None, None],
+        };
+        bounds.into_iter().filter(|(_, bound)| *bound > 0.0).map(clause).collect()
     }
 }

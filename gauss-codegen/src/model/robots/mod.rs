@@ -8,7 +8,7 @@
 //! | `joints` | a joint → position and rotation of its link |
 //! | `clauses` | a description → clauses, before those of the struct |
 //! | `drives`, `efforts`, `ranges` | inputs; what they do; how much of it at most |
-//! | `limits` | those of joints and tendons |
+//! | `limits` | those of joints and tendons; dry friction of joints |
 //! | `ground`, `touching` | planes and what touches them; contacts of shapes |
 //! | `laws`, `springs`, `relations` | other forces in joints; springs of all kinds; relations of links besides the tree |
 //! | `inertias` | mass data that no body has |

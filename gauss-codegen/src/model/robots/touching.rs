@@ -4,21 +4,24 @@ use std::collections::HashSet;
 use std::f64::consts::TAU;
 
 use proc_macro2::Ident;
+use syn::ext::IdentExt;
 
 use super::joints::Writer;
 use super::names::{self, Names};
 use crate::model::language::ground::Ground;
 use crate::model::language::words::UNNAMED;
 use crate::model::names::naming::is_reserved;
-use crate::model::scene::clauses::PointClause;
+use crate::model::scene::clauses::{BodyClause, PointClause};
 use crate::model::scene::contacts::{Against, ContactClause, Copies, PointContact, Touching};
 use crate::model::scene::expression::{Expression, Property};
 use gauss_robots::collision::{Collision, Shape, Touch};
-use gauss_robots::rotation::{Rotation, Triple, sine_and_cosine, turned};
+use gauss_robots::rotation::{Matrix, Rotation, Triple, sine_and_cosine, turned};
 
 /// Clauses as they are made, with the names that are taken.
 pub struct Made {
     pub points: Vec<PointClause>,
+    /// Of shapes that need axes of their own.
+    pub frames: Vec<BodyClause>,
     pub contacts: Vec<ContactClause>,
     /// Names of contacts.
     taken: HashSet<String>,
@@ -39,11 +42,16 @@ enum Form {
     Corners(Triple, Triple),
     /// Rims of a radius about an axis, with their distance.
     Rims(Triple, f64, Triple, f64),
+    /// At the lowest point of an ellipsoid; its axes, where they are not those of the link.
+    Ellipsoid(Triple, Option<Matrix>, Triple),
 }
 
 impl Made {
-    pub fn new(names: Names, writer: Writer) -> Self {
-        Self { points: Vec::new(), contacts: Vec::new(), taken: HashSet::new(), shapes: HashSet::new(), names, writer }
+    /// Contacts are not to have the names of those that are `taken`.
+    pub fn new(names: Names, taken: impl IntoIterator<Item = Ident>, writer: Writer) -> Self {
+        let (points, frames, contacts) = (Vec::new(), Vec::new(), Vec::new());
+        let taken = taken.into_iter().map(|name| name.unraw().to_string()).collect();
+        Self { points, frames, contacts, taken, shapes: HashSet::new(), names, writer }
     }
 
     /// How many contacts there are.
@@ -86,6 +94,15 @@ impl Made {
                 let rim = Some([writer.number(radius), writer.vector(axis.map(|c| writer.number(c)))]);
                 contacts.push((names, PointContact { copies, rim, ..self.contact(point, None, against) }));
             }
+            Form::Ellipsoid(center, axes, semi_axes) => {
+                let names = self.named(called, 1);
+                let point = match axes {
+                    Some(axes) => self.frame(link, &names[0], center, &axes),
+                    None => self.point(link, &names[0], center),
+                };
+                let semi_axes = Some(semi_axes.map(|length| writer.number(length)));
+                contacts.push((names, PointContact { semi_axes, ..self.contact(point, None, against) }));
+            }
         }
         let friction = match ground.friction.as_slice() {
             [] => size(touch.friction).into_iter().collect(),
@@ -99,6 +116,7 @@ impl Made {
             drilling: None,
             rolling: None,
             of_file: true,
+            links: [Some(link.clone()), None],
         }));
     }
 
@@ -113,6 +131,23 @@ impl Made {
         let name = self.names.chosen(&format!("{contact}_point"));
         let expression = writer.name(&name);
         self.points.push(PointClause { name, body: link.clone(), at, span: writer.span });
+        expression
+    }
+
+    /// The origin of a frame of a link, with the name of the contact and `_frame`.
+    fn frame(&mut self, link: &Ident, contact: &Ident, at: Triple, axes: &Matrix) -> Expression {
+        let writer = self.writer;
+        let name = self.names.chosen(&format!("{contact}_frame"));
+        let expression = writer.property(&name, Property::Position);
+        self.frames.push(BodyClause {
+            name: Some(name),
+            massless: true,
+            parent: Some(link.clone()),
+            position: writer.triple(&at),
+            rotation: writer.rotation(&Rotation::from_matrix(axes)),
+            role_clauses: Vec::new(),
+            span: writer.span,
+        });
         expression
     }
 
@@ -156,6 +191,7 @@ fn form(collision: &Collision, points: Option<u32>) -> Option<Form> {
         },
         Shape::Box { half } if is_along => Form::Corners(center, half.map(|half| 2.0 * half)),
         Shape::Box { half } => Form::Spheres(corners(half).into_iter().map(placed).collect(), 0.0),
+        Shape::Ellipsoid { semi_axes } => Form::Ellipsoid(center, (!is_along).then_some(collision.rotation), semi_axes),
         Shape::Plane | Shape::Unread(_) => return None,
     })
 }

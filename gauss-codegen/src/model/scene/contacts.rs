@@ -23,6 +23,8 @@ pub struct ContactClause {
     pub rolling: Option<Expression>,
     /// Made of the file of a robot: friction that does nothing is no mistake.
     pub of_file: bool,
+    /// The links of a file whose shapes touch; of what is written its points say that.
+    pub links: [Option<Ident>; 2],
 }
 
 /// What may touch.

@@ -181,9 +181,9 @@ fn what_is_told() {
         remarks(&arm("<dynamics friction=\"0.2\"/><limit lower=\"-1\" upper=\"1\"/>"), ""),
         [
             told(
-                "3:1: the dry friction of the joint `elbow` does not act; write `joint_friction = smooth(width)` for a \
-                 law that is \
-                 smooth over this width of its rate, or `joint_friction = none`",
+                "3:1: the dry friction of the joint `elbow` does not act; write `joint_friction = dry` for exact \
+                 friction, which a `ContactRun` runs, `joint_friction = smooth(width)` for a law that is smooth over \
+                 this width of its rate, or `joint_friction = none`",
                 true
             ),
             told(
@@ -193,8 +193,10 @@ fn what_is_told() {
             ),
         ]
     );
-    let laws = ", joint_friction = smooth(0.01), limits = stop(stiffness = 1e3, width = 0.01)";
-    assert_eq!(remarks(&arm("<dynamics friction=\"0.2\"/><limit lower=\"-1\" upper=\"1\"/>"), laws), []);
+    for friction in ["smooth(0.01)", "dry", "none"] {
+        let laws = format!(", joint_friction = {friction}, limits = stop(stiffness = 1e3, width = 0.01)");
+        assert_eq!(remarks(&arm("<dynamics friction=\"0.2\"/><limit lower=\"-1\" upper=\"1\"/>"), &laws), []);
+    }
     assert_eq!(
         remarks(&arm("<origin rpy=\"1.5708 0 0\"/>"), ""),
         [told(
@@ -421,6 +423,8 @@ fn mistakes_of_clauses() {
         (", base = flaoting", "unknown `base` `flaoting`; did you mean `floating`?"),
         (", bsae = fixed", "unknown clause `bsae`; did you mean `base`?"),
         (", joint_friction = smooth", "`smooth` is empty; write `joint_friction = smooth(0.01)`"),
+        (", joint_friction = dry(0.1)", "`dry` takes nothing in brackets; write `joint_friction = dry`"),
+        (", joint_friction = dyr", "unknown `joint_friction` `dyr`; did you mean `dry`?"),
         (
             ", limits = stop(stiffness = 1.0)",
             "stops at limits need `width`; write `limits = stop(stiffness = 1e4, width = 0.01)`",

@@ -103,12 +103,26 @@ fn what_the_clause_says() {
     assert!(matches!(&rims[0].touching, Touching::Point(contact) if matches!(contact.copies, Copies::Rims(_))));
 }
 
+/// Contacts of joints come first, and keep their names.
+#[test]
+fn a_shape_with_the_name_of_a_joint() {
+    let limits = "<dynamics friction=\"2\"/><limit lower=\"-1\" upper=\"1\"/>";
+    let shapes = shape("lift", "", SPHERE) + &shape("lift_to", "", SPHERE);
+    let body = link("trunk").replace("</link>", &format!("{shapes}</link>"));
+    let text = robot(&(joint("lift", "prismatic", "base", "trunk", limits) + &body));
+    let found = contacts(&text, ", limits = range, joint_friction = dry, ground");
+    assert_eq!(names(&found), ["lift_from", "lift_to", "lift", "lift_2", "lift_to_2"]);
+    assert_eq!(found[1].friction.first().and_then(|bound| bound.literal()), Some(2.0));
+    assert!(matches!(found[1].touching, Touching::Slip { named: true, .. }));
+}
+
 #[test]
 fn mistakes_stand_at_their_words() {
     let mesh = shape("", "", "<mesh filename=\"a.stl\"/>");
     let foot = joint("weld", "fixed", "trunk", "foot", "") + "<link name=\"foot\"/>\n";
     let text = legs(&shape("", "", SPHERE), &foot);
-    let only = "a link that moves needs a sphere, box, capsule or cylinder, or write `contact(…)` of your own points";
+    let only = "a link that moves needs a sphere, box, capsule, cylinder or ellipsoid, or write `contact(…)` of your own \
+                points";
     let why = "the collision of `trunk` does not touch: it is a mesh";
     assert_eq!(
         mistakes(&legs(&mesh, ""), ", ground(friction = 0.5)", ""),
@@ -220,6 +234,26 @@ mod mjcf {
         assert_eq!(of(FLOOR, "condim=\"1\" priority=\"1\"", "ground"), Some(None));
         // A plane of the struct stands for those of the file.
         assert_eq!(of(FLOOR, "", "ground(height = 0)"), Some(Some(0.4)));
+    }
+
+    /// Along the axes of the link with its point, turned with a frame of the name of the contact.
+    #[test]
+    fn ellipsoids() {
+        let egg = "<geom name=\"egg\" type=\"ellipsoid\" size=\"1 2 3\" pos=\"0 0 4\"/>";
+        let bean = "<geom name=\"bean\" type=\"ellipsoid\" size=\"1 2 3\" euler=\"0 0 30\"/>";
+        let pea = "<geom name=\"pea\" type=\"ellipsoid\" size=\"1 1 1\"/>";
+        let read = model("", &[egg, bean, pea].concat(), "", "ground");
+        assert_eq!(names(&read.contacts), ["egg", "bean", "pea"]);
+        let semi_axes = |n: usize| {
+            let Touching::Point(contact) = &read.contacts[n].touching else { panic!("a point") };
+            contact.semi_axes.as_ref().map(|axes| axes.each_ref().map(|length| length.literal().unwrap()))
+        };
+        assert_eq!([0, 1, 2].map(semi_axes), [Some([1.0, 2.0, 3.0]), Some([1.0, 2.0, 3.0]), None]);
+        assert_eq!(read.points.iter().map(|point| point.name.to_string()).collect::<Vec<_>>(), ["egg_point"]);
+        let own = |body: &crate::model::BodyClause| body.name.as_ref().map(ToString::to_string);
+        let frame = read.bodies.iter().find(|body| own(body).as_deref() == Some("bean_frame")).expect("a frame");
+        assert!(frame.massless && frame.position.is_none() && frame.rotation.is_some());
+        assert_eq!(frame.parent.as_ref().map(ToString::to_string).as_deref(), Some("leg"));
     }
 
     #[test]
