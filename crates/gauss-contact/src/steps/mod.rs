@@ -14,8 +14,10 @@ mod cones;
 mod impulses;
 mod linear;
 mod projection;
+mod relaxed;
 mod run;
 mod stepper;
 
+pub use relaxed::StepLaw;
 pub use run::{ContactSteps, StepSample};
 pub use stepper::{ContactStepper, StepReport, StepScheme};

@@ -9,6 +9,7 @@ use gauss_runtime::integrate::{Feedback, InputSource, NoInput, Sample};
 use crate::error::{ContactError, ContactErrorKind};
 use crate::mode::Mode;
 
+use super::relaxed::StepLaw;
 use super::stepper::{ContactStepper, StepReport, StepScheme};
 
 /// A run in steps in preparation.
@@ -19,6 +20,7 @@ pub struct ContactSteps<'k, K, I = NoInput> {
     h: f64,
     input: I,
     scheme: StepScheme,
+    law: StepLaw,
     tolerance: f64,
 }
 
@@ -39,7 +41,7 @@ pub struct StepSample<K: ContactSystem<Scalar = f64>> {
 impl<'k, K: ContactSystem<Scalar = f64>> ContactSteps<'k, K> {
     /// Steps of length `h` of a system without inputs.
     pub fn new(kernel: &'k K, h: f64) -> Self {
-        Self { kernel, h, input: NoInput, scheme: StepScheme::default(), tolerance: 1e-8 }
+        Self { kernel, h, input: NoInput, scheme: StepScheme::default(), law: StepLaw::default(), tolerance: 1e-8 }
     }
 }
 
@@ -49,13 +51,19 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
     where
         G: Fn(f64, &K::Configuration, &K::Speeds) -> K::Input,
     {
-        let Self { kernel, h, scheme, tolerance, .. } = self;
-        ContactSteps { kernel, h, input: Feedback(input), scheme, tolerance }
+        let Self { kernel, h, scheme, law, tolerance, .. } = self;
+        ContactSteps { kernel, h, input: Feedback(input), scheme, law, tolerance }
     }
 
     /// How the motion between impacts is taken.
     pub fn scheme(mut self, scheme: StepScheme) -> Self {
         self.scheme = scheme;
+        self
+    }
+
+    /// Which law of friction impulses satisfy.
+    pub fn law(mut self, law: StepLaw) -> Self {
+        self.law = law;
         self
     }
 
@@ -109,7 +117,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
     where
         I: InputSource<K>,
     {
-        let Self { kernel, h, input, scheme, tolerance } = self;
+        let Self { kernel, h, input, scheme, law, tolerance } = self;
         let Range { start, end } = interval;
         let count = (end - start) / h - 1e-9;
         if !(h > 0.0 && h.is_finite() && start <= end && count < 1e15) {
@@ -119,7 +127,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
         let whole = count as u64;
         let count = whole + u64::from(count > whole as f64);
         let h = (end - start) / count as f64;
-        let mut stepper = ContactStepper::new(kernel, start, q0, z0)?.scheme(scheme).tolerance(tolerance);
+        let mut stepper = ContactStepper::new(kernel, start, q0, z0)?.scheme(scheme).law(law).tolerance(tolerance);
         for n in 1..=count {
             let (q, z) = (*stepper.configuration(), *stepper.speeds());
             stepper.step(h, &input.input(stepper.time(), &q, &z))?;

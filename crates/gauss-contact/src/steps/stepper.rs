@@ -15,6 +15,7 @@ use crate::residual::Residual;
 use super::cones::{Laws, MOST, MOST_ROWS};
 use super::impulses::{Found, Impulses};
 use super::projection::Projection;
+use super::relaxed::{StepLaw, lifts};
 
 /// How a step takes the motion between impacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -35,6 +36,9 @@ pub enum StepScheme {
 pub struct StepReport {
     /// The worst residuals of all contacts, in the units of rates.
     pub residual: Residual,
+    /// The same of Coulomb's law, by which the residuals of [`StepLaw::Coulomb`] are: of the relaxed law Signorini's is
+    /// the rate at which what slides separates.
+    pub from_coulomb: Residual,
     /// The largest gap below zero before the projection, as a positive number.
     pub penetration: f64,
     /// Contacts with an impulse.
@@ -55,6 +59,7 @@ impl StepReport {
     fn and(self, later: Self) -> Self {
         Self {
             residual: self.residual.worse(later.residual),
+            from_coulomb: self.from_coulomb.worse(later.from_coulomb),
             penetration: self.penetration.max(later.penetration),
             closed: later.closed,
             corrections: self.corrections + later.corrections,
@@ -75,6 +80,7 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) q: K::Configuration,
     pub(super) z: K::Speeds,
     scheme: StepScheme,
+    law: StepLaw,
     tolerance: f64,
     memory: M,
     impulses: K::ContactRows,
@@ -141,6 +147,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             q,
             z,
             scheme: StepScheme::default(),
+            law: StepLaw::default(),
             tolerance: 1e-8,
             memory,
             impulses: K::ContactRows::zero(),
@@ -160,6 +167,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     #[must_use]
     pub fn scheme(mut self, scheme: StepScheme) -> Self {
         self.scheme = scheme;
+        self
+    }
+
+    /// Which law of friction impulses satisfy.
+    #[must_use]
+    pub fn law(mut self, law: StepLaw) -> Self {
+        self.law = law;
         self
     }
 
@@ -357,6 +371,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let (z, rates) = projection.stop(kernel, (t, &q, z), &dynamics.response, (&mode, rounding));
         let report = StepReport {
             residual: solved.found.residual,
+            from_coulomb: solved.from_coulomb,
             penetration,
             closed: self.next[..K::CONTACTS.len()].iter().filter(|mode| mode.is_closed()).count(),
             corrections: solved.found.corrections,
@@ -391,6 +406,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let scales = laws.scales;
         let mut problem = Impulses::new(&mut self.memory.as_mut()[..Impulses::memory(rows)], rows);
         problem.dependent = self.dependent;
+        problem.relaxed = self.law == StepLaw::ConvexRelaxation;
         let entry = |i: usize, j: usize| dynamics.response.delassus[(i, j)];
         problem.set_up(&scales, entry, |row| [free.component(row), impulses.component(row)]);
         // What an impact passes on is a part of the rate before it.
@@ -402,7 +418,11 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             // Rolling resistance comes after the contact that it is of.
             cones[i].acts = match contact.rolls_on() {
                 Some(on) => cones[on].acts,
-                None => !contact.has_gap() || self.modes[i].is_closed() || end(i, free) <= 0.0,
+                None => {
+                    !contact.has_gap()
+                        || (self.modes[i].is_closed() && !lifts::<K>(self.law, &self.modes, i))
+                        || end(i, free) <= 0.0
+                }
             };
             if contact.has_gap() {
                 problem.b[contact.normal] -= passed_on(i);
@@ -424,15 +444,20 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             problem.impulses[row] * (scales[row] * free.component(row) + 0.5 * given)
         };
         let work = (0..rows).map(work).sum();
-        let mut solved = Solved { found, rests: [false; MOST], struck: false, work };
-        for (i, cone) in cones.iter().enumerate() {
+        let from_coulomb = if problem.relaxed { problem.from_coulomb(cones) } else { found.residual };
+        let mut solved = Solved { found, from_coulomb, rests: [false; MOST], struck: false, work };
+        for (next, cone) in self.next.iter_mut().zip(&*cones) {
+            *next = problem.mode(cones, cone, &scales, self.tolerance);
+        }
+        for i in 0..cones.len() {
             let was_open = !self.modes[i].is_closed();
-            self.next[i] = problem.mode(cone, &scales, self.tolerance);
             let is_closed = self.next[i].is_closed();
             let closes = is_closed && K::CONTACTS[i].has_gap();
-            solved.struck |= closes && was_open;
+            let lifts = lifts::<K>(self.law, &self.next, i);
+            solved.struck |= closes && (was_open || lifts);
             let carries = carrier(K::CONTACTS, i);
-            solved.rests[i] = is_closed && (!K::CONTACTS[carries].has_gap() || passed_on(carries) == 0.0);
+            let parts = K::CONTACTS[carries].has_gap() && passed_on(carries) != 0.0;
+            solved.rests[i] = is_closed && !parts && !lifts;
         }
         (0..rows).for_each(|row| impulses.set_component(row, scales[row] * problem.impulses[row]));
         Ok(solved)
@@ -463,6 +488,8 @@ struct End<K: ContactSystem> {
 /// What the laws of a step came to.
 struct Solved {
     found: Found,
+    /// How far it is from Coulomb's law.
+    from_coulomb: Residual,
     /// Contacts that are closed after the step.
     rests: [bool; MOST],
     /// Whether a gap has closed.
