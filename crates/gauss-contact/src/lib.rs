@@ -66,7 +66,10 @@ pub use impact::Impact;
 pub use mode::{InMode, Mode};
 pub use residual::Residual;
 pub use run::ContactRun;
-pub use steps::{ContactStepper, ContactSteps, StepLaw, StepReport, StepSample, StepScheme};
+pub use steps::{
+    AdaptiveContactSteps, ContactStepper, ContactSteps, StepLaw, StepReport, StepSample, StepScheme, StepStatistics,
+    SteppedRun,
+};
 pub use trajectory::{ContactForce, ContactTrajectory, Segment};
 
 /// The page of the crate, whose program is a test.

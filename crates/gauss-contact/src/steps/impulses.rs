@@ -500,7 +500,7 @@ impl<'m> Impulses<'m> {
     }
 
     /// The worst residuals of Coulomb's law, whatever law the impulses satisfy.
-    pub(crate) fn from_coulomb(&self, cones: &[Cone]) -> Residual {
+    pub(crate) fn residual_of_coulomb(&self, cones: &[Cone]) -> Residual {
         self.worst_by(cones, 0.0, |row| self.rates[row]).0
     }
 

@@ -10,6 +10,7 @@
 //! are their rates and the slips of what sticks. No event is sought, so that dozens of contacts, and impacts that pile
 //! up, are no more work than one; the time of an impact is known to a step.
 
+mod adaptive;
 mod cones;
 mod impulses;
 mod linear;
@@ -18,6 +19,7 @@ mod relaxed;
 mod run;
 mod stepper;
 
+pub use adaptive::{AdaptiveContactSteps, StepStatistics, SteppedRun};
 pub use relaxed::StepLaw;
 pub use run::{ContactSteps, StepSample};
 pub use stepper::{ContactStepper, StepReport, StepScheme};

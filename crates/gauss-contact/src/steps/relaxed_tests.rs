@@ -21,7 +21,7 @@ fn solve(random: &Random) -> (Found, Vec<f64>, Vec<f64>, f64) {
     (0..n).for_each(|i| problem.delassus[i * n..(i + 1) * n].copy_from_slice(matrix.row(i)));
     problem.b.copy_from_slice(&random.b);
     let found = problem.solve(&random.cones, 1e-12);
-    let from_coulomb = problem.from_coulomb(&random.cones).signorini;
+    let from_coulomb = problem.residual_of_coulomb(&random.cones).signorini;
     (found, problem.impulses.to_vec(), problem.rates.to_vec(), from_coulomb)
 }
 

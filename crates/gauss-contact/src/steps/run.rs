@@ -16,9 +16,9 @@ use super::stepper::{ContactStepper, StepReport, StepScheme};
 #[derive(Clone, Copy, Debug)]
 #[must_use = "a run does nothing before `run`"]
 pub struct ContactSteps<'k, K, I = NoInput> {
-    kernel: &'k K,
-    h: f64,
-    input: I,
+    pub(super) kernel: &'k K,
+    pub(super) h: f64,
+    pub(super) input: I,
     scheme: StepScheme,
     law: StepLaw,
     tolerance: f64,
@@ -36,6 +36,16 @@ pub struct StepSample<K: ContactSystem<Scalar = f64>> {
     pub modes: Vec<Mode>,
     /// How the laws were solved.
     pub report: StepReport,
+}
+
+impl<K: ContactSystem<Scalar = f64>> StepSample<K> {
+    /// After a step.
+    pub(super) fn of(stepper: &ContactStepper<'_, K>) -> Self {
+        let (t, q, z) = (stepper.time(), *stepper.configuration(), *stepper.speeds());
+        let state = Sample { t, q, z, p: stepper.kernel.momentum(t, &q, &z) };
+        let (impulses, modes) = (*stepper.impulses(), stepper.modes().into());
+        Self { state, impulses, modes, report: stepper.report() }
+    }
 }
 
 impl<'k, K: ContactSystem<Scalar = f64>> ContactSteps<'k, K> {
@@ -117,7 +127,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
     where
         I: InputSource<K>,
     {
-        let Self { kernel, h, input, scheme, law, tolerance } = self;
+        let Self { h, ref input, .. } = self;
         let Range { start, end } = interval;
         let count = (end - start) / h - 1e-9;
         if !(h > 0.0 && h.is_finite() && start <= end && count < 1e15) {
@@ -127,17 +137,25 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
         let whole = count as u64;
         let count = whole + u64::from(count > whole as f64);
         let h = (end - start) / count as f64;
-        let mut stepper = ContactStepper::new(kernel, start, q0, z0)?.scheme(scheme).law(law).tolerance(tolerance);
+        let mut stepper = self.stepper(start, q0, z0)?;
         for n in 1..=count {
             let (q, z) = (*stepper.configuration(), *stepper.speeds());
             stepper.step(h, &input.input(stepper.time(), &q, &z))?;
             // Times are multiples of the length, not sums of it.
             stepper.t = start + (end - start) * (n as f64 / count as f64);
-            let (t, q, z) = (stepper.time(), *stepper.configuration(), *stepper.speeds());
-            let state = Sample { t, q, z, p: kernel.momentum(t, &q, &z) };
-            let (impulses, modes) = (*stepper.impulses(), stepper.modes().into());
-            made.push(StepSample { state, impulses, modes, report: stepper.report() });
+            made.push(StepSample::of(&stepper));
         }
         Ok(())
+    }
+
+    /// At the start of a run.
+    pub(super) fn stepper(
+        &self,
+        start: f64,
+        q: K::Configuration,
+        z: K::Speeds,
+    ) -> Result<ContactStepper<'k, K>, ContactError> {
+        let stepper = ContactStepper::new(self.kernel, start, q, z)?;
+        Ok(stepper.scheme(self.scheme).law(self.law).tolerance(self.tolerance))
     }
 }

@@ -14,7 +14,7 @@ use crate::residual::Residual;
 
 use super::cones::{Laws, MOST, MOST_ROWS};
 use super::impulses::{Found, Impulses};
-use super::projection::Projection;
+use super::projection::{Closed, Projection};
 use super::relaxed::{StepLaw, lifts};
 
 /// How a step takes the motion between impacts.
@@ -41,6 +41,9 @@ pub struct StepReport {
     pub from_coulomb: Residual,
     /// The largest gap below zero before the projection, as a positive number.
     pub penetration: f64,
+    /// How far gaps that stay closed were from zero before the projection, above it too: the way on which a contact
+    /// closes within the step.
+    pub closure: f64,
     /// Contacts with an impulse.
     pub closed: usize,
     /// Corrections of the solver: systems of linear equations that were solved.
@@ -52,20 +55,29 @@ pub struct StepReport {
     pub work: f64,
     /// In how many parts the step was made, where no impulses were found for all of it; else 0.
     pub parts: u32,
+    /// Gaps that have closed, or from which an impact passed something on.
+    pub impacts: usize,
+    /// What the step is off by at most, over the tolerance, where a run has one ([`AdaptiveContactSteps`]); else 0.
+    ///
+    /// [`AdaptiveContactSteps`]: super::AdaptiveContactSteps
+    pub estimate: f64,
 }
 
 impl StepReport {
     /// Of two parts of a step.
-    fn and(self, later: Self) -> Self {
+    pub(super) fn and(self, later: Self) -> Self {
         Self {
             residual: self.residual.worse(later.residual),
             from_coulomb: self.from_coulomb.worse(later.from_coulomb),
             penetration: self.penetration.max(later.penetration),
+            closure: self.closure.max(later.closure),
             closed: later.closed,
             corrections: self.corrections + later.corrections,
             sweeps: self.sweeps + later.sweeps,
             work: self.work + later.work,
             parts: self.parts.max(1) + later.parts.max(1),
+            impacts: self.impacts + later.impacts,
+            estimate: self.estimate.max(later.estimate),
         }
     }
 }
@@ -79,22 +91,24 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) t: f64,
     pub(super) q: K::Configuration,
     pub(super) z: K::Speeds,
-    scheme: StepScheme,
+    pub(super) scheme: StepScheme,
     law: StepLaw,
     tolerance: f64,
     memory: M,
-    impulses: K::ContactRows,
+    pub(super) impulses: K::ContactRows,
     /// Whether contacts depended on one another in the last step.
-    dependent: bool,
+    pub(super) dependent: bool,
     /// At the state.
-    gaps: K::Gaps,
-    rates: K::ContactRows,
+    pub(super) gaps: K::Gaps,
+    pub(super) rates: K::ContactRows,
     /// Of the last step, between impacts.
-    acceleration: Option<K::Speeds>,
+    pub(super) acceleration: Option<K::Speeds>,
     pub(super) modes: [Mode; MOST],
+    /// What is closed at the state and stays so.
+    pub(super) rests: [bool; MOST],
     /// Of the step that is being made.
     next: [Mode; MOST],
-    report: StepReport,
+    pub(super) report: StepReport,
 }
 
 /// How often a step is halved where no impulses are found for it.
@@ -156,6 +170,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             rates: kernel.contact_rates(t, &q, &z),
             acceleration: None,
             modes: [Mode::Open; MOST],
+            rests: [false; MOST],
             next: [Mode::Open; MOST],
             report: StepReport::default(),
         };
@@ -222,6 +237,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             if contact.has_gap() && gaps.component(i) <= near && rates.component(contact.normal) <= 0.0 {
                 self.modes[i] = Mode::Closed;
+                self.rests[i] = true;
             }
         }
     }
@@ -244,12 +260,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         match self.whole(h, input) {
             Err(ContactError { kind: ContactErrorKind::Unsolved { .. }, .. }) if halvings > 0 => {
                 let before = (self.t, self.q, self.z, self.gaps, self.rates, self.acceleration);
-                let (modes, impulses) = (self.modes, self.impulses);
+                let (modes, rests, impulses) = (self.modes, self.rests, self.impulses);
                 let first = self.in_parts(0.5 * h, input, halvings - 1)?;
                 let of_first = self.impulses;
                 let second = self.in_parts(0.5 * h, input, halvings - 1).inspect_err(|_| {
                     (self.t, self.q, self.z, self.gaps, self.rates, self.acceleration) = before;
-                    (self.modes, self.impulses) = (modes, impulses);
+                    (self.modes, self.rests, self.impulses) = (modes, rests, impulses);
                 })?;
                 self.impulses = self.impulses.add_scaled(1.0, &of_first);
                 Ok(first.and(second))
@@ -282,7 +298,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         if end.touches {
             core::mem::swap(&mut self.modes, &mut self.next);
         }
-        (self.gaps, self.rates) = (end.gaps, end.rates);
+        (self.gaps, self.rates, self.rests) = (end.gaps, end.rates, end.rests);
         Ok(end.report)
     }
 
@@ -293,7 +309,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
     }
 
-    fn error(&self, contact: Option<usize>, kind: ContactErrorKind) -> ContactError {
+    pub(super) fn error(&self, contact: Option<usize>, kind: ContactErrorKind) -> ContactError {
         ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: self.t, kind }
     }
 
@@ -337,7 +353,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
         let rates = kernel.contact_rates(self.t + h, &q, &z);
         let (impulses, report) = (K::ContactRows::zero(), StepReport::default());
-        Ok(Some(End { q, z, gaps, rates, impulses, touches: false, report, struck: false }))
+        let rests = [false; MOST];
+        Ok(Some(End { q, z, gaps, rates, impulses, rests, touches: false, report, struck: false }))
     }
 
     /// A step in which contacts may act.
@@ -366,7 +383,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
         let mut projection = Projection::new(of_projection, K::ContactRows::DIM);
         let closed = projection.close(kernel, (t, q), &dynamics.response, &solved.rests);
-        let (q, gaps, penetration) = closed.map_err(failed)?;
+        let Closed { q, gaps, penetration, closure } = closed.map_err(failed)?;
         let mode = |i: usize| if solved.rests[i] { self.next[i] } else { Mode::Open };
         let (z, rates) = projection.stop(kernel, (t, &q, z), &dynamics.response, (&mode, rounding));
         let report = StepReport {
@@ -377,9 +394,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             corrections: solved.found.corrections,
             sweeps: solved.found.sweeps,
             work: solved.work,
-            parts: 0,
+            closure,
+            impacts: solved.impacts,
+            ..StepReport::default()
         };
-        Ok(End { q, z, gaps, rates, impulses, touches: true, report, struck: solved.struck })
+        let Solved { rests, struck, .. } = solved;
+        Ok(End { q, z, gaps, rates, impulses, rests, touches: true, report, struck })
     }
 
     /// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that
@@ -444,8 +464,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             problem.impulses[row] * (scales[row] * free.component(row) + 0.5 * given)
         };
         let work = (0..rows).map(work).sum();
-        let from_coulomb = if problem.relaxed { problem.from_coulomb(cones) } else { found.residual };
-        let mut solved = Solved { found, from_coulomb, rests: [false; MOST], struck: false, work };
+        let from_coulomb = if problem.relaxed { problem.residual_of_coulomb(cones) } else { found.residual };
+        let mut solved = Solved { found, from_coulomb, rests: [false; MOST], struck: false, impacts: 0, work };
         for (next, cone) in self.next.iter_mut().zip(&*cones) {
             *next = problem.mode(cones, cone, &scales, self.tolerance);
         }
@@ -457,6 +477,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             solved.struck |= closes && (was_open || lifts);
             let carries = carrier(K::CONTACTS, i);
             let parts = K::CONTACTS[carries].has_gap() && passed_on(carries) != 0.0;
+            let bounces = passed_on(carries) > found.residual.rounding;
+            solved.impacts += usize::from(closes && (was_open || bounces));
             solved.rests[i] = is_closed && !parts && !lifts;
         }
         (0..rows).for_each(|row| impulses.set_component(row, scales[row] * problem.impulses[row]));
@@ -478,6 +500,8 @@ struct End<K: ContactSystem> {
     gaps: K::Gaps,
     rates: K::ContactRows,
     impulses: K::ContactRows,
+    /// What is closed and stays so.
+    rests: [bool; MOST],
     /// Whether contacts may have changed their modes.
     touches: bool,
     report: StepReport,
@@ -492,8 +516,10 @@ struct Solved {
     from_coulomb: Residual,
     /// Contacts that are closed after the step.
     rests: [bool; MOST],
-    /// Whether a gap has closed.
+    /// Whether velocities have jumped.
     struck: bool,
+    /// Gaps that have closed.
+    impacts: usize,
     /// Of the impulses.
     work: f64,
 }

@@ -1,5 +1,6 @@
 //! Steps of many contacts: the relaxed law, steps that keep a tolerance, changing over to them and back.
 
+mod adaptive;
 #[path = "../laws/common.rs"]
 #[allow(dead_code, reason = "scenes of the other tests")]
 mod common;
