@@ -103,6 +103,18 @@ pub enum ContactErrorKind {
         /// How many changes there were at this time.
         changes: u32,
     },
+    /// More events than so many within so long a time, at several contacts, in a run that changes over to steps there.
+    EventsPile {
+        /// How many there may be.
+        events: usize,
+        /// Within what time.
+        span: f64,
+    },
+    /// Steps have Newton's law of impact alone; a run by another law cannot change over to them.
+    LawWithoutSteps {
+        /// The law of the run.
+        law: Impact,
+    },
     /// More events than the run may have.
     TooManyEvents {
         /// The limit.
@@ -172,6 +184,10 @@ impl fmt::Display for ContactErrorKind {
             ),
             Self::Zeno { impacts } => write!(f, "{impacts} impacts at one time do not end"),
             Self::Chatter { changes } => write!(f, "{changes} changes of modes at one time do not end"),
+            Self::EventsPile { events, span } => write!(f, "more than {events} events within {span:e}"),
+            Self::LawWithoutSteps { law } => {
+                write!(f, "a run by the law {law:?} cannot change over to steps: these have Newton's law alone")
+            }
             Self::TooManyEvents { limit } => {
                 write!(f, "{limit} events do not reach the end; allow more by `max_events`")
             }

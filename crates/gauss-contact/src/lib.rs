@@ -39,6 +39,7 @@ extern crate alloc;
 
 mod balance;
 mod ball;
+mod changeover;
 mod decide;
 mod dense;
 mod error;
@@ -60,6 +61,7 @@ mod trajectory;
 mod witness;
 
 pub use balance::ContactBalance;
+pub use changeover::{ChangingRun, ChangingTrajectory, EventPart, RunPart, StepPart};
 pub use error::{ContactError, ContactErrorKind};
 pub use history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
 pub use impact::Impact;

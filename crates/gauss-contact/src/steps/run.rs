@@ -40,7 +40,7 @@ pub struct StepSample<K: ContactSystem<Scalar = f64>> {
 
 impl<K: ContactSystem<Scalar = f64>> StepSample<K> {
     /// After a step.
-    pub(super) fn of(stepper: &ContactStepper<'_, K>) -> Self {
+    pub(crate) fn of(stepper: &ContactStepper<'_, K>) -> Self {
         let (t, q, z) = (stepper.time(), *stepper.configuration(), *stepper.speeds());
         let state = Sample { t, q, z, p: stepper.kernel.momentum(t, &q, &z) };
         let (impulses, modes) = (*stepper.impulses(), stepper.modes().into());

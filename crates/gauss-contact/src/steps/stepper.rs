@@ -205,6 +205,11 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         self.t
     }
 
+    /// Says what time it is, where sums of lengths have rounded it.
+    pub(crate) fn at_time(&mut self, t: f64) {
+        self.t = t;
+    }
+
     /// The configuration.
     pub fn configuration(&self) -> &K::Configuration {
         &self.q
