@@ -67,6 +67,13 @@ pub enum ContactErrorKind {
         /// The length.
         step: f64,
     },
+    /// No steppers for the lanes of a pack, or more than these.
+    Lanes {
+        /// How many lanes there are.
+        lanes: usize,
+        /// How many steppers were given.
+        given: usize,
+    },
     /// More steps than the run may have.
     TooManySteps {
         /// The limit.
@@ -165,6 +172,7 @@ impl fmt::Display for ContactErrorKind {
             Self::StepTooSmall { step } => {
                 write!(f, "steps of {step:e} are still too long for the tolerance; allow more, or look at the motion here")
             }
+            Self::Lanes { lanes, given } => write!(f, "{given} steppers for {lanes} lanes; one to {lanes} go together"),
             Self::TooManySteps { limit } => {
                 write!(f, "{limit} steps do not reach the end; use a larger tolerance, or allow more by `max_steps`")
             }

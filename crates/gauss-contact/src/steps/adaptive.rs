@@ -21,8 +21,9 @@ use crate::error::{ContactError, ContactErrorKind};
 use crate::mode::Mode;
 
 use super::cones::MOST;
+use super::report::{StepReport, StepScheme};
 use super::run::{ContactSteps, StepSample};
-use super::stepper::{ContactStepper, StepReport, StepScheme};
+use super::stepper::ContactStepper;
 
 /// The part of the length that a tolerance allows which is tried.
 const SAFETY: f64 = 0.9;

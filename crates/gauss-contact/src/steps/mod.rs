@@ -13,13 +13,17 @@
 mod adaptive;
 mod cones;
 mod impulses;
+mod lanes;
 mod linear;
 mod projection;
 mod relaxed;
+mod report;
 mod run;
 mod stepper;
 
 pub use adaptive::{AdaptiveContactSteps, StepStatistics, SteppedRun};
+pub use lanes::{ContactLanes, LanesOf};
 pub use relaxed::StepLaw;
+pub use report::{StepReport, StepScheme};
 pub use run::{ContactSteps, StepSample};
-pub use stepper::{ContactStepper, StepReport, StepScheme};
+pub use stepper::ContactStepper;

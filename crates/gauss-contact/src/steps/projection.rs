@@ -80,16 +80,15 @@ impl<'m> Projection<'m> {
         self.all
     }
 
-    /// Gaps of closed contacts brought to zero, and those that are negative.
+    /// Gaps of closed contacts brought to zero, and those that are negative, from places with their gaps.
     pub(crate) fn close<K: ContactSystem<Scalar = f64>>(
         &mut self,
         kernel: &K,
-        (t, mut q): (f64, K::Configuration),
+        (t, mut q, mut gaps): (f64, K::Configuration, K::Gaps),
         response: &ContactResponse<K>,
         closed: &[bool; MOST],
     ) -> Result<Closed<K>, ProjectionError> {
         let magnitude = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
-        let mut gaps = kernel.gaps(t, &q);
         let each = || K::CONTACTS.iter().enumerate().filter(|(_, contact)| contact.has_gap());
         let lowest = each().map(|(i, _)| gaps.component(i)).fold(0.0, f64::min);
         let mut held = [false; MOST];
@@ -138,7 +137,7 @@ impl<'m> Projection<'m> {
     pub(crate) fn stop<K: ContactSystem<Scalar = f64>>(
         &mut self,
         kernel: &K,
-        (t, q, mut z): (f64, &K::Configuration, K::Speeds),
+        (t, q, mut z, mut rates): (f64, &K::Configuration, K::Speeds, K::ContactRows),
         response: &ContactResponse<K>,
         (mode, rounding): (&dyn Fn(usize) -> Mode, f64),
     ) -> (K::Speeds, K::ContactRows) {
@@ -149,7 +148,6 @@ impl<'m> Projection<'m> {
                 Mode::Closed | Mode::Slides(_) => contact.normal..contact.tangent_rows().start,
             })
         };
-        let mut rates = kernel.contact_rates(t, q, &z);
         let mut left = f64::INFINITY;
         for n in 0..CORRECTIONS {
             let size = rows().map(|row| rates.component(row).abs()).fold(0.0, f64::max);

@@ -10,7 +10,8 @@ use crate::error::{ContactError, ContactErrorKind};
 use crate::mode::Mode;
 
 use super::relaxed::StepLaw;
-use super::stepper::{ContactStepper, StepReport, StepScheme};
+use super::report::{StepReport, StepScheme};
+use super::stepper::ContactStepper;
 
 /// A run in steps in preparation.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,8 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::contact::{ContactDynamics, ContactSystem};
+use gauss_runtime::contact::{ContactDynamics, ContactResponse, ContactSystem};
+use gauss_runtime::integrate::problem::state::TangentOf;
 
 use crate::error::{ContactError, ContactErrorKind};
 use crate::law::carrier;
@@ -16,71 +17,7 @@ use super::cones::{Laws, MOST, MOST_ROWS};
 use super::impulses::{Found, Impulses};
 use super::projection::{Closed, Projection};
 use super::relaxed::{StepLaw, lifts};
-
-/// How a step takes the motion between impacts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum StepScheme {
-    /// Moreau and Jean's, θ = ½: accelerations at half of the step, with the speeds before it. Of second order where
-    /// forces depend on places alone, else of first.
-    MoreauJean,
-    /// The same with the speeds at half of the step, by the accelerations of the step before: of second order between
-    /// impacts, for the same work but in steps after impacts, which are made twice.
-    #[default]
-    Midpoint,
-}
-
-/// What a step did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct StepReport {
-    /// The worst residuals of all contacts, in the units of rates.
-    pub residual: Residual,
-    /// The same of Coulomb's law, by which the residuals of [`StepLaw::Coulomb`] are: of the relaxed law Signorini's is
-    /// the rate at which what slides separates.
-    pub from_coulomb: Residual,
-    /// The largest gap below zero before the projection, as a positive number.
-    pub penetration: f64,
-    /// How far gaps that stay closed were from zero before the projection, above it too: the way on which a contact
-    /// closes within the step.
-    pub closure: f64,
-    /// Contacts with an impulse.
-    pub closed: usize,
-    /// Corrections of the solver: systems of linear equations that were solved.
-    pub corrections: u32,
-    /// Sweeps of the solver, where corrections alone came to no end.
-    pub sweeps: u32,
-    /// The work of contact impulses, of friction too: negative where they take energy away. Newton's law with friction
-    /// can give energy at an impact (T. R. Kane 1984); then it is positive.
-    pub work: f64,
-    /// In how many parts the step was made, where no impulses were found for all of it; else 0.
-    pub parts: u32,
-    /// Gaps that have closed, or from which an impact passed something on.
-    pub impacts: usize,
-    /// What the step is off by at most, over the tolerance, where a run has one ([`AdaptiveContactSteps`]); else 0.
-    ///
-    /// [`AdaptiveContactSteps`]: super::AdaptiveContactSteps
-    pub estimate: f64,
-}
-
-impl StepReport {
-    /// Of two parts of a step.
-    pub(super) fn and(self, later: Self) -> Self {
-        Self {
-            residual: self.residual.worse(later.residual),
-            from_coulomb: self.from_coulomb.worse(later.from_coulomb),
-            penetration: self.penetration.max(later.penetration),
-            closure: self.closure.max(later.closure),
-            closed: later.closed,
-            corrections: self.corrections + later.corrections,
-            sweeps: self.sweeps + later.sweeps,
-            work: self.work + later.work,
-            parts: self.parts.max(1) + later.parts.max(1),
-            impacts: self.impacts + later.impacts,
-            estimate: self.estimate.max(later.estimate),
-        }
-    }
-}
+use super::report::{StepReport, StepScheme};
 
 /// A system on its way in steps; all that a step needs is in memory that was there before.
 ///
@@ -280,25 +217,38 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     }
 
     fn whole(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
-        let (t, q, z) = (self.t, self.q, self.z);
-        let q = q.advance(&self.kernel.kinematics(t, &q, &z).scale(0.5 * h));
-        let middle = |z: K::Speeds| Middle { t: t + 0.5 * h, q, z };
-        let end = match (self.scheme, self.acceleration) {
-            (StepScheme::MoreauJean, _) => self.attempt(h, &middle(z), input)?,
-            (StepScheme::Midpoint, Some(acceleration)) => {
-                self.attempt(h, &middle(z.add_scaled(0.5 * h, &acceleration)), input)?
-            }
+        let rate = self.kernel.kinematics(self.t, &self.q, &self.z);
+        let end = match self.middle(h, &rate) {
+            (middle, true) => self.attempt(h, &middle, input)?,
             // At the start and after impacts no acceleration is known: the step is made twice.
-            (StepScheme::Midpoint, None) => match self.attempt(h, &middle(z), input)? {
+            (middle, false) => match self.attempt(h, &middle, input)? {
                 end if end.struck => end,
-                end => self.attempt(h, &middle(z.add_scaled(1.0, &end.z).scale(0.5)), input)?,
+                end => {
+                    let z = self.z.add_scaled(1.0, &end.z).scale(0.5);
+                    self.attempt(h, &Middle { z, ..middle }, input)?
+                }
             },
         };
+        self.take(h, end)
+    }
+
+    /// Half of a step, given the rate of places before it, and whether its speeds are those that the scheme wants.
+    pub(super) fn middle(&self, h: f64, rate: &TangentOf<K>) -> (Middle<K>, bool) {
+        let (t, q) = (self.t + 0.5 * h, self.q.advance(&rate.scale(0.5 * h)));
+        match (self.scheme, self.acceleration) {
+            (StepScheme::MoreauJean, _) => (Middle { t, q, z: self.z }, true),
+            (StepScheme::Midpoint, Some(rate)) => (Middle { t, q, z: self.z.add_scaled(0.5 * h, &rate) }, true),
+            (StepScheme::Midpoint, None) => (Middle { t, q, z: self.z }, false),
+        }
+    }
+
+    /// Takes the end of a step as the state.
+    pub(super) fn take(&mut self, h: f64, end: End<K>) -> Result<StepReport, ContactError> {
         if !(end.q.is_finite() && end.z.is_finite()) {
             return Err(self.error(None, ContactErrorKind::NonFinite));
         }
-        self.acceleration = (!end.struck).then(|| end.z.add_scaled(-1.0, &z).scale(1.0 / h));
-        self.t = t + h;
+        self.acceleration = (!end.struck).then(|| end.z.add_scaled(-1.0, &self.z).scale(1.0 / h));
+        self.t += h;
         (self.q, self.z, self.impulses) = (end.q, end.z, end.impulses);
         if end.touches {
             core::mem::swap(&mut self.modes, &mut self.next);
@@ -323,14 +273,14 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         self.gaps.component(i) + 0.5 * h * (self.rates.component(K::CONTACTS[i].normal) + rate)
     }
 
-    /// The second half of a step, and what keeps bilateral constraints.
-    fn second_half(
+    /// The second half of a step, given the rate of places, and what keeps bilateral constraints.
+    pub(super) fn second_half(
         &self,
         h: f64,
         middle: &Middle<K>,
-        z: K::Speeds,
+        (z, rate): (K::Speeds, &TangentOf<K>),
     ) -> Result<(K::Configuration, K::Speeds), ContactError> {
-        let q = middle.q.advance(&self.kernel.kinematics(middle.t, &middle.q, &z).scale(0.5 * h));
+        let q = middle.q.advance(&rate.scale(0.5 * h));
         if !K::CONSTRAINED {
             return Ok((q, z));
         }
@@ -338,10 +288,15 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         projected.map_err(|cause| self.error(None, ContactErrorKind::Projection(cause)))
     }
 
+    /// Whether all contacts are open.
+    pub(super) fn flies(&self) -> bool {
+        let is_open = |i: usize| K::CONTACTS[carrier(K::CONTACTS, i)].has_gap() && !self.modes[i].is_closed();
+        (0..K::CONTACTS.len()).all(is_open)
+    }
+
     /// A step in which no gap closes: the motion without contacts is all that it needs.
     fn flight(&self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Option<End<K>>, ContactError> {
-        let is_open = |i: usize| K::CONTACTS[carrier(K::CONTACTS, i)].has_gap() && !self.modes[i].is_closed();
-        if !(0..K::CONTACTS.len()).all(is_open) {
+        if !self.flies() {
             return Ok(None);
         }
         let gaps_of = || (0..K::CONTACTS.len()).filter(|i| K::CONTACTS[*i].has_gap());
@@ -351,7 +306,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         if !gaps_of().all(|i| self.gap_at_end(h, i, after.component(K::CONTACTS[i].normal)) > 0.0) {
             return Ok(None);
         }
-        let (q, z) = self.second_half(h, middle, z)?;
+        let half = kernel.kinematics(middle.t, &middle.q, &z);
+        let (q, z) = self.second_half(h, middle, (z, &half))?;
         let gaps = kernel.gaps(self.t + h, &q);
         if !gaps_of().all(|i| gaps.component(i) >= 0.0) {
             return Ok(None);
@@ -364,33 +320,71 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 
     /// A step in which contacts may act.
     fn touching(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<End<K>, ContactError> {
-        let kernel = self.kernel;
+        let (kernel, t) = (self.kernel, self.t + h);
         let friction = kernel.friction(middle.t, &middle.q, &middle.z, input);
-        let laws = Laws::new::<K>(h, &friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
         let dynamics = kernel.contact_dynamics(middle.t, &middle.q, &middle.z, input);
+        let pushed = self.push(h, middle, (&friction, &dynamics))?;
+        let half = kernel.kinematics(middle.t, &middle.q, &pushed.z);
+        let (q, z) = self.second_half(h, middle, (pushed.z, &half))?;
+        let gaps = kernel.gaps(t, &q);
+        let closed = self.close(h, (&dynamics.response, &pushed), (q, gaps))?;
+        let rates = kernel.contact_rates(t, &closed.q, &z);
+        Ok(self.end(h, (&dynamics.response, pushed), closed, (z, rates)))
+    }
+
+    /// Impulses at half of a step, with the speeds after them.
+    pub(super) fn push(
+        &mut self,
+        h: f64,
+        middle: &Middle<K>,
+        (friction, dynamics): (&K::ContactRows, &ContactDynamics<K>),
+    ) -> Result<Pushed<K>, ContactError> {
+        let laws = Laws::new::<K>(h, friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
         let mut impulses = self.impulses;
         let free = self.z.add_scaled(h, &dynamics.acceleration);
         let known = self.dependent;
-        let mut solved = self.solve(h, (&laws, &dynamics), self.free_rates(h, middle, &dynamics), &mut impulses);
+        let mut solved = self.solve(h, (&laws, dynamics), self.free_rates(h, middle, dynamics), &mut impulses);
         if solved.is_err() && self.dependent && !known {
-            solved = self.solve(h, (&laws, &dynamics), self.free_rates(h, middle, &dynamics), &mut impulses);
+            solved = self.solve(h, (&laws, dynamics), self.free_rates(h, middle, dynamics), &mut impulses);
         }
         let solved = solved.map_err(|kind| self.error(None, kind))?;
         let z = pushed_rows::<K>(&free, &dynamics.response.columns, &impulses);
-        let (q, z) = self.second_half(h, middle, z)?;
+        Ok(Pushed { z, impulses, solved })
+    }
+
+    /// Closed gaps brought to zero at the end of a step.
+    pub(super) fn close(
+        &mut self,
+        h: f64,
+        (response, pushed): (&ContactResponse<K>, &Pushed<K>),
+        (q, gaps): (K::Configuration, K::Gaps),
+    ) -> Result<Closed<K>, ContactError> {
+        let (start, t) = (self.t, self.t + h);
+        let failed = |cause| ContactError { contact: None, time: start, kind: ContactErrorKind::Projection(cause) };
+        let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
+        let mut projection = Projection::new(of_projection, K::ContactRows::DIM);
+        projection.close(self.kernel, (t, q, gaps), response, &pushed.solved.rests).map_err(failed)
+    }
+
+    /// The end of a step: rates of what rests brought to zero from those that are given.
+    pub(super) fn end(
+        &mut self,
+        h: f64,
+        (response, pushed): (&ContactResponse<K>, Pushed<K>),
+        closed: Closed<K>,
+        (z, rates): (K::Speeds, K::ContactRows),
+    ) -> End<K> {
+        let Pushed { impulses, solved, .. } = pushed;
+        let Closed { q, gaps, penetration, closure } = closed;
         // What begins to rest is brought to zero to the last bit, and stays there.
         let kind = |mode: &Mode| core::mem::discriminant(mode);
         let changes = (0..K::CONTACTS.len()).any(|i| kind(&self.next[i]) != kind(&self.modes[i]));
         self.dependent &= !changes;
         let rounding = if changes { 0.0 } else { solved.found.residual.rounding };
-        let (start, t) = (self.t, self.t + h);
-        let failed = |cause| ContactError { contact: None, time: start, kind: ContactErrorKind::Projection(cause) };
         let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
         let mut projection = Projection::new(of_projection, K::ContactRows::DIM);
-        let closed = projection.close(kernel, (t, q), &dynamics.response, &solved.rests);
-        let Closed { q, gaps, penetration, closure } = closed.map_err(failed)?;
         let mode = |i: usize| if solved.rests[i] { self.next[i] } else { Mode::Open };
-        let (z, rates) = projection.stop(kernel, (t, &q, z), &dynamics.response, (&mode, rounding));
+        let (z, rates) = projection.stop(self.kernel, (self.t + h, &q, z, rates), response, (&mode, rounding));
         let report = StepReport {
             residual: solved.found.residual,
             from_coulomb: solved.from_coulomb,
@@ -404,7 +398,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             ..StepReport::default()
         };
         let Solved { rests, struck, .. } = solved;
-        Ok(End { q, z, gaps, rates, impulses, rests, touches: true, report, struck })
+        End { q, z, gaps, rates, impulses, rests, touches: true, report, struck }
     }
 
     /// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that
@@ -492,14 +486,21 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 }
 
 /// The state at half of a step, with the speeds at which accelerations are taken.
-struct Middle<K: ContactSystem> {
-    t: f64,
-    q: K::Configuration,
-    z: K::Speeds,
+pub(super) struct Middle<K: ContactSystem> {
+    pub(super) t: f64,
+    pub(super) q: K::Configuration,
+    pub(super) z: K::Speeds,
+}
+
+/// What impulses have made of the speeds of a step.
+pub(super) struct Pushed<K: ContactSystem> {
+    pub(super) z: K::Speeds,
+    impulses: K::ContactRows,
+    solved: Solved,
 }
 
 /// The end of a step.
-struct End<K: ContactSystem> {
+pub(super) struct End<K: ContactSystem> {
     q: K::Configuration,
     z: K::Speeds,
     gaps: K::Gaps,

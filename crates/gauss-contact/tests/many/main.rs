@@ -5,4 +5,5 @@ mod changeover;
 #[path = "../laws/common.rs"]
 #[allow(dead_code, reason = "scenes of the other tests")]
 mod common;
+mod lanes;
 mod relaxed;
