@@ -41,7 +41,7 @@ def body(links, link, feet, height):
     )
 
 
-def model(name, feet, height, gains, noslip):
+def scene(name, feet, height, gains, noslip):
     links = json.loads((ROBOTS / f"{name}.json").read_text())["links"]
     joints = [link["name"] for link in links if link["parent"] is not None]
     actuators = "".join(
@@ -49,8 +49,8 @@ def model(name, feet, height, gains, noslip):
     )
     root = next(link for link in links if link["parent"] is None)
     solver = 'noslip_iterations="100" noslip_tolerance="1e-12" tolerance="1e-12"' if noslip else ""
-    return mujoco.MjModel.from_xml_string(
-        f'<mujoco><compiler angle="radian" balanceinertia="false" boundmass="0"/>'
+    return (
+        f'<mujoco model="{name}"><compiler angle="radian" balanceinertia="false" boundmass="0"/>'
         f'<option timestep="{STEP}" solver="Newton" cone="elliptic" {solver}/>'
         f'<default><geom condim="3" friction="0.8 0.005 0.0001"/></default>'
         f'<worldbody><geom type="plane" size="5 5 0.1" contype="1" conaffinity="2"/>'
@@ -59,7 +59,7 @@ def model(name, feet, height, gains, noslip):
 
 
 def stand(name, feet, height, gains, angles, noslip):
-    robot = model(name, feet, height, gains, noslip)
+    robot = mujoco.MjModel.from_xml_string(scene(name, feet, height, gains, noslip))
     data = mujoco.MjData(robot)
     data.qpos[7:] = angles
     data.ctrl[:] = angles
@@ -90,7 +90,7 @@ def sphere(x, y, z, radius):
     return f'<geom type="sphere" size="{radius}" pos="{text(x, y, z)}" contype="2" conaffinity="1" mass="0"/>'
 
 
-def anymal(noslip):
+def anymal(stand, **options):
     feet = {
         f"{side}{end}_KFE": sphere(x, y, -0.33797, 0.031)
         for side, y in [("L", 0.01305), ("R", -0.01305)]
@@ -98,10 +98,10 @@ def anymal(noslip):
     }
     leg = [0.0, 0.6, -1.1]
     angles = [sign * angle for sign in [1, -1, 1, -1] for angle in leg]
-    stand("anymal", feet, 0.6, lambda k: (200.0, 4.0), angles, noslip)
+    stand("anymal", feet, 0.6, lambda k: (200.0, 4.0), angles, **options)
 
 
-def talos(noslip):
+def talos(stand, **options):
     corners = "".join(sphere(x, y, -0.107, 1e-6) for x in [-0.1, 0.1] for y in [-0.06, 0.06])
     feet = {"leg_left_6_joint": corners, "leg_right_6_joint": corners}
     angles = np.zeros(32)
@@ -115,11 +115,11 @@ def talos(noslip):
             return 5.0, 0.05
         return (100.0, 1.0) if k < 30 else (20.0, 0.2)
 
-    stand("talos", feet, 1.1, gains, angles, noslip)
+    stand("talos", feet, 1.1, gains, angles, **options)
 
 
 if __name__ == "__main__":
     print(f"MuJoCo {mujoco.__version__}, {sys.version.split()[0]}")
     for noslip in [False, True]:
-        anymal(noslip)
-        talos(noslip)
+        anymal(stand, noslip=noslip)
+        talos(stand, noslip=noslip)

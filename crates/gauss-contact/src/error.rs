@@ -49,6 +49,36 @@ pub enum ContactErrorKind {
     /// The run would go back in time, in which impacts and friction have no unique solution, or its times are not
     /// finite.
     InvalidInterval,
+    /// The lengths of steps must be finite and greater than 0, the shortest no longer than the longest.
+    InvalidStep {
+        /// The length.
+        step: f64,
+    },
+    /// Tolerances must be finite, not negative, and not both zero.
+    InvalidTolerance {
+        /// The relative tolerance.
+        relative: f64,
+        /// The absolute tolerance.
+        absolute: f64,
+    },
+    /// Between impacts no step is short enough for the tolerance: the motion is singular here, or the tolerance below
+    /// rounding.
+    StepTooSmall {
+        /// The length.
+        step: f64,
+    },
+    /// No steppers for the lanes of a pack, or more than these.
+    Lanes {
+        /// How many lanes there are.
+        lanes: usize,
+        /// How many steppers were given.
+        given: usize,
+    },
+    /// More steps than the run may have.
+    TooManySteps {
+        /// The limit.
+        limit: u64,
+    },
     /// Gaps, rates or coefficients of the contacts are not finite.
     NonFinite,
     /// Painlevé's paradox: no contact force agrees with rigid bodies and Coulomb's law here. See
@@ -79,6 +109,18 @@ pub enum ContactErrorKind {
     Chatter {
         /// How many changes there were at this time.
         changes: u32,
+    },
+    /// More events than so many within so long a time, at several contacts, in a run that changes over to steps there.
+    EventsPile {
+        /// How many there may be.
+        events: usize,
+        /// Within what time.
+        span: f64,
+    },
+    /// Steps have Newton's law of impact alone; a run by another law cannot change over to them.
+    LawWithoutSteps {
+        /// The law of the run.
+        law: Impact,
     },
     /// More events than the run may have.
     TooManyEvents {
@@ -120,6 +162,20 @@ impl fmt::Display for ContactErrorKind {
                 )
             }
             Self::InvalidInterval => f.write_str("the run must go forward in time, between finite ends"),
+            Self::InvalidStep { step } => {
+                write!(f, "a step of {step:e}; steps are finite and longer than 0, the shortest no longer than the longest")
+            }
+            Self::InvalidTolerance { relative, absolute } => write!(
+                f,
+                "tolerances {relative:e} (relative) and {absolute:e} (absolute) must be finite, not negative, not both 0"
+            ),
+            Self::StepTooSmall { step } => {
+                write!(f, "steps of {step:e} are still too long for the tolerance; allow more, or look at the motion here")
+            }
+            Self::Lanes { lanes, given } => write!(f, "{given} steppers for {lanes} lanes; one to {lanes} go together"),
+            Self::TooManySteps { limit } => {
+                write!(f, "{limit} steps do not reach the end; use a larger tolerance, or allow more by `max_steps`")
+            }
             Self::NonFinite => f.write_str("gaps, rates or coefficients are not finite"),
             Self::Inconsistent => f.write_str("no contact force agrees with rigid bodies and Coulomb's law (Painlevé)"),
             Self::Indeterminate => f.write_str("several motions agree with rigid bodies and Coulomb's law (Painlevé)"),
@@ -136,6 +192,10 @@ impl fmt::Display for ContactErrorKind {
             ),
             Self::Zeno { impacts } => write!(f, "{impacts} impacts at one time do not end"),
             Self::Chatter { changes } => write!(f, "{changes} changes of modes at one time do not end"),
+            Self::EventsPile { events, span } => write!(f, "more than {events} events within {span:e}"),
+            Self::LawWithoutSteps { law } => {
+                write!(f, "a run by the law {law:?} cannot change over to steps: these have Newton's law alone")
+            }
             Self::TooManyEvents { limit } => {
                 write!(f, "{limit} events do not reach the end; allow more by `max_events`")
             }

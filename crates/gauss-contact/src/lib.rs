@@ -39,6 +39,7 @@ extern crate alloc;
 
 mod balance;
 mod ball;
+mod changeover;
 mod decide;
 mod dense;
 mod error;
@@ -61,6 +62,7 @@ mod trajectory;
 mod witness;
 
 pub use balance::ContactBalance;
+pub use changeover::{ChangingRun, ChangingTrajectory, EventPart, RunPart, StepPart};
 pub use error::{ContactError, ContactErrorKind};
 pub use history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
 pub use impact::Impact;
@@ -68,7 +70,10 @@ pub use mode::{InMode, Mode};
 pub use residual::Residual;
 pub use run::ContactRun;
 pub use sensors::{ContactForce, ContactForces, ContactWrench, SensorError};
-pub use steps::{ContactStepper, ContactSteps, StepReport, StepSample, StepScheme};
+pub use steps::{
+    AdaptiveContactSteps, ContactLanes, ContactStepper, ContactSteps, LanesOf, StepLaw, StepReport, StepSample,
+    StepScheme, StepStatistics, SteppedRun,
+};
 pub use trajectory::{ContactTrajectory, Segment};
 
 /// The page of the crate, whose program is a test.

@@ -15,13 +15,14 @@ pub struct Residual {
 }
 
 impl Residual {
-    /// The larger of each.
+    /// The larger of each; NaN where one is.
     pub(crate) fn worse(self, other: Self) -> Self {
+        let larger = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
         Self {
-            signorini: self.signorini.max(other.signorini),
-            coulomb: self.coulomb.max(other.coulomb),
-            dissipation: self.dissipation.max(other.dissipation),
-            rounding: self.rounding.max(other.rounding),
+            signorini: larger(self.signorini, other.signorini),
+            coulomb: larger(self.coulomb, other.coulomb),
+            dissipation: larger(self.dissipation, other.dissipation),
+            rounding: larger(self.rounding, other.rounding),
         }
     }
 
@@ -51,6 +52,7 @@ mod tests {
             let [signorini, coulomb, dissipation] = each;
             let bad = Residual { signorini, coulomb, dissipation, ..good };
             assert!(bad.worst().is_nan() && !bad.holds(), "{k}");
+            assert!(good.worse(bad).worst().is_nan() && bad.worse(good).worst().is_nan(), "{k}");
         }
     }
 }

@@ -28,13 +28,13 @@ use crate::witness::{Watched, Witness};
 #[derive(Clone, Copy, Debug)]
 #[must_use = "a run does nothing before `run`"]
 pub struct ContactRun<'k, K, C = NoControl, I = NoInput> {
-    kernel: &'k K,
-    control: C,
-    input: I,
-    law: Impact,
-    jams: bool,
-    tolerance: Tolerance,
-    limit: usize,
+    pub(crate) kernel: &'k K,
+    pub(crate) control: C,
+    pub(crate) input: I,
+    pub(crate) law: Impact,
+    pub(crate) jams: bool,
+    pub(crate) tolerance: Tolerance,
+    pub(crate) limit: usize,
 }
 
 /// Events of a run unless it sets another limit.
@@ -133,13 +133,43 @@ impl<'k, K: ContactSystem, C, I> ContactRun<'k, K, C, I> {
     {
         let Self { kernel, control, input, law, jams, tolerance, limit } = self;
         let input: InputOf<'k, K> = Rc::new(move |t, q, z| input.input(t, q, z));
+        let run = ContactRun { kernel, control, input: NoInput, law, jams, tolerance, limit };
+        run.attempt_with(input, None, (q0, z0), interval)
+    }
+}
+
+impl<'k, K: ContactSystem, C> ContactRun<'k, K, C> {
+    /// The same with a shared input; a run in which events pile up ends, if they are given, where there are more than
+    /// so many within so long a time.
+    pub(crate) fn attempt_with(
+        self,
+        input: InputOf<'k, K>,
+        piles: Option<(usize, f64)>,
+        (q0, z0): (K::Configuration, K::Speeds),
+        interval: Range<K::Scalar>,
+    ) -> (ContactTrajectory<'k, K>, Option<ContactError>)
+    where
+        C: Control<InMode<'k, K>> + Clone + 'k,
+    {
+        let Self { kernel, control, law, jams, tolerance, limit, .. } = self;
         let (segments, events, solves) = (Vec::new(), Vec::new(), Vec::new());
         let made = ContactTrajectory { segments, events, solves, input };
         let scales =
             Scales { tolerance, largest: 0.0, law, start: value(interval.start), epsilon: epsilon::<K::Scalar>() };
         let end = interval.end;
-        let mut driver =
-            Driver { kernel, control, made, scales, jams, end, limit, last: f64::NEG_INFINITY, at_once: 0 };
+        let mut driver = Driver {
+            kernel,
+            control,
+            made,
+            scales,
+            jams,
+            end,
+            limit,
+            piles,
+            recent: Vec::new(),
+            last: f64::NEG_INFINITY,
+            at_once: 0,
+        };
         let error = driver.go((interval.start, q0.renormalise(), z0)).err();
         (driver.made, error)
     }
@@ -154,6 +184,10 @@ struct Driver<'k, K: ContactSystem, C> {
     end: K::Scalar,
     jams: bool,
     limit: usize,
+    /// More than so many events within so long a time pile up.
+    piles: Option<(usize, f64)>,
+    /// The contacts of the events, where that is asked.
+    recent: Vec<usize>,
     /// The time of the last event, and how many there were at it.
     last: f64,
     at_once: u32,
@@ -201,10 +235,26 @@ where
                 _ => ContactErrorKind::Chatter { changes: count },
             });
         }
+        if let Some((events, span)) = self.piles {
+            self.recent.push(fired.contact());
+            if self.pile_up(t, events, span) {
+                return stop(ContactErrorKind::EventsPile { events, span });
+            }
+        }
         if self.made.segments.len() >= self.limit {
             return stop(ContactErrorKind::TooManyEvents { limit: self.limit });
         }
         Ok(())
+    }
+
+    /// Whether the last event and so many before it are within so long a time. Bounces at one gap alone come to their
+    /// end.
+    fn pile_up(&self, t: f64, events: usize, span: f64) -> bool {
+        let segments = &self.made.segments;
+        // Segments start at events but for the first.
+        let Some(first) = segments.len().checked_sub(events).filter(|first| *first > 0) else { return false };
+        let last = &self.recent[self.recent.len().saturating_sub(events + 1)..];
+        t - value(segments[first].trajectory.first().t) < span && last.iter().any(|contact| *contact != last[0])
     }
 
     /// One segment; what ended it, unless it reached the end of the run.

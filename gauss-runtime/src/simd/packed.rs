@@ -1,6 +1,6 @@
 //! What several states hold in lockstep, and how one of them is put in and taken out.
 
-use nalgebra::{Isometry2, Isometry3, SVector, UnitQuaternion};
+use nalgebra::{Isometry2, Isometry3, SMatrix, UnitQuaternion};
 
 use super::together::{Operation, Question, each, one_by_one};
 use crate::configuration::{Configuration, Product, VectorSpace};
@@ -94,9 +94,9 @@ fn in_another_scalar<A: Configuration, B: Configuration>(from: &A, number: impl 
 
 /// Configurations, which are components and nothing else.
 macro_rules! packed_components {
-    ($([$($dimension:tt)*] $container:ident<$($argument:ident),+>;)+) => {$(
-        impl<T: Real + Packed<Single: Real>, $($dimension)*> Packed for $container<$($argument),+> {
-            type Single = packed_components!(@single $container $($argument),+);
+    ($($container:ident)+) => {$(
+        impl<T: Real + Packed<Single: Real>> Packed for $container<T> {
+            type Single = $container<T::Single>;
             const WIDTH: usize = T::WIDTH;
 
             #[inline]
@@ -121,15 +121,43 @@ macro_rules! packed_components {
             }
         }
     )+};
-    (@single $container:ident T) => { $container<<T as Packed>::Single> };
-    (@single $container:ident T, N) => { $container<<T as Packed>::Single, N> };
 }
 
-packed_components! {
-    [] UnitQuaternion<T>;
-    [] Isometry2<T>;
-    [] Isometry3<T>;
-    [const N: usize] SVector<T, N>;
+packed_components! { UnitQuaternion Isometry2 Isometry3 }
+
+impl<T: Real + Packed<Single: Real>, const N: usize, const M: usize> Packed for SMatrix<T, N, M> {
+    type Single = SMatrix<T::Single, N, M>;
+    const WIDTH: usize = T::WIDTH;
+
+    #[inline]
+    fn repeat(single: &Self::Single) -> Self {
+        Self::from_fn(|i, j| T::repeat(&single[(i, j)]))
+    }
+
+    #[inline]
+    fn extract(&self, lane: usize) -> Self::Single {
+        SMatrix::from_fn(|i, j| self[(i, j)].extract(lane))
+    }
+
+    #[inline]
+    fn replace(&mut self, lane: usize, single: &Self::Single) {
+        self.iter_mut().zip(single.iter()).for_each(|(number, new)| number.replace(lane, new));
+    }
+}
+
+/// Nothing, as the input of a scene without inputs: it is the same in all lanes.
+impl Packed for () {
+    type Single = ();
+    const WIDTH: usize = 1;
+
+    #[inline]
+    fn repeat((): &()) {}
+
+    #[inline]
+    fn extract(&self, _: usize) {}
+
+    #[inline]
+    fn replace(&mut self, _: usize, (): &()) {}
 }
 
 impl<A: Packed, B: Packed> Packed for (A, B) {

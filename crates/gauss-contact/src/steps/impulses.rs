@@ -36,7 +36,7 @@ const ROUNDINGS: f64 = 64.0;
 
 /// What a contact does in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum State {
+pub(super) enum State {
     Leaves,
     /// Without friction.
     Closed,
@@ -85,6 +85,8 @@ pub(crate) struct Impulses<'m> {
     order: [usize; MOST_ROWS],
     /// Whether contacts depend on one another, as far as is known.
     pub(crate) dependent: bool,
+    /// Whether the law is the convex relaxation of Coulomb's.
+    pub(crate) relaxed: bool,
     pull: f64,
     /// Whether the factors are those of a symmetric matrix.
     symmetric: bool,
@@ -122,6 +124,7 @@ impl<'m> Impulses<'m> {
             unknown,
             order,
             dependent: false,
+            relaxed: false,
             pull: 0.0,
             symmetric: false,
         }
@@ -148,11 +151,11 @@ impl<'m> Impulses<'m> {
         &self.delassus[row * n..(row + 1) * n]
     }
 
-    fn at(&self, i: usize, j: usize) -> f64 {
+    pub(super) fn at(&self, i: usize, j: usize) -> f64 {
         self.delassus[i * self.b.len() + j]
     }
 
-    fn rate(&self, row: usize) -> f64 {
+    pub(super) fn rate(&self, row: usize) -> f64 {
         self.b[row] + dot(self.row(row), self.impulses)
     }
 
@@ -165,7 +168,7 @@ impl<'m> Impulses<'m> {
     }
 
     /// The largest diagonal entry of friction.
-    fn scale(&self, cone: &Cone) -> f64 {
+    pub(super) fn scale(&self, cone: &Cone) -> f64 {
         cone.tangents().map(|row| self.at(row, row)).fold(0.0, f64::max)
     }
 
@@ -178,12 +181,18 @@ impl<'m> Impulses<'m> {
         (wanted, norm(&wanted))
     }
 
+    /// The rate that is zero where a gap is closed: that of the gap, or of the relaxed law less what slips take.
+    fn closing(&self, cones: &[Cone], row: usize) -> f64 {
+        if self.relaxed { self.rates[row] - self.lift(cones, row) } else { self.rates[row] }
+    }
+
     /// What a contact does, judged by impulses and rates.
-    fn state(&self, cone: &Cone) -> State {
+    fn state(&self, cones: &[Cone], cone: &Cone) -> State {
         if !cone.acts {
             return State::Leaves;
         }
-        let pressed = cone.pressed.map_or(1.0, |row| self.impulses[row] - self.rates[row] / self.at(row, row));
+        let pressing = |row: usize| self.impulses[row] - self.closing(cones, row) / self.at(row, row);
+        let pressed = cone.pressed.map_or(1.0, pressing);
         if pressed <= 0.0 {
             return State::Leaves;
         }
@@ -200,10 +209,10 @@ impl<'m> Impulses<'m> {
     }
 
     /// What a contact does, in forces and slips as they are: rows were scaled. Slips within the tolerance are none.
-    pub(crate) fn mode(&self, cone: &Cone, scales: &[f64], tolerance: f64) -> Mode {
+    pub(crate) fn mode(&self, cones: &[Cone], cone: &Cone, scales: &[f64], tolerance: f64) -> Mode {
         let terms = cone.tangents().map(|row| self.terms[row]).fold(0.0, f64::max);
         let slip = cone.tangents().map(|row| self.rates[row].abs()).fold(0.0, f64::max);
-        match self.state(cone) {
+        match self.state(cones, cone) {
             State::Slides(..) if slip <= tolerance * terms => Mode::Sticks,
             State::Leaves => Mode::Open,
             State::Closed => Mode::Closed,
@@ -269,7 +278,7 @@ impl<'m> Impulses<'m> {
             if round > 0 {
                 self.impulses.copy_from_slice(self.swept);
                 let sweeps = if round == 1 { 0 } else { 4 << round };
-                (0..sweeps).for_each(|_| self.sweep(cones));
+                (0..sweeps).for_each(|_| if self.relaxed { self.sweep_convex(cones) } else { self.sweep(cones) });
                 found.sweeps += sweeps;
                 self.swept.copy_from_slice(self.impulses);
                 self.update(cones);
@@ -299,7 +308,7 @@ impl<'m> Impulses<'m> {
         for n in 0..CORRECTIONS {
             let mut same = n > 0 && !changed;
             for (state, cone) in states.iter_mut().zip(cones) {
-                let next = self.state(cone);
+                let next = self.state(cones, cone);
                 same &= state.is_as(&next);
                 *state = next;
             }
@@ -376,6 +385,11 @@ impl<'m> Impulses<'m> {
             }
             if let Some(normal) = cone.normal {
                 self.equal(k, count, normal);
+                if self.relaxed {
+                    for c in 0..count {
+                        self.matrix[k * count + c] += self.lift_entry(cones, states, normal, self.unknown[c]);
+                    }
+                }
                 k += 1;
             }
             match state {
@@ -439,7 +453,8 @@ impl<'m> Impulses<'m> {
             }
             let pulled = |this: &Self, row: usize| this.pull() * this.at(row, row) * this.impulses[row] - this.b[row];
             if let Some(normal) = cone.normal {
-                self.right[k] = pulled(self, normal);
+                let lifted = if self.relaxed { self.lift_free(cones, states, normal) } else { 0.0 };
+                self.right[k] = pulled(self, normal) - lifted;
                 k += 1;
             }
             match state {
@@ -492,6 +507,16 @@ impl<'m> Impulses<'m> {
 
     /// The worst residuals, and whether they are within the tolerance, a part of the largest rate, or rounding.
     fn worst(&self, cones: &[Cone], tolerance: f64) -> (Residual, bool) {
+        self.worst_by(cones, tolerance, |row| self.closing(cones, row))
+    }
+
+    /// The worst residuals of Coulomb's law, whatever law the impulses satisfy.
+    pub(crate) fn residual_of_coulomb(&self, cones: &[Cone]) -> Residual {
+        self.worst_by(cones, 0.0, |row| self.rates[row]).0
+    }
+
+    /// The same by given rates of the gaps.
+    fn worst_by(&self, cones: &[Cone], tolerance: f64, closing: impl Fn(usize) -> f64) -> (Residual, bool) {
         let acting = || cones.iter().filter(|cone| cone.acts);
         let rows = || acting().flat_map(|cone| cone.rows());
         let largest = rows().map(|row| self.terms[row]).fold(0.0, f64::max);
@@ -499,7 +524,7 @@ impl<'m> Impulses<'m> {
         let mut worst = Residual::default();
         let mut holds = true;
         for cone in acting() {
-            let residual = self.residual(cone, rounding);
+            let residual = self.residual(cone, rounding, &closing);
             // Written so that what is not a number does not hold.
             holds &= residual.worst() <= residual.rounding.max(tolerance * largest);
             worst = worst.worse(residual);
@@ -507,9 +532,9 @@ impl<'m> Impulses<'m> {
         (worst, holds)
     }
 
-    fn residual(&self, cone: &Cone, rounding: f64) -> Residual {
+    fn residual(&self, cone: &Cone, rounding: f64, closing: impl Fn(usize) -> f64) -> Residual {
         let pressed = cone.normal.map_or(0.0, |row| self.at(row, row) * self.impulses[row]);
-        let signorini = cone.normal.map_or(0.0, |row| nan_or(self.rates[row], f64::min, pressed).abs());
+        let signorini = cone.normal.map_or(0.0, |row| nan_or(closing(row), f64::min, pressed).abs());
         let scale = self.scale(cone);
         let terms = cone.rows().map(|row| self.terms[row]).fold(0.0, f64::max);
         let mut residual = Residual { signorini, rounding: rounding * terms, ..Residual::default() };
@@ -532,10 +557,10 @@ fn nan_or(a: f64, choose: fn(f64, f64) -> f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { choose(a, b) }
 }
 
-fn norm(x: &[f64; 3]) -> f64 {
+pub(super) fn norm(x: &[f64; 3]) -> f64 {
     gauss_runtime::real::Real::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])
 }
 
 #[cfg(test)]
 #[path = "impulses_tests.rs"]
-mod tests;
+pub(super) mod tests;

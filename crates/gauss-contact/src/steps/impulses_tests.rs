@@ -13,23 +13,29 @@ use crate::solution::Failure;
 use crate::solver::Contacts;
 
 /// Numbers in (−1, 1): a linear congruence with the constants of Knuth's MMIX.
-fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
+pub(in crate::steps) fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
     move || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (seed >> 11) as f64 / 4_503_599_627_370_496.0 - 1.0
     }
 }
 
-struct Random {
-    rows: Vec<Vec<f64>>,
-    b: Vec<f64>,
-    cones: Vec<Cone>,
+pub(in crate::steps) struct Random {
+    pub(in crate::steps) rows: Vec<Vec<f64>>,
+    /// Speeds without impulses.
+    pub(in crate::steps) free: Vec<f64>,
+    pub(in crate::steps) b: Vec<f64>,
+    pub(in crate::steps) cones: Vec<Cone>,
 }
 
 impl Random {
     /// Contacts with so many tangents in a space of some dimensions, with unit masses. Friction is below Painlevé's
     /// paradox: normals are longer than what tangents have along them.
-    fn new(number: &mut dyn FnMut() -> f64, (count, tangents, dimensions): (usize, usize, usize), mu: f64) -> Self {
+    pub(in crate::steps) fn new(
+        number: &mut dyn FnMut() -> f64,
+        (count, tangents, dimensions): (usize, usize, usize),
+        mu: f64,
+    ) -> Self {
         let mut rows: Vec<Vec<f64>> = Vec::new();
         let mut cones = Vec::new();
         for _ in 0..count {
@@ -56,10 +62,10 @@ impl Random {
         }
         let free: Vec<f64> = (0..dimensions).map(|_| number()).collect();
         let b = rows.iter().map(|row| dot(row, &free)).collect();
-        Self { rows, b, cones }
+        Self { rows, free, b, cones }
     }
 
-    fn matrix(&self) -> Matrix {
+    pub(in crate::steps) fn matrix(&self) -> Matrix {
         Matrix::from_fn(self.b.len(), |i, j| dot(&self.rows[i], &self.rows[j]))
     }
 
@@ -160,7 +166,7 @@ fn sixty_four_contacts_on_a_plate_carry_it() {
     // Pressed, and pushed along by less and by more than friction holds.
     for push in [0.2, 2.0] {
         let free = [push, 0.0, -1.0, 0.05, -0.02, 0.0];
-        let random = Random { b: b(free, &rows), rows: rows.clone(), cones: cones.clone() };
+        let random = Random { b: b(free, &rows), free: free.to_vec(), rows: rows.clone(), cones: cones.clone() };
         let (found, impulses, rates) = random.solve(&vec![0.0; 3 * n]);
         assert!(found.holds, "{push} {found:?}");
         let carried: f64 = impulses.iter().step_by(3).sum();

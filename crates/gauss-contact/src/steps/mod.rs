@@ -10,12 +10,20 @@
 //! are their rates and the slips of what sticks. No event is sought, so that dozens of contacts, and impacts that pile
 //! up, are no more work than one; the time of an impact is known to a step.
 
+mod adaptive;
 mod cones;
 mod impulses;
+mod lanes;
 mod linear;
 mod projection;
+mod relaxed;
+mod report;
 mod run;
 mod stepper;
 
+pub use adaptive::{AdaptiveContactSteps, StepStatistics, SteppedRun};
+pub use lanes::{ContactLanes, LanesOf};
+pub use relaxed::StepLaw;
+pub use report::{StepReport, StepScheme};
 pub use run::{ContactSteps, StepSample};
-pub use stepper::{ContactStepper, StepReport, StepScheme};
+pub use stepper::ContactStepper;

@@ -26,6 +26,16 @@ pub(crate) struct Projection<'m> {
     count: usize,
 }
 
+/// Places with closed gaps.
+pub(crate) struct Closed<K: ContactSystem> {
+    pub(crate) q: K::Configuration,
+    pub(crate) gaps: K::Gaps,
+    /// How far the lowest gap was below zero.
+    pub(crate) penetration: f64,
+    /// How far from zero those were that are closed, above it too.
+    pub(crate) closure: f64,
+}
+
 impl<'m> Projection<'m> {
     /// How many numbers it needs for so many rows.
     pub(crate) const fn memory(rows: usize) -> usize {
@@ -79,21 +89,19 @@ impl<'m> Projection<'m> {
         settled_speeds(kernel.after_impulses(z, &response.factors, &impulses), acting::<K>(&impulses))
     }
 
-    /// Gaps of closed contacts brought to zero, and those that are negative; with the gaps there, and how far the
-    /// lowest was below zero.
+    /// Gaps of closed contacts brought to zero, and those that are negative, from places with their gaps.
     pub(crate) fn close<K: ContactSystem<Scalar = f64>>(
         &mut self,
         kernel: &K,
-        (t, mut q): (f64, K::Configuration),
+        (t, mut q, mut gaps): (f64, K::Configuration, K::Gaps),
         response: &ImpulseResponse<K>,
         closed: &[bool; MOST],
-    ) -> Result<(K::Configuration, K::Gaps, f64), ProjectionError> {
+    ) -> Result<Closed<K>, ProjectionError> {
         let magnitude = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
-        let mut gaps = kernel.gaps(t, &q);
         let each = || K::CONTACTS.iter().enumerate().filter(|(_, contact)| contact.has_gap());
         let lowest = each().map(|(i, _)| gaps.component(i)).fold(0.0, f64::min);
         let mut held = [false; MOST];
-        let (mut left, mut size) = (f64::INFINITY, 0.0);
+        let (mut left, mut size, mut closure) = (f64::INFINITY, 0.0, 0.0);
         for n in 0..CORRECTIONS {
             let mut grown = n == 0;
             for (i, _) in each() {
@@ -103,6 +111,9 @@ impl<'m> Projection<'m> {
             }
             let gap = |i: usize| if held[i] { gaps.component(i) } else { 0.0 };
             size = (0..K::CONTACTS.len()).map(|i| gap(i).abs()).fold(0.0, f64::max);
+            if n == 0 {
+                closure = size;
+            }
             // Below rounding, or where a correction no longer halves what is left, there is nothing to gain.
             if size <= 2.0 * f64::EPSILON * magnitude || (!grown && size >= 0.5 * left) {
                 break;
@@ -124,7 +135,7 @@ impl<'m> Projection<'m> {
         if size.is_nan() || size > Real::sqrt(f64::EPSILON) * magnitude.max(1e-3) {
             return Err(ProjectionError::new(ConstraintLevel::Position, ProjectionFailure::NotConverged, size));
         }
-        Ok((q, gaps, -lowest))
+        Ok(Closed { q, gaps, penetration: -lowest, closure })
     }
 
     /// Rates of closed gaps, and slips of what sticks, brought to zero where they are more than rounding; with all
@@ -132,7 +143,7 @@ impl<'m> Projection<'m> {
     pub(crate) fn stop<K: ContactSystem<Scalar = f64>>(
         &mut self,
         kernel: &K,
-        (t, q, mut z): (f64, &K::Configuration, K::Speeds),
+        (t, q, mut z, mut rates): (f64, &K::Configuration, K::Speeds, K::ContactRows),
         response: &ImpulseResponse<K>,
         (mode, rounding): (&dyn Fn(usize) -> Mode, f64),
     ) -> (K::Speeds, K::ContactRows) {
@@ -143,7 +154,6 @@ impl<'m> Projection<'m> {
                 Mode::Closed | Mode::Slides(_) => contact.normal..contact.tangent_rows().start,
             })
         };
-        let mut rates = kernel.contact_rates(t, q, &z);
         let mut left = f64::INFINITY;
         for n in 0..CORRECTIONS {
             let size = rows().map(|row| rates.component(row).abs()).fold(0.0, f64::max);

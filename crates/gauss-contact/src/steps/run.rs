@@ -10,16 +10,19 @@ use crate::error::{ContactError, ContactErrorKind};
 use crate::mode::Mode;
 use crate::sensors::ContactForces;
 
-use super::stepper::{ContactStepper, StepReport, StepScheme};
+use super::relaxed::StepLaw;
+use super::report::{StepReport, StepScheme};
+use super::stepper::ContactStepper;
 
 /// A run in steps in preparation.
 #[derive(Clone, Copy, Debug)]
 #[must_use = "a run does nothing before `run`"]
 pub struct ContactSteps<'k, K, I = NoInput> {
-    kernel: &'k K,
-    h: f64,
-    input: I,
+    pub(super) kernel: &'k K,
+    pub(super) h: f64,
+    pub(super) input: I,
     scheme: StepScheme,
+    law: StepLaw,
     tolerance: f64,
 }
 
@@ -42,12 +45,20 @@ impl<K: ContactSystem<Scalar = f64>> StepSample<K> {
     pub fn forces<'k>(&self, kernel: &'k K) -> ContactForces<'k, K> {
         ContactForces::new(kernel, self.state.t, self.state.q, self.report.mean(&self.impulses))
     }
+
+    /// After a step.
+    pub(crate) fn of(stepper: &ContactStepper<'_, K>) -> Self {
+        let (t, q, z) = (stepper.time(), *stepper.configuration(), *stepper.speeds());
+        let state = Sample { t, q, z, p: stepper.kernel.momentum(t, &q, &z) };
+        let (impulses, modes) = (*stepper.impulses(), stepper.modes().into());
+        Self { state, impulses, modes, report: stepper.report() }
+    }
 }
 
 impl<'k, K: ContactSystem<Scalar = f64>> ContactSteps<'k, K> {
     /// Steps of length `h` of a system without inputs.
     pub fn new(kernel: &'k K, h: f64) -> Self {
-        Self { kernel, h, input: NoInput, scheme: StepScheme::default(), tolerance: 1e-8 }
+        Self { kernel, h, input: NoInput, scheme: StepScheme::default(), law: StepLaw::default(), tolerance: 1e-8 }
     }
 }
 
@@ -57,13 +68,19 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
     where
         G: Fn(f64, &K::Configuration, &K::Speeds) -> K::Input,
     {
-        let Self { kernel, h, scheme, tolerance, .. } = self;
-        ContactSteps { kernel, h, input: Feedback(input), scheme, tolerance }
+        let Self { kernel, h, scheme, law, tolerance, .. } = self;
+        ContactSteps { kernel, h, input: Feedback(input), scheme, law, tolerance }
     }
 
     /// How the motion between impacts is taken.
     pub fn scheme(mut self, scheme: StepScheme) -> Self {
         self.scheme = scheme;
+        self
+    }
+
+    /// Which law of friction impulses satisfy.
+    pub fn law(mut self, law: StepLaw) -> Self {
+        self.law = law;
         self
     }
 
@@ -117,7 +134,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
     where
         I: InputSource<K>,
     {
-        let Self { kernel, h, input, scheme, tolerance } = self;
+        let Self { h, ref input, .. } = self;
         let Range { start, end } = interval;
         let count = (end - start) / h - 1e-9;
         if !(h > 0.0 && h.is_finite() && start <= end && count < 1e15) {
@@ -127,17 +144,25 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
         let whole = count as u64;
         let count = whole + u64::from(count > whole as f64);
         let h = (end - start) / count as f64;
-        let mut stepper = ContactStepper::new(kernel, start, q0, z0)?.scheme(scheme).tolerance(tolerance);
+        let mut stepper = self.stepper(start, q0, z0)?;
         for n in 1..=count {
             let (q, z) = (*stepper.configuration(), *stepper.speeds());
             stepper.step(h, &input.input(stepper.time(), &q, &z))?;
             // Times are multiples of the length, not sums of it.
             stepper.t = start + (end - start) * (n as f64 / count as f64);
-            let (t, q, z) = (stepper.time(), *stepper.configuration(), *stepper.speeds());
-            let state = Sample { t, q, z, p: kernel.momentum(t, &q, &z) };
-            let (impulses, modes) = (*stepper.impulses(), stepper.modes().into());
-            made.push(StepSample { state, impulses, modes, report: stepper.report() });
+            made.push(StepSample::of(&stepper));
         }
         Ok(())
+    }
+
+    /// At the start of a run.
+    pub(super) fn stepper(
+        &self,
+        start: f64,
+        q: K::Configuration,
+        z: K::Speeds,
+    ) -> Result<ContactStepper<'k, K>, ContactError> {
+        let stepper = ContactStepper::new(self.kernel, start, q, z)?;
+        Ok(stepper.scheme(self.scheme).law(self.law).tolerance(self.tolerance))
     }
 }

@@ -5,7 +5,8 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::contact::{ContactSystem, ImpulseDynamics};
+use gauss_runtime::contact::{ContactSystem, ImpulseDynamics, ImpulseResponse};
+use gauss_runtime::integrate::problem::state::TangentOf;
 
 use crate::error::{ContactError, ContactErrorKind};
 use crate::law::carrier;
@@ -15,64 +16,9 @@ use crate::sensors::ContactForces;
 
 use super::cones::{Laws, MOST, MOST_ROWS};
 use super::impulses::{Found, Impulses};
-use super::projection::Projection;
-
-/// How a step takes the motion between impacts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum StepScheme {
-    /// Moreau and Jean's, θ = ½: accelerations at half of the step, with the speeds before it. Of second order where
-    /// forces depend on places alone, else of first.
-    MoreauJean,
-    /// The same with the speeds at half of the step, by the accelerations of the step before: of second order between
-    /// impacts, for the same work but in steps after impacts, which are made twice.
-    #[default]
-    Midpoint,
-}
-
-/// What a step did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct StepReport {
-    /// The worst residuals of all contacts, in the units of rates.
-    pub residual: Residual,
-    /// The largest gap below zero before the projection, as a positive number.
-    pub penetration: f64,
-    /// Contacts with an impulse.
-    pub closed: usize,
-    /// Corrections of the solver: systems of linear equations that were solved.
-    pub corrections: u32,
-    /// Sweeps of the solver, where corrections alone came to no end.
-    pub sweeps: u32,
-    /// The work of contact impulses, of friction too: negative where they take energy away. Newton's law with friction
-    /// can give energy at an impact (T. R. Kane 1984); then it is positive.
-    pub work: f64,
-    /// In how many parts the step was made, where no impulses were found for all of it; else 0.
-    pub parts: u32,
-    /// The length of the step.
-    pub length: f64,
-}
-
-impl StepReport {
-    /// The mean forces of impulses over the step.
-    pub(super) fn mean<R: VectorSpace<f64>>(&self, impulses: &R) -> R {
-        if self.length > 0.0 { impulses.scale(1.0 / self.length) } else { R::zero() }
-    }
-
-    /// Of two parts of a step.
-    fn and(self, later: Self) -> Self {
-        Self {
-            residual: self.residual.worse(later.residual),
-            penetration: self.penetration.max(later.penetration),
-            closed: later.closed,
-            corrections: self.corrections + later.corrections,
-            sweeps: self.sweeps + later.sweeps,
-            work: self.work + later.work,
-            parts: self.parts.max(1) + later.parts.max(1),
-            length: self.length + later.length,
-        }
-    }
-}
+use super::projection::{Closed, Projection};
+use super::relaxed::{StepLaw, lifts};
+use super::report::{StepReport, StepScheme};
 
 /// A system on its way in steps; all that a step needs is in memory that was there before.
 ///
@@ -83,21 +29,24 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) t: f64,
     pub(super) q: K::Configuration,
     pub(super) z: K::Speeds,
-    scheme: StepScheme,
+    pub(super) scheme: StepScheme,
+    law: StepLaw,
     tolerance: f64,
     memory: M,
-    impulses: K::ContactRows,
+    pub(super) impulses: K::ContactRows,
     /// Whether contacts depended on one another in the last step.
-    dependent: bool,
+    pub(super) dependent: bool,
     /// At the state.
-    gaps: K::Gaps,
-    rates: K::ContactRows,
+    pub(super) gaps: K::Gaps,
+    pub(super) rates: K::ContactRows,
     /// Of the last step, between impacts.
-    acceleration: Option<K::Speeds>,
+    pub(super) acceleration: Option<K::Speeds>,
     pub(super) modes: [Mode; MOST],
+    /// What is closed at the state and stays so.
+    pub(super) rests: [bool; MOST],
     /// Of the step that is being made.
     next: [Mode; MOST],
-    report: StepReport,
+    pub(super) report: StepReport,
 }
 
 /// How often a step is halved where no impulses are found for it.
@@ -150,6 +99,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             q,
             z,
             scheme: StepScheme::default(),
+            law: StepLaw::default(),
             tolerance: 1e-8,
             memory,
             impulses: K::ContactRows::zero(),
@@ -158,6 +108,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             rates: kernel.contact_rates(t, &q, &z),
             acceleration: None,
             modes: [Mode::Open; MOST],
+            rests: [false; MOST],
             next: [Mode::Open; MOST],
             report: StepReport::default(),
         };
@@ -172,6 +123,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         self
     }
 
+    /// Which law of friction impulses satisfy.
+    #[must_use]
+    pub fn law(mut self, law: StepLaw) -> Self {
+        self.law = law;
+        self
+    }
+
     /// How far from the laws a solution may be, as a part of the largest rate, in place of 10⁻⁸. A ten thousandth of
     /// that is looked for first, and rounding is always allowed for; what was found is in the report.
     #[must_use]
@@ -183,6 +141,11 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     /// The time.
     pub fn time(&self) -> f64 {
         self.t
+    }
+
+    /// Says what time it is, where sums of lengths have rounded it.
+    pub(crate) fn at_time(&mut self, t: f64) {
+        self.t = t;
     }
 
     /// The configuration.
@@ -222,6 +185,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             if contact.has_gap() && gaps.component(i) <= near && rates.component(contact.normal) <= 0.0 {
                 self.modes[i] = Mode::Closed;
+                self.rests[i] = true;
             }
         }
     }
@@ -244,12 +208,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         match self.whole(h, input) {
             Err(ContactError { kind: ContactErrorKind::Unsolved { .. }, .. }) if halvings > 0 => {
                 let before = (self.t, self.q, self.z, self.gaps, self.rates, self.acceleration);
-                let (modes, impulses) = (self.modes, self.impulses);
+                let (modes, rests, impulses) = (self.modes, self.rests, self.impulses);
                 let first = self.in_parts(0.5 * h, input, halvings - 1)?;
                 let of_first = self.impulses;
                 let second = self.in_parts(0.5 * h, input, halvings - 1).inspect_err(|_| {
                     (self.t, self.q, self.z, self.gaps, self.rates, self.acceleration) = before;
-                    (self.modes, self.impulses) = (modes, impulses);
+                    (self.modes, self.rests, self.impulses) = (modes, rests, impulses);
                 })?;
                 self.impulses = self.impulses.add_scaled(1.0, &of_first);
                 Ok(first.and(second))
@@ -259,30 +223,43 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     }
 
     fn whole(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
-        let (t, q, z) = (self.t, self.q, self.z);
-        let q = q.advance(&self.kernel.kinematics(t, &q, &z).scale(0.5 * h));
-        let middle = |z: K::Speeds| Middle { t: t + 0.5 * h, q, z };
-        let end = match (self.scheme, self.acceleration) {
-            (StepScheme::MoreauJean, _) => self.attempt(h, &middle(z), input)?,
-            (StepScheme::Midpoint, Some(acceleration)) => {
-                self.attempt(h, &middle(z.add_scaled(0.5 * h, &acceleration)), input)?
-            }
+        let rate = self.kernel.kinematics(self.t, &self.q, &self.z);
+        let end = match self.middle(h, &rate) {
+            (middle, true) => self.attempt(h, &middle, input)?,
             // At the start and after impacts no acceleration is known: the step is made twice.
-            (StepScheme::Midpoint, None) => match self.attempt(h, &middle(z), input)? {
+            (middle, false) => match self.attempt(h, &middle, input)? {
                 end if end.struck => end,
-                end => self.attempt(h, &middle(z.add_scaled(1.0, &end.z).scale(0.5)), input)?,
+                end => {
+                    let z = self.z.add_scaled(1.0, &end.z).scale(0.5);
+                    self.attempt(h, &Middle { z, ..middle }, input)?
+                }
             },
         };
+        self.take(h, end)
+    }
+
+    /// Half of a step, given the rate of places before it, and whether its speeds are those that the scheme wants.
+    pub(super) fn middle(&self, h: f64, rate: &TangentOf<K>) -> (Middle<K>, bool) {
+        let (t, q) = (self.t + 0.5 * h, self.q.advance(&rate.scale(0.5 * h)));
+        match (self.scheme, self.acceleration) {
+            (StepScheme::MoreauJean, _) => (Middle { t, q, z: self.z }, true),
+            (StepScheme::Midpoint, Some(rate)) => (Middle { t, q, z: self.z.add_scaled(0.5 * h, &rate) }, true),
+            (StepScheme::Midpoint, None) => (Middle { t, q, z: self.z }, false),
+        }
+    }
+
+    /// Takes the end of a step as the state.
+    pub(super) fn take(&mut self, h: f64, end: End<K>) -> Result<StepReport, ContactError> {
         if !(end.q.is_finite() && end.z.is_finite()) {
             return Err(self.error(None, ContactErrorKind::NonFinite));
         }
-        self.acceleration = (!end.struck).then(|| end.z.add_scaled(-1.0, &z).scale(1.0 / h));
-        self.t = t + h;
+        self.acceleration = (!end.struck).then(|| end.z.add_scaled(-1.0, &self.z).scale(1.0 / h));
+        self.t += h;
         (self.q, self.z, self.impulses) = (end.q, end.z, end.impulses);
         if end.touches {
             core::mem::swap(&mut self.modes, &mut self.next);
         }
-        (self.gaps, self.rates) = (end.gaps, end.rates);
+        (self.gaps, self.rates, self.rests) = (end.gaps, end.rates, end.rests);
         Ok(end.report)
     }
 
@@ -293,7 +270,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
     }
 
-    fn error(&self, contact: Option<usize>, kind: ContactErrorKind) -> ContactError {
+    pub(super) fn error(&self, contact: Option<usize>, kind: ContactErrorKind) -> ContactError {
         ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: self.t, kind }
     }
 
@@ -302,14 +279,14 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         self.gaps.component(i) + 0.5 * h * (self.rates.component(K::CONTACTS[i].normal) + rate)
     }
 
-    /// The second half of a step, and what keeps bilateral constraints.
-    fn second_half(
+    /// The second half of a step, given the rate of places, and what keeps bilateral constraints.
+    pub(super) fn second_half(
         &self,
         h: f64,
         middle: &Middle<K>,
-        z: K::Speeds,
+        (z, rate): (K::Speeds, &TangentOf<K>),
     ) -> Result<(K::Configuration, K::Speeds), ContactError> {
-        let q = middle.q.advance(&self.kernel.kinematics(middle.t, &middle.q, &z).scale(0.5 * h));
+        let q = middle.q.advance(&rate.scale(0.5 * h));
         if !K::CONSTRAINED {
             return Ok((q, z));
         }
@@ -317,10 +294,15 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         projected.map_err(|cause| self.error(None, ContactErrorKind::Projection(cause)))
     }
 
+    /// Whether all contacts are open.
+    pub(super) fn flies(&self) -> bool {
+        let is_open = |i: usize| K::CONTACTS[carrier(K::CONTACTS, i)].has_gap() && !self.modes[i].is_closed();
+        (0..K::CONTACTS.len()).all(is_open)
+    }
+
     /// A step in which no gap closes: the motion without contacts is all that it needs.
     fn flight(&self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Option<End<K>>, ContactError> {
-        let is_open = |i: usize| K::CONTACTS[carrier(K::CONTACTS, i)].has_gap() && !self.modes[i].is_closed();
-        if !(0..K::CONTACTS.len()).all(is_open) {
+        if !self.flies() {
             return Ok(None);
         }
         let gaps_of = || (0..K::CONTACTS.len()).filter(|i| K::CONTACTS[*i].has_gap());
@@ -330,57 +312,101 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         if !gaps_of().all(|i| self.gap_at_end(h, i, after.component(K::CONTACTS[i].normal)) > 0.0) {
             return Ok(None);
         }
-        let (q, z) = self.second_half(h, middle, z)?;
+        let half = kernel.kinematics(middle.t, &middle.q, &z);
+        let (q, z) = self.second_half(h, middle, (z, &half))?;
         let gaps = kernel.gaps(self.t + h, &q);
         if !gaps_of().all(|i| gaps.component(i) >= 0.0) {
             return Ok(None);
         }
         let rates = kernel.contact_rates(self.t + h, &q, &z);
         let (impulses, report) = (K::ContactRows::zero(), StepReport::default());
-        Ok(Some(End { q, z, gaps, rates, impulses, touches: false, report, struck: false }))
+        let rests = [false; MOST];
+        Ok(Some(End { q, z, gaps, rates, impulses, rests, touches: false, report, struck: false }))
     }
 
     /// A step in which contacts may act.
     fn touching(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<End<K>, ContactError> {
-        let kernel = self.kernel;
+        let (kernel, t) = (self.kernel, self.t + h);
         let friction = kernel.friction(middle.t, &middle.q, &middle.z, input);
-        let laws = Laws::new::<K>(h, &friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
         let dynamics = kernel.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
+        let pushed = self.push(h, middle, (&friction, &dynamics))?;
+        let half = kernel.kinematics(middle.t, &middle.q, &pushed.z);
+        let (q, z) = self.second_half(h, middle, (pushed.z, &half))?;
+        let gaps = kernel.gaps(t, &q);
+        let closed = self.close(h, (&dynamics.response, &pushed), (q, gaps))?;
+        let rates = kernel.contact_rates(t, &closed.q, &z);
+        Ok(self.end(h, (&dynamics.response, pushed), closed, (z, rates)))
+    }
+
+    /// Impulses at half of a step, with the speeds after them.
+    pub(super) fn push(
+        &mut self,
+        h: f64,
+        middle: &Middle<K>,
+        (friction, dynamics): (&K::ContactRows, &ImpulseDynamics<K>),
+    ) -> Result<Pushed<K>, ContactError> {
+        let laws = Laws::new::<K>(h, friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
         let mut impulses = self.impulses;
         let free = self.z.add_scaled(h, &dynamics.acceleration);
         let known = self.dependent;
-        let mut solved = self.solve(h, (&laws, &dynamics), self.free_rates(h, middle, &dynamics), &mut impulses);
+        let mut solved = self.solve(h, (&laws, dynamics), self.free_rates(h, middle, dynamics), &mut impulses);
         if solved.is_err() && self.dependent && !known {
-            solved = self.solve(h, (&laws, &dynamics), self.free_rates(h, middle, &dynamics), &mut impulses);
+            solved = self.solve(h, (&laws, dynamics), self.free_rates(h, middle, dynamics), &mut impulses);
         }
         let solved = solved.map_err(|kind| self.error(None, kind))?;
         let after = kernel.after_impulses(&free, &dynamics.response.factors, &impulses);
         let z = settled_speeds(after, acting::<K>(&impulses));
-        let (q, z) = self.second_half(h, middle, z)?;
+        Ok(Pushed { z, impulses, solved })
+    }
+
+    /// Closed gaps brought to zero at the end of a step.
+    pub(super) fn close(
+        &mut self,
+        h: f64,
+        (response, pushed): (&ImpulseResponse<K>, &Pushed<K>),
+        (q, gaps): (K::Configuration, K::Gaps),
+    ) -> Result<Closed<K>, ContactError> {
+        let (start, t) = (self.t, self.t + h);
+        let failed = |cause| ContactError { contact: None, time: start, kind: ContactErrorKind::Projection(cause) };
+        let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
+        let mut projection = Projection::new(of_projection, K::ContactRows::DIM);
+        projection.close(self.kernel, (t, q, gaps), response, &pushed.solved.rests).map_err(failed)
+    }
+
+    /// The end of a step: rates of what rests brought to zero from those that are given.
+    pub(super) fn end(
+        &mut self,
+        h: f64,
+        (response, pushed): (&ImpulseResponse<K>, Pushed<K>),
+        closed: Closed<K>,
+        (z, rates): (K::Speeds, K::ContactRows),
+    ) -> End<K> {
+        let Pushed { impulses, solved, .. } = pushed;
+        let Closed { q, gaps, penetration, closure } = closed;
         // What begins to rest is brought to zero to the last bit, and stays there.
         let kind = |mode: &Mode| core::mem::discriminant(mode);
         let changes = (0..K::CONTACTS.len()).any(|i| kind(&self.next[i]) != kind(&self.modes[i]));
         self.dependent &= !changes;
         let rounding = if changes { 0.0 } else { solved.found.residual.rounding };
-        let (start, t) = (self.t, self.t + h);
-        let failed = |cause| ContactError { contact: None, time: start, kind: ContactErrorKind::Projection(cause) };
         let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
         let mut projection = Projection::new(of_projection, K::ContactRows::DIM);
-        let closed = projection.close(kernel, (t, q), &dynamics.response, &solved.rests);
-        let (q, gaps, penetration) = closed.map_err(failed)?;
         let mode = |i: usize| if solved.rests[i] { self.next[i] } else { Mode::Open };
-        let (z, rates) = projection.stop(kernel, (t, &q, z), &dynamics.response, (&mode, rounding));
+        let (z, rates) = projection.stop(self.kernel, (self.t + h, &q, z, rates), response, (&mode, rounding));
         let report = StepReport {
             residual: solved.found.residual,
+            from_coulomb: solved.from_coulomb,
             penetration,
             closed: self.next[..K::CONTACTS.len()].iter().filter(|mode| mode.is_closed()).count(),
             corrections: solved.found.corrections,
             sweeps: solved.found.sweeps,
             work: solved.work,
-            parts: 0,
             length: h,
+            closure,
+            impacts: solved.impacts,
+            ..StepReport::default()
         };
-        Ok(End { q, z, gaps, rates, impulses, touches: true, report, struck: solved.struck })
+        let Solved { rests, struck, .. } = solved;
+        End { q, z, gaps, rates, impulses, rests, touches: true, report, struck }
     }
 
     /// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that
@@ -407,6 +433,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let scales = laws.scales;
         let mut problem = Impulses::new(&mut self.memory.as_mut()[..Impulses::memory(rows)], rows);
         problem.dependent = self.dependent;
+        problem.relaxed = self.law == StepLaw::ConvexRelaxation;
         let entry = |i: usize, j: usize| dynamics.response.delassus[(i, j)];
         problem.set_up(&scales, entry, |row| [free.component(row), impulses.component(row)]);
         // What an impact passes on is a part of the rate before it.
@@ -418,7 +445,11 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             // Rolling resistance comes after the contact that it is of.
             cones[i].acts = match contact.rolls_on() {
                 Some(on) => cones[on].acts,
-                None => !contact.has_gap() || self.modes[i].is_closed() || end(i, free) <= 0.0,
+                None => {
+                    !contact.has_gap()
+                        || (self.modes[i].is_closed() && !lifts::<K>(self.law, &self.modes, i))
+                        || end(i, free) <= 0.0
+                }
             };
             if contact.has_gap() {
                 problem.b[contact.normal] -= passed_on(i);
@@ -440,15 +471,22 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             problem.impulses[row] * (scales[row] * free.component(row) + 0.5 * given)
         };
         let work = (0..rows).map(work).sum();
-        let mut solved = Solved { found, rests: [false; MOST], struck: false, work };
-        for (i, cone) in cones.iter().enumerate() {
+        let from_coulomb = if problem.relaxed { problem.residual_of_coulomb(cones) } else { found.residual };
+        let mut solved = Solved { found, from_coulomb, rests: [false; MOST], struck: false, impacts: 0, work };
+        for (next, cone) in self.next.iter_mut().zip(&*cones) {
+            *next = problem.mode(cones, cone, &scales, self.tolerance);
+        }
+        for i in 0..cones.len() {
             let was_open = !self.modes[i].is_closed();
-            self.next[i] = problem.mode(cone, &scales, self.tolerance);
             let is_closed = self.next[i].is_closed();
             let closes = is_closed && K::CONTACTS[i].has_gap();
-            solved.struck |= closes && was_open;
+            let lifts = lifts::<K>(self.law, &self.next, i);
+            solved.struck |= closes && (was_open || lifts);
             let carries = carrier(K::CONTACTS, i);
-            solved.rests[i] = is_closed && (!K::CONTACTS[carries].has_gap() || passed_on(carries) == 0.0);
+            let parts = K::CONTACTS[carries].has_gap() && passed_on(carries) != 0.0;
+            let bounces = passed_on(carries) > found.residual.rounding;
+            solved.impacts += usize::from(closes && (was_open || bounces));
+            solved.rests[i] = is_closed && !parts && !lifts;
         }
         (0..rows).for_each(|row| impulses.set_component(row, scales[row] * problem.impulses[row]));
         Ok(solved)
@@ -456,19 +494,28 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 }
 
 /// The state at half of a step, with the speeds at which accelerations are taken.
-struct Middle<K: ContactSystem> {
-    t: f64,
-    q: K::Configuration,
-    z: K::Speeds,
+pub(super) struct Middle<K: ContactSystem> {
+    pub(super) t: f64,
+    pub(super) q: K::Configuration,
+    pub(super) z: K::Speeds,
+}
+
+/// What impulses have made of the speeds of a step.
+pub(super) struct Pushed<K: ContactSystem> {
+    pub(super) z: K::Speeds,
+    impulses: K::ContactRows,
+    solved: Solved,
 }
 
 /// The end of a step.
-struct End<K: ContactSystem> {
+pub(super) struct End<K: ContactSystem> {
     q: K::Configuration,
     z: K::Speeds,
     gaps: K::Gaps,
     rates: K::ContactRows,
     impulses: K::ContactRows,
+    /// What is closed and stays so.
+    rests: [bool; MOST],
     /// Whether contacts may have changed their modes.
     touches: bool,
     report: StepReport,
@@ -479,10 +526,14 @@ struct End<K: ContactSystem> {
 /// What the laws of a step came to.
 struct Solved {
     found: Found,
+    /// How far it is from Coulomb's law.
+    from_coulomb: Residual,
     /// Contacts that are closed after the step.
     rests: [bool; MOST],
-    /// Whether a gap has closed.
+    /// Whether velocities have jumped.
     struck: bool,
+    /// Gaps that have closed.
+    impacts: usize,
     /// Of the impulses.
     work: f64,
 }

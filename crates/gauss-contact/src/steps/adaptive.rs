@@ -1,0 +1,412 @@
+//! Steps as long as a tolerance allows between impacts, and no shorter than a bound at them.
+//!
+//! Each step is made once as a whole and once in halves; the halves are kept, and what the two differ by is the
+//! estimate, which is the error of the whole. In a smooth part, where no contact changes what it does, lengths follow
+//! from the order of the scheme. A step in which a gap closes or opens or a slip begins, ends or turns back has an error
+//! of first order in its length whatever the scheme: it is shortened to a quarter until it is within the tolerance, but
+//! not below the shortest length, at which it is accepted with the error that it has. The step after it is as long as
+//! that before the change was looked for. Of a step with an impact places alone are judged: speeds jump, at a time that
+//! is known to a step.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use gauss_runtime::configuration::{Configuration, VectorSpace};
+use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::integrate::problem::state::TangentOf;
+use gauss_runtime::integrate::{InputSource, NoInput};
+use gauss_runtime::real::Real;
+
+use crate::error::{ContactError, ContactErrorKind};
+use crate::mode::Mode;
+
+use super::cones::MOST;
+use super::report::{StepReport, StepScheme};
+use super::run::{ContactSteps, StepSample};
+use super::stepper::ContactStepper;
+
+/// The part of the length that a tolerance allows which is tried.
+const SAFETY: f64 = 0.9;
+/// How much shorter or longer the next step may be.
+const SHORTER: f64 = 0.2;
+const LONGER: f64 = 4.0;
+/// By how much a step is shortened that is too long for a change of contacts.
+const NEARER: f64 = 0.25;
+/// The shortest step at impacts unless said otherwise, as a part of the longest.
+const SHORTEST: f64 = 1e-3;
+/// Roundings of the time that a step takes at least.
+const ROUNDINGS: f64 = 16.0;
+const MOST_STEPS: u64 = 10_000_000;
+
+/// A run in steps that keep a tolerance, in preparation: see [`ContactSteps::adaptive`].
+#[derive(Clone, Copy, Debug)]
+#[must_use = "a run does nothing before `run`"]
+pub struct AdaptiveContactSteps<'k, K, I = NoInput> {
+    steps: ContactSteps<'k, K, I>,
+    relative: f64,
+    absolute: f64,
+    shortest: f64,
+    limit: u64,
+}
+
+/// What became of the steps of a run with a tolerance.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct StepStatistics {
+    /// Steps that were kept, each made of two halves.
+    pub accepted: u64,
+    /// Steps that were too long.
+    pub rejected: u64,
+    /// Kept steps in which a contact changed what it does.
+    pub changes: u64,
+    /// Of these the ones that are off by more than the tolerance: they have the shortest length.
+    pub beyond: u64,
+    /// The largest estimate of the others, over the tolerance; at most 1.
+    pub largest: f64,
+    /// The largest estimate of those beyond it.
+    pub largest_beyond: f64,
+}
+
+/// A run in steps that keep a tolerance.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct SteppedRun<K: ContactSystem<Scalar = f64>> {
+    /// The ends of the steps; each report has the estimate of its step.
+    pub samples: Vec<StepSample<K>>,
+    /// Of all steps.
+    pub statistics: StepStatistics,
+}
+
+impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
+    /// Steps as long as tolerances allow: a component may err by `absolute`, plus `relative` times its size, in each
+    /// step between impacts; the length that was given is that of the longest. At impacts steps are no shorter than a
+    /// thousandth of it: see [`shortest`](AdaptiveContactSteps::shortest). What a contact does after an impact is off
+    /// by what it does in such a time.
+    ///
+    /// An input is held during half of a step; where it changes with time or state, that is of first order, and steps
+    /// are as short as it asks for.
+    pub fn adaptive(self, relative: f64, absolute: f64) -> AdaptiveContactSteps<'k, K, I> {
+        let shortest = SHORTEST * self.h;
+        AdaptiveContactSteps { steps: self, relative, absolute, shortest, limit: MOST_STEPS }
+    }
+}
+
+impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
+    /// The length at which steps with impacts are no longer shortened, in place of a thousandth of the longest.
+    pub fn shortest(mut self, length: f64) -> Self {
+        self.shortest = length;
+        self
+    }
+
+    /// The most steps before the run is given up, instead of ten million, with those that are too long.
+    pub fn max_steps(mut self, limit: u64) -> Self {
+        self.limit = limit;
+        self
+    }
+
+    /// Steps from (q₀, z₀) over the interval, forward in time.
+    ///
+    /// # Errors
+    /// When the end is not reached; [`attempt`](Self::attempt) then gives the part that was made. `InvalidStep`,
+    /// `InvalidTolerance`, `InvalidInterval`, `StepTooSmall`, `TooManySteps`, and those of steps.
+    pub fn run(self, q0: K::Configuration, z0: K::Speeds, interval: Range<f64>) -> Result<SteppedRun<K>, ContactError>
+    where
+        I: InputSource<K>,
+    {
+        match self.attempt(q0, z0, interval) {
+            (made, None) => Ok(made),
+            (_, Some(error)) => Err(error),
+        }
+    }
+
+    /// Like [`run`](Self::run), but gives the steps that were made when the end is not reached, with the reason.
+    pub fn attempt(
+        self,
+        q0: K::Configuration,
+        z0: K::Speeds,
+        interval: Range<f64>,
+    ) -> (SteppedRun<K>, Option<ContactError>)
+    where
+        I: InputSource<K>,
+    {
+        let mut made = SteppedRun { samples: Vec::new(), statistics: StepStatistics::default() };
+        let error = self.go((q0, z0), interval, &mut made).err();
+        (made, error)
+    }
+
+    fn check(&self, interval: &Range<f64>) -> Result<(), ContactError> {
+        let stop = |kind| Err(ContactError { contact: None, time: interval.start, kind });
+        let (longest, shortest) = (self.steps.h, self.shortest);
+        let (relative, absolute) = (self.relative, self.absolute);
+        if !(longest > 0.0 && longest.is_finite()) {
+            return stop(ContactErrorKind::InvalidStep { step: longest });
+        }
+        if !(shortest > 0.0 && shortest <= longest) {
+            return stop(ContactErrorKind::InvalidStep { step: shortest });
+        }
+        let valid = |tolerance: f64| tolerance >= 0.0 && tolerance.is_finite();
+        if !(valid(relative) && valid(absolute) && relative + absolute > 0.0) {
+            return stop(ContactErrorKind::InvalidTolerance { relative, absolute });
+        }
+        if !(interval.start.is_finite() && interval.end.is_finite() && interval.start <= interval.end) {
+            return stop(ContactErrorKind::InvalidInterval);
+        }
+        Ok(())
+    }
+
+    fn go(
+        self,
+        (q0, z0): (K::Configuration, K::Speeds),
+        interval: Range<f64>,
+        made: &mut SteppedRun<K>,
+    ) -> Result<(), ContactError>
+    where
+        I: InputSource<K>,
+    {
+        self.check(&interval)?;
+        let mut stepper = self.steps.stepper(interval.start, q0, z0)?;
+        let mut lengths = Lengths::new(self.steps.h, self.shortest, stepper.scheme);
+        while stepper.t < interval.end {
+            let (before, statistics) = (Kept::of(&stepper), &mut made.statistics);
+            if statistics.accepted + statistics.rejected >= self.limit {
+                return Err(stepper.error(None, ContactErrorKind::TooManySteps { limit: self.limit }));
+            }
+            let (h, last) = lengths.within(interval.end - before.t);
+            let trial = self.trial(&mut stepper, (&before, statistics.accepted == 0), h);
+            let least = ROUNDINGS * f64::EPSILON * before.t.abs().max(h);
+            match lengths.judge(h, trial.as_ref().ok()) {
+                Verdict::Keep => {
+                    let trial = trial?;
+                    stepper.t = if last { interval.end } else { before.t + h };
+                    stepper.report = StepReport { estimate: trial.estimate, ..trial.report };
+                    statistics.keep(&trial);
+                    let sample = StepSample::of(&stepper);
+                    part(&mut stepper);
+                    made.samples.push(sample);
+                }
+                Verdict::Shorten if lengths.next >= least && lengths.next < h => {
+                    statistics.rejected += 1;
+                    before.restore(&mut stepper);
+                }
+                Verdict::Shorten => {
+                    before.restore(&mut stepper);
+                    trial?;
+                    return Err(stepper.error(None, ContactErrorKind::StepTooSmall { step: h }));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A step as a whole and in halves; the stepper is at the end of these.
+    fn trial(
+        &self,
+        stepper: &mut ContactStepper<'k, K>,
+        (before, starts): (&Kept<K>, bool),
+        h: f64,
+    ) -> Result<Trial, ContactError>
+    where
+        I: InputSource<K>,
+    {
+        let input = |stepper: &ContactStepper<'k, K>| self.steps.input.input(stepper.t, &stepper.q, &stepper.z);
+        stepper.step(h, &input(stepper))?;
+        let whole = Kept::of(stepper);
+        let (mut impacts, closure) = (stepper.report.impacts, stepper.report.closure);
+        before.restore(stepper);
+        let first = stepper.step(0.5 * h, &input(stepper))?;
+        let of_first = stepper.impulses;
+        let middle = Kept::of(stepper);
+        let second = stepper.step(0.5 * h, &input(stepper))?;
+        let end = Kept::of(stepper);
+        impacts += first.impacts + second.impacts;
+        // At the start what contacts do is not known yet.
+        let differs = !starts && (before.differs(&whole) || before.differs(&middle));
+        let changes = differs || middle.differs(&end) || whole.differs(&end) || impacts > 0;
+        stepper.impulses = stepper.impulses.add_scaled(1.0, &of_first);
+        let parts = if first.parts + second.parts > 0 { first.parts.max(1) + second.parts.max(1) } else { 0 };
+        let report = StepReport { parts, ..first.and(second) };
+        let estimate = self.estimate((before, &whole, &end), impacts > 0);
+        // A flight that is shorter than half of the step is not seen: what closes has left out its way.
+        let estimate = estimate.max(closure / (self.absolute + self.relative * closure).max(f64::MIN_POSITIVE));
+        if !estimate.is_finite() {
+            return Err(stepper.error(None, ContactErrorKind::NonFinite));
+        }
+        Ok(Trial { estimate, changes, report })
+    }
+
+    /// What a step as a whole is off by, over the tolerance: the largest of all components, of places alone where
+    /// speeds jump.
+    fn estimate(&self, (before, whole, end): (&Kept<K>, &Kept<K>, &Kept<K>), jumps: bool) -> f64 {
+        let over = |off: f64, size: f64| off.abs() / (self.absolute + self.relative * size).max(f64::MIN_POSITIVE);
+        let larger = |worst: f64, x: f64| if x > worst || x.is_nan() { x } else { worst };
+        let off = end.q.difference(&whole.q);
+        let size = |i: usize| before.q.magnitude(i).max(end.q.magnitude(i));
+        let places = (0..TangentOf::<K>::DIM).map(|i| over(off.component(i), size(i))).fold(0.0, larger);
+        if jumps {
+            return places;
+        }
+        let speed = |i: usize| {
+            let [before, whole, end] = [before, whole, end].map(|kept| kept.z.component(i));
+            over(end - whole, before.abs().max(end.abs()))
+        };
+        (0..K::Speeds::DIM).map(speed).fold(places, larger)
+    }
+}
+
+/// What an impact has parted is open: in the next step, of whatever length, it closes only where its gap does.
+fn part<K: ContactSystem<Scalar = f64>>(stepper: &mut ContactStepper<'_, K>) {
+    for (i, contact) in K::CONTACTS.iter().enumerate() {
+        if contact.has_gap() && !stepper.rests[i] {
+            stepper.modes[i] = Mode::Open;
+        }
+    }
+}
+
+/// A step that was tried.
+struct Trial {
+    /// Over the tolerance.
+    estimate: f64,
+    /// Whether a contact changes what it does.
+    changes: bool,
+    report: StepReport,
+}
+
+impl StepStatistics {
+    fn keep(&mut self, trial: &Trial) {
+        self.accepted += 1;
+        self.changes += u64::from(trial.changes);
+        if trial.estimate > 1.0 {
+            self.beyond += 1;
+            self.largest_beyond = self.largest_beyond.max(trial.estimate);
+        } else {
+            self.largest = self.largest.max(trial.estimate);
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Verdict {
+    Keep,
+    Shorten,
+}
+
+/// How long steps are.
+#[derive(Clone, Copy, Debug)]
+struct Lengths {
+    longest: f64,
+    shortest: f64,
+    order: f64,
+    next: f64,
+    /// While a change of contacts is looked for: the length before, and how much time is left until it is passed.
+    sought: Option<(f64, f64)>,
+}
+
+impl Lengths {
+    fn new(longest: f64, shortest: f64, scheme: StepScheme) -> Self {
+        let order = if scheme == StepScheme::Midpoint { 2.0 } else { 1.0 };
+        Self { longest, shortest, order, next: longest, sought: None }
+    }
+
+    /// The next length where so much time is left, and whether it is the last: two steps share what is less than two.
+    fn within(&self, left: f64) -> (f64, bool) {
+        match self.next {
+            next if left <= next => (left, true),
+            next if left < 2.0 * next => (0.5 * left, false),
+            next => (next, false),
+        }
+    }
+
+    /// What becomes of a step, and the length of the next one. A step that has no solution is too long.
+    fn judge(&mut self, h: f64, trial: Option<&Trial>) -> Verdict {
+        let Some(trial) = trial else {
+            self.next = NEARER * h;
+            return if h > self.shortest { Verdict::Shorten } else { self.give_up() };
+        };
+        match (trial.changes, trial.estimate <= 1.0) {
+            (true, false) if h > self.shortest => {
+                let (before, _) = self.sought.unwrap_or((h, h));
+                self.sought = Some((before, h));
+                self.next = (NEARER * h).max(self.shortest);
+                Verdict::Shorten
+            }
+            (true, _) => {
+                self.next = self.sought.take().map_or(h, |(before, _)| before);
+                Verdict::Keep
+            }
+            (false, holds) => {
+                let power = -1.0 / (self.order + 1.0);
+                let wanted = SAFETY * Real::powf(trial.estimate.max(1e-9), power);
+                self.smooth(h, wanted, holds)
+            }
+        }
+    }
+
+    fn smooth(&mut self, h: f64, wanted: f64, holds: bool) -> Verdict {
+        if !holds {
+            self.next = h * wanted.clamp(SHORTER, SAFETY);
+            return Verdict::Shorten;
+        }
+        let longer = (h * wanted.clamp(SHORTER, LONGER)).min(self.longest);
+        self.next = match self.sought {
+            Some((before, left)) if left > h => {
+                self.sought = Some((before, left - h));
+                h.min(longer)
+            }
+            Some((before, _)) => {
+                self.sought = None;
+                before.min(longer)
+            }
+            None => longer,
+        };
+        Verdict::Keep
+    }
+
+    /// No length is left that could do.
+    fn give_up(&mut self) -> Verdict {
+        self.next = f64::INFINITY;
+        Verdict::Shorten
+    }
+}
+
+/// A stepper's state.
+struct Kept<K: ContactSystem<Scalar = f64>> {
+    t: f64,
+    q: K::Configuration,
+    z: K::Speeds,
+    gaps: K::Gaps,
+    rates: K::ContactRows,
+    impulses: K::ContactRows,
+    acceleration: Option<K::Speeds>,
+    dependent: bool,
+    modes: [Mode; MOST],
+    rests: [bool; MOST],
+}
+
+impl<K: ContactSystem<Scalar = f64>> Kept<K> {
+    fn of(stepper: &ContactStepper<'_, K>) -> Self {
+        let ContactStepper { t, q, z, gaps, rates, impulses, acceleration, dependent, modes, rests, .. } = *stepper;
+        Self { t, q, z, gaps, rates, impulses, acceleration, dependent, modes, rests }
+    }
+
+    fn restore(&self, stepper: &mut ContactStepper<'_, K>) {
+        (stepper.t, stepper.q, stepper.z) = (self.t, self.q, self.z);
+        (stepper.gaps, stepper.rates, stepper.impulses) = (self.gaps, self.rates, self.impulses);
+        (stepper.acceleration, stepper.dependent) = (self.acceleration, self.dependent);
+        (stepper.modes, stepper.rests) = (self.modes, self.rests);
+    }
+
+    /// What a contact does: of one that an impact parts it is open.
+    fn mode(&self, i: usize) -> Mode {
+        if self.rests[i] { self.modes[i] } else { Mode::Open }
+    }
+
+    /// Whether a contact does something else at another time.
+    fn differs(&self, other: &Self) -> bool {
+        (0..K::CONTACTS.len()).any(|i| match (self.mode(i), other.mode(i)) {
+            (Mode::Slides(before), Mode::Slides(after)) => {
+                before.iter().zip(&after).map(|(a, b)| a * b).sum::<f64>() <= 0.0
+            }
+            (before, after) => before != after,
+        })
+    }
+}

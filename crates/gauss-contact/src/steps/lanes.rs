@@ -1,0 +1,286 @@
+//! Steps of several states at once: the kernel works on all of them in lockstep, the laws are solved one by one.
+//!
+//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone, and
+//! everything else in a step is made by the stepper of the lane: so a lane has the bits of a stepper of its own. Lanes
+//! that need something else than the others go that step alone: in flight, at the start and after impacts, where the
+//! step is made twice, and where a step is made in parts.
+
+use alloc::vec::Vec;
+
+use gauss_runtime::configuration::VectorSpace;
+use gauss_runtime::contact::{ContactSystem, ImpulseDynamics, ImpulseResponse};
+use gauss_runtime::integrate::problem::state::TangentOf;
+use gauss_runtime::simd::Packed;
+
+use crate::error::{ContactError, ContactErrorKind};
+
+use super::projection::Closed;
+use super::report::StepReport;
+use super::stepper::{ContactStepper, Middle, Pushed};
+
+/// A system in packs, each lane of which is the system `K`: `Kernel<wide::f64x8>` of a struct that is generic in its
+/// scalar, of which `K` is `Kernel<f64>`.
+pub trait LanesOf<K: ContactSystem<Scalar = f64>>:
+    ContactSystem<
+        Scalar: Packed<Single = f64>,
+        Configuration: Packed<Single = K::Configuration>,
+        Input: Packed<Single = K::Input>,
+        ImpulseFactors: Packed<Single = K::ImpulseFactors>,
+        Delassus: Packed<Single = K::Delassus>,
+    >
+{
+}
+
+impl<W, K: ContactSystem<Scalar = f64>> LanesOf<K> for W where
+    W: ContactSystem<
+            Scalar: Packed<Single = f64>,
+            Configuration: Packed<Single = K::Configuration>,
+            Input: Packed<Single = K::Input>,
+            ImpulseFactors: Packed<Single = K::ImpulseFactors>,
+            Delassus: Packed<Single = K::Delassus>,
+        >
+{
+}
+
+/// As many systems on their way in steps as a pack has lanes, or fewer.
+///
+/// Both kernels are of the same struct with the same parameters, or lanes of the first have those of their own and
+/// steppers have kernels of their own ([`of`](Self::of)).
+#[derive(Debug)]
+pub struct ContactLanes<'k, W, K: ContactSystem<Scalar = f64>> {
+    wide: &'k W,
+    steppers: Vec<ContactStepper<'k, K>>,
+    /// What the last step came to, lane by lane.
+    outcomes: Vec<Result<StepReport, ContactError>>,
+    /// How far the lanes are in a step.
+    stages: Vec<Stage<K>>,
+    /// Whether contacts of a lane depended on one another before the step.
+    known: Vec<bool>,
+    alone: u64,
+}
+
+/// How far a lane is in a step.
+enum Stage<K: ContactSystem<Scalar = f64>> {
+    /// It goes this step alone.
+    Alone,
+    /// The step is made.
+    Made,
+    /// With the speeds at half of the step.
+    Middle(Middle<K>),
+    /// With impulses.
+    Pushed(Middle<K>, ImpulseResponse<K>, Pushed<K>),
+    /// At the end, before closed gaps are zero.
+    Open(K::Configuration, K::Speeds, ImpulseResponse<K>, Pushed<K>),
+    /// With closed gaps at zero.
+    Closed(Closed<K>, K::Speeds, ImpulseResponse<K>, Pushed<K>),
+}
+
+impl<K: ContactSystem<Scalar = f64>> core::fmt::Debug for Stage<K> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::Alone => "Alone",
+            Self::Made => "Made",
+            Self::Middle(..) => "Middle",
+            Self::Pushed(..) => "Pushed",
+            Self::Open(..) => "Open",
+            Self::Closed(..) => "Closed",
+        })
+    }
+}
+
+impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
+    /// Steppers that go on together, at most as many as there are lanes; a kernel of each must have the parameters of
+    /// its lane in `wide`. All have the same scheme and law or not, as they like.
+    ///
+    /// # Errors
+    /// `Lanes` where there are none or more than lanes.
+    pub fn of(wide: &'k W, steppers: Vec<ContactStepper<'k, K>>) -> Result<Self, ContactError> {
+        let lanes = W::Scalar::WIDTH;
+        if steppers.is_empty() || steppers.len() > lanes {
+            let kind = ContactErrorKind::Lanes { lanes, given: steppers.len() };
+            return Err(ContactError { contact: None, time: 0.0, kind });
+        }
+        let outcomes = steppers.iter().map(|_| Ok(StepReport::default())).collect();
+        let (stages, known) = (Vec::with_capacity(steppers.len()), Vec::with_capacity(steppers.len()));
+        Ok(Self { wide, steppers, outcomes, stages, known, alone: 0 })
+    }
+
+    /// The steppers, lane by lane.
+    pub fn steppers(&self) -> &[ContactStepper<'k, K>] {
+        &self.steppers
+    }
+
+    /// How many steps of lanes were made alone in all.
+    pub fn alone(&self) -> u64 {
+        self.alone
+    }
+
+    /// One step of length `h` of all lanes, under inputs that stay; what it came to, lane by lane: as of
+    /// [`ContactStepper::step`], bit by bit. A lane whose step is an error stays where it was.
+    pub fn step(&mut self, h: f64, input: &W::Input) -> &[Result<StepReport, ContactError>] {
+        self.start(h);
+        if self.stages.iter().any(|stage| matches!(stage, Stage::Middle(_))) {
+            self.push(h, input);
+            self.second_half(h);
+            self.close(h);
+            self.end(h);
+        }
+        for (lane, stepper) in self.steppers.iter_mut().enumerate() {
+            if matches!(self.stages[lane], Stage::Alone) {
+                self.alone += 1;
+                stepper.dependent = self.known[lane];
+                self.outcomes[lane] = stepper.step(h, &input.extract(lane));
+            }
+        }
+        &self.outcomes
+    }
+
+    /// A number of each lane; those without one repeat that of the first.
+    fn number(&self, of: impl Fn(usize) -> f64) -> W::Scalar {
+        let mut pack = W::Scalar::repeat(&of(0));
+        (1..self.steppers.len()).for_each(|lane| pack.replace(lane, &of(lane)));
+        pack
+    }
+
+    fn places(&self, of: impl Fn(usize) -> K::Configuration) -> W::Configuration {
+        let mut pack = W::Configuration::repeat(&of(0));
+        (1..self.steppers.len()).for_each(|lane| pack.replace(lane, &of(lane)));
+        pack
+    }
+
+    fn speeds(&self, of: impl Fn(usize) -> K::Speeds) -> W::Speeds {
+        let mut pack = W::Speeds::zero();
+        for lane in 0..W::Scalar::WIDTH {
+            let speeds = of(if lane < self.steppers.len() { lane } else { 0 });
+            for i in 0..W::Speeds::DIM {
+                let mut number = pack.component(i);
+                number.replace(lane, &speeds.component(i));
+                pack.set_component(i, number);
+            }
+        }
+        pack
+    }
+
+    /// Half of the step, of lanes that go together.
+    fn start(&mut self, h: f64) {
+        self.stages.clear();
+        self.known.clear();
+        self.known.extend(self.steppers.iter().map(|stepper| stepper.dependent));
+        let together = |stepper: &ContactStepper<'_, K>| !stepper.flies() && h > 0.0 && h.is_finite();
+        if !self.steppers.iter().any(together) {
+            self.stages.extend(self.steppers.iter().map(|_| Stage::Alone));
+            return;
+        }
+        let t = self.number(|lane| self.steppers[lane].t);
+        let q = self.places(|lane| self.steppers[lane].q);
+        let z = self.speeds(|lane| self.steppers[lane].z);
+        let rates = self.wide.kinematics(t, &q, &z);
+        for (lane, stepper) in self.steppers.iter().enumerate() {
+            self.stages.push(match stepper.middle(h, &single::<W, _, TangentOf<K>>(&rates, lane)) {
+                (middle, true) if together(stepper) => Stage::Middle(middle),
+                _ => Stage::Alone,
+            });
+        }
+    }
+
+    /// The state of a lane at half of the step; of one that goes alone that before it.
+    fn middle(&self, lane: usize) -> (f64, K::Configuration, K::Speeds) {
+        match &self.stages[lane] {
+            Stage::Middle(middle) => (middle.t, middle.q, middle.z),
+            Stage::Pushed(middle, _, pushed) => (middle.t, middle.q, pushed.z),
+            _ => (self.steppers[lane].t, self.steppers[lane].q, self.steppers[lane].z),
+        }
+    }
+
+    fn middles(&self) -> (W::Scalar, W::Configuration, W::Speeds) {
+        (
+            self.number(|lane| self.middle(lane).0),
+            self.places(|lane| self.middle(lane).1),
+            self.speeds(|lane| self.middle(lane).2),
+        )
+    }
+
+    fn push(&mut self, h: f64, input: &W::Input) {
+        let (t, q, z) = self.middles();
+        let friction = self.wide.friction(t, &q, &z, input);
+        let dynamics = self.wide.impulse_dynamics(t, &q, &z, input);
+        for (lane, stepper) in self.steppers.iter_mut().enumerate() {
+            let Stage::Middle(middle) = core::mem::replace(&mut self.stages[lane], Stage::Alone) else { continue };
+            let friction = single::<W, _, K::ContactRows>(&friction, lane);
+            let response = &dynamics.response;
+            let response = ImpulseResponse::new(response.factors.extract(lane), response.delassus.extract(lane));
+            let acceleration = single::<W, _, K::Speeds>(&dynamics.acceleration, lane);
+            let bias = single::<W, _, K::ContactRows>(&dynamics.bias, lane);
+            let dynamics = ImpulseDynamics::new(acceleration, bias, response);
+            // Where it has no solution it is tried in parts, alone.
+            if let Ok(pushed) = stepper.push(h, &middle, (&friction, &dynamics)) {
+                self.stages[lane] = Stage::Pushed(middle, response, pushed);
+            }
+        }
+    }
+
+    fn second_half(&mut self, h: f64) {
+        let (t, q, z) = self.middles();
+        let rates = self.wide.kinematics(t, &q, &z);
+        for (lane, stepper) in self.steppers.iter().enumerate() {
+            let Stage::Pushed(middle, response, pushed) = core::mem::replace(&mut self.stages[lane], Stage::Alone)
+            else {
+                continue;
+            };
+            let rate = single::<W, _, TangentOf<K>>(&rates, lane);
+            if let Ok((q, z)) = stepper.second_half(h, &middle, (pushed.z, &rate)) {
+                self.stages[lane] = Stage::Open(q, z, response, pushed);
+            }
+        }
+    }
+
+    /// The end of a step as far as it is known.
+    fn place(&self, lane: usize) -> (K::Configuration, K::Speeds) {
+        match &self.stages[lane] {
+            Stage::Open(q, z, ..) => (*q, *z),
+            Stage::Closed(closed, z, ..) => (closed.q, *z),
+            _ => (self.steppers[lane].q, self.steppers[lane].z),
+        }
+    }
+
+    fn close(&mut self, h: f64) {
+        let t = self.number(|lane| self.steppers[lane].t + h);
+        let gaps = self.wide.gaps(t, &self.places(|lane| self.place(lane).0));
+        for (lane, stepper) in self.steppers.iter_mut().enumerate() {
+            let Stage::Open(q, z, response, pushed) = core::mem::replace(&mut self.stages[lane], Stage::Alone) else {
+                continue;
+            };
+            let gaps = single::<W, _, K::Gaps>(&gaps, lane);
+            if let Ok(closed) = stepper.close(h, (&response, &pushed), (q, gaps)) {
+                self.stages[lane] = Stage::Closed(closed, z, response, pushed);
+            }
+        }
+    }
+
+    fn end(&mut self, h: f64) {
+        let t = self.number(|lane| self.steppers[lane].t + h);
+        let q = self.places(|lane| self.place(lane).0);
+        let rates = self.wide.contact_rates(t, &q, &self.speeds(|lane| self.place(lane).1));
+        for (lane, stepper) in self.steppers.iter_mut().enumerate() {
+            let Stage::Closed(closed, z, response, pushed) = core::mem::replace(&mut self.stages[lane], Stage::Alone)
+            else {
+                continue;
+            };
+            let rates = single::<W, _, K::ContactRows>(&rates, lane);
+            let end = stepper.end(h, (&response, pushed), closed, (z, rates));
+            let made = stepper.take(h, end);
+            stepper.report = *made.as_ref().unwrap_or(&stepper.report);
+            (self.outcomes[lane], self.stages[lane]) = (made, Stage::Made);
+        }
+    }
+}
+
+/// The numbers of a lane.
+fn single<W: ContactSystem<Scalar: Packed<Single = f64>>, V: VectorSpace<W::Scalar>, U: VectorSpace<f64>>(
+    pack: &V,
+    lane: usize,
+) -> U {
+    let mut one = U::zero();
+    (0..U::DIM).for_each(|i| one.set_component(i, pack.component(i).extract(lane)));
+    one
+}

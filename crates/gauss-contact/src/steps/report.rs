@@ -1,0 +1,78 @@
+//! How steps are made, and what one did.
+
+use gauss_runtime::configuration::VectorSpace;
+
+use crate::residual::Residual;
+
+/// How a step takes the motion between impacts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum StepScheme {
+    /// Moreau and Jean's, θ = ½: accelerations at half of the step, with the speeds before it. Of second order where
+    /// forces depend on places alone, else of first.
+    MoreauJean,
+    /// The same with the speeds at half of the step, by the accelerations of the step before: of second order between
+    /// impacts, for the same work but in steps after impacts, which are made twice.
+    #[default]
+    Midpoint,
+}
+
+/// What a step did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct StepReport {
+    /// The worst residuals of all contacts, in the units of rates.
+    pub residual: Residual,
+    /// The same of Coulomb's law, by which the residuals of [`StepLaw::Coulomb`](super::StepLaw::Coulomb) are: of the relaxed law Signorini's is
+    /// the rate at which what slides separates.
+    pub from_coulomb: Residual,
+    /// The largest gap below zero before the projection, as a positive number.
+    pub penetration: f64,
+    /// How far gaps that stay closed were from zero before the projection, above it too: the way on which a contact
+    /// closes within the step.
+    pub closure: f64,
+    /// Contacts with an impulse.
+    pub closed: usize,
+    /// Corrections of the solver: systems of linear equations that were solved.
+    pub corrections: u32,
+    /// Sweeps of the solver, where corrections alone came to no end.
+    pub sweeps: u32,
+    /// The work of contact impulses, of friction too: negative where they take energy away. Newton's law with friction
+    /// can give energy at an impact (T. R. Kane 1984); then it is positive.
+    pub work: f64,
+    /// In how many parts the step was made, where no impulses were found for all of it; else 0.
+    pub parts: u32,
+    /// The length of the step.
+    pub length: f64,
+    /// Gaps that have closed, or from which an impact passed something on.
+    pub impacts: usize,
+    /// What the step is off by at most, over the tolerance, where a run has one ([`AdaptiveContactSteps`]); else 0.
+    ///
+    /// [`AdaptiveContactSteps`]: super::AdaptiveContactSteps
+    pub estimate: f64,
+}
+
+impl StepReport {
+    /// The mean forces of impulses over the step.
+    pub(crate) fn mean<R: VectorSpace<f64>>(&self, impulses: &R) -> R {
+        if self.length > 0.0 { impulses.scale(1.0 / self.length) } else { R::zero() }
+    }
+
+    /// Of two parts of a step.
+    pub(super) fn and(self, later: Self) -> Self {
+        Self {
+            residual: self.residual.worse(later.residual),
+            from_coulomb: self.from_coulomb.worse(later.from_coulomb),
+            penetration: self.penetration.max(later.penetration),
+            closure: self.closure.max(later.closure),
+            closed: later.closed,
+            corrections: self.corrections + later.corrections,
+            sweeps: self.sweeps + later.sweeps,
+            work: self.work + later.work,
+            parts: self.parts.max(1) + later.parts.max(1),
+            length: self.length + later.length,
+            impacts: self.impacts + later.impacts,
+            estimate: self.estimate.max(later.estimate),
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Steps of many contacts: the relaxed law, steps that keep a tolerance, changing over to them and back.
+
+mod adaptive;
+mod changeover;
+#[path = "../laws/common.rs"]
+#[allow(dead_code, reason = "scenes of the other tests")]
+mod common;
+mod lanes;
+mod relaxed;
