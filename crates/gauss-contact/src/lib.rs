@@ -69,8 +69,8 @@ pub use mode::{InMode, Mode};
 pub use residual::Residual;
 pub use run::ContactRun;
 pub use steps::{
-    AdaptiveContactSteps, ContactLanes, ContactStepper, ContactSteps, LanesOf, StepLaw, StepReport, StepSample,
-    StepScheme, StepStatistics, SteppedRun,
+    AdaptiveContactSteps, ContactEnsemble, ContactLanes, ContactStepper, ContactSteps, LanesOf, StepLaw, StepReport,
+    StepSample, StepScheme, StepStatistics, SteppedRun,
 };
 pub use trajectory::{ContactForce, ContactTrajectory, Segment};
 

@@ -56,6 +56,8 @@ pub struct ContactLanes<'k, W, K: ContactSystem<Scalar = f64>> {
     stages: Vec<Stage<K>>,
     /// Whether contacts of a lane depended on one another before the step.
     known: Vec<bool>,
+    /// Lanes that do not go on.
+    halted: Vec<bool>,
     alone: u64,
 }
 
@@ -102,7 +104,8 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         }
         let outcomes = steppers.iter().map(|_| Ok(StepReport::default())).collect();
         let (stages, known) = (Vec::with_capacity(steppers.len()), Vec::with_capacity(steppers.len()));
-        Ok(Self { wide, steppers, outcomes, stages, known, alone: 0 })
+        let halted = steppers.iter().map(|_| false).collect();
+        Ok(Self { wide, steppers, outcomes, stages, known, halted, alone: 0 })
     }
 
     /// The steppers, lane by lane.
@@ -113,6 +116,16 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
     /// How many steps of lanes were made alone in all.
     pub fn alone(&self) -> u64 {
         self.alone
+    }
+
+    /// The error of the last step of a lane that goes on.
+    pub(super) fn fails(&self, lane: usize) -> Option<ContactError> {
+        self.outcomes[lane].as_ref().err().filter(|_| !self.halted[lane]).cloned()
+    }
+
+    /// Keeps a lane where it is from now on: its outcome stays.
+    pub fn halt(&mut self, lane: usize) {
+        self.halted[lane] = true;
     }
 
     /// One step of length `h` of all lanes, under inputs that stay; what it came to, lane by lane: as of
@@ -166,20 +179,25 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         self.stages.clear();
         self.known.clear();
         self.known.extend(self.steppers.iter().map(|stepper| stepper.dependent));
-        let together = |stepper: &ContactStepper<'_, K>| !stepper.flies() && h > 0.0 && h.is_finite();
-        if !self.steppers.iter().any(together) {
-            self.stages.extend(self.steppers.iter().map(|_| Stage::Alone));
+        let Self { steppers, stages, halted, .. } = self;
+        let stage = |halted: &bool| if *halted { Stage::Made } else { Stage::Alone };
+        stages.extend(halted.iter().map(stage));
+        let together = |lane: usize| !halted[lane] && !steppers[lane].flies() && h > 0.0 && h.is_finite();
+        if !(0..steppers.len()).any(together) {
             return;
         }
         let t = self.number(|lane| self.steppers[lane].t);
         let q = self.places(|lane| self.steppers[lane].q);
         let z = self.speeds(|lane| self.steppers[lane].z);
         let rates = self.wide.kinematics(t, &q, &z);
-        for (lane, stepper) in self.steppers.iter().enumerate() {
-            self.stages.push(match stepper.middle(h, &single::<W, _, TangentOf<K>>(&rates, lane)) {
-                (middle, true) if together(stepper) => Stage::Middle(middle),
-                _ => Stage::Alone,
-            });
+        let Self { steppers, stages, halted, .. } = self;
+        for (lane, (stepper, stage)) in steppers.iter().zip(stages).enumerate() {
+            if !halted[lane]
+                && !stepper.flies()
+                && let (middle, true) = stepper.middle(h, &single::<W, _, TangentOf<K>>(&rates, lane))
+            {
+                *stage = Stage::Middle(middle);
+            }
         }
     }
 
