@@ -2,8 +2,8 @@
 //!
 //! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone, and
 //! everything else in a step is made by the stepper of the lane: so a lane has the bits of a stepper of its own. Lanes
-//! that need something else than the others go that step alone: in flight, at the start and after impacts, where the
-//! step is made twice, and where a step is made in parts.
+//! that need something else than the others go that step alone: at the start and after impacts, where the step is made
+//! twice, where a flight ends, and where a step is made in parts.
 
 use alloc::vec::Vec;
 
@@ -69,6 +69,12 @@ enum Stage<K: ContactSystem<Scalar = f64>> {
     Made,
     /// With the speeds at half of the step.
     Middle(Middle<K>),
+    /// The same in flight.
+    Flies(Middle<K>),
+    /// With the speeds at the end of a flight.
+    Flown(Middle<K>, K::Speeds),
+    /// At the end of a flight.
+    Lands(K::Configuration, K::Speeds, K::Gaps),
     /// With impulses.
     Pushed(Middle<K>, ContactResponse<K>, Pushed<K>),
     /// At the end, before closed gaps are zero.
@@ -83,6 +89,9 @@ impl<K: ContactSystem<Scalar = f64>> core::fmt::Debug for Stage<K> {
             Self::Alone => "Alone",
             Self::Made => "Made",
             Self::Middle(..) => "Middle",
+            Self::Flies(..) => "Flies",
+            Self::Flown(..) => "Flown",
+            Self::Lands(..) => "Lands",
             Self::Pushed(..) => "Pushed",
             Self::Open(..) => "Open",
             Self::Closed(..) => "Closed",
@@ -132,8 +141,9 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
     /// [`ContactStepper::step`], bit by bit. A lane whose step is an error stays where it was.
     pub fn step(&mut self, h: f64, input: &W::Input) -> &[Result<StepReport, ContactError>] {
         self.start(h);
-        if self.stages.iter().any(|stage| matches!(stage, Stage::Middle(_))) {
+        if self.stages.iter().any(|stage| matches!(stage, Stage::Middle(_) | Stage::Flies(_))) {
             self.push(h, input);
+            self.fly(h, input);
             self.second_half(h);
             self.close(h);
             self.end(h);
@@ -182,7 +192,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let Self { steppers, stages, halted, .. } = self;
         let stage = |halted: &bool| if *halted { Stage::Made } else { Stage::Alone };
         stages.extend(halted.iter().map(stage));
-        let together = |lane: usize| !halted[lane] && !steppers[lane].flies() && h > 0.0 && h.is_finite();
+        let together = |lane: usize| !halted[lane] && h > 0.0 && h.is_finite();
         if !(0..steppers.len()).any(together) {
             return;
         }
@@ -193,10 +203,9 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let Self { steppers, stages, halted, .. } = self;
         for (lane, (stepper, stage)) in steppers.iter().zip(stages).enumerate() {
             if !halted[lane]
-                && !stepper.flies()
                 && let (middle, true) = stepper.middle(h, &single::<W, _, TangentOf<K>>(&rates, lane))
             {
-                *stage = Stage::Middle(middle);
+                *stage = if stepper.flies() { Stage::Flies(middle) } else { Stage::Middle(middle) };
             }
         }
     }
@@ -204,7 +213,8 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
     /// The state of a lane at half of the step; of one that goes alone that before it.
     fn middle(&self, lane: usize) -> (f64, K::Configuration, K::Speeds) {
         match &self.stages[lane] {
-            Stage::Middle(middle) => (middle.t, middle.q, middle.z),
+            Stage::Middle(middle) | Stage::Flies(middle) => (middle.t, middle.q, middle.z),
+            Stage::Flown(middle, z) => (middle.t, middle.q, *z),
             Stage::Pushed(middle, _, pushed) => (middle.t, middle.q, pushed.z),
             _ => (self.steppers[lane].t, self.steppers[lane].q, self.steppers[lane].z),
         }
@@ -218,12 +228,47 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         )
     }
 
+    /// Flights, as far as their speeds at the end.
+    fn fly(&mut self, h: f64, input: &W::Input) {
+        if !self.stages.iter().any(|stage| matches!(stage, Stage::Flies(_))) {
+            return;
+        }
+        let (t, q, z) = self.middles();
+        let accelerations = self.wide.acceleration(t, &q, &z, input);
+        for (lane, stepper) in self.steppers.iter().enumerate() {
+            self.stages[lane] = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
+                Stage::Flies(middle) => {
+                    let acceleration = single::<W, _, K::Speeds>(&accelerations, lane);
+                    Stage::Flown(middle, stepper.z.add_scaled(h, &acceleration))
+                }
+                other => other,
+            };
+        }
+        let (t, q, z) = self.middles();
+        let rates = self.wide.contact_rates(t, &q, &z);
+        for (lane, stepper) in self.steppers.iter().enumerate() {
+            let flown = matches!(self.stages[lane], Stage::Flown(..));
+            if flown && stepper.comes_to_zero(h, &single::<W, _, K::ContactRows>(&rates, lane)) {
+                self.stages[lane] = Stage::Alone;
+            }
+        }
+    }
+
     fn push(&mut self, h: f64, input: &W::Input) {
+        if !self.stages.iter().any(|stage| matches!(stage, Stage::Middle(_))) {
+            return;
+        }
         let (t, q, z) = self.middles();
         let friction = self.wide.friction(t, &q, &z, input);
         let dynamics = self.wide.contact_dynamics(t, &q, &z, input);
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
-            let Stage::Middle(middle) = core::mem::replace(&mut self.stages[lane], Stage::Alone) else { continue };
+            let middle = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
+                Stage::Middle(middle) => middle,
+                other => {
+                    self.stages[lane] = other;
+                    continue;
+                }
+            };
             let friction = single::<W, _, K::ContactRows>(&friction, lane);
             let response = &dynamics.response;
             let response = ContactResponse::new(response.columns.extract(lane), response.delassus.extract(lane));
@@ -241,21 +286,26 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let (t, q, z) = self.middles();
         let rates = self.wide.kinematics(t, &q, &z);
         for (lane, stepper) in self.steppers.iter().enumerate() {
-            let Stage::Pushed(middle, response, pushed) = core::mem::replace(&mut self.stages[lane], Stage::Alone)
-            else {
-                continue;
-            };
             let rate = single::<W, _, TangentOf<K>>(&rates, lane);
-            if let Ok((q, z)) = stepper.second_half(h, &middle, (pushed.z, &rate)) {
-                self.stages[lane] = Stage::Open(q, z, response, pushed);
-            }
+            let half = |middle: &Middle<K>, z: K::Speeds| stepper.second_half(h, middle, (z, &rate));
+            self.stages[lane] = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
+                Stage::Pushed(middle, response, pushed) => match half(&middle, pushed.z) {
+                    Ok((q, z)) => Stage::Open(q, z, response, pushed),
+                    Err(_) => Stage::Alone,
+                },
+                Stage::Flown(middle, z) => match half(&middle, z) {
+                    Ok((q, z)) => Stage::Lands(q, z, K::Gaps::zero()),
+                    Err(_) => Stage::Alone,
+                },
+                other => other,
+            };
         }
     }
 
     /// The end of a step as far as it is known.
     fn place(&self, lane: usize) -> (K::Configuration, K::Speeds) {
         match &self.stages[lane] {
-            Stage::Open(q, z, ..) => (*q, *z),
+            Stage::Open(q, z, ..) | Stage::Lands(q, z, _) => (*q, *z),
             Stage::Closed(closed, z, ..) => (closed.q, *z),
             _ => (self.steppers[lane].q, self.steppers[lane].z),
         }
@@ -265,13 +315,16 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let t = self.number(|lane| self.steppers[lane].t + h);
         let gaps = self.wide.gaps(t, &self.places(|lane| self.place(lane).0));
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
-            let Stage::Open(q, z, response, pushed) = core::mem::replace(&mut self.stages[lane], Stage::Alone) else {
-                continue;
-            };
             let gaps = single::<W, _, K::Gaps>(&gaps, lane);
-            if let Ok(closed) = stepper.close(h, (&response, &pushed), (q, gaps)) {
-                self.stages[lane] = Stage::Closed(closed, z, response, pushed);
-            }
+            self.stages[lane] = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
+                Stage::Open(q, z, response, pushed) => match stepper.close(h, (&response, &pushed), (q, gaps)) {
+                    Ok(closed) => Stage::Closed(closed, z, response, pushed),
+                    Err(_) => Stage::Alone,
+                },
+                Stage::Lands(..) if ContactStepper::<K, Vec<f64>>::is_below_zero(&gaps) => Stage::Alone,
+                Stage::Lands(q, z, _) => Stage::Lands(q, z, gaps),
+                other => other,
+            };
         }
     }
 
@@ -280,12 +333,15 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let q = self.places(|lane| self.place(lane).0);
         let rates = self.wide.contact_rates(t, &q, &self.speeds(|lane| self.place(lane).1));
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
-            let Stage::Closed(closed, z, response, pushed) = core::mem::replace(&mut self.stages[lane], Stage::Alone)
-            else {
-                continue;
-            };
             let rates = single::<W, _, K::ContactRows>(&rates, lane);
-            let end = stepper.end(h, (&response, pushed), closed, (z, rates));
+            let end = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
+                Stage::Closed(closed, z, response, pushed) => stepper.end(h, (&response, pushed), closed, (z, rates)),
+                Stage::Lands(q, z, gaps) => ContactStepper::<K, Vec<f64>>::flown((q, z), gaps, rates),
+                other => {
+                    self.stages[lane] = other;
+                    continue;
+                }
+            };
             let made = stepper.take(h, end);
             stepper.report = *made.as_ref().unwrap_or(&stepper.report);
             (self.outcomes[lane], self.stages[lane]) = (made, Stage::Made);
