@@ -32,7 +32,7 @@ type State = (Isometry3<f64>, SVector<f64, 6>);
 /// Thrown, standing and sliding.
 fn starts(number: &mut dyn FnMut() -> f64) -> Vec<State> {
     let mut start = |i: usize| {
-        let (height, turn) = if i % 3 == 0 { (0.2, 0.0) } else { (0.7 + 0.2 * number(), 1.0) };
+        let (height, turn) = if i.is_multiple_of(3) { (0.2, 0.0) } else { (0.7 + 0.2 * number(), 1.0) };
         let axis = Vector3::new(number(), number(), number());
         let speeds = SVector::from_fn(|k, _| if k < 2 || turn > 0.0 { number() } else { 0.0 });
         (Isometry3::new(Vector3::new(number(), number(), height), turn * axis), speeds)
