@@ -1,6 +1,6 @@
-//! Steps of eight states at once beside eight single ones, and an ensemble on one thread and on all.
+//! Steps of eight states at once beside eight single ones.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo run --release -p gauss-benches --example contact_lanes --features robots,threads`
+//! `RUSTFLAGS="-C target-cpu=native" cargo run --release -p gauss-benches --example contact_lanes --features robots`
 //!
 //! A quadruped that stands (ANYmal of `contact_steps`), and crates that slide on their corners. Printed are microseconds
 //! for a step of one state, alone and in lanes, by turns, with the ratio; before anything is timed all bits are compared.
@@ -11,6 +11,7 @@ use std::time::Instant;
 use gauss_benches::measure::Spread;
 use gauss_contact::{ContactLanes, ContactStepper};
 use gauss_runtime::prelude::*;
+use gauss_runtime::simd::Packed;
 
 /// A quadruped on spheres of 31 mm.
 #[derive(Clone, Copy, GaussDynamics)]

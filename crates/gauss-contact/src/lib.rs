@@ -71,8 +71,8 @@ pub use residual::Residual;
 pub use run::ContactRun;
 pub use sensors::{ContactForce, ContactForces, ContactWrench, SensorError};
 pub use steps::{
-    AdaptiveContactSteps, ContactLanes, ContactStepper, ContactSteps, LanesOf, StepLaw, StepReport, StepSample,
-    StepScheme, StepStatistics, SteppedRun,
+    AdaptiveContactSteps, ContactEnsemble, ContactLanes, ContactStepper, ContactSteps, LanesOf, StepLaw, StepReport,
+    StepSample, StepScheme, StepStatistics, SteppedRun,
 };
 pub use trajectory::{ContactTrajectory, Segment};
 

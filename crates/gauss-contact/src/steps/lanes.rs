@@ -2,8 +2,8 @@
 //!
 //! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone, and
 //! everything else in a step is made by the stepper of the lane: so a lane has the bits of a stepper of its own. Lanes
-//! that need something else than the others go that step alone: in flight, at the start and after impacts, where the
-//! step is made twice, and where a step is made in parts.
+//! that need something else than the others go that step alone: at the start and after impacts, where the step is made
+//! twice, where a flight ends, and where a step is made in parts.
 
 use alloc::vec::Vec;
 
@@ -56,6 +56,8 @@ pub struct ContactLanes<'k, W, K: ContactSystem<Scalar = f64>> {
     stages: Vec<Stage<K>>,
     /// Whether contacts of a lane depended on one another before the step.
     known: Vec<bool>,
+    /// Lanes that do not go on.
+    halted: Vec<bool>,
     alone: u64,
 }
 
@@ -67,6 +69,12 @@ enum Stage<K: ContactSystem<Scalar = f64>> {
     Made,
     /// With the speeds at half of the step.
     Middle(Middle<K>),
+    /// The same in flight.
+    Flies(Middle<K>),
+    /// With the speeds at the end of a flight.
+    Flown(Middle<K>, K::Speeds),
+    /// At the end of a flight.
+    Lands(K::Configuration, K::Speeds, K::Gaps),
     /// With impulses.
     Pushed(Middle<K>, ImpulseResponse<K>, Pushed<K>),
     /// At the end, before closed gaps are zero.
@@ -81,6 +89,9 @@ impl<K: ContactSystem<Scalar = f64>> core::fmt::Debug for Stage<K> {
             Self::Alone => "Alone",
             Self::Made => "Made",
             Self::Middle(..) => "Middle",
+            Self::Flies(..) => "Flies",
+            Self::Flown(..) => "Flown",
+            Self::Lands(..) => "Lands",
             Self::Pushed(..) => "Pushed",
             Self::Open(..) => "Open",
             Self::Closed(..) => "Closed",
@@ -102,7 +113,8 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         }
         let outcomes = steppers.iter().map(|_| Ok(StepReport::default())).collect();
         let (stages, known) = (Vec::with_capacity(steppers.len()), Vec::with_capacity(steppers.len()));
-        Ok(Self { wide, steppers, outcomes, stages, known, alone: 0 })
+        let halted = steppers.iter().map(|_| false).collect();
+        Ok(Self { wide, steppers, outcomes, stages, known, halted, alone: 0 })
     }
 
     /// The steppers, lane by lane.
@@ -115,12 +127,23 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         self.alone
     }
 
+    /// The error of the last step of a lane that goes on.
+    pub(super) fn fails(&self, lane: usize) -> Option<ContactError> {
+        self.outcomes[lane].as_ref().err().filter(|_| !self.halted[lane]).cloned()
+    }
+
+    /// Keeps a lane where it is from now on: its outcome stays.
+    pub fn halt(&mut self, lane: usize) {
+        self.halted[lane] = true;
+    }
+
     /// One step of length `h` of all lanes, under inputs that stay; what it came to, lane by lane: as of
     /// [`ContactStepper::step`], bit by bit. A lane whose step is an error stays where it was.
     pub fn step(&mut self, h: f64, input: &W::Input) -> &[Result<StepReport, ContactError>] {
         self.start(h);
-        if self.stages.iter().any(|stage| matches!(stage, Stage::Middle(_))) {
+        if self.stages.iter().any(|stage| matches!(stage, Stage::Middle(_) | Stage::Flies(_))) {
             self.push(h, input);
+            self.fly(h, input);
             self.second_half(h);
             self.close(h);
             self.end(h);
@@ -166,27 +189,32 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         self.stages.clear();
         self.known.clear();
         self.known.extend(self.steppers.iter().map(|stepper| stepper.dependent));
-        let together = |stepper: &ContactStepper<'_, K>| !stepper.flies() && h > 0.0 && h.is_finite();
-        if !self.steppers.iter().any(together) {
-            self.stages.extend(self.steppers.iter().map(|_| Stage::Alone));
+        let Self { steppers, stages, halted, .. } = self;
+        let stage = |halted: &bool| if *halted { Stage::Made } else { Stage::Alone };
+        stages.extend(halted.iter().map(stage));
+        let together = |lane: usize| !halted[lane] && h > 0.0 && h.is_finite();
+        if !(0..steppers.len()).any(together) {
             return;
         }
         let t = self.number(|lane| self.steppers[lane].t);
         let q = self.places(|lane| self.steppers[lane].q);
         let z = self.speeds(|lane| self.steppers[lane].z);
         let rates = self.wide.kinematics(t, &q, &z);
-        for (lane, stepper) in self.steppers.iter().enumerate() {
-            self.stages.push(match stepper.middle(h, &single::<W, _, TangentOf<K>>(&rates, lane)) {
-                (middle, true) if together(stepper) => Stage::Middle(middle),
-                _ => Stage::Alone,
-            });
+        let Self { steppers, stages, halted, .. } = self;
+        for (lane, (stepper, stage)) in steppers.iter().zip(stages).enumerate() {
+            if !halted[lane]
+                && let (middle, true) = stepper.middle(h, &single::<W, _, TangentOf<K>>(&rates, lane))
+            {
+                *stage = if stepper.flies() { Stage::Flies(middle) } else { Stage::Middle(middle) };
+            }
         }
     }
 
     /// The state of a lane at half of the step; of one that goes alone that before it.
     fn middle(&self, lane: usize) -> (f64, K::Configuration, K::Speeds) {
         match &self.stages[lane] {
-            Stage::Middle(middle) => (middle.t, middle.q, middle.z),
+            Stage::Middle(middle) | Stage::Flies(middle) => (middle.t, middle.q, middle.z),
+            Stage::Flown(middle, z) => (middle.t, middle.q, *z),
             Stage::Pushed(middle, _, pushed) => (middle.t, middle.q, pushed.z),
             _ => (self.steppers[lane].t, self.steppers[lane].q, self.steppers[lane].z),
         }
@@ -200,12 +228,47 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         )
     }
 
+    /// Flights, as far as their speeds at the end.
+    fn fly(&mut self, h: f64, input: &W::Input) {
+        if !self.stages.iter().any(|stage| matches!(stage, Stage::Flies(_))) {
+            return;
+        }
+        let (t, q, z) = self.middles();
+        let accelerations = self.wide.acceleration(t, &q, &z, input);
+        for (lane, stepper) in self.steppers.iter().enumerate() {
+            self.stages[lane] = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
+                Stage::Flies(middle) => {
+                    let acceleration = single::<W, _, K::Speeds>(&accelerations, lane);
+                    Stage::Flown(middle, stepper.z.add_scaled(h, &acceleration))
+                }
+                other => other,
+            };
+        }
+        let (t, q, z) = self.middles();
+        let rates = self.wide.contact_rates(t, &q, &z);
+        for (lane, stepper) in self.steppers.iter().enumerate() {
+            let flown = matches!(self.stages[lane], Stage::Flown(..));
+            if flown && stepper.comes_to_zero(h, &single::<W, _, K::ContactRows>(&rates, lane)) {
+                self.stages[lane] = Stage::Alone;
+            }
+        }
+    }
+
     fn push(&mut self, h: f64, input: &W::Input) {
+        if !self.stages.iter().any(|stage| matches!(stage, Stage::Middle(_))) {
+            return;
+        }
         let (t, q, z) = self.middles();
         let friction = self.wide.friction(t, &q, &z, input);
         let dynamics = self.wide.impulse_dynamics(t, &q, &z, input);
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
-            let Stage::Middle(middle) = core::mem::replace(&mut self.stages[lane], Stage::Alone) else { continue };
+            let middle = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
+                Stage::Middle(middle) => middle,
+                other => {
+                    self.stages[lane] = other;
+                    continue;
+                }
+            };
             let friction = single::<W, _, K::ContactRows>(&friction, lane);
             let response = &dynamics.response;
             let response = ImpulseResponse::new(response.factors.extract(lane), response.delassus.extract(lane));
@@ -223,21 +286,26 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let (t, q, z) = self.middles();
         let rates = self.wide.kinematics(t, &q, &z);
         for (lane, stepper) in self.steppers.iter().enumerate() {
-            let Stage::Pushed(middle, response, pushed) = core::mem::replace(&mut self.stages[lane], Stage::Alone)
-            else {
-                continue;
-            };
             let rate = single::<W, _, TangentOf<K>>(&rates, lane);
-            if let Ok((q, z)) = stepper.second_half(h, &middle, (pushed.z, &rate)) {
-                self.stages[lane] = Stage::Open(q, z, response, pushed);
-            }
+            let half = |middle: &Middle<K>, z: K::Speeds| stepper.second_half(h, middle, (z, &rate));
+            self.stages[lane] = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
+                Stage::Pushed(middle, response, pushed) => match half(&middle, pushed.z) {
+                    Ok((q, z)) => Stage::Open(q, z, response, pushed),
+                    Err(_) => Stage::Alone,
+                },
+                Stage::Flown(middle, z) => match half(&middle, z) {
+                    Ok((q, z)) => Stage::Lands(q, z, K::Gaps::zero()),
+                    Err(_) => Stage::Alone,
+                },
+                other => other,
+            };
         }
     }
 
     /// The end of a step as far as it is known.
     fn place(&self, lane: usize) -> (K::Configuration, K::Speeds) {
         match &self.stages[lane] {
-            Stage::Open(q, z, ..) => (*q, *z),
+            Stage::Open(q, z, ..) | Stage::Lands(q, z, _) => (*q, *z),
             Stage::Closed(closed, z, ..) => (closed.q, *z),
             _ => (self.steppers[lane].q, self.steppers[lane].z),
         }
@@ -247,13 +315,16 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let t = self.number(|lane| self.steppers[lane].t + h);
         let gaps = self.wide.gaps(t, &self.places(|lane| self.place(lane).0));
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
-            let Stage::Open(q, z, response, pushed) = core::mem::replace(&mut self.stages[lane], Stage::Alone) else {
-                continue;
-            };
             let gaps = single::<W, _, K::Gaps>(&gaps, lane);
-            if let Ok(closed) = stepper.close(h, (&response, &pushed), (q, gaps)) {
-                self.stages[lane] = Stage::Closed(closed, z, response, pushed);
-            }
+            self.stages[lane] = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
+                Stage::Open(q, z, response, pushed) => match stepper.close(h, (&response, &pushed), (q, gaps)) {
+                    Ok(closed) => Stage::Closed(closed, z, response, pushed),
+                    Err(_) => Stage::Alone,
+                },
+                Stage::Lands(..) if ContactStepper::<K, Vec<f64>>::is_below_zero(&gaps) => Stage::Alone,
+                Stage::Lands(q, z, _) => Stage::Lands(q, z, gaps),
+                other => other,
+            };
         }
     }
 
@@ -262,12 +333,15 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let q = self.places(|lane| self.place(lane).0);
         let rates = self.wide.contact_rates(t, &q, &self.speeds(|lane| self.place(lane).1));
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
-            let Stage::Closed(closed, z, response, pushed) = core::mem::replace(&mut self.stages[lane], Stage::Alone)
-            else {
-                continue;
-            };
             let rates = single::<W, _, K::ContactRows>(&rates, lane);
-            let end = stepper.end(h, (&response, pushed), closed, (z, rates));
+            let end = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
+                Stage::Closed(closed, z, response, pushed) => stepper.end(h, (&response, pushed), closed, (z, rates)),
+                Stage::Lands(q, z, gaps) => ContactStepper::<K, Vec<f64>>::flown((q, z), gaps, rates),
+                other => {
+                    self.stages[lane] = other;
+                    continue;
+                }
+            };
             let made = stepper.take(h, end);
             stepper.report = *made.as_ref().unwrap_or(&stepper.report);
             (self.outcomes[lane], self.stages[lane]) = (made, Stage::Made);

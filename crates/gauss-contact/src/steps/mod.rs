@@ -12,6 +12,7 @@
 
 mod adaptive;
 mod cones;
+mod ensemble;
 mod impulses;
 mod lanes;
 mod linear;
@@ -22,6 +23,7 @@ mod run;
 mod stepper;
 
 pub use adaptive::{AdaptiveContactSteps, StepStatistics, SteppedRun};
+pub use ensemble::ContactEnsemble;
 pub use lanes::{ContactLanes, LanesOf};
 pub use relaxed::StepLaw;
 pub use report::{StepReport, StepScheme};

@@ -305,23 +305,38 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         if !self.flies() {
             return Ok(None);
         }
-        let gaps_of = || (0..K::CONTACTS.len()).filter(|i| K::CONTACTS[*i].has_gap());
         let kernel = self.kernel;
         let z = self.z.add_scaled(h, &kernel.acceleration(middle.t, &middle.q, &middle.z, input));
-        let after = kernel.contact_rates(middle.t, &middle.q, &z);
-        if !gaps_of().all(|i| self.gap_at_end(h, i, after.component(K::CONTACTS[i].normal)) > 0.0) {
+        if self.comes_to_zero(h, &kernel.contact_rates(middle.t, &middle.q, &z)) {
             return Ok(None);
         }
         let half = kernel.kinematics(middle.t, &middle.q, &z);
         let (q, z) = self.second_half(h, middle, (z, &half))?;
         let gaps = kernel.gaps(self.t + h, &q);
-        if !gaps_of().all(|i| gaps.component(i) >= 0.0) {
+        if Self::is_below_zero(&gaps) {
             return Ok(None);
         }
         let rates = kernel.contact_rates(self.t + h, &q, &z);
-        let (impulses, report) = (K::ContactRows::zero(), StepReport::default());
-        let rests = [false; MOST];
-        Ok(Some(End { q, z, gaps, rates, impulses, rests, touches: false, report, struck: false }))
+        Ok(Some(Self::flown((q, z), gaps, rates)))
+    }
+
+    fn gaps_of() -> impl Iterator<Item = usize> {
+        (0..K::CONTACTS.len()).filter(|i| K::CONTACTS[*i].has_gap())
+    }
+
+    /// Whether a gap would not be open at the end of a step, given the rates there.
+    pub(super) fn comes_to_zero(&self, h: f64, after: &K::ContactRows) -> bool {
+        !Self::gaps_of().all(|i| self.gap_at_end(h, i, after.component(K::CONTACTS[i].normal)) > 0.0)
+    }
+
+    pub(super) fn is_below_zero(gaps: &K::Gaps) -> bool {
+        !Self::gaps_of().all(|i| gaps.component(i) >= 0.0)
+    }
+
+    /// The end of a step in flight.
+    pub(super) fn flown((q, z): (K::Configuration, K::Speeds), gaps: K::Gaps, rates: K::ContactRows) -> End<K> {
+        let (impulses, report, rests) = (K::ContactRows::zero(), StepReport::default(), [false; MOST]);
+        End { q, z, gaps, rates, impulses, rests, touches: false, report, struck: false }
     }
 
     /// A step in which contacts may act.

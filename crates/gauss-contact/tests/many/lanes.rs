@@ -1,6 +1,6 @@
 //! Steps in lanes: the bits of single ones.
 
-use gauss_contact::{ContactErrorKind, ContactLanes, ContactStepper, StepLaw, StepScheme};
+use gauss_contact::{ContactEnsemble, ContactErrorKind, ContactLanes, ContactStepper, StepLaw, StepScheme};
 use gauss_runtime::prelude::*;
 
 use crate::common::numbers;
@@ -32,7 +32,7 @@ type State = (Isometry3<f64>, SVector<f64, 6>);
 /// Thrown, standing and sliding.
 fn starts(number: &mut dyn FnMut() -> f64) -> Vec<State> {
     let mut start = |i: usize| {
-        let (height, turn) = if i % 3 == 0 { (0.2, 0.0) } else { (0.7 + 0.2 * number(), 1.0) };
+        let (height, turn) = if i.is_multiple_of(3) { (0.2, 0.0) } else { (0.7 + 0.2 * number(), 1.0) };
         let axis = Vector3::new(number(), number(), number());
         let speeds = SVector::from_fn(|k, _| if k < 2 || turn > 0.0 { number() } else { 0.0 });
         (Isometry3::new(Vector3::new(number(), number(), height), turn * axis), speeds)
@@ -109,4 +109,42 @@ fn lanes_have_parameters_and_errors_of_their_own() {
     let error = ContactLanes::of(&wide, none).err().unwrap();
     assert_eq!(error.kind, ContactErrorKind::Lanes { lanes: 8, given: 0 });
     assert!(lanes.step(-1.0, &()).iter().all(|outcome| outcome.is_err()));
+}
+
+#[test]
+fn an_ensemble_has_the_bits_of_single_runs_on_one_thread_and_on_all() {
+    let mut number = numbers(77);
+    let (kernel, wide) = (crate_of(0.5, 0.3), crate_of(Eight::splat(0.5), Eight::splat(0.3)));
+    let mut starts: Vec<State> = (0..5).flat_map(|_| starts(&mut number)).take(37).collect();
+    // One of them is no number after a step.
+    starts[20].1[5] = 1e200;
+    let steppers =
+        || -> Vec<_> { starts.iter().map(|(q, z)| ContactStepper::new(&kernel, 0.0, *q, *z).unwrap()).collect() };
+    let mut singles = steppers();
+    let failed: Vec<bool> = singles
+        .iter_mut()
+        .map(|single| (0..100).try_for_each(|_| single.step(4e-3, &()).map(|_| ())).is_err())
+        .collect();
+    let hold = |ensemble: &ContactEnsemble<'_, CrateKernel<Eight>, CrateKernel<f64>>| {
+        assert_eq!(ensemble.steppers().count(), 37);
+        assert!(singles.iter().zip(ensemble.steppers()).all(|(single, stepper)| same(single, stepper)));
+        let failures: Vec<usize> = ensemble.failures().map(|(run, _)| *run).collect();
+        assert_eq!(failures, (0..37).filter(|i| failed[*i]).collect::<Vec<_>>());
+        assert_eq!(failures, [20]);
+    };
+    let mut ensemble = ContactEnsemble::new(&wide, steppers()).unwrap();
+    ensemble.advance(4e-3, 100, |_, _| ());
+    hold(&ensemble);
+    #[cfg(feature = "rayon")]
+    {
+        let mut ensemble = ContactEnsemble::new(&wide, steppers()).unwrap();
+        ensemble.advance_on_all_threads(4e-3, 60, |_, _| ());
+        ensemble.advance_on_all_threads(4e-3, 40, |_, _| ());
+        hold(&ensemble);
+    }
+    let error = ContactEnsemble::new(&wide, Vec::<ContactStepper<'_, CrateKernel<f64>>>::new()).err().unwrap();
+    assert_eq!(error.kind, ContactErrorKind::Lanes { lanes: 8, given: 0 });
+    // A kernel for each block: too few are told.
+    let error = ContactEnsemble::each(core::slice::from_ref(&wide), steppers()).err().unwrap();
+    assert_eq!(error.kind, ContactErrorKind::Lanes { lanes: 8, given: 37 });
 }
