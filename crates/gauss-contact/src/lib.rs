@@ -52,6 +52,7 @@ mod poisson;
 mod problem;
 mod residual;
 mod run;
+mod slots;
 mod solution;
 mod solver;
 mod start;
@@ -66,7 +67,8 @@ pub use impact::Impact;
 pub use mode::{InMode, Mode};
 pub use residual::Residual;
 pub use run::ContactRun;
-pub use steps::{ContactStepper, ContactSteps, StepReport, StepSample, StepScheme};
+pub use slots::{Slot, SlotError, SlotField, SlotRule, Slots};
+pub use steps::{ContactStepper, ContactSteps, HeldSteps, StepReport, StepSample, StepScheme};
 pub use trajectory::{ContactForce, ContactTrajectory, Segment};
 
 /// The page of the crate, whose program is a test.

@@ -11,11 +11,13 @@
 //! up, are no more work than one; the time of an impact is known to a step.
 
 mod cones;
+mod held;
 mod impulses;
 mod linear;
 mod projection;
 mod run;
 mod stepper;
 
+pub use held::HeldSteps;
 pub use run::{ContactSteps, StepSample};
 pub use stepper::{ContactStepper, StepReport, StepScheme};

@@ -13,6 +13,7 @@ use crate::mode::{Mode, pushed};
 use crate::residual::Residual;
 
 use super::cones::{Laws, MOST, MOST_ROWS};
+use super::held::HeldSteps;
 use super::impulses::{Found, Impulses};
 use super::projection::Projection;
 
@@ -154,6 +155,41 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         };
         stepper.find_closed();
         Ok(stepper)
+    }
+
+    /// Lets go of the kernel, so that data of its contacts may change; [`HeldSteps::step`] goes on.
+    #[must_use]
+    pub fn hold(self) -> HeldSteps<K, M> {
+        let Self { t, q, z, scheme, tolerance, memory, impulses, dependent, acceleration, modes, report, .. } = self;
+        HeldSteps { t, q, z, scheme, tolerance, memory, impulses, dependent, acceleration, modes, report }
+    }
+
+    /// What was held, with contacts whose data may be other ones.
+    pub(super) fn resumed(kernel: &'k K, held: HeldSteps<K, M>, before: impl Fn(usize) -> Option<usize>) -> Self {
+        let (impulses, known) = held.carried(before);
+        let HeldSteps { t, q, z, scheme, tolerance, memory, dependent, acceleration, report, .. } = held;
+        let (gaps, rates) = (kernel.gaps(t, &q), kernel.contact_rates(t, &q, &z));
+        let (modes, next) = ([Mode::Open; MOST], [Mode::Open; MOST]);
+        let mut stepper = Self {
+            kernel,
+            t,
+            q,
+            z,
+            scheme,
+            tolerance,
+            memory,
+            impulses,
+            dependent,
+            gaps,
+            rates,
+            acceleration,
+            modes,
+            next,
+            report,
+        };
+        stepper.find_closed();
+        stepper.modes.iter_mut().zip(known).for_each(|(mode, known)| *mode = known.unwrap_or(*mode));
+        stepper
     }
 
     /// How the motion between impacts is taken.
