@@ -77,9 +77,10 @@ fn sixteen_boxes_stand_without_creep() {
         }
         let end = BoxesState::of(steps.configuration(), steps.speeds());
         // A rounding of 3.2 for each step and box would be 3e-12.
-        let moved = places(&end)
+        let (begun, ended) = (places(&start), places(&end));
+        let moved = ended
             .iter()
-            .zip(places(&start))
+            .zip(&begun)
             .map(|(a, b)| (a.translation.vector - b.translation.vector).amax().max(a.rotation.angle_to(&b.rotation)));
         let moved = moved.fold(0.0, f64::max);
         println!("moved {moved:e}, speeds {:e}", steps.speeds().amax());
