@@ -32,6 +32,18 @@ struct Bare {
     g: f64,
 }
 
+/// The hull as a ball, by its clause.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(pose: Pose),
+    body(hull, position = pose.position, rotation = pose.rotation, mass = 2, inertia = [0.06, 0.05, 0.04]),
+    contact(floor, point = hull.position, radius = 0.2, friction = 0.5, restitution = 0.2),
+)]
+struct Ball {
+    #[gauss(gravity)]
+    g: f64,
+}
+
 /// An arm that a motor lifts, beside a body that floats, on a base that rocks as a function of time.
 #[derive(GaussDynamics)]
 #[gauss(
@@ -57,6 +69,7 @@ type Corners<'k> = Slots<'k, BareKernel, 8, 24, 6>;
 fn corner(i: usize) -> Slot<BareFrame> {
     let side = |k: usize, edge: f64| if i >> k & 1 == 0 { -0.5 * edge } else { 0.5 * edge };
     Slot {
+        radius: 0.0,
         first: Some(BareFrame::hull),
         point: Vector3::new(side(0, 0.4), side(1, 0.3), side(2, 0.2)),
         second: None,
@@ -101,6 +114,29 @@ fn slots_are_what_the_clause_of_a_box_is() {
 }
 
 #[test]
+fn a_sphere_is_what_its_clause_is() {
+    let (clause, bare) = (Ball { g: G }.kernel().unwrap(), Bare { g: G }.kernel().unwrap());
+    let mut slots = Slots::<_, 1, 3, _>::new(&bare);
+    slots.set(0, Slot { point: Vector3::zeros(), radius: 0.2, ..corner(0) }).unwrap();
+    let (q, z) = start();
+    let near = |a: f64, b: f64| (a - b).abs() <= 64.0 * f64::EPSILON * 50.0;
+    assert!(near(clause.gaps(0.0, &q)[0], slots.gaps(0.0, &q)[0]));
+    assert!((clause.contact_rates(0.0, &q, &z) - slots.contact_rates(0.0, &q, &z)).amax() < 1e-13);
+    let (a, b) = (clause.contact_dynamics(0.0, &q, &z, &()), slots.contact_dynamics(0.0, &q, &z, &()));
+    assert!(a.bias.iter().zip(&b.bias).all(|(a, b)| near(*a, *b)), "{} {}", a.bias, b.bias);
+    assert!(a.response.delassus.iter().zip(&b.response.delassus).all(|(a, b)| near(*a, *b)));
+    let (a, b) = (clause.contact_frame(0, 0.0, &q).unwrap(), slots.contact_frame(0, 0.0, &q).unwrap());
+    assert!((a.point - b.point).amax() < 1e-15);
+    // It lands, slides and rolls.
+    let a = ContactSteps::new(&clause, 1e-3).run(q, z, 0.0..1.0).unwrap();
+    let b = ContactSteps::new(&slots, 1e-3).run(q, z, 0.0..1.0).unwrap();
+    let apart = a.iter().zip(&b).map(|(a, b)| (a.state.q.translation.vector - b.state.q.translation.vector).amax());
+    // Some ten roundings of places of order 1 for each step.
+    assert!(apart.fold(0.0, f64::max) < 1e4 * f64::EPSILON);
+    assert_eq!(b.last().unwrap().report.closed, 1);
+}
+
+#[test]
 fn exact_runs_and_steps_move_as_with_the_clause() {
     let (clause, bare) = (Clause { g: G }.kernel().unwrap(), Bare { g: G }.kernel().unwrap());
     let (slots, (q, z)) = (corners(&bare), start());
@@ -130,6 +166,7 @@ fn three(kernel: &PairKernel) -> Slots<'_, PairKernel, 4, 12, 8> {
     let slot = |first, second| Slot {
         first,
         point: Vector3::new(0.3, -0.2, 0.1),
+        radius: 0.0,
         second,
         origin: Vector3::new(-0.1, 0.4, 0.2),
         normal: Vector3::new(0.6, -0.3, 0.5),
@@ -138,8 +175,8 @@ fn three(kernel: &PairKernel) -> Slots<'_, PairKernel, 4, 12, 8> {
     };
     let mut slots = Slots::new(kernel);
     slots.set(0, slot(Some(PairFrame::lower), Some(PairFrame::cargo))).unwrap();
-    slots.set(1, slot(Some(PairFrame::cargo), Some(PairFrame::base))).unwrap();
-    slots.set(3, slot(None, Some(PairFrame::cargo))).unwrap();
+    slots.set(1, Slot { radius: 0.15, ..slot(Some(PairFrame::cargo), Some(PairFrame::base)) }).unwrap();
+    slots.set(3, Slot { radius: 0.25, ..slot(None, Some(PairFrame::cargo)) }).unwrap();
     slots
 }
 
@@ -189,6 +226,7 @@ fn directions_in_which_nothing_moves_take_no_impulse() {
     let slot = Slot {
         first: Some(PairFrame::base),
         point: Vector3::zeros(),
+        radius: 0.0,
         second: None,
         origin: Vector3::zeros(),
         normal: Vector3::z(),

@@ -108,11 +108,11 @@ fn stand() -> Result<(), Box<dyn Error + Send + Sync>> {
     Ok(())
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     // Matrices of 192 rows are handed on by value.
     let thread = thread::Builder::new().stack_size(64 << 20).spawn(stand)?;
     match thread.join() {
-        Ok(done) => Ok(done?),
+        Ok(done) => done,
         Err(_) => Err("the thread ended".into()),
     }
 }

@@ -237,7 +237,8 @@ impl<F: FrameName> Shapes<F> {
         Ok(())
     }
 
-    /// A point of the library as a slot: the plane is on the shape whose face touches, else on the first.
+    /// A point of the library as a slot: a ball is a sphere; else the plane is on the shape whose face touches, or on the
+    /// first.
     fn placed(&self, manifold: &Manifold, point: &Point, [first, second]: [&Body<F>; 2]) -> Placed<F> {
         let part = |pose: Option<&Pose>| pose.copied().unwrap_or(Pose::IDENTITY);
         let places = [first.at * part(manifold.subshape_pos1()), second.at * part(manifold.subshape_pos2())];
@@ -245,11 +246,18 @@ impl<F: FrameName> Shapes<F> {
         let normals =
             [places[0].rotation * manifold.local_n1, places[1].rotation * manifold.local_n2].map(convert::vector);
         let frames = [first.frame, second.frame];
-        let of_second = point.fid2.is_face() && !point.fid1.is_face();
+        let balls = [first, second].map(|body| body.shape.as_ball());
+        let of_second = match balls {
+            [Some(_), _] => true,
+            [None, Some(_)] => false,
+            _ => point.fid2.is_face() && !point.fid1.is_face(),
+        };
         let (point_of, plane_of) = if of_second { (0, 1) } else { (1, 0) };
+        let centre = convert::vector(places[point_of].translation);
         let slot = Slot {
             first: frames[point_of],
-            point: points[point_of],
+            point: balls[point_of].map_or(points[point_of], |_| centre),
+            radius: balls[point_of].map_or(0.0, |ball| ball.radius),
             second: frames[plane_of],
             origin: points[plane_of],
             normal: normals[plane_of],

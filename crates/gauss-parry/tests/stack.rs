@@ -83,7 +83,6 @@ fn sixteen_boxes_stand_without_creep() {
             .zip(&begun)
             .map(|(a, b)| (a.translation.vector - b.translation.vector).amax().max(a.rotation.angle_to(&b.rotation)));
         let moved = moved.fold(0.0, f64::max);
-        println!("moved {moved:e}, speeds {:e}", steps.speeds().amax());
         assert!(moved <= 200.0 * 16.0 * 3.2 * f64::EPSILON, "{moved:e}");
         // The lowest box bears all, its four corners a quarter of it or whatever sums to it.
         let normals: f64 = (0..4).map(|i| steps.impulses()[3 * i]).sum();
@@ -97,7 +96,7 @@ fn sixteen_boxes_stand_without_creep() {
 fn boxes_that_fall_on_one_another_lose_energy() {
     with_stack(|| {
         let kernel = Boxes { m: 1.0, a: EDGE, g: 9.81 }.kernel().unwrap();
-        // Three beside a tower of the others; a little turned and apart.
+        // A little turned and apart.
         let start = state(|i| {
             let turn = Vector3::new(0.0, 0.0, 0.02 * (i % 3) as f64);
             Isometry3::new(
@@ -108,17 +107,13 @@ fn boxes_that_fall_on_one_another_lose_energy() {
         let begin = (0.0, start.q(), start.z());
         let mut steps = ParrySteps::<_, 64, 192, _>::new(&kernel, shapes(0.5), begin).unwrap();
         let mut energy = kernel.energy(0.0, &start.q(), &start.z());
-        let (mut deepest, mut halves) = (0.0_f64, 0);
         for n in 0..250 {
             let report = steps.step(2e-3, &()).unwrap();
             let now = kernel.energy(0.0, steps.configuration(), steps.speeds());
             // Rounding of an energy of 250 J, and the way of a step of second order while nothing touches.
             assert!(now <= energy + 1e-9, "{n} {now} {energy} {report:?}");
             energy = now;
-            deepest = deepest.max(report.penetration);
-            halves += report.parts;
         }
-        println!("deepest before projections {deepest:e}, parts {halves}, speeds {:e}", steps.speeds().amax());
         assert!(steps.speeds().amax() < 1e-6, "{}", steps.speeds().amax());
     });
 }

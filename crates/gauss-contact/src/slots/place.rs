@@ -2,7 +2,9 @@
 //!
 //! In the axes of the plane's frame, whose origin moves with u and a and which turns with ω and α, the point is at r. Its
 //! velocity relative to that frame is `v = u_p − u − ω × r`, and that is ṙ; so of a direction e that is fixed there the
-//! rate is `e · v` and its derivative `e · (a_p − a − α × r − ω × (ω × r) − 2 ω × v)`.
+//! rate is `e · v` and its derivative `e · (a_p − a − α × r − ω × (ω × r) − 2 ω × v)`. Of a sphere of radius ρ about it
+//! the material point at −ρ n touches: `v + Ω × (−ρ n)` with the relative angular velocity `Ω = ω_p − ω`, n fixed in the
+//! axes of the plane, and there `Ω̇ = α_p − α − ω × ω_p`.
 
 use gauss_runtime::frames::FramePose;
 use gauss_runtime::nalgebra::{Matrix3, SVector, Vector3};
@@ -35,16 +37,19 @@ impl Touch {
     }
 
     pub(super) fn gap<F>(&self, slot: &Slot<F>) -> f64 {
-        slot.normal.dot(&(self.at - slot.origin))
+        slot.normal.dot(&(self.at - slot.origin)) - slot.radius
     }
 
     /// What the twists of both frames are multiplied by to give the rate along a direction in the plane's axes.
     pub(super) fn arms<F>(&self, slot: &Slot<F>, direction: &Vector3<f64>) -> [Twist; 2] {
-        let own = self.turn.transpose() * direction;
-        [joined(&own, &slot.point.cross(&own)), -joined(direction, &self.at.cross(direction))]
+        let (own, to_plane) = (self.turn.transpose() * direction, self.turn.transpose() * slot.normal * slot.radius);
+        [
+            joined(&own, &(slot.point - to_plane).cross(&own)),
+            -joined(direction, &(self.at - slot.normal * slot.radius).cross(direction)),
+        ]
     }
 
-    /// The acceleration of the point relative to the plane's frame, in its axes, from twists and accelerations
+    /// The derivative of the velocity with which it touches, relative to the plane's frame and in its axes, from twists and accelerations
     /// (classical ones of the origins) of both frames in their own axes.
     pub(super) fn acceleration<F>(
         &self,
@@ -57,7 +62,9 @@ impl Touch {
         let p = &slot.point;
         let of_point = self.turn * (a_own + b_own.cross(p) + w_own.cross(&w_own.cross(p)));
         let velocity = self.turn * (u_own + w_own.cross(p)) - u - w.cross(&self.at);
-        of_point - a - b.cross(&self.at) - w.cross(&w.cross(&self.at)) - 2.0 * w.cross(&velocity)
+        let turning = self.turn * b_own - b - w.cross(&(self.turn * w_own));
+        let of_sphere = turning.cross(&slot.normal) * slot.radius;
+        of_point - of_sphere - a - b.cross(&self.at) - w.cross(&w.cross(&self.at)) - 2.0 * w.cross(&velocity)
     }
 }
 

@@ -5,7 +5,7 @@ use core::fmt;
 use gauss_runtime::nalgebra::Vector3;
 use gauss_runtime::real::Real;
 
-/// A point that may touch a plane, with friction and restitution. Lengths are in the unit of the scene.
+/// A point, or a sphere about it, that may touch a plane, with friction and restitution. Lengths are in the unit of the scene.
 ///
 /// `F` names the frames of a kernel (`KernelFrame` of `frames(…)`); `None` is what is at rest: axes of the observer,
 /// places from Ω. The contact force acts on the body of the point along the normal, and back on that of the plane.
@@ -15,6 +15,8 @@ pub struct Slot<F> {
     pub first: Option<F>,
     /// The point, from the origin of `first` in its axes.
     pub point: Vector3<f64>,
+    /// The radius of a sphere about the point; 0 where it is the point that touches.
+    pub radius: f64,
     /// The frame with the plane.
     pub second: Option<F>,
     /// A point of the plane, from the origin of `second` in its axes.
@@ -51,6 +53,8 @@ pub enum SlotField {
     Frames,
     /// [`Slot::point`].
     Point,
+    /// [`Slot::radius`].
+    Radius,
     /// [`Slot::origin`].
     Origin,
     /// [`Slot::normal`].
@@ -89,12 +93,14 @@ impl fmt::Display for SlotError {
             SlotField::Number => return write!(f, "slot {slot}: {rule}"),
             SlotField::Frames => return write!(f, "slot {slot}: its frames must be {rule}"),
             SlotField::Point => "point",
+            SlotField::Radius => "radius",
             SlotField::Origin => "origin",
             SlotField::Normal => "normal",
             SlotField::Friction => "friction",
             SlotField::Restitution => "restitution",
         };
-        let of = if matches!(field, SlotField::Friction | SlotField::Restitution) { "is" } else { "has the length" };
+        let is_vector = matches!(field, SlotField::Point | SlotField::Origin | SlotField::Normal);
+        let of = if is_vector { "has the length" } else { "is" };
         write!(f, "slot {slot}: `{name}` {of} {value}; it must be {rule}")
     }
 }
@@ -130,8 +136,10 @@ impl<F: Copy + PartialEq> Slot<F> {
         if !(size > 0.0 && size.is_finite()) {
             return refuse(SlotField::Normal, size, SlotRule::Direction);
         }
-        if !(self.friction >= 0.0 && self.friction.is_finite()) {
-            return refuse(SlotField::Friction, self.friction, SlotRule::NotNegative);
+        for (field, value) in [(SlotField::Radius, self.radius), (SlotField::Friction, self.friction)] {
+            if !(value >= 0.0 && value.is_finite()) {
+                return refuse(field, value, SlotRule::NotNegative);
+            }
         }
         if !(0.0..=1.0).contains(&self.restitution) {
             return refuse(SlotField::Restitution, self.restitution, SlotRule::UpToOne);
@@ -171,6 +179,7 @@ mod tests {
         Slot {
             first: Some(1),
             point: Vector3::zeros(),
+            radius: 0.0,
             second: None,
             origin: Vector3::zeros(),
             normal: Vector3::new(0.0, 0.0, 1.0),
@@ -193,6 +202,7 @@ mod tests {
             ),
             (Slot { origin: Vector3::new(0.0, nan, 1.0), ..slot() }, SlotField::Origin, nan, SlotRule::Finite),
             (Slot { normal: Vector3::zeros(), ..slot() }, SlotField::Normal, 0.0, SlotRule::Direction),
+            (Slot { radius: -2.0, ..slot() }, SlotField::Radius, -2.0, SlotRule::NotNegative),
             (Slot { friction: -1.0, ..slot() }, SlotField::Friction, -1.0, SlotRule::NotNegative),
             (Slot { friction: nan, ..slot() }, SlotField::Friction, nan, SlotRule::NotNegative),
             (Slot { restitution: 1.5, ..slot() }, SlotField::Restitution, 1.5, SlotRule::UpToOne),

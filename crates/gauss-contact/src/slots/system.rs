@@ -358,7 +358,8 @@ where
         let slot = self.slots.get(contact)?.as_ref()?;
         let (first, second) = (self.pose(slot.first, t, q), self.pose(slot.second, t, q));
         let [normal, a, b] = slot.axes().map(|axis| second.rotation * axis);
-        Some(ContactFrame::new(first.rotation * slot.point + first.translation.vector, normal, &[a, b]))
+        let touches = first.rotation * slot.point + first.translation.vector - normal * slot.radius;
+        Some(ContactFrame::new(touches, normal, &[a, b]))
     }
 
     fn friction(&self, _: f64, _: &Self::Configuration, _: &Self::Speeds, _: &Self::Input) -> Self::ContactRows {

@@ -58,7 +58,6 @@ fn an_arm_pushes_a_box_over_a_table() {
     let now = ArmState::of(steps.configuration(), steps.speeds());
     let time = 1e-3 * f64::from(999 - at);
     let way = then.pose_u.x * time + 0.5 * time * time;
-    println!("{at} {} {way}", now.pose.translation.x - then.pose.translation.x);
     assert!((now.pose.translation.x - then.pose.translation.x - way).abs() < 1e-9);
     assert!((now.pose.translation.x - now.reach - 0.12).abs() < 1e-12 && now.pose.translation.y.abs() < 1e-9);
     assert!((now.pose.translation.z - 0.5 * a).abs() < 1e-14);

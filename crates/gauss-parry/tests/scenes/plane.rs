@@ -1,6 +1,6 @@
 //! A box on a plane: its corners by a clause, and by the library.
 
-use gauss_contact::ContactSteps;
+use gauss_contact::{ContactSteps, Mode};
 use gauss_parry::parry3d_f64::math::Vector;
 use gauss_parry::parry3d_f64::shape::SharedShape;
 use gauss_parry::{ParrySteps, Shapes, Surface};
@@ -28,6 +28,33 @@ struct Clause {
     frames(hull),
 )]
 struct Bare {
+    #[gauss(gravity)]
+    g: f64,
+}
+
+/// A ball.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(pose: Pose),
+    body(hull, position = pose.position, rotation = pose.rotation, mass = 2, inertia = 0.8 * r * r),
+    frames(hull),
+)]
+struct Sphere {
+    r: f64,
+    #[gauss(gravity)]
+    g: f64,
+}
+
+/// The same by its clause.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(pose: Pose),
+    body(hull, position = pose.position, rotation = pose.rotation, mass = 2, inertia = 0.8 * r * r),
+    contact(floor, point = hull.position, radius = r, friction = mu),
+)]
+struct Ball {
+    r: f64,
+    mu: f64,
     #[gauss(gravity)]
     g: f64,
 }
@@ -73,5 +100,28 @@ fn a_box_moves_as_with_the_clause() {
         // In the end it lies on the same face.
         let gaps = expected.last().unwrap().report.closed;
         assert_eq!(steps.modes().iter().filter(|mode| mode.is_closed()).count(), gaps);
+    }
+}
+
+#[test]
+fn a_ball_rolls_as_with_its_clause() {
+    let (g, r, mu) = (9.81, 0.1, 0.3);
+    let (clause, kernel) = (Ball { g, r, mu }.kernel().unwrap(), Sphere { g, r }.kernel().unwrap());
+    let z = SVector::from([2.0, 0.0, 0.0, 0.0, 1.0, 3.0]);
+    let pose = Isometry3::translation(0.0, 0.0, r);
+    for h in [1e-2, 1e-3] {
+        let mut shapes = Shapes::new();
+        shapes.add(Some(SphereFrame::hull), SharedShape::ball(r), Isometry3::identity(), surface(mu, 0.0));
+        shapes.add(None, SharedShape::halfspace(Vector::Z), Isometry3::identity(), surface(mu, 0.0));
+        let mut steps = ParrySteps::<_, 1, 3, _>::new(&kernel, shapes, (0.0, pose, z)).unwrap();
+        for expected in ContactSteps::new(&clause, h).run(pose, z, 0.0..1.0).unwrap() {
+            steps.step(h, &()).unwrap();
+            let (a, b) = (steps.configuration(), &expected.state.q);
+            // Some ten roundings of places up to 2 for each of a thousand steps.
+            assert!((a.translation.vector - b.translation.vector).amax() < 1e4 * 2.0 * f64::EPSILON, "{h} {a} {b}");
+            // What the projection of such places leaves: two roundings of them.
+            assert!((a.translation.z - r).abs() <= 2.0 * 2.0 * f64::EPSILON, "{h} {a}");
+        }
+        assert!(matches!(steps.modes(), [Mode::Sticks]), "{h}");
     }
 }
