@@ -54,6 +54,7 @@ mod problem;
 mod residual;
 mod run;
 mod sensors;
+mod slots;
 mod solution;
 mod solver;
 mod start;
@@ -70,8 +71,9 @@ pub use mode::{InMode, Mode};
 pub use residual::Residual;
 pub use run::ContactRun;
 pub use sensors::{ContactForce, ContactForces, ContactWrench, SensorError};
+pub use slots::{Slot, SlotError, SlotField, SlotRule, Slots};
 pub use steps::{
-    AdaptiveContactSteps, ContactEnsemble, ContactLanes, ContactStepper, ContactSteps, LanesOf, StepLaw, StepReport,
+    AdaptiveContactSteps, ContactEnsemble, ContactLanes, ContactStepper, ContactSteps, HeldSteps, LanesOf, StepLaw, StepReport,
     StepSample, StepScheme, StepStatistics, SteppedRun,
 };
 pub use trajectory::{ContactTrajectory, Segment};

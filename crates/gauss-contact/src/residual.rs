@@ -27,7 +27,7 @@ impl Residual {
     }
 
     /// The largest of the three; NaN where one is.
-    pub(crate) fn worst(&self) -> f64 {
+    pub fn worst(&self) -> f64 {
         let larger = |worst: f64, r: f64| if r > worst || r.is_nan() { r } else { worst };
         [self.signorini, self.coulomb, self.dissipation].into_iter().fold(0.0, larger)
     }

@@ -14,12 +14,22 @@ pub(crate) fn check<K: ContactSystem>(
     q: &K::Configuration,
     z: &K::Speeds,
 ) -> Result<(), ContactError> {
-    let stop = |contact: Option<usize>, kind| {
-        Err(ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: value(t), kind })
-    };
     if !(q.is_finite() && z.is_finite()) {
-        return stop(None, ContactErrorKind::NonFinite);
+        return Err(ContactError { contact: None, time: value(t), kind: ContactErrorKind::NonFinite });
     }
+    check_contacts(kernel, t, q, |q| Rounding::of::<K>(q).half_of_the_digits())
+}
+
+/// The same of the contacts alone, with how far a gap may be below zero.
+pub(crate) fn check_contacts<K: ContactSystem>(
+    kernel: &K,
+    t: K::Scalar,
+    q: &K::Configuration,
+    allowed: impl Fn(&K::Configuration) -> f64,
+) -> Result<(), ContactError> {
+    let stop = |contact: Option<usize>, kind| {
+        Err(ContactError { contact: contact.map(|i: usize| K::CONTACTS[i].name), time: value(t), kind })
+    };
     let (gaps, restitution) = (kernel.gaps(t, q), kernel.restitution());
     for i in 0..K::CONTACTS.len() {
         let (gap, e) = (value(gaps.component(i)), value(restitution.component(i)));
@@ -29,7 +39,7 @@ pub(crate) fn check<K: ContactSystem>(
         if !gap.is_finite() {
             return stop(Some(i), ContactErrorKind::NonFinite);
         }
-        if gap < -Rounding::of::<K>(q).half_of_the_digits() {
+        if gap < -allowed(q) {
             return stop(Some(i), ContactErrorKind::NegativeGap { gap });
         }
     }

@@ -13,6 +13,7 @@
 mod adaptive;
 mod cones;
 mod ensemble;
+mod held;
 mod impulses;
 mod lanes;
 mod linear;
@@ -27,5 +28,6 @@ pub use ensemble::ContactEnsemble;
 pub use lanes::{ContactLanes, LanesOf};
 pub use relaxed::StepLaw;
 pub use report::{StepReport, StepScheme};
+pub use held::HeldSteps;
 pub use run::{ContactSteps, StepSample};
 pub use stepper::ContactStepper;

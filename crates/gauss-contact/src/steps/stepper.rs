@@ -15,6 +15,7 @@ use crate::residual::Residual;
 use crate::sensors::ContactForces;
 
 use super::cones::{Laws, MOST, MOST_ROWS};
+use super::held::HeldSteps;
 use super::impulses::{Found, Impulses};
 use super::projection::{Closed, Projection};
 use super::relaxed::{StepLaw, lifts};
@@ -114,6 +115,46 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         };
         stepper.find_closed();
         Ok(stepper)
+    }
+
+    /// Lets go of the kernel, so that data of its contacts may change; [`HeldSteps::step`] goes on.
+    #[must_use]
+    pub fn hold(self) -> HeldSteps<K, M> {
+        let Self { t, q, z, scheme, law, tolerance, memory, impulses, dependent, acceleration, .. } = self;
+        let Self { modes, rests, report, .. } = self;
+        HeldSteps { t, q, z, scheme, law, tolerance, memory, impulses, dependent, acceleration, modes, rests, report }
+    }
+
+    /// What was held, with contacts whose data may be other ones.
+    pub(super) fn resumed(kernel: &'k K, held: HeldSteps<K, M>, before: impl Fn(usize) -> Option<usize>) -> Self {
+        let (impulses, known) = held.carried(before);
+        let HeldSteps { t, q, z, scheme, law, tolerance, memory, dependent, acceleration, report, .. } = held;
+        let (gaps, rates) = (kernel.gaps(t, &q), kernel.contact_rates(t, &q, &z));
+        let (modes, next) = ([Mode::Open; MOST], [Mode::Open; MOST]);
+        let mut stepper = Self {
+            kernel,
+            t,
+            q,
+            z,
+            scheme,
+            law,
+            tolerance,
+            memory,
+            impulses,
+            dependent,
+            gaps,
+            rates,
+            acceleration,
+            modes,
+            rests: [false; MOST],
+            next,
+            report,
+        };
+        stepper.find_closed();
+        for (i, known) in known.into_iter().enumerate() {
+            (stepper.modes[i], stepper.rests[i]) = known.unwrap_or((stepper.modes[i], stepper.rests[i]));
+        }
+        stepper
     }
 
     /// How the motion between impacts is taken.

@@ -1,0 +1,418 @@
+//! A system with slots in the place of contacts that its clauses would have.
+
+use core::fmt;
+
+use gauss_runtime::chart::Chart;
+use gauss_runtime::configuration::{Configuration, VectorSpace};
+use gauss_runtime::constraint::ProjectionError;
+use gauss_runtime::contact::{
+    AfterImpulses, Contact, ContactFrame, ContactSystem, ImpulseDynamics, ImpulseResponse, after_impulses,
+};
+use gauss_runtime::frames::{FrameMotion, FramePose, FramedSystem};
+use gauss_runtime::nalgebra::{SMatrix, SVector};
+use gauss_runtime::system::{GaussSystem, Smoothness};
+
+use super::envelope::{Envelope, extents};
+use super::place::{Touch, Twist, rest};
+use super::slot::{Slot, SlotError, SlotField, SlotRule};
+
+/// The gap of a slot that is not used: it has no rate and never closes.
+const OPEN: f64 = 1.0;
+/// Roundings of the largest term of a row of W below which an entry is none.
+const ROUNDINGS: f64 = 8.0;
+
+const NAMES: [&str; 64] = [
+    "slot_0", "slot_1", "slot_2", "slot_3", "slot_4", "slot_5", "slot_6", "slot_7", "slot_8", "slot_9", "slot_10",
+    "slot_11", "slot_12", "slot_13", "slot_14", "slot_15", "slot_16", "slot_17", "slot_18", "slot_19", "slot_20",
+    "slot_21", "slot_22", "slot_23", "slot_24", "slot_25", "slot_26", "slot_27", "slot_28", "slot_29", "slot_30",
+    "slot_31", "slot_32", "slot_33", "slot_34", "slot_35", "slot_36", "slot_37", "slot_38", "slot_39", "slot_40",
+    "slot_41", "slot_42", "slot_43", "slot_44", "slot_45", "slot_46", "slot_47", "slot_48", "slot_49", "slot_50",
+    "slot_51", "slot_52", "slot_53", "slot_54", "slot_55", "slot_56", "slot_57", "slot_58", "slot_59", "slot_60",
+    "slot_61", "slot_62", "slot_63",
+];
+
+/// A kernel with N slots for contacts: a [`ContactSystem`] whose contacts are given at run time, between any two of its
+/// `frames(…)`, or one of them and what is at rest.
+///
+/// R is 3 N: of each contact its normal and two tangents. D is the number of speeds. `Slots::<_, 8, 24, _>::new(&kernel)`
+/// lets the compiler find the others. Poses, twists, Jacobians and accelerations are those of the kernel, and so is A:
+/// it is factored along its zeros, so that a response costs what the bodies that touch ask for.
+///
+/// Matrices of R rows are handed on by value, as in every `ContactSystem`: 64 slots of 100 speeds take half a megabyte
+/// of the stack for each copy, and a build without optimisation makes several. Give such a thread 32 MB.
+///
+/// A kernel with constraints that speeds do not solve, or with contacts of its own, does not compile here. Of a scene
+/// that moves in a plane, rows along which nothing moves are left without effect.
+pub struct Slots<'k, K: FramedSystem, const N: usize, const R: usize, const D: usize> {
+    kernel: &'k K,
+    slots: [Option<Slot<K::Frame>>; N],
+}
+
+impl<K: FramedSystem, const N: usize, const R: usize, const D: usize> Clone for Slots<'_, K, N, R, D> {
+    fn clone(&self) -> Self {
+        Self { kernel: self.kernel, slots: self.slots }
+    }
+}
+
+impl<K: FramedSystem, const N: usize, const R: usize, const D: usize> fmt::Debug for Slots<'_, K, N, R, D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.slots.iter().flatten()).finish()
+    }
+}
+
+impl<'k, K, const N: usize, const R: usize, const D: usize> Slots<'k, K, N, R, D>
+where
+    K: FramedSystem<Scalar = f64, Speeds = SVector<f64, D>, Jacobian = SMatrix<f64, 6, D>>,
+{
+    const TABLE: [Contact; N] = {
+        let mut table = [Contact::new(NAMES[0], 0, 2); N];
+        let mut i = 0;
+        while i < N {
+            table[i] = Contact::new(NAMES[i], 3 * i, 2);
+            i += 1;
+        }
+        table
+    };
+
+    /// All slots are open.
+    pub fn new(kernel: &'k K) -> Self {
+        const {
+            assert!(R == 3 * N, "a slot has three rows: its normal and two tangents");
+            assert!(N <= NAMES.len(), "there are up to 64 slots");
+            assert!(!K::CONSTRAINED, "slots need a kernel whose speeds satisfy its constraints by themselves");
+            assert!(!K::HAS_CONTACTS, "slots need a kernel without contacts of its own; write their points as slots");
+        }
+        Self { kernel, slots: [None; N] }
+    }
+
+    /// The kernel.
+    pub fn kernel(&self) -> &'k K {
+        self.kernel
+    }
+
+    /// The data of all slots, with normals of length one; `None` where a slot is not used.
+    pub fn slots(&self) -> &[Option<Slot<K::Frame>>; N] {
+        &self.slots
+    }
+
+    /// Gives a slot its data; where they are refused it keeps those that it had.
+    ///
+    /// # Errors
+    /// [`SlotError`]: a number beyond the last, two frames that are one, numbers that are none.
+    pub fn set(&mut self, slot: usize, data: Slot<K::Frame>) -> Result<(), SlotError> {
+        let checked = data.checked(slot)?;
+        let (field, rule) = (SlotField::Number, SlotRule::Below { count: N });
+        let place = self.slots.get_mut(slot).ok_or(SlotError { slot, field, value: slot as f64, rule })?;
+        *place = Some(checked);
+        Ok(())
+    }
+
+    /// Leaves a slot unused; nothing where there is none of that number.
+    pub fn clear(&mut self, slot: usize) {
+        if let Some(place) = self.slots.get_mut(slot) {
+            *place = None;
+        }
+    }
+
+    /// All slots from the first on, those that are left unused; where one is refused all keep what they had.
+    ///
+    /// # Errors
+    /// [`SlotError`] of the first that is refused.
+    pub fn fill(&mut self, data: impl IntoIterator<Item = Slot<K::Frame>>) -> Result<(), SlotError> {
+        let mut filled = Self { kernel: self.kernel, slots: [None; N] };
+        for (slot, data) in data.into_iter().enumerate() {
+            filled.set(slot, data)?;
+        }
+        self.slots = filled.slots;
+        Ok(())
+    }
+
+    /// Calls a function for each slot that is used, with what it is told of both frames; that is asked for again where
+    /// the frame is another one than of the slot before.
+    fn each<P: Clone>(&self, of: impl Fn(Option<K::Frame>) -> P, mut act: impl FnMut(usize, &Slot<K::Frame>, [&P; 2])) {
+        let mut last: [Option<(Option<K::Frame>, P)>; 2] = [None, None];
+        for (i, slot) in self.slots.iter().enumerate() {
+            let Some(slot) = slot else { continue };
+            for (last, frame) in last.iter_mut().zip([slot.first, slot.second]) {
+                if last.as_ref().is_none_or(|(known, _)| *known != frame) {
+                    *last = Some((frame, of(frame)));
+                }
+            }
+            if let [Some((_, first)), Some((_, second))] = &last {
+                act(i, slot, [first, second]);
+            }
+        }
+    }
+
+    fn pose(&self, frame: Option<K::Frame>, t: f64, q: &K::Configuration) -> FramePose<f64> {
+        frame.map_or_else(rest, |frame| self.kernel.pose_of(frame, t, q))
+    }
+
+    /// Wᵀ, column by column.
+    fn columns(&self, frames: &K::Frames) -> SMatrix<f64, D, R> {
+        let mut columns = SMatrix::<f64, D, R>::from([[0.0; D]; R]);
+        self.each(
+            |frame| frame.map(|frame| &frames[frame]),
+            |i, slot, motions| {
+                let touch = Touch::new(slot, poses(motions).each_ref());
+                for (k, axis) in slot.axes().iter().enumerate() {
+                    let arms = touch.arms(slot, axis);
+                    let column = &mut columns.data.0[3 * i + k];
+                    let mut largest = 0.0_f64;
+                    for (j, entry) in column.iter_mut().enumerate() {
+                        let mut size = 0.0;
+                        for (arm, motion) in arms.iter().zip(motions) {
+                            let Some(motion) = motion else { continue };
+                            for part in 0..6 {
+                                let term = arm[part] * motion.jacobian[(part, j)];
+                                *entry += term;
+                                size += term.abs();
+                            }
+                        }
+                        largest = largest.max(size);
+                    }
+                    // What is rounding is no direction in which something moves.
+                    column.iter_mut().filter(|x| x.abs() <= ROUNDINGS * f64::EPSILON * largest).for_each(|x| *x = 0.0);
+                }
+            },
+        );
+        columns
+    }
+
+    fn response(&self, t: f64, q: &K::Configuration, frames: &K::Frames) -> ImpulseResponse<Self> {
+        let mut columns = self.columns(frames);
+        let matrix = self.kernel.mass_matrix(t, q);
+        let factor = Envelope::<D>::of(SMatrix::from_fn(|i, j| matrix[(i, j)]));
+        let from = extents(&columns);
+        for (column, (from, _)) in columns.data.0.iter_mut().zip(from) {
+            factor.forward(column, from);
+        }
+        // D = (L⁻¹Wᵀ)ᵀ (L⁻¹Wᵀ).
+        let extents = extents(&columns);
+        let mut delassus = SMatrix::<f64, R, R>::from([[0.0; R]; R]);
+        for row in 0..R {
+            for other in 0..=row {
+                let (from, to) = (extents[row].0.max(extents[other].0), extents[row].1.min(extents[other].1));
+                let product: f64 = (from..to).map(|k| columns[(k, row)] * columns[(k, other)]).sum();
+                (delassus[(row, other)], delassus[(other, row)]) = (product, product);
+            }
+        }
+        self.fill_idle_rows(&mut delassus);
+        columns.data.0.iter_mut().for_each(|column| factor.backward(column));
+        ImpulseResponse::new(columns, delassus)
+    }
+
+    /// Rows of a slot along which nothing can move: with a diagonal of their own they are independent of all others, and
+    /// impulses along them do nothing.
+    fn fill_idle_rows(&self, delassus: &mut SMatrix<f64, R, R>) {
+        for (i, _) in self.slots.iter().enumerate().filter(|(_, slot)| slot.is_some()) {
+            let largest = (3 * i..3 * i + 3).map(|row| delassus[(row, row)]).fold(0.0, f64::max);
+            for row in (3 * i..3 * i + 3).filter(|_| largest > 0.0) {
+                if delassus[(row, row)] == 0.0 {
+                    delassus[(row, row)] = largest;
+                }
+            }
+        }
+    }
+}
+
+type Motion<const D: usize> = FrameMotion<f64, SMatrix<f64, 6, D>>;
+
+fn poses<const D: usize>(motions: [&Option<&Motion<D>>; 2]) -> [FramePose<f64>; 2] {
+    motions.map(|motion| motion.map_or_else(rest, |motion| motion.pose))
+}
+
+impl<K, const N: usize, const R: usize, const D: usize> GaussSystem for Slots<'_, K, N, R, D>
+where
+    K: FramedSystem<Scalar = f64, Speeds = SVector<f64, D>, Jacobian = SMatrix<f64, 6, D>>,
+{
+    type Scalar = f64;
+    type Configuration = K::Configuration;
+    type Speeds = K::Speeds;
+    type MassMatrix = K::MassMatrix;
+    type Input = K::Input;
+
+    const CHART: Chart = K::CHART;
+    const HAS_CONTACTS: bool = true;
+    const SMOOTHNESS: Smoothness = K::SMOOTHNESS;
+
+    fn kinematics(
+        &self,
+        t: f64,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+    ) -> <Self::Configuration as Configuration>::Tangent {
+        self.kernel.kinematics(t, q, z)
+    }
+
+    fn acceleration(&self, t: f64, q: &Self::Configuration, z: &Self::Speeds, input: &Self::Input) -> Self::Speeds {
+        self.kernel.acceleration(t, q, z, input)
+    }
+
+    fn momentum(&self, t: f64, q: &Self::Configuration, z: &Self::Speeds) -> Self::Speeds {
+        self.kernel.momentum(t, q, z)
+    }
+
+    fn velocity(&self, t: f64, q: &Self::Configuration, p: &Self::Speeds) -> Self::Speeds {
+        self.kernel.velocity(t, q, p)
+    }
+
+    fn momentum_rate(&self, t: f64, q: &Self::Configuration, p: &Self::Speeds, input: &Self::Input) -> Self::Speeds {
+        self.kernel.momentum_rate(t, q, p, input)
+    }
+
+    fn mass_matrix(&self, t: f64, q: &Self::Configuration) -> Self::MassMatrix {
+        self.kernel.mass_matrix(t, q)
+    }
+
+    fn kinetic_energy(&self, t: f64, q: &Self::Configuration, z: &Self::Speeds) -> f64 {
+        self.kernel.kinetic_energy(t, q, z)
+    }
+
+    fn potential_energy(&self, t: f64, q: &Self::Configuration) -> f64 {
+        self.kernel.potential_energy(t, q)
+    }
+
+    fn gauss_residual(
+        &self,
+        t: f64,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        acceleration: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Self::Speeds {
+        self.kernel.gauss_residual(t, q, z, acceleration, input)
+    }
+
+    fn nonlinear_effects(
+        &self,
+        t: f64,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> Self::Speeds {
+        self.kernel.nonlinear_effects(t, q, z, input)
+    }
+
+    fn constraint_function(
+        &self,
+        t: f64,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        acceleration: &Self::Speeds,
+        input: &Self::Input,
+    ) -> f64 {
+        self.kernel.constraint_function(t, q, z, acceleration, input)
+    }
+
+    fn regularity(&self, t: f64, q: &Self::Configuration) -> f64 {
+        self.kernel.regularity(t, q)
+    }
+
+    fn project(
+        &self,
+        t: f64,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+    ) -> Result<(Self::Configuration, Self::Speeds), ProjectionError> {
+        self.kernel.project(t, q, z)
+    }
+}
+
+impl<K, const N: usize, const R: usize, const D: usize> ContactSystem for Slots<'_, K, N, R, D>
+where
+    K: FramedSystem<Scalar = f64, Speeds = SVector<f64, D>, Jacobian = SMatrix<f64, 6, D>>,
+{
+    type Gaps = SVector<f64, N>;
+    type ContactRows = SVector<f64, R>;
+    type ContactColumns = SMatrix<f64, D, R>;
+    type ImpulseFactors = Self::ContactColumns;
+    type Delassus = SMatrix<f64, R, R>;
+
+    const CONTACTS: &'static [Contact] = &Self::TABLE;
+
+    fn gaps(&self, t: f64, q: &Self::Configuration) -> Self::Gaps {
+        let mut gaps = SVector::from([OPEN; N]);
+        self.each(|frame| self.pose(frame, t, q), |i, slot, poses| gaps[i] = Touch::new(slot, poses).gap(slot));
+        gaps
+    }
+
+    fn contact_rates(&self, t: f64, q: &Self::Configuration, z: &Self::Speeds) -> Self::ContactRows {
+        let mut rates = Self::ContactRows::zero();
+        let moving = |frame: Option<K::Frame>| {
+            let twist = frame.map_or_else(Twist::zero, |frame| self.kernel.twist_of(frame, t, q, z));
+            (self.pose(frame, t, q), twist)
+        };
+        self.each(moving, |i, slot, [first, second]| {
+            let touch = Touch::new(slot, [&first.0, &second.0]);
+            for (k, axis) in slot.axes().iter().enumerate() {
+                let [own, other] = touch.arms(slot, axis);
+                rates[3 * i + k] = own.dot(&first.1) + other.dot(&second.1);
+            }
+        });
+        rates
+    }
+
+    fn contact_jacobian(&self, t: f64, q: &Self::Configuration) -> Self::ContactColumns {
+        self.columns(&self.kernel.frames(t, q, &Self::Speeds::zero()))
+    }
+
+    fn contact_frame(&self, contact: usize, t: f64, q: &Self::Configuration) -> Option<ContactFrame<f64>> {
+        let slot = self.slots.get(contact)?.as_ref()?;
+        let (first, second) = (self.pose(slot.first, t, q), self.pose(slot.second, t, q));
+        let [normal, a, b] = slot.axes().map(|axis| second.rotation * axis);
+        let touches = first.rotation * slot.point + first.translation.vector - normal * slot.radius;
+        Some(ContactFrame::new(touches, normal, &[a, b]))
+    }
+
+    fn friction(&self, _: f64, _: &Self::Configuration, _: &Self::Speeds, _: &Self::Input) -> Self::ContactRows {
+        let of = |row: usize| self.slots[row / 3].as_ref().map_or(0.0, |slot| slot.friction);
+        SVector::from(core::array::from_fn(|row| if row % 3 == 0 { 0.0 } else { of(row) }))
+    }
+
+    fn restitution(&self) -> Self::Gaps {
+        SVector::from(core::array::from_fn(|i| self.slots[i].as_ref().map_or(0.0, |slot| slot.restitution)))
+    }
+
+    fn impulse_response(&self, t: f64, q: &Self::Configuration) -> ImpulseResponse<Self> {
+        self.response(t, q, &self.kernel.frames(t, q, &Self::Speeds::zero()))
+    }
+
+    fn impulse_dynamics(
+        &self,
+        t: f64,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> ImpulseDynamics<Self> {
+        let frames = self.kernel.frames(t, q, z);
+        let acceleration = self.kernel.acceleration(t, q, z, input);
+        let mut bias = Self::ContactRows::zero();
+        let moving = |frame: Option<K::Frame>| {
+            let motion = frame.map(|frame| &frames[frame]);
+            motion.map_or_else(
+                || (rest(), Twist::zero(), Twist::zero()),
+                |motion| (motion.pose, motion.twist, motion.acceleration(&acceleration)),
+            )
+        };
+        self.each(moving, |i, slot, [first, second]| {
+            let touch = Touch::new(slot, [&first.0, &second.0]);
+            let relative = touch.acceleration(slot, [&first.1, &second.1], [&first.2, &second.2]);
+            slot.axes().iter().enumerate().for_each(|(k, axis)| bias[3 * i + k] = axis.dot(&relative));
+        });
+        ImpulseDynamics::new(acceleration, bias, self.response(t, q, &frames))
+    }
+
+    fn after_impulses(
+        &self,
+        z: &Self::Speeds,
+        columns: &Self::ImpulseFactors,
+        impulses: &Self::ContactRows,
+    ) -> AfterImpulses<Self::Speeds> {
+        after_impulses::<Self>(z, columns, impulses)
+    }
+
+    fn contact_columns(&self, columns: &Self::ImpulseFactors) -> Self::ContactColumns {
+        *columns
+    }
+}

@@ -1,0 +1,131 @@
+//! A stepper between two steps, for contacts whose data change there.
+
+use core::fmt;
+
+use gauss_runtime::configuration::VectorSpace;
+use gauss_runtime::contact::ContactSystem;
+
+use crate::error::ContactError;
+use crate::mode::Mode;
+
+use super::cones::MOST;
+use super::relaxed::StepLaw;
+use super::report::{StepReport, StepScheme};
+use super::stepper::ContactStepper;
+
+/// What a contact did in the step before.
+type Carried = Option<(Mode, bool)>;
+
+/// All of a [`ContactStepper`] but its kernel, whose data are free to change: the answer of
+/// [`hold`](ContactStepper::hold).
+pub struct HeldSteps<K: ContactSystem<Scalar = f64>, M> {
+    pub(super) t: f64,
+    pub(super) q: K::Configuration,
+    pub(super) z: K::Speeds,
+    pub(super) scheme: StepScheme,
+    pub(super) law: StepLaw,
+    pub(super) tolerance: f64,
+    pub(super) memory: M,
+    pub(super) impulses: K::ContactRows,
+    pub(super) dependent: bool,
+    pub(super) acceleration: Option<K::Speeds>,
+    pub(super) modes: [Mode; MOST],
+    pub(super) rests: [bool; MOST],
+    pub(super) report: StepReport,
+}
+
+impl<K: ContactSystem<Scalar = f64>, M> fmt::Debug for HeldSteps<K, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { t, q, z, report, .. } = self;
+        f.debug_struct("HeldSteps").field("t", t).field("q", q).field("z", z).field("report", report).finish()
+    }
+}
+
+impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> HeldSteps<K, M> {
+    /// See [`ContactStepper::scheme`].
+    #[must_use]
+    pub fn scheme(self, scheme: StepScheme) -> Self {
+        Self { scheme, ..self }
+    }
+
+    /// See [`ContactStepper::law`].
+    #[must_use]
+    pub fn law(self, law: StepLaw) -> Self {
+        Self { law, ..self }
+    }
+
+    /// See [`ContactStepper::tolerance`].
+    #[must_use]
+    pub fn tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance, ..self }
+    }
+
+    /// The time.
+    pub fn time(&self) -> f64 {
+        self.t
+    }
+
+    /// The configuration.
+    pub fn configuration(&self) -> &K::Configuration {
+        &self.q
+    }
+
+    /// The quasi-velocities.
+    pub fn speeds(&self) -> &K::Speeds {
+        &self.z
+    }
+
+    /// What the last step did.
+    pub fn report(&self) -> StepReport {
+        self.report
+    }
+
+    /// What the contacts did in the last step.
+    pub fn modes(&self) -> &[Mode] {
+        &self.modes[..K::CONTACTS.len()]
+    }
+
+    /// The impulses of the last step, row by row.
+    pub fn impulses(&self) -> &K::ContactRows {
+        &self.impulses
+    }
+
+    /// One step with new data of the contacts, as of [`ContactStepper::step`]. `before(i)` is the contact of the step
+    /// before whose impulses and mode contact i begins with, both of the same number of rows; `None` where it is new.
+    /// A new one counts as closed where its gap is zero to rounding and does not open.
+    ///
+    /// A gap that the new data put below zero is brought to zero, and counted in the
+    /// [`penetration`](StepReport::penetration).
+    ///
+    /// # Errors
+    /// Those of [`ContactStepper::step`], `InvalidRestitution`; the state is then that before the step.
+    pub fn step(
+        &mut self,
+        kernel: &K,
+        before: impl Fn(usize) -> Option<usize>,
+        (h, input): (f64, &K::Input),
+    ) -> Result<StepReport, ContactError>
+    where
+        M: Default,
+    {
+        crate::start::check_contacts(kernel, self.t, &self.q, |_| f64::INFINITY)?;
+        let memory = core::mem::take(&mut self.memory);
+        let mut stepper = ContactStepper::resumed(kernel, Self { memory, ..*self }, before);
+        let made = stepper.step(h, input);
+        *self = stepper.hold();
+        made
+    }
+
+    /// The rows that contacts begin with, their modes and whether they rest.
+    pub(super) fn carried(&self, before: impl Fn(usize) -> Option<usize>) -> (K::ContactRows, [Carried; MOST]) {
+        let (mut impulses, mut modes) = (K::ContactRows::zero(), [None; MOST]);
+        for (i, contact) in K::CONTACTS.iter().enumerate() {
+            let Some((from, known)) = before(i).and_then(|from| Some((from, K::CONTACTS.get(from)?))) else { continue };
+            modes[i] = Some((self.modes[from], self.rests[from]));
+            for (row, from) in contact.rows().zip(known.rows()) {
+                impulses.set_component(row, self.impulses.component(from));
+            }
+        }
+        (impulses, modes)
+    }
+}
