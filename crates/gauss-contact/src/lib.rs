@@ -66,7 +66,7 @@ pub use impact::Impact;
 pub use mode::{InMode, Mode};
 pub use residual::Residual;
 pub use run::ContactRun;
-pub use steps::{ContactStepper, ContactSteps, StepReport, StepSample, StepScheme};
+pub use steps::{AtChange, Change, ContactStepper, ContactSteps, StepDerivatives, StepReport, StepSample, StepScheme};
 pub use trajectory::{ContactForce, ContactTrajectory, Segment};
 
 /// The page of the crate, whose program is a test.

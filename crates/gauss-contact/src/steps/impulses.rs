@@ -157,7 +157,7 @@ impl<'m> Impulses<'m> {
     fn update(&mut self, cones: &[Cone]) {
         for row in cones.iter().flat_map(Cone::rows) {
             self.rates[row] = self.rate(row);
-            let products = summed(self.row(row), self.impulses, |d, impulse| (d * impulse).abs());
+            let products = summed(self.row(row), self.impulses, |d, impulse| f64::abs(d * impulse));
             self.terms[row] = self.b[row].abs() + products;
         }
     }

@@ -1,29 +1,33 @@
 //! Dense linear systems in memory that is given: factors by elimination with row pivots.
 
+use gauss_runtime::real::Real;
+
+use crate::dense::value;
+
 /// The scalar product.
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     summed(a, b, |a, b| a * b)
 }
 
 /// The sum over pairs, in four sums that do not wait for one another.
-pub(crate) fn summed(a: &[f64], b: &[f64], product: impl Fn(f64, f64) -> f64) -> f64 {
-    let mut sums = [0.0; 4];
+pub(crate) fn summed<T: Real>(a: &[T], b: &[T], product: impl Fn(T, T) -> T) -> T {
+    let mut sums = [T::zero(); 4];
     let (a, rest_a) = a.as_chunks::<4>();
     let (b, rest_b) = b.as_chunks::<4>();
     for (a, b) in a.iter().zip(b) {
         (0..4).for_each(|k| sums[k] += product(a[k], b[k]));
     }
-    let rest: f64 = rest_a.iter().zip(rest_b).map(|(a, b)| product(*a, *b)).sum();
+    let rest = rest_a.iter().zip(rest_b).fold(T::zero(), |sum, (a, b)| sum + product(*a, *b));
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 /// Replaces a matrix, row by row, by its factors; `order` takes the rows in the order of their pivots. Whether no pivot
 /// is smaller than a part of the largest entry of its column.
-pub(crate) fn factorise(matrix: &mut [f64], order: &mut [usize], part: f64) -> bool {
+pub(crate) fn factorise<T: Real>(matrix: &mut [T], order: &mut [usize], part: f64) -> bool {
     let n = order.len();
     order.iter_mut().enumerate().for_each(|(i, row)| *row = i);
     for k in 0..n {
-        let size = |i: &usize| matrix[*i * n + k].abs();
+        let size = |i: &usize| value(matrix[*i * n + k]).abs();
         // Of the factors above and of what is left: an entry of the column to begin with is not far from these.
         let column = (0..n).map(|i| size(&i)).fold(0.0, f64::max);
         let Some(pivot) = (k..n).max_by(|a, b| size(a).total_cmp(&size(b))) else { return true };
@@ -34,14 +38,15 @@ pub(crate) fn factorise(matrix: &mut [f64], order: &mut [usize], part: f64) -> b
         let (above, below) = matrix.split_at_mut((k + 1) * n);
         let first = &above[k * n..];
         let diagonal = first[k];
-        if diagonal.abs() <= part * column || !diagonal.is_finite() {
+        if value(diagonal).abs() <= part * column || !value(diagonal).is_finite() {
             return false;
         }
         for row in below.chunks_exact_mut(n) {
             let factor = row[k] / diagonal;
             row[k] = factor;
-            if factor != 0.0 {
-                row[k + 1..].iter_mut().zip(&first[k + 1..n]).for_each(|(x, y)| *x -= factor * y);
+            // What is zero may have a derivative.
+            if T::DERIVATIVES || value(factor) != 0.0 {
+                row[k + 1..].iter_mut().zip(&first[k + 1..n]).for_each(|(x, y)| *x -= factor * *y);
             }
         }
     }
@@ -49,7 +54,7 @@ pub(crate) fn factorise(matrix: &mut [f64], order: &mut [usize], part: f64) -> b
 }
 
 /// Solves for a right side that is given in the order of the rows before elimination.
-pub(crate) fn solve(factors: &[f64], order: &[usize], right: &[f64], x: &mut [f64]) {
+pub(crate) fn solve<T: Real>(factors: &[T], order: &[usize], right: &[T], x: &mut [T]) {
     let n = order.len();
     for k in 0..n {
         let row = &factors[k * n..k * n + k];

@@ -10,12 +10,20 @@
 //! are their rates and the slips of what sticks. No event is sought, so that dozens of contacts, and impacts that pile
 //! up, are no more work than one; the time of an impact is known to a step.
 
+mod active;
 mod cones;
+mod derivatives;
+mod edges;
+mod followed;
 mod impulses;
 mod linear;
+mod motion;
 mod projection;
 mod run;
 mod stepper;
+mod watch;
 
+pub use derivatives::StepDerivatives;
+pub use edges::{AtChange, Change};
 pub use run::{ContactSteps, StepSample};
 pub use stepper::{ContactStepper, StepReport, StepScheme};

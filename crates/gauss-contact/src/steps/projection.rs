@@ -6,6 +6,7 @@ use gauss_runtime::contact::{ContactResponse, ContactSystem};
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 
+use crate::dense::value;
 use crate::mode::{Mode, pushed};
 
 use super::cones::{MOST, MOST_ROWS};
@@ -18,35 +19,39 @@ const PULL: f64 = 1e-10;
 const CORRECTIONS: usize = 12;
 
 /// Memory for projections.
-pub(crate) struct Projection<'m> {
-    matrix: &'m mut [f64],
-    right: &'m mut [f64],
-    solution: &'m mut [f64],
+pub(crate) struct Projection<'m, T = f64> {
+    matrix: &'m mut [T],
+    right: &'m mut [T],
+    solution: &'m mut [T],
     /// The solution in all rows.
-    all: &'m mut [f64],
+    all: &'m mut [T],
     rows: [usize; MOST_ROWS],
     order: [usize; MOST_ROWS],
     count: usize,
+    /// Contacts whose gaps were brought to zero.
+    pub(crate) held: [bool; MOST],
 }
 
-impl<'m> Projection<'m> {
+impl Projection<'_> {
     /// How many numbers it needs for so many rows.
     pub(crate) const fn memory(rows: usize) -> usize {
         rows * rows + 3 * rows
     }
+}
 
-    pub(crate) fn new(memory: &'m mut [f64], rows: usize) -> Self {
+impl<'m, T: Real> Projection<'m, T> {
+    pub(crate) fn new(memory: &'m mut [T], rows: usize) -> Self {
         let (matrix, memory) = memory.split_at_mut(rows * rows);
         let (right, memory) = memory.split_at_mut(rows);
         let (solution, memory) = memory.split_at_mut(rows);
         let (rows, order) = ([0; MOST_ROWS], [0; MOST_ROWS]);
-        Self { matrix, right, solution, all: memory, rows, order, count: 0 }
+        Self { matrix, right, solution, all: memory, rows, order, count: 0, held: [false; MOST] }
     }
 
     /// Factors of D at some rows.
-    fn factorise<K: ContactSystem<Scalar = f64>>(&mut self, delassus: &K::Delassus, rows: impl Iterator<Item = usize>) {
+    fn factorise<K: ContactSystem<Scalar = T>>(&mut self, delassus: &K::Delassus, rows: impl Iterator<Item = usize>) {
         let mut count = 0;
-        for row in rows.filter(|&row| delassus[(row, row)] > 0.0) {
+        for row in rows.filter(|&row| value(delassus[(row, row)]) > 0.0) {
             self.rows[count] = row;
             count += 1;
         }
@@ -54,46 +59,47 @@ impl<'m> Projection<'m> {
         for i in 0..count {
             for j in 0..count {
                 let entry = delassus[(self.rows[i], self.rows[j])];
-                self.matrix[i * count + j] = if i == j { entry * (1.0 + PULL) } else { entry };
+                self.matrix[i * count + j] = if i == j { entry * T::from_f64(1.0 + PULL) } else { entry };
             }
         }
         factorise(&mut self.matrix[..count * count], &mut self.order[..count], 0.0);
     }
 
     /// Impulses that take away rates, in all rows.
-    fn cancelling(&mut self, rate: impl Fn(usize) -> f64) -> &[f64] {
+    fn cancelling(&mut self, rate: impl Fn(usize) -> T) -> &[T] {
         let n = self.count;
         (0..n).for_each(|k| self.right[k] = -rate(self.rows[k]));
         solve(&self.matrix[..n * n], &self.order[..n], &self.right[..n], &mut self.solution[..n]);
-        self.all.fill(0.0);
+        self.all.fill(T::zero());
         (0..n).for_each(|k| self.all[self.rows[k]] = self.solution[k]);
         self.all
     }
 
     /// Gaps of closed contacts brought to zero, and those that are negative; with the gaps there, and how far the
     /// lowest was below zero.
-    pub(crate) fn close<K: ContactSystem<Scalar = f64>>(
+    pub(crate) fn close<K: ContactSystem<Scalar = T>>(
         &mut self,
         kernel: &K,
-        (t, mut q): (f64, K::Configuration),
+        (t, mut q): (T, K::Configuration),
         response: &ContactResponse<K>,
         closed: &[bool; MOST],
     ) -> Result<(K::Configuration, K::Gaps, f64), ProjectionError> {
         let magnitude = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
         let mut gaps = kernel.gaps(t, &q);
         let each = || K::CONTACTS.iter().enumerate().filter(|(_, contact)| contact.has_gap());
-        let lowest = each().map(|(i, _)| gaps.component(i)).fold(0.0, f64::min);
-        let mut held = [false; MOST];
+        let lowest = each().map(|(i, _)| value(gaps.component(i))).fold(0.0, f64::min);
+        self.held = [false; MOST];
         let (mut left, mut size) = (f64::INFINITY, 0.0);
         for n in 0..CORRECTIONS {
             let mut grown = n == 0;
             for (i, _) in each() {
-                let joins = !held[i] && (closed[i] || gaps.component(i) < 0.0);
-                held[i] |= joins;
+                let joins = !self.held[i] && (closed[i] || value(gaps.component(i)) < 0.0);
+                self.held[i] |= joins;
                 grown |= joins;
             }
-            let gap = |i: usize| if held[i] { gaps.component(i) } else { 0.0 };
-            size = (0..K::CONTACTS.len()).map(|i| gap(i).abs()).fold(0.0, f64::max);
+            let held = self.held;
+            let gap = |i: usize| if held[i] { gaps.component(i) } else { T::zero() };
+            size = (0..K::CONTACTS.len()).map(|i| value(gap(i)).abs()).fold(0.0, f64::max);
             // Below rounding, or where a correction no longer halves what is left, there is nothing to gain.
             if size <= 2.0 * f64::EPSILON * magnitude || (!grown && size >= 0.5 * left) {
                 break;
@@ -105,13 +111,14 @@ impl<'m> Projection<'m> {
                     each().filter(|(i, _)| held[*i]).map(|(_, contact)| contact.normal),
                 );
             }
-            let of_row = |row: usize| each().find(|(_, contact)| contact.normal == row).map_or(0.0, |(i, _)| gap(i));
+            let of_row =
+                |row: usize| each().find(|(_, contact)| contact.normal == row).map_or(T::zero(), |(i, _)| gap(i));
             let impulses = self.cancelling(of_row);
             let zero = K::Speeds::zero();
             let moved = pushed::<K>(&zero, &response.columns, impulses);
             // ψ is affine in z: what an impulse adds to it is an increment of the configuration.
             let still = kernel.kinematics(t, &q, &zero);
-            q = q.advance(&kernel.kinematics(t, &q, &moved).add_scaled(-1.0, &still));
+            q = q.advance(&kernel.kinematics(t, &q, &moved).add_scaled(-T::one(), &still));
             gaps = kernel.gaps(t, &q);
         }
         // Half of the digits: what is farther off was not on its way to zero.
@@ -123,10 +130,10 @@ impl<'m> Projection<'m> {
 
     /// Rates of closed gaps, and slips of what sticks, brought to zero where they are more than rounding; with all
     /// rates there.
-    pub(crate) fn stop<K: ContactSystem<Scalar = f64>>(
+    pub(crate) fn stop<K: ContactSystem<Scalar = T>>(
         &mut self,
         kernel: &K,
-        (t, q, mut z): (f64, &K::Configuration, K::Speeds),
+        (t, q, mut z): (T, &K::Configuration, K::Speeds),
         response: &ContactResponse<K>,
         (mode, rounding): (&dyn Fn(usize) -> Mode, f64),
     ) -> (K::Speeds, K::ContactRows) {
@@ -140,7 +147,7 @@ impl<'m> Projection<'m> {
         let mut rates = kernel.contact_rates(t, q, &z);
         let mut left = f64::INFINITY;
         for n in 0..CORRECTIONS {
-            let size = rows().map(|row| rates.component(row).abs()).fold(0.0, f64::max);
+            let size = rows().map(|row| value(rates.component(row)).abs()).fold(0.0, f64::max);
             if size <= rounding || size >= 0.5 * left {
                 break;
             }

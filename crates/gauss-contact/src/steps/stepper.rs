@@ -14,7 +14,9 @@ use crate::residual::Residual;
 
 use super::cones::{Laws, MOST, MOST_ROWS};
 use super::impulses::{Found, Impulses};
+use super::motion::{self, Middle};
 use super::projection::Projection;
+use super::watch::Watch;
 
 /// How a step takes the motion between impacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -74,8 +76,8 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) t: f64,
     pub(super) q: K::Configuration,
     pub(super) z: K::Speeds,
-    scheme: StepScheme,
-    tolerance: f64,
+    pub(super) scheme: StepScheme,
+    pub(super) tolerance: f64,
     memory: M,
     impulses: K::ContactRows,
     /// Whether contacts depended on one another in the last step.
@@ -218,22 +220,70 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     /// # Errors
     /// `Unsolved` where no impulses were found that satisfy the laws, `InvalidFriction`, `NonFinite`, `Projection`.
     pub fn step(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
+        self.watched(h, input, &mut ())
+    }
+
+    /// A step whose parts are watched.
+    pub(super) fn watched<W: Watch<K>>(
+        &mut self,
+        h: f64,
+        input: &K::Input,
+        watch: &mut W,
+    ) -> Result<StepReport, ContactError> {
         if !(h > 0.0 && h.is_finite()) {
             return Err(self.error(None, ContactErrorKind::InvalidInterval));
         }
-        self.report = self.in_parts(h, input, HALVINGS)?;
+        self.report = self.in_parts(h, input, (HALVINGS, watch))?;
         Ok(self.report)
     }
 
+    /// Without the acceleration of the step before: a step is then a function of the state.
+    pub(super) fn start_anew(&mut self) {
+        self.acceleration = None;
+    }
+
+    /// All that a step changes, but memory.
+    pub(super) fn kept(&self) -> Kept<K> {
+        Kept {
+            state: (self.t, self.q, self.z),
+            acceleration: self.acceleration,
+            at_state: (self.gaps, self.rates),
+            impulses: self.impulses,
+            modes: self.modes,
+            dependent: self.dependent,
+            report: self.report,
+        }
+    }
+
+    /// In another state, with what contacts do as it is.
+    #[cfg(test)]
+    pub(super) fn move_to(&mut self, q: K::Configuration, z: K::Speeds) {
+        (self.q, self.z) = (q, z);
+        (self.gaps, self.rates) = (self.kernel.gaps(self.t, &q), self.kernel.contact_rates(self.t, &q, &z));
+    }
+
+    /// Back to what was kept.
+    pub(super) fn restore(&mut self, kept: &Kept<K>) {
+        (self.t, self.q, self.z) = kept.state;
+        (self.gaps, self.rates) = kept.at_state;
+        (self.acceleration, self.impulses) = (kept.acceleration, kept.impulses);
+        (self.modes, self.dependent, self.report) = (kept.modes, kept.dependent, kept.report);
+    }
+
     /// A step, or both halves of it.
-    fn in_parts(&mut self, h: f64, input: &K::Input, halvings: u32) -> Result<StepReport, ContactError> {
-        match self.whole(h, input) {
+    fn in_parts<W: Watch<K>>(
+        &mut self,
+        h: f64,
+        input: &K::Input,
+        (halvings, watch): (u32, &mut W),
+    ) -> Result<StepReport, ContactError> {
+        match self.whole(h, input, watch) {
             Err(ContactError { kind: ContactErrorKind::Unsolved { .. }, .. }) if halvings > 0 => {
                 let before = (self.t, self.q, self.z, self.gaps, self.rates, self.acceleration);
                 let (modes, impulses) = (self.modes, self.impulses);
-                let first = self.in_parts(0.5 * h, input, halvings - 1)?;
+                let first = self.in_parts(0.5 * h, input, (halvings - 1, watch))?;
                 let of_first = self.impulses;
-                let second = self.in_parts(0.5 * h, input, halvings - 1).inspect_err(|_| {
+                let second = self.in_parts(0.5 * h, input, (halvings - 1, watch)).inspect_err(|_| {
                     (self.t, self.q, self.z, self.gaps, self.rates, self.acceleration) = before;
                     (self.modes, self.impulses) = (modes, impulses);
                 })?;
@@ -244,9 +294,10 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
     }
 
-    fn whole(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
-        let (t, q, z) = (self.t, self.q, self.z);
-        let q = q.advance(&self.kernel.kinematics(t, &q, &z).scale(0.5 * h));
+    fn whole<W: Watch<K>>(&mut self, h: f64, input: &K::Input, watch: &mut W) -> Result<StepReport, ContactError> {
+        watch.begins();
+        let (t, z) = (self.t, self.z);
+        let q = motion::half_way(self.kernel, h, (t, &self.q, &z));
         let middle = |z: K::Speeds| Middle { t: t + 0.5 * h, q, z };
         let end = match (self.scheme, self.acceleration) {
             (StepScheme::MoreauJean, _) => self.attempt(h, &middle(z), input)?,
@@ -256,12 +307,16 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             // At the start and after impacts no acceleration is known: the step is made twice.
             (StepScheme::Midpoint, None) => match self.attempt(h, &middle(z), input)? {
                 end if end.struck => end,
-                end => self.attempt(h, &middle(z.add_scaled(1.0, &end.z).scale(0.5)), input)?,
+                end => {
+                    watch.first(&end, &self.next);
+                    self.attempt(h, &middle(z.add_scaled(1.0, &end.z).scale(0.5)), input)?
+                }
             },
         };
         if !(end.q.is_finite() && end.z.is_finite()) {
             return Err(self.error(None, ContactErrorKind::NonFinite));
         }
+        watch.part((t, h), &end, &self.next);
         self.acceleration = (!end.struck).then(|| end.z.add_scaled(-1.0, &z).scale(1.0 / h));
         self.t = t + h;
         (self.q, self.z, self.impulses) = (end.q, end.z, end.impulses);
@@ -288,19 +343,14 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         self.gaps.component(i) + 0.5 * h * (self.rates.component(K::CONTACTS[i].normal) + rate)
     }
 
-    /// The second half of a step, and what keeps bilateral constraints.
     fn second_half(
         &self,
         h: f64,
         middle: &Middle<K>,
         z: K::Speeds,
     ) -> Result<(K::Configuration, K::Speeds), ContactError> {
-        let q = middle.q.advance(&self.kernel.kinematics(middle.t, &middle.q, &z).scale(0.5 * h));
-        if !K::CONSTRAINED {
-            return Ok((q, z));
-        }
-        let projected = self.kernel.project(self.t + h, &q, &z);
-        projected.map_err(|cause| self.error(None, ContactErrorKind::Projection(cause)))
+        let end = motion::second_half(self.kernel, (self.t, h), middle, z);
+        end.map_err(|cause| self.error(None, ContactErrorKind::Projection(cause)))
     }
 
     /// A step in which no gap closes: the motion without contacts is all that it needs.
@@ -322,8 +372,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             return Ok(None);
         }
         let rates = kernel.contact_rates(self.t + h, &q, &z);
-        let (impulses, report) = (K::ContactRows::zero(), StepReport::default());
-        Ok(Some(End { q, z, gaps, rates, impulses, touches: false, report, struck: false }))
+        let (impulses, report, rests) = (K::ContactRows::zero(), StepReport::default(), [false; MOST]);
+        Ok(Some(End { q, z, gaps, rates, impulses, touches: false, dependent: false, rests, report, struck: false }))
     }
 
     /// A step in which contacts may act.
@@ -336,10 +386,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let free = self.z.add_scaled(h, &dynamics.acceleration);
         let known = self.dependent;
         let mut solved = self.solve(h, (&laws, &dynamics), self.free_rates(h, middle, &dynamics), &mut impulses);
-        if solved.is_err() && self.dependent && !known {
+        let again = solved.is_err() && self.dependent && !known;
+        if again {
             solved = self.solve(h, (&laws, &dynamics), self.free_rates(h, middle, &dynamics), &mut impulses);
         }
         let solved = solved.map_err(|kind| self.error(None, kind))?;
+        let dependent = known || (self.dependent && again);
         let z = pushed_rows::<K>(&free, &dynamics.response.columns, &impulses);
         let (q, z) = self.second_half(h, middle, z)?;
         // What begins to rest is brought to zero to the last bit, and stays there.
@@ -364,18 +416,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             work: solved.work,
             parts: 0,
         };
-        Ok(End { q, z, gaps, rates, impulses, touches: true, report, struck: solved.struck })
+        let Solved { rests, struck, .. } = solved;
+        Ok(End { q, z, gaps, rates, impulses, touches: true, dependent, rests, report, struck })
     }
 
-    /// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that
-    /// depend on one another both are taken at half of the step, where they agree with one another to rounding; that is
-    /// of first order.
     fn free_rates(&self, h: f64, middle: &Middle<K>, dynamics: &ContactDynamics<K>) -> [K::ContactRows; 2] {
-        if !self.dependent {
-            return [self.rates, self.rates.add_scaled(h, &dynamics.bias)];
-        }
-        let free = self.z.add_scaled(h, &dynamics.acceleration);
-        [self.z, free].map(|z| self.kernel.contact_rates(middle.t, &middle.q, &z))
+        motion::free_rates(self.kernel, (h, self.dependent), middle, (&self.z, &self.rates), dynamics)
     }
 
     /// Impulses of a step, at first those of the step before, and its modes.
@@ -393,8 +439,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         problem.dependent = self.dependent;
         let entry = |i: usize, j: usize| dynamics.response.delassus[(i, j)];
         problem.set_up(&scales, entry, |row| [free.component(row), impulses.component(row)]);
-        // What an impact passes on is a part of the rate before it.
-        let passed_on = |i: usize| -e.component(i) * before.component(K::CONTACTS[i].normal).min(0.0);
+        let passed_on = |i: usize| motion::passed_on(e.component(i), before.component(K::CONTACTS[i].normal));
         let end = |i: usize, rate: f64| gaps.component(i) + 0.5 * h * (before.component(K::CONTACTS[i].normal) + rate);
         let mut cones = laws.cones;
         for (i, contact) in K::CONTACTS.iter().enumerate() {
@@ -439,25 +484,40 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     }
 }
 
-/// The state at half of a step, with the speeds at which accelerations are taken.
-struct Middle<K: ContactSystem> {
-    t: f64,
-    q: K::Configuration,
-    z: K::Speeds,
+/// What a step changes.
+pub(super) struct Kept<K: ContactSystem> {
+    pub(super) state: (f64, K::Configuration, K::Speeds),
+    acceleration: Option<K::Speeds>,
+    at_state: (K::Gaps, K::ContactRows),
+    impulses: K::ContactRows,
+    modes: [Mode; MOST],
+    dependent: bool,
+    report: StepReport,
+}
+
+#[cfg(test)]
+impl<K: ContactSystem> Kept<K> {
+    pub(super) fn modes(&self) -> &[Mode] {
+        &self.modes[..K::CONTACTS.len()]
+    }
 }
 
 /// The end of a step.
-struct End<K: ContactSystem> {
+pub(super) struct End<K: ContactSystem> {
     q: K::Configuration,
-    z: K::Speeds,
+    pub(super) z: K::Speeds,
     gaps: K::Gaps,
     rates: K::ContactRows,
-    impulses: K::ContactRows,
+    pub(super) impulses: K::ContactRows,
     /// Whether contacts may have changed their modes.
-    touches: bool,
+    pub(super) touches: bool,
+    /// Whether rates were those of contacts that depend on one another.
+    pub(super) dependent: bool,
+    /// Contacts that are closed after the step.
+    pub(super) rests: [bool; MOST],
     report: StepReport,
     /// Whether a gap has closed.
-    struck: bool,
+    pub(super) struck: bool,
 }
 
 /// What the laws of a step came to.
