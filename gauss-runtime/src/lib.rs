@@ -21,6 +21,7 @@
 //! | [`monitor`] | energy and momentum watched over a run, energy against the work supplied |
 //! | [`error`] | errors for parameters that no body can have, and warnings |
 //! | [`real`] | the scalar: floats, SIMD lanes, dual numbers |
+//! | [`dual`] | [`Dual`](dual::Dual): dual numbers of several directions |
 //! | [`simd`] | packs of numbers that are worked on in lockstep |
 //! | `saved` | parameters, states and runs as data, for `serde` |
 //!
@@ -77,6 +78,7 @@ pub mod configuration;
 pub mod constraint;
 pub mod contact;
 pub mod description;
+pub mod dual;
 pub mod error;
 pub mod forces;
 pub mod frames;

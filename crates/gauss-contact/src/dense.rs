@@ -28,6 +28,11 @@ impl<T: Real> Matrix<T> {
         Self { size, entries }
     }
 
+    /// How many rows.
+    pub(crate) fn size(&self) -> usize {
+        self.size
+    }
+
     pub(crate) fn at(&self, i: usize, j: usize) -> T {
         self.entries[i * self.size + j]
     }
@@ -63,6 +68,11 @@ pub(crate) struct Decomposition<T = f64> {
 impl<T: Real> Decomposition<T> {
     /// `diagonal`: that of Delassus' matrix at these rows.
     pub(crate) fn new(matrix: &Matrix<T>, diagonal: impl Fn(usize) -> T) -> Self {
+        Self::with_part(matrix, diagonal, 64.0 * matrix.size as f64 * epsilon::<T>())
+    }
+
+    /// The same where columns depend on others when no more than this part of the largest is left of them.
+    pub(crate) fn with_part(matrix: &Matrix<T>, diagonal: impl Fn(usize) -> T, part: f64) -> Self {
         let n = matrix.size;
         let scale: Vec<T> = (0..n).map(|i| reciprocal_root(diagonal(i))).collect();
         let scaled = |i: usize, j: usize| matrix.at(i, j) * scale[i] * scale[j];
@@ -78,7 +88,7 @@ impl<T: Real> Decomposition<T> {
                 break;
             };
             largest = largest.max(most);
-            if most <= 64.0 * n as f64 * epsilon::<T>() * largest || most.is_nan() {
+            if most <= part * largest || most.is_nan() {
                 break;
             }
             let mut column = rest[next].clone();

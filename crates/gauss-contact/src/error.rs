@@ -138,6 +138,15 @@ pub enum ContactErrorKind {
     /// The numbers of the run carry derivatives, and this gap closes at one time with another, but not nearby: what
     /// happens there depends on which of them is first, and what follows has no derivative.
     Together,
+    /// Derivatives of a step: they are those of Coulomb's law, and the steps have another one.
+    NotCoulomb,
+    /// Derivatives of a step: contacts depend on one another at the state, but not nearby.
+    NoDerivative,
+    /// Derivatives of a step: the system in dual numbers is another one, with other contacts or parameters.
+    OtherSystem {
+        /// How far its step ends from that in `f64`.
+        difference: f64,
+    },
     /// The run does not cover the time.
     OutsideRun,
     /// The integration between two events failed.
@@ -205,6 +214,15 @@ impl fmt::Display for ContactErrorKind {
             }
             Self::Together => f.write_str(
                 "the gap closes at one time with another, and nearby before or after it: what follows has no derivative",
+            ),
+            Self::NotCoulomb => f.write_str("derivatives of a step are those of Coulomb's law; leave out `law`"),
+            Self::NoDerivative => f.write_str(
+                "contacts depend on one another here, but not nearby: the step has no derivative",
+            ),
+            Self::OtherSystem { difference } => write!(
+                f,
+                "the system in dual numbers is another one: its step ends {difference:.1e} away; give it the same \
+                 parameters"
             ),
             Self::OutsideRun => f.write_str("the run does not cover this time"),
             Self::Integration(error) => error.fmt(f),

@@ -73,8 +73,8 @@ pub use run::ContactRun;
 pub use sensors::{ContactForce, ContactForces, ContactWrench, SensorError};
 pub use slots::{Slot, SlotError, SlotField, SlotRule, Slots};
 pub use steps::{
-    AdaptiveContactSteps, ContactEnsemble, ContactLanes, ContactStepper, ContactSteps, HeldSteps, LanesOf, StepLaw, StepReport,
-    StepSample, StepScheme, StepStatistics, SteppedRun,
+    AdaptiveContactSteps, AtChange, Change, ContactEnsemble, ContactLanes, ContactStepper, ContactSteps, HeldSteps,
+    LanesOf, StepDerivatives, StepLaw, StepReport, StepSample, StepScheme, StepStatistics, SteppedRun,
 };
 pub use trajectory::{ContactTrajectory, Segment};
 

@@ -20,7 +20,7 @@ use gauss_runtime::real::Real;
 use crate::error::{ContactError, ContactErrorKind};
 use crate::mode::Mode;
 
-use super::cones::MOST;
+use super::kept::Kept;
 use super::report::{StepReport, StepScheme};
 use super::run::{ContactSteps, StepSample};
 use super::stepper::ContactStepper;
@@ -365,48 +365,5 @@ impl Lengths {
     fn give_up(&mut self) -> Verdict {
         self.next = f64::INFINITY;
         Verdict::Shorten
-    }
-}
-
-/// A stepper's state.
-struct Kept<K: ContactSystem<Scalar = f64>> {
-    t: f64,
-    q: K::Configuration,
-    z: K::Speeds,
-    gaps: K::Gaps,
-    rates: K::ContactRows,
-    impulses: K::ContactRows,
-    acceleration: Option<K::Speeds>,
-    dependent: bool,
-    modes: [Mode; MOST],
-    rests: [bool; MOST],
-}
-
-impl<K: ContactSystem<Scalar = f64>> Kept<K> {
-    fn of(stepper: &ContactStepper<'_, K>) -> Self {
-        let ContactStepper { t, q, z, gaps, rates, impulses, acceleration, dependent, modes, rests, .. } = *stepper;
-        Self { t, q, z, gaps, rates, impulses, acceleration, dependent, modes, rests }
-    }
-
-    fn restore(&self, stepper: &mut ContactStepper<'_, K>) {
-        (stepper.t, stepper.q, stepper.z) = (self.t, self.q, self.z);
-        (stepper.gaps, stepper.rates, stepper.impulses) = (self.gaps, self.rates, self.impulses);
-        (stepper.acceleration, stepper.dependent) = (self.acceleration, self.dependent);
-        (stepper.modes, stepper.rests) = (self.modes, self.rests);
-    }
-
-    /// What a contact does: of one that an impact parts it is open.
-    fn mode(&self, i: usize) -> Mode {
-        if self.rests[i] { self.modes[i] } else { Mode::Open }
-    }
-
-    /// Whether a contact does something else at another time.
-    fn differs(&self, other: &Self) -> bool {
-        (0..K::CONTACTS.len()).any(|i| match (self.mode(i), other.mode(i)) {
-            (Mode::Slides(before), Mode::Slides(after)) => {
-                before.iter().zip(&after).map(|(a, b)| a * b).sum::<f64>() <= 0.0
-            }
-            (before, after) => before != after,
-        })
     }
 }

@@ -1,15 +1,19 @@
 //! Dense linear systems in memory that is given: factors by elimination, with row pivots where the matrix is not
 //! symmetric.
 
+use gauss_runtime::real::Real;
+
+use crate::dense::value;
+
 /// The scalar product, in four sums that do not wait for one another.
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
+pub(crate) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
+    let mut sums = [T::zero(); 4];
     let (a, rest_a) = a.as_chunks::<4>();
     let (b, rest_b) = b.as_chunks::<4>();
     for (a, b) in a.iter().zip(b) {
         (0..4).for_each(|k| sums[k] += a[k] * b[k]);
     }
-    let rest: f64 = rest_a.iter().zip(rest_b).map(|(a, b)| a * b).sum();
+    let rest = rest_a.iter().zip(rest_b).fold(T::zero(), |sum, (a, b)| sum + *a * *b);
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
@@ -77,26 +81,28 @@ pub(crate) fn solve(factors: &[f64], order: &[usize], right: &[f64], x: &mut [f6
 /// Replaces the upper triangle of a symmetric positive semidefinite matrix, row by row, by its factors: of `RᵀD⁻¹R`
 /// the rows of R, with D⁻¹ on the diagonal. Whether no pivot is smaller than a part of the diagonal entry that it was
 /// to begin with: of these matrices no other entry of a column is larger in its own scale.
-pub(crate) fn factorise_symmetric(matrix: &mut [f64], n: usize, part: f64) -> bool {
+pub(crate) fn factorise_symmetric<T: Real>(matrix: &mut [T], n: usize, part: f64) -> bool {
     for k in 0..n {
         let (above, below) = matrix.split_at_mut((k + 1) * n);
         let first = &mut above[k * n + k..];
         // The diagonal as it was is kept below it, in the column of the first unknown.
         let diagonal = first[0];
         let before = if k == 0 { diagonal } else { above[k * n] };
-        if !(diagonal > part * before && diagonal > 0.0 && diagonal.is_finite()) {
+        let (size, before) = (value(diagonal), value(before));
+        if !(size > part * before && size > 0.0 && size.is_finite()) {
             return false;
         }
         let first = &mut above[k * n + k..];
-        let inverse = 1.0 / diagonal;
+        let inverse = T::one() / diagonal;
         first[0] = inverse;
         for (i, row) in (1..).zip(below.chunks_exact_mut(n)) {
             if k == 0 {
                 row[0] = row[i];
             }
             let factor = first[i] * inverse;
-            if factor != 0.0 {
-                row[k + i..].iter_mut().zip(&first[i..]).for_each(|(x, y)| *x -= factor * y);
+            // What is zero may have a derivative.
+            if T::DERIVATIVES || value(factor) != 0.0 {
+                row[k + i..].iter_mut().zip(&first[i..]).for_each(|(x, y)| *x -= factor * *y);
             }
         }
     }
@@ -104,13 +110,13 @@ pub(crate) fn factorise_symmetric(matrix: &mut [f64], n: usize, part: f64) -> bo
 }
 
 /// Solves by the factors of a symmetric matrix.
-pub(crate) fn solve_symmetric(factors: &[f64], right: &[f64], x: &mut [f64]) {
+pub(crate) fn solve_symmetric<T: Real>(factors: &[T], right: &[T], x: &mut [T]) {
     let n = right.len();
     x.copy_from_slice(right);
     for k in 0..n {
         let (row, inverse) = (&factors[k * n + k + 1..(k + 1) * n], factors[k * n + k]);
         let factor = x[k] * inverse;
-        x[k + 1..].iter_mut().zip(row).for_each(|(x, y)| *x -= factor * y);
+        x[k + 1..].iter_mut().zip(row).for_each(|(x, y)| *x -= factor * *y);
     }
     for k in (0..n).rev() {
         let (row, inverse) = (&factors[k * n + k + 1..(k + 1) * n], factors[k * n + k]);

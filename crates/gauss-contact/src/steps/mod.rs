@@ -10,24 +10,33 @@
 //! are their rates and the slips of what sticks. No event is sought, so that dozens of contacts, and impacts that pile
 //! up, are no more work than one; the time of an impact is known to a step.
 
+mod active;
 mod adaptive;
 mod cones;
+mod derivatives;
+mod edges;
 mod ensemble;
+mod followed;
 mod held;
 mod impulses;
+mod kept;
 mod lanes;
 mod linear;
+mod motion;
 mod projection;
 mod relaxed;
 mod report;
 mod run;
 mod stepper;
+mod watch;
 
 pub use adaptive::{AdaptiveContactSteps, StepStatistics, SteppedRun};
+pub use derivatives::StepDerivatives;
+pub use edges::{AtChange, Change};
 pub use ensemble::ContactEnsemble;
+pub use held::HeldSteps;
 pub use lanes::{ContactLanes, LanesOf};
 pub use relaxed::StepLaw;
 pub use report::{StepReport, StepScheme};
-pub use held::HeldSteps;
 pub use run::{ContactSteps, StepSample};
 pub use stepper::ContactStepper;

@@ -6,6 +6,7 @@ use gauss_runtime::contact::{ContactSystem, ImpulseResponse};
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 
+use crate::dense::value;
 use crate::mode::{Mode, acting, settled_speeds};
 
 use super::cones::{MOST, MOST_ROWS};
@@ -18,12 +19,14 @@ const PULLS: [f64; 3] = [1e-10, 1e-8, 1e-6];
 const CORRECTIONS: usize = 12;
 
 /// Memory for projections.
-pub(crate) struct Projection<'m> {
-    matrix: &'m mut [f64],
-    right: &'m mut [f64],
-    solution: &'m mut [f64],
+pub(crate) struct Projection<'m, T = f64> {
+    matrix: &'m mut [T],
+    right: &'m mut [T],
+    solution: &'m mut [T],
     rows: [usize; MOST_ROWS],
     count: usize,
+    /// Contacts whose gaps were brought to zero.
+    pub(crate) held: [bool; MOST],
 }
 
 /// Places with closed gaps.
@@ -36,27 +39,29 @@ pub(crate) struct Closed<K: ContactSystem> {
     pub(crate) closure: f64,
 }
 
-impl<'m> Projection<'m> {
+impl Projection<'_> {
     /// How many numbers it needs for so many rows.
     pub(crate) const fn memory(rows: usize) -> usize {
         rows * rows + 2 * rows
     }
+}
 
-    pub(crate) fn new(memory: &'m mut [f64], rows: usize) -> Self {
+impl<'m, T: Real> Projection<'m, T> {
+    pub(crate) fn new(memory: &'m mut [T], rows: usize) -> Self {
         let (matrix, memory) = memory.split_at_mut(rows * rows);
         let (right, memory) = memory.split_at_mut(rows);
         let solution = &mut memory[..rows];
-        Self { matrix, right, solution, rows: [0; MOST_ROWS], count: 0 }
+        Self { matrix, right, solution, rows: [0; MOST_ROWS], count: 0, held: [false; MOST] }
     }
 
     /// Factors of D at some rows; whether there are any.
-    fn factorise<K: ContactSystem<Scalar = f64>>(
+    fn factorise<K: ContactSystem<Scalar = T>>(
         &mut self,
         delassus: &K::Delassus,
         rows: impl Iterator<Item = usize>,
     ) -> bool {
         let mut count = 0;
-        for row in rows.filter(|&row| delassus[(row, row)] > 0.0) {
+        for row in rows.filter(|&row| value(delassus[(row, row)]) > 0.0) {
             self.rows[count] = row;
             count += 1;
         }
@@ -66,7 +71,7 @@ impl<'m> Projection<'m> {
             for i in 0..count {
                 for j in i..count {
                     let entry = delassus[(self.rows[i], self.rows[j])];
-                    self.matrix[i * count + j] = if i == j { entry * (1.0 + pull) } else { entry };
+                    self.matrix[i * count + j] = if i == j { entry * T::from_f64(1.0 + pull) } else { entry };
                 }
             }
             factorise_symmetric(&mut self.matrix[..count * count], count, 0.0)
@@ -74,12 +79,12 @@ impl<'m> Projection<'m> {
     }
 
     /// Speeds after impulses that take away rates.
-    fn pushed<K: ContactSystem<Scalar = f64>>(
+    fn pushed<K: ContactSystem<Scalar = T>>(
         &mut self,
         kernel: &K,
         z: &K::Speeds,
         response: &ImpulseResponse<K>,
-        rate: impl Fn(usize) -> f64,
+        rate: impl Fn(usize) -> T,
     ) -> K::Speeds {
         let n = self.count;
         (0..n).for_each(|k| self.right[k] = -rate(self.rows[k]));
@@ -90,27 +95,28 @@ impl<'m> Projection<'m> {
     }
 
     /// Gaps of closed contacts brought to zero, and those that are negative, from places with their gaps.
-    pub(crate) fn close<K: ContactSystem<Scalar = f64>>(
+    pub(crate) fn close<K: ContactSystem<Scalar = T>>(
         &mut self,
         kernel: &K,
-        (t, mut q, mut gaps): (f64, K::Configuration, K::Gaps),
+        (t, mut q, mut gaps): (T, K::Configuration, K::Gaps),
         response: &ImpulseResponse<K>,
         closed: &[bool; MOST],
     ) -> Result<Closed<K>, ProjectionError> {
         let magnitude = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
         let each = || K::CONTACTS.iter().enumerate().filter(|(_, contact)| contact.has_gap());
-        let lowest = each().map(|(i, _)| gaps.component(i)).fold(0.0, f64::min);
-        let mut held = [false; MOST];
+        let lowest = each().map(|(i, _)| value(gaps.component(i))).fold(0.0, f64::min);
+        self.held = [false; MOST];
         let (mut left, mut size, mut closure) = (f64::INFINITY, 0.0, 0.0);
         for n in 0..CORRECTIONS {
             let mut grown = n == 0;
             for (i, _) in each() {
-                let joins = !held[i] && (closed[i] || gaps.component(i) < 0.0);
-                held[i] |= joins;
+                let joins = !self.held[i] && (closed[i] || value(gaps.component(i)) < 0.0);
+                self.held[i] |= joins;
                 grown |= joins;
             }
-            let gap = |i: usize| if held[i] { gaps.component(i) } else { 0.0 };
-            size = (0..K::CONTACTS.len()).map(|i| gap(i).abs()).fold(0.0, f64::max);
+            let held = self.held;
+            let gap = |i: usize| if held[i] { gaps.component(i) } else { T::zero() };
+            size = (0..K::CONTACTS.len()).map(|i| value(gap(i)).abs()).fold(0.0, f64::max);
             if n == 0 {
                 closure = size;
             }
@@ -123,12 +129,13 @@ impl<'m> Projection<'m> {
             if grown && !self.factorise::<K>(&response.delassus, normals) {
                 break;
             }
-            let of_row = |row: usize| each().find(|(_, contact)| contact.normal == row).map_or(0.0, |(i, _)| gap(i));
+            let of_row =
+                |row: usize| each().find(|(_, contact)| contact.normal == row).map_or(T::zero(), |(i, _)| gap(i));
             let zero = K::Speeds::zero();
             let moved = self.pushed(kernel, &zero, response, of_row);
             // ψ is affine in z: what an impulse adds to it is an increment of the configuration.
             let still = kernel.kinematics(t, &q, &zero);
-            q = q.advance(&kernel.kinematics(t, &q, &moved).add_scaled(-1.0, &still));
+            q = q.advance(&kernel.kinematics(t, &q, &moved).add_scaled(-T::one(), &still));
             gaps = kernel.gaps(t, &q);
         }
         // Half of the digits: what is farther off was not on its way to zero.
@@ -140,10 +147,10 @@ impl<'m> Projection<'m> {
 
     /// Rates of closed gaps, and slips of what sticks, brought to zero where they are more than rounding; with all
     /// rates there.
-    pub(crate) fn stop<K: ContactSystem<Scalar = f64>>(
+    pub(crate) fn stop<K: ContactSystem<Scalar = T>>(
         &mut self,
         kernel: &K,
-        (t, q, mut z, mut rates): (f64, &K::Configuration, K::Speeds, K::ContactRows),
+        (t, q, mut z, mut rates): (T, &K::Configuration, K::Speeds, K::ContactRows),
         response: &ImpulseResponse<K>,
         (mode, rounding): (&dyn Fn(usize) -> Mode, f64),
     ) -> (K::Speeds, K::ContactRows) {
@@ -156,7 +163,7 @@ impl<'m> Projection<'m> {
         };
         let mut left = f64::INFINITY;
         for n in 0..CORRECTIONS {
-            let size = rows().map(|row| rates.component(row).abs()).fold(0.0, f64::max);
+            let size = rows().map(|row| value(rates.component(row)).abs()).fold(0.0, f64::max);
             if size <= rounding || size >= 0.5 * left {
                 break;
             }

@@ -17,9 +17,12 @@ use crate::sensors::ContactForces;
 use super::cones::{Laws, MOST, MOST_ROWS};
 use super::held::HeldSteps;
 use super::impulses::{Found, Impulses};
+use super::kept::Kept;
+use super::motion::{self, Middle};
 use super::projection::{Closed, Projection};
 use super::relaxed::{StepLaw, lifts};
 use super::report::{StepReport, StepScheme};
+use super::watch::Watch;
 
 /// A system on its way in steps; all that a step needs is in memory that was there before.
 ///
@@ -31,8 +34,8 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) q: K::Configuration,
     pub(super) z: K::Speeds,
     pub(super) scheme: StepScheme,
-    law: StepLaw,
-    tolerance: f64,
+    pub(super) law: StepLaw,
+    pub(super) tolerance: f64,
     memory: M,
     pub(super) impulses: K::ContactRows,
     /// Whether contacts depended on one another in the last step.
@@ -237,25 +240,37 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     /// # Errors
     /// `Unsolved` where no impulses were found that satisfy the laws, `InvalidFriction`, `NonFinite`, `Projection`.
     pub fn step(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
+        self.watched(h, input, &mut ())
+    }
+
+    /// A step whose parts are watched.
+    pub(super) fn watched<W: Watch<K>>(
+        &mut self,
+        h: f64,
+        input: &K::Input,
+        watch: &mut W,
+    ) -> Result<StepReport, ContactError> {
         if !(h > 0.0 && h.is_finite()) {
             return Err(self.error(None, ContactErrorKind::InvalidInterval));
         }
-        self.report = StepReport { length: h, ..self.in_parts(h, input, HALVINGS)? };
+        self.report = StepReport { length: h, ..self.in_parts(h, input, (HALVINGS, watch))? };
         Ok(self.report)
     }
 
     /// A step, or both halves of it.
-    fn in_parts(&mut self, h: f64, input: &K::Input, halvings: u32) -> Result<StepReport, ContactError> {
-        match self.whole(h, input) {
+    fn in_parts<W: Watch<K>>(
+        &mut self,
+        h: f64,
+        input: &K::Input,
+        (halvings, watch): (u32, &mut W),
+    ) -> Result<StepReport, ContactError> {
+        match self.whole(h, input, watch) {
             Err(ContactError { kind: ContactErrorKind::Unsolved { .. }, .. }) if halvings > 0 => {
-                let before = (self.t, self.q, self.z, self.gaps, self.rates, self.acceleration);
-                let (modes, rests, impulses) = (self.modes, self.rests, self.impulses);
-                let first = self.in_parts(0.5 * h, input, halvings - 1)?;
+                let before = Kept::of(self);
+                let first = self.in_parts(0.5 * h, input, (halvings - 1, watch))?;
                 let of_first = self.impulses;
-                let second = self.in_parts(0.5 * h, input, halvings - 1).inspect_err(|_| {
-                    (self.t, self.q, self.z, self.gaps, self.rates, self.acceleration) = before;
-                    (self.modes, self.rests, self.impulses) = (modes, rests, impulses);
-                })?;
+                let second = self.in_parts(0.5 * h, input, (halvings - 1, watch));
+                let second = second.inspect_err(|_| before.restore(self))?;
                 self.impulses = self.impulses.add_scaled(1.0, &of_first);
                 Ok(first.and(second))
             }
@@ -263,7 +278,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
     }
 
-    fn whole(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
+    fn whole<W: Watch<K>>(&mut self, h: f64, input: &K::Input, watch: &mut W) -> Result<StepReport, ContactError> {
+        watch.begins();
         let rate = self.kernel.kinematics(self.t, &self.q, &self.z);
         let end = match self.middle(h, &rate) {
             (middle, true) => self.attempt(h, &middle, input)?,
@@ -271,17 +287,19 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             (middle, false) => match self.attempt(h, &middle, input)? {
                 end if end.struck => end,
                 end => {
+                    watch.first(&end, &self.next);
                     let z = self.z.add_scaled(1.0, &end.z).scale(0.5);
                     self.attempt(h, &Middle { z, ..middle }, input)?
                 }
             },
         };
+        watch.part((self.t, h), &end, &self.next);
         self.take(h, end)
     }
 
     /// Half of a step, given the rate of places before it, and whether its speeds are those that the scheme wants.
     pub(super) fn middle(&self, h: f64, rate: &TangentOf<K>) -> (Middle<K>, bool) {
-        let (t, q) = (self.t + 0.5 * h, self.q.advance(&rate.scale(0.5 * h)));
+        let (t, q) = (self.t + 0.5 * h, motion::half_way::<K>(h, &self.q, rate));
         match (self.scheme, self.acceleration) {
             (StepScheme::MoreauJean, _) => (Middle { t, q, z: self.z }, true),
             (StepScheme::Midpoint, Some(rate)) => (Middle { t, q, z: self.z.add_scaled(0.5 * h, &rate) }, true),
@@ -327,12 +345,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         middle: &Middle<K>,
         (z, rate): (K::Speeds, &TangentOf<K>),
     ) -> Result<(K::Configuration, K::Speeds), ContactError> {
-        let q = middle.q.advance(&rate.scale(0.5 * h));
-        if !K::CONSTRAINED {
-            return Ok((q, z));
-        }
-        let projected = self.kernel.project(self.t + h, &q, &z);
-        projected.map_err(|cause| self.error(None, ContactErrorKind::Projection(cause)))
+        let end = motion::second_half(self.kernel, (self.t, h), middle, (z, rate));
+        end.map_err(|cause| self.error(None, ContactErrorKind::Projection(cause)))
     }
 
     /// Whether all contacts are open.
@@ -377,7 +391,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     /// The end of a step in flight.
     pub(super) fn flown((q, z): (K::Configuration, K::Speeds), gaps: K::Gaps, rates: K::ContactRows) -> End<K> {
         let (impulses, report, rests) = (K::ContactRows::zero(), StepReport::default(), [false; MOST]);
-        End { q, z, gaps, rates, impulses, rests, touches: false, report, struck: false }
+        End { q, z, gaps, rates, impulses, rests, touches: false, dependent: false, report, struck: false }
     }
 
     /// A step in which contacts may act.
@@ -406,13 +420,15 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let free = self.z.add_scaled(h, &dynamics.acceleration);
         let known = self.dependent;
         let mut solved = self.solve(h, (&laws, dynamics), self.free_rates(h, middle, dynamics), &mut impulses);
-        if solved.is_err() && self.dependent && !known {
+        let again = solved.is_err() && self.dependent && !known;
+        if again {
             solved = self.solve(h, (&laws, dynamics), self.free_rates(h, middle, dynamics), &mut impulses);
         }
         let solved = solved.map_err(|kind| self.error(None, kind))?;
-        let after = kernel.after_impulses(&free, &dynamics.response.factors, &impulses);
+        let dependent = known || again;
+        let after = self.kernel.after_impulses(&free, &dynamics.response.factors, &impulses);
         let z = settled_speeds(after, acting::<K>(&impulses));
-        Ok(Pushed { z, impulses, solved })
+        Ok(Pushed { z, impulses, dependent, solved })
     }
 
     /// Closed gaps brought to zero at the end of a step.
@@ -437,7 +453,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         closed: Closed<K>,
         (z, rates): (K::Speeds, K::ContactRows),
     ) -> End<K> {
-        let Pushed { impulses, solved, .. } = pushed;
+        let Pushed { impulses, dependent, solved, .. } = pushed;
         let Closed { q, gaps, penetration, closure } = closed;
         // What begins to rest is brought to zero to the last bit, and stays there.
         let kind = |mode: &Mode| core::mem::discriminant(mode);
@@ -462,18 +478,11 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             ..StepReport::default()
         };
         let Solved { rests, struck, .. } = solved;
-        End { q, z, gaps, rates, impulses, rests, touches: true, report, struck }
+        End { q, z, gaps, rates, impulses, rests, touches: true, dependent, report, struck }
     }
 
-    /// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that
-    /// depend on one another both are taken at half of the step, where they agree with one another to rounding; that is
-    /// of first order.
     fn free_rates(&self, h: f64, middle: &Middle<K>, dynamics: &ImpulseDynamics<K>) -> [K::ContactRows; 2] {
-        if !self.dependent {
-            return [self.rates, self.rates.add_scaled(h, &dynamics.bias)];
-        }
-        let free = self.z.add_scaled(h, &dynamics.acceleration);
-        [self.z, free].map(|z| self.kernel.contact_rates(middle.t, &middle.q, &z))
+        motion::free_rates(self.kernel, (h, self.dependent), middle, (&self.z, &self.rates), dynamics)
     }
 
     /// Impulses of a step, at first those of the step before, and its modes.
@@ -493,7 +502,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let entry = |i: usize, j: usize| dynamics.response.delassus[(i, j)];
         problem.set_up(&scales, entry, |row| [free.component(row), impulses.component(row)]);
         // What an impact passes on is a part of the rate before it.
-        let passed_on = |i: usize| -e.component(i) * before.component(K::CONTACTS[i].normal).min(0.0);
+        let passed_on = |i: usize| motion::passed_on(e.component(i), before.component(K::CONTACTS[i].normal));
         let end = |i: usize, rate: f64| gaps.component(i) + 0.5 * h * (before.component(K::CONTACTS[i].normal) + rate);
         let mut cones = laws.cones;
         for (i, contact) in K::CONTACTS.iter().enumerate() {
@@ -549,34 +558,31 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     }
 }
 
-/// The state at half of a step, with the speeds at which accelerations are taken.
-pub(super) struct Middle<K: ContactSystem> {
-    pub(super) t: f64,
-    pub(super) q: K::Configuration,
-    pub(super) z: K::Speeds,
-}
-
 /// What impulses have made of the speeds of a step.
 pub(super) struct Pushed<K: ContactSystem> {
     pub(super) z: K::Speeds,
     impulses: K::ContactRows,
+    /// Whether rates were those of contacts that depend on one another.
+    dependent: bool,
     solved: Solved,
 }
 
 /// The end of a step.
 pub(super) struct End<K: ContactSystem> {
     q: K::Configuration,
-    z: K::Speeds,
+    pub(super) z: K::Speeds,
     gaps: K::Gaps,
     rates: K::ContactRows,
-    impulses: K::ContactRows,
+    pub(super) impulses: K::ContactRows,
     /// What is closed and stays so.
-    rests: [bool; MOST],
+    pub(super) rests: [bool; MOST],
     /// Whether contacts may have changed their modes.
-    touches: bool,
+    pub(super) touches: bool,
+    /// Whether rates were those of contacts that depend on one another.
+    pub(super) dependent: bool,
     report: StepReport,
     /// Whether a gap has closed.
-    struck: bool,
+    pub(super) struck: bool,
 }
 
 /// What the laws of a step came to.

@@ -1,0 +1,402 @@
+//! Derivatives of steps against differences, in random scenes, states and modes.
+
+use alloc::vec::Vec;
+
+use gauss_runtime::GaussDynamics;
+use gauss_runtime::nalgebra::{Isometry3, SVector, UnitQuaternion, Vector3};
+use gauss_runtime::real::Real;
+use gauss_runtime::system::GaussSystem;
+
+use super::*;
+use crate::mode::Mode;
+use crate::steps::{Change, StepScheme};
+
+type V<const N: usize> = SVector<f64, N>;
+
+/// Numbers in (−1, 1): a linear congruence with the constants of Knuth's MMIX.
+fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
+    move || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / 4_503_599_627_370_496.0 - 1.0
+    }
+}
+
+/// A system in `f64` and in dual numbers, by its parameters.
+trait Pair<const P: usize, const N: usize> {
+    type Plain: ContactSystem<Scalar = f64, Input: VectorSpace<f64>>;
+    type InDuals: ContactSystem<Scalar = Dual<N>, Input: VectorSpace<Dual<N>>>;
+    const PARAMETERS: [f64; P];
+    fn plain(parameters: [f64; P]) -> Self::Plain;
+    fn in_duals(parameters: [Dual<N>; P]) -> Self::InDuals;
+}
+
+type Q<S, const P: usize, const N: usize> = <<S as Pair<P, N>>::Plain as GaussSystem>::Configuration;
+type Z<S, const P: usize, const N: usize> = <<S as Pair<P, N>>::Plain as GaussSystem>::Speeds;
+
+/// So that the laws are solved to rounding: what is left of them is divided by the steps of differences.
+const TIGHT: f64 = 1e-11;
+
+/// What was checked.
+#[derive(Debug, Default)]
+struct Tally {
+    checked: usize,
+    at_change: usize,
+    /// Contacts that depend on one another only here.
+    none: usize,
+    shared: usize,
+    /// Modes that changed within a difference, or differences that are too coarse.
+    left_out: usize,
+    open: usize,
+    sticks: usize,
+    slides: usize,
+    closed: usize,
+    impacts: usize,
+}
+
+fn kinds(modes: &[Mode]) -> Vec<core::mem::Discriminant<Mode>> {
+    modes.iter().map(core::mem::discriminant).collect()
+}
+
+/// Which gaps are zero to rounding.
+fn at_zero<V: VectorSpace<f64>>(gaps: &V) -> Vec<bool> {
+    (0..V::DIM).map(|i| gaps.component(i).abs() < 1e-12).collect()
+}
+
+/// Derivatives of one step from where a stepper is, against those of differences of fourth order.
+fn compare<S, const P: usize, const N: usize, const D: usize, const U: usize>(
+    stepper: &mut ContactStepper<S::Plain>,
+    h: f64,
+    input: &<S::Plain as GaussSystem>::Input,
+    tally: &mut Tally,
+) where
+    S: Pair<P, N>,
+{
+    let dual = S::in_duals(core::array::from_fn(|k| Dual::variable(S::PARAMETERS[k], k)));
+    stepper.acceleration = None;
+    let kept = Kept::of(stepper);
+    let found = match stepper.step_with_derivatives::<S::InDuals, N, D, U, P>(h, input, &dual) {
+        Ok(found) => found,
+        Err(ContactError { kind: ContactErrorKind::NoDerivative, .. }) => {
+            tally.none += 1;
+            return;
+        }
+        Err(error) => {
+            panic!("{error} {:?} {:?} {:?}", &kept.modes[..S::Plain::CONTACTS.len()], stepper.modes(), stepper.report())
+        }
+    };
+    let (modes, end_q, end_z) = (kinds(stepper.modes()), stepper.q, stepper.z);
+    let held = at_zero(&stepper.kernel.gaps(0.0, &end_q));
+    let was: Vec<bool> = kept.modes[..S::Plain::CONTACTS.len()].iter().map(Mode::is_closed).collect();
+    let now: Vec<Mode> = stepper.modes().into();
+    let scheme = stepper.scheme;
+    if found.at_change.is_some() {
+        tally.at_change += 1;
+        return;
+    }
+    // Four corners that slide share their load in a way that no law tells, and what turns them depends on it.
+    if now.iter().filter(|mode| matches!(mode, Mode::Slides(_))).count() > 3 {
+        tally.shared += 1;
+        return;
+    }
+    // Where contacts jam, with impulses of 10⁹ N s, the step itself is known to a few digits.
+    if found.report.residual.worst() > 1e-9 {
+        tally.left_out += 1;
+        return;
+    }
+    let components = TangentOf::<S::Plain>::DIM;
+    // The end with a direction varied, as (σ⁺, z⁺) from the end as it is.
+    let end = |direction: usize, by: f64| -> Option<V<D>> {
+        let (t, mut q, mut z) = (kept.t, kept.q, kept.z);
+        let (mut input, mut parameters) = (*input, S::PARAMETERS);
+        let varied = |i: usize, x: f64| if i == direction { x + by } else { x };
+        let mut along = TangentOf::<S::Plain>::zero();
+        (0..components).for_each(|i| along.set_component(i, varied(i, 0.0)));
+        q = q.retract(&along);
+        (components..D).for_each(|i| z.set_component(i - components, varied(i, z.component(i - components))));
+        (0..U).for_each(|i| input.set_component(i, varied(D + i, input.component(i))));
+        (0..P).for_each(|i| parameters[i] = varied(D + U + i, parameters[i]));
+        let kernel = S::plain(parameters);
+        let mut other =
+            ContactStepper::new(&kernel, t, end_q, Z::<S, P, N>::zero()).ok()?.scheme(scheme).tolerance(TIGHT);
+        kept.restore(&mut other);
+        (other.q, other.z) = (q, z);
+        (other.gaps, other.rates) = (other.kernel.gaps(t, &q), other.kernel.contact_rates(t, &q, &z));
+        other.step(h, &input).unwrap();
+        // Gaps that would end below zero are brought to it, whatever their contact does.
+        if kinds(other.modes()) != modes || at_zero(&other.kernel.gaps(0.0, &other.q)) != held {
+            return None;
+        }
+        let along = end_q.difference(&other.q);
+        let change = |i: usize| {
+            if i < components {
+                along.component(i)
+            } else {
+                other.z.component(i - components) - end_z.component(i - components)
+            }
+        };
+        Some(V::from_fn(|i, _| change(i)))
+    };
+    for direction in 0..D + U + P {
+        // Of a step the differences to both sides.
+        let of = |step: f64| Some((end(direction, step)? / step, end(direction, -step)? / -step));
+        let step = 1e-5;
+        let (Some((ahead, behind)), Some((far_ahead, far_behind))) = (of(step), of(2.0 * step)) else {
+            tally.left_out += 1;
+            continue;
+        };
+        let (fine, coarse) = ((ahead + behind) / 2.0, (far_ahead + far_behind) / 2.0);
+        let expected = (fine * 4.0 - coarse) / 3.0;
+        let column = if direction < D {
+            found.by_state.column(direction).into_owned()
+        } else if direction < D + U {
+            found.by_input.column(direction - D).into_owned()
+        } else {
+            found.by_parameters.column(direction - D - U).into_owned()
+        };
+        let scale = 1.0 + expected.amax();
+        // What the term of third order leaves is much less than all of it. Both sides of a smooth function differ by
+        // twice as much for twice the step; by as much for any step where a change of mode is between them.
+        let kink = ((ahead - behind) * 2.0 - (far_ahead - far_behind)).amax();
+        let own = (fine - coarse).amax() + kink;
+        if own > 1e-3 * scale {
+            tally.left_out += 1;
+            continue;
+        }
+        let error = (column - expected).amax() / scale;
+        // Hundreds of roundings of rates of some m/s, over the step of differences; and what differences err.
+        assert!(error < 1e-6 + own / scale, "{direction}: {error:e} {own:e} {now:?} {column} {expected}");
+        tally.checked += 1;
+    }
+    for (mode, was) in now.iter().zip(was) {
+        match mode {
+            Mode::Open => tally.open += 1,
+            Mode::Sticks => tally.sticks += 1,
+            Mode::Slides(_) => tally.slides += 1,
+            Mode::Closed => tally.closed += 1,
+        }
+        tally.impacts += usize::from(mode.is_closed() && !was);
+    }
+}
+
+/// Steps from random states, every few of them with derivatives.
+fn compare_along<S, const P: usize, const N: usize, const D: usize, const U: usize>(
+    (scheme, h): (StepScheme, f64),
+    (runs, steps): (usize, usize),
+    start: &mut dyn FnMut() -> (Q<S, P, N>, Z<S, P, N>),
+    seed: u64,
+) -> Tally
+where
+    S: Pair<P, N>,
+{
+    let (mut tally, mut number) = (Tally::default(), numbers(seed));
+    for _ in 0..runs {
+        let (q, z) = start();
+        let kernel = S::plain(S::PARAMETERS);
+        let mut stepper = ContactStepper::new(&kernel, 0.0, q, z).unwrap().scheme(scheme).tolerance(TIGHT);
+        let mut input = <S::Plain as GaussSystem>::Input::zero();
+        for n in 0..steps {
+            if n % 13 == 0 {
+                (0..U).for_each(|i| input.set_component(i, 3.0 * number()));
+            }
+            if n % 5 == 4 {
+                compare::<S, P, N, D, U>(&mut stepper, h, &input, &mut tally);
+            } else {
+                stepper.step(h, &input).unwrap();
+            }
+        }
+    }
+    tally
+}
+
+/// A crate on its eight corners, which bounces and is pushed.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(pose: Pose),
+    body(hull, position = pose.position, rotation = pose.rotation, mass = m, inertia = m * a * a / 6),
+    contact(floor, point = hull.position, edges = [a, a, a], friction = mu, restitution = e),
+    input(push, lift),
+    force(wind, body = hull, value = [push, 0, lift], axes = observer),
+)]
+struct Crate<T> {
+    m: T,
+    a: T,
+    mu: T,
+    e: T,
+    #[gauss(gravity)]
+    g: T,
+}
+
+macro_rules! pair {
+    ($of:ident $scene:ident $kernel:ident $count:literal [$($value:expr),+] |$p:ident, $number:ident| $made:expr) => {
+        struct $of;
+
+        impl Pair<$count, 8> for $of {
+            type Plain = $kernel<f64>;
+            type InDuals = $kernel<Dual<8>>;
+            const PARAMETERS: [f64; $count] = [$($value),+];
+            fn plain($p: [f64; $count]) -> Self::Plain {
+                let $number = |x: f64| x;
+                $made.kernel().unwrap()
+            }
+            fn in_duals($p: [Dual<8>; $count]) -> Self::InDuals {
+                let $number = Dual::<8>::constant;
+                $made.kernel().unwrap()
+            }
+        }
+    };
+}
+
+pair! { Bouncing Crate CrateKernel 4 [2.0, 0.4, 0.5, 0.3] |p, number|
+Crate { m: p[0], a: p[1], mu: p[2], e: p[3], g: number(9.81) } }
+pair! { Dropped Crate CrateKernel 3 [2.0, 0.4, 0.5] |p, number|
+Crate { m: p[0], a: p[1], mu: p[2], e: number(0.0), g: number(9.81) } }
+
+fn tossed(seed: u64) -> impl FnMut() -> (Isometry3<f64>, V<6>) {
+    let mut number = numbers(seed);
+    move || {
+        let turned = Vector3::from_fn(|_, _| 2.0 * number());
+        let z = V::from_fn(|_, _| 2.0 * number());
+        (Isometry3::from_parts(Vector3::new(0.0, 0.0, 0.5).into(), UnitQuaternion::new(turned)), z)
+    }
+}
+
+#[test]
+fn a_tossed_crate_has_the_derivatives_of_differences() {
+    for scheme in [StepScheme::MoreauJean, StepScheme::Midpoint] {
+        let tally = compare_along::<Bouncing, 4, 8, 12, 2>((scheme, 2e-3), (6, 400), &mut tossed(7), 1);
+        assert!(tally.checked > 2000 && tally.impacts > 3 && tally.slides > 10, "{tally:?}");
+        let tally = compare_along::<Dropped, 3, 8, 12, 2>((scheme, 2e-3), (4, 600), &mut tossed(11), 2);
+        // It comes to rest on four corners, which depend on one another.
+        assert!(tally.checked > 2000 && tally.sticks > 300, "{tally:?}");
+    }
+}
+
+/// A disk on its edge and a ball, each with all that resists, on a hilly ground.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(pose: Pose),
+    body(ball, position = pose.position, rotation = pose.rotation, mass = 1, inertia = 0.4 * r * r),
+    contact(table, point = ball.position, radius = r, friction = mu, drilling = l, rolling = rho),
+    input(push),
+    force(wind, body = ball, at = [0, 0, 0.05], value = [push, 0, 0], axes = observer),
+)]
+struct Ball<T> {
+    r: T,
+    mu: T,
+    l: T,
+    rho: T,
+    #[gauss(gravity)]
+    g: T,
+}
+
+pair! { Rolling Ball BallKernel 3 [0.2, 0.3, 0.01] |p, number|
+Ball { r: p[0], mu: p[1], l: number(0.05), rho: p[2], g: number(9.81) } }
+
+#[test]
+fn drilling_and_rolling_have_the_derivatives_of_differences() {
+    let mut number = numbers(5);
+    let mut start = || (Isometry3::translation(0.0, 0.0, 0.2), V::from_fn(|i, _| if i == 2 { 0.0 } else { number() }));
+    for scheme in [StepScheme::MoreauJean, StepScheme::Midpoint] {
+        let tally = compare_along::<Rolling, 3, 8, 12, 1>((scheme, 5e-3), (8, 200), &mut start, 3);
+        assert!(tally.checked > 800 && tally.slides > 40 && tally.sticks > 5, "{tally:?}");
+    }
+}
+
+/// A leg of two links with stops, a dry joint, and a slider that a rod holds; its foot hits the floor.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(hip, knee, slide),
+    particle(mass = 1, position = [sin(hip), 0, 2 - cos(hip)]),
+    particle(mass = m, position = [sin(hip) + sin(hip + knee), 0, 2 - cos(hip) - cos(hip + knee)]),
+    particle(mass = 0.5, position = [slide, 0, 2.5]),
+    constraint(position = powi(slide - sin(hip), 2) + powi(0.5 + cos(hip), 2) - 4),
+    range(knee, from = -0.5, to = 1.2, restitution = e),
+    dry_friction(hip, bound = f),
+    contact(foot, gap = 1.9 - cos(hip) - cos(hip + knee) + 0.1 * sin(hip), slip = rate(sin(hip) + sin(hip + knee)),
+        friction = mu),
+    input(torque),
+    drive(knee = torque),
+)]
+struct Leg<T> {
+    m: T,
+    e: T,
+    f: T,
+    mu: T,
+    #[gauss(gravity)]
+    g: T,
+}
+
+pair! { Kicking Leg LegKernel 4 [1.0, 0.4, 0.8, 0.6] |p, number|
+Leg { m: p[0], e: p[1], f: p[2], mu: p[3], g: number(9.81) } }
+
+#[test]
+fn stops_dry_joints_and_rods_have_the_derivatives_of_differences() {
+    let mut number = numbers(13);
+    let mut start = || {
+        let kernel = Kicking::plain(Kicking::PARAMETERS);
+        let hip = 0.5 + 0.1 * number();
+        let slide = Real::sin(hip) + Real::sqrt(4.0 - (0.5 + Real::cos(hip)) * (0.5 + Real::cos(hip)));
+        let (q, z) = (V::from([hip, 0.4 + 0.3 * number(), slide]), V::from([2.0 * number(), 6.0 * number(), 0.0]));
+        GaussSystem::project(&kernel, 0.0, &q, &z).unwrap()
+    };
+    for scheme in [StepScheme::MoreauJean, StepScheme::Midpoint] {
+        let tally = compare_along::<Kicking, 4, 8, 6, 1>((scheme, 5e-3), (20, 300), &mut start, 3);
+        assert!(tally.checked > 2000 && tally.slides > 100 && tally.sticks > 10 && tally.impacts > 2, "{tally:?}");
+    }
+}
+
+#[test]
+fn a_table_on_four_legs_is_no_failure() {
+    // At rest, pressed: gaps stay, slips stay 0, whatever is done to it within friction.
+    let kernel = Dropped::plain(Dropped::PARAMETERS);
+    let pose = Isometry3::translation(0.0, 0.0, 0.2);
+    let mut stepper = ContactStepper::new(&kernel, 0.0, pose, V::zeros()).unwrap();
+    let dual = Dropped::in_duals(Dropped::PARAMETERS.map(Dual::constant));
+    for _ in 0..3 {
+        let step = stepper.step_with_derivatives::<_, 8, 12, 2, 0>(1e-3, &V::from([0.4, 0.0]), &dual).unwrap();
+        assert_eq!(step.at_change, None);
+        // All rates are held, and of the places height and tilt; places along the floor stay as they were.
+        let rounding = 1e-9;
+        assert!(step.by_state.rows(6, 6).amax() < rounding && step.by_input.amax() < rounding, "{}", step.by_state);
+        for (row, column) in [(0, 0), (1, 1), (5, 5)] {
+            assert!((step.by_state[(row, column)] - 1.0).abs() < rounding);
+        }
+        for row in 2..5 {
+            assert!(step.by_state.row(row).amax() < rounding, "{}", step.by_state);
+        }
+    }
+}
+
+#[test]
+fn a_contact_at_a_change_is_named() {
+    let dual = Dropped::in_duals(Dropped::PARAMETERS.map(Dual::constant));
+    let kernel = Dropped::plain(Dropped::PARAMETERS);
+    let step = |kernel: &CrateKernel<f64>, dual: &CrateKernel<Dual<8>>, pose, z: V<6>, push: f64| {
+        let mut stepper = ContactStepper::new(kernel, 0.0, pose, z).unwrap();
+        stepper.step_with_derivatives::<_, 8, 12, 2, 0>(1e-3, &V::from([push, 0.0]), dual).unwrap().at_change
+    };
+    let rest = Isometry3::translation(0.0, 0.0, 0.2);
+    assert_eq!(step(&kernel, &dual, rest, V::zeros(), 1.0), None);
+    // Pulled upward by as much as it weighs, nothing presses it.
+    let mut stepper = ContactStepper::new(&kernel, 0.0, rest, V::zeros()).unwrap();
+    let found = stepper.step_with_derivatives::<_, 8, 12, 2, 0>(1e-3, &V::from([0.0, 2.0 * 9.81]), &dual).unwrap();
+    let at = found.at_change.unwrap();
+    assert_eq!((at.contact, at.change), ("floor_0", Change::OpenClosed));
+    // What bounces rests at an edge.
+    let (kernel, dual) = (Bouncing::plain(Bouncing::PARAMETERS), Bouncing::PARAMETERS.map(Dual::constant));
+    let dual = Bouncing::in_duals(dual);
+    let at = step(&kernel, &dual, rest, V::zeros(), 0.0).unwrap();
+    assert_eq!(at.change, Change::RestImpact);
+}
+
+#[test]
+fn another_system_is_refused_and_the_state_stays() {
+    let kernel = Dropped::plain(Dropped::PARAMETERS);
+    let pose = Isometry3::translation(0.0, 0.0, 0.2);
+    let z = V::from([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let mut stepper = ContactStepper::new(&kernel, 0.0, pose, z).unwrap();
+    let dual = Dropped::in_duals([2.0, 0.4, 0.6].map(Dual::constant));
+    let error = stepper.step_with_derivatives::<_, 8, 12, 2, 0>(1e-3, &V::zeros(), &dual).unwrap_err();
+    assert!(matches!(error.kind, ContactErrorKind::OtherSystem { difference } if difference > 1e-5), "{error}");
+    assert_eq!((stepper.time(), *stepper.speeds()), (0.0, z));
+}

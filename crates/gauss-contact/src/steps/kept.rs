@@ -1,0 +1,54 @@
+//! The state of a stepper before a step, to go back to.
+
+use gauss_runtime::contact::ContactSystem;
+
+use crate::mode::Mode;
+
+use super::cones::MOST;
+use super::report::StepReport;
+use super::stepper::ContactStepper;
+
+/// All of a stepper that a step changes, but memory.
+pub(super) struct Kept<K: ContactSystem<Scalar = f64>> {
+    pub(super) t: f64,
+    pub(super) q: K::Configuration,
+    pub(super) z: K::Speeds,
+    pub(super) gaps: K::Gaps,
+    pub(super) rates: K::ContactRows,
+    pub(super) impulses: K::ContactRows,
+    pub(super) acceleration: Option<K::Speeds>,
+    pub(super) dependent: bool,
+    pub(super) modes: [Mode; MOST],
+    pub(super) rests: [bool; MOST],
+    report: StepReport,
+}
+
+impl<K: ContactSystem<Scalar = f64>> Kept<K> {
+    pub(super) fn of<M>(stepper: &ContactStepper<'_, K, M>) -> Self {
+        let ContactStepper { t, q, z, gaps, rates, impulses, acceleration, .. } = *stepper;
+        let ContactStepper { dependent, modes, rests, report, .. } = *stepper;
+        Self { t, q, z, gaps, rates, impulses, acceleration, dependent, modes, rests, report }
+    }
+
+    pub(super) fn restore<M>(&self, stepper: &mut ContactStepper<'_, K, M>) {
+        (stepper.t, stepper.q, stepper.z) = (self.t, self.q, self.z);
+        (stepper.gaps, stepper.rates, stepper.impulses) = (self.gaps, self.rates, self.impulses);
+        (stepper.acceleration, stepper.dependent) = (self.acceleration, self.dependent);
+        (stepper.modes, stepper.rests, stepper.report) = (self.modes, self.rests, self.report);
+    }
+
+    /// What a contact does: of one that an impact parts it is open.
+    pub(super) fn mode(&self, i: usize) -> Mode {
+        if self.rests[i] { self.modes[i] } else { Mode::Open }
+    }
+
+    /// Whether a contact does something else at another time.
+    pub(super) fn differs(&self, other: &Self) -> bool {
+        (0..K::CONTACTS.len()).any(|i| match (self.mode(i), other.mode(i)) {
+            (Mode::Slides(before), Mode::Slides(after)) => {
+                before.iter().zip(&after).map(|(a, b)| a * b).sum::<f64>() <= 0.0
+            }
+            (before, after) => before != after,
+        })
+    }
+}
