@@ -25,6 +25,7 @@ chapters! {
     Many: "src/many.md",
     Embedded: "src/embedded.md",
     Robots: "src/robots.md",
+    RobotsTouching: "src/robots_touching.md",
     Seeing: "src/seeing.md",
     Results: "src/results.md",
     Tasks: "src/tasks.md",

@@ -6,13 +6,26 @@ use std::f64::consts::TAU;
 pub struct Random(pub u64);
 
 impl Random {
+    /// The numbers of run i of a study: a function of the study's seed and i, whichever thread has the run.
+    #[must_use]
+    pub fn of_run(seed: u64, i: u64) -> Self {
+        // Starts that are mixed twice: neighbouring runs would otherwise share their numbers but for one.
+        let mixed = Self(Self(seed).next() ^ i).next();
+        Self(mixed)
+    }
+
     /// From 0 to 1.
-    fn uniform(&mut self) -> f64 {
+    pub fn uniform(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// The next 64 bits.
+    fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut bits = self.0;
         bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        bits ^ (bits >> 31)
     }
 
     /// Of mean 0 and standard deviation 1.

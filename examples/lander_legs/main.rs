@@ -1,0 +1,93 @@
+//! A lander's touchdown, a thousand times: approach, attitude, slope and friction are random; it stands, slides or
+//! tips over. Contact in steps, on all threads; run i is a function of the seed and i.
+//!
+//! `cargo run --release --example lander_legs [-- FOLDER]` draws the picture into `FOLDER`, by default `target/gauss`.
+//! `RUNS=100` before it: fewer runs; `SEED=2`: other ones.
+
+mod lander;
+mod picture;
+
+use std::error::Error;
+use std::num::NonZero;
+use std::thread;
+use std::time::Instant;
+
+use gauss_examples::plots::{write, write_page};
+use gauss_examples::runs;
+
+use lander::{Approach, LONGEST, Lander, Landing, Outcome, STEP, touch_down};
+
+/// One run: what was random, and what came of it.
+type Run = (Approach, Landing);
+
+const OUTCOMES: [(Outcome, &str); 3] =
+    [(Outcome::Stands, "stands"), (Outcome::Slides, "slides"), (Outcome::Tips, "tips over")];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let count = runs(1000);
+    let seed = std::env::var("SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(1);
+    let clock = Instant::now();
+    let (runs, refused): (Vec<_>, Vec<_>) = all(seed, count)?.into_iter().partition(Result::is_ok);
+    let runs: Vec<Run> = runs.into_iter().flatten().collect();
+    let refused: Vec<String> = refused.into_iter().filter_map(Result::err).collect();
+    println!("{count} touchdowns of seed {seed} in {:.1} s\n", clock.elapsed().as_secs_f64());
+    println!("                                               means: speed   fall    tilt   slope   slid   crushed");
+    println!("  outcome     runs   share   95 % of it         m/s     m/s     °      °       m      m");
+    for (outcome, name) in OUTCOMES {
+        let of: Vec<&Run> = runs.iter().filter(|(_, landing)| landing.outcome == outcome).collect();
+        let (low, high) = wilson(of.len(), count);
+        let share = of.len() as f64 / count as f64;
+        print!("  {name:<10} {:>5}   {share:.4}   {low:.4} to {high:.4}", of.len());
+        if !of.is_empty() {
+            let mean = |figure: fn(&Run) -> f64| of.iter().map(|run| figure(run)).sum::<f64>() / of.len() as f64;
+            let [speed, fall] = [mean(|run| run.0.lateral), mean(|run| run.0.fall)];
+            let [tilt, slope] = [mean(|run| run.0.tilt.to_degrees()), mean(|run| run.0.slope.to_degrees())];
+            let [slid, crushed] = [mean(|run| run.1.slid), mean(|run| run.1.crushed)];
+            print!("   {speed:.2}    {fall:.2}    {tilt:.1}    {slope:>4.1}   {slid:>5.2}   {crushed:.3}");
+        }
+        println!();
+    }
+    // They count as neither.
+    println!("  refused    {:>5}", refused.len());
+    refused.iter().for_each(|reason| println!("    {reason}"));
+    let worst = |figure: fn(&Landing) -> f64| runs.iter().map(|(_, landing)| figure(landing)).fold(0.0, f64::max);
+    let moving = runs.iter().filter(|(_, landing)| landing.outcome == Outcome::Slides && !landing.rests).count();
+    println!("\n  {moving} of those that slide do so still after {LONGEST} s");
+    println!("  residuals of the laws up to {:.0e} m/s, ", worst(|landing| landing.residual));
+    println!("  gaps at the ends of steps down to {:.0e} m", -worst(|landing| -landing.lowest));
+    let bound = Lander::small(1.0, 0.0).tips_above(1.25);
+    println!("\nFlat on level ground, with feet that stick and struts that hold, it would tip above {bound:.3} m/s.");
+    write("lander_legs", &picture::draw(&runs, bound)?)?;
+    write_page("lander_legs", &picture::page(&runs, seed)?)
+}
+
+/// All runs, on all threads; of those in which a step found no impulses that satisfy the laws, the reason.
+fn all(seed: u64, count: usize) -> Result<Vec<Result<Run, String>>, Box<dyn Error>> {
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let one = move |i: usize| -> Result<Result<Run, String>, String> {
+        let approach = Approach::random(seed, i as u64);
+        let kernel = Lander::small(approach.mu, approach.slope).kernel().map_err(|error| error.to_string())?;
+        Ok(match touch_down(&kernel, approach.start, (STEP, LONGEST), |_| ()) {
+            Ok(landing) => Ok((approach, landing)),
+            Err(error) => Err(format!("run {i}: {error}")),
+        })
+    };
+    let part = |n: usize| (count * n / threads)..(count * (n + 1) / threads);
+    let parts: Vec<_> = thread::scope(|scope| {
+        let start = |n: usize| scope.spawn(move || part(n).map(one).collect::<Result<Vec<_>, _>>());
+        let running: Vec<_> = (0..threads).map(start).collect();
+        running.into_iter().map(|part| part.join().map_err(|_| "a thread ended")).collect::<Result<_, _>>()
+    })?;
+    let parts: Vec<Vec<Result<Run, String>>> = parts.into_iter().collect::<Result<_, _>>()?;
+    Ok(parts.into_iter().flatten().collect())
+}
+
+/// Where a probability lies of which `hits` of `count` runs tell, with 95 % (E. B. Wilson 1927).
+pub fn wilson(hits: usize, count: usize) -> (f64, f64) {
+    let (n, z) = (count as f64, 1.96);
+    let share = hits as f64 / n;
+    let middle = share + z * z / (2.0 * n);
+    let half = z * (share * (1.0 - share) / n + z * z / (4.0 * n * n)).sqrt();
+    let whole = 1.0 + z * z / n;
+    ((middle - half) / whole, (middle + half) / whole)
+}
