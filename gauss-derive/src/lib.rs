@@ -150,7 +150,7 @@
 /// | `contact(name, point = knee, end = ankle, radius = r, plane = …)` | a capsule between two points: contacts `name_0` and `name_1` of its ends |
 /// | `contact(name, point = drum.position, rim = r, axis = [0, 1, 0], length = l, plane = …)` | a cylinder: contacts `name_0` and `name_1` of its rims, before and behind the point along the axis |
 /// | `contact(name, point = tip, height = k * sin(x) * y, over = [x, y], friction = mu)` | a point, or those of `edges` or `end`, above a ground that has this height over the horizontal place, whose coordinates `over` names (one name: the first axis alone; the third axis is up, in plane motion the second). The gap is the vertical distance times the normal's vertical component: zero where the distance is, and equal to it up to its square times the curvature. Tangents follow the slope, the first one above the first axis; where the height depends on `t` points of the ground move upward |
-/// | `contact(name, point = a.position, radius = r, other = b.position, other_radius = s)` | two spheres. With friction tangents turn with the line of centers: the first is normal to `along = […]` and to that line, which must not have this direction |
+/// | `contact(name, point = a.position, radius = r, other = b.position, other_radius = s)` | two spheres; with `other_end = c` a sphere and a capsule from `other` to there, points of one body. With friction tangents turn with the line of centers: the first is normal to `along = […]` and to that line, which must not have this direction |
 /// | `range(x, from = a, to = b, restitution = e)` | stops of a coordinate, or of `along = expr`, without friction: contacts `x_from` and `x_to`; either limit may be left out, both may depend on `t` and coordinates |
 /// | `armature(elbow = a, wrist = 2 * a)` | inertia of the rates of coordinates, ½ a q̇² in T: rotors behind gears, of which a coordinate feels the inertia times the square of the ratio; of a `Rotation` ½ a ω², of a `Pose` ½ a (v² + ω²). It has no weight, and counts in no centre of mass and no momentum of the whole |
 /// | `independent(v, w.x)` | the speeds that stay, or components of them, when the constraints are solved for the others at compile time. Those of a chart are called `u`, `xi` or `b_dot`, each of all its components, and `omega`; of jet charts `b1_dot`, `psi_dot` and so on |
@@ -181,6 +181,7 @@
 /// | `joint_friction = dry`, `smooth(w)`, `none` | dry friction f (`<dynamics friction>`, `frictionloss` of hinges and slides) exactly, as `dry_friction(elbow, bound = f)`; or as −f v/√(v² + w²), v the rate of the joint; or none, as without the clause, but without the warning |
 /// | `limits = stop(stiffness = k, width = e, damping = c)`, `none` | the limits of joints as stops; or none, as without the clause, but without the warning |
 /// | `ground(links = [left_foot, right_foot], friction = mu, restitution = e, plane = [0, 0, 1], height = h, along = [1, 0, 0], cylinders = 8)`, `ground` | contacts of the file's shapes with a plane, as if they had been written by `contact(…)`; each argument may be left out. All links that move, or those that are named; the plane is as of `contact(…)`, or without `plane` and `height` those of the file; without `friction` that of the geoms. Spheres, boxes, capsules, and cylinders by their rims or by so many points for each. Several clauses are several planes |
+/// | `self_contact(links = [left_hand, trunk], friction = mu, along = [0, 0, 1], restitution = e)`, `self_contact` | contacts of the file's links with one another: of spheres with spheres and capsules, as if they had been written by `contact(…)`; each argument may be left out. All links, or those that are named; friction, the file's where it is not given, needs `along` |
 /// | `saturation = clamp`, `none` | controls, forces and efforts are kept in their ranges: what is beyond is cut off exactly, so that derivatives are zero there. `ctrlrange` and `forcerange` belong to actuators, and act with `inputs = actuators`; `actuatorfrcrange`, and `effort` of a URDF unless it is zero, to joints. Or they do not act, as without the clause, but without the warning |
 /// | `parameters = inertial` | the mass data of every link that moves are fields `#[gauss(body)] upper_arm: RigidBody<f64>`; such fields can also be there for some links alone. `Arm::from_file(…)` has the values of the file; the other fields of the struct are its arguments, in their order |
 /// | `ignore(gazebo, contact)` | elements and attributes of the file that are known not to act: no warnings of these |
@@ -210,9 +211,10 @@
 /// are `foot_point`, unless they are origins of links; an ellipsoid turned in its link has a frame, `foot_frame`. Of
 /// MJCF `contype`, `conaffinity`, `priority`, `condim`, sliding `friction` and `<exclude>` act as MuJoCo has them;
 /// planes of what is fixed are the ground. Of a ground that is the struct's own the bits are 1, it is excluded as
-/// `world` is, and the friction is that of the geom. Links do not touch each other. What is not read (meshes, height
-/// fields, shapes of the world that are no planes, `margin`, friction of turning and rolling, pairs) is a warning where
-/// it would act.
+/// `world` is, and the friction is that of the geom. Links touch each other by `self_contact(…)`, in the same way, and
+/// not what they hang on, but for the world; `filterparent` and `<pair>` act as MuJoCo has them, pairs with planes by
+/// `ground(…)`. What is not read (meshes, height fields, shapes of the world that are no planes, `margin`, friction of
+/// turning and rolling, capsules and boxes that touch other shapes) is a warning where it would act.
 ///
 /// Of MJCF there are read: bodies, frames, joints of all kinds, several in a body, about anchors, with references,
 /// damping, dry friction, springs (`elbow_spring`), also of balls and free joints, `springdamper` of joints that move

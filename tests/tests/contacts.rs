@@ -1,6 +1,8 @@
 //! Contacts of kernels: gaps against geometry, W and D against one another and the mass matrix, b against the rates of
 //! `contact_rates` along the motion (dual numbers, and differences), charts against one another.
 
+#[path = "contacts/capsules.rs"]
+mod capsules;
 mod common;
 #[path = "contacts/ellipsoids.rs"]
 mod ellipsoids;
@@ -179,6 +181,11 @@ fn shapes() -> Shapes {
     Shapes { disk: ball().ball, g: 9.81, r: 0.7, h: -0.2, mu: 0.3, axis, normal }
 }
 
+/// A contact of a point of this body.
+fn on(body: &'static str, contact: Contact) -> Contact {
+    contact.between([Some(body), None])
+}
+
 #[test]
 fn a_list_of_contacts() {
     assert_eq!(BallKernel::CONTACTS, [Contact::new("floor", 0, 2)]);
@@ -186,8 +193,10 @@ fn a_list_of_contacts() {
     let all: Vec<Contact> = names.map(|(k, name)| Contact::new(name, k, 0)).collect();
     assert_eq!(PendulumKernel::<f64>::CONTACTS, all);
     // Motion in a plane has one tangent, motion along a line on a slope as well.
-    assert_eq!(CrankKernel::<f64>::CONTACTS, [Contact::new("table", 0, 1), Contact::new("slide_to", 2, 0)]);
-    let shapes = [Contact::new("rim", 0, 2), Contact::new("balls", 3, 0), Contact::new("slope", 4, 1)];
+    assert_eq!(CrankKernel::<f64>::CONTACTS, [on("rod", Contact::new("table", 0, 1)), Contact::new("slide_to", 2, 0)]);
+    // A point of no body touches one.
+    let balls = Contact::new("balls", 3, 0).between([None, Some("disk")]);
+    let shapes = [on("disk", Contact::new("rim", 0, 2)), balls, Contact::new("slope", 4, 1)];
     assert_eq!(ShapesKernel::CONTACTS, shapes);
     assert!(BallKernel::OPERATIONS.impulse_dynamics.total() > BallKernel::OPERATIONS.impulse_response.total());
 }
@@ -222,7 +231,7 @@ fn a_ball_in_every_chart() {
 fn a_robot_from_its_file() {
     let kernel = Panda.kernel().unwrap();
     let contacts = [
-        Contact::new("table", 0, 2),
+        on("panda_finger_joint1_link", Contact::new("table", 0, 2)),
         Contact::new("panda_finger_joint1_from", 3, 0),
         Contact::new("panda_finger_joint1_to", 4, 0),
     ];

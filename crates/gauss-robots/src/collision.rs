@@ -60,6 +60,30 @@ pub enum Shape {
     Unread(String),
 }
 
+/// Two shapes of which a file says that they touch, whatever else it says of either.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// Its element.
+    pub at: At,
+    /// Both, in the order of the file.
+    pub shapes: [Collision; 2],
+    /// How they touch.
+    pub touch: Touch,
+    /// Attributes that act where they touch, and are not read.
+    pub unread: Vec<&'static str>,
+}
+
+impl Pair {
+    /// Whether it is of these two shapes, whichever is first.
+    #[must_use]
+    pub fn is_of(&self, shapes: [&Collision; 2]) -> bool {
+        // Copies of an element have its place, but links of their own.
+        let same = |a: &Collision, b: &Collision| a.at == b.at && a.link == b.link;
+        let [a, b] = &self.shapes;
+        (same(a, shapes[0]) && same(b, shapes[1])) || (same(a, shapes[1]) && same(b, shapes[0]))
+    }
+}
+
 /// What MJCF says of how a geom touches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 pub use super::at::At;
-use super::collision::Collision;
+use super::collision::{Collision, Pair};
 use super::rotation::{Matrix, Rotation, Triple};
 
 /// What is wrong, and where.
@@ -92,8 +92,14 @@ pub struct Description {
     pub cables: Vec<Cable>,
     /// Shapes of links that touch others.
     pub collisions: Vec<Collision>,
+    /// Shapes of links that touch nothing but what a pair says.
+    pub hidden: Vec<Collision>,
+    /// Shapes that touch by pairs.
+    pub pairs: Vec<Pair>,
     /// Names of links of which no two touch.
     pub excluded: Vec<[String; 2]>,
+    /// A link may touch the one that it hangs on.
+    pub parents_touch: bool,
     /// States with names.
     pub postures: Vec<Posture>,
     /// The acceleration of free fall in observer's axes, if the file gives one.

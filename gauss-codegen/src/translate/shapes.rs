@@ -1,5 +1,5 @@
-//! Points, spheres, ellipsoids, rims, boxes, capsules and cylinders against planes, grounds and spheres: their gaps and
-//! slips.
+//! Points, spheres, ellipsoids, rims, boxes, capsules and cylinders against planes, grounds, spheres and capsules: their
+//! gaps and slips.
 
 use crate::algebra::{Expr, Substitution};
 use crate::error::Result;
@@ -11,6 +11,7 @@ use proc_macro2::Span;
 
 use super::translator::{Translator, bug};
 use super::value::Value;
+use super::values::clamped;
 
 type Triple<'g> = [Expr<'g>; 3];
 
@@ -95,9 +96,10 @@ impl<'g> Translator<'_, 'g> {
                 self.plane(name, [normal.as_ref(), height.as_ref(), along.as_ref()], rubs, tree)?
             }
             Against::Ground(height) => self.ground(height, rubs, tree)?,
-            Against::Sphere { center, radius, along } => {
+            Against::Sphere { center, end, radius, along } => {
                 let radius = self.length_or_zero((name, "other_radius"), radius.as_ref(), tree)?;
-                self.sphere(name, (center, radius), along.as_ref().filter(|_| rubs), tree)?
+                let axis = end.as_ref().map(|end| self.axis_of_capsule([center, end], tree)).transpose()?;
+                self.sphere(name, (center, axis, radius), along.as_ref().filter(|_| rubs), tree)?
             }
         };
         let touched = match &contact.against {
@@ -361,11 +363,31 @@ impl<'g> Translator<'_, 'g> {
         }))
     }
 
-    /// A sphere about another point, which turns with its body; `along` has a tangent normal to it, with friction.
+    /// From one end of a capsule to the other, with the square of the length, which is a constant.
+    fn axis_of_capsule(&self, ends: [&Expression; 2], tree: &Tree<'g>) -> Result<(Triple<'g>, Expr<'g>)> {
+        let axis = match [self.value(ends[0], tree)?, self.value(ends[1], tree)?] {
+            [Value::Local(first), Value::Local(last)] if first.link == last.link => {
+                let own = subtract(&last.components, &first.components);
+                (tree.links[first.link].axes().to_space(&own), dot(&own, &own))
+            }
+            _ => {
+                let [first, last] = [self.vector(ends[0], tree)?, self.vector(ends[1], tree)?];
+                let own = subtract(&last, &first);
+                (own, dot(&own, &own))
+            }
+        };
+        Ok((axis.0.map(Expr::group), self.divisor(axis.1, ends[1].span)))
+    }
+
+    /// A sphere about another point, or about the nearest point of the axis of a capsule from there, which turns with
+    /// its body; `along` has a tangent normal to it, with friction.
+    ///
+    /// The distance from a point to an axis has continuous first derivatives; where the nearest point comes to an end,
+    /// the second ones jump, as the curvature of a capsule does.
     fn sphere<'a>(
         &'a self,
         name: &str,
-        (center, radius): (&Expression, Expr<'g>),
+        (center, axis, radius): (&Expression, Option<(Triple<'g>, Expr<'g>)>, Expr<'g>),
         along: Option<&Expression>,
         tree: &'a Tree<'g>,
     ) -> Result<Opposite<'a, 'g>> {
@@ -376,6 +398,13 @@ impl<'g> Translator<'_, 'g> {
         };
         Ok(Box::new(move |part| {
             let apart = subtract(&part.position, &other.position);
+            // As far along the axis as the point is, between its ends.
+            let foot = axis.map(|(axis, square)| {
+                let [zero, one] = [self.graph.zero(), self.graph.one()];
+                let way = clamped((dot(&apart, &axis) * square.recip()).group(), [zero, one]).group();
+                axis.map(|e| way * e)
+            });
+            let apart = foot.map_or(apart, |foot| subtract(&apart, &foot).map(Expr::group));
             let distance = self.divisor(dot(&apart, &apart).group().sqrt(), place);
             let normal = apart.map(|e| e * distance.recip());
             let tangents = along.map(|(along, span)| {
@@ -384,7 +413,9 @@ impl<'g> Translator<'_, 'g> {
                 let first = across.map(|e| e * sine.recip());
                 vec![first, cross(&normal, &first)]
             });
-            let velocity = self.velocity_at(&other, &normal.map(|e| radius * e), tree);
+            let arm = normal.map(|e| radius * e);
+            let arm = foot.map_or(arm, |foot| add(&foot, &arm));
+            let velocity = self.velocity_at(&other, &arm, tree);
             let (gap, link) = (distance - radius, other.link);
             Facing { gap, normal, tangents: tangents.unwrap_or_default(), velocity, link }
         }))

@@ -34,7 +34,7 @@ fn quarter_turns(angle: &Expression) -> Option<usize> {
 }
 
 /// Between two limits.
-fn clamped<'g>(x: Expr<'g>, [low, high]: [Expr<'g>; 2]) -> Expr<'g> {
+pub(super) fn clamped<'g>(x: Expr<'g>, [low, high]: [Expr<'g>; 2]) -> Expr<'g> {
     x.binary(BinaryFunction::Max, low).binary(BinaryFunction::Min, high)
 }
 

@@ -11,6 +11,7 @@ use roxmltree::Node;
 
 use super::labels::{Affix, Named, SECTIONS, name_of, references};
 use super::{File, Place, WORLD, model};
+use crate::collision::{Collision, Pair};
 use crate::description::{Fault, Joint, JointKind};
 use crate::names::unknown;
 use crate::rotation::{Rotation, Triple, multiply, turned};
@@ -64,14 +65,18 @@ impl<'a> File<'a> {
             }
             joint
         }));
-        own.collisions.extend(other.description.collisions.into_iter().map(|mut collision| {
+        let placed = |mut collision: Collision| {
             if collision.link == WORLD {
                 collision.link = parent.to_owned();
                 let own = put(place, (collision.position, Rotation::from_matrix(&collision.rotation)));
                 (collision.position, collision.rotation) = (own.0, own.1.matrix);
             }
             collision
-        }));
+        };
+        own.collisions.extend(other.description.collisions.into_iter().map(placed));
+        own.hidden.extend(other.description.hidden.into_iter().map(placed));
+        let pairs = other.description.pairs.into_iter();
+        own.pairs.extend(pairs.map(|pair| Pair { shapes: pair.shapes.map(placed), ..pair }));
         let hung = |name: String| if name == WORLD { parent.to_owned() } else { name };
         own.excluded.extend(other.description.excluded.into_iter().map(|pair| pair.map(hung)));
         own.closures.extend(other.description.closures);

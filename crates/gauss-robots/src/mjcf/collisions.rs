@@ -11,17 +11,16 @@ use crate::rotation::{Matrix, Rotation, Triple, multiply, turned};
 const GEOM: &[&str] = &["geom"];
 
 impl<'a> File<'a> {
-    /// Reads how a geom of a link touches; one without bits touches nothing, such as one that is only seen.
+    /// Reads how a geom of a link touches; one without bits, such as one that is only seen, touches by pairs alone.
     pub fn collision(&mut self, node: Node<'a, 'a>, link: &str, class: Option<&'a str>, (at, matrix): &Place) {
         self.reading.see(node);
         let surface = self.touching(node, class);
-        if surface.kind == 0 && surface.affinity == 0 {
-            return;
-        }
+        let is_hidden = surface.kind == 0 && surface.affinity == 0;
         let (position, rotation, half) = self.geom_place(node, class);
         let moved = turned(matrix, &position);
         let shape = self.shape(node, class, half);
-        self.description.collisions.push(Collision {
+        let all = if is_hidden { &mut self.description.hidden } else { &mut self.description.collisions };
+        all.push(Collision {
             name: self.reading.text(node, "name").filter(|name| !name.is_empty()).map(str::to_owned),
             at: self.reading.at(node),
             link: link.to_owned(),
@@ -77,13 +76,13 @@ impl<'a> File<'a> {
     fn touching(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) -> Surface {
         let usual = Surface::default();
         let bits = |own: Option<i64>, usual: u32| own.map_or(usual, |own| own as u32);
-        let kind = bits(self.whole(node, "contype", class), usual.kind);
-        let affinity = bits(self.whole(node, "conaffinity", class), usual.affinity);
-        let dimension = bits(self.whole(node, "condim", class), usual.dimension);
+        let kind = bits(self.whole(node, GEOM, "contype", class), usual.kind);
+        let affinity = bits(self.whole(node, GEOM, "conaffinity", class), usual.affinity);
+        let dimension = bits(self.whole(node, GEOM, "condim", class), usual.dimension);
         if !matches!(dimension, 1 | 3 | 4 | 6) {
             self.reading.fault(node, format!("`condim` is 1, 3, 4 or 6, found `{dimension}`"));
         }
-        let priority = self.whole(node, "priority", class).unwrap_or(usual.priority);
+        let priority = self.whole(node, GEOM, "priority", class).unwrap_or(usual.priority);
         let own = self.list(node, GEOM, "friction", class).unwrap_or_default();
         if own.len() > 3 || own.iter().any(|coefficient| *coefficient < 0.0) {
             self.reading.fault(node, "`friction` is three numbers at most, which are zero or more");
@@ -97,8 +96,15 @@ impl<'a> File<'a> {
         Surface { kind, affinity, dimension, priority, friction, unread }
     }
 
-    fn whole(&mut self, node: Node<'a, 'a>, name: &'static str, class: Option<&'a str>) -> Option<i64> {
-        let [number] = self.numbers::<1>(node, GEOM, name, class)?;
+    /// A whole number of an element, or of the defaults of its class.
+    pub(super) fn whole(
+        &mut self,
+        node: Node<'a, 'a>,
+        tags: &[&str],
+        name: &'static str,
+        class: Option<&'a str>,
+    ) -> Option<i64> {
+        let [number] = self.numbers::<1>(node, tags, name, class)?;
         if number.fract() != 0.0 || number.abs() > f64::from(u32::MAX) {
             self.reading.fault(node, format!("`{name}` is a whole number, found `{number}`"));
             return None;

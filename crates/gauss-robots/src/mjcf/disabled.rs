@@ -14,4 +14,6 @@ pub struct Disabled {
     pub frictions: bool,
     pub limits: bool,
     pub contacts: bool,
+    /// The filter that keeps bodies from touching their parents.
+    pub parents_touch: bool,
 }

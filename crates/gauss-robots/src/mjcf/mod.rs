@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `classes`, `rotations` | defaults of elements; the ways to write a rotation |
 //! | `joints` | the joints of a body |
-//! | `collisions` | geoms that touch, and what is kept from touching |
+//! | `collisions`, `pairs` | geoms that touch, and what is kept from touching; pairs that touch in any case |
 //! | `masses`, `shells`, `meshes`, `bounds` | mass data: of `<inertial>`, of geoms, of files; what they are at least |
 //! | `options`, `disabled` | gravity, what is switched off |
 //! | `reference` | of every attribute what becomes of it |
@@ -31,6 +31,7 @@ mod labels;
 mod masses;
 mod meshes;
 mod options;
+mod pairs;
 mod ratios;
 mod reference;
 mod relations;
@@ -130,7 +131,15 @@ fn model(text: &Text, around: Option<(&str, &File<'_>)>) -> Result<Model, Vec<Fa
             file.reading.children(asset, tag);
         }
     }
-    file.reading.children(root, "contact").into_iter().for_each(|section| file.exclusions(section));
+    for section in file.reading.children(root, "contact") {
+        file.exclusions(section);
+        file.pairs(section);
+    }
+    // Once pairs have found their geoms.
+    if file.disabled.contacts {
+        file.description.collisions.clear();
+        file.description.pairs.clear();
+    }
     file.reading.note_unread();
     let File { mut description, reading, sites, controls, .. } = file;
     description.notes = reading.notes;

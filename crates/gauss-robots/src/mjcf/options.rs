@@ -21,8 +21,18 @@ impl<'a> File<'a> {
                 let off = |word: &'static str| self.reading.text(flag, word) == Some("disable");
                 is_off |= off("gravity");
                 // `passive` is what `spring` and `damper` were called together.
-                let Disabled { actuation, clamps, springs, dampers, equalities, frictions, limits, contacts, .. } =
-                    &mut disabled;
+                let Disabled {
+                    actuation,
+                    clamps,
+                    springs,
+                    dampers,
+                    equalities,
+                    frictions,
+                    limits,
+                    contacts,
+                    parents_touch,
+                    ..
+                } = &mut disabled;
                 *actuation |= off("actuation");
                 *clamps |= off("clampctrl");
                 *springs |= off("spring") || off("passive");
@@ -31,6 +41,7 @@ impl<'a> File<'a> {
                 *frictions |= off("frictionloss") || off("constraint");
                 *limits |= off("limit") || off("constraint");
                 *contacts |= off("contact") || off("constraint");
+                *parents_touch |= off("filterparent");
             }
         }
         let is_said = is_off || disabled != Disabled::default() || all.iter().any(|node| node.has_attribute("gravity"));
@@ -47,8 +58,9 @@ impl<'a> File<'a> {
 
     /// Takes away what is switched off, once all is read.
     pub fn switch_off(&mut self) {
-        let Disabled { springs, dampers, equalities, frictions, limits, contacts, .. } = self.disabled;
+        let Disabled { springs, dampers, equalities, frictions, limits, .. } = self.disabled;
         let description = &mut self.description;
+        description.parents_touch = self.disabled.parents_touch;
         for joint in &mut description.joints {
             joint.stiffness *= f64::from(!springs);
             joint.damping *= f64::from(!dampers);
@@ -65,9 +77,6 @@ impl<'a> File<'a> {
             cable.stiffness *= f64::from(!springs);
             cable.damping *= f64::from(!dampers);
             cable.limits = cable.limits.filter(|_| !limits);
-        }
-        if contacts {
-            description.collisions.clear();
         }
         if equalities {
             description.closures.clear();

@@ -73,7 +73,7 @@ pub const ELEMENTS: &[Element] = &[
     element("mujoco default", "default", &[&[CLASS]]),
     element("default", "mesh", &[MESH]),
     whole("default", "texture material camera light", LOOKS),
-    whole("default", "pair", Harmless("of pairs, each of which is warned of")),
+    element("default", "pair", &[PAIR]),
     element("default", "equality", &[HELD]),
     element("default", "tendon", &[TENDON]),
     element(
@@ -109,11 +109,7 @@ pub const ELEMENTS: &[Element] = &[
     // What joins and drives joints.
     element("mujoco", "contact tendon equality actuator keyframe", &[]),
     element("contact", "exclude", &[&[("name", NAME), ("body1 body2", Acts)]]),
-    whole(
-        "contact",
-        "pair",
-        Warned("of pairs no contacts are read; `ground(…)` and `contact(…)` of the struct make them", ""),
-    ),
+    element("contact", "pair", &[&[("name", NAME), ("geom1 geom2 class", Acts)], PAIR]),
     element("tendon", "fixed", &[TENDON]),
     element("tendon", "spatial", &[TENDON]),
     element("spatial", "site", &[&[("site", Acts)]]),
@@ -180,8 +176,8 @@ const OPTION: &[Attributes] = &[
 
 const FLAG: &[Attributes] = &[
     ("gravity actuation clampctrl spring damper passive equality constraint frictionloss limit contact", Acts),
+    ("filterparent", Acts),
     ("override", Warned("geoms have the friction that they say", "disable")),
-    ("filterparent", Harmless("of links that touch each other, which they do not here")),
     ("multiccd nativeccd midphase", CONTACT),
     ("warmstart refsafe diagexact island eulerdamp", SOLVER),
     ("energy fwdinv invdiscrete sensor sensornoise", Harmless("what is computed beside the motion")),
@@ -216,6 +212,8 @@ const GEOM: &[Attributes] = &[
     ("rgba material castshadow", LOOKS),
     ("user", USER),
 ];
+
+const PAIR: &[Attributes] = &[("condim friction margin gap adhesion", Acts), ("solref solimp solreffriction", CONTACT)];
 
 const SITE: &[Attributes] = &[
     ("name class", Acts),

@@ -285,23 +285,25 @@ const FILE: &str = r#"<mujoco @/mujoco{}>
   <default class="e"><equality @default/equality{}/></default><default class="t"><tendon @default/tendon{}/></default>
   <default class="i"><intvelocity @default/intvelocity{}/></default>
   <default class="j"><joint @default/joint{}/></default>
-  <default class="h"><adhesion @default/adhesion{}/></default>@in/default{}
+  <default class="h"><adhesion @default/adhesion{}/></default>
+  <default class="o"><pair @default/pair{}/></default><default class="p"><pair condim="4"/></default>@in/default{}
 </default>@in/mujoco{}
 <asset @mujoco/asset{}><mesh @asset/mesh{ class="m" name="m" file="meshes/prism.obj"}/>
   <model @asset/model{ name="leg" file="leg.xml"}/>@in/asset{}</asset>
 <worldbody @mujoco/worldbody{}>
   <frame @worldbody/frame{}><site name="g"/><body><joint class="j" name="alone" range="-1 1"/><geom size="1"/></body></frame>
   <body @worldbody/body{}>
-    <joint name="a" range="-1 1" stiffness="1" damping="1" frictionloss="1"/><geom size="1"/>@in/body{}
+    <joint name="a" range="-1 1" stiffness="1" damping="1" frictionloss="1"/><geom name="f" size="1"/>@in/body{}
     <attach @body/attach{ model="leg" prefix="l-"}/>
     <replicate @body/replicate{ count="2"}><body name="r" pos="1 0 0"><joint/><geom size="1"/></body></replicate>
     <body name="b"><joint @body/joint{ name="b"}/><inertial @body/inertial{ mass="1" diaginertia="1 1 3"}/></body>
     <body name="c"><geom @body/geom{ size="1"}/><site @body/site{ name="s"}/><joint name="c"/><site name="q"/><geom size="1"/>
       <geom type="mesh" mesh="m"/></body>
   </body>
-  <body name="d"><freejoint @body/freejoint{}/><geom size="1"/></body>
+  <body name="d"><freejoint @body/freejoint{}/><geom name="h" size="1"/></body>
 </worldbody>
-<contact><exclude @contact/exclude{ body1="b" body2="c"}/>@in/contact{}</contact>
+<contact><exclude @contact/exclude{ body1="b" body2="c"}/><pair @contact/pair{ geom1="f" geom2="h"}/>
+  <pair class="o" geom1="f" geom2="h"/>@in/contact{}</contact>
 <tendon><fixed @tendon/fixed{ name="t"}><joint @fixed/joint{ joint="a" coef="1"}/></fixed>
   <fixed name="u" class="t" stiffness="1" damping="1"><joint joint="a" coef="1"/></fixed>
   <spatial @tendon/spatial{ name="v" stiffness="1"}><site site="g"/><pulley @spatial/pulley{ divisor="2"}/>
@@ -373,6 +375,7 @@ const SAMPLES: &[(&str, &str, &str)] = &[
     ("option/flag", "", r#"frictionloss="disable""#),
     ("option/flag", "", r#"limit="disable""#),
     ("option/flag", "", r#"contact="disable""#),
+    ("option/flag", "", r#"filterparent="disable""#),
     ("default/equality", "", r#"active="false""#),
     ("worldbody/frame", "", r#"childclass="other""#),
     ("worldbody/frame", "", r#"pos="1 2 3""#),
@@ -443,6 +446,19 @@ const SAMPLES: &[(&str, &str, &str)] = &[
     ("body/geom", r#"size="1""#, r#"surfacevel="0 0 1 0 0 0""#),
     ("contact/exclude", r#"body2="c""#, r#"!body1="b""#),
     ("contact/exclude", r#"body1="b""#, r#"!body2="c""#),
+    ("contact/pair", r#"geom2="h""#, r#"!geom1="f""#),
+    ("contact/pair", r#"geom1="f""#, r#"!geom2="h""#),
+    ("contact/pair", r#"geom1="f" geom2="h""#, r#"class="p""#),
+    ("contact/pair", r#"geom1="f" geom2="h""#, r#"condim="1""#),
+    ("contact/pair", r#"geom1="f" geom2="h""#, r#"friction="7""#),
+    ("contact/pair", r#"geom1="f" geom2="h""#, r#"margin="7""#),
+    ("contact/pair", r#"geom1="f" geom2="h""#, r#"gap="7""#),
+    ("contact/pair", r#"geom1="f" geom2="h""#, r#"adhesion="7""#),
+    ("default/pair", "", r#"condim="1""#),
+    ("default/pair", "", r#"friction="7""#),
+    ("default/pair", "", r#"margin="7""#),
+    ("default/pair", "", r#"gap="7""#),
+    ("default/pair", "", r#"adhesion="7""#),
     ("body/site", "", r#"name="z""#),
     ("body/site", r#"name="z""#, r#"class="other""#),
     ("body/site", r#"name="z""#, r#"pos="1 2 3""#),

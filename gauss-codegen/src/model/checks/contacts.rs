@@ -102,6 +102,15 @@ fn check_point(
             "the point does not move, so it never touches; name a coordinate, or a body or point that moves",
         );
     }
+    if let Against::Sphere { center, end: Some(end), .. } = &contact.against {
+        let [first, last] = [center, end].map(|point| owner(point, statements));
+        if first.is_none() || first != last {
+            context.error(
+                end.span,
+                "a capsule is one body: write `other` and `other_end` as points of one, or as `hull.position`",
+            );
+        }
+    }
     let rubs = !clause.friction.is_empty();
     let turns = contact.rim.is_some() || contact.semi_axes.is_some() || matches!(contact.copies, Copies::Corners(_));
     let needs_body = turns || (contact.radius.is_some() && rubs);
@@ -109,7 +118,9 @@ fn check_point(
     needing.extend(end);
     let needing = needing.into_iter().filter(|_| needs_body);
     let turned = match &contact.against {
-        Against::Sphere { center, radius: Some(_), .. } if rubs && moving.in_place(center) => Some(center),
+        Against::Sphere { center, end, radius, .. } if rubs && (end.is_some() || radius.is_some()) => {
+            Some(center).filter(|center| moving.in_place(center))
+        }
         _ => None,
     };
     for point in needing.chain(turned).filter(|point| !is_of_body(point, statements)) {
@@ -159,12 +170,21 @@ fn check_turning(point: &Expression, statements: &Statements, context: &mut Cont
 
 /// A point that is fixed in a body or a frame, or the O of one.
 fn is_of_body(point: &Expression, statements: &Statements) -> bool {
+    owner(point, statements).is_some()
+}
+
+/// The body or the frame of such a point.
+fn owner(point: &Expression, statements: &Statements) -> Option<String> {
     match &point.kind {
-        ExpressionKind::Name(name) => statements.points.iter().any(|point| same(&point.name, name)),
+        ExpressionKind::Name(name) => {
+            statements.points.iter().find(|point| same(&point.name, name)).map(|point| word(&point.body))
+        }
         ExpressionKind::Property(owner, Property::Position) => match &owner.kind {
-            ExpressionKind::Name(name) => statements.bodies.iter().any(|body| body.word() == word(name)),
-            _ => false,
+            ExpressionKind::Name(name) => {
+                statements.bodies.iter().any(|body| body.word() == word(name)).then(|| word(name))
+            }
+            _ => None,
         },
-        _ => false,
+        _ => None,
     }
 }

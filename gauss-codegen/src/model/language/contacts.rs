@@ -28,6 +28,7 @@ const CONTACT: &Table<()> = &[
     ("over", ()),
     ("along", ()),
     ("other", ()),
+    ("other_end", ()),
     ("other_radius", ()),
     ("friction", ()),
     ("restitution", ()),
@@ -51,6 +52,7 @@ const NEEDS: &Table<&str> = &[
     ("edges", "point"),
     ("end", "point"),
     ("over", "height"),
+    ("other_end", "other"),
     ("other_radius", "other"),
     ("drilling", "friction"),
     ("rolling", "friction"),
@@ -81,7 +83,16 @@ const EXCLUDES: &[(&str, &str, &str)] = &[
     ("edges", "end", "a box has corners and a capsule has two ends; write a clause for each"),
     ("end", "rim", "a capsule has two ends and a disk has a rim; for a cylinder write `length = …` with the rim"),
     ("edges", "other", "corners touch a plane or a ground; write the gap to a sphere as `gap = …`"),
-    ("end", "other", "the ends of a capsule touch a plane or a ground; write the gap to a sphere as `gap = …`"),
+    (
+        "end",
+        "other_end",
+        "the distance of two capsules has a kink where they are parallel; write spheres of one of them",
+    ),
+    (
+        "end",
+        "other",
+        "of a sphere and a capsule the sphere comes first: write its center as `point`, `other` and `other_end`",
+    ),
     ("over", "plane", "a height over the horizontal place makes its own normals; remove `plane`"),
     ("over", "along", "a height over the horizontal place makes its own tangents; remove `along`"),
     ("radius", "over", "which point of a sphere is nearest to such a ground has no closed form; remove `radius`"),
@@ -345,12 +356,13 @@ impl Written {
         let (length, end) = (value("length", "l"), value("end", "toe"));
         let (edges, semi_axes) = (value("edges", "[a, b, c]"), value("semi_axes", "[a, b, c]"));
         let (normal, height, along) = (value("plane", "[0, 0, 1]"), value("height", "h"), value("along", "[1, 0, 0]"));
-        let (other, other_radius) = (value("other", "top"), value("other_radius", "r"));
+        let (other, end_of_other) = (value("other", "top"), value("other_end", "toe"));
+        let other_radius = value("other_radius", "r");
         let over = self.find("over").map(|argument| horizontal(argument, context));
         let edges = edges.map(|edges| three(edges, ["edges of a box", "edges"], context));
         let semi_axes = semi_axes.map(|axes| three(axes, ["semi-axes of an ellipsoid", "semi_axes"], context));
         let against = match (other, over) {
-            (Some(center), _) => Against::Sphere { center, radius: other_radius, along },
+            (Some(center), _) => Against::Sphere { center, end: end_of_other, radius: other_radius, along },
             (None, Some(names)) => {
                 let mut height = height?;
                 place_over(&mut height, &names?);

@@ -93,7 +93,7 @@ fn coefficients(argument: &Clause, context: &mut Context) -> Option<Vec<Expressi
 }
 
 /// Names in brackets.
-fn links(argument: &Clause, context: &mut Context) -> Option<Vec<Ident>> {
+pub(super) fn links(argument: &Clause, context: &mut Context) -> Option<Vec<Ident>> {
     let tokens = attributes::flat(equals(argument, LINKS, context)?.to_vec().into_iter().collect());
     let names: Option<Vec<Ident>> = match tokens.as_slice() {
         [TokenTree::Group(group)] if group.delimiter() == Delimiter::Bracket => {

@@ -18,6 +18,7 @@ pub mod placements;
 pub mod robots;
 pub mod role_clauses;
 pub mod role_words;
+pub mod self_contact;
 pub mod shapes;
 pub mod statements;
 pub mod struct_clauses;

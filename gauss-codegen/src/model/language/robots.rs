@@ -1,12 +1,14 @@
 //! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating`,
 //! `inputs = all | none | transmissions | actuators`, `joint_friction = dry | smooth(width) | none`,
-//! `limits = range | stop(…) | none`, `ground(…)`, `saturation = clamp | none`, `parameters = inertial`, `ignore(…)`.
+//! `limits = range | stop(…) | none`, `ground(…)`, `self_contact(…)`, `saturation = clamp | none`,
+//! `parameters = inertial`, `ignore(…)`.
 
 use super::arguments;
 use super::arithmetic;
 use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
 use super::ground::{self, Ground};
+use super::self_contact::{self, SelfContact};
 use super::words::{self, Table};
 use crate::model::scene::expression::Expression;
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenTree};
@@ -22,6 +24,8 @@ pub struct RobotClauses {
     pub limits: Option<Limits>,
     /// What the shapes of links touch.
     pub grounds: Vec<Ground>,
+    /// Links that touch each other.
+    pub self_contacts: Vec<SelfContact>,
     pub saturation: Option<Saturation>,
     /// The word `parameters` of `parameters = inertial`.
     pub inertial: Option<Ident>,
@@ -100,6 +104,7 @@ pub enum RobotTopic {
     Friction,
     Limits,
     Ground,
+    SelfContact,
     Saturation,
     Parameters,
     Ignore,
@@ -116,6 +121,7 @@ pub const OPTIONS: &Table<RobotTopic> = &[
     ("joint_friction", RobotTopic::Friction),
     ("limits", RobotTopic::Limits),
     ("ground", RobotTopic::Ground),
+    ("self_contact", RobotTopic::SelfContact),
     ("saturation", RobotTopic::Saturation),
     ("parameters", RobotTopic::Parameters),
     ("ignore", RobotTopic::Ignore),
@@ -157,8 +163,8 @@ impl RobotClauses {
             RobotTopic::Limits => self.limits.is_some(),
             RobotTopic::Saturation => self.saturation.is_some(),
             RobotTopic::Parameters => self.inertial.is_some(),
-            // Each is a plane of its own.
-            RobotTopic::Ground | RobotTopic::Ignore => false,
+            // Each is a plane of its own, or of some links.
+            RobotTopic::Ground | RobotTopic::SelfContact | RobotTopic::Ignore => false,
         };
         if twice {
             let name = &clause.name;
@@ -171,6 +177,7 @@ impl RobotClauses {
             RobotTopic::Friction => self.friction = self.friction.take().or(read_friction(clause, context)),
             RobotTopic::Limits => self.limits = self.limits.take().or(read_limits(clause, context)),
             RobotTopic::Ground => self.grounds.extend(ground::read(clause, context)),
+            RobotTopic::SelfContact => self.self_contacts.extend(self_contact::read(clause, context)),
             RobotTopic::Saturation => {
                 self.saturation = self.saturation.or(read_word("saturation", clause, SATURATION, context));
             }

@@ -189,8 +189,9 @@ impl PointContact {
                 placed.extend(height.iter().map(|value| (Place::Height, value)));
             }
             Against::Ground(height) => placed.push((Place::Height, height)),
-            Against::Sphere { center, radius: other, along } => {
+            Against::Sphere { center, end, radius: other, along } => {
                 placed.push((Place::Touching, center));
+                placed.extend(end.iter().map(|end| (Place::Touching, end)));
                 placed.extend(other.iter().map(|value| (radius, value)));
                 placed.extend(along.iter().map(|value| (Place::Direction, value)));
             }

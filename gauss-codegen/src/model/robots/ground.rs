@@ -13,7 +13,7 @@ use gauss_robots::rotation::{Triple, turned};
 use gauss_robots::unknown;
 
 /// What holds all bodies of an MJCF file.
-const WORLD: &str = "world";
+pub const WORLD: &str = "world";
 
 /// A plane, with the shape of the file that it is.
 struct Plane<'a> {
@@ -31,7 +31,7 @@ impl Robot<'_> {
             let links = self.links_on(ground, context);
             let planes = self.planes(ground);
             let (earlier, mut own) = (made.count(), Vec::new());
-            for collision in &self.description.collisions {
+            for collision in self.shapes() {
                 let Some(link) = self.link_of(collision).filter(|link| links.contains(link)) else { continue };
                 for plane in &planes {
                     let Some(touch) = touch(collision, plane.of, self.description) else { continue };
@@ -54,6 +54,7 @@ impl Robot<'_> {
             notes.extend(own);
         }
         self.notes.extend(notes);
+        self.touching_each_other(&mut made, context);
         made
     }
 
@@ -62,9 +63,23 @@ impl Robot<'_> {
         let mut shapes = self.description.collisions.iter().filter(|collision| {
             collision.shape != Shape::Plane && self.link_of(collision).is_some_and(|link| self.moves(link))
         });
-        let first = shapes.next().filter(|_| self.clauses.grounds.is_empty());
-        let text = |count: usize| format!("shapes that touch nothing: {count}; `ground(…)` lets them touch a plane");
+        let is_idle = self.clauses.grounds.is_empty() && self.clauses.self_contacts.is_empty();
+        let first = shapes.next().filter(|_| is_idle);
+        let text = |count: usize| {
+            format!(
+                "shapes that touch nothing: {count}; `ground(…)` lets them touch a plane, `self_contact(…)` each other"
+            )
+        };
         first.map(|first| Note::told(first.at, text(1 + shapes.count()))).into_iter().collect()
+    }
+
+    /// Those of the file that touch, and those that pairs alone let touch.
+    fn shapes(&self) -> impl Iterator<Item = &Collision> {
+        let in_pair = |own: &&Collision| {
+            let is_own = |shape: &Collision| shape.at == own.at && shape.link == own.link;
+            self.description.pairs.iter().any(|pair| pair.shapes.iter().any(is_own))
+        };
+        self.description.collisions.iter().chain(self.description.hidden.iter().filter(in_pair))
     }
 
     fn told(&self, count: usize) -> Option<Note> {
@@ -73,28 +88,33 @@ impl Robot<'_> {
         Some(Note::told(first.at, text))
     }
 
-    fn link_of(&self, collision: &Collision) -> Option<usize> {
+    pub fn link_of(&self, collision: &Collision) -> Option<usize> {
         self.description.links.iter().position(|link| link.name == collision.link)
     }
 
     /// Those that a ground names, or all that move.
     fn links_on(&self, ground: &Ground, context: &mut Context) -> Vec<usize> {
-        let Some(names) = &ground.links else {
-            return (0..self.links.len()).filter(|link| self.moves(*link)).collect();
-        };
+        match &ground.links {
+            Some(names) => self.named_links(names, "ground", true, context),
+            None => (0..self.links.len()).filter(|link| self.moves(*link)).collect(),
+        }
+    }
+
+    /// Links by their names, in a clause that is about links with shapes, perhaps those that move alone.
+    pub fn named_links(&self, names: &[Ident], clause: &str, moving: bool, context: &mut Context) -> Vec<usize> {
         let mut chosen = Vec::new();
         for name in names {
             let Some(link) = self.links.iter().position(|link| link == name) else {
                 let word = name.to_string();
                 let known: Vec<String> = self.links.iter().map(Ident::to_string).collect();
                 let which = unknown("link", &word, known.iter().map(String::as_str));
-                context.error(name.span(), format!("`ground` is touched by {which}"));
+                context.error(name.span(), format!("`{clause}` is touched by {which}"));
                 continue;
             };
-            let has_shape = self.description.collisions.iter().any(|collision| self.link_of(collision) == Some(link));
+            let has_shape = self.shapes().any(|collision| self.link_of(collision) == Some(link));
             if chosen.contains(&link) {
                 context.error(name.span(), format!("`{name}` is named twice; remove one of the two"));
-            } else if !self.moves(link) {
+            } else if moving && !self.moves(link) {
                 context.error(name.span(), format!("the link `{name}` does not move; remove it"));
             } else if !has_shape {
                 context.error(
@@ -117,7 +137,7 @@ impl Robot<'_> {
         if ground.normal.is_some() || ground.height.is_some() {
             return own();
         }
-        let fixed = self.description.collisions.iter().filter_map(|collision| {
+        let fixed = self.shapes().filter_map(|collision| {
             let link = self.link_of(collision).filter(|link| !self.moves(*link))?;
             if collision.shape != Shape::Plane {
                 return None;
@@ -136,9 +156,9 @@ impl Robot<'_> {
         if fixed.is_empty() { own() } else { fixed }
     }
 
-    /// Shapes of the world that are no planes, where its planes are asked for.
+    /// Shapes of the world that are no planes, where its planes are asked for, and links do not touch such shapes.
     fn steps(&self, ground: &Ground) -> Vec<Note> {
-        if ground.normal.is_some() || ground.height.is_some() {
+        if ground.normal.is_some() || ground.height.is_some() || !self.clauses.self_contacts.is_empty() {
             return Vec::new();
         }
         let is_step = |collision: &&Collision| {
@@ -153,6 +173,10 @@ impl Robot<'_> {
 /// What a shape has with a plane, or with one that says nothing: `None` if the file keeps them from touching.
 fn touch(collision: &Collision, plane: Option<&Collision>, description: &Description) -> Option<Touch> {
     let Some(own) = &collision.surface else { return Some(Touch { friction: 0.0, turns: false }) };
+    let pairs = || description.pairs.iter();
+    if let Some(pair) = plane.and_then(|plane| pairs().find(|pair| pair.is_of([collision, plane]))) {
+        return Some(pair.touch.clone());
+    }
     let link = plane.map_or(WORLD, |plane| plane.link.as_str());
     let of_plane = plane.and_then(|plane| plane.surface.as_ref());
     let meets = own.meets(of_plane.unwrap_or(&Surface::default()));

@@ -9,7 +9,7 @@
 //! | `clauses` | a description → clauses, before those of the struct |
 //! | `drives`, `efforts`, `ranges` | inputs; what they do; how much of it at most |
 //! | `limits` | those of joints and tendons; dry friction of joints |
-//! | `ground`, `touching` | planes and what touches them; contacts of shapes |
+//! | `ground`, `pairs`, `touching` | planes and what touches them; links that touch each other; contacts of shapes |
 //! | `laws`, `springs`, `relations` | other forces in joints; springs of all kinds; relations of links besides the tree |
 //! | `inertias` | mass data that no body has |
 //! | `states` | states with names, mass data for fields |
@@ -23,6 +23,7 @@ mod joints;
 mod laws;
 mod limits;
 mod names;
+mod pairs;
 mod ranges;
 mod relations;
 mod source;

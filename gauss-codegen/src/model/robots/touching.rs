@@ -9,6 +9,7 @@ use syn::ext::IdentExt;
 use super::joints::Writer;
 use super::names::{self, Names};
 use crate::model::language::ground::Ground;
+use crate::model::language::self_contact::SelfContact;
 use crate::model::language::words::UNNAMED;
 use crate::model::names::naming::is_reserved;
 use crate::model::scene::clauses::{BodyClause, PointClause};
@@ -44,6 +45,13 @@ enum Form {
     Rims(Triple, f64, Triple, f64),
     /// At the lowest point of an ellipsoid; its axes, where they are not those of the link.
     Ellipsoid(Triple, Option<Matrix>, Triple),
+}
+
+/// Two links that touch, and how.
+pub struct Between<'a> {
+    pub links: [&'a Ident; 2],
+    pub clause: &'a SelfContact,
+    pub friction: Option<Expression>,
 }
 
 impl Made {
@@ -120,15 +128,50 @@ impl Made {
         }));
     }
 
+    /// A contact of a sphere with a sphere or a capsule.
+    pub fn add_pair(&mut self, shapes: [&Collision; 2], between: &Between<'_>) {
+        let writer = self.writer;
+        let [first, second] = shapes.map(|shape| shape.name.as_ref().unwrap_or(&shape.link));
+        let Some(name) = self.named(&format!("{first}_{second}"), 1).pop() else { return };
+        let [own, other] = between.links;
+        let Some(Form::Spheres(centers, radius)) = form(shapes[0], None) else { return };
+        let mut place = |link: &Ident, end: &str, at: Triple| self.point_called(link, &format!("{name}_{end}"), at);
+        let point = place(own, "point", centers[0]);
+        let (center, end, other_radius) = match form(shapes[1], None) {
+            Some(Form::Spheres(centers, radius)) => (place(other, "other", centers[0]), None, radius),
+            Some(Form::Ends([first, last], radius)) => {
+                (place(other, "other", first), Some(place(other, "other_end", last)), radius)
+            }
+            _ => return,
+        };
+        let along = between.clause.along.clone().filter(|_| between.friction.is_some());
+        let against = Against::Sphere { center, end, radius: Some(writer.number(other_radius)), along };
+        let contact = self.contact(point, Some(writer.number(radius)), &against);
+        self.contacts.push(ContactClause {
+            names: vec![name],
+            touching: Touching::Point(Box::new(contact)),
+            friction: between.friction.clone().into_iter().collect(),
+            restitution: between.clause.restitution.clone(),
+            drilling: None,
+            rolling: None,
+            of_file: true,
+            links: between.links.map(|link| Some(link.clone())),
+        });
+    }
+
     fn contact(&self, point: Expression, radius: Option<Expression>, against: &Against) -> PointContact {
         PointContact { point, radius, rim: None, semi_axes: None, copies: Copies::One, against: against.clone() }
     }
 
     /// A point of a link: its origin, or one with the name of the contact and `_point`.
     fn point(&mut self, link: &Ident, contact: &Ident, at: Triple) -> Expression {
+        self.point_called(link, &format!("{contact}_point"), at)
+    }
+
+    fn point_called(&mut self, link: &Ident, called: &str, at: Triple) -> Expression {
         let writer = self.writer;
         let Some(at) = writer.triple(&at) else { return writer.property(link, Property::Position) };
-        let name = self.names.chosen(&format!("{contact}_point"));
+        let name = self.names.chosen(called);
         let expression = writer.name(&name);
         self.points.push(PointClause { name, body: link.clone(), at, span: writer.span });
         expression

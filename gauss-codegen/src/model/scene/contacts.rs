@@ -141,9 +141,9 @@ pub enum Against {
     /// What lies below a height, a scalar of t, fields, numbers and the [horizontal
     /// place](super::expression::ExpressionKind::Horizontal).
     Ground(Expression),
-    /// A sphere about another point: a vector of t and q, and a scalar of fields and numbers; with friction a direction
-    /// that the line of centers never has, of fields and numbers.
-    Sphere { center: Expression, radius: Option<Expression>, along: Option<Expression> },
+    /// A sphere about another point, or a capsule from there to an end: vectors of t and q, and a scalar of fields and
+    /// numbers; with friction a direction that the line of centers never has, of fields and numbers.
+    Sphere { center: Expression, end: Option<Expression>, radius: Option<Expression>, along: Option<Expression> },
 }
 
 impl PointContact {
@@ -155,7 +155,7 @@ impl PointContact {
         match &self.against {
             Against::Plane { height, .. } => own.chain(height).collect(),
             Against::Ground(height) => own.chain([height]).collect(),
-            Against::Sphere { center, radius, .. } => own.chain([center]).chain(radius).collect(),
+            Against::Sphere { center, end, radius, .. } => own.chain([center]).chain(end).chain(radius).collect(),
         }
     }
 
@@ -169,9 +169,9 @@ impl PointContact {
                 normal.iter_mut().chain(height).chain(along).for_each(change);
             }
             Against::Ground(height) => change(height),
-            Against::Sphere { center, radius, along } => {
+            Against::Sphere { center, end, radius, along } => {
                 change(center);
-                radius.iter_mut().chain(along).for_each(change);
+                end.iter_mut().chain(radius).chain(along).for_each(change);
             }
         }
     }

@@ -4,6 +4,7 @@ mod drives;
 mod ground;
 #[cfg(feature = "mjcf")]
 mod mjcf;
+mod self_contact;
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -266,7 +267,10 @@ fn what_is_not_read() {
         told("3:143: the attribute `backlash` of <dynamics> is not read", true),
         told("5:1: <gazebo> does not act: what Gazebo adds is not read; likewise in lines 6, 7", true),
         told("8:20: not read, as it has no part in the motion, how many times: visual (2)", false),
-        told("8:38: shapes that touch nothing: 1; `ground(…)` lets them touch a plane", false),
+        told(
+            "8:38: shapes that touch nothing: 1; `ground(…)` lets them touch a plane, `self_contact(…)` each other",
+            false,
+        ),
     ];
     assert_eq!(remarks(&text, ""), all);
     let known = remarks(&text, ", ignore(gazebo, backlash)");

@@ -172,7 +172,8 @@ fn what_is_told() {
         remarks(&text, ", ground, ignore(collision)"),
         [told(count, false), told(meshes, false), told(quiet, false)]
     );
-    let nothing = "4:92: shapes that touch nothing: 2; `ground(…)` lets them touch a plane";
+    let nothing =
+        "4:92: shapes that touch nothing: 2; `ground(…)` lets them touch a plane, `self_contact(…)` each other";
     assert!(remarks(&text, "").contains(&told(nothing, false)));
 }
 

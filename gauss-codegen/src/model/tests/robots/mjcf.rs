@@ -38,11 +38,9 @@ fn what_is_told_and_refused() {
         ),
         (format!("{hinge}<deformable/>"), "", Some("3:41: <deformable> does not act: what bends is not modelled")),
         (
-            format!("{hinge}<contact><pair geom1=\"a\"/></contact>"),
+            format!("{hinge}<contact><pair geom1=\"a\" geom2=\"a\"/></contact>"),
             "",
-            Some(
-                "3:50: <pair> does not act: of pairs no contacts are read; `ground(…)` and `contact(…)` of the struct make them",
-            ),
+            Some("3:50: <pair>: it is about `a`, which is no geom of this file"),
         ),
         (format!("{hinge}<tendon><spatial name=\"s\"/></tendon>"), "", None),
         (

@@ -28,6 +28,7 @@ fn accepted() {
          range(theta, from = -k, to = k, restitution = k), range(reach, along = tip.x, to = l * t), \
          contact(ball, point = hull.position, radius = l, plane = c, height = l * t, along = [1, 0, 0], friction = k), \
          contact(disk, point = tip, rim = l, axis = c), contact(both, point = tip, other = hull.position, other_radius = l), \
+         contact(limb, point = hull.position, other = arm.position, other_end = tip, other_radius = l), \
          contact(rub, point = tip, radius = l, other = hull.position, other_radius = l, along = c, friction = k), \
          contact(case, point = tip, edges = [l, 0.0, 2 * l], friction = k), contact(shin, point = tip, end = hull.position), \
          contact(drum, point = tip, rim = l, axis = c, length = k), \
@@ -70,6 +71,7 @@ fn accepted() {
             "ball: hull.Position above Some(\"c\")",
             "disk: tip above None",
             "both: tip and hull.Position",
+            "limb: hull.Position and arm.Position",
             "rub: tip and hull.Position",
             "case_0, case_1, case_2, case_3: tip above None",
             "shin_0, shin_1: tip above None",
@@ -137,6 +139,30 @@ fn clauses() {
             ("2", "`over` gives names to the horizontal coordinates; write `over = [x, y]`"),
             ("edges", "a box has corners and a capsule has two ends; write a clause for each"),
         ],
+    );
+}
+
+#[test]
+fn capsules_that_are_touched() {
+    mistakes(
+        "contact(a, point = tip, other_end = hull.position), \
+         contact(b, point = tip, end = hull.position, other = quay.position, other_end = hull.position), \
+         contact(d, point = tip, rim = l, axis = c, other = quay.position, other_end = quay.position)",
+        &[
+            ("other_end", "`other_end` goes with `other = …`; add it, or remove `other_end`"),
+            ("end", "the distance of two capsules has a kink where they are parallel; write spheres of one of them"),
+            (
+                "end",
+                "of a sphere and a capsule the sphere comes first: write its center as `point`, `other` and `other_end`",
+            ),
+            ("rim", "a rim touches a plane alone; write the gap to another sphere as `gap = …`"),
+        ],
+    );
+    let one_body = "a capsule is one body: write `other` and `other_end` as points of one, or as `hull.position`";
+    mistakes(
+        "contact(a, point = tip, other = quay.position, other_end = hull.position), \
+         contact(b, point = tip, other = [0, 0, 0], other_end = [0, 0, 1])",
+        &[("position", one_body), ("[", one_body)],
     );
 }
 
