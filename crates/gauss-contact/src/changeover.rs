@@ -5,7 +5,8 @@
 //! - impacts at several gaps, or changes of modes, follow each other without end ([`ContactErrorKind::Zeno`],
 //!   [`ContactErrorKind::Chatter`]),
 //! - no forces were found that satisfy the laws ([`ContactErrorKind::Unsolved`]),
-//! - a gap was found closed too late ([`ContactErrorKind::Penetration`]); what was made since the last event is left out.
+//! - a gap was found closed too late ([`ContactErrorKind::Penetration`]); what was made since the last
+//!   event is left out.
 //!
 //! All other errors end it. It returns to events when no gap has closed for a while. Where these come to less than that
 //! while before they pile up again, the next part in steps is at least twice as long as the one before.
@@ -130,8 +131,8 @@ impl<'k, K: ContactSystem<Scalar = f64>> ChangingTrajectory<'k, K> {
 impl<'k, K: ContactSystem<Scalar = f64>, C, I> ContactRun<'k, K, C, I> {
     /// A run that goes on in steps of length `h` where events pile up, and returns to events when nothing has struck
     /// for the time of 50 steps. Events pile up where more than 50, and four for each contact, come within the time of
-    /// ten steps at several contacts; where impacts at several gaps or changes of modes do not end; where no forces were found, and
-    /// where a gap was found closed too late.
+    /// ten steps at several contacts; where impacts at several gaps or changes of modes do not end; where no
+    /// forces were found, and where a gap was found closed too late.
     ///
     /// Impacts go by Newton's law. The trajectory says which part was made how, and what its errors are.
     pub fn changing_over(self, h: f64) -> ChangingRun<'k, K, C, I> {

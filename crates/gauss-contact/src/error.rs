@@ -153,6 +153,38 @@ pub enum ContactErrorKind {
     Integration(IntegrationError),
 }
 
+impl ContactErrorKind {
+    /// What steps alone are refused for.
+    fn of_steps(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::InvalidStep { step } => {
+                write!(
+                    f,
+                    "a step of {step:e}; steps are finite and longer than 0, the shortest no longer than the longest"
+                )
+            }
+            Self::InvalidTolerance { relative, absolute } => write!(
+                f,
+                "tolerances {relative:e} (relative) and {absolute:e} (absolute) must be finite, not negative, not both 0"
+            ),
+            Self::StepTooSmall { step } => {
+                write!(
+                    f,
+                    "steps of {step:e} are still too long for the tolerance; allow more, or look at the motion here"
+                )
+            }
+            Self::Lanes { lanes, given } => write!(f, "{given} steppers for {lanes} lanes; one to {lanes} go together"),
+            Self::TooManySteps { limit } => {
+                write!(f, "{limit} steps do not reach the end; use a larger tolerance, or allow more by `max_steps`")
+            }
+            Self::LawWithoutSteps { law } => {
+                write!(f, "a run by the law {law:?} cannot change over to steps: these have Newton's law alone")
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
 impl fmt::Display for ContactErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -171,20 +203,12 @@ impl fmt::Display for ContactErrorKind {
                 )
             }
             Self::InvalidInterval => f.write_str("the run must go forward in time, between finite ends"),
-            Self::InvalidStep { step } => {
-                write!(f, "a step of {step:e}; steps are finite and longer than 0, the shortest no longer than the longest")
-            }
-            Self::InvalidTolerance { relative, absolute } => write!(
-                f,
-                "tolerances {relative:e} (relative) and {absolute:e} (absolute) must be finite, not negative, not both 0"
-            ),
-            Self::StepTooSmall { step } => {
-                write!(f, "steps of {step:e} are still too long for the tolerance; allow more, or look at the motion here")
-            }
-            Self::Lanes { lanes, given } => write!(f, "{given} steppers for {lanes} lanes; one to {lanes} go together"),
-            Self::TooManySteps { limit } => {
-                write!(f, "{limit} steps do not reach the end; use a larger tolerance, or allow more by `max_steps`")
-            }
+            Self::InvalidStep { .. }
+            | Self::InvalidTolerance { .. }
+            | Self::StepTooSmall { .. }
+            | Self::Lanes { .. }
+            | Self::LawWithoutSteps { .. }
+            | Self::TooManySteps { .. } => self.of_steps(f),
             Self::NonFinite => f.write_str("gaps, rates or coefficients are not finite"),
             Self::Inconsistent => f.write_str("no contact force agrees with rigid bodies and Coulomb's law (Painlevé)"),
             Self::Indeterminate => f.write_str("several motions agree with rigid bodies and Coulomb's law (Painlevé)"),
@@ -202,9 +226,6 @@ impl fmt::Display for ContactErrorKind {
             Self::Zeno { impacts } => write!(f, "{impacts} impacts at one time do not end"),
             Self::Chatter { changes } => write!(f, "{changes} changes of modes at one time do not end"),
             Self::EventsPile { events, span } => write!(f, "more than {events} events within {span:e}"),
-            Self::LawWithoutSteps { law } => {
-                write!(f, "a run by the law {law:?} cannot change over to steps: these have Newton's law alone")
-            }
             Self::TooManyEvents { limit } => {
                 write!(f, "{limit} events do not reach the end; allow more by `max_events`")
             }

@@ -2,11 +2,11 @@
 //!
 //! Each step is made once as a whole and once in halves; the halves are kept, and what the two differ by is the
 //! estimate, which is the error of the whole. In a smooth part, where no contact changes what it does, lengths follow
-//! from the order of the scheme. A step in which a gap closes or opens or a slip begins, ends or turns back has an error
-//! of first order in its length whatever the scheme: it is shortened to a quarter until it is within the tolerance, but
-//! not below the shortest length, at which it is accepted with the error that it has. The step after it is as long as
-//! that before the change was looked for. Of a step with an impact places alone are judged: speeds jump, at a time that
-//! is known to a step.
+//! from the order of the scheme. A step in which a gap closes or opens or a slip begins, ends or turns back has an
+//! error of first order in its length whatever the scheme: it is shortened to a quarter until it is within the
+//! tolerance, but not below the shortest length, at which it is accepted with the error that it has. The step after it
+//! is as long as that before the change was looked for. Of a step with an impact places alone are judged: speeds jump,
+//! at a time that is known to a step.
 
 use alloc::vec::Vec;
 use core::ops::Range;

@@ -12,8 +12,8 @@ use super::stepper::ContactStepper;
 
 /// Many systems on their way in steps, in blocks of as many as a pack has lanes.
 ///
-/// Each has the bits of a stepper of its own, whatever the number of lanes and threads. One whose step is an error stays
-/// where it was; the others go on.
+/// Each has the bits of a stepper of its own, whatever the number of lanes and threads. One whose step is an error
+/// stays where it was; the others go on.
 #[derive(Debug)]
 pub struct ContactEnsemble<'k, W, K: ContactSystem<Scalar = f64>> {
     blocks: Vec<ContactLanes<'k, W, K>>,

@@ -256,6 +256,13 @@ impl<'m> Impulses<'m> {
         }
     }
 
+    /// The work of the impulses: half of the rates before and after them, times these. Rates before are given without
+    /// what impacts pass on.
+    pub(crate) fn work(&self, before: impl Fn(usize) -> f64) -> f64 {
+        let work = |row: usize| self.impulses[row] * (before(row) + 0.5 * (self.rates[row] - self.b[row]));
+        (0..self.b.len()).map(work).sum()
+    }
+
     /// Finds the impulses from those that are there.
     pub(crate) fn solve(&mut self, cones: &[Cone], tolerance: f64) -> Found {
         let mut found = Found::default();

@@ -1,14 +1,14 @@
 //! Steps of several states at once: the kernel works on all of them in lockstep, the laws are solved one by one.
 //!
-//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone, and
-//! everything else in a step is made by the stepper of the lane: so a lane has the bits of a stepper of its own. Lanes
-//! that need something else than the others go that step alone: at the start and after impacts, where the step is made
-//! twice, where a flight ends, and where a step is made in parts.
+//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone,
+//! and everything else in a step is made by the stepper of the lane: so a lane has the bits of a stepper of its own.
+//! Lanes that need something else than the others go that step alone: at the start and after impacts, where the step is
+//! made twice, where a flight ends, and where a step is made in parts.
 
 use alloc::vec::Vec;
 
 use gauss_runtime::configuration::VectorSpace;
-use gauss_runtime::contact::{ContactSystem, ImpulseDynamics, ImpulseResponse};
+use gauss_runtime::contact::{ContactSystem, ImpulseResponse};
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::simd::Packed;
 
@@ -55,6 +55,8 @@ pub struct ContactLanes<'k, W, K: ContactSystem<Scalar = f64>> {
     outcomes: Vec<Result<StepReport, ContactError>>,
     /// How far the lanes are in a step.
     stages: Vec<Stage<K>>,
+    /// What impulses do in each lane: large, so that it stays where it is.
+    responses: Vec<Option<ContactResponse<K>>>,
     /// Whether contacts of a lane depended on one another before the step.
     known: Vec<bool>,
     /// Lanes that do not go on.
@@ -77,11 +79,11 @@ enum Stage<K: ContactSystem<Scalar = f64>> {
     /// At the end of a flight.
     Lands(K::Configuration, K::Speeds, K::Gaps),
     /// With impulses.
-    Pushed(Middle<K>, ImpulseResponse<K>, Pushed<K>),
+    Pushed(Middle<K>, Pushed<K>),
     /// At the end, before closed gaps are zero.
-    Open(K::Configuration, K::Speeds, ImpulseResponse<K>, Pushed<K>),
+    Open(K::Configuration, K::Speeds, Pushed<K>),
     /// With closed gaps at zero.
-    Closed(Closed<K>, K::Speeds, ImpulseResponse<K>, Pushed<K>),
+    Closed(Closed<K>, K::Speeds, Pushed<K>),
 }
 
 impl<K: ContactSystem<Scalar = f64>> core::fmt::Debug for Stage<K> {
@@ -115,7 +117,8 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let outcomes = steppers.iter().map(|_| Ok(StepReport::default())).collect();
         let (stages, known) = (Vec::with_capacity(steppers.len()), Vec::with_capacity(steppers.len()));
         let halted = steppers.iter().map(|_| false).collect();
-        Ok(Self { wide, steppers, outcomes, stages, known, halted, alone: 0 })
+        let responses = steppers.iter().map(|_| None).collect();
+        Ok(Self { wide, steppers, outcomes, stages, responses, known, halted, alone: 0 })
     }
 
     /// The steppers, lane by lane.
@@ -216,7 +219,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         match &self.stages[lane] {
             Stage::Middle(middle) | Stage::Flies(middle) => (middle.t, middle.q, middle.z),
             Stage::Flown(middle, z) => (middle.t, middle.q, *z),
-            Stage::Pushed(middle, _, pushed) => (middle.t, middle.q, pushed.z),
+            Stage::Pushed(middle, pushed) => (middle.t, middle.q, pushed.z),
             _ => (self.steppers[lane].t, self.steppers[lane].q, self.steppers[lane].z),
         }
     }
@@ -271,14 +274,15 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
                 }
             };
             let friction = single::<W, _, K::ContactRows>(&friction, lane);
-            let response = &dynamics.response;
-            let response = ImpulseResponse::new(response.factors.extract(lane), response.delassus.extract(lane));
             let acceleration = single::<W, _, K::Speeds>(&dynamics.acceleration, lane);
             let bias = single::<W, _, K::ContactRows>(&dynamics.bias, lane);
-            let dynamics = ImpulseDynamics::new(acceleration, bias, response);
+            let response = self.responses[lane].insert(ImpulseResponse::new(
+                dynamics.response.factors.extract(lane),
+                dynamics.response.delassus.extract(lane),
+            ));
             // Where it has no solution it is tried in parts, alone.
-            if let Ok(pushed) = stepper.push(h, &middle, (&friction, &dynamics)) {
-                self.stages[lane] = Stage::Pushed(middle, response, pushed);
+            if let Ok(pushed) = stepper.push(h, &middle, &friction, (&acceleration, &bias, response)) {
+                self.stages[lane] = Stage::Pushed(middle, pushed);
             }
         }
     }
@@ -290,8 +294,8 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
             let rate = single::<W, _, TangentOf<K>>(&rates, lane);
             let half = |middle: &Middle<K>, z: K::Speeds| stepper.second_half(h, middle, (z, &rate));
             self.stages[lane] = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
-                Stage::Pushed(middle, response, pushed) => match half(&middle, pushed.z) {
-                    Ok((q, z)) => Stage::Open(q, z, response, pushed),
+                Stage::Pushed(middle, pushed) => match half(&middle, pushed.z) {
+                    Ok((q, z)) => Stage::Open(q, z, pushed),
                     Err(_) => Stage::Alone,
                 },
                 Stage::Flown(middle, z) => match half(&middle, z) {
@@ -317,14 +321,15 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let gaps = self.wide.gaps(t, &self.places(|lane| self.place(lane).0));
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
             let gaps = single::<W, _, K::Gaps>(&gaps, lane);
-            self.stages[lane] = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
-                Stage::Open(q, z, response, pushed) => match stepper.close(h, (&response, &pushed), (q, gaps)) {
-                    Ok(closed) => Stage::Closed(closed, z, response, pushed),
+            let response = &self.responses[lane];
+            self.stages[lane] = match (core::mem::replace(&mut self.stages[lane], Stage::Alone), response) {
+                (Stage::Open(q, z, pushed), Some(response)) => match stepper.close(h, (response, &pushed), (q, gaps)) {
+                    Ok(closed) => Stage::Closed(closed, z, pushed),
                     Err(_) => Stage::Alone,
                 },
-                Stage::Lands(..) if ContactStepper::<K, Vec<f64>>::is_below_zero(&gaps) => Stage::Alone,
-                Stage::Lands(q, z, _) => Stage::Lands(q, z, gaps),
-                other => other,
+                (Stage::Lands(..), _) if ContactStepper::<K, Vec<f64>>::is_below_zero(&gaps) => Stage::Alone,
+                (Stage::Lands(q, z, _), _) => Stage::Lands(q, z, gaps),
+                (other, _) => other,
             };
         }
     }
@@ -335,10 +340,12 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let rates = self.wide.contact_rates(t, &q, &self.speeds(|lane| self.place(lane).1));
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
             let rates = single::<W, _, K::ContactRows>(&rates, lane);
-            let end = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
-                Stage::Closed(closed, z, response, pushed) => stepper.end(h, (&response, pushed), closed, (z, rates)),
-                Stage::Lands(q, z, gaps) => ContactStepper::<K, Vec<f64>>::flown((q, z), gaps, rates),
-                other => {
+            let end = match (core::mem::replace(&mut self.stages[lane], Stage::Alone), &self.responses[lane]) {
+                (Stage::Closed(closed, z, pushed), Some(response)) => {
+                    stepper.end(h, (response, pushed), closed, (z, rates))
+                }
+                (Stage::Lands(q, z, gaps), _) => ContactStepper::<K, Vec<f64>>::flown((q, z), gaps, rates),
+                (other, _) => {
                     self.stages[lane] = other;
                     continue;
                 }

@@ -2,7 +2,7 @@
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::constraint::ProjectionError;
-use gauss_runtime::contact::{ContactSystem, ImpulseDynamics};
+use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 
@@ -32,20 +32,18 @@ pub(super) fn second_half<K: ContactSystem>(
 
 /// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that depend on
 /// one another both are taken at half of the step, where they agree with one another to rounding; that is of first
-/// order.
+/// order. `free` are the speeds without contact impulses, `bias` the b of their accelerations.
 pub(super) fn free_rates<K: ContactSystem>(
     kernel: &K,
     (h, dependent): (f64, bool),
     middle: &Middle<K>,
     (z, rates): (&K::Speeds, &K::ContactRows),
-    dynamics: &ImpulseDynamics<K>,
+    (free, bias): (&K::Speeds, &K::ContactRows),
 ) -> [K::ContactRows; 2] {
-    let h = K::Scalar::from_f64(h);
     if !dependent {
-        return [*rates, rates.add_scaled(h, &dynamics.bias)];
+        return [*rates, rates.add_scaled(K::Scalar::from_f64(h), bias)];
     }
-    let free = z.add_scaled(h, &dynamics.acceleration);
-    [*z, free].map(|z| kernel.contact_rates(middle.t, &middle.q, &z))
+    [*z, *free].map(|z| kernel.contact_rates(middle.t, &middle.q, &z))
 }
 
 /// The rate that an impact passes on, a part of the rate before it.

@@ -23,8 +23,8 @@ pub enum StepScheme {
 pub struct StepReport {
     /// The worst residuals of all contacts, in the units of rates.
     pub residual: Residual,
-    /// The same of Coulomb's law, by which the residuals of [`StepLaw::Coulomb`](super::StepLaw::Coulomb) are: of the relaxed law Signorini's is
-    /// the rate at which what slides separates.
+    /// How far the step is from Coulomb's law. Under [`StepLaw::Coulomb`](super::StepLaw::Coulomb) that is `residual`;
+    /// under the relaxed law `signorini` of it is the largest rate at which what slides separates.
     pub from_coulomb: Residual,
     /// The largest gap below zero before the projection, as a positive number.
     pub penetration: f64,

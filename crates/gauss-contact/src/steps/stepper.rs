@@ -399,34 +399,37 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let (kernel, t) = (self.kernel, self.t + h);
         let friction = kernel.friction(middle.t, &middle.q, &middle.z, input);
         let dynamics = kernel.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
-        let pushed = self.push(h, middle, (&friction, &dynamics))?;
+        let ImpulseDynamics { acceleration, bias, response, .. } = &dynamics;
+        let pushed = self.push(h, middle, &friction, (acceleration, bias, response))?;
         let half = kernel.kinematics(middle.t, &middle.q, &pushed.z);
         let (q, z) = self.second_half(h, middle, (pushed.z, &half))?;
         let gaps = kernel.gaps(t, &q);
-        let closed = self.close(h, (&dynamics.response, &pushed), (q, gaps))?;
+        let closed = self.close(h, (response, &pushed), (q, gaps))?;
         let rates = kernel.contact_rates(t, &closed.q, &z);
-        Ok(self.end(h, (&dynamics.response, pushed), closed, (z, rates)))
+        Ok(self.end(h, (response, pushed), closed, (z, rates)))
     }
 
-    /// Impulses at half of a step, with the speeds after them.
+    /// Impulses at half of a step, with the speeds after them: of the motion without them its acceleration, and of
+    /// rates of contacts theirs, with what impulses do.
     pub(super) fn push(
         &mut self,
         h: f64,
         middle: &Middle<K>,
-        (friction, dynamics): (&K::ContactRows, &ImpulseDynamics<K>),
+        friction: &K::ContactRows,
+        (acceleration, bias, response): (&K::Speeds, &K::ContactRows, &ImpulseResponse<K>),
     ) -> Result<Pushed<K>, ContactError> {
         let laws = Laws::new::<K>(h, friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
         let mut impulses = self.impulses;
-        let free = self.z.add_scaled(h, &dynamics.acceleration);
+        let free = self.z.add_scaled(h, acceleration);
         let known = self.dependent;
-        let mut solved = self.solve(h, (&laws, dynamics), self.free_rates(h, middle, dynamics), &mut impulses);
+        let mut solved = self.solve(h, (&laws, response), self.free_rates(h, middle, (&free, bias)), &mut impulses);
         let again = solved.is_err() && self.dependent && !known;
         if again {
-            solved = self.solve(h, (&laws, dynamics), self.free_rates(h, middle, dynamics), &mut impulses);
+            solved = self.solve(h, (&laws, response), self.free_rates(h, middle, (&free, bias)), &mut impulses);
         }
         let solved = solved.map_err(|kind| self.error(None, kind))?;
         let dependent = known || again;
-        let after = self.kernel.after_impulses(&free, &dynamics.response.factors, &impulses);
+        let after = self.kernel.after_impulses(&free, &response.factors, &impulses);
         let z = settled_speeds(after, acting::<K>(&impulses));
         Ok(Pushed { z, impulses, dependent, solved })
     }
@@ -481,15 +484,20 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         End { q, z, gaps, rates, impulses, rests, touches: true, dependent, report, struck }
     }
 
-    fn free_rates(&self, h: f64, middle: &Middle<K>, dynamics: &ImpulseDynamics<K>) -> [K::ContactRows; 2] {
-        motion::free_rates(self.kernel, (h, self.dependent), middle, (&self.z, &self.rates), dynamics)
+    fn free_rates(
+        &self,
+        h: f64,
+        middle: &Middle<K>,
+        (free, bias): (&K::Speeds, &K::ContactRows),
+    ) -> [K::ContactRows; 2] {
+        motion::free_rates(self.kernel, (h, self.dependent), middle, (&self.z, &self.rates), (free, bias))
     }
 
     /// Impulses of a step, at first those of the step before, and its modes.
     fn solve(
         &mut self,
         h: f64,
-        (laws, dynamics): (&Laws, &ImpulseDynamics<K>),
+        (laws, response): (&Laws, &ImpulseResponse<K>),
         [before, free]: [K::ContactRows; 2],
         impulses: &mut K::ContactRows,
     ) -> Result<Solved, ContactErrorKind> {
@@ -499,7 +507,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let mut problem = Impulses::new(&mut self.memory.as_mut()[..Impulses::memory(rows)], rows);
         problem.dependent = self.dependent;
         problem.relaxed = self.law == StepLaw::ConvexRelaxation;
-        let entry = |i: usize, j: usize| dynamics.response.delassus[(i, j)];
+        let entry = |i: usize, j: usize| response.delassus[(i, j)];
         problem.set_up(&scales, entry, |row| [free.component(row), impulses.component(row)]);
         // What an impact passes on is a part of the rate before it.
         let passed_on = |i: usize| motion::passed_on(e.component(i), before.component(K::CONTACTS[i].normal));
@@ -530,12 +538,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             let unsolved = ContactErrorKind::Unsolved { residual: found.residual };
             return Err(if finite { unsolved } else { ContactErrorKind::NonFinite });
         }
-        // Half of the rates before and after the impulses, times these.
-        let work = |row: usize| {
-            let given = problem.rates[row] - problem.b[row];
-            problem.impulses[row] * (scales[row] * free.component(row) + 0.5 * given)
-        };
-        let work = (0..rows).map(work).sum();
+        let work = problem.work(|row| scales[row] * free.component(row));
         let from_coulomb = if problem.relaxed { problem.residual_of_coulomb(cones) } else { found.residual };
         let mut solved = Solved { found, from_coulomb, rests: [false; MOST], struck: false, impacts: 0, work };
         for (next, cone) in self.next.iter_mut().zip(&*cones) {

@@ -37,7 +37,7 @@ fn smooth_parts_keep_the_tolerance_at_the_order_of_the_scheme() {
         for (run, tolerance) in [(&coarse, 1e-4), (&fine, 1e-6)] {
             let (end, statistics) = (run.samples.last().unwrap(), run.statistics);
             assert_eq!((end.state.t, end.state.z[1], end.state.q[1]), (t, 0.0, 0.0));
-            // Each step may err by the tolerance; errors of speeds decay, those of places are less than 1/c of them more.
+            // Each step may err by the tolerance; errors of speeds decay, those of places are up to 1/c of them more.
             let off = (end.state.z[0] - speed).abs().max((end.state.q[0] - way).abs());
             assert!(
                 off <= (1.0 + 1.0 / c) * statistics.accepted as f64 * tolerance,
