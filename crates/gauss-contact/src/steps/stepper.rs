@@ -16,7 +16,7 @@ use super::cones::{Laws, MOST, MOST_ROWS};
 use super::impulses::{Found, Impulses};
 use super::motion::{self, Middle};
 use super::projection::Projection;
-use super::watch::Watch;
+use super::watch::{Attempted, Watch};
 
 /// How a step takes the motion between impacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -308,7 +308,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             (StepScheme::Midpoint, None) => match self.attempt(h, &middle(z), input)? {
                 end if end.struck => end,
                 end => {
-                    watch.first(&end, &self.next);
+                    watch.first(end.attempted(&self.next));
                     self.attempt(h, &middle(z.add_scaled(1.0, &end.z).scale(0.5)), input)?
                 }
             },
@@ -316,7 +316,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         if !(end.q.is_finite() && end.z.is_finite()) {
             return Err(self.error(None, ContactErrorKind::NonFinite));
         }
-        watch.part((t, h), &end, &self.next);
+        watch.part((t, h), end.attempted(&self.next));
         self.acceleration = (!end.struck).then(|| end.z.add_scaled(-1.0, &z).scale(1.0 / h));
         self.t = t + h;
         (self.q, self.z, self.impulses) = (end.q, end.z, end.impulses);
@@ -503,21 +503,30 @@ impl<K: ContactSystem> Kept<K> {
 }
 
 /// The end of a step.
-pub(super) struct End<K: ContactSystem> {
+struct End<K: ContactSystem> {
     q: K::Configuration,
-    pub(super) z: K::Speeds,
+    z: K::Speeds,
     gaps: K::Gaps,
     rates: K::ContactRows,
-    pub(super) impulses: K::ContactRows,
+    impulses: K::ContactRows,
     /// Whether contacts may have changed their modes.
-    pub(super) touches: bool,
+    touches: bool,
     /// Whether rates were those of contacts that depend on one another.
-    pub(super) dependent: bool,
+    dependent: bool,
     /// Contacts that are closed after the step.
-    pub(super) rests: [bool; MOST],
+    rests: [bool; MOST],
     report: StepReport,
     /// Whether a gap has closed.
-    pub(super) struck: bool,
+    struck: bool,
+}
+
+impl<K: ContactSystem> End<K> {
+    /// With what contacts did.
+    fn attempted<'a>(&'a self, modes: &'a [Mode; MOST]) -> Attempted<'a, K> {
+        let Self { impulses, rests, dependent, struck, .. } = self;
+        let modes = self.touches.then(|| &modes[..K::CONTACTS.len()]);
+        Attempted { impulses, modes, rests, dependent: *dependent, struck: *struck }
+    }
 }
 
 /// What the laws of a step came to.
