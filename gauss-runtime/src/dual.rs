@@ -48,7 +48,7 @@ impl<const N: usize> Dual<N> {
     }
 
     /// A function of this number by its value and derivative.
-    #[inline(always)]
+    #[inline]
     fn chain(self, value: f64, derivative: f64) -> Self {
         let mut slopes = self.slopes;
         slopes.iter_mut().for_each(|slope| *slope *= derivative);
@@ -60,8 +60,9 @@ impl<const N: usize> Dual<N> {
         Self { value, slopes: self.slopes.map(|slope| if slope == 0.0 { 0.0 } else { slope * derivative }) }
     }
 
-    /// A function of two numbers by its value and derivatives.
-    #[inline(always)]
+    /// A function of two numbers by its value and derivatives. A call, where compilers leave it one: kernels are
+    /// thousands of operations.
+    #[inline]
     fn chain_of_two(self, other: &Self, value: f64, [a, b]: [f64; 2]) -> Self {
         let mut slopes = self.slopes;
         slopes.iter_mut().zip(&other.slopes).for_each(|(x, y)| *x = a * *x + b * *y);
@@ -77,7 +78,7 @@ macro_rules! arithmetic {
         impl<const N: usize> $operator for Dual<N> {
             type Output = Self;
 
-            #[inline(always)]
+            #[inline]
             fn $function(self, other: Self) -> Self {
                 let ($a, $b) = (self.value, other.value);
                 self.chain_of_two(&other, $value, $slopes)
@@ -85,7 +86,7 @@ macro_rules! arithmetic {
         }
 
         impl<const N: usize> $assign for Dual<N> {
-            #[inline(always)]
+            #[inline]
             fn $in_place(&mut self, other: Self) {
                 *self = $operator::$function(*self, other);
             }
@@ -103,7 +104,7 @@ arithmetic! {
 impl<const N: usize> Neg for Dual<N> {
     type Output = Self;
 
-    #[inline(always)]
+    #[inline]
     fn neg(self) -> Self {
         self.chain(-self.value, -1.0)
     }

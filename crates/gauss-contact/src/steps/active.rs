@@ -173,8 +173,9 @@ impl<const N: usize, K: ContactSystem<Scalar = Dual<N>>> Active<'_, K> {
         let differs = |(left, miss): (&Dual<N>, &Dual<N>)| largest_slope(&(*left - *miss));
         let differs = left.iter().zip(&misses).map(differs).fold(0.0, f64::max);
         let misses = misses.iter().map(largest_slope).fold(0.0, f64::max);
-        // Written so that what is not a number is none.
-        if !(differs <= LEFT * misses + NOTHING * terms) {
+        // What is not a number does not agree.
+        let agree = differs <= LEFT * misses + NOTHING * terms;
+        if !agree {
             return Err(ContactErrorKind::NoDerivative);
         }
         known.rows.iter().zip(by).for_each(|(row, by)| impulses[*row] -= by);

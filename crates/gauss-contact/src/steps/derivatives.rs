@@ -7,6 +7,7 @@ use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::dual::Dual;
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::nalgebra::SMatrix;
+use gauss_runtime::system::GaussSystem;
 
 use crate::error::{ContactError, ContactErrorKind};
 
@@ -42,6 +43,9 @@ pub struct StepDerivatives<const D: usize, const U: usize, const P: usize> {
     /// How often the step was made in dual numbers.
     pub passes: usize,
 }
+
+/// Time and state at the start of a step.
+type Start<K> = (f64, <K as GaussSystem>::Configuration, <K as GaussSystem>::Speeds);
 
 /// A matrix of derivatives by N directions of a pass, column by column.
 type Slopes<const D: usize, const N: usize> = SMatrix<f64, D, N>;
@@ -124,24 +128,26 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         if self.law != StepLaw::Coulomb {
             return Err(self.error(None, ContactErrorKind::NotCoulomb));
         }
+        let before = Kept::of(self);
         // Without the acceleration of the step before a step is a function of the state.
         self.acceleration = None;
-        let before = Kept::of(self);
         let mut seen = Seen::default();
-        let report = self.watched(h, input, &mut seen)?;
-        let made = self.differentiated(dual, &(before.t, before.q, before.z), input, &seen).map_err(|kind| {
-            let error = ContactError { contact: None, time: before.t, kind };
+        let made = self.watched(h, input, &mut seen).and_then(|report| {
+            let made = self.differentiated(dual, &(before.t, before.q, before.z), input, &seen);
+            let made = made.map_err(|kind| ContactError { contact: None, time: before.t, kind })?;
+            Ok(StepDerivatives { report, ..made })
+        });
+        if made.is_err() {
             before.restore(self);
-            error
-        })?;
-        Ok(StepDerivatives { report, ..made })
+        }
+        made
     }
 
     /// The derivatives of a step that was made.
     fn differentiated<L, const N: usize, const D: usize, const U: usize, const P: usize>(
         &self,
         dual: &L,
-        start: &(f64, K::Configuration, K::Speeds),
+        start: &Start<K>,
         input: &K::Input,
         seen: &Seen,
     ) -> Result<StepDerivatives<D, U, P>, ContactErrorKind>
@@ -178,7 +184,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
     fn pass<L, const N: usize, const D: usize>(
         &self,
         dual: &L,
-        (start, input): (&(f64, K::Configuration, K::Speeds), &K::Input),
+        (start, input): (&Start<K>, &K::Input),
         seen: &Seen,
         (same, first): (&mut Same, usize),
     ) -> Result<Slopes<D, N>, ContactErrorKind>
@@ -216,7 +222,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
     /// Whether a step in dual numbers ends where that in `f64` does.
     fn check<L: ContactSystem<Scalar = Dual<N>>, const N: usize>(
         &self,
-        start: &(f64, K::Configuration, K::Speeds),
+        start: &Start<K>,
         end: &State<L>,
     ) -> Result<(), ContactErrorKind> {
         let (there, here) = (end.q.components(), self.q.components());

@@ -5,7 +5,6 @@ use alloc::vec::Vec;
 use gauss_runtime::GaussDynamics;
 use gauss_runtime::nalgebra::{Isometry3, SVector, UnitQuaternion, Vector3};
 use gauss_runtime::real::Real;
-use gauss_runtime::system::GaussSystem;
 
 use super::*;
 use crate::mode::Mode;
@@ -365,6 +364,29 @@ fn a_table_on_four_legs_is_no_failure() {
             assert!(step.by_state.row(row).amax() < rounding, "{}", step.by_state);
         }
     }
+}
+
+#[test]
+fn parts_of_a_step_follow_one_another() {
+    let kernel = Dropped::plain(Dropped::PARAMETERS);
+    let dual = Dropped::in_duals(core::array::from_fn(|k| Dual::variable(Dropped::PARAMETERS[k], k)));
+    let (q, z) = tossed(3)();
+    let (h, input) = (0.02, V::from([1.0, -2.0]));
+    let new = || ContactStepper::new(&kernel, 0.0, q, z).unwrap().scheme(StepScheme::MoreauJean);
+    // In two parts, as a step is made for which no impulses are found.
+    let (mut stepper, mut seen) = (new(), Seen::default());
+    for _ in 0..2 {
+        stepper.watched(h, &input, &mut seen).unwrap();
+    }
+    let both = stepper.differentiated::<_, 8, 12, 2, 3>(&dual, &(0.0, q, z), &input, &seen).unwrap();
+    let mut stepper = new();
+    let [one, two] = [0, 1].map(|_| stepper.step_with_derivatives::<_, 8, 12, 2, 3>(h, &input, &dual).unwrap());
+    // Sums of a dozen products of numbers of some units.
+    let near = |a: f64| a < 1e-12;
+    assert!(near((both.by_state - two.by_state * one.by_state).amax()));
+    assert!(near((both.by_input - two.by_state * one.by_input - two.by_input).amax()));
+    assert!(near((both.by_parameters - two.by_state * one.by_parameters - two.by_parameters).amax()));
+    assert_eq!(both.passes, 3);
 }
 
 #[test]

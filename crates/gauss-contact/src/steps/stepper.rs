@@ -22,7 +22,7 @@ use super::motion::{self, Middle};
 use super::projection::{Closed, Projection};
 use super::relaxed::{StepLaw, lifts};
 use super::report::{StepReport, StepScheme};
-use super::watch::Watch;
+use super::watch::{Attempted, Watch};
 
 /// A system on its way in steps; all that a step needs is in memory that was there before.
 ///
@@ -287,13 +287,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             (middle, false) => match self.attempt(h, &middle, input)? {
                 end if end.struck => end,
                 end => {
-                    watch.first(&end, &self.next);
+                    watch.first(end.attempted(&self.next));
                     let z = self.z.add_scaled(1.0, &end.z).scale(0.5);
                     self.attempt(h, &Middle { z, ..middle }, input)?
                 }
             },
         };
-        watch.part((self.t, h), &end, &self.next);
+        watch.part((self.t, h), end.attempted(&self.next));
         self.take(h, end)
     }
 
@@ -573,19 +573,28 @@ pub(super) struct Pushed<K: ContactSystem> {
 /// The end of a step.
 pub(super) struct End<K: ContactSystem> {
     q: K::Configuration,
-    pub(super) z: K::Speeds,
+    z: K::Speeds,
     gaps: K::Gaps,
     rates: K::ContactRows,
-    pub(super) impulses: K::ContactRows,
+    impulses: K::ContactRows,
     /// What is closed and stays so.
-    pub(super) rests: [bool; MOST],
+    rests: [bool; MOST],
     /// Whether contacts may have changed their modes.
-    pub(super) touches: bool,
+    touches: bool,
     /// Whether rates were those of contacts that depend on one another.
-    pub(super) dependent: bool,
+    dependent: bool,
     report: StepReport,
     /// Whether a gap has closed.
-    pub(super) struck: bool,
+    struck: bool,
+}
+
+impl<K: ContactSystem> End<K> {
+    /// With what contacts did.
+    fn attempted<'a>(&'a self, modes: &'a [Mode; MOST]) -> Attempted<'a, K> {
+        let Self { impulses, rests, dependent, struck, .. } = self;
+        let modes = self.touches.then(|| &modes[..K::CONTACTS.len()]);
+        Attempted { impulses, modes, rests, dependent: *dependent, struck: *struck }
+    }
 }
 
 /// What the laws of a step came to.

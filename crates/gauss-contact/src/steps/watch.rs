@@ -8,23 +8,35 @@ use gauss_runtime::contact::ContactSystem;
 use crate::mode::Mode;
 
 use super::cones::MOST;
-use super::stepper::End;
+
+/// What an attempt at a part of a step came to.
+pub(super) struct Attempted<'a, K: ContactSystem> {
+    pub(super) impulses: &'a K::ContactRows,
+    /// What contacts did, where the laws were solved.
+    pub(super) modes: Option<&'a [Mode]>,
+    /// Contacts that are closed after the step.
+    pub(super) rests: &'a [bool; MOST],
+    /// Whether rates were those of contacts that depend on one another.
+    pub(super) dependent: bool,
+    /// Whether a gap has closed.
+    pub(super) struck: bool,
+}
 
 /// Who watches the parts of a step.
 pub(super) trait Watch<K: ContactSystem> {
     /// A part of a step begins.
     fn begins(&mut self);
     /// Its first attempt, of two.
-    fn first(&mut self, end: &End<K>, modes: &[Mode]);
+    fn first(&mut self, attempted: Attempted<K>);
     /// The attempt with which a part from a time on, of some length, ends.
-    fn part(&mut self, of: (f64, f64), end: &End<K>, modes: &[Mode]);
+    fn part(&mut self, of: (f64, f64), attempted: Attempted<K>);
 }
 
 /// Nobody.
 impl<K: ContactSystem> Watch<K> for () {
     fn begins(&mut self) {}
-    fn first(&mut self, _: &End<K>, _: &[Mode]) {}
-    fn part(&mut self, _: (f64, f64), _: &End<K>, _: &[Mode]) {}
+    fn first(&mut self, _: Attempted<K>) {}
+    fn part(&mut self, _: (f64, f64), _: Attempted<K>) {}
 }
 
 /// What an attempt decided.
@@ -58,13 +70,13 @@ pub(super) struct Seen {
 }
 
 impl Taken {
-    fn of<K: ContactSystem<Scalar = f64>>(end: &End<K>, modes: &[Mode]) -> Self {
+    fn of<K: ContactSystem<Scalar = f64>>(attempted: &Attempted<K>) -> Self {
         Self {
-            modes: end.touches.then(|| modes[..K::CONTACTS.len()].into()),
-            impulses: (0..K::ContactRows::DIM).map(|row| end.impulses.component(row)).collect(),
-            rests: end.rests,
-            dependent: end.dependent,
-            struck: end.struck,
+            modes: attempted.modes.map(Into::into),
+            impulses: (0..K::ContactRows::DIM).map(|row| attempted.impulses.component(row)).collect(),
+            rests: *attempted.rests,
+            dependent: attempted.dependent,
+            struck: attempted.struck,
         }
     }
 }
@@ -74,11 +86,11 @@ impl<K: ContactSystem<Scalar = f64>> Watch<K> for Seen {
         self.first = None;
     }
 
-    fn first(&mut self, end: &End<K>, modes: &[Mode]) {
-        self.first = Some(Taken::of(end, modes));
+    fn first(&mut self, attempted: Attempted<K>) {
+        self.first = Some(Taken::of::<K>(&attempted));
     }
 
-    fn part(&mut self, (t, h): (f64, f64), end: &End<K>, modes: &[Mode]) {
-        self.parts.push(Part { t, h, first: self.first.take(), taken: Taken::of(end, modes) });
+    fn part(&mut self, (t, h): (f64, f64), attempted: Attempted<K>) {
+        self.parts.push(Part { t, h, first: self.first.take(), taken: Taken::of::<K>(&attempted) });
     }
 }
