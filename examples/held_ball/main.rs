@@ -1,5 +1,5 @@
-//! A hand of sixteen joints holds a ball by friction, in steps of half a millisecond: once it has settled, the ball does
-//! not move by a bit. Where friction is less than the weight needs, it slides out.
+//! A hand of sixteen joints holds a ball by friction, in steps of half a millisecond: once it has settled, the ball
+//! does not move by a bit. Where friction is less than the weight needs, it slides out.
 //!
 //! `cargo run --release --example held_ball [-- FOLDER]` writes the motion as a page into `FOLDER`, by default
 //! `target/gauss`.

@@ -210,3 +210,20 @@ pub fn touch_down(
     };
     Ok(Landing { outcome, rests, crushed: q.1.max(), slid, residual, lowest })
 }
+
+/// One run: what was random, and what came of it.
+pub type Run = (Approach, Landing);
+
+/// Outcomes in words.
+pub const OUTCOMES: [(Outcome, &str); 3] =
+    [(Outcome::Stands, "stands"), (Outcome::Slides, "slides"), (Outcome::Tips, "tips over")];
+
+/// Where a probability lies of which `hits` of `count` runs tell, with 95 % (E. B. Wilson 1927).
+pub fn wilson(hits: usize, count: usize) -> (f64, f64) {
+    let (n, z) = (count as f64, 1.96);
+    let share = hits as f64 / n;
+    let middle = share + z * z / (2.0 * n);
+    let half = z * (share * (1.0 - share) / n + z * z / (4.0 * n * n)).sqrt();
+    let whole = 1.0 + z * z / n;
+    ((middle - half) / whole, (middle + half) / whole)
+}

@@ -15,13 +15,7 @@ use std::time::Instant;
 use gauss_examples::plots::{write, write_page};
 use gauss_examples::runs;
 
-use lander::{Approach, LONGEST, Lander, Landing, Outcome, STEP, touch_down};
-
-/// One run: what was random, and what came of it.
-type Run = (Approach, Landing);
-
-const OUTCOMES: [(Outcome, &str); 3] =
-    [(Outcome::Stands, "stands"), (Outcome::Slides, "slides"), (Outcome::Tips, "tips over")];
+use lander::{Approach, LONGEST, Lander, Landing, OUTCOMES, Outcome, Run, STEP, touch_down, wilson};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let count = runs(1000);
@@ -80,14 +74,4 @@ fn all(seed: u64, count: usize) -> Result<Vec<Result<Run, String>>, Box<dyn Erro
     })?;
     let parts: Vec<Vec<Result<Run, String>>> = parts.into_iter().collect::<Result<_, _>>()?;
     Ok(parts.into_iter().flatten().collect())
-}
-
-/// Where a probability lies of which `hits` of `count` runs tell, with 95 % (E. B. Wilson 1927).
-pub fn wilson(hits: usize, count: usize) -> (f64, f64) {
-    let (n, z) = (count as f64, 1.96);
-    let share = hits as f64 / n;
-    let middle = share + z * z / (2.0 * n);
-    let half = z * (share * (1.0 - share) / n + z * z / (4.0 * n * n)).sqrt();
-    let whole = 1.0 + z * z / n;
-    ((middle - half) / whole, (middle + half) / whole)
 }

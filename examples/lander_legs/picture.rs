@@ -8,8 +8,7 @@ use gauss_examples::plots::{Line, Plot, sheet};
 use gauss_playback::{Playback, Shape, Touch};
 use gauss_runtime::prelude::*;
 
-use crate::lander::{Approach, LONGEST, Lander, LanderKernel, Outcome, PADS, STEP, touch_down};
-use crate::{OUTCOMES, Run, wilson};
+use crate::lander::{Approach, LONGEST, Lander, LanderKernel, OUTCOMES, Outcome, PADS, Run, STEP, touch_down, wilson};
 
 /// m/s: the end of the axis of speeds, and how many parts of it are counted.
 const FASTEST: f64 = 3.0;

@@ -6,7 +6,8 @@ use gauss_contact::{ContactError, ContactStepper, Mode};
 use gauss_runtime::prelude::*;
 
 /// A hull with a leg: it turns about the hip and has a spring in it. Angles are about the observer's second axis, from
-/// upright; k₃ points up and the ground is z = 0. Toe and hull touch it; the leg has stops of its length and of the hip.
+/// upright; k₃ points up and the ground is z = 0. Toe and hull touch it; the leg has stops of its length and of the
+/// hip.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(x, z, pitch, hip, length),

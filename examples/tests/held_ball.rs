@@ -16,8 +16,8 @@ fn a_held_ball_does_not_creep() -> Result<(), Box<dyn Error>> {
     let (mut settled, mut carried, mut needed) = (None, 0.0, 0.0);
     hold(&hand, &kernel, (6.0 / STEP) as usize, |stepper| {
         let (t, q, report) = (stepper.time(), stepper.configuration(), stepper.report().residual);
-        // Laws are solved until a solution is within 1e-12 of the largest rate, some m/s while it closes; gaps are rounded
-        // at the size of coordinates, 0.1 m, a few times for each joint of a finger.
+        // Laws are solved until a solution is within 1e-12 of the largest rate, some m/s while it closes; gaps are
+        // rounded at the size of coordinates, 0.1 m, a few times for each joint of a finger.
         let worst = report.signorini.max(report.coulomb).max(report.dissipation);
         assert!(worst < 1e-11 && kernel.gaps(0.0, q).min() > -1e-14, "{worst} m/s at {t} s");
         if t > 4.0 {

@@ -1,4 +1,5 @@
-//! The claims of the example `lander_legs`: the speed at which it tips over, and that a run is a function of its number.
+//! The claims of the example `lander_legs`: the speed at which it tips over, and that runs are functions of their
+//! numbers.
 
 use std::error::Error;
 

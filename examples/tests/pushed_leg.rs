@@ -39,8 +39,8 @@ fn slides_where_the_ground_is_smooth_and_is_set_up_again() -> Result<(), Box<dyn
     let ice = Wanted { friction: 0.0, ..WANTED };
     let mut leg = Leg::new()?;
     leg.advance(2000, &ice, &Push { force: [-30.0, 0.0], at: [0.0, 0.08] })?;
-    // Without friction nothing but the push acts along the ground: 60 N s for 9 kg. The leg, 1 kg of them, turns by less
-    // than 10 rad/s about a hip that is 0.3 m away from its middle.
+    // Without friction nothing but the push acts along the ground: 60 N s for 9 kg. The leg, 1 kg of them, turns by
+    // less than 10 rad/s about a hip that is 0.3 m away from its middle.
     let speed = leg.numbers()[6];
     assert!((speed + 60.0 / 9.0).abs() < 10.0 * 0.3 / 9.0 && leg.falls == 0, "{speed} m/s");
     let until = ((LIES + 3.0) / STEP) as u32;

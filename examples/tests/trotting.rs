@@ -23,8 +23,8 @@ fn it_trots_and_recorded_torques_give_the_same_bits() -> Result<(), Box<dyn Erro
     };
     run(&kernel, start(&kernel), steps, controller, |stepper| {
         let (residual, q) = (stepper.report().residual, stepper.configuration());
-        // Laws are solved until a solution is within 1e-12 of the largest rate, some m/s; gaps are rounded at the size of
-        // coordinates, a metre, a few times for each joint of a leg.
+        // Laws are solved until a solution is within 1e-12 of the largest rate, some m/s; gaps are rounded at the size
+        // of coordinates, a metre, a few times for each joint of a leg.
         let worst = residual.signorini.max(residual.coulomb).max(residual.dissipation);
         assert!(worst < 1e-11 && kernel.gaps(0.0, q).min() > -1e-14, "{worst} m/s at {} s", stepper.time());
         let (roll, pitch, _) = q.0.rotation.euler_angles();

@@ -56,15 +56,32 @@ fn main() -> Result<(), Box<dyn Error>> {
     let keep = |stepper: &ContactStepper<'_, AnymalKernel>| again = (*stepper.configuration(), *stepper.speeds());
     run(&kernel, start(&kernel), steps, |n, _, _| torques[n], keep)?;
     println!("\nThe torques again, without the controller: the same bits after {LENGTH} s: {}", again == last);
+    moved_starts(&kernel, &torques, &places)?;
+
+    let table = table(&torques)?;
+    let folder = std::env::args_os().nth(1).map_or_else(|| "target/gauss".into(), std::path::PathBuf::from);
+    gauss_files::write(folder.join("trotting.csv"), &table)?;
+    println!("written: {}", folder.join("trotting.csv").display());
+    write_page("trotting", &page::page(&kernel, &torques)?)
+}
+
+/// The columns of the table, N m.
+fn kernel_joints() -> Vec<String> {
+    let legs = ["LF", "LH", "RF", "RH"];
+    legs.iter().flat_map(|leg| ["HAA", "HFE", "KFE"].map(|joint| format!("{leg}_{joint}"))).collect()
+}
+
+/// How far torques alone keep it where it was, `places`, forward, m, from starts that are turned a little.
+fn moved_starts(kernel: &AnymalKernel, torques: &[Torques], places: &[f64]) -> Result<(), Box<dyn Error>> {
     for moved in [1e-6, 1e-4, 1e-2] {
-        let (mut q, z) = start(&kernel);
+        let (mut q, z) = start(kernel);
         q.0.rotation *= UnitQuaternion::from_scaled_axis(Vector3::new(moved, 0.0, 0.0));
         q.0.translation.z -= kernel.gaps(0.0, &q).min();
         let (mut n, mut off) = (0, None);
         let ended = run(
-            &kernel,
+            kernel,
             (q, z),
-            steps,
+            torques.len(),
             |n, _, _| torques[n],
             |stepper| {
                 n += 1;
@@ -81,21 +98,16 @@ fn main() -> Result<(), Box<dyn Error>> {
             None => println!("turned by {moved:.0e} rad at the start: within 5 cm for {LENGTH} s"),
         }
     }
+    Ok(())
+}
 
+/// The torques, N m, a row for each step.
+fn table(torques: &[Torques]) -> Result<String, std::fmt::Error> {
     let mut table = String::from("t");
     kernel_joints().iter().for_each(|name| table += &format!(",{name}"));
     for (n, torque) in torques.iter().enumerate() {
         write!(table, "\n{}", n as f64 * STEP)?;
         torque.iter().try_for_each(|value| write!(table, ",{value}"))?;
     }
-    let folder = std::env::args_os().nth(1).map_or_else(|| "target/gauss".into(), std::path::PathBuf::from);
-    gauss_files::write(folder.join("trotting.csv"), &table)?;
-    println!("written: {}", folder.join("trotting.csv").display());
-    write_page("trotting", &page::page(&kernel, &torques)?)
-}
-
-/// The columns of the table, N m.
-fn kernel_joints() -> Vec<String> {
-    let legs = ["LF", "LH", "RF", "RH"];
-    legs.iter().flat_map(|leg| ["HAA", "HFE", "KFE"].map(|joint| format!("{leg}_{joint}"))).collect()
+    Ok(table)
 }

@@ -18,8 +18,8 @@ use gauss_runtime::prelude::*;
     contact(rf_foot, point = rf, radius = 0.031, friction = mu),
     contact(rh_foot, point = rh, radius = 0.031, friction = mu),
     frames(
-        base_link, LF_HAA_link, LF_HFE_link, LF_KFE_link, LH_HAA_link, LH_HFE_link, LH_KFE_link, RF_HAA_link, RF_HFE_link,
-        RF_KFE_link, RH_HAA_link, RH_HFE_link, RH_KFE_link,
+        base_link, LF_HAA_link, LF_HFE_link, LF_KFE_link, LH_HAA_link, LH_HFE_link, LH_KFE_link, RF_HAA_link,
+        RF_HFE_link, RF_KFE_link, RH_HAA_link, RH_HFE_link, RH_KFE_link,
     ),
 )]
 pub struct Anymal {
@@ -76,8 +76,8 @@ fn angles(foot: impl Fn(usize) -> [f64; 3]) -> SVector<f64, 12> {
     all
 }
 
-/// Torques that make it trot at about this speed, m/s: feet on the ground go back under it, feet in the air are put down where they
-/// keep the speed.
+/// Torques that make it trot at about this speed, m/s: feet on the ground go back under it, feet in the air are put
+/// down where they keep the speed.
 #[must_use]
 pub fn trot(t: f64, (base, joints): &Place, z: &Speeds, wanted: f64) -> Torques {
     let begun = (t / STRIDE).min(1.0);
@@ -86,7 +86,7 @@ pub fn trot(t: f64, (base, joints): &Place, z: &Speeds, wanted: f64) -> Torques 
     let goal = angles(|k| {
         let phase = (t / STRIDE + LEGS[k].1).fract();
         let fore = if LEGS[k].0 { 1.0 } else { -1.0 };
-        // Joints lag behind what is wanted, and feet are put down further ahead the faster it goes.
+        // Joints lag behind what is wanted; feet are put down further ahead the faster it goes.
         let way = 0.31 * STRIDE * wanted + 0.04 * (speed[0] - wanted);
         let aside = 0.25 * (speed[1] + 0.3 * roll) - 0.05 * yaw * fore;
         // Back in the first half of its stride, forward in the second.
