@@ -56,7 +56,7 @@ pub struct ContactLanes<'k, W, K: ContactSystem<Scalar = f64>> {
     /// How far the lanes are in a step.
     stages: Vec<Stage<K>>,
     /// What impulses do in each lane: large, so that it stays where it is.
-    responses: Vec<Option<ContactResponse<K>>>,
+    responses: Vec<Option<ImpulseResponse<K>>>,
     /// Whether contacts of a lane depended on one another before the step.
     known: Vec<bool>,
     /// Lanes that do not go on.
