@@ -200,8 +200,8 @@ pub struct Contact {
     /// What bounds its friction.
     pub kind: ContactKind,
     /// The body that has the point that touches, then the one that is touched, by their names in the scene, which may
-    /// be those of frames, or of links of a robot's file; `None` of what is fixed, of the only body of a chart, and of gaps
-    /// and slips that are written as expressions.
+    /// be those of frames, or of links of a robot's file; `None` of what is fixed, of the only body of a chart, and of
+    /// gaps and slips that are written as expressions.
     pub bodies: [Option<&'static str>; 2],
 }
 

@@ -70,8 +70,7 @@ fn a_file_says_which_links_touch() {
     assert!((gap("right_fist") - (1.0 - 0.05)).abs() < 8.0 * EPSILON);
 }
 
-/// A ball flies against the upper arm, the only thing in its way, and passes momentum on: about the axis of the shoulder
-/// nothing else acts.
+/// A ball flies against the upper arm, the only thing in its way.
 #[test]
 fn a_ball_hits_an_arm() {
     let names: Vec<&str> = TossKernel::CONTACTS.iter().map(|own| own.name).collect();

@@ -18,6 +18,7 @@ use crate::history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
 use crate::impact::{Impact, Struck, after, rows};
 use crate::law::{Law, carrier};
 use crate::mode::{InMode, Mode, UNCLOSED, largest_derivative_of, slip, tangents, terms};
+use crate::rounding::Rounding;
 use crate::solution::{Failure, State};
 use crate::solver::Contacts;
 use crate::trajectory::ContactTrajectory;
@@ -44,24 +45,6 @@ impl Scales {
     /// Events are found to four roundings of the time or of a step, which is no longer than the run up to now.
     pub(crate) fn resolution(&self, t: f64) -> f64 {
         4.0 * self.epsilon * (t.abs() + self.start.abs())
-    }
-}
-
-/// The size of a configuration.
-pub(crate) struct Rounding {
-    size: f64,
-    epsilon: f64,
-}
-
-impl Rounding {
-    pub(crate) fn of<K: ContactSystem>(q: &K::Configuration) -> Self {
-        let size = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
-        Self { size, epsilon: epsilon::<K::Scalar>() }
-    }
-
-    /// √ε of it, and 64 ε for numbers of order 1 that cancel: what agrees in half of the digits was meant to.
-    pub(crate) fn half_of_the_digits(&self) -> f64 {
-        Real::sqrt(self.epsilon) * self.size + 64.0 * self.epsilon
     }
 }
 

@@ -52,6 +52,7 @@ mod mode;
 mod poisson;
 mod problem;
 mod residual;
+mod rounding;
 mod run;
 mod sensors;
 mod slots;

@@ -15,12 +15,13 @@ use gauss_runtime::integrate::{
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
 
-use crate::decide::{Instant, Rounding, Scales};
+use crate::decide::{Instant, Scales};
 use crate::dense::{epsilon, value};
 use crate::error::{ContactError, ContactErrorKind};
 use crate::impact::Impact;
 use crate::mode::{InMode, Mode, slip, tangents};
 use crate::problem::InModeProblem;
+use crate::rounding::Rounding;
 use crate::trajectory::{ContactTrajectory, InputOf, Segment, integration};
 use crate::witness::{Watched, Witness};
 

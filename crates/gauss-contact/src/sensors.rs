@@ -9,8 +9,8 @@ use gauss_runtime::contact::{Contact, ContactFrame, ContactSystem};
 use gauss_runtime::nalgebra::Vector3;
 use gauss_runtime::real::Real;
 
-use crate::decide::Rounding;
 use crate::dense::{epsilon, value};
+use crate::rounding::Rounding;
 
 /// A contact force as a vector: components along the observer's axes, the point is from Ω.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,9 +3,9 @@
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;
 
-use crate::decide::Rounding;
 use crate::dense::value;
 use crate::error::{ContactError, ContactErrorKind};
+use crate::rounding::Rounding;
 
 /// Refuses states that are not finite, gaps that are negative by more than rounding, and restitution beyond [0, 1].
 pub(crate) fn check<K: ContactSystem>(

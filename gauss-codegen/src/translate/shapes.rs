@@ -1,5 +1,5 @@
-//! Points, spheres, ellipsoids, rims, boxes, capsules and cylinders against planes, grounds, spheres and capsules: their
-//! gaps and slips.
+//! Points, spheres, ellipsoids, rims, boxes, capsules and cylinders against planes, grounds, spheres and capsules:
+//! their gaps and slips.
 
 use crate::algebra::{Expr, Substitution};
 use crate::error::Result;

@@ -225,7 +225,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     /// What touches at the start: gaps of zero, to rounding, that do not open.
     fn find_closed(&mut self) {
         let (gaps, rates) = (self.gaps, self.rates);
-        let near = crate::decide::Rounding::of::<K>(&self.q).half_of_the_digits();
+        let near = crate::rounding::Rounding::of::<K>(&self.q).half_of_the_digits();
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             if contact.has_gap() && gaps.component(i) <= near && rates.component(contact.normal) <= 0.0 {
                 self.modes[i] = Mode::Closed;

@@ -131,15 +131,7 @@ fn model(text: &Text, around: Option<(&str, &File<'_>)>) -> Result<Model, Vec<Fa
             file.reading.children(asset, tag);
         }
     }
-    for section in file.reading.children(root, "contact") {
-        file.exclusions(section);
-        file.pairs(section);
-    }
-    // Once pairs have found their geoms.
-    if file.disabled.contacts {
-        file.description.collisions.clear();
-        file.description.pairs.clear();
-    }
+    file.contacts(root);
     file.reading.note_unread();
     let File { mut description, reading, sites, controls, .. } = file;
     description.notes = reading.notes;

@@ -9,9 +9,21 @@ use crate::names::unknown;
 const PAIR: &[&str] = &["pair"];
 
 impl<'a> File<'a> {
+    /// What touches by itself, and what does not, once all geoms are known; nothing where contacts are switched off.
+    pub fn contacts(&mut self, root: Node<'a, 'a>) {
+        for section in self.reading.children(root, "contact") {
+            self.exclusions(section);
+            self.pairs(section);
+        }
+        if self.disabled.contacts {
+            self.description.collisions.clear();
+            self.description.pairs.clear();
+        }
+    }
+
     /// `<pair geom1="…" geom2="…"/>`. What it does not say is as MuJoCo has it (`mjs_defaultPair` of
     /// `src/user/user_init.c`), not as its geoms have it.
-    pub fn pairs(&mut self, section: Node<'a, 'a>) {
+    fn pairs(&mut self, section: Node<'a, 'a>) {
         for node in self.reading.children(section, "pair") {
             let names = ["geom1", "geom2"].map(|name| self.reading.required(node, name));
             let shapes = names.map(|name| name.map(|name| self.shape_called(&name)));

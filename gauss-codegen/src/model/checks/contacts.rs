@@ -102,15 +102,7 @@ fn check_point(
             "the point does not move, so it never touches; name a coordinate, or a body or point that moves",
         );
     }
-    if let Against::Sphere { center, end: Some(end), .. } = &contact.against {
-        let [first, last] = [center, end].map(|point| owner(point, statements));
-        if first.is_none() || first != last {
-            context.error(
-                end.span,
-                "a capsule is one body: write `other` and `other_end` as points of one, or as `hull.position`",
-            );
-        }
-    }
+    check_capsule(&contact.against, statements, context);
     let rubs = !clause.friction.is_empty();
     let turns = contact.rim.is_some() || contact.semi_axes.is_some() || matches!(contact.copies, Copies::Corners(_));
     let needs_body = turns || (contact.radius.is_some() && rubs);
@@ -153,6 +145,18 @@ fn check_point(
             normal.span,
             "the tangents of a normal that is not written in numbers are not known; add `along = [1, 0, 0]`, a direction \
              that is not that of the normal",
+        );
+    }
+}
+
+/// Both ends of a capsule that is touched are points of one body.
+fn check_capsule(against: &Against, statements: &Statements, context: &mut Context) {
+    let Against::Sphere { center, end: Some(end), .. } = against else { return };
+    let [first, last] = [center, end].map(|point| owner(point, statements));
+    if first.is_none() || first != last {
+        context.error(
+            end.span,
+            "a capsule is one body: write `other` and `other_end` as points of one, or as `hull.position`",
         );
     }
 }

@@ -1,5 +1,5 @@
-//! Links of a file that touch each other: which of their shapes the file lets touch, and which have a distance in closed
-//! form.
+//! Links of a file that touch each other: which of their shapes the file lets touch, and which have a distance in
+//! closed form.
 
 use super::clauses::Robot;
 use super::ground::WORLD;
