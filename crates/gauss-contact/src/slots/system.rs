@@ -1,6 +1,7 @@
 //! A system with slots in the place of contacts that its clauses would have.
 
 use core::fmt;
+use core::ops::Range;
 
 use gauss_runtime::chart::Chart;
 use gauss_runtime::configuration::{Configuration, VectorSpace};
@@ -149,31 +150,31 @@ where
     /// Wᵀ, column by column.
     fn columns(&self, frames: &K::Frames) -> SMatrix<f64, D, R> {
         let mut columns = SMatrix::<f64, D, R>::from([[0.0; D]; R]);
-        self.each(
-            |frame| frame.map(|frame| &frames[frame]),
-            |i, slot, motions| {
-                let touch = Touch::new(slot, poses(motions).each_ref());
-                for (k, axis) in slot.axes().iter().enumerate() {
-                    let arms = touch.arms(slot, axis);
-                    let column = &mut columns.data.0[3 * i + k];
-                    let mut largest = 0.0_f64;
-                    for (j, entry) in column.iter_mut().enumerate() {
-                        let mut size = 0.0;
-                        for (arm, motion) in arms.iter().zip(motions) {
-                            let Some(motion) = motion else { continue };
-                            for part in 0..6 {
-                                let term = arm[part] * motion.jacobian[(part, j)];
-                                *entry += term;
-                                size += term.abs();
-                            }
+        let moving = |frame: Option<K::Frame>| {
+            let motion = frame.map(|frame| &frames[frame]);
+            (motion.map_or_else(rest, |motion| motion.pose), motion, motion.map_or(0..0, speeds_of))
+        };
+        self.each(moving, |i, slot, motions| {
+            let touch = Touch::new(slot, [&motions[0].0, &motions[1].0]);
+            for (k, axis) in slot.axes().iter().enumerate() {
+                let column = &mut columns.data.0[3 * i + k];
+                // The sizes of the terms, for rounding.
+                let mut sizes = [0.0; D];
+                for (arm, (_, motion, speeds)) in touch.arms(slot, axis).iter().zip(motions) {
+                    let Some(motion) = motion else { continue };
+                    for j in speeds.clone() {
+                        for part in 0..6 {
+                            let term = arm[part] * motion.jacobian[(part, j)];
+                            column[j] += term;
+                            sizes[j] += term.abs();
                         }
-                        largest = largest.max(size);
                     }
-                    // What is rounding is no direction in which something moves.
-                    column.iter_mut().filter(|x| x.abs() <= ROUNDINGS * f64::EPSILON * largest).for_each(|x| *x = 0.0);
                 }
-            },
-        );
+                let largest = sizes.into_iter().fold(0.0, f64::max);
+                // What is rounding is no direction in which something moves.
+                column.iter_mut().filter(|x| x.abs() <= ROUNDINGS * f64::EPSILON * largest).for_each(|x| *x = 0.0);
+            }
+        });
         columns
     }
 
@@ -216,8 +217,12 @@ where
 
 type Motion<const D: usize> = FrameMotion<f64, SMatrix<f64, 6, D>>;
 
-fn poses<const D: usize>(motions: [&Option<&Motion<D>>; 2]) -> [FramePose<f64>; 2] {
-    motions.map(|motion| motion.map_or_else(rest, |motion| motion.pose))
+/// From the first speed that moves a frame to the last.
+fn speeds_of<const D: usize>(motion: &Motion<D>) -> Range<usize> {
+    let moves = |column: &[f64; 6]| column.iter().any(|x| *x != 0.0);
+    let columns = &motion.jacobian.data.0;
+    let from = columns.iter().position(moves).unwrap_or(D);
+    from..columns.iter().rposition(moves).map_or(from, |last| last + 1)
 }
 
 impl<K, const N: usize, const R: usize, const D: usize> GaussSystem for Slots<'_, K, N, R, D>
