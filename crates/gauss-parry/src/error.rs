@@ -4,7 +4,7 @@ use std::fmt;
 
 use gauss_contact::{ContactError, SlotError};
 
-use crate::shapes::ShapeId;
+use crate::id::ShapeId;
 
 /// Shapes that give no contacts, or a step that cannot be made: which, and why.
 #[derive(Clone, Debug, PartialEq)]

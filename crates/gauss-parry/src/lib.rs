@@ -17,14 +17,16 @@
 
 mod convert;
 mod error;
+mod id;
 mod reduce;
 mod shapes;
 mod steps;
 
 pub use error::{ParryError, ParryErrorKind};
+pub use id::ShapeId;
 pub use parry3d_f64;
 pub use reduce::Reduction;
-pub use shapes::{Feature, Found, ShapeId, Shapes, Surface};
+pub use shapes::{Feature, Found, Shapes, Surface};
 pub use steps::ParrySteps;
 
 /// The page of the crate, whose program is a test.

@@ -12,6 +12,7 @@ use parry3d_f64::shape::{PackedFeatureId, SharedShape};
 
 use crate::convert;
 use crate::error::{ParryError, ParryErrorKind};
+use crate::id::ShapeId;
 use crate::reduce::{Place, Reduction};
 
 /// How a surface rubs and bounces.
@@ -21,16 +22,6 @@ pub struct Surface {
     pub friction: f64,
     /// e of Newton's law, from 0 to 1.
     pub restitution: f64,
-}
-
-/// A shape that was added, by its number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct ShapeId(pub(crate) usize);
-
-impl fmt::Display for ShapeId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
-    }
 }
 
 /// What touches what: the features of both shapes, by which a contact of one step is known in the next.

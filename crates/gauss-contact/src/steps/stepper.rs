@@ -13,7 +13,6 @@ use crate::mode::{Mode, pushed};
 use crate::residual::Residual;
 
 use super::cones::{Laws, MOST, MOST_ROWS};
-use super::held::HeldSteps;
 use super::impulses::{Found, Impulses};
 use super::projection::Projection;
 
@@ -75,21 +74,21 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) t: f64,
     pub(super) q: K::Configuration,
     pub(super) z: K::Speeds,
-    scheme: StepScheme,
-    tolerance: f64,
-    memory: M,
-    impulses: K::ContactRows,
+    pub(super) scheme: StepScheme,
+    pub(super) tolerance: f64,
+    pub(super) memory: M,
+    pub(super) impulses: K::ContactRows,
     /// Whether contacts depended on one another in the last step.
-    dependent: bool,
+    pub(super) dependent: bool,
     /// At the state.
-    gaps: K::Gaps,
-    rates: K::ContactRows,
+    pub(super) gaps: K::Gaps,
+    pub(super) rates: K::ContactRows,
     /// Of the last step, between impacts.
-    acceleration: Option<K::Speeds>,
+    pub(super) acceleration: Option<K::Speeds>,
     pub(super) modes: [Mode; MOST],
     /// Of the step that is being made.
-    next: [Mode; MOST],
-    report: StepReport,
+    pub(super) next: [Mode; MOST],
+    pub(super) report: StepReport,
 }
 
 /// How often a step is halved where no impulses are found for it.
@@ -157,41 +156,6 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         Ok(stepper)
     }
 
-    /// Lets go of the kernel, so that data of its contacts may change; [`HeldSteps::step`] goes on.
-    #[must_use]
-    pub fn hold(self) -> HeldSteps<K, M> {
-        let Self { t, q, z, scheme, tolerance, memory, impulses, dependent, acceleration, modes, report, .. } = self;
-        HeldSteps { t, q, z, scheme, tolerance, memory, impulses, dependent, acceleration, modes, report }
-    }
-
-    /// What was held, with contacts whose data may be other ones.
-    pub(super) fn resumed(kernel: &'k K, held: HeldSteps<K, M>, before: impl Fn(usize) -> Option<usize>) -> Self {
-        let (impulses, known) = held.carried(before);
-        let HeldSteps { t, q, z, scheme, tolerance, memory, dependent, acceleration, report, .. } = held;
-        let (gaps, rates) = (kernel.gaps(t, &q), kernel.contact_rates(t, &q, &z));
-        let (modes, next) = ([Mode::Open; MOST], [Mode::Open; MOST]);
-        let mut stepper = Self {
-            kernel,
-            t,
-            q,
-            z,
-            scheme,
-            tolerance,
-            memory,
-            impulses,
-            dependent,
-            gaps,
-            rates,
-            acceleration,
-            modes,
-            next,
-            report,
-        };
-        stepper.find_closed();
-        stepper.modes.iter_mut().zip(known).for_each(|(mode, known)| *mode = known.unwrap_or(*mode));
-        stepper
-    }
-
     /// How the motion between impacts is taken.
     #[must_use]
     pub fn scheme(mut self, scheme: StepScheme) -> Self {
@@ -238,7 +202,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     }
 
     /// What touches at the start: gaps of zero, to rounding, that do not open.
-    fn find_closed(&mut self) {
+    pub(super) fn find_closed(&mut self) {
         let (gaps, rates) = (self.gaps, self.rates);
         let near = crate::decide::Rounding::of::<K>(&self.q).half_of_the_digits();
         for (i, contact) in K::CONTACTS.iter().enumerate() {
