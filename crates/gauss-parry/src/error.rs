@@ -80,8 +80,8 @@ impl fmt::Display for ParryErrorKind {
             }
             Self::TooDeep { gap, deepest } => write!(
                 f,
-                "the gap is {gap:e}, and may be {:e}: they passed into one another unseen; make steps shorter, or `reach` \
-                 longer",
+                "the gap is {gap:e}, and may be {:e}: they passed into one another unseen; make steps shorter, or \
+                 `reach` longer",
                 -deepest
             ),
             Self::Number { field, value, rule } => write!(f, "`{field}` is {value}; it must be {rule}"),

@@ -153,8 +153,8 @@ impl<F: FrameName> Shapes<F> {
         self.deepest
     }
 
-    /// Asks the library where shapes touch, or come nearer than the reach, with their frames at these poses. Pairs are in
-    /// the order in which their shapes were added, points of a pair in the library's.
+    /// Asks the library where shapes touch, or come nearer than the reach, with their frames at these poses. Pairs are
+    /// in the order in which their shapes were added, points of a pair in the library's.
     ///
     /// # Errors
     /// `Number` of the reach or the depth, `Unknown`, `Unsupported`, `PairPoints`.
@@ -228,8 +228,8 @@ impl<F: FrameName> Shapes<F> {
         Ok(())
     }
 
-    /// A point of the library as a slot: a ball is a sphere; else the plane is on the shape whose face touches, or on the
-    /// first.
+    /// A point of the library as a slot: a ball is a sphere; else the plane is on the shape whose face touches, or on
+    /// the first.
     fn placed(&self, manifold: &Manifold, point: &Point, [first, second]: [&Body<F>; 2]) -> Placed<F> {
         let part = |pose: Option<&Pose>| pose.copied().unwrap_or(Pose::IDENTITY);
         let places = [first.at * part(manifold.subshape_pos1()), second.at * part(manifold.subshape_pos2())];

@@ -33,8 +33,8 @@ const NAMES: [&str; 64] = [
 /// A kernel with N slots for contacts: a [`ContactSystem`] whose contacts are given at run time, between any two of its
 /// `frames(…)`, or one of them and what is at rest.
 ///
-/// R is 3 N: of each contact its normal and two tangents. D is the number of speeds. `Slots::<_, 8, 24, _>::new(&kernel)`
-/// lets the compiler find the others. Poses, twists, Jacobians and accelerations are those of the kernel, and so is A:
+/// R is 3 N: of each contact its normal and two tangents. D is the number of speeds. The compiler finds the others of
+/// `Slots::<_, 8, 24, _>::new(&kernel)`. Poses, twists, Jacobians and accelerations are those of the kernel, and so is A:
 /// it is factored along its zeros, so that a response costs what the bodies that touch ask for.
 ///
 /// Matrices of R rows are handed on by value, as in every `ContactSystem`: 64 slots of 100 speeds take half a megabyte
@@ -201,8 +201,8 @@ where
         ContactResponse::new(columns, delassus)
     }
 
-    /// Rows of a slot along which nothing can move: with a diagonal of their own they are independent of all others, and
-    /// impulses along them do nothing.
+    /// Rows of a slot along which nothing can move: with a diagonal of their own they are independent of all others,
+    /// and impulses along them do nothing.
     fn fill_idle_rows(&self, delassus: &mut SMatrix<f64, R, R>) {
         for (i, _) in self.slots.iter().enumerate().filter(|(_, slot)| slot.is_some()) {
             let largest = (3 * i..3 * i + 3).map(|row| delassus[(row, row)]).fold(0.0, f64::max);
