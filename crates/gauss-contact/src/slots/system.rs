@@ -34,8 +34,8 @@ const NAMES: [&str; 64] = [
 /// `frames(…)`, or one of them and what is at rest.
 ///
 /// R is 3 N: of each contact its normal and two tangents. D is the number of speeds. The compiler finds the others of
-/// `Slots::<_, 8, 24, _>::new(&kernel)`. Poses, twists, Jacobians and accelerations are those of the kernel, and so is A:
-/// it is factored along its zeros, so that a response costs what the bodies that touch ask for.
+/// `Slots::<_, 8, 24, _>::new(&kernel)`. Poses, twists, Jacobians and accelerations are those of the kernel, and so is
+/// A: it is factored along its zeros, so that a response costs what the bodies that touch ask for.
 ///
 /// Matrices of R rows are handed on by value, as in every `ContactSystem`: 64 slots of 100 speeds take half a megabyte
 /// of the stack for each copy, and a build without optimisation makes several. Give such a thread 32 MB.
