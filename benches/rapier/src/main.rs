@@ -1,8 +1,8 @@
 //! Sixteen boxes on one another, in steps of 2 ms: `gauss-parry` and rapier3d in one run, by turns.
 //!
 //! `RUSTFLAGS="-C target-cpu=native" cargo run --release --manifest-path benches/rapier/Cargo.toml`. Both have the same
-//! shapes, masses, friction and start, a little apart and turned, in double precision, on one thread, and no box goes to
-//! sleep. Of each is printed the median time of batches of 50 steps with the range of the middle half; the deepest
+//! shapes, masses, friction and start, a little apart and turned, in double precision, on one thread, and no box goes
+//! to sleep. Of each is printed the median time of batches of 50 steps with the range of the middle half; the deepest
 //! overlap of neighbours after a step, by one and the same function; and how far boxes move in the last second of two.
 //! rapier has its default parameters, then 20 iterations of its solver.
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use gauss_contact::{ContactError, SlotError};
 
-use crate::shapes::ShapeId;
+use crate::id::ShapeId;
 
 /// Shapes that give no contacts, or a step that cannot be made: which, and why.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,8 +80,8 @@ impl fmt::Display for ParryErrorKind {
             }
             Self::TooDeep { gap, deepest } => write!(
                 f,
-                "the gap is {gap:e}, and may be {:e}: they passed into one another unseen; make steps shorter, or `reach` \
-                 longer",
+                "the gap is {gap:e}, and may be {:e}: they passed into one another unseen; make steps shorter, or \
+                 `reach` longer",
                 -deepest
             ),
             Self::Number { field, value, rule } => write!(f, "`{field}` is {value}; it must be {rule}"),

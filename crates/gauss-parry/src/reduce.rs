@@ -6,11 +6,11 @@ use gauss_runtime::nalgebra::Vector3;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Reduction {
-    /// Of the points of a pair with one normal (to 1°) four, which have nearly the largest area: the one that is farthest
-    /// from the mean of all, the one that is farthest from that, and on both sides of the line through the two those
-    /// that are farthest from it; and the deepest, where it is deeper than these. Where faces of boxes touch these are
-    /// the corners of what they have in common if that is a rectangle, and no other point can go below zero; of others
-    /// what is left out may, until it is the deepest.
+    /// Of the points of a pair with one normal (to 1°) four, which have nearly the largest area: the one that is
+    /// farthest from the mean of all, the one that is farthest from that, and on both sides of the line through the two
+    /// those that are farthest from it; and the deepest, where it is deeper than these. Where faces of boxes touch
+    /// these are the corners of what they have in common if that is a rectangle, and no other point can go below zero;
+    /// of others what is left out may, until it is the deepest.
     Quadrilateral,
 }
 

@@ -12,6 +12,7 @@ use parry3d_f64::shape::{PackedFeatureId, SharedShape};
 
 use crate::convert;
 use crate::error::{ParryError, ParryErrorKind};
+use crate::id::ShapeId;
 use crate::reduce::{Place, Reduction};
 
 /// How a surface rubs and bounces.
@@ -21,16 +22,6 @@ pub struct Surface {
     pub friction: f64,
     /// e of Newton's law, from 0 to 1.
     pub restitution: f64,
-}
-
-/// A shape that was added, by its number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct ShapeId(pub(crate) usize);
-
-impl fmt::Display for ShapeId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
-    }
 }
 
 /// What touches what: the features of both shapes, by which a contact of one step is known in the next.
@@ -162,8 +153,8 @@ impl<F: FrameName> Shapes<F> {
         self.deepest
     }
 
-    /// Asks the library where shapes touch, or come nearer than the reach, with their frames at these poses. Pairs are in
-    /// the order in which their shapes were added, points of a pair in the library's.
+    /// Asks the library where shapes touch, or come nearer than the reach, with their frames at these poses. Pairs are
+    /// in the order in which their shapes were added, points of a pair in the library's.
     ///
     /// # Errors
     /// `Number` of the reach or the depth, `Unknown`, `Unsupported`, `PairPoints`.
@@ -237,8 +228,8 @@ impl<F: FrameName> Shapes<F> {
         Ok(())
     }
 
-    /// A point of the library as a slot: a ball is a sphere; else the plane is on the shape whose face touches, or on the
-    /// first.
+    /// A point of the library as a slot: a ball is a sphere; else the plane is on the shape whose face touches, or on
+    /// the first.
     fn placed(&self, manifold: &Manifold, point: &Point, [first, second]: [&Body<F>; 2]) -> Placed<F> {
         let part = |pose: Option<&Pose>| pose.copied().unwrap_or(Pose::IDENTITY);
         let places = [first.at * part(manifold.subshape_pos1()), second.at * part(manifold.subshape_pos2())];

@@ -12,8 +12,9 @@ use crate::shapes::{Feature, Shapes};
 
 /// A kernel on its way in steps, with contacts between shapes.
 ///
-/// Before a step the library says where shapes touch; slots take these points in the order of the pairs, and each begins
-/// with the impulse and the mode that the same features had in the step before. N, R and D are those of [`Slots`].
+/// Before a step the library says where shapes touch; slots take these points in the order of the pairs, and each
+/// begins with the impulse and the mode that the same features had in the step before. N, R and D are those of
+/// [`Slots`].
 pub struct ParrySteps<'k, K, const N: usize, const R: usize, const D: usize>
 where
     K: FramedSystem<Scalar = f64, Speeds = SVector<f64, D>, Jacobian = SMatrix<f64, 6, D>>,

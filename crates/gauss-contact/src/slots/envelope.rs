@@ -32,16 +32,17 @@ impl<const D: usize> Envelope<D> {
     pub(super) fn forward(&self, x: &mut [f64], from: usize) {
         for i in from..D {
             let rest = (self.first[i].max(from)..i).fold(x[i], |sum, k| sum - self.lower[(i, k)] * x[k]);
-            x[i] = rest / self.lower[(i, i)];
+            x[i] = if rest == 0.0 { 0.0 } else { rest / self.lower[(i, i)] };
         }
     }
 
     /// L⁻ᵀ of a vector.
     pub(super) fn backward(&self, x: &mut [f64]) {
         for i in (0..D).rev() {
-            x[i] /= self.lower[(i, i)];
-            let entry = x[i];
-            if entry != 0.0 {
+            // Of bodies that do not touch.
+            if x[i] != 0.0 {
+                x[i] /= self.lower[(i, i)];
+                let entry = x[i];
                 (self.first[i]..i).for_each(|k| x[k] -= self.lower[(i, k)] * entry);
             }
         }

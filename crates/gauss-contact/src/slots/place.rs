@@ -1,10 +1,10 @@
 //! Where the point of a slot is beside its plane, and how it moves there.
 //!
-//! In the axes of the plane's frame, whose origin moves with u and a and which turns with ω and α, the point is at r. Its
-//! velocity relative to that frame is `v = u_p − u − ω × r`, and that is ṙ; so of a direction e that is fixed there the
-//! rate is `e · v` and its derivative `e · (a_p − a − α × r − ω × (ω × r) − 2 ω × v)`. Of a sphere of radius ρ about it
-//! the material point at −ρ n touches: `v + Ω × (−ρ n)` with the relative angular velocity `Ω = ω_p − ω`, n fixed in the
-//! axes of the plane, and there `Ω̇ = α_p − α − ω × ω_p`.
+//! In the axes of the plane's frame, whose origin moves with u and a and which turns with ω and α, the point is at r.
+//! Its velocity relative to that frame is `v = u_p − u − ω × r`, and that is ṙ; so of a direction e that is fixed there
+//! the rate is `e · v` and its derivative `e · (a_p − a − α × r − ω × (ω × r) − 2 ω × v)`. Of a sphere of radius ρ
+//! about it the material point at −ρ n touches: `v + Ω × (−ρ n)` with the relative angular velocity `Ω = ω_p − ω`, n
+//! fixed in the axes of the plane, and there `Ω̇ = α_p − α − ω × ω_p`.
 
 use gauss_runtime::frames::FramePose;
 use gauss_runtime::nalgebra::{Matrix3, SVector, Vector3};
@@ -49,8 +49,8 @@ impl Touch {
         ]
     }
 
-    /// The derivative of the velocity with which it touches, relative to the plane's frame and in its axes, from twists and accelerations
-    /// (classical ones of the origins) of both frames in their own axes.
+    /// The derivative of the velocity with which it touches, relative to the plane's frame and in its axes, from twists
+    /// and accelerations (classical ones of the origins) of both frames in their own axes.
     pub(super) fn acceleration<F>(
         &self,
         slot: &Slot<F>,

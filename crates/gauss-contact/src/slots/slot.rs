@@ -5,7 +5,8 @@ use core::fmt;
 use gauss_runtime::nalgebra::Vector3;
 use gauss_runtime::real::Real;
 
-/// A point, or a sphere about it, that may touch a plane, with friction and restitution. Lengths are in the unit of the scene.
+/// A point, or a sphere about it, that may touch a plane, with friction and restitution. Lengths are in the unit of the
+/// scene.
 ///
 /// `F` names the frames of a kernel (`KernelFrame` of `frames(…)`); `None` is what is at rest: axes of the observer,
 /// places from Ω. The contact force acts on the body of the point along the normal, and back on that of the plane.
@@ -149,9 +150,9 @@ impl<F: Copy + PartialEq> Slot<F> {
 
     /// The normal, then two tangents.
     ///
-    /// The first tangent is what of the first axis is normal to the normal, and of the second axis where that is little:
-    /// between neighbouring normals it jumps at |n₁| = 0.8 alone, where no face of a box that lies along the axes is,
-    /// so that impulses along tangents of one step begin the next.
+    /// The first tangent is what of the first axis is normal to the normal, and of the second axis where that is
+    /// little: between neighbouring normals it jumps at |n₁| = 0.8 alone, where no face of a box that lies along the
+    /// axes is, so that impulses along tangents of one step begin the next.
     pub(super) fn axes(&self) -> [Vector3<f64>; 3] {
         let n = self.normal;
         let axis = if n.x.abs() < 0.8 { Vector3::x() } else { Vector3::y() };

@@ -1,6 +1,7 @@
 //! A system with slots in the place of contacts that its clauses would have.
 
 use core::fmt;
+use core::ops::Range;
 
 use gauss_runtime::chart::Chart;
 use gauss_runtime::configuration::{Configuration, VectorSpace};
@@ -34,9 +35,9 @@ const NAMES: [&str; 64] = [
 /// A kernel with N slots for contacts: a [`ContactSystem`] whose contacts are given at run time, between any two of its
 /// `frames(…)`, or one of them and what is at rest.
 ///
-/// R is 3 N: of each contact its normal and two tangents. D is the number of speeds. `Slots::<_, 8, 24, _>::new(&kernel)`
-/// lets the compiler find the others. Poses, twists, Jacobians and accelerations are those of the kernel, and so is A:
-/// it is factored along its zeros, so that a response costs what the bodies that touch ask for.
+/// R is 3 N: of each contact its normal and two tangents. D is the number of speeds. The compiler finds the others of
+/// `Slots::<_, 8, 24, _>::new(&kernel)`. Poses, twists, Jacobians and accelerations are those of the kernel, and so is
+/// A: it is factored along its zeros, so that a response costs what the bodies that touch ask for.
 ///
 /// Matrices of R rows are handed on by value, as in every `ContactSystem`: 64 slots of 100 speeds take half a megabyte
 /// of the stack for each copy, and a build without optimisation makes several. Give such a thread 32 MB.
@@ -151,31 +152,31 @@ where
     /// Wᵀ, column by column.
     fn columns(&self, frames: &K::Frames) -> SMatrix<f64, D, R> {
         let mut columns = SMatrix::<f64, D, R>::from([[0.0; D]; R]);
-        self.each(
-            |frame| frame.map(|frame| &frames[frame]),
-            |i, slot, motions| {
-                let touch = Touch::new(slot, poses(motions).each_ref());
-                for (k, axis) in slot.axes().iter().enumerate() {
-                    let arms = touch.arms(slot, axis);
-                    let column = &mut columns.data.0[3 * i + k];
-                    let mut largest = 0.0_f64;
-                    for (j, entry) in column.iter_mut().enumerate() {
-                        let mut size = 0.0;
-                        for (arm, motion) in arms.iter().zip(motions) {
-                            let Some(motion) = motion else { continue };
-                            for part in 0..6 {
-                                let term = arm[part] * motion.jacobian[(part, j)];
-                                *entry += term;
-                                size += term.abs();
-                            }
+        let moving = |frame: Option<K::Frame>| {
+            let motion = frame.map(|frame| &frames[frame]);
+            (motion.map_or_else(rest, |motion| motion.pose), motion, motion.map_or(0..0, speeds_of))
+        };
+        self.each(moving, |i, slot, motions| {
+            let touch = Touch::new(slot, [&motions[0].0, &motions[1].0]);
+            for (k, axis) in slot.axes().iter().enumerate() {
+                let column = &mut columns.data.0[3 * i + k];
+                // The sizes of the terms, for rounding.
+                let mut sizes = [0.0; D];
+                for (arm, (_, motion, speeds)) in touch.arms(slot, axis).iter().zip(motions) {
+                    let Some(motion) = motion else { continue };
+                    for j in speeds.clone() {
+                        for part in 0..6 {
+                            let term = arm[part] * motion.jacobian[(part, j)];
+                            column[j] += term;
+                            sizes[j] += term.abs();
                         }
-                        largest = largest.max(size);
                     }
-                    // What is rounding is no direction in which something moves.
-                    column.iter_mut().filter(|x| x.abs() <= ROUNDINGS * f64::EPSILON * largest).for_each(|x| *x = 0.0);
                 }
-            },
-        );
+                let largest = sizes.into_iter().fold(0.0, f64::max);
+                // What is rounding is no direction in which something moves.
+                column.iter_mut().filter(|x| x.abs() <= ROUNDINGS * f64::EPSILON * largest).for_each(|x| *x = 0.0);
+            }
+        });
         columns
     }
 
@@ -202,8 +203,8 @@ where
         ImpulseResponse::new(columns, delassus)
     }
 
-    /// Rows of a slot along which nothing can move: with a diagonal of their own they are independent of all others, and
-    /// impulses along them do nothing.
+    /// Rows of a slot along which nothing can move: with a diagonal of their own they are independent of all others,
+    /// and impulses along them do nothing.
     fn fill_idle_rows(&self, delassus: &mut SMatrix<f64, R, R>) {
         for (i, _) in self.slots.iter().enumerate().filter(|(_, slot)| slot.is_some()) {
             let largest = (3 * i..3 * i + 3).map(|row| delassus[(row, row)]).fold(0.0, f64::max);
@@ -218,8 +219,12 @@ where
 
 type Motion<const D: usize> = FrameMotion<f64, SMatrix<f64, 6, D>>;
 
-fn poses<const D: usize>(motions: [&Option<&Motion<D>>; 2]) -> [FramePose<f64>; 2] {
-    motions.map(|motion| motion.map_or_else(rest, |motion| motion.pose))
+/// From the first speed that moves a frame to the last.
+fn speeds_of<const D: usize>(motion: &Motion<D>) -> Range<usize> {
+    let moves = |column: &[f64; 6]| column.iter().any(|x| *x != 0.0);
+    let columns = &motion.jacobian.data.0;
+    let from = columns.iter().position(moves).unwrap_or(D);
+    from..columns.iter().rposition(moves).map_or(from, |last| last + 1)
 }
 
 impl<K, const N: usize, const R: usize, const D: usize> GaussSystem for Slots<'_, K, N, R, D>

@@ -19,19 +19,19 @@ type Carried = Option<(Mode, bool)>;
 /// All of a [`ContactStepper`] but its kernel, whose data are free to change: the answer of
 /// [`hold`](ContactStepper::hold).
 pub struct HeldSteps<K: ContactSystem<Scalar = f64>, M> {
-    pub(super) t: f64,
-    pub(super) q: K::Configuration,
-    pub(super) z: K::Speeds,
-    pub(super) scheme: StepScheme,
-    pub(super) law: StepLaw,
-    pub(super) tolerance: f64,
-    pub(super) memory: M,
-    pub(super) impulses: K::ContactRows,
-    pub(super) dependent: bool,
-    pub(super) acceleration: Option<K::Speeds>,
-    pub(super) modes: [Mode; MOST],
-    pub(super) rests: [bool; MOST],
-    pub(super) report: StepReport,
+    t: f64,
+    q: K::Configuration,
+    z: K::Speeds,
+    scheme: StepScheme,
+    law: StepLaw,
+    tolerance: f64,
+    memory: M,
+    impulses: K::ContactRows,
+    dependent: bool,
+    acceleration: Option<K::Speeds>,
+    modes: [Mode; MOST],
+    rests: [bool; MOST],
+    report: StepReport,
 }
 
 impl<K: ContactSystem<Scalar = f64>, M> fmt::Debug for HeldSteps<K, M> {
@@ -117,7 +117,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> HeldSteps<K, M> {
     }
 
     /// The rows that contacts begin with, their modes and whether they rest.
-    pub(super) fn carried(&self, before: impl Fn(usize) -> Option<usize>) -> (K::ContactRows, [Carried; MOST]) {
+    fn carried(&self, before: impl Fn(usize) -> Option<usize>) -> (K::ContactRows, [Carried; MOST]) {
         let (mut impulses, mut modes) = (K::ContactRows::zero(), [None; MOST]);
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             let Some((from, known)) = before(i).and_then(|from| Some((from, K::CONTACTS.get(from)?))) else { continue };
@@ -127,5 +127,47 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> HeldSteps<K, M> {
             }
         }
         (impulses, modes)
+    }
+}
+
+impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, M> {
+    /// Lets go of the kernel, so that data of its contacts may change; [`HeldSteps::step`] goes on.
+    #[must_use]
+    pub fn hold(self) -> HeldSteps<K, M> {
+        let Self { t, q, z, scheme, law, tolerance, memory, impulses, dependent, acceleration, .. } = self;
+        let Self { modes, rests, report, .. } = self;
+        HeldSteps { t, q, z, scheme, law, tolerance, memory, impulses, dependent, acceleration, modes, rests, report }
+    }
+
+    /// What was held, with contacts whose data may be other ones.
+    fn resumed(kernel: &'k K, held: HeldSteps<K, M>, before: impl Fn(usize) -> Option<usize>) -> Self {
+        let (impulses, known) = held.carried(before);
+        let HeldSteps { t, q, z, scheme, law, tolerance, memory, dependent, acceleration, report, .. } = held;
+        let (gaps, rates) = (kernel.gaps(t, &q), kernel.contact_rates(t, &q, &z));
+        let (modes, next) = ([Mode::Open; MOST], [Mode::Open; MOST]);
+        let mut stepper = Self {
+            kernel,
+            t,
+            q,
+            z,
+            scheme,
+            law,
+            tolerance,
+            memory,
+            impulses,
+            dependent,
+            gaps,
+            rates,
+            acceleration,
+            modes,
+            rests: [false; MOST],
+            next,
+            report,
+        };
+        stepper.find_closed();
+        for (i, known) in known.into_iter().enumerate() {
+            (stepper.modes[i], stepper.rests[i]) = known.unwrap_or((stepper.modes[i], stepper.rests[i]));
+        }
+        stepper
     }
 }

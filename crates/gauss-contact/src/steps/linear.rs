@@ -54,11 +54,13 @@ pub(crate) fn factorise(matrix: &mut [f64], order: &mut [usize], part: f64) -> b
         if diagonal.abs() <= part * column || !diagonal.is_finite() {
             return false;
         }
+        // Of contacts in a row, as in a stack, most of it is zero.
+        let end = first[..n].iter().rposition(|x| *x != 0.0).unwrap_or(k) + 1;
         for row in below.chunks_exact_mut(n) {
             let factor = row[k] / diagonal;
             row[k] = factor;
             if factor != 0.0 {
-                row[k + 1..].iter_mut().zip(&first[k + 1..n]).for_each(|(x, y)| *x -= factor * y);
+                row[k + 1..end].iter_mut().zip(&first[k + 1..end]).for_each(|(x, y)| *x -= factor * y);
             }
         }
     }

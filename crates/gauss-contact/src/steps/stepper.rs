@@ -15,7 +15,6 @@ use crate::residual::Residual;
 use crate::sensors::ContactForces;
 
 use super::cones::{Laws, MOST, MOST_ROWS};
-use super::held::HeldSteps;
 use super::impulses::{Found, Impulses};
 use super::kept::Kept;
 use super::motion::{self, Middle};
@@ -36,7 +35,7 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) scheme: StepScheme,
     pub(super) law: StepLaw,
     pub(super) tolerance: f64,
-    memory: M,
+    pub(super) memory: M,
     pub(super) impulses: K::ContactRows,
     /// Whether contacts depended on one another in the last step.
     pub(super) dependent: bool,
@@ -49,7 +48,7 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     /// What is closed at the state and stays so.
     pub(super) rests: [bool; MOST],
     /// Of the step that is being made.
-    next: [Mode; MOST],
+    pub(super) next: [Mode; MOST],
     pub(super) report: StepReport,
 }
 
@@ -120,46 +119,6 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         Ok(stepper)
     }
 
-    /// Lets go of the kernel, so that data of its contacts may change; [`HeldSteps::step`] goes on.
-    #[must_use]
-    pub fn hold(self) -> HeldSteps<K, M> {
-        let Self { t, q, z, scheme, law, tolerance, memory, impulses, dependent, acceleration, .. } = self;
-        let Self { modes, rests, report, .. } = self;
-        HeldSteps { t, q, z, scheme, law, tolerance, memory, impulses, dependent, acceleration, modes, rests, report }
-    }
-
-    /// What was held, with contacts whose data may be other ones.
-    pub(super) fn resumed(kernel: &'k K, held: HeldSteps<K, M>, before: impl Fn(usize) -> Option<usize>) -> Self {
-        let (impulses, known) = held.carried(before);
-        let HeldSteps { t, q, z, scheme, law, tolerance, memory, dependent, acceleration, report, .. } = held;
-        let (gaps, rates) = (kernel.gaps(t, &q), kernel.contact_rates(t, &q, &z));
-        let (modes, next) = ([Mode::Open; MOST], [Mode::Open; MOST]);
-        let mut stepper = Self {
-            kernel,
-            t,
-            q,
-            z,
-            scheme,
-            law,
-            tolerance,
-            memory,
-            impulses,
-            dependent,
-            gaps,
-            rates,
-            acceleration,
-            modes,
-            rests: [false; MOST],
-            next,
-            report,
-        };
-        stepper.find_closed();
-        for (i, known) in known.into_iter().enumerate() {
-            (stepper.modes[i], stepper.rests[i]) = known.unwrap_or((stepper.modes[i], stepper.rests[i]));
-        }
-        stepper
-    }
-
     /// How the motion between impacts is taken.
     #[must_use]
     pub fn scheme(mut self, scheme: StepScheme) -> Self {
@@ -223,7 +182,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     }
 
     /// What touches at the start: gaps of zero, to rounding, that do not open.
-    fn find_closed(&mut self) {
+    pub(super) fn find_closed(&mut self) {
         let (gaps, rates) = (self.gaps, self.rates);
         let near = crate::rounding::Rounding::of::<K>(&self.q).half_of_the_digits();
         for (i, contact) in K::CONTACTS.iter().enumerate() {

@@ -108,8 +108,8 @@ fn a_box_comes_to_rest_on_hills() {
         // Rounding of places up to 1, after every step.
         let gaps = steps.slots().gaps(0.0, steps.configuration());
         assert!(gaps.min() > -1e-14, "{n} {gaps}");
-        // Where a new edge is met below zero, it is lifted by that; a step errs by the third power of its turn, which is
-        // below 20 rad/s.
+        // Where a new edge is met below zero, it is lifted by that; a step errs by the third power of its turn, which
+        // is below 20 rad/s.
         let turn = 20.0_f64 * 1e-3;
         let now = kernel.energy(0.0, steps.configuration(), steps.speeds());
         assert!(
