@@ -33,8 +33,8 @@ pub(super) fn second_half<K: ContactSystem>(
     if K::CONSTRAINED { kernel.project(t + number(h), &q, &z) } else { Ok((q, z)) }
 }
 
-/// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that depend on
-/// one another both are taken at half of the step, where they agree with one another to rounding; that is of first
+/// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that depend
+/// on one another both are taken at half of the step, where they agree with one another to rounding; that is of first
 /// order.
 pub(super) fn free_rates<K: ContactSystem>(
     kernel: &K,
