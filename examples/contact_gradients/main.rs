@@ -9,7 +9,9 @@ mod laws;
 mod model;
 
 use laws::{LAWS, difference};
-use model::{NAMES, THROWS};
+use model::THROWS;
+
+const NAMES: [&str; 4] = ["speed", "height", "friction", "push"];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!(

@@ -32,7 +32,6 @@ pub const WATCHED: f64 = 1.0;
 /// Numbers with derivatives by speed, height, friction and push, in this order.
 pub type Number = Dual<4>;
 pub type Numbers = [Number; 4];
-pub const NAMES: [&str; 4] = ["speed", "height", "friction", "push"];
 
 /// A cube that is thrown flat along a table from a height of its lower face, and pushed.
 #[derive(Clone, Copy)]

@@ -60,8 +60,8 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
     ///
     /// The step is a function of time, state, input and parameters: the acceleration of the step before, which
     /// [`StepScheme::Midpoint`](super::StepScheme::Midpoint) keeps, is left out, so that the step is made twice as at a
-    /// start. Where restitution is 0 it has no derivative by restitution, which could only grow. Of contacts that depend on one another impulses have derivatives of least norm; those of speeds are
-    /// unique.
+    /// start. A restitution of 0 could only grow: derivatives by it are given as 0. Of contacts that depend on one
+    /// another impulses have derivatives of least norm; those of speeds are unique.
     ///
     /// ```
     /// use gauss_contact::ContactStepper;

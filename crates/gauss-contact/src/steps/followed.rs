@@ -280,8 +280,8 @@ fn stopped(contact: &Contact, mode: &Mode) -> core::ops::Range<usize> {
     }
 }
 
-/// Whether derivatives are gone that were to be taken away: of contacts that depend on one another, but not nearby, some
-/// stay.
+/// Whether derivatives are gone that were to be taken away: of contacts that depend on one another, but not nearby,
+/// some stay.
 fn is_gone<const N: usize>(
     after_and_before: impl Iterator<Item = [Dual<N>; 2]>,
     size: f64,
