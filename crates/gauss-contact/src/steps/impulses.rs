@@ -14,7 +14,7 @@ use crate::mode::Mode;
 use crate::residual::Residual;
 
 use super::cones::{Cone, MOST, MOST_ROWS};
-use super::linear::{dot, factorise, solve, summed};
+use super::linear::{Place, dot, factorise, solve, summed};
 
 /// By what part of the diagonal impulses are pulled towards those before at first, where contacts depend on one
 /// another. What cannot stick all at once, as two corners that an impact parts, or cannot all stay closed, drifts to
@@ -81,8 +81,8 @@ pub(crate) struct Impulses<'m> {
     right: &'m mut [f64],
     matrix: &'m mut [f64],
     /// Rows of the unknowns.
-    unknown: [usize; MOST_ROWS],
-    order: [usize; MOST_ROWS],
+    unknown: [Place; MOST_ROWS],
+    order: [Place; MOST_ROWS],
     /// Whether contacts depend on one another, as far as is known.
     pub(crate) dependent: bool,
     /// Whether the law is the convex relaxation of Coulomb's.
@@ -335,7 +335,7 @@ impl<'m> Impulses<'m> {
                 &mut self.solution[..known],
             );
             self.impulses.fill(0.0);
-            (0..known).for_each(|k| self.impulses[self.unknown[k]] = self.solution[k]);
+            (0..known).for_each(|k| self.impulses[usize::from(self.unknown[k])] = self.solution[k]);
             self.update(cones);
             found.corrections += 1;
             let (residual, holds) = self.worst(cones, tolerance);
@@ -372,7 +372,7 @@ impl<'m> Impulses<'m> {
                 State::Sticks | State::Slides(..) => cone.tangents(),
             };
             for row in cone.normal.into_iter().chain(rows) {
-                self.unknown[count] = row;
+                self.unknown[count] = row as Place;
                 count += 1;
             }
         }
@@ -385,7 +385,8 @@ impl<'m> Impulses<'m> {
                 self.equal(k, count, normal);
                 if self.relaxed {
                     for c in 0..count {
-                        self.matrix[k * count + c] += self.lift_entry(cones, states, normal, self.unknown[c]);
+                        self.matrix[k * count + c] +=
+                            self.lift_entry(cones, states, normal, usize::from(self.unknown[c]));
                     }
                 }
                 k += 1;
@@ -401,7 +402,8 @@ impl<'m> Impulses<'m> {
                     let scale = self.scale(cone);
                     for a in 0..cone.count {
                         for c in 0..count {
-                            let entry = self.sliding_entry(cone, (along, *part, scale), a, self.unknown[c]);
+                            let entry =
+                                self.sliding_entry(cone, (along, *part, scale), a, usize::from(self.unknown[c]));
                             self.matrix[k * count + c] = entry;
                         }
                         k += 1;
@@ -421,8 +423,9 @@ impl<'m> Impulses<'m> {
     /// The equation of a rate that is zero.
     fn equal(&mut self, k: usize, count: usize, row: usize) {
         for c in 0..count {
-            let entry = self.at(row, self.unknown[c]);
-            self.matrix[k * count + c] = if self.unknown[c] == row { entry * (1.0 + self.pull()) } else { entry };
+            let column = usize::from(self.unknown[c]);
+            let entry = self.at(row, column);
+            self.matrix[k * count + c] = if column == row { entry * (1.0 + self.pull()) } else { entry };
         }
     }
 

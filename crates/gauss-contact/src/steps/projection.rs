@@ -9,7 +9,7 @@ use gauss_runtime::real::Real;
 use crate::mode::{Mode, pushed};
 
 use super::cones::{MOST, MOST_ROWS};
-use super::linear::{factorise, solve};
+use super::linear::{Place, factorise, solve};
 
 /// By what part of the diagonal a matrix is made regular where contacts depend on one another: corrections are
 /// repeated.
@@ -24,8 +24,8 @@ pub(crate) struct Projection<'m> {
     solution: &'m mut [f64],
     /// The solution in all rows.
     all: &'m mut [f64],
-    rows: [usize; MOST_ROWS],
-    order: [usize; MOST_ROWS],
+    rows: [Place; MOST_ROWS],
+    order: [Place; MOST_ROWS],
     count: usize,
 }
 
@@ -57,13 +57,13 @@ impl<'m> Projection<'m> {
     fn factorise<K: ContactSystem<Scalar = f64>>(&mut self, delassus: &K::Delassus, rows: impl Iterator<Item = usize>) {
         let mut count = 0;
         for row in rows.filter(|&row| delassus[(row, row)] > 0.0) {
-            self.rows[count] = row;
+            self.rows[count] = row as Place;
             count += 1;
         }
         self.count = count;
         for i in 0..count {
             for j in 0..count {
-                let entry = delassus[(self.rows[i], self.rows[j])];
+                let entry = delassus[(usize::from(self.rows[i]), usize::from(self.rows[j]))];
                 self.matrix[i * count + j] = if i == j { entry * (1.0 + PULL) } else { entry };
             }
         }
@@ -73,10 +73,10 @@ impl<'m> Projection<'m> {
     /// Impulses that take away rates, in all rows.
     fn cancelling(&mut self, rate: impl Fn(usize) -> f64) -> &[f64] {
         let n = self.count;
-        (0..n).for_each(|k| self.right[k] = -rate(self.rows[k]));
+        (0..n).for_each(|k| self.right[k] = -rate(usize::from(self.rows[k])));
         solve(&self.matrix[..n * n], &self.order[..n], &self.right[..n], &mut self.solution[..n]);
         self.all.fill(0.0);
-        (0..n).for_each(|k| self.all[self.rows[k]] = self.solution[k]);
+        (0..n).for_each(|k| self.all[usize::from(self.rows[k])] = self.solution[k]);
         self.all
     }
 
