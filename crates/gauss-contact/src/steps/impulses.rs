@@ -14,7 +14,7 @@ use crate::mode::Mode;
 use crate::residual::Residual;
 
 use super::cones::{Cone, MOST, MOST_ROWS};
-use super::linear::{dot, dot_and_size, factorise, factorise_symmetric, solve, solve_symmetric};
+use super::linear::{Place, dot, dot_and_size, factorise, factorise_symmetric, solve, solve_symmetric};
 
 /// By what part of the diagonal impulses are pulled towards those before at first, where contacts depend on one
 /// another. What cannot stick all at once, as two corners that an impact parts, or cannot all stay closed, drifts to
@@ -81,8 +81,8 @@ pub(crate) struct Impulses<'m> {
     right: &'m mut [f64],
     matrix: &'m mut [f64],
     /// Rows of the unknowns.
-    unknown: [usize; MOST_ROWS],
-    order: [usize; MOST_ROWS],
+    unknown: [Place; MOST_ROWS],
+    order: [Place; MOST_ROWS],
     /// Whether contacts depend on one another, as far as is known.
     pub(crate) dependent: bool,
     /// Whether the law is the convex relaxation of Coulomb's.
@@ -337,7 +337,7 @@ impl<'m> Impulses<'m> {
                 false => solve(factors, &self.order[..known], right, x),
             }
             self.impulses.fill(0.0);
-            (0..known).for_each(|k| self.impulses[self.unknown[k]] = self.solution[k]);
+            (0..known).for_each(|k| self.impulses[usize::from(self.unknown[k])] = self.solution[k]);
             self.update(cones);
             found.corrections += 1;
             let (residual, holds) = self.worst(cones, tolerance);
@@ -375,13 +375,13 @@ impl<'m> Impulses<'m> {
                 State::Sticks | State::Slides(..) => cone.tangents(),
             };
             for row in cone.normal.into_iter().chain(rows) {
-                self.unknown[count] = row;
+                self.unknown[count] = row as Place;
                 count += 1;
             }
         }
         self.symmetric = !states[..cones.len()].iter().any(|state| matches!(state, State::Slides(..)));
         if self.symmetric {
-            (0..count).for_each(|k| self.equal(k, count, self.unknown[k]));
+            (0..count).for_each(|k| self.equal(k, count, usize::from(self.unknown[k])));
             let part = if self.dependent { 0.0 } else { DEPENDENT };
             return factorise_symmetric(&mut self.matrix[..count * count], count, part).then_some(count);
         }
@@ -394,7 +394,8 @@ impl<'m> Impulses<'m> {
                 self.equal(k, count, normal);
                 if self.relaxed {
                     for c in 0..count {
-                        self.matrix[k * count + c] += self.lift_entry(cones, states, normal, self.unknown[c]);
+                        self.matrix[k * count + c] +=
+                            self.lift_entry(cones, states, normal, usize::from(self.unknown[c]));
                     }
                 }
                 k += 1;
@@ -410,7 +411,8 @@ impl<'m> Impulses<'m> {
                     let scale = self.scale(cone);
                     for a in 0..cone.count {
                         for c in 0..count {
-                            let entry = self.sliding_entry(cone, (along, *part, scale), a, self.unknown[c]);
+                            let entry =
+                                self.sliding_entry(cone, (along, *part, scale), a, usize::from(self.unknown[c]));
                             self.matrix[k * count + c] = entry;
                         }
                         k += 1;
@@ -433,6 +435,7 @@ impl<'m> Impulses<'m> {
         let (own, more) = (&self.delassus[row * n..(row + 1) * n], 1.0 + self.pull());
         let entries = self.matrix[k * count..(k + 1) * count].iter_mut().zip(&self.unknown);
         for (entry, &of) in entries {
+            let of = usize::from(of);
             *entry = if of == row { own[of] * more } else { own[of] };
         }
     }

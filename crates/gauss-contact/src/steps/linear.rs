@@ -5,6 +5,9 @@ use gauss_runtime::real::Real;
 
 use crate::dense::value;
 
+/// The place of a row. There are 256 at most; small numbers leave less to be zeroed in each step.
+pub(crate) type Place = u16;
+
 /// The scalar product, in four sums that do not wait for one another.
 pub(crate) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     let mut sums = [T::zero(); 4];
@@ -36,9 +39,9 @@ pub(crate) fn dot_and_size(a: &[f64], b: &[f64]) -> (f64, f64) {
 
 /// Replaces a matrix, row by row, by its factors; `order` takes the rows in the order of their pivots. Whether no pivot
 /// is smaller than a part of the largest entry of its column.
-pub(crate) fn factorise(matrix: &mut [f64], order: &mut [usize], part: f64) -> bool {
+pub(crate) fn factorise(matrix: &mut [f64], order: &mut [Place], part: f64) -> bool {
     let n = order.len();
-    order.iter_mut().enumerate().for_each(|(i, row)| *row = i);
+    order.iter_mut().enumerate().for_each(|(i, row)| *row = i as Place);
     for k in 0..n {
         let size = |i: &usize| matrix[*i * n + k].abs();
         // Of the factors above and of what is left: an entry of the column to begin with is not far from these.
@@ -68,11 +71,11 @@ pub(crate) fn factorise(matrix: &mut [f64], order: &mut [usize], part: f64) -> b
 }
 
 /// Solves for a right side that is given in the order of the rows before elimination.
-pub(crate) fn solve(factors: &[f64], order: &[usize], right: &[f64], x: &mut [f64]) {
+pub(crate) fn solve(factors: &[f64], order: &[Place], right: &[f64], x: &mut [f64]) {
     let n = order.len();
     for k in 0..n {
         let row = &factors[k * n..k * n + k];
-        x[k] = right[order[k]] - dot(row, &x[..k]);
+        x[k] = right[usize::from(order[k])] - dot(row, &x[..k]);
     }
     for k in (0..n).rev() {
         let row = &factors[k * n + k + 1..(k + 1) * n];

@@ -10,7 +10,7 @@ use crate::dense::value;
 use crate::mode::{Mode, acting, settled_speeds};
 
 use super::cones::{MOST, MOST_ROWS};
-use super::linear::{factorise_symmetric, solve_symmetric};
+use super::linear::{Place, factorise_symmetric, solve_symmetric};
 
 /// By what part of the diagonal a matrix is made regular where contacts depend on one another: corrections are
 /// repeated.
@@ -23,7 +23,7 @@ pub(crate) struct Projection<'m, T = f64> {
     matrix: &'m mut [T],
     right: &'m mut [T],
     solution: &'m mut [T],
-    rows: [usize; MOST_ROWS],
+    rows: [Place; MOST_ROWS],
     count: usize,
     /// Contacts whose gaps were brought to zero.
     pub(crate) held: [bool; MOST],
@@ -62,7 +62,7 @@ impl<'m, T: Real> Projection<'m, T> {
     ) -> bool {
         let mut count = 0;
         for row in rows.filter(|&row| value(delassus[(row, row)]) > 0.0) {
-            self.rows[count] = row;
+            self.rows[count] = row as Place;
             count += 1;
         }
         self.count = count;
@@ -70,7 +70,7 @@ impl<'m, T: Real> Projection<'m, T> {
         PULLS.into_iter().any(|pull| {
             for i in 0..count {
                 for j in i..count {
-                    let entry = delassus[(self.rows[i], self.rows[j])];
+                    let entry = delassus[(usize::from(self.rows[i]), usize::from(self.rows[j]))];
                     self.matrix[i * count + j] = if i == j { entry * T::from_f64(1.0 + pull) } else { entry };
                 }
             }
@@ -87,10 +87,10 @@ impl<'m, T: Real> Projection<'m, T> {
         rate: impl Fn(usize) -> T,
     ) -> K::Speeds {
         let n = self.count;
-        (0..n).for_each(|k| self.right[k] = -rate(self.rows[k]));
+        (0..n).for_each(|k| self.right[k] = -rate(usize::from(self.rows[k])));
         solve_symmetric(&self.matrix[..n * n], &self.right[..n], &mut self.solution[..n]);
         let mut impulses = K::ContactRows::zero();
-        (0..n).for_each(|k| impulses.set_component(self.rows[k], self.solution[k]));
+        (0..n).for_each(|k| impulses.set_component(usize::from(self.rows[k]), self.solution[k]));
         settled_speeds(kernel.after_impulses(z, &response.factors, &impulses), acting::<K>(&impulses))
     }
 
