@@ -8,7 +8,6 @@ use gauss_runtime::real::Real;
 
 use super::*;
 use crate::mode::Mode;
-use crate::steps::stepper::Kept;
 use crate::steps::{Change, StepScheme};
 
 type V<const N: usize> = SVector<f64, N>;

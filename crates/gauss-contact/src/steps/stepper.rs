@@ -212,7 +212,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         if !(h > 0.0 && h.is_finite()) {
             return Err(self.error(None, ContactErrorKind::InvalidInterval));
         }
-        self.report = StepReport { length: h, ..self.in_parts(h, input, (HALVINGS, watch))? };
+        self.report = self.in_parts(h, input, (HALVINGS, watch))?;
         Ok(self.report)
     }
 
@@ -278,7 +278,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             core::mem::swap(&mut self.modes, &mut self.next);
         }
         (self.gaps, self.rates, self.rests) = (end.gaps, end.rates, end.rests);
-        Ok(end.report)
+        Ok(StepReport { length: h, ..end.report })
     }
 
     fn attempt(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<End<K>, ContactError> {
@@ -434,7 +434,6 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             corrections: solved.found.corrections,
             sweeps: solved.found.sweeps,
             work: solved.work,
-            length: h,
             closure,
             impacts: solved.impacts,
             ..StepReport::default()
