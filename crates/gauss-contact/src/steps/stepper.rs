@@ -7,6 +7,7 @@ use core::fmt;
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::{ContactSystem, ImpulseDynamics, ImpulseResponse};
 use gauss_runtime::integrate::problem::state::TangentOf;
+use gauss_runtime::real::Real;
 
 use crate::error::{ContactError, ContactErrorKind};
 use crate::law::carrier;
@@ -181,12 +182,16 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         self.report
     }
 
-    /// What touches at the start: gaps of zero, to rounding, that do not open.
+    /// What touches at the start: gaps of zero, to rounding, that stay so. One that closes there is an impact of the first
+    /// step: its jump is no acceleration.
     pub(super) fn find_closed(&mut self) {
         let (gaps, rates) = (self.gaps, self.rates);
         let near = crate::rounding::Rounding::of::<K>(&self.q).half_of_the_digits();
+        let fastest = (0..K::ContactRows::DIM).map(|row| rates.component(row).abs()).fold(0.0, f64::max);
+        let still = Real::sqrt(f64::EPSILON) * fastest;
         for (i, contact) in K::CONTACTS.iter().enumerate() {
-            if contact.has_gap() && gaps.component(i) <= near && rates.component(contact.normal) <= 0.0 {
+            let rate = || rates.component(contact.normal);
+            if contact.has_gap() && gaps.component(i) <= near && (-still..=0.0).contains(&rate()) {
                 self.modes[i] = Mode::Closed;
                 self.rests[i] = true;
             }

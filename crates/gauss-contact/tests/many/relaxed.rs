@@ -1,6 +1,6 @@
 //! The convex relaxation of Coulomb's law beside it.
 
-use gauss_contact::{ContactRun, ContactSteps, Mode, StepLaw};
+use gauss_contact::{ContactRun, ContactStepper, ContactSteps, Mode, StepLaw};
 use gauss_runtime::contact::{Contact, ContactSystem};
 use gauss_runtime::nalgebra::SMatrix;
 use gauss_runtime::system::GaussSystem;
@@ -66,6 +66,18 @@ fn a_cube_thrown_flat_along_a_plate_is_lifted_by_the_relaxed_law_alone() {
         // 294 mm however short the steps are.
         assert!((highest - 0.2936).abs() < 3.0 * h, "{h} {highest}");
         assert!(relaxed.iter().all(|step| step.state.q[2] >= -1e-14));
+    }
+}
+
+/// A start on the plate with a rate towards it is an impact: the speed that it takes is no acceleration, by which the
+/// scheme of second order would take the next step.
+#[test]
+fn a_start_with_an_approach_is_an_impact() {
+    let kernel = cube(0.5);
+    for (approach, impacts) in [(-1.0, 4), (0.0, 0)] {
+        let speeds = V::from([0.0, 0.0, approach, 0.0, 0.0, 0.0]);
+        let mut stepper = ContactStepper::new(&kernel, 0.0, V::zeros(), speeds).unwrap();
+        assert_eq!(stepper.step(1e-3, &()).unwrap().impacts, impacts);
     }
 }
 
