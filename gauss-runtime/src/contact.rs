@@ -150,13 +150,13 @@ pub struct AfterImpulses<V> {
 }
 
 impl<V> AfterImpulses<V> {
-    /// From the speeds before and what impulses add to them.
-    pub fn of<T: Real>(z: &V, added: &V) -> Self
+    /// From the speeds before, what impulses add to them, and the sizes of the terms that this is the sum of.
+    pub fn of<T: Real>(z: &V, added: &V, sizes: &V) -> Self
     where
         V: VectorSpace<T>,
     {
-        let mut terms = V::zero();
-        (0..V::DIM).for_each(|k| terms.set_component(k, z.component(k).abs() + added.component(k).abs()));
+        let mut terms = *sizes;
+        (0..V::DIM).for_each(|k| terms.set_component(k, terms.component(k) + z.component(k).abs()));
         Self { speeds: z.add_scaled(T::one(), added), terms }
     }
 }

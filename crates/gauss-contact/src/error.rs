@@ -237,9 +237,7 @@ impl fmt::Display for ContactErrorKind {
                 "the gap closes at one time with another, and nearby before or after it: what follows has no derivative",
             ),
             Self::NotCoulomb => f.write_str("derivatives of a step are those of Coulomb's law; leave out `law`"),
-            Self::NoDerivative => f.write_str(
-                "contacts depend on one another here, but not nearby: the step has no derivative",
-            ),
+            Self::NoDerivative => f.write_str("contacts depend on one another here alone: the step has no derivative"),
             Self::OtherSystem { difference } => write!(
                 f,
                 "the system in dual numbers is another one: its step ends {difference:.1e} away; give it the same \

@@ -2,7 +2,6 @@
 //! and every method of their kernels.
 
 mod arranged;
-mod halves;
 mod response;
 
 use std::cell::OnceCell;
@@ -11,6 +10,7 @@ use crate::algebra::{Expr, Map, solve_pairs, solve_symmetric};
 
 use crate::mechanics::arrangements::articulated::Articulated;
 use crate::mechanics::arrangements::free_link::FreeLink;
+use crate::mechanics::arrangements::halves::Halves;
 use crate::mechanics::arrangements::orthogonal::Elements;
 use crate::mechanics::constraints::contact_rows::Contacts;
 use crate::mechanics::constraints::multipliers::Constraints;
@@ -24,8 +24,6 @@ use crate::mechanics::loads::account::account_formulas;
 use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
 use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::mechanics::tidy::{compact, sums, tidy};
-
-use halves::Halves;
 
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.
 pub const DENSE: usize = 10;

@@ -43,7 +43,7 @@ pub use crate::system::{Evaluated, GaussSystem, RigidBodySystem, Smoothness};
 pub use crate::table::{Cubic, Linear};
 pub use check::ParameterCheck;
 pub use columns::{Bundle, columns, each_column, filled, multiple, only_column, put, subtract_multiple, zeros};
-pub use contacts::contact_columns;
+pub use contacts::{after_halves, contact_columns};
 pub use containers::{components, entries, isometry2, isometry3, matrix, product, quaternion, vector};
 pub(crate) use eigenvalues::eigenvalues;
 pub use nalgebra::{Isometry2, Isometry3, IsometryMatrix3, SMatrix, SVector, UnitQuaternion};

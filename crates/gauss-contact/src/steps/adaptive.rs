@@ -167,7 +167,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
         let mut stepper = self.steps.stepper(interval.start, q0, z0)?;
         let mut lengths = Lengths::new(self.steps.h, self.shortest, stepper.scheme);
         while stepper.t < interval.end {
-            let (before, statistics) = (Kept::of(&stepper), &mut made.statistics);
+            let (before, statistics) = (stepper.kept(), &mut made.statistics);
             if statistics.accepted + statistics.rejected >= self.limit {
                 return Err(stepper.error(None, ContactErrorKind::TooManySteps { limit: self.limit }));
             }
@@ -186,10 +186,10 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
                 }
                 Verdict::Shorten if lengths.next >= least && lengths.next < h => {
                     statistics.rejected += 1;
-                    before.restore(&mut stepper);
+                    stepper.restore(&before);
                 }
                 Verdict::Shorten => {
-                    before.restore(&mut stepper);
+                    stepper.restore(&before);
                     trial?;
                     return Err(stepper.error(None, ContactErrorKind::StepTooSmall { step: h }));
                 }
@@ -210,14 +210,14 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
     {
         let input = |stepper: &ContactStepper<'k, K>| self.steps.input.input(stepper.t, &stepper.q, &stepper.z);
         stepper.step(h, &input(stepper))?;
-        let whole = Kept::of(stepper);
+        let whole = stepper.kept();
         let (mut impacts, closure) = (stepper.report.impacts, stepper.report.closure);
-        before.restore(stepper);
+        stepper.restore(before);
         let first = stepper.step(0.5 * h, &input(stepper))?;
         let of_first = stepper.impulses;
-        let middle = Kept::of(stepper);
+        let middle = stepper.kept();
         let second = stepper.step(0.5 * h, &input(stepper))?;
-        let end = Kept::of(stepper);
+        let end = stepper.kept();
         impacts += first.impacts + second.impacts;
         // At the start what contacts do is not known yet.
         let differs = !starts && (before.differs(&whole) || before.differs(&middle));

@@ -13,7 +13,6 @@ use crate::error::{ContactError, ContactErrorKind};
 
 use super::edges::AtChange;
 use super::followed::{Same, State, part};
-use super::kept::Kept;
 use super::relaxed::StepLaw;
 use super::report::StepReport;
 use super::stepper::ContactStepper;
@@ -98,9 +97,9 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
     /// ```
     ///
     /// # Errors
-    /// As of [`step`](Self::step); `NotCoulomb` under another law; `NoDerivative` where contacts depend on one another at the state, but not nearby;
-    /// `OtherSystem` where the system in dual numbers is another one; `NonFinite` where derivatives are not finite. The
-    /// state is then that before the step.
+    /// As of [`step`](Self::step); `NotCoulomb` under another law; `NoDerivative` where contacts depend on one another at
+    /// the state, but not nearby; `OtherSystem` where the system in dual numbers is another one; `NonFinite` where
+    /// derivatives are not finite. The state is then that before the step.
     pub fn step_with_derivatives<L, const N: usize, const D: usize, const U: usize, const P: usize>(
         &mut self,
         h: f64,
@@ -128,7 +127,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         if self.law != StepLaw::Coulomb {
             return Err(self.error(None, ContactErrorKind::NotCoulomb));
         }
-        let before = Kept::of(self);
+        let before = self.kept();
         // Without the acceleration of the step before a step is a function of the state.
         self.acceleration = None;
         let mut seen = Seen::default();
@@ -138,7 +137,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
             Ok(StepDerivatives { report, ..made })
         });
         if made.is_err() {
-            before.restore(self);
+            self.restore(&before);
         }
         made
     }

@@ -8,6 +8,7 @@ use gauss_runtime::real::Real;
 
 use super::*;
 use crate::mode::Mode;
+use crate::steps::kept::Kept;
 use crate::steps::{Change, StepScheme};
 
 type V<const N: usize> = SVector<f64, N>;
@@ -102,7 +103,7 @@ impl<S: Pair<P, N>, const P: usize, const N: usize> Made<'_, S, P, N> {
         let kernel = S::plain(parameters);
         let other = ContactStepper::new(&kernel, t, self.end.q, Z::<S, P, N>::zero()).ok()?;
         let mut other = other.scheme(self.end.scheme).tolerance(TIGHT);
-        self.kept.restore(&mut other);
+        other.restore(&self.kept);
         (other.q, other.z) = (q, z);
         (other.gaps, other.rates) = (other.kernel.gaps(t, &q), other.kernel.contact_rates(t, &q, &z));
         other.step(self.h, &input).unwrap();
@@ -144,7 +145,7 @@ fn compare<S, const P: usize, const N: usize, const D: usize, const U: usize>(
 {
     let dual = S::in_duals(core::array::from_fn(|k| Dual::variable(S::PARAMETERS[k], k)));
     stepper.acceleration = None;
-    let kept = Kept::of(stepper);
+    let kept = stepper.kept();
     let found = match stepper.step_with_derivatives::<S::InDuals, N, D, U, P>(h, input, &dual) {
         Ok(found) => found,
         Err(ContactError { kind: ContactErrorKind::NoDerivative, .. }) => {

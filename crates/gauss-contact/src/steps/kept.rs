@@ -6,7 +6,6 @@ use crate::mode::Mode;
 
 use super::cones::MOST;
 use super::report::StepReport;
-use super::stepper::ContactStepper;
 
 /// All of a stepper that a step changes, but memory.
 pub(super) struct Kept<K: ContactSystem<Scalar = f64>> {
@@ -20,23 +19,10 @@ pub(super) struct Kept<K: ContactSystem<Scalar = f64>> {
     pub(super) dependent: bool,
     pub(super) modes: [Mode; MOST],
     pub(super) rests: [bool; MOST],
-    report: StepReport,
+    pub(super) report: StepReport,
 }
 
 impl<K: ContactSystem<Scalar = f64>> Kept<K> {
-    pub(super) fn of<M>(stepper: &ContactStepper<'_, K, M>) -> Self {
-        let ContactStepper { t, q, z, gaps, rates, impulses, acceleration, .. } = *stepper;
-        let ContactStepper { dependent, modes, rests, report, .. } = *stepper;
-        Self { t, q, z, gaps, rates, impulses, acceleration, dependent, modes, rests, report }
-    }
-
-    pub(super) fn restore<M>(&self, stepper: &mut ContactStepper<'_, K, M>) {
-        (stepper.t, stepper.q, stepper.z) = (self.t, self.q, self.z);
-        (stepper.gaps, stepper.rates, stepper.impulses) = (self.gaps, self.rates, self.impulses);
-        (stepper.acceleration, stepper.dependent) = (self.acceleration, self.dependent);
-        (stepper.modes, stepper.rests, stepper.report) = (self.modes, self.rests, self.report);
-    }
-
     /// What a contact does: of one that an impact parts it is open.
     pub(super) fn mode(&self, i: usize) -> Mode {
         if self.rests[i] { self.modes[i] } else { Mode::Open }

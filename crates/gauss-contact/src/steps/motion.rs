@@ -30,8 +30,8 @@ pub(super) fn second_half<K: ContactSystem>(
     if K::CONSTRAINED { kernel.project(t + K::Scalar::from_f64(h), &q, &z) } else { Ok((q, z)) }
 }
 
-/// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that depend on
-/// one another both are taken at half of the step, where they agree with one another to rounding; that is of first
+/// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that depend
+/// on one another both are taken at half of the step, where they agree with one another to rounding; that is of first
 /// order. `free` are the speeds without contact impulses, `bias` the b of their accelerations.
 pub(super) fn free_rates<K: ContactSystem>(
     kernel: &K,

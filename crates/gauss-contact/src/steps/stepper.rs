@@ -182,8 +182,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         self.report
     }
 
-    /// What touches at the start: gaps of zero, to rounding, that stay so. One that closes there is an impact of the first
-    /// step: its jump is no acceleration.
+    /// What touches at the start: gaps of zero, to rounding, that stay so. One that closes there is an impact of the
+    /// first step: its jump is no acceleration.
     pub(super) fn find_closed(&mut self) {
         let (gaps, rates) = (self.gaps, self.rates);
         let near = crate::rounding::Rounding::of::<K>(&self.q).half_of_the_digits();
@@ -221,6 +221,20 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         Ok(self.report)
     }
 
+    /// All that a step changes, but memory.
+    pub(super) fn kept(&self) -> Kept<K> {
+        let Self { t, q, z, gaps, rates, impulses, acceleration, dependent, modes, rests, report, .. } = *self;
+        Kept { t, q, z, gaps, rates, impulses, acceleration, dependent, modes, rests, report }
+    }
+
+    /// Back to what was kept.
+    pub(super) fn restore(&mut self, kept: &Kept<K>) {
+        (self.t, self.q, self.z) = (kept.t, kept.q, kept.z);
+        (self.gaps, self.rates, self.impulses) = (kept.gaps, kept.rates, kept.impulses);
+        (self.acceleration, self.dependent) = (kept.acceleration, kept.dependent);
+        (self.modes, self.rests, self.report) = (kept.modes, kept.rests, kept.report);
+    }
+
     /// A step, or both halves of it.
     fn in_parts<W: Watch<K>>(
         &mut self,
@@ -230,11 +244,11 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     ) -> Result<StepReport, ContactError> {
         match self.whole(h, input, watch) {
             Err(ContactError { kind: ContactErrorKind::Unsolved { .. }, .. }) if halvings > 0 => {
-                let before = Kept::of(self);
+                let before = self.kept();
                 let first = self.in_parts(0.5 * h, input, (halvings - 1, watch))?;
                 let of_first = self.impulses;
                 let second = self.in_parts(0.5 * h, input, (halvings - 1, watch));
-                let second = second.inspect_err(|_| before.restore(self))?;
+                let second = second.inspect_err(|_| self.restore(&before))?;
                 self.impulses = self.impulses.add_scaled(1.0, &of_first);
                 Ok(first.and(second))
             }

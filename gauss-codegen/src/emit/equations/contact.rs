@@ -147,7 +147,11 @@ fn velocities(derived: &Derived<'_, '_>) -> Option<(TokenStream, TokenStream)> {
         }
         count => {
             let velocities = derived.method_body(Method::ImpulseVelocities)?;
-            let after = quote!(#private::AfterImpulses::of(__z, &{ #velocities }));
+            let pivots = derived.degrees_of_freedom();
+            let rows = derived.subject.system.halves()?.first_of_rows();
+            let after = quote! {
+                #private::after_halves(__z, (__factors, __impulses), #pivots..#rows, |__factors, __impulses| { #velocities })
+            };
             (quote!(#private::SVector<#ty, #count>), after, quote!(#private::contact_columns(self, __factors)))
         }
     };

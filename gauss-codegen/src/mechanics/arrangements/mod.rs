@@ -8,5 +8,6 @@
 pub mod articulated;
 pub mod balance;
 pub mod free_link;
+pub mod halves;
 pub mod orthogonal;
 pub mod short;

@@ -3,6 +3,7 @@
 use crate::algebra::Expr;
 
 use crate::mechanics::arrangements::articulated::Articulated;
+use crate::mechanics::arrangements::halves::Halves;
 use crate::mechanics::constraints::contact::Contact;
 use crate::mechanics::formula::{Arrangements, Formula, Method};
 
@@ -73,6 +74,15 @@ impl<'g> System<'g> {
             true => vec![Vec::new(); self.contacts.jacobian.len()],
             false => self.contacts.jacobian.iter().map(|row| self.constraints.respond(&self.matrix, row).1).collect(),
         }
+    }
+
+    /// Of long trees with contacts, where the speeds of the joints are those of the system.
+    pub fn halves(&self) -> Option<&Halves<'g>> {
+        let halves = || {
+            let has = !self.contacts.is_empty() && self.is_long() && self.is_sum_over_links();
+            has.then(|| Halves::new(self.tree(), &self.contacts.jacobian)).flatten()
+        };
+        self.halves.get_or_init(halves).as_ref()
     }
 
     /// Both in the ways that are worth trying, each with the same factors of A in both.

@@ -1,4 +1,5 @@
-//! What makes velocities of contact impulses, as numbers: A = LDLᵀ, eliminated joint by joint, and L⁻¹ of each row of W.
+//! What makes velocities of contact impulses, as numbers: A = LDLᵀ, eliminated joint by joint, and L⁻¹ of each row of
+//! W.
 //!
 //! Of a tree a row of W has entries on the way from its link to the root, and so has L⁻¹ of it, where A⁻¹ fills all
 //! limbs. D = W A⁻¹Wᵀ is a product of these halves (R. Featherstone 2010, "Exploiting sparsity in operational-space
@@ -7,8 +8,7 @@
 use crate::algebra::{Expr, FactoredColumns};
 
 use crate::mechanics::arrangements::articulated::Articulated;
-
-use super::System;
+use crate::mechanics::links::tree::Tree;
 
 /// The halves of A⁻¹Wᵀ, and symbols for all numbers in them.
 pub struct Halves<'g> {
@@ -20,34 +20,29 @@ pub struct Halves<'g> {
     pub impulses: Vec<Expr<'g>>,
 }
 
-impl<'g> System<'g> {
-    /// Of long trees with contacts, where the speeds of the joints are those of the system.
-    pub fn halves(&self) -> Option<&Halves<'g>> {
-        self.halves.get_or_init(|| self.new_halves()).as_ref()
-    }
-
-    fn new_halves(&self) -> Option<Halves<'g>> {
-        if self.contacts.is_empty() || !self.is_long() || !self.is_sum_over_links() {
-            return None;
-        }
-        let joints = Articulated::eliminated(self.tree())?.joint_factors();
+impl<'g> Halves<'g> {
+    /// Of rows by the speeds of a tree; `None` where its joints are not moved by these.
+    pub fn new(tree: &Tree<'g>, rows: &[Vec<Expr<'g>>]) -> Option<Self> {
+        let joints = Articulated::eliminated(tree)?.joint_factors();
         let factors = joints.columns()?;
-        let row = |row: &Vec<Expr<'g>>| {
+        let half = |row: &Vec<Expr<'g>>| {
             joints.halfway(row).into_iter().enumerate().filter(|(_, entry)| !entry.is_zero()).collect::<Vec<_>>()
         };
-        let rows: Vec<_> = self.contacts.jacobian.iter().map(row).collect();
-        let graph = self.scene.graph;
+        let rows: Vec<_> = rows.iter().map(half).collect();
         let symbols = |letter: &str, count: usize| {
             let name = |k: usize| format!("{letter}{k}");
-            (1..=count).map(|k| graph.symbol(name(k), name(k), false)).collect::<Vec<_>>()
+            (1..=count).map(|k| tree.graph.symbol(name(k), name(k), false)).collect::<Vec<_>>()
         };
         let count = factors.entries().count() + rows.iter().map(Vec::len).sum::<usize>();
         let (symbols, impulses) = (symbols("f", count), symbols("P", rows.len()));
-        Some(Halves { factors, rows, symbols, impulses })
+        Some(Self { factors, rows, symbols, impulses })
     }
-}
 
-impl<'g> Halves<'g> {
+    /// How many numbers are those of the factors: the pivots, one for each speed, then what is below them.
+    pub fn first_of_rows(&self) -> usize {
+        self.factors.entries().count()
+    }
+
     /// The numbers: of the factors, then of the rows.
     pub fn entries(&self) -> Vec<Expr<'g>> {
         let rows = self.rows.iter().flatten().map(|(_, entry)| *entry);
@@ -68,7 +63,7 @@ impl<'g> Halves<'g> {
 
     /// A⁻¹Wᵀ of impulses, from the numbers.
     pub fn velocities(&self, entries: &[Expr<'g>], impulses: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        let (of_factors, of_rows) = entries.split_at(self.factors.entries().count());
+        let (of_factors, of_rows) = entries.split_at(self.first_of_rows());
         let mut halfway = vec![self.symbols[0].graph().zero(); self.factors.order.len()];
         let rows =
             self.rows.iter().zip(impulses).flat_map(|(row, impulse)| row.iter().map(move |(k, _)| (*k, *impulse)));
