@@ -104,13 +104,11 @@ pub trait ContactSystem: GaussSystem {
         input: &Self::Input,
     ) -> ImpulseDynamics<Self>;
 
-    /// The speeds `z + A⁻¹WᵀP` after impulses P.
-    fn after_impulses(
-        &self,
-        z: &Self::Speeds,
-        factors: &Self::ImpulseFactors,
-        impulses: &Self::ContactRows,
-    ) -> AfterImpulses<Self::Speeds>;
+    /// `A⁻¹WᵀP`: what impulses P add to the speeds.
+    fn impulse_velocities(&self, factors: &Self::ImpulseFactors, impulses: &Self::ContactRows) -> Self::Speeds;
+
+    /// Of each of them the sizes of the terms that it is the sum of: what is no more than their rounding is none.
+    fn impulse_terms(&self, factors: &Self::ImpulseFactors, impulses: &Self::ContactRows) -> Self::Speeds;
 
     /// `A⁻¹ Wᵀ`: the velocities that unit impulses make, column by column.
     fn contact_columns(&self, factors: &Self::ImpulseFactors) -> Self::ContactColumns;
@@ -139,49 +137,45 @@ pub trait ContactSystem: GaussSystem {
     }
 }
 
-/// Speeds after contact impulses: the result of [`ContactSystem::after_impulses`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct AfterImpulses<V> {
-    /// The speeds.
-    pub speeds: V,
-    /// Of each speed the sizes of the terms that it is the sum of: what is no more than their rounding is none.
-    pub terms: V,
-}
-
-impl<V> AfterImpulses<V> {
-    /// From the speeds before, what impulses add to them, and the sizes of the terms that this is the sum of.
-    pub fn of<T: Real>(z: &V, added: &V, sizes: &V) -> Self
-    where
-        V: VectorSpace<T>,
-    {
-        let mut terms = *sizes;
-        (0..V::DIM).for_each(|k| terms.set_component(k, terms.component(k) + z.component(k).abs()));
-        Self { speeds: z.add_scaled(T::one(), added), terms }
-    }
-}
-
-/// [`ContactSystem::after_impulses`] by columns, of systems whose factors these are.
-pub fn after_impulses<S>(
-    z: &S::Speeds,
-    columns: &S::ContactColumns,
-    impulses: &S::ContactRows,
-) -> AfterImpulses<S::Speeds>
+/// [`ContactSystem::impulse_velocities`] by columns, of systems whose factors these are.
+pub fn impulse_velocities<S>(columns: &S::ContactColumns, impulses: &S::ContactRows) -> S::Speeds
 where
     S: ContactSystem + ?Sized,
 {
-    let (mut speeds, mut terms) = (*z, S::Speeds::zero());
-    let mut add = |k: usize, term: S::Scalar| terms.set_component(k, terms.component(k) + term.abs());
-    (0..S::Speeds::DIM).for_each(|k| add(k, z.component(k)));
+    let mut speeds = S::Speeds::zero();
+    each_that_acts::<S>(columns, impulses, |impulse, column| speeds = speeds.add_scaled(impulse, column));
+    speeds
+}
+
+/// [`ContactSystem::impulse_terms`] by columns, of systems whose factors these are.
+pub fn impulse_terms<S>(columns: &S::ContactColumns, impulses: &S::ContactRows) -> S::Speeds
+where
+    S: ContactSystem + ?Sized,
+{
+    let mut terms = S::Speeds::zero();
+    each_that_acts::<S>(columns, impulses, |impulse, column| {
+        for k in 0..S::Speeds::DIM {
+            terms.set_component(k, terms.component(k) + (impulse * column.component(k)).abs());
+        }
+    });
+    terms
+}
+
+/// Impulses that are not zero in all lanes, with their columns.
+fn each_that_acts<S>(
+    columns: &S::ContactColumns,
+    impulses: &S::ContactRows,
+    mut act: impl FnMut(S::Scalar, &S::Speeds),
+) where
+    S: ContactSystem + ?Sized,
+{
     for row in 0..S::ContactRows::DIM {
         let impulse = impulses.component(row);
         let acts = S::Scalar::DERIVATIVES || (0..S::Scalar::LANES).any(|lane| impulse.lane(lane) != 0.0);
         if let Some(column) = columns.nth(row).filter(|_| acts) {
-            speeds = speeds.add_scaled(impulse, &column);
-            (0..S::Speeds::DIM).for_each(|k| add(k, impulse * column.component(k)));
+            act(impulse, &column);
         }
     }
-    AfterImpulses { speeds, terms }
 }
 
 /// One contact of a system.
@@ -330,7 +324,7 @@ impl fmt::Display for Contact {
 /// What contact impulses do: the result of [`ContactSystem::impulse_response`].
 #[non_exhaustive]
 pub struct ImpulseResponse<S: ContactSystem + ?Sized> {
-    /// What makes velocities of impulses: for [`after_impulses`](ContactSystem::after_impulses).
+    /// What makes velocities of impulses: for [`impulse_velocities`](ContactSystem::impulse_velocities).
     pub factors: S::ImpulseFactors,
     /// `D = W A⁻¹ Wᵀ`, symmetric and positive semidefinite.
     pub delassus: S::Delassus,

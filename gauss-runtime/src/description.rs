@@ -175,7 +175,7 @@ by_method! {
     impulse_response,
     /// Of [`ContactSystem::impulse_dynamics`](crate::contact::ContactSystem::impulse_dynamics).
     impulse_dynamics,
-    /// Of [`ContactSystem::after_impulses`](crate::contact::ContactSystem::after_impulses), of long trees.
+    /// Of [`ContactSystem::impulse_velocities`](crate::contact::ContactSystem::impulse_velocities), of long trees.
     impulse_velocities,
     ;
     /// Of the other methods of [`FramedSystem`](crate::frames::FramedSystem), frame by frame in their order.

@@ -12,7 +12,7 @@ use core::fmt;
 use gauss_runtime::chart::Chart;
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::constraint::{ConstraintLevel, ProjectionError, ProjectionFailure};
-use gauss_runtime::contact::{AfterImpulses, Contact, ContactDynamics, ContactSystem, after_impulses};
+use gauss_runtime::contact::{Contact, ContactDynamics, ContactSystem, impulse_terms, impulse_velocities};
 use gauss_runtime::forces::Columns;
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::{Real, largest_derivative};
@@ -163,18 +163,36 @@ fn corrections<T: Real>() -> usize {
     if T::DERIVATIVES { 3 } else { 0 }
 }
 
-/// Speeds after impulses of so many rows, where components that are no more than the rounding of their terms are 0:
+/// What is smaller than this part of the largest speed, before or after impulses, may be rounding: terms can be some 10⁴
+/// times larger than it.
+const NEAR: f64 = 1e-9;
+
+/// The speeds `z + A⁻¹WᵀP` after impulses P, where components that are no more than the rounding of their terms are 0:
 /// what rests does not creep.
-pub(crate) fn settled_speeds<V: VectorSpace<T>, T: Real>(after: AfterImpulses<V>, count: u32) -> V {
-    let AfterImpulses { mut speeds, terms, .. } = after;
-    if count == 0 {
+pub(crate) fn after_impulses<K: ContactSystem>(
+    kernel: &K,
+    z: &K::Speeds,
+    factors: &K::ImpulseFactors,
+    impulses: &K::ContactRows,
+) -> K::Speeds {
+    let speeds = z.add_scaled(K::Scalar::one(), &kernel.impulse_velocities(factors, impulses));
+    settled(z, speeds, acting::<K>(impulses), || kernel.impulse_terms(factors, impulses))
+}
+
+/// Speeds with components of zero for those that are rounding of so many terms, of given sizes.
+fn settled<V: VectorSpace<T>, T: Real>(z: &V, mut speeds: V, count: u32, terms: impl FnOnce() -> V) -> V {
+    let size = |v: &V, i: usize| value(v.component(i)).abs();
+    let largest = (0..V::DIM).map(|i| size(z, i).max(size(&speeds, i))).fold(0.0, f64::max);
+    let is_near = |speed: f64| speed != 0.0 && speed <= NEAR * largest;
+    if count == 0 || !(0..V::DIM).any(|i| is_near(size(&speeds, i))) {
         return speeds;
     }
+    let terms = terms();
     // Each term has roundings of its own, those of its factors and of the solution for λ.
     let part = 16.0 * f64::from(count + 1) * epsilon::<T>();
     for i in 0..V::DIM {
         let rounding = value(speeds.component(i));
-        if rounding.abs() <= part * value(terms.component(i)) {
+        if rounding.abs() <= part * (size(z, i) + value(terms.component(i))) {
             speeds.set_component(i, speeds.component(i) - T::from_f64(rounding));
         }
     }
@@ -185,7 +203,8 @@ pub(crate) fn settled_speeds<V: VectorSpace<T>, T: Real>(after: AfterImpulses<V>
 pub(crate) fn pushed<K: ContactSystem>(x: &K::Speeds, columns: &K::ContactColumns, forces: &[K::Scalar]) -> K::Speeds {
     let mut rows = K::ContactRows::zero();
     forces.iter().enumerate().for_each(|(row, force)| rows.set_component(row, *force));
-    settled_speeds(after_impulses::<K>(x, columns, &rows), acting::<K>(&rows))
+    let speeds = x.add_scaled(K::Scalar::one(), &impulse_velocities::<K>(columns, &rows));
+    settled(x, speeds, acting::<K>(&rows), || impulse_terms::<K>(columns, &rows))
 }
 
 /// How many of the rows act.

@@ -27,7 +27,7 @@ pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart};
 pub use crate::configuration::Configuration;
 pub use crate::constraint::{ConstrainedSystem, ProjectionError, project};
 pub use crate::contact::{
-    AfterImpulses, Contact, ContactFrame, ContactSystem, ImpulseDynamics, ImpulseResponse, after_impulses,
+    Contact, ContactFrame, ContactSystem, ImpulseDynamics, ImpulseResponse, impulse_terms, impulse_velocities,
 };
 pub use crate::description::{DescribedSystem, Equations, FrameOperations, OperationCount, Operations};
 pub use crate::error::{DragKind, ParameterError, ParameterWarnings};
@@ -43,7 +43,7 @@ pub use crate::system::{Evaluated, GaussSystem, RigidBodySystem, Smoothness};
 pub use crate::table::{Cubic, Linear};
 pub use check::ParameterCheck;
 pub use columns::{Bundle, columns, each_column, filled, multiple, only_column, put, subtract_multiple, zeros};
-pub use contacts::{after_halves, contact_columns};
+pub use contacts::{contact_columns, impulse_terms_of_halves};
 pub use containers::{components, entries, isometry2, isometry3, matrix, product, quaternion, vector};
 pub(crate) use eigenvalues::eigenvalues;
 pub use nalgebra::{Isometry2, Isometry3, IsometryMatrix3, SMatrix, SVector, UnitQuaternion};

@@ -7,7 +7,7 @@ use gauss_runtime::chart::Chart;
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::constraint::ProjectionError;
 use gauss_runtime::contact::{
-    AfterImpulses, Contact, ContactFrame, ContactSystem, ImpulseDynamics, ImpulseResponse, after_impulses,
+    Contact, ContactFrame, ContactSystem, ImpulseDynamics, ImpulseResponse, impulse_terms, impulse_velocities,
 };
 use gauss_runtime::frames::{FrameMotion, FramePose, FramedSystem};
 use gauss_runtime::nalgebra::{SMatrix, SVector};
@@ -408,13 +408,12 @@ where
         ImpulseDynamics::new(acceleration, bias, self.response(t, q, &frames))
     }
 
-    fn after_impulses(
-        &self,
-        z: &Self::Speeds,
-        columns: &Self::ImpulseFactors,
-        impulses: &Self::ContactRows,
-    ) -> AfterImpulses<Self::Speeds> {
-        after_impulses::<Self>(z, columns, impulses)
+    fn impulse_velocities(&self, columns: &Self::ImpulseFactors, impulses: &Self::ContactRows) -> Self::Speeds {
+        impulse_velocities::<Self>(columns, impulses)
+    }
+
+    fn impulse_terms(&self, columns: &Self::ImpulseFactors, impulses: &Self::ContactRows) -> Self::Speeds {
+        impulse_terms::<Self>(columns, impulses)
     }
 
     fn contact_columns(&self, columns: &Self::ImpulseFactors) -> Self::ContactColumns {

@@ -13,7 +13,7 @@ use gauss_runtime::system::GaussSystem;
 use crate::dense::Matrix;
 use crate::error::ContactErrorKind;
 use crate::friction::Bounds;
-use crate::mode::{Mode, acting, settled_speeds};
+use crate::mode::{Mode, after_impulses};
 
 use super::active::{Active, LEFT, NOTHING, Solvable, inverse, largest_slope, multiplied};
 use super::edges::{self, AtChange, Known};
@@ -156,8 +156,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         same.solved += 1;
         let mut rows = L::ContactRows::zero();
         impulses.iter().enumerate().for_each(|(row, impulse)| rows.set_component(row, *impulse));
-        let after = kernel.after_impulses(&free, &dynamics.response.factors, &rows);
-        let z = settled_speeds(after, acting::<L>(&rows));
+        let z = after_impulses(*kernel, &free, &dynamics.response.factors, &rows);
         let (q, z) = self.second_half(z)?;
         self.projected((q, z), &dynamics, (taken, modes, &passes), same)
     }

@@ -7,7 +7,7 @@ use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 
 use crate::dense::value;
-use crate::mode::{Mode, acting, settled_speeds};
+use crate::mode::{Mode, after_impulses};
 
 use super::cones::{MOST, MOST_ROWS};
 use super::linear::{Place, factorise_symmetric, solve_symmetric};
@@ -91,7 +91,7 @@ impl<'m, T: Real> Projection<'m, T> {
         solve_symmetric(&self.matrix[..n * n], &self.right[..n], &mut self.solution[..n]);
         let mut impulses = K::ContactRows::zero();
         (0..n).for_each(|k| impulses.set_component(usize::from(self.rows[k]), self.solution[k]));
-        settled_speeds(kernel.after_impulses(z, &response.factors, &impulses), acting::<K>(&impulses))
+        after_impulses(kernel, z, &response.factors, &impulses)
     }
 
     /// Gaps of closed contacts brought to zero, and those that are negative, from places with their gaps.

@@ -11,7 +11,7 @@ use gauss_runtime::real::Real;
 
 use crate::error::{ContactError, ContactErrorKind};
 use crate::law::carrier;
-use crate::mode::{Mode, acting, settled_speeds};
+use crate::mode::{Mode, after_impulses};
 use crate::residual::Residual;
 use crate::sensors::ContactForces;
 
@@ -407,8 +407,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
         let solved = solved.map_err(|kind| self.error(None, kind))?;
         let dependent = known || again;
-        let after = self.kernel.after_impulses(&free, &response.factors, &impulses);
-        let z = settled_speeds(after, acting::<K>(&impulses));
+        let z = after_impulses(self.kernel, &free, &response.factors, &impulses);
         Ok(Pushed { z, impulses, dependent, solved })
     }
 

@@ -3,7 +3,9 @@
 use std::marker::PhantomData;
 
 use gauss_runtime::chart::Chart;
-use gauss_runtime::contact::{AfterImpulses, Contact, ContactSystem, ImpulseDynamics, ImpulseResponse, after_impulses};
+use gauss_runtime::contact::{
+    Contact, ContactSystem, ImpulseDynamics, ImpulseResponse, impulse_terms, impulse_velocities,
+};
 use gauss_runtime::nalgebra::{SMatrix, SVector};
 use gauss_runtime::system::GaussSystem;
 
@@ -143,8 +145,11 @@ impl<L: Layout, const N: usize, const C: usize, const R: usize> ContactSystem fo
         let bias = (self.rows)(q) * free + (self.gamma)(q, z);
         ImpulseDynamics::new(free, bias, self.impulse_response(t, q))
     }
-    fn after_impulses(&self, z: &V<N>, columns: &Self::ImpulseFactors, impulses: &V<R>) -> AfterImpulses<V<N>> {
-        after_impulses::<Self>(z, columns, impulses)
+    fn impulse_velocities(&self, columns: &Self::ImpulseFactors, impulses: &V<R>) -> V<N> {
+        impulse_velocities::<Self>(columns, impulses)
+    }
+    fn impulse_terms(&self, columns: &Self::ImpulseFactors, impulses: &V<R>) -> V<N> {
+        impulse_terms::<Self>(columns, impulses)
     }
     fn contact_columns(&self, columns: &Self::ImpulseFactors) -> Self::ContactColumns {
         *columns

@@ -139,25 +139,26 @@ fn effect(derived: &Derived<'_, '_>, outputs: &[TokenStream]) -> (TokenStream, T
 /// The type of what makes velocities of impulses, and the methods that do.
 fn velocities(derived: &Derived<'_, '_>) -> Option<(TokenStream, TokenStream)> {
     let (private, ty) = (derived.private(), derived.scalar().ty());
-    let declared = declared(&private, &[ArgumentKind::Speeds, ArgumentKind::Factors, ArgumentKind::Impulses]);
-    let (factors, after, columns) = match derived.formal().factors.len() {
+    let declared = declared(&private, &[ArgumentKind::Factors, ArgumentKind::Impulses]);
+    let (factors, velocities, terms, columns) = match derived.formal().factors.len() {
         0 => {
-            let after = quote!(#private::after_impulses::<Self>(__z, __factors, __impulses));
-            (quote!(Self::ContactColumns), after, quote!(*__factors))
+            let velocities = quote!(#private::impulse_velocities::<Self>(__factors, __impulses));
+            let terms = quote!(#private::impulse_terms::<Self>(__factors, __impulses));
+            (quote!(Self::ContactColumns), velocities, terms, quote!(*__factors))
         }
         count => {
             let velocities = derived.method_body(Method::ImpulseVelocities)?;
             let pivots = derived.degrees_of_freedom();
             let rows = derived.subject.system.halves()?.first_of_rows();
-            let after = quote! {
-                #private::after_halves(__z, (__factors, __impulses), #pivots..#rows, |__factors, __impulses| { #velocities })
-            };
-            (quote!(#private::SVector<#ty, #count>), after, quote!(#private::contact_columns(self, __factors)))
+            let terms = quote!(#private::impulse_terms_of_halves(self, (__factors, __impulses), #pivots..#rows));
+            (quote!(#private::SVector<#ty, #count>), velocities, terms, quote!(#private::contact_columns(self, __factors)))
         }
     };
     let methods = quote! {
         #[inline]
-        fn after_impulses(&self, #(#declared),*) -> #private::AfterImpulses<Self::Speeds> { #after }
+        fn impulse_velocities(&self, #(#declared),*) -> Self::Speeds { #velocities }
+        #[inline]
+        fn impulse_terms(&self, #(#declared),*) -> Self::Speeds { #terms }
         #[inline]
         fn contact_columns(&self, __factors: &Self::ImpulseFactors) -> Self::ContactColumns { #columns }
     };
