@@ -19,7 +19,7 @@
 //! `#[gauss(contact(…), range(…), dry_friction(…))]` has the derive write it.
 
 use core::fmt::{self, Debug};
-use core::ops::{Index, Range};
+use core::ops::{Index, IndexMut, Range};
 
 use nalgebra::Vector3;
 
@@ -50,6 +50,12 @@ pub trait ContactSystem: GaussSystem {
 
     /// `SMatrix<Scalar, R, R>`, with entries by `(row, column)`.
     type Delassus: Copy + Debug + Index<(usize, usize), Output = Self::Scalar>;
+
+    /// `[T; C]`: something of each contact.
+    type EachContact<T: Copy + Debug>: Each<T>;
+
+    /// `[T; R]`: something of each row.
+    type EachRow<T: Copy + Debug>: Each<T>;
 
     /// The contacts, in the order in which they are written. Names are unique.
     const CONTACTS: &'static [Contact];
@@ -137,6 +143,19 @@ pub trait ContactSystem: GaussSystem {
     }
 }
 
+/// An array whose length is that of a system: memory of a solver that allocates nothing.
+pub trait Each<T>: Copy + Debug + AsRef<[T]> + AsMut<[T]> + Index<usize, Output = T> + IndexMut<usize> {
+    /// One by one.
+    fn from_fn(of: impl FnMut(usize) -> T) -> Self;
+}
+
+impl<T: Copy + Debug, const N: usize> Each<T> for [T; N] {
+    #[inline]
+    fn from_fn(of: impl FnMut(usize) -> T) -> Self {
+        core::array::from_fn(of)
+    }
+}
+
 /// [`ContactSystem::impulse_velocities`] by columns, of systems whose factors these are.
 pub fn impulse_velocities<S>(columns: &S::ContactColumns, impulses: &S::ContactRows) -> S::Speeds
 where
@@ -162,11 +181,8 @@ where
 }
 
 /// Impulses that are not zero in all lanes, with their columns.
-fn each_that_acts<S>(
-    columns: &S::ContactColumns,
-    impulses: &S::ContactRows,
-    mut act: impl FnMut(S::Scalar, &S::Speeds),
-) where
+fn each_that_acts<S>(columns: &S::ContactColumns, impulses: &S::ContactRows, mut act: impl FnMut(S::Scalar, &S::Speeds))
+where
     S: ContactSystem + ?Sized,
 {
     for row in 0..S::ContactRows::DIM {

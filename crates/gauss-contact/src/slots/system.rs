@@ -333,6 +333,8 @@ where
     type ContactColumns = SMatrix<f64, D, R>;
     type ImpulseFactors = Self::ContactColumns;
     type Delassus = SMatrix<f64, R, R>;
+    type EachContact<T: Copy + fmt::Debug> = [T; N];
+    type EachRow<T: Copy + fmt::Debug> = [T; R];
 
     const CONTACTS: &'static [Contact] = &Self::TABLE;
 

@@ -1,15 +1,10 @@
 //! The laws of a step by rows: which rows are normals, and which together are friction of what size.
 
 use gauss_runtime::configuration::VectorSpace;
-use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::contact::{ContactSystem, Each};
 
 use crate::error::ContactErrorKind;
 use crate::friction::Bounds;
-
-/// The most friction sets of a step: one of each contact.
-pub(crate) const MOST: usize = 64;
-/// The most rows of contacts.
-pub(crate) const MOST_ROWS: usize = 256;
 
 /// The normal of a gap, or friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,20 +39,17 @@ impl Cone {
 }
 
 /// The contacts of a system in a step.
-pub(crate) struct Laws {
-    pub(crate) cones: [Cone; MOST],
+pub(crate) struct Laws<K: ContactSystem> {
+    pub(crate) cones: K::EachContact<Cone>,
     /// By what forces of rows are those of circles, and slips in reverse: 1 but for friction that differs by direction.
-    pub(crate) scales: [f64; MOST_ROWS],
+    pub(crate) scales: K::EachRow<f64>,
 }
 
-impl Laws {
+impl<K: ContactSystem<Scalar = f64>> Laws<K> {
     /// Cones that do not act yet, of friction in all rows. An error is the contact whose friction is no bound, with it.
-    pub(crate) fn new<K: ContactSystem<Scalar = f64>>(
-        h: f64,
-        friction: &K::ContactRows,
-    ) -> Result<Self, (usize, ContactErrorKind)> {
+    pub(crate) fn new(h: f64, friction: &K::ContactRows) -> Result<Self, (usize, ContactErrorKind)> {
         let none = Cone { normal: None, pressed: None, first: 0, count: 0, friction: 0.0, acts: false };
-        let mut laws = Self { cones: [none; MOST], scales: [1.0; MOST_ROWS] };
+        let mut laws = Self { cones: Each::from_fn(|_| none), scales: Each::from_fn(|_| 1.0) };
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             if let Some(friction) = Bounds::of(contact, friction).invalid() {
                 return Err((i, ContactErrorKind::InvalidFriction { friction }));

@@ -153,7 +153,7 @@ fn compare<S, const P: usize, const N: usize, const D: usize, const U: usize>(
             return;
         }
         Err(error) => {
-            panic!("{error} {:?} {:?} {:?}", &kept.modes[..S::Plain::CONTACTS.len()], stepper.modes(), stepper.report())
+            panic!("{error} {:?} {:?} {:?}", kept.modes.as_ref(), stepper.modes(), stepper.report())
         }
     };
     let sliding = stepper.modes().iter().filter(|mode| matches!(mode, Mode::Slides(_))).count();
@@ -186,7 +186,7 @@ fn compare<S, const P: usize, const N: usize, const D: usize, const U: usize>(
         assert!(error < 1e-6 + own, "{direction}: {error:e} {own:e} {:?} {column} {expected}", stepper.modes());
         tally.checked += 1;
     }
-    tally.count(&made.kept.modes, stepper.modes());
+    tally.count(made.kept.modes.as_ref(), stepper.modes());
 }
 
 /// Steps from random states, every few of them with derivatives.

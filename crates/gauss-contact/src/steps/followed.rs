@@ -203,9 +203,8 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         same: &mut Same,
     ) -> Moved<L> {
         let (kernel, t) = (self.kernel, Dual::constant(self.t + self.h));
-        let rows = L::ContactRows::DIM;
-        let mut memory = vec![Dual::constant(0.0); Projection::memory(rows)];
-        let mut projection = Projection::new(&mut memory, rows);
+        let mut memory = vec![Dual::constant(0.0); Projection::<L>::MEMORY];
+        let mut projection = Projection::<L>::new(&mut memory);
         let before = kernel.gaps(t, &q);
         let closed = projection.close(kernel, (t, q, before), &dynamics.response, &taken.rests);
         let Closed { mut q, gaps, .. } = closed.map_err(ContactErrorKind::Projection)?;
@@ -228,7 +227,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
 
         let mode = |i: usize| if taken.rests[i] { modes[i] } else { Mode::Open };
         let rates = kernel.contact_rates(t, &q, &z);
-        let (mut z, rates) = projection.stop(kernel, (t, &q, z, rates), &dynamics.response, (&mode, 0.0));
+        let (mut z, rates) = projection.stop(kernel, (t, &q, z, rates), &dynamics.response, (mode, 0.0));
         let stopped: Vec<usize> =
             L::CONTACTS.iter().enumerate().flat_map(|(i, contact)| stopped(contact, &mode(i))).collect();
         let passed = |row: usize| gap_of(row).and_then(|i| passes[i]).unwrap_or(Dual::constant(0.0));

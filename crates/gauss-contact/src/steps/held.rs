@@ -3,12 +3,11 @@
 use core::fmt;
 
 use gauss_runtime::configuration::VectorSpace;
-use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::contact::{ContactSystem, Each};
 
 use crate::error::ContactError;
 use crate::mode::Mode;
 
-use super::cones::MOST;
 use super::relaxed::StepLaw;
 use super::report::{StepReport, StepScheme};
 use super::stepper::ContactStepper;
@@ -29,8 +28,8 @@ pub struct HeldSteps<K: ContactSystem<Scalar = f64>, M> {
     impulses: K::ContactRows,
     dependent: bool,
     acceleration: Option<K::Speeds>,
-    modes: [Mode; MOST],
-    rests: [bool; MOST],
+    modes: K::EachContact<Mode>,
+    rests: K::EachContact<bool>,
     report: StepReport,
 }
 
@@ -82,7 +81,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> HeldSteps<K, M> {
 
     /// What the contacts did in the last step.
     pub fn modes(&self) -> &[Mode] {
-        &self.modes[..K::CONTACTS.len()]
+        self.modes.as_ref()
     }
 
     /// The impulses of the last step, row by row.
@@ -117,8 +116,8 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> HeldSteps<K, M> {
     }
 
     /// The rows that contacts begin with, their modes and whether they rest.
-    fn carried(&self, before: impl Fn(usize) -> Option<usize>) -> (K::ContactRows, [Carried; MOST]) {
-        let (mut impulses, mut modes) = (K::ContactRows::zero(), [None; MOST]);
+    fn carried(&self, before: impl Fn(usize) -> Option<usize>) -> (K::ContactRows, K::EachContact<Carried>) {
+        let (mut impulses, mut modes) = (K::ContactRows::zero(), <K::EachContact<Carried>>::from_fn(|_| None));
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             let Some((from, known)) = before(i).and_then(|from| Some((from, K::CONTACTS.get(from)?))) else { continue };
             modes[i] = Some((self.modes[from], self.rests[from]));
@@ -144,7 +143,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let (impulses, known) = held.carried(before);
         let HeldSteps { t, q, z, scheme, law, tolerance, memory, dependent, acceleration, report, .. } = held;
         let (gaps, rates) = (kernel.gaps(t, &q), kernel.contact_rates(t, &q, &z));
-        let (modes, next) = ([Mode::Open; MOST], [Mode::Open; MOST]);
+        let open = Each::from_fn(|_| Mode::Open);
         let mut stepper = Self {
             kernel,
             t,
@@ -159,13 +158,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             gaps,
             rates,
             acceleration,
-            modes,
-            rests: [false; MOST],
-            next,
+            modes: open,
+            rests: Each::from_fn(|_| false),
+            next: open,
             report,
         };
         stepper.find_closed();
-        for (i, known) in known.into_iter().enumerate() {
+        for (i, &known) in known.as_ref().iter().enumerate() {
             (stepper.modes[i], stepper.rests[i]) = known.unwrap_or((stepper.modes[i], stepper.rests[i]));
         }
         stepper

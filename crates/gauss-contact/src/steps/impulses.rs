@@ -10,11 +10,15 @@
 //! point), which at the end of the iteration are the solution. Of impulses that are not unique these are near to those
 //! of the step before. Coulomb's law may have several solutions with other rates as well; one of them is found.
 
+use core::ops::Range;
+
+use gauss_runtime::contact::{ContactSystem, Each};
+
 use crate::mode::Mode;
 use crate::residual::Residual;
 
-use super::cones::{Cone, MOST, MOST_ROWS};
-use super::linear::{Place, dot, dot_and_size, factorise, factorise_symmetric, solve, solve_symmetric};
+use super::cones::Cone;
+use super::linear::{Place, dot, dot_and_size, factorise, factorise_symmetric, solve, solve_symmetric, stride};
 
 /// By what part of the diagonal impulses are pulled towards those before at first, where contacts depend on one
 /// another. What cannot stick all at once, as two corners that an impact parts, or cannot all stay closed, drifts to
@@ -36,7 +40,7 @@ const ROUNDINGS: f64 = 64.0;
 
 /// What a contact does in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum State {
+pub(crate) enum State {
     Leaves,
     /// Without friction.
     Closed,
@@ -64,6 +68,40 @@ pub(crate) struct Found {
     pub(crate) sweeps: u32,
 }
 
+/// Memory for what is unknown in a step of a system.
+pub(crate) struct Unknowns<K: ContactSystem> {
+    rows: K::EachRow<Place>,
+    order: K::EachRow<Place>,
+    extents: K::EachRow<[Place; 2]>,
+    states: K::EachContact<State>,
+}
+
+/// The same in slices: of rows, and of contacts.
+pub(crate) struct UnknownsIn<'m> {
+    pub(crate) rows: &'m mut [Place],
+    /// Of pivots; of symmetric factors the ends of their rows.
+    pub(crate) order: &'m mut [Place],
+    /// Of rows of D.
+    pub(crate) extents: &'m mut [[Place; 2]],
+    pub(crate) states: &'m mut [State],
+}
+
+impl<K: ContactSystem> Unknowns<K> {
+    pub(crate) fn new() -> Self {
+        Self {
+            rows: Each::from_fn(|_| 0),
+            order: Each::from_fn(|_| 0),
+            extents: Each::from_fn(|_| [0; 2]),
+            states: Each::from_fn(|_| State::Leaves),
+        }
+    }
+
+    pub(crate) fn slices(&mut self) -> UnknownsIn<'_> {
+        let Self { rows, order, extents, states } = self;
+        UnknownsIn { rows: rows.as_mut(), order: order.as_mut(), extents: extents.as_mut(), states: states.as_mut() }
+    }
+}
+
 /// The laws of a step in memory. All but `matrix` and `right` is for all rows of the system.
 pub(crate) struct Impulses<'m> {
     /// D, row by row.
@@ -81,8 +119,11 @@ pub(crate) struct Impulses<'m> {
     right: &'m mut [f64],
     matrix: &'m mut [f64],
     /// Rows of the unknowns.
-    unknown: [Place; MOST_ROWS],
-    order: [Place; MOST_ROWS],
+    unknown: &'m mut [Place],
+    order: &'m mut [Place],
+    states: &'m mut [State],
+    /// Of each row of D, where its first entry is that is not zero, and where the last is behind.
+    extents: &'m mut [[Place; 2]],
     /// Whether contacts depend on one another, as far as is known.
     pub(crate) dependent: bool,
     /// Whether the law is the convex relaxation of Coulomb's.
@@ -95,21 +136,24 @@ pub(crate) struct Impulses<'m> {
 impl<'m> Impulses<'m> {
     /// How many numbers it needs for so many rows.
     pub(crate) const fn memory(rows: usize) -> usize {
-        2 * rows * rows + 8 * rows
+        rows * rows + stride(rows) * (rows + 1) + 7 * rows
     }
 
-    pub(crate) fn new(memory: &'m mut [f64], rows: usize) -> Self {
+    pub(crate) fn new(
+        memory: &'m mut [f64],
+        UnknownsIn { rows: unknown, order, extents, states }: UnknownsIn<'m>,
+    ) -> Self {
+        let rows = unknown.len();
         let (delassus, memory) = memory.split_at_mut(rows * rows);
-        let (matrix, memory) = memory.split_at_mut(rows * rows);
+        let (matrix, memory) = memory.split_at_mut(rows * stride(rows));
+        let (solution, memory) = memory.split_at_mut(stride(rows));
         let (b, memory) = memory.split_at_mut(rows);
         let (impulses, memory) = memory.split_at_mut(rows);
         let (rates, memory) = memory.split_at_mut(rows);
         let (terms, memory) = memory.split_at_mut(rows);
         let (best, memory) = memory.split_at_mut(rows);
         let (swept, memory) = memory.split_at_mut(rows);
-        let (solution, memory) = memory.split_at_mut(rows);
         let right = &mut memory[..rows];
-        let (unknown, order) = ([0; MOST_ROWS], [0; MOST_ROWS]);
         Self {
             delassus,
             b,
@@ -123,6 +167,8 @@ impl<'m> Impulses<'m> {
             matrix,
             unknown,
             order,
+            states,
+            extents,
             dependent: false,
             relaxed: false,
             pull: 0.0,
@@ -142,13 +188,29 @@ impl<'m> Impulses<'m> {
         for i in 0..n {
             let [rate, impulse] = row(i);
             (self.b[i], self.impulses[i]) = (scales[i] * rate, impulse / scales[i]);
-            (0..n).for_each(|j| self.delassus[i * n + j] = scales[i] * delassus(i, j) * scales[j]);
+            let row = &mut self.delassus[i * n..(i + 1) * n];
+            // D is symmetric, column after column.
+            row.iter_mut()
+                .zip(scales)
+                .enumerate()
+                .for_each(|(j, (entry, scale))| *entry = scales[i] * delassus(j, i) * scale);
+            let is_zero = |x: &f64| *x == 0.0;
+            let from = row.iter().position(|x| !is_zero(x)).unwrap_or(0);
+            self.extents[i] =
+                [from, row.iter().rposition(|x| !is_zero(x)).map_or(from, |last| last + 1)].map(|k| k as Place);
         }
     }
 
-    fn row(&self, row: usize) -> &[f64] {
-        let n = self.b.len();
-        &self.delassus[row * n..(row + 1) * n]
+    /// The rows that act on a row.
+    fn extent(&self, row: usize) -> Range<usize> {
+        let [from, to] = self.extents[row];
+        usize::from(from)..usize::from(to)
+    }
+
+    /// What impulses are multiplied with in a row, from the first that acts on it to the last; with these.
+    fn row(&self, row: usize) -> [&[f64]; 2] {
+        let (n, extent) = (self.b.len(), self.extent(row));
+        [&self.delassus[row * n..(row + 1) * n][extent.clone()], &self.impulses[extent]]
     }
 
     pub(super) fn at(&self, i: usize, j: usize) -> f64 {
@@ -156,13 +218,15 @@ impl<'m> Impulses<'m> {
     }
 
     pub(super) fn rate(&self, row: usize) -> f64 {
-        self.b[row] + dot(self.row(row), self.impulses)
+        let [row_of, impulses] = self.row(row);
+        self.b[row] + dot(row_of, impulses)
     }
 
     /// The rates of the rows that act, with their terms.
     fn update(&mut self, cones: &[Cone]) {
         for row in cones.iter().flat_map(Cone::rows) {
-            let (sum, size) = dot_and_size(self.row(row), self.impulses);
+            let [row_of, impulses] = self.row(row);
+            let (sum, size) = dot_and_size(row_of, impulses);
             (self.rates[row], self.terms[row]) = (self.b[row] + sum, self.b[row].abs() + size);
         }
     }
@@ -309,7 +373,14 @@ impl<'m> Impulses<'m> {
 
     /// Newton's method; whether it ends with a solution.
     fn correct(&mut self, cones: &[Cone], tolerance: f64, found: &mut Found) -> bool {
-        let mut states = [State::Leaves; MOST];
+        let states = core::mem::take(&mut self.states);
+        let solved = self.correct_in(states, cones, (tolerance, found));
+        self.states = states;
+        solved
+    }
+
+    fn correct_in(&mut self, states: &mut [State], cones: &[Cone], (tolerance, found): (f64, &mut Found)) -> bool {
+        states.fill(State::Leaves);
         let mut known = 0;
         let (mut last, mut changed) = (f64::INFINITY, false);
         for n in 0..CORRECTIONS {
@@ -320,21 +391,20 @@ impl<'m> Impulses<'m> {
                 *state = next;
             }
             if !same {
-                let found = self.factors(cones, &states).or_else(|| {
+                let found = self.factors(cones, states).or_else(|| {
                     let again = !core::mem::replace(&mut self.dependent, true);
-                    again.then(|| self.factors(cones, &states)).flatten()
+                    again.then(|| self.factors(cones, states)).flatten()
                 });
                 match found {
                     Some(count) => known = count,
                     None => return false,
                 }
             }
-            self.right_sides(cones, &states, known);
-            let (factors, right, x) =
-                (&self.matrix[..known * known], &self.right[..known], &mut self.solution[..known]);
+            self.right_sides(cones, states, known);
+            let (factors, order, right) = (&*self.matrix, &self.order[..known], &self.right[..known]);
             match self.symmetric {
-                true => solve_symmetric(factors, right, x),
-                false => solve(factors, &self.order[..known], right, x),
+                true => solve_symmetric(factors, order, right, self.solution),
+                false => solve(factors, order, right, &mut self.solution[..known]),
             }
             self.impulses.fill(0.0);
             (0..known).for_each(|k| self.impulses[usize::from(self.unknown[k])] = self.solution[k]);
@@ -379,11 +449,16 @@ impl<'m> Impulses<'m> {
                 count += 1;
             }
         }
-        self.symmetric = !states[..cones.len()].iter().any(|state| matches!(state, State::Slides(..)));
+        self.symmetric = !states.iter().any(|state| matches!(state, State::Slides(..)));
         if self.symmetric {
-            (0..count).for_each(|k| self.equal(k, count, usize::from(self.unknown[k])));
+            let rows = stride(count);
+            for k in 0..count {
+                self.equal((k, rows), count, usize::from(self.unknown[k]));
+                self.matrix[k * rows + count..(k + 1) * rows].fill(0.0);
+            }
             let part = if self.dependent { 0.0 } else { DEPENDENT };
-            return factorise_symmetric(&mut self.matrix[..count * count], count, part).then_some(count);
+            let ends = &mut self.order[..count];
+            return factorise_symmetric(self.matrix, ends, self.solution, part).then_some(count);
         }
         let mut k = 0;
         for (cone, state) in cones.iter().zip(states) {
@@ -391,7 +466,7 @@ impl<'m> Impulses<'m> {
                 continue;
             }
             if let Some(normal) = cone.normal {
-                self.equal(k, count, normal);
+                self.equal((k, count), count, normal);
                 if self.relaxed {
                     for c in 0..count {
                         self.matrix[k * count + c] +=
@@ -403,7 +478,7 @@ impl<'m> Impulses<'m> {
             match state {
                 State::Sticks => {
                     for row in cone.tangents() {
-                        self.equal(k, count, row);
+                        self.equal((k, count), count, row);
                         k += 1;
                     }
                 }
@@ -429,11 +504,11 @@ impl<'m> Impulses<'m> {
         if self.dependent { self.pull } else { 0.0 }
     }
 
-    /// The equation of a rate that is zero.
-    fn equal(&mut self, k: usize, count: usize, row: usize) {
+    /// The equation of a rate that is zero, in rows of some length.
+    fn equal(&mut self, (k, rows): (usize, usize), count: usize, row: usize) {
         let n = self.b.len();
         let (own, more) = (&self.delassus[row * n..(row + 1) * n], 1.0 + self.pull());
-        let entries = self.matrix[k * count..(k + 1) * count].iter_mut().zip(&self.unknown);
+        let entries = self.matrix[k * rows..k * rows + count].iter_mut().zip(&*self.unknown);
         for (entry, &of) in entries {
             let of = usize::from(of);
             *entry = if of == row { own[of] * more } else { own[of] };

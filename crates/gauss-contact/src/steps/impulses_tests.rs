@@ -73,11 +73,12 @@ impl Random {
     fn solve(&self, start: &[f64]) -> (Found, Vec<f64>, Vec<f64>) {
         let n = self.b.len();
         let mut memory = vec![0.0; Impulses::memory(n)];
-        let mut problem = Impulses::new(&mut memory, n);
+        let (mut rows, mut order, mut extents) = (vec![0; n], vec![0; n], vec![[0; 2]; n]);
+        let mut states = vec![State::Leaves; self.cones.len()];
+        let unknowns = UnknownsIn { rows: &mut rows, order: &mut order, extents: &mut extents, states: &mut states };
+        let mut problem = Impulses::new(&mut memory, unknowns);
         let matrix = self.matrix();
-        (0..n).for_each(|i| problem.delassus[i * n..(i + 1) * n].copy_from_slice(matrix.row(i)));
-        problem.b.copy_from_slice(&self.b);
-        problem.impulses.copy_from_slice(start);
+        problem.set_up(&vec![1.0; n], |i, j| matrix.at(i, j), |row| [self.b[row], start[row]]);
         let found = problem.solve(&self.cones, 1e-12);
         (found, problem.impulses.to_vec(), problem.rates.to_vec())
     }

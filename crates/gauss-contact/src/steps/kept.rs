@@ -4,7 +4,6 @@ use gauss_runtime::contact::ContactSystem;
 
 use crate::mode::Mode;
 
-use super::cones::MOST;
 use super::report::StepReport;
 
 /// All of a stepper that a step changes, but memory.
@@ -17,8 +16,8 @@ pub(super) struct Kept<K: ContactSystem<Scalar = f64>> {
     pub(super) impulses: K::ContactRows,
     pub(super) acceleration: Option<K::Speeds>,
     pub(super) dependent: bool,
-    pub(super) modes: [Mode; MOST],
-    pub(super) rests: [bool; MOST],
+    pub(super) modes: K::EachContact<Mode>,
+    pub(super) rests: K::EachContact<bool>,
     pub(super) report: StepReport,
 }
 

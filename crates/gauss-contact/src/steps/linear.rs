@@ -83,49 +83,90 @@ pub(crate) fn solve(factors: &[f64], order: &[Place], right: &[f64], x: &mut [f6
     }
 }
 
-/// Replaces the upper triangle of a symmetric positive semidefinite matrix, row by row, by its factors: of `RᵀD⁻¹R`
-/// the rows of R, with D⁻¹ on the diagonal. Whether no pivot is smaller than a part of the diagonal entry that it was
-/// to begin with: of these matrices no other entry of a column is larger in its own scale.
-pub(crate) fn factorise_symmetric<T: Real>(matrix: &mut [T], n: usize, part: f64) -> bool {
-    for k in 0..n {
-        let (above, below) = matrix.split_at_mut((k + 1) * n);
-        let first = &mut above[k * n + k..];
-        // The diagonal as it was is kept below it, in the column of the first unknown.
-        let diagonal = first[0];
-        let before = if k == 0 { diagonal } else { above[k * n] };
-        let (size, before) = (value(diagonal), value(before));
-        if !(size > part * before && size > 0.0 && size.is_finite()) {
-            return false;
+/// Numbers that are worked on together: rows of symmetric matrices begin at multiples of so many.
+const WIDTH: usize = 4;
+
+/// How long rows of a symmetric matrix of n unknowns are in memory; what is after them is zero.
+pub(crate) const fn stride(n: usize) -> usize {
+    n.next_multiple_of(WIDTH)
+}
+
+/// `x −= Σ factor y` from a place on, and some before it with which it begins.
+#[inline]
+fn subtract<T: Real, const N: usize>(x: &mut [T], factors: [T; N], y: [&[T]; N], from: usize, to: usize) {
+    let whole = from - from % WIDTH..to.next_multiple_of(WIDTH);
+    let (x, _) = x[whole.clone()].as_chunks_mut::<WIDTH>();
+    let y = y.map(|y| y[whole.clone()].as_chunks::<WIDTH>().0);
+    let y = y.map(|y| &y[..x.len()]);
+    for (c, x) in x.iter_mut().enumerate() {
+        for p in 0..N {
+            (0..WIDTH).for_each(|k| x[k] -= factors[p] * y[p][c][k]);
         }
-        let first = &mut above[k * n + k..];
-        let inverse = T::one() / diagonal;
-        first[0] = inverse;
-        for (i, row) in (1..).zip(below.chunks_exact_mut(n)) {
-            if k == 0 {
-                row[0] = row[i];
+    }
+}
+
+/// Replaces the upper triangle of a symmetric positive semidefinite matrix, in rows of [`stride`], by its factors: of
+/// `RᵀD⁻¹R` the rows of R, with D⁻¹ on the diagonal; below it is nothing of use. `ends` takes where each row has its
+/// last entry that is not zero, and `diagonal` what is its first. Whether no pivot is smaller than a part of the
+/// diagonal entry that it was to begin with: of these matrices no other entry of a column is larger in its own scale.
+pub(crate) fn factorise_symmetric<T: Real>(
+    matrix: &mut [T],
+    ends: &mut [Place],
+    diagonal: &mut [T],
+    part: f64,
+) -> bool {
+    let n = ends.len();
+    let rows = stride(n);
+    (0..n).for_each(|k| diagonal[k] = matrix[k * rows + k]);
+    // Rows of some pivots at a time, so that those below them are read and written once for all.
+    for from in (0..n).step_by(WIDTH) {
+        let to = (from + WIDTH).min(n);
+        let (above, below) = matrix.split_at_mut(to * rows);
+        let pivots = &mut above[from * rows..];
+        let mut most = 0;
+        for k in from..to {
+            let (before, after) = pivots.split_at_mut((k - from + 1) * rows);
+            let first = &mut before[(k - from) * rows..];
+            let (pivot, was) = (first[k], value(diagonal[k]));
+            let size = value(pivot);
+            if !(size > part * was && size > 0.0 && size.is_finite()) {
+                return false;
             }
-            let factor = first[i] * inverse;
-            // What is zero may have a derivative.
-            if T::DERIVATIVES || value(factor) != 0.0 {
-                row[k + i..].iter_mut().zip(&first[i..]).for_each(|(x, y)| *x -= factor * *y);
+            first[k] = T::one() / pivot;
+            // Contacts in a row, as in a stack, are coupled to their neighbours only. What is zero may have a derivative.
+            let last = if T::DERIVATIVES { n - 1 } else { (k..n).rfind(|j| value(first[*j]) != 0.0).unwrap_or(k) };
+            ends[k] = (last + 1) as Place;
+            most = last.max(most);
+            for (i, row) in (k + 1..to).zip(after.chunks_exact_mut(rows)) {
+                subtract(row, [first[i] * first[k]], [first], i, last + 1);
             }
+        }
+        let pivot = |p: usize| &pivots[p * rows..(p + 1) * rows];
+        for (i, row) in (to..=most).zip(below.chunks_exact_mut(rows)) {
+            let factors: [T; WIDTH] = core::array::from_fn(|p| pivot(p)[i] * pivot(p)[from + p]);
+            subtract(row, factors, core::array::from_fn(pivot), i, most + 1);
         }
     }
     true
 }
 
-/// Solves by the factors of a symmetric matrix.
-pub(crate) fn solve_symmetric<T: Real>(factors: &[T], right: &[T], x: &mut [T]) {
+/// Solves by the factors of a symmetric matrix. The solution has room for a whole row.
+pub(crate) fn solve_symmetric<T: Real>(factors: &[T], ends: &[Place], right: &[T], x: &mut [T]) {
     let n = right.len();
-    x.copy_from_slice(right);
+    let rows = stride(n);
+    x[..n].copy_from_slice(right);
     for k in 0..n {
-        let (row, inverse) = (&factors[k * n + k + 1..(k + 1) * n], factors[k * n + k]);
-        let factor = x[k] * inverse;
-        x[k + 1..].iter_mut().zip(row).for_each(|(x, y)| *x -= factor * *y);
+        let (row, end) = (&factors[k * rows..(k + 1) * rows], usize::from(ends[k]));
+        let factor = x[k] * row[k];
+        let whole = (k + 1).next_multiple_of(WIDTH).min(end);
+        (k + 1..whole).for_each(|j| x[j] -= factor * row[j]);
+        if whole < end {
+            subtract(x, [factor], [row], whole, end);
+        }
     }
     for k in (0..n).rev() {
-        let (row, inverse) = (&factors[k * n + k + 1..(k + 1) * n], factors[k * n + k]);
-        x[k] = (x[k] - dot(row, &x[k + 1..])) * inverse;
+        let (row, end) = (&factors[k * rows..(k + 1) * rows], usize::from(ends[k]));
+        x[k] = (x[k] - dot(&row[k + 1..end], &x[k + 1..end])) * row[k];
     }
 }
 
@@ -138,16 +179,38 @@ mod tests {
     #[test]
     fn symmetric_systems_are_solved() {
         // Pivots 4, 9, 1 by an integer triangle.
-        let matrix = [4.0, 2.0, -4.0, 2.0, 10.0, 4.0, -4.0, 4.0, 9.0];
+        let matrix = [4.0, 2.0, -4.0, 0.0, 2.0, 10.0, 4.0, 0.0, -4.0, 4.0, 9.0, 0.0];
         let x = [3.0, -1.0, 2.0];
-        let right: Vec<f64> = matrix.chunks(3).map(|row| row.iter().zip(&x).map(|(a, x)| a * x).sum()).collect();
-        let (mut factors, mut found) = (matrix, [0.0; 3]);
-        assert!(factorise_symmetric(&mut factors, 3, 1e-11));
-        solve_symmetric(&factors, &right, &mut found);
+        let right: Vec<f64> = matrix.chunks(4).map(|row| row.iter().zip(&x).map(|(a, x)| a * x).sum()).collect();
+        let (mut factors, mut found, mut ends) = (matrix, [0.0; 4], [0; 3]);
+        assert!(factorise_symmetric(&mut factors, &mut ends, &mut [0.0; 3], 1e-11));
+        solve_symmetric(&factors, &ends, &right, &mut found);
         // The inverse has entries up to 3, right sides up to 22, three products each.
         found.iter().zip(&x).for_each(|(a, b)| assert!((a - b).abs() <= 3.0 * 66.0 * f64::EPSILON, "{a} {b}"));
-        assert!(!factorise_symmetric(&mut [1.0, 2.0, 2.0, 4.0], 2, 1e-11));
-        assert!(!factorise_symmetric(&mut [f64::NAN], 1, 0.0));
+        let dependent = &mut [1.0, 2.0, 0.0, 0.0, 2.0, 4.0, 0.0, 0.0];
+        assert!(!factorise_symmetric(dependent, &mut [0; 2], &mut [0.0; 2], 1e-11));
+        assert!(!factorise_symmetric(&mut [f64::NAN, 0.0, 0.0, 0.0], &mut [0], &mut [0.0], 0.0));
+    }
+
+    /// A chain of masses: each row ends after its neighbour, and what is solved is what the rows say.
+    #[test]
+    fn rows_end_where_couplings_do() {
+        const N: usize = 23;
+        let entry = |i: usize, j: usize| match i.abs_diff(j) {
+            0 => 2.5,
+            1 => -1.0,
+            _ => 0.0,
+        };
+        let mut factors: Vec<f64> =
+            (0..N).flat_map(|i| (0..24).map(move |j| if j < N { entry(i, j) } else { 0.0 })).collect();
+        let x: Vec<f64> = (0..N).map(|i| ((i * i) % 7) as f64 - 3.0).collect();
+        let right: Vec<f64> = (0..N).map(|i| (0..N).map(|j| entry(i, j) * x[j]).sum()).collect();
+        let (mut found, mut ends) = ([0.0; 24], [0; N]);
+        assert!(factorise_symmetric(&mut factors, &mut ends, &mut [0.0; N], 0.0));
+        solve_symmetric(&factors, &ends, &right, &mut found);
+        (0..N).for_each(|k| assert_eq!(usize::from(ends[k]), (k + 2).min(N)));
+        // The inverse is at most 1/(2.5 − 2), right sides up to 14, three products each.
+        found.iter().zip(&x).for_each(|(a, b)| assert!((a - b).abs() <= 3.0 * 28.0 * f64::EPSILON, "{a} {b}"));
     }
 
     #[test]

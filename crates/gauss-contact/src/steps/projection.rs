@@ -2,15 +2,14 @@
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::constraint::{ConstraintLevel, ProjectionError, ProjectionFailure};
-use gauss_runtime::contact::{ContactSystem, ImpulseResponse};
+use gauss_runtime::contact::{ContactSystem, Each, ImpulseResponse};
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 
 use crate::dense::value;
 use crate::mode::{Mode, after_impulses};
 
-use super::cones::{MOST, MOST_ROWS};
-use super::linear::{Place, factorise_symmetric, solve_symmetric};
+use super::linear::{Place, factorise_symmetric, solve_symmetric, stride};
 
 /// By what part of the diagonal a matrix is made regular where contacts depend on one another: corrections are
 /// repeated.
@@ -19,14 +18,16 @@ const PULLS: [f64; 3] = [1e-10, 1e-8, 1e-6];
 const CORRECTIONS: usize = 12;
 
 /// Memory for projections.
-pub(crate) struct Projection<'m, T = f64> {
-    matrix: &'m mut [T],
-    right: &'m mut [T],
-    solution: &'m mut [T],
-    rows: [Place; MOST_ROWS],
+pub(crate) struct Projection<'m, K: ContactSystem> {
+    matrix: &'m mut [K::Scalar],
+    right: &'m mut [K::Scalar],
+    solution: &'m mut [K::Scalar],
+    rows: K::EachRow<Place>,
+    /// Of the rows of factors.
+    ends: K::EachRow<Place>,
     count: usize,
     /// Contacts whose gaps were brought to zero.
-    pub(crate) held: [bool; MOST],
+    pub(crate) held: K::EachContact<bool>,
 }
 
 /// Places with closed gaps.
@@ -39,27 +40,22 @@ pub(crate) struct Closed<K: ContactSystem> {
     pub(crate) closure: f64,
 }
 
-impl Projection<'_> {
-    /// How many numbers it needs for so many rows.
-    pub(crate) const fn memory(rows: usize) -> usize {
-        rows * rows + 2 * rows
-    }
-}
+impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
+    /// How many rows there are.
+    const ROWS: usize = K::ContactRows::DIM;
+    /// How many numbers it needs.
+    pub(crate) const MEMORY: usize = stride(Self::ROWS) * (Self::ROWS + 1) + Self::ROWS;
 
-impl<'m, T: Real> Projection<'m, T> {
-    pub(crate) fn new(memory: &'m mut [T], rows: usize) -> Self {
-        let (matrix, memory) = memory.split_at_mut(rows * rows);
-        let (right, memory) = memory.split_at_mut(rows);
-        let solution = &mut memory[..rows];
-        Self { matrix, right, solution, rows: [0; MOST_ROWS], count: 0, held: [false; MOST] }
+    pub(crate) fn new(memory: &'m mut [T]) -> Self {
+        let (matrix, memory) = memory.split_at_mut(Self::ROWS * stride(Self::ROWS));
+        let (solution, memory) = memory.split_at_mut(stride(Self::ROWS));
+        let right = &mut memory[..Self::ROWS];
+        let (rows, ends) = (Each::from_fn(|_| 0), Each::from_fn(|_| 0));
+        Self { matrix, right, solution, rows, ends, count: 0, held: Each::from_fn(|_| false) }
     }
 
     /// Factors of D at some rows; whether there are any.
-    fn factorise<K: ContactSystem<Scalar = T>>(
-        &mut self,
-        delassus: &K::Delassus,
-        rows: impl Iterator<Item = usize>,
-    ) -> bool {
+    fn factorise(&mut self, delassus: &K::Delassus, rows: impl Iterator<Item = usize>) -> bool {
         let mut count = 0;
         for row in rows.filter(|&row| value(delassus[(row, row)]) > 0.0) {
             self.rows[count] = row as Place;
@@ -68,18 +64,23 @@ impl<'m, T: Real> Projection<'m, T> {
         self.count = count;
         // Rounding may ask for more where masses are far apart.
         PULLS.into_iter().any(|pull| {
+            let stride = stride(count);
             for i in 0..count {
+                let row = &mut self.matrix[i * stride..(i + 1) * stride];
                 for j in i..count {
-                    let entry = delassus[(usize::from(self.rows[i]), usize::from(self.rows[j]))];
-                    self.matrix[i * count + j] = if i == j { entry * T::from_f64(1.0 + pull) } else { entry };
+                    // D is symmetric.
+                    row[j] = delassus[(usize::from(self.rows[j]), usize::from(self.rows[i]))];
                 }
+                row[i] *= T::from_f64(1.0 + pull);
+                row[..i].fill(T::zero());
+                row[count..].fill(T::zero());
             }
-            factorise_symmetric(&mut self.matrix[..count * count], count, 0.0)
+            factorise_symmetric(self.matrix, &mut self.ends.as_mut()[..count], self.solution, 0.0)
         })
     }
 
     /// Speeds after impulses that take away rates.
-    fn pushed<K: ContactSystem<Scalar = T>>(
+    fn pushed(
         &mut self,
         kernel: &K,
         z: &K::Speeds,
@@ -88,24 +89,24 @@ impl<'m, T: Real> Projection<'m, T> {
     ) -> K::Speeds {
         let n = self.count;
         (0..n).for_each(|k| self.right[k] = -rate(usize::from(self.rows[k])));
-        solve_symmetric(&self.matrix[..n * n], &self.right[..n], &mut self.solution[..n]);
+        solve_symmetric(self.matrix, &self.ends.as_ref()[..n], &self.right[..n], self.solution);
         let mut impulses = K::ContactRows::zero();
         (0..n).for_each(|k| impulses.set_component(usize::from(self.rows[k]), self.solution[k]));
         after_impulses(kernel, z, &response.factors, &impulses)
     }
 
     /// Gaps of closed contacts brought to zero, and those that are negative, from places with their gaps.
-    pub(crate) fn close<K: ContactSystem<Scalar = T>>(
+    pub(crate) fn close(
         &mut self,
         kernel: &K,
         (t, mut q, mut gaps): (T, K::Configuration, K::Gaps),
         response: &ImpulseResponse<K>,
-        closed: &[bool; MOST],
+        closed: &[bool],
     ) -> Result<Closed<K>, ProjectionError> {
         let magnitude = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
         let each = || K::CONTACTS.iter().enumerate().filter(|(_, contact)| contact.has_gap());
         let lowest = each().map(|(i, _)| value(gaps.component(i))).fold(0.0, f64::min);
-        self.held = [false; MOST];
+        self.held = Each::from_fn(|_| false);
         let (mut left, mut size, mut closure) = (f64::INFINITY, 0.0, 0.0);
         for n in 0..CORRECTIONS {
             let mut grown = n == 0;
@@ -126,7 +127,7 @@ impl<'m, T: Real> Projection<'m, T> {
             }
             left = size;
             let normals = each().filter(|(i, _)| held[*i]).map(|(_, contact)| contact.normal);
-            if grown && !self.factorise::<K>(&response.delassus, normals) {
+            if grown && !self.factorise(&response.delassus, normals) {
                 break;
             }
             let of_row =
@@ -147,12 +148,12 @@ impl<'m, T: Real> Projection<'m, T> {
 
     /// Rates of closed gaps, and slips of what sticks, brought to zero where they are more than rounding; with all
     /// rates there.
-    pub(crate) fn stop<K: ContactSystem<Scalar = T>>(
+    pub(crate) fn stop(
         &mut self,
         kernel: &K,
         (t, q, mut z, mut rates): (T, &K::Configuration, K::Speeds, K::ContactRows),
         response: &ImpulseResponse<K>,
-        (mode, rounding): (&dyn Fn(usize) -> Mode, f64),
+        (mode, rounding): (impl Fn(usize) -> Mode, f64),
     ) -> (K::Speeds, K::ContactRows) {
         let rows = || {
             K::CONTACTS.iter().enumerate().flat_map(|(i, contact)| match mode(i) {
@@ -168,7 +169,7 @@ impl<'m, T: Real> Projection<'m, T> {
                 break;
             }
             left = size;
-            if n == 0 && !self.factorise::<K>(&response.delassus, rows()) {
+            if n == 0 && !self.factorise(&response.delassus, rows()) {
                 break;
             }
             z = self.pushed(kernel, &z, response, |row| rates.component(row));

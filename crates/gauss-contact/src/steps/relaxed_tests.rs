@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
-use super::super::impulses::Found;
 use super::super::impulses::tests::{Random, numbers};
+use super::super::impulses::{Found, UnknownsIn};
 use super::*;
 use crate::dense::{dot, size};
 
@@ -15,11 +15,13 @@ use crate::dense::{dot, size};
 fn solve(random: &Random) -> (Found, Vec<f64>, Vec<f64>, f64) {
     let n = random.b.len();
     let mut memory = vec![0.0; Impulses::memory(n)];
-    let mut problem = Impulses::new(&mut memory, n);
+    let (mut rows, mut order, mut extents) = (vec![0; n], vec![0; n], vec![[0; 2]; n]);
+    let mut states = vec![State::Leaves; random.cones.len()];
+    let unknowns = UnknownsIn { rows: &mut rows, order: &mut order, extents: &mut extents, states: &mut states };
+    let mut problem = Impulses::new(&mut memory, unknowns);
     problem.relaxed = true;
     let matrix = random.matrix();
-    (0..n).for_each(|i| problem.delassus[i * n..(i + 1) * n].copy_from_slice(matrix.row(i)));
-    problem.b.copy_from_slice(&random.b);
+    problem.set_up(&vec![1.0; n], |i, j| matrix.at(i, j), |row| [random.b[row], 0.0]);
     let found = problem.solve(&random.cones, 1e-12);
     let from_coulomb = problem.residual_of_coulomb(&random.cones).signorini;
     (found, problem.impulses.to_vec(), problem.rates.to_vec(), from_coulomb)

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::contact::{ContactSystem, ImpulseDynamics, ImpulseResponse};
+use gauss_runtime::contact::{ContactSystem, Each, ImpulseDynamics, ImpulseResponse};
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 
@@ -15,9 +15,10 @@ use crate::mode::{Mode, after_impulses};
 use crate::residual::Residual;
 use crate::sensors::ContactForces;
 
-use super::cones::{Laws, MOST, MOST_ROWS};
-use super::impulses::{Found, Impulses};
+use super::cones::Laws;
+use super::impulses::{Found, Impulses, Unknowns};
 use super::kept::Kept;
+use super::linear::Place;
 use super::motion::{self, Middle};
 use super::projection::{Closed, Projection};
 use super::relaxed::{StepLaw, lifts};
@@ -45,11 +46,11 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) rates: K::ContactRows,
     /// Of the last step, between impacts.
     pub(super) acceleration: Option<K::Speeds>,
-    pub(super) modes: [Mode; MOST],
+    pub(super) modes: K::EachContact<Mode>,
     /// What is closed at the state and stays so.
-    pub(super) rests: [bool; MOST],
+    pub(super) rests: K::EachContact<bool>,
     /// Of the step that is being made.
-    pub(super) next: [Mode; MOST],
+    pub(super) next: K::EachContact<Mode>,
     pub(super) report: StepReport,
 }
 
@@ -76,7 +77,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> ContactStepper<'k, K> {
 impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, M> {
     const ROWS: usize = K::ContactRows::DIM;
     /// How many numbers steps need.
-    pub const MEMORY: usize = Impulses::memory(Self::ROWS) + Projection::memory(Self::ROWS);
+    pub const MEMORY: usize = Impulses::memory(Self::ROWS) + Projection::<K>::MEMORY;
 
     /// Like [`new`](ContactStepper::new), in memory of one's own.
     ///
@@ -90,10 +91,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         (t, q, z): (f64, K::Configuration, K::Speeds),
         mut memory: M,
     ) -> Result<Self, ContactError> {
-        const {
-            assert!(K::CONTACTS.len() <= MOST, "steps take up to 64 contacts");
-            assert!(Self::ROWS <= MOST_ROWS, "steps take up to 256 rows of contacts");
-        }
+        const { assert!(Self::ROWS <= Place::MAX as usize, "steps number rows by two bytes") }
         assert!(memory.as_mut().len() >= Self::MEMORY, "steps of this system need {} numbers", Self::MEMORY);
         crate::start::check(kernel, t, &q, &z)?;
         let q = q.renormalise();
@@ -111,9 +109,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             gaps: kernel.gaps(t, &q),
             rates: kernel.contact_rates(t, &q, &z),
             acceleration: None,
-            modes: [Mode::Open; MOST],
-            rests: [false; MOST],
-            next: [Mode::Open; MOST],
+            modes: Each::from_fn(|_| Mode::Open),
+            rests: Each::from_fn(|_| false),
+            next: Each::from_fn(|_| Mode::Open),
             report: StepReport::default(),
         };
         stepper.find_closed();
@@ -174,7 +172,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 
     /// What the contacts did in the last step.
     pub fn modes(&self) -> &[Mode] {
-        &self.modes[..K::CONTACTS.len()]
+        self.modes.as_ref()
     }
 
     /// What the last step did.
@@ -265,13 +263,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             (middle, false) => match self.attempt(h, &middle, input)? {
                 end if end.struck => end,
                 end => {
-                    watch.first(end.attempted(&self.next));
+                    watch.first(end.attempted(self.next.as_ref()));
                     let z = self.z.add_scaled(1.0, &end.z).scale(0.5);
                     self.attempt(h, &Middle { z, ..middle }, input)?
                 }
             },
         };
-        watch.part((self.t, h), end.attempted(&self.next));
+        watch.part((self.t, h), end.attempted(self.next.as_ref()));
         self.take(h, end)
     }
 
@@ -368,7 +366,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 
     /// The end of a step in flight.
     pub(super) fn flown((q, z): (K::Configuration, K::Speeds), gaps: K::Gaps, rates: K::ContactRows) -> End<K> {
-        let (impulses, report, rests) = (K::ContactRows::zero(), StepReport::default(), [false; MOST]);
+        let (impulses, report, rests) = (K::ContactRows::zero(), StepReport::default(), Each::from_fn(|_| false));
         End { q, z, gaps, rates, impulses, rests, touches: false, dependent: false, report, struck: false }
     }
 
@@ -396,7 +394,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         friction: &K::ContactRows,
         (acceleration, bias, response): (&K::Speeds, &K::ContactRows, &ImpulseResponse<K>),
     ) -> Result<Pushed<K>, ContactError> {
-        let laws = Laws::new::<K>(h, friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
+        let laws = Laws::<K>::new(h, friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
         let mut impulses = self.impulses;
         let free = self.z.add_scaled(h, acceleration);
         let known = self.dependent;
@@ -421,8 +419,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let (start, t) = (self.t, self.t + h);
         let failed = |cause| ContactError { contact: None, time: start, kind: ContactErrorKind::Projection(cause) };
         let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
-        let mut projection = Projection::new(of_projection, K::ContactRows::DIM);
-        projection.close(self.kernel, (t, q, gaps), response, &pushed.solved.rests).map_err(failed)
+        let mut projection = Projection::<K>::new(of_projection);
+        projection.close(self.kernel, (t, q, gaps), response, pushed.solved.rests.as_ref()).map_err(failed)
     }
 
     /// The end of a step: rates of what rests brought to zero from those that are given.
@@ -441,14 +439,14 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         self.dependent &= !changes;
         let rounding = if changes { 0.0 } else { solved.found.residual.rounding };
         let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
-        let mut projection = Projection::new(of_projection, K::ContactRows::DIM);
+        let mut projection = Projection::<K>::new(of_projection);
         let mode = |i: usize| if solved.rests[i] { self.next[i] } else { Mode::Open };
-        let (z, rates) = projection.stop(self.kernel, (self.t + h, &q, z, rates), response, (&mode, rounding));
+        let (z, rates) = projection.stop(self.kernel, (self.t + h, &q, z, rates), response, (mode, rounding));
         let report = StepReport {
             residual: solved.found.residual,
             from_coulomb: solved.from_coulomb,
             penetration,
-            closed: self.next[..K::CONTACTS.len()].iter().filter(|mode| mode.is_closed()).count(),
+            closed: self.next.as_ref().iter().filter(|mode| mode.is_closed()).count(),
             corrections: solved.found.corrections,
             sweeps: solved.found.sweeps,
             work: solved.work,
@@ -473,18 +471,19 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     fn solve(
         &mut self,
         h: f64,
-        (laws, response): (&Laws, &ImpulseResponse<K>),
+        (laws, response): (&Laws<K>, &ImpulseResponse<K>),
         [before, free]: [K::ContactRows; 2],
         impulses: &mut K::ContactRows,
-    ) -> Result<Solved, ContactErrorKind> {
+    ) -> Result<Solved<K>, ContactErrorKind> {
         let rows = K::ContactRows::DIM;
         let (gaps, e) = (self.gaps, self.kernel.restitution());
         let scales = laws.scales;
-        let mut problem = Impulses::new(&mut self.memory.as_mut()[..Impulses::memory(rows)], rows);
+        let mut unknowns = Unknowns::<K>::new();
+        let mut problem = Impulses::new(&mut self.memory.as_mut()[..Impulses::memory(rows)], unknowns.slices());
         problem.dependent = self.dependent;
         problem.relaxed = self.law == StepLaw::ConvexRelaxation;
         let entry = |i: usize, j: usize| response.delassus[(i, j)];
-        problem.set_up(&scales, entry, |row| [free.component(row), impulses.component(row)]);
+        problem.set_up(scales.as_ref(), entry, |row| [free.component(row), impulses.component(row)]);
         // What an impact passes on is a part of the rate before it.
         let passed_on = |i: usize| motion::passed_on(e.component(i), before.component(K::CONTACTS[i].normal));
         let end = |i: usize, rate: f64| gaps.component(i) + 0.5 * h * (before.component(K::CONTACTS[i].normal) + rate);
@@ -496,7 +495,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
                 Some(on) => cones[on].acts,
                 None => {
                     !contact.has_gap()
-                        || (self.modes[i].is_closed() && !lifts::<K>(self.law, &self.modes, i))
+                        || (self.modes[i].is_closed() && !lifts::<K>(self.law, self.modes.as_ref(), i))
                         || end(i, free) <= 0.0
                 }
             };
@@ -504,7 +503,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
                 problem.b[contact.normal] -= passed_on(i);
             }
         }
-        let cones = &mut cones[..K::CONTACTS.len()];
+        let cones = cones.as_mut();
         // A contact that others press closed takes part as well.
         let closes = |i: usize, rate: f64| end(i, rate + passed_on(i)) < 0.0;
         let found = problem.solve_with_more(cones, self.tolerance, closes);
@@ -516,15 +515,16 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
         let work = problem.work(|row| scales[row] * free.component(row));
         let from_coulomb = if problem.relaxed { problem.residual_of_coulomb(cones) } else { found.residual };
-        let mut solved = Solved { found, from_coulomb, rests: [false; MOST], struck: false, impacts: 0, work };
-        for (next, cone) in self.next.iter_mut().zip(&*cones) {
-            *next = problem.mode(cones, cone, &scales, self.tolerance);
+        let mut solved =
+            Solved::<K> { found, from_coulomb, rests: Each::from_fn(|_| false), struck: false, impacts: 0, work };
+        for (next, cone) in self.next.as_mut().iter_mut().zip(&*cones) {
+            *next = problem.mode(cones, cone, scales.as_ref(), self.tolerance);
         }
         for i in 0..cones.len() {
             let was_open = !self.modes[i].is_closed();
             let is_closed = self.next[i].is_closed();
             let closes = is_closed && K::CONTACTS[i].has_gap();
-            let lifts = lifts::<K>(self.law, &self.next, i);
+            let lifts = lifts::<K>(self.law, self.next.as_ref(), i);
             solved.struck |= closes && (was_open || lifts);
             let carries = carrier(K::CONTACTS, i);
             let parts = K::CONTACTS[carries].has_gap() && passed_on(carries) != 0.0;
@@ -543,7 +543,7 @@ pub(super) struct Pushed<K: ContactSystem> {
     impulses: K::ContactRows,
     /// Whether rates were those of contacts that depend on one another.
     dependent: bool,
-    solved: Solved,
+    solved: Solved<K>,
 }
 
 /// The end of a step.
@@ -554,7 +554,7 @@ pub(super) struct End<K: ContactSystem> {
     rates: K::ContactRows,
     impulses: K::ContactRows,
     /// What is closed and stays so.
-    rests: [bool; MOST],
+    rests: K::EachContact<bool>,
     /// Whether contacts may have changed their modes.
     touches: bool,
     /// Whether rates were those of contacts that depend on one another.
@@ -566,20 +566,20 @@ pub(super) struct End<K: ContactSystem> {
 
 impl<K: ContactSystem> End<K> {
     /// With what contacts did.
-    fn attempted<'a>(&'a self, modes: &'a [Mode; MOST]) -> Attempted<'a, K> {
+    fn attempted<'a>(&'a self, modes: &'a [Mode]) -> Attempted<'a, K> {
         let Self { impulses, rests, dependent, struck, .. } = self;
-        let modes = self.touches.then(|| &modes[..K::CONTACTS.len()]);
-        Attempted { impulses, modes, rests, dependent: *dependent, struck: *struck }
+        let modes = self.touches.then_some(modes);
+        Attempted { impulses, modes, rests: rests.as_ref(), dependent: *dependent, struck: *struck }
     }
 }
 
 /// What the laws of a step came to.
-struct Solved {
+struct Solved<K: ContactSystem> {
     found: Found,
     /// How far it is from Coulomb's law.
     from_coulomb: Residual,
     /// Contacts that are closed after the step.
-    rests: [bool; MOST],
+    rests: K::EachContact<bool>,
     /// Whether velocities have jumped.
     struck: bool,
     /// Gaps that have closed.

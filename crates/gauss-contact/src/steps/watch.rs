@@ -7,15 +7,13 @@ use gauss_runtime::contact::ContactSystem;
 
 use crate::mode::Mode;
 
-use super::cones::MOST;
-
 /// What an attempt at a part of a step came to.
 pub(super) struct Attempted<'a, K: ContactSystem> {
     pub(super) impulses: &'a K::ContactRows,
     /// What contacts did, where the laws were solved.
     pub(super) modes: Option<&'a [Mode]>,
     /// Contacts that are closed after the step.
-    pub(super) rests: &'a [bool; MOST],
+    pub(super) rests: &'a [bool],
     /// Whether rates were those of contacts that depend on one another.
     pub(super) dependent: bool,
     /// Whether a gap has closed.
@@ -46,7 +44,7 @@ pub(super) struct Taken {
     /// Impulses, row by row.
     pub(super) impulses: Vec<f64>,
     /// Contacts that are closed after the step.
-    pub(super) rests: [bool; MOST],
+    pub(super) rests: Vec<bool>,
     /// Whether rates were those of contacts that depend on one another.
     pub(super) dependent: bool,
     /// Whether a gap has closed.
@@ -74,7 +72,7 @@ impl Taken {
         Self {
             modes: attempted.modes.map(Into::into),
             impulses: (0..K::ContactRows::DIM).map(|row| attempted.impulses.component(row)).collect(),
-            rests: *attempted.rests,
+            rests: attempted.rests.into(),
             dependent: attempted.dependent,
             struck: attempted.struck,
         }

@@ -52,6 +52,8 @@ pub fn contact_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         type ContactColumns = #private::SMatrix<#ty, #n, #rows>;
         type ImpulseFactors = #factors;
         type Delassus = #private::SMatrix<#ty, #rows, #rows>;
+        type EachContact<__T: ::core::marker::Copy + ::core::fmt::Debug> = [__T; #count];
+        type EachRow<__T: ::core::marker::Copy + ::core::fmt::Debug> = [__T; #rows];
         const CONTACTS: &'static [#private::Contact] = &[#(#listed),*];
         #(#methods)*
         #frames
@@ -151,7 +153,12 @@ fn velocities(derived: &Derived<'_, '_>) -> Option<(TokenStream, TokenStream)> {
             let pivots = derived.degrees_of_freedom();
             let rows = derived.subject.system.halves()?.first_of_rows();
             let terms = quote!(#private::impulse_terms_of_halves(self, (__factors, __impulses), #pivots..#rows));
-            (quote!(#private::SVector<#ty, #count>), velocities, terms, quote!(#private::contact_columns(self, __factors)))
+            (
+                quote!(#private::SVector<#ty, #count>),
+                velocities,
+                terms,
+                quote!(#private::contact_columns(self, __factors)),
+            )
         }
     };
     let methods = quote! {
