@@ -362,13 +362,12 @@ where
             let from_zero = |bound: f64| move |value: f64| if value.abs() <= bound { -value } else { 0.0 };
             match from.modes[i] {
                 Mode::Open if !contact.has_gap() => {}
-                Mode::Open if value(sizes.rates.component(contact.normal)) > sizes.of_rate[contact.normal] => {
-                    watch(Watched::Gap(i), &from_zero(sizes.of_gap[i]));
-                }
                 Mode::Open => {
-                    let rounding = sizes.rounding[i];
-                    let shift = |gap: f64| if gap.abs() <= sizes.of_gap[i] { rounding - gap } else { 0.0 };
-                    watch(Watched::Gap(i), &shift);
+                    // What others have pushed below zero, as they came to rest, starts from there: it would never fall
+                    // to zero.
+                    let opens = value(sizes.rates.component(contact.normal)) > sizes.of_rate[contact.normal];
+                    let start = if opens { 0.0 } else { sizes.rounding[i] };
+                    watch(Watched::Gap(i), &|gap| if gap <= sizes.of_gap[i] { start - gap } else { 0.0 });
                 }
                 Mode::Closed => watch(Watched::Force(i), &above),
                 Mode::Sticks => {
