@@ -227,7 +227,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
 
         let mode = |i: usize| if taken.rests[i] { modes[i] } else { Mode::Open };
         let rates = kernel.contact_rates(t, &q, &z);
-        let (mut z, rates) = projection.stop(kernel, (t, &q, z, rates), &dynamics.response, (mode, 0.0));
+        let (mut z, rates) = projection.stop(kernel, (t, &q, z, rates), (&dynamics.response, None), (mode, 0.0));
         let stopped: Vec<usize> =
             L::CONTACTS.iter().enumerate().flat_map(|(i, contact)| stopped(contact, &mode(i))).collect();
         let passed = |row: usize| gap_of(row).and_then(|i| passes[i]).unwrap_or(Dual::constant(0.0));

@@ -12,13 +12,12 @@
 
 use core::ops::Range;
 
-use gauss_runtime::contact::{ContactSystem, Each};
-
 use crate::mode::Mode;
 use crate::residual::Residual;
 
 use super::cones::Cone;
-use super::linear::{Place, dot, dot_and_size, factorise, factorise_symmetric, solve, solve_symmetric, stride};
+use super::linear::{Place, dot, dot_and_size, solve, solve_symmetric, stride};
+use super::unknowns::{State, UnknownsIn};
 
 /// By what part of the diagonal impulses are pulled towards those before at first, where contacts depend on one
 /// another. What cannot stick all at once, as two corners that an impact parts, or cannot all stay closed, drifts to
@@ -27,8 +26,6 @@ use super::linear::{Place, dot, dot_and_size, factorise, factorise_symmetric, so
 const PULL: f64 = 1e-5;
 const LEAST_PULL: f64 = 1e-9;
 const MOST_PULL: f64 = 1e-3;
-/// Contacts do where this is left of a column.
-const DEPENDENT: f64 = 1e-11;
 /// What is looked for at first, as a part of the tolerance.
 const STRICT: f64 = 1e-4;
 /// Rounds of sweeps and corrections.
@@ -37,24 +34,6 @@ const ROUNDS: u32 = 11;
 const CORRECTIONS: usize = 60;
 /// Roundings of each product of a row that its sum may be off by.
 const ROUNDINGS: f64 = 64.0;
-
-/// What a contact does in a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum State {
-    Leaves,
-    /// Without friction.
-    Closed,
-    Sticks,
-    /// The direction of `P_T − u_T/d`, against the slip, and by what part of its length friction is smaller.
-    Slides([f64; 3], f64),
-}
-
-impl State {
-    /// Whether the equations are the same.
-    fn is_as(&self, other: &Self) -> bool {
-        !matches!(self, Self::Slides(..)) && self == other
-    }
-}
 
 /// How a solution was found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -68,40 +47,6 @@ pub(crate) struct Found {
     pub(crate) sweeps: u32,
 }
 
-/// Memory for what is unknown in a step of a system.
-pub(crate) struct Unknowns<K: ContactSystem> {
-    rows: K::EachRow<Place>,
-    order: K::EachRow<Place>,
-    extents: K::EachRow<[Place; 2]>,
-    states: K::EachContact<State>,
-}
-
-/// The same in slices: of rows, and of contacts.
-pub(crate) struct UnknownsIn<'m> {
-    pub(crate) rows: &'m mut [Place],
-    /// Of pivots; of symmetric factors the ends of their rows.
-    pub(crate) order: &'m mut [Place],
-    /// Of rows of D.
-    pub(crate) extents: &'m mut [[Place; 2]],
-    pub(crate) states: &'m mut [State],
-}
-
-impl<K: ContactSystem> Unknowns<K> {
-    pub(crate) fn new() -> Self {
-        Self {
-            rows: Each::from_fn(|_| 0),
-            order: Each::from_fn(|_| 0),
-            extents: Each::from_fn(|_| [0; 2]),
-            states: Each::from_fn(|_| State::Leaves),
-        }
-    }
-
-    pub(crate) fn slices(&mut self) -> UnknownsIn<'_> {
-        let Self { rows, order, extents, states } = self;
-        UnknownsIn { rows: rows.as_mut(), order: order.as_mut(), extents: extents.as_mut(), states: states.as_mut() }
-    }
-}
-
 /// The laws of a step in memory. All but `matrix` and `right` is for all rows of the system.
 pub(crate) struct Impulses<'m> {
     /// D, row by row.
@@ -112,25 +57,26 @@ pub(crate) struct Impulses<'m> {
     /// u.
     pub(crate) rates: &'m mut [f64],
     /// The sizes of the terms of each rate.
-    terms: &'m mut [f64],
-    best: &'m mut [f64],
-    swept: &'m mut [f64],
-    solution: &'m mut [f64],
-    right: &'m mut [f64],
-    matrix: &'m mut [f64],
+    pub(super) terms: &'m mut [f64],
+    pub(super) best: &'m mut [f64],
+    pub(super) swept: &'m mut [f64],
+    pub(super) solution: &'m mut [f64],
+    pub(super) right: &'m mut [f64],
+    pub(super) matrix: &'m mut [f64],
     /// Rows of the unknowns.
-    unknown: &'m mut [Place],
-    order: &'m mut [Place],
-    states: &'m mut [State],
+    pub(super) unknown: &'m mut [Place],
+    pub(super) order: &'m mut [Place],
+    pub(super) states: &'m mut [State],
     /// Of each row of D, where its first entry is that is not zero, and where the last is behind.
-    extents: &'m mut [[Place; 2]],
+    pub(super) extents: &'m mut [[Place; 2]],
     /// Whether contacts depend on one another, as far as is known.
     pub(crate) dependent: bool,
     /// Whether the law is the convex relaxation of Coulomb's.
     pub(crate) relaxed: bool,
-    pull: f64,
-    /// Whether the factors are those of a symmetric matrix.
-    symmetric: bool,
+    pub(super) pull: f64,
+    /// Whether the factors are those of a symmetric matrix, and how many unknowns it has.
+    pub(super) symmetric: bool,
+    pub(super) count: usize,
 }
 
 impl<'m> Impulses<'m> {
@@ -173,6 +119,7 @@ impl<'m> Impulses<'m> {
             relaxed: false,
             pull: 0.0,
             symmetric: false,
+            count: 0,
         }
     }
 
@@ -320,6 +267,16 @@ impl<'m> Impulses<'m> {
         }
     }
 
+    /// How many unknowns factors are of that are those of D, as it is at the rows of these.
+    pub(crate) fn factored(&self) -> Option<usize> {
+        (self.symmetric && self.pull() == 0.0).then_some(self.count)
+    }
+
+    /// Where factors are in memory for so many rows.
+    pub(crate) const fn matrix(rows: usize) -> Range<usize> {
+        rows * rows..rows * rows + rows * stride(rows)
+    }
+
     /// The work of the impulses: half of the rates before and after them, times these. Rates before are given without
     /// what impacts pass on.
     pub(crate) fn work(&self, before: impl Fn(usize) -> f64) -> f64 {
@@ -334,9 +291,9 @@ impl<'m> Impulses<'m> {
             self.impulses[row] = 0.0;
         }
         self.update(cones);
-        (found.residual, found.holds) = self.worst(cones, tolerance);
         self.best.copy_from_slice(self.impulses);
         if !cones.iter().any(|cone| cone.acts) {
+            found.holds = true;
             return found;
         }
         // Also where those of the step before satisfy the laws within the tolerance: what rests is to rest exactly.
@@ -357,6 +314,9 @@ impl<'m> Impulses<'m> {
             self.pull = PULL;
             if self.correct(cones, STRICT * tolerance, &mut found) {
                 return found;
+            }
+            if found.corrections == 0 {
+                (found.residual, found.holds) = self.worst(cones, tolerance);
             }
             // Where contacts depend on one another rates of places that moved agree only to the order of the step.
             if round > 0 {
@@ -432,139 +392,6 @@ impl<'m> Impulses<'m> {
             last = size;
         }
         false
-    }
-
-    /// Factors of the equations in given states; how many unknowns there are. `None` where they have no solution. Where
-    /// nothing slides the equations are those of D.
-    fn factors(&mut self, cones: &[Cone], states: &[State]) -> Option<usize> {
-        let mut count = 0;
-        for (cone, state) in cones.iter().zip(states) {
-            let rows = match state {
-                State::Leaves => continue,
-                State::Closed => cone.first..cone.first,
-                State::Sticks | State::Slides(..) => cone.tangents(),
-            };
-            for row in cone.normal.into_iter().chain(rows) {
-                self.unknown[count] = row as Place;
-                count += 1;
-            }
-        }
-        self.symmetric = !states.iter().any(|state| matches!(state, State::Slides(..)));
-        if self.symmetric {
-            let rows = stride(count);
-            for k in 0..count {
-                self.equal((k, rows), count, usize::from(self.unknown[k]));
-                self.matrix[k * rows + count..(k + 1) * rows].fill(0.0);
-            }
-            let part = if self.dependent { 0.0 } else { DEPENDENT };
-            let ends = &mut self.order[..count];
-            return factorise_symmetric(self.matrix, ends, self.solution, part).then_some(count);
-        }
-        let mut k = 0;
-        for (cone, state) in cones.iter().zip(states) {
-            if *state == State::Leaves {
-                continue;
-            }
-            if let Some(normal) = cone.normal {
-                self.equal((k, count), count, normal);
-                if self.relaxed {
-                    for c in 0..count {
-                        self.matrix[k * count + c] +=
-                            self.lift_entry(cones, states, normal, usize::from(self.unknown[c]));
-                    }
-                }
-                k += 1;
-            }
-            match state {
-                State::Sticks => {
-                    for row in cone.tangents() {
-                        self.equal((k, count), count, row);
-                        k += 1;
-                    }
-                }
-                State::Slides(along, part) => {
-                    let scale = self.scale(cone);
-                    for a in 0..cone.count {
-                        for c in 0..count {
-                            let entry =
-                                self.sliding_entry(cone, (along, *part, scale), a, usize::from(self.unknown[c]));
-                            self.matrix[k * count + c] = entry;
-                        }
-                        k += 1;
-                    }
-                }
-                State::Leaves | State::Closed => {}
-            }
-        }
-        let part = if self.dependent { 0.0 } else { DEPENDENT };
-        factorise(&mut self.matrix[..count * count], &mut self.order[..count], part).then_some(count)
-    }
-
-    fn pull(&self) -> f64 {
-        if self.dependent { self.pull } else { 0.0 }
-    }
-
-    /// The equation of a rate that is zero, in rows of some length.
-    fn equal(&mut self, (k, rows): (usize, usize), count: usize, row: usize) {
-        let n = self.b.len();
-        let (own, more) = (&self.delassus[row * n..(row + 1) * n], 1.0 + self.pull());
-        let entries = self.matrix[k * rows..k * rows + count].iter_mut().zip(&*self.unknown);
-        for (entry, &of) in entries {
-            let of = usize::from(of);
-            *entry = if of == row { own[of] * more } else { own[of] };
-        }
-    }
-
-    /// Of `d P_a − d μ P_N t_a − part Σ_b (δ_ab − t_a t_b) (d P_b − u_b) = 0`, which is Coulomb's law to first order
-    /// in the direction t: the factor of an impulse.
-    fn sliding_entry(&self, cone: &Cone, (along, part, scale): (&[f64; 3], f64, f64), a: usize, column: usize) -> f64 {
-        let mut entry = if column == cone.first + a { scale * (1.0 + self.pull()) } else { 0.0 };
-        if cone.pressed == Some(column) {
-            entry -= scale * cone.friction * along[a];
-        }
-        for (b, row) in cone.tangents().enumerate() {
-            let across = f64::from(u8::from(a == b)) - along[a] * along[b];
-            let own = if column == row { scale } else { 0.0 };
-            entry -= part * across * (own - self.at(row, column));
-        }
-        entry
-    }
-
-    fn right_sides(&mut self, cones: &[Cone], states: &[State], count: usize) {
-        let mut k = 0;
-        for (cone, state) in cones.iter().zip(states) {
-            if *state == State::Leaves {
-                continue;
-            }
-            let pulled = |this: &Self, row: usize| this.pull() * this.at(row, row) * this.impulses[row] - this.b[row];
-            if let Some(normal) = cone.normal {
-                let lifted = if self.relaxed { self.lift_free(cones, states, normal) } else { 0.0 };
-                self.right[k] = pulled(self, normal) - lifted;
-                k += 1;
-            }
-            match state {
-                State::Sticks => {
-                    for row in cone.tangents() {
-                        self.right[k] = pulled(self, row);
-                        k += 1;
-                    }
-                }
-                State::Slides(along, part) => {
-                    let scale = self.scale(cone);
-                    for a in 0..cone.count {
-                        let fixed = if cone.pressed.is_none() { scale * cone.friction * along[a] } else { 0.0 };
-                        let each = cone.tangents().enumerate();
-                        let turned: f64 = each
-                            .map(|(b, row)| (f64::from(u8::from(a == b)) - along[a] * along[b]) * self.b[row])
-                            .sum();
-                        self.right[k] = fixed - part * turned + self.pull() * scale * self.impulses[cone.first + a];
-                        k += 1;
-                    }
-                }
-                State::Leaves | State::Closed => {}
-            }
-        }
-        debug_assert_eq!(k, count);
     }
 
     /// One sweep over the contacts: each impulse is brought to its cone as if the others stayed.

@@ -15,9 +15,10 @@ use gauss_runtime::simd::Packed;
 use crate::error::{ContactError, ContactErrorKind};
 
 use super::motion::Middle;
+use super::outcome::Pushed;
 use super::projection::Closed;
 use super::report::StepReport;
-use super::stepper::{ContactStepper, Pushed};
+use super::stepper::ContactStepper;
 
 /// A system in packs, each lane of which is the system `K`: `Kernel<wide::f64x8>` of a struct that is generic in its
 /// scalar, of which `K` is `Kernel<f64>`.

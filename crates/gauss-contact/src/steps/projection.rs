@@ -40,6 +40,13 @@ pub(crate) struct Closed<K: ContactSystem> {
     pub(crate) closure: f64,
 }
 
+/// Factors of D that a step has at some of its rows, with these.
+pub(crate) struct Factored<K: ContactSystem> {
+    pub(crate) rows: K::EachRow<Place>,
+    pub(crate) ends: K::EachRow<Place>,
+    pub(crate) count: usize,
+}
+
 impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     /// How many rows there are.
     const ROWS: usize = K::ContactRows::DIM;
@@ -77,6 +84,18 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
             }
             factorise_symmetric(self.matrix, &mut self.ends.as_mut()[..count], self.solution, 0.0)
         })
+    }
+
+    /// Takes factors that are known already; whether they are those at some rows.
+    fn adopt(&mut self, (known, factors): (&Factored<K>, &[T]), rows: impl Iterator<Item = usize>) -> bool {
+        let of_known = &known.rows.as_ref()[..known.count];
+        if !rows.eq(of_known.iter().map(|row| usize::from(*row))) {
+            return false;
+        }
+        let used = known.count * stride(known.count);
+        self.matrix[..used].copy_from_slice(&factors[..used]);
+        (self.rows, self.ends, self.count) = (known.rows, known.ends, known.count);
+        true
     }
 
     /// Speeds after impulses that take away rates.
@@ -147,12 +166,12 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     }
 
     /// Rates of closed gaps, and slips of what sticks, brought to zero where they are more than rounding; with all
-    /// rates there.
+    /// rates there. Factors that are known save their making.
     pub(crate) fn stop(
         &mut self,
         kernel: &K,
         (t, q, mut z, mut rates): (T, &K::Configuration, K::Speeds, K::ContactRows),
-        response: &ImpulseResponse<K>,
+        (response, known): (&ImpulseResponse<K>, Option<(&Factored<K>, &[T])>),
         (mode, rounding): (impl Fn(usize) -> Mode, f64),
     ) -> (K::Speeds, K::ContactRows) {
         let rows = || {
@@ -169,7 +188,10 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
                 break;
             }
             left = size;
-            if n == 0 && !self.factorise(&response.delassus, rows()) {
+            let has_factors = n > 0
+                || known.is_some_and(|known| self.adopt(known, rows()))
+                || self.factorise(&response.delassus, rows());
+            if !has_factors {
                 break;
             }
             z = self.pushed(kernel, &z, response, |row| rates.component(row));

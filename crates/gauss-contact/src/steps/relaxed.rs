@@ -14,7 +14,8 @@ use crate::law::carrier;
 use crate::mode::Mode;
 
 use super::cones::Cone;
-use super::impulses::{Impulses, State, norm};
+use super::impulses::{Impulses, norm};
+use super::unknowns::State;
 
 /// Which law of friction the impulses of a step satisfy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -6,8 +6,9 @@ use alloc::vec::Vec;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
+use super::super::impulses::Found;
 use super::super::impulses::tests::{Random, numbers};
-use super::super::impulses::{Found, UnknownsIn};
+use super::super::unknowns::UnknownsIn;
 use super::*;
 use crate::dense::{dot, size};
 

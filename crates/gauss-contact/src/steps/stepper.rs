@@ -12,18 +12,19 @@ use gauss_runtime::real::Real;
 use crate::error::{ContactError, ContactErrorKind};
 use crate::law::carrier;
 use crate::mode::{Mode, after_impulses};
-use crate::residual::Residual;
 use crate::sensors::ContactForces;
 
 use super::cones::Laws;
-use super::impulses::{Found, Impulses, Unknowns};
+use super::impulses::Impulses;
 use super::kept::Kept;
 use super::linear::Place;
 use super::motion::{self, Middle};
+use super::outcome::{End, Pushed, Solved};
 use super::projection::{Closed, Projection};
 use super::relaxed::{StepLaw, lifts};
 use super::report::{StepReport, StepScheme};
-use super::watch::{Attempted, Watch};
+use super::unknowns::Unknowns;
+use super::watch::Watch;
 
 /// A system on its way in steps; all that a step needs is in memory that was there before.
 ///
@@ -438,10 +439,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let changes = (0..K::CONTACTS.len()).any(|i| kind(&self.next[i]) != kind(&self.modes[i]));
         self.dependent &= !changes;
         let rounding = if changes { 0.0 } else { solved.found.residual.rounding };
-        let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
+        let (of_impulses, of_projection) = self.memory.as_mut().split_at_mut(Impulses::memory(Self::ROWS));
         let mut projection = Projection::<K>::new(of_projection);
+        let known = solved.factored.as_ref().map(|known| (known, &of_impulses[Impulses::matrix(Self::ROWS)]));
         let mode = |i: usize| if solved.rests[i] { self.next[i] } else { Mode::Open };
-        let (z, rates) = projection.stop(self.kernel, (self.t + h, &q, z, rates), response, (mode, rounding));
+        let at_end = (self.t + h, &q, z, rates);
+        let (z, rates) = projection.stop(self.kernel, at_end, (response, known), (mode, rounding));
         let report = StepReport {
             residual: solved.found.residual,
             from_coulomb: solved.from_coulomb,
@@ -515,8 +518,15 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
         let work = problem.work(|row| scales[row] * free.component(row));
         let from_coulomb = if problem.relaxed { problem.residual_of_coulomb(cones) } else { found.residual };
-        let mut solved =
-            Solved::<K> { found, from_coulomb, rests: Each::from_fn(|_| false), struck: false, impacts: 0, work };
+        let mut solved = Solved::<K> {
+            found,
+            from_coulomb,
+            rests: Each::from_fn(|_| false),
+            struck: false,
+            impacts: 0,
+            work,
+            factored: None,
+        };
         for (next, cone) in self.next.as_mut().iter_mut().zip(&*cones) {
             *next = problem.mode(cones, cone, scales.as_ref(), self.tolerance);
         }
@@ -533,57 +543,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             solved.rests[i] = is_closed && !parts && !lifts;
         }
         (0..rows).for_each(|row| impulses.set_component(row, scales[row] * problem.impulses[row]));
+        let of_delassus = problem.factored().filter(|_| scales.as_ref().iter().all(|scale| *scale == 1.0));
+        solved.factored = of_delassus.map(|count| unknowns.factored(count));
         Ok(solved)
     }
-}
-
-/// What impulses have made of the speeds of a step.
-pub(super) struct Pushed<K: ContactSystem> {
-    pub(super) z: K::Speeds,
-    impulses: K::ContactRows,
-    /// Whether rates were those of contacts that depend on one another.
-    dependent: bool,
-    solved: Solved<K>,
-}
-
-/// The end of a step.
-pub(super) struct End<K: ContactSystem> {
-    q: K::Configuration,
-    z: K::Speeds,
-    gaps: K::Gaps,
-    rates: K::ContactRows,
-    impulses: K::ContactRows,
-    /// What is closed and stays so.
-    rests: K::EachContact<bool>,
-    /// Whether contacts may have changed their modes.
-    touches: bool,
-    /// Whether rates were those of contacts that depend on one another.
-    dependent: bool,
-    report: StepReport,
-    /// Whether a gap has closed.
-    struck: bool,
-}
-
-impl<K: ContactSystem> End<K> {
-    /// With what contacts did.
-    fn attempted<'a>(&'a self, modes: &'a [Mode]) -> Attempted<'a, K> {
-        let Self { impulses, rests, dependent, struck, .. } = self;
-        let modes = self.touches.then_some(modes);
-        Attempted { impulses, modes, rests: rests.as_ref(), dependent: *dependent, struck: *struck }
-    }
-}
-
-/// What the laws of a step came to.
-struct Solved<K: ContactSystem> {
-    found: Found,
-    /// How far it is from Coulomb's law.
-    from_coulomb: Residual,
-    /// Contacts that are closed after the step.
-    rests: K::EachContact<bool>,
-    /// Whether velocities have jumped.
-    struck: bool,
-    /// Gaps that have closed.
-    impacts: usize,
-    /// Of the impulses.
-    work: f64,
 }

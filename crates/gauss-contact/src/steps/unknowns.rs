@@ -1,0 +1,63 @@
+//! What is unknown in a step: which rows, in which states, in memory of the size of the system.
+
+use gauss_runtime::contact::{ContactSystem, Each};
+
+use super::linear::Place;
+use super::projection::Factored;
+
+/// What a contact does in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum State {
+    Leaves,
+    /// Without friction.
+    Closed,
+    Sticks,
+    /// The direction of `P_T − u_T/d`, against the slip, and by what part of its length friction is smaller.
+    Slides([f64; 3], f64),
+}
+
+impl State {
+    /// Whether the equations are the same.
+    pub(super) fn is_as(&self, other: &Self) -> bool {
+        !matches!(self, Self::Slides(..)) && self == other
+    }
+}
+
+/// Memory for what is unknown in a step of a system.
+pub(crate) struct Unknowns<K: ContactSystem> {
+    rows: K::EachRow<Place>,
+    order: K::EachRow<Place>,
+    extents: K::EachRow<[Place; 2]>,
+    states: K::EachContact<State>,
+}
+
+/// The same in slices: of rows, and of contacts.
+pub(crate) struct UnknownsIn<'m> {
+    pub(crate) rows: &'m mut [Place],
+    /// Of pivots; of symmetric factors the ends of their rows.
+    pub(crate) order: &'m mut [Place],
+    /// Of rows of D.
+    pub(crate) extents: &'m mut [[Place; 2]],
+    pub(crate) states: &'m mut [State],
+}
+
+impl<K: ContactSystem> Unknowns<K> {
+    pub(crate) fn new() -> Self {
+        Self {
+            rows: Each::from_fn(|_| 0),
+            order: Each::from_fn(|_| 0),
+            extents: Each::from_fn(|_| [0; 2]),
+            states: Each::from_fn(|_| State::Leaves),
+        }
+    }
+
+    /// What is known of factors of so many unknowns.
+    pub(crate) fn factored(&self, count: usize) -> Factored<K> {
+        Factored { rows: self.rows, ends: self.order, count }
+    }
+
+    pub(crate) fn slices(&mut self) -> UnknownsIn<'_> {
+        let Self { rows, order, extents, states } = self;
+        UnknownsIn { rows: rows.as_mut(), order: order.as_mut(), extents: extents.as_mut(), states: states.as_mut() }
+    }
+}
