@@ -1,4 +1,4 @@
-//! Sixteen boxes on one another, in steps of 2 ms: `gauss-parry` and rapier3d in one run, by turns.
+//! Twenty boxes on one another, in steps of 2 ms: `gauss-parry` and rapier3d in one run, by turns.
 //!
 //! `RUSTFLAGS="-C target-cpu=native" cargo run --release --manifest-path benches/rapier/Cargo.toml`. Both have the same
 //! shapes, masses, friction and start, a little apart and turned, in double precision, on one thread, and no box goes
@@ -48,7 +48,10 @@ macro_rules! boxes {
     };
 }
 
-boxes! { b0 p0 b1 p1 b2 p2 b3 p3 b4 p4 b5 p5 b6 p6 b7 p7 b8 p8 b9 p9 b10 p10 b11 p11 b12 p12 b13 p13 b14 p14 b15 p15 }
+boxes! {
+    b0 p0 b1 p1 b2 p2 b3 p3 b4 p4 b5 p5 b6 p6 b7 p7 b8 p8 b9 p9 b10 p10 b11 p11 b12 p12 b13 p13 b14 p14 b15 p15
+    b16 p16 b17 p17 b18 p18 b19 p19
+}
 
 const EDGE: f64 = 0.2;
 const STEP: f64 = 2e-3;
@@ -56,7 +59,7 @@ const BATCH: usize = 50;
 const BATCHES: usize = 20;
 
 const FRICTION: f64 = 0.5;
-const COUNT: usize = 16;
+const COUNT: usize = 20;
 
 /// A little apart and turned, so that they land.
 fn place(i: usize) -> Isometry3<f64> {
@@ -75,7 +78,7 @@ trait Steps {
     fn poses(&self) -> Vec<Pose>;
 }
 
-struct Ours<'k>(ParrySteps<'k, BoxesKernel, 64, 192, 96>);
+struct Ours<'k>(ParrySteps<'k, BoxesKernel, 80, 240, 120>);
 
 impl Steps for Ours<'_> {
     fn step(&mut self) -> Result<(), Failure> {
@@ -205,7 +208,7 @@ fn compare() -> Result<(), Failure> {
 }
 
 fn main() -> Result<(), Failure> {
-    // Matrices of 192 rows are handed on by value.
+    // Matrices of 240 rows are handed on by value.
     let thread = thread::Builder::new().stack_size(64 << 20).spawn(compare)?;
     match thread.join() {
         Ok(done) => done,

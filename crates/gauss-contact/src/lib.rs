@@ -14,7 +14,7 @@
 //!   have none it can go on by an impulse ([`ContactRun::impact_without_collision`]).
 //!
 //! For many contacts there are steps of one length in velocities and impulses ([`ContactSteps`], [`ContactStepper`]):
-//! up to 64 contacts, all impacts of a step at once, without events and without allocation.
+//! any number of contacts, all impacts of a step at once, without events and without allocation.
 //!
 //! Limits: flights lower than some hundred roundings of the largest coordinate are rest, or an error where e = 1. A gap
 //! that opens and closes within a step is seen as far as [events](gauss_runtime::integrate::drive::event) are; one that

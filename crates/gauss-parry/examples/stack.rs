@@ -1,4 +1,4 @@
-//! Sixteen boxes on one another: what a step costs, and whether they stay.
+//! Twenty boxes on one another: what a step costs, and whether they stay.
 //!
 //! `RUSTFLAGS="-C target-cpu=native" cargo run --release -p gauss-parry --example stack`. Printed are the median of
 //! batches of 50 steps of 2 ms with the range of the middle half, how much of it the library took, the lowest gap after
@@ -43,7 +43,10 @@ macro_rules! boxes {
     };
 }
 
-boxes! { b0 p0 b1 p1 b2 p2 b3 p3 b4 p4 b5 p5 b6 p6 b7 p7 b8 p8 b9 p9 b10 p10 b11 p11 b12 p12 b13 p13 b14 p14 b15 p15 }
+boxes! {
+    b0 p0 b1 p1 b2 p2 b3 p3 b4 p4 b5 p5 b6 p6 b7 p7 b8 p8 b9 p9 b10 p10 b11 p11 b12 p12 b13 p13 b14 p14 b15 p15
+    b16 p16 b17 p17 b18 p18 b19 p19
+}
 
 const EDGE: f64 = 0.2;
 const STEP: f64 = 2e-3;
@@ -70,7 +73,7 @@ fn stand() -> Result<(), Box<dyn Error + Send + Sync>> {
             turn,
         )
     });
-    let mut steps = ParrySteps::<_, 64, 192, _>::new(&kernel, shapes(), (0.0, start.q(), start.z()))?;
+    let mut steps = ParrySteps::<_, 80, 240, _>::new(&kernel, shapes(), (0.0, start.q(), start.z()))?;
     let (mut times, mut lowest, mut halfway) = (Vec::new(), 0.0_f64, Vec::new());
     let (mut worst, mut corrections, mut parts) = (0.0_f64, 0, 0);
     for batch in 0..20 {
@@ -109,7 +112,7 @@ fn stand() -> Result<(), Box<dyn Error + Send + Sync>> {
 }
 
 fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
-    // Matrices of 192 rows are handed on by value.
+    // Matrices of 240 rows are handed on by value.
     let thread = thread::Builder::new().stack_size(64 << 20).spawn(stand)?;
     match thread.join() {
         Ok(done) => done,

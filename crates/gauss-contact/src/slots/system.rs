@@ -22,15 +22,8 @@ const OPEN: f64 = 1.0;
 /// Roundings of the largest term of a row of W below which an entry is none.
 const ROUNDINGS: f64 = 8.0;
 
-const NAMES: [&str; 64] = [
-    "slot_0", "slot_1", "slot_2", "slot_3", "slot_4", "slot_5", "slot_6", "slot_7", "slot_8", "slot_9", "slot_10",
-    "slot_11", "slot_12", "slot_13", "slot_14", "slot_15", "slot_16", "slot_17", "slot_18", "slot_19", "slot_20",
-    "slot_21", "slot_22", "slot_23", "slot_24", "slot_25", "slot_26", "slot_27", "slot_28", "slot_29", "slot_30",
-    "slot_31", "slot_32", "slot_33", "slot_34", "slot_35", "slot_36", "slot_37", "slot_38", "slot_39", "slot_40",
-    "slot_41", "slot_42", "slot_43", "slot_44", "slot_45", "slot_46", "slot_47", "slot_48", "slot_49", "slot_50",
-    "slot_51", "slot_52", "slot_53", "slot_54", "slot_55", "slot_56", "slot_57", "slot_58", "slot_59", "slot_60",
-    "slot_61", "slot_62", "slot_63",
-];
+/// Names have three digits at most.
+const MOST: usize = 1000;
 
 /// A kernel with N slots for contacts: a [`ContactSystem`] whose contacts are given at run time, between any two of its
 /// `frames(…)`, or one of them and what is at rest.
@@ -66,20 +59,29 @@ where
     K: FramedSystem<Scalar = f64, Speeds = SVector<f64, D>, Jacobian = SMatrix<f64, 6, D>>,
 {
     const TABLE: [Contact; N] = {
-        let mut table = [Contact::new(NAMES[0], 0, 2); N];
+        let mut table = [Contact::new("", 0, 2); N];
         let mut i = 0;
         while i < N {
-            table[i] = Contact::new(NAMES[i], 3 * i, 2);
+            table[i] = Contact::new(name(&Self::NAMES[i]), 3 * i, 2);
             i += 1;
         }
         table
+    };
+    const NAMES: &'static [([u8; 8], usize); N] = &{
+        let mut names = [(*b"slot_000", 0); N];
+        let mut i = 0;
+        while i < N {
+            names[i] = letters(i);
+            i += 1;
+        }
+        names
     };
 
     /// All slots are open.
     pub fn new(kernel: &'k K) -> Self {
         const {
             assert!(R == 3 * N, "a slot has three rows: its normal and two tangents");
-            assert!(N <= NAMES.len(), "there are up to 64 slots");
+            assert!(N <= MOST, "slots have numbers of up to three digits");
             assert!(!K::CONSTRAINED, "slots need a kernel whose speeds satisfy its constraints by themselves");
             assert!(!K::HAS_CONTACTS, "slots need a kernel without contacts of its own; write their points as slots");
         }
@@ -214,6 +216,27 @@ where
                 }
             }
         }
+    }
+}
+
+/// `slot_` with a number, and how many letters that has.
+const fn letters(number: usize) -> ([u8; 8], usize) {
+    let (mut letters, mut length, mut power) = (*b"slot_000", 5, 100);
+    while power > 0 {
+        if number >= power || power == 1 {
+            letters[length] = b'0' + (number / power % 10) as u8;
+            length += 1;
+        }
+        power /= 10;
+    }
+    (letters, length)
+}
+
+const fn name(letters: &'static ([u8; 8], usize)) -> &'static str {
+    let (used, _) = letters.0.split_at(letters.1);
+    match core::str::from_utf8(used) {
+        Ok(name) => name,
+        Err(_) => panic!("letters and digits"),
     }
 }
 
