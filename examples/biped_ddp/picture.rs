@@ -34,7 +34,7 @@ pub fn draw(
 /// Hip, trunk and both legs, each 90 ms; the left leg in the first colour.
 fn sticks(title: &'static str, states: &[State]) -> Plot<'static> {
     let mut lines = vec![Line::new("", INK, [(-0.35, 0.0), (0.65, 0.0)]).wide(3)];
-    let shown = |n: usize| n % 18 == 0 || n + 1 == states.len();
+    let shown = |n: usize| n.is_multiple_of(18) || n + 1 == states.len();
     for (n, x) in states.iter().enumerate().filter(|(n, _)| shown(*n)) {
         let whole = n == 0 || n + 1 == states.len();
         let from =
