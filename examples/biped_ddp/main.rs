@@ -1,6 +1,6 @@
 //! A biped steps forward by a plan through contacts: differential dynamic programming of first order (iLQR) over steps
-//! of Coulomb's law, whose derivatives are those of `step_with_derivatives`. When a foot leaves the ground or lands, and
-//! whether it slides, is found by the laws in each step; nothing prescribes it.
+//! of Coulomb's law, whose derivatives are those of `step_with_derivatives`. When a foot leaves the ground or lands,
+//! and whether it slides, is found by the laws in each step; nothing prescribes it.
 //!
 //! `cargo run --release --example biped_ddp [-- FOLDER]` draws the picture and the page that plays into `FOLDER`, by
 //! default `target/gauss`.

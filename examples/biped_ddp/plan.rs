@@ -104,7 +104,8 @@ impl Looked {
         Some(looked)
     }
 
-    /// When a foot changes between the ground and the air: the number of the step, and whether it is on the ground then.
+    /// When a foot changes between the ground and the air: the number of the step, and whether it is on the ground
+    /// then.
     #[must_use]
     pub fn changes(&self, foot: usize) -> Vec<(usize, bool)> {
         let closed = |n: usize| self.modes[n][foot].is_closed();

@@ -1,4 +1,5 @@
-//! What several examples plan and draw with; colours and pixels are those of `gauss-charts`, the package of the first example.
+//! What several examples plan and draw with; colours and pixels are those of `gauss-charts`, the package of the first
+//! example.
 //!
 //! | module | holds |
 //! |---|---|

@@ -1,5 +1,5 @@
-//! The claims of the example `biped_ddp`: the gradient of the cost is that of differences, the cost falls from iteration
-//! to iteration, the biped steps onto its goal by the laws of contact, and the picture is drawn.
+//! The claims of the example `biped_ddp`: the gradient of the cost is that of differences, the cost falls from
+//! iteration to iteration, the biped steps onto its goal by the laws of contact, and the picture is drawn.
 
 #[path = "../biped_ddp/model.rs"]
 mod model;
@@ -19,8 +19,8 @@ fn a_plan_through_contacts_steps_onto_its_goal() {
     let first = guess(&walker, &task).unwrap();
     for seed in 0..2 {
         let [exact, difference] = along(&walker, &task, &first, seed);
-        // Differences of fourth order at h = 1e-5 N m. A cost of 30 is rounded to 30 · 180 ε = 1e-12 by its steps and to
-        // some hundred times that by what steps amplify: 1e-10 over h of slopes above a thousand is 1e-8.
+        // Differences of fourth order at h = 1e-5 N m. A cost of 30 is rounded to 30 · 180 ε = 1e-12 by its steps and
+        // to some hundred times that by what steps amplify: 1e-10 over h of slopes above a thousand is 1e-8.
         assert!((exact / difference - 1.0).abs() < 1e-7, "{exact} {difference}");
     }
     let plan = task.solve(&walker, &first).unwrap();

@@ -1,5 +1,5 @@
-//! The claims of the example `hop_mpc`: derivatives of steps are those of differences, in flight and on the ground; plans
-//! keep the leg hopping after a blow, the thrusts of the model alone do not.
+//! The claims of the example `hop_mpc`: derivatives of steps are those of differences, in flight and on the ground;
+//! plans keep the leg hopping after a blow, the thrusts of the model alone do not.
 
 #[path = "../hop_mpc/model.rs"]
 mod model;

@@ -1,5 +1,5 @@
-//! The claims of the example `trot_regulator`: derivatives of steps say what becomes of a small push through touchdowns,
-//! torques alone let the robot fall after a push, and gains bring it back to its gait.
+//! The claims of the example `trot_regulator`: derivatives of steps say what becomes of a small push through
+//! touchdowns, torques alone let the robot fall after a push, and gains bring it back to its gait.
 
 #[path = "../trot_regulator/gait.rs"]
 mod gait;
@@ -34,8 +34,8 @@ fn gains_from_derivatives_of_steps_hold_a_trot() {
     expected.fixed_rows_mut::<3>(18).copy_from(&along);
     for n in first..500 {
         let off = (gait.off(n, &run.states[n]) - expected).amax();
-        // What is left out is of second order: deviations of 3e-6 squared, by second derivatives of steps, which impacts
-        // make as large as 1/h = 500 at most.
+        // What is left out is of second order: deviations of 3e-6 squared, by second derivatives of steps, which
+        // impacts make as large as 1/h = 500 at most.
         assert!(off < 5e-9, "step {n}: {off}");
         let (a, b) = &linear.steps[n];
         expected = a * expected - b * (gains.0[n] * expected);

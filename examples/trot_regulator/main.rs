@@ -1,4 +1,5 @@
-//! A quadruped from its file that trots, held on its gait by a regulator that is made from the derivatives of its steps.
+//! A quadruped from its file that trots, held on its gait by a regulator that is made from the derivatives of its
+//! steps.
 //!
 //! `cargo run --release --example trot_regulator [-- FOLDER]` draws the picture and the page that plays into `FOLDER`,
 //! by default `target/gauss`. ANYmal trots on the spot by springs and dampers at its joints; states and torques of that
