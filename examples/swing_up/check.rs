@@ -4,7 +4,9 @@ use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
 
-use crate::model::{Matrix, Plant, Scalar, Vector, parts};
+use gauss_examples::ddp::{Matrix, Plant, Vector};
+
+use crate::model::{Scalar, parts};
 use crate::second::Second;
 
 /// Central differences of ∂(end) at this distance leave out its square, and keep ε over it.

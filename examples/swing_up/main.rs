@@ -9,18 +9,17 @@ use std::f64::consts::PI;
 use std::time::{Duration, Instant};
 
 use gauss_charts::drawing::COLOURS;
+use gauss_examples::ddp::{Plan, Task, Vector};
 use gauss_examples::plots::{Line, Plot, sheet, write, write_page};
 use gauss_examples::stage;
 use gauss_playback::Playback;
 use gauss_runtime::prelude::*;
 
 mod check;
-mod ddp;
 mod model;
 mod second;
 
-use ddp::{Plan, Task};
-use model::{Arm, CartPole, CartPoleKernel, Differences, Exact, Scalar, Vector, joined, parts};
+use model::{Arm, CartPole, CartPoleKernel, Differences, Exact, Scalar, joined, parts};
 use second::Second;
 
 fn main() -> Result<(), Box<dyn Error>> {

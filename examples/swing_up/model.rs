@@ -1,5 +1,6 @@
 //! What is to be moved, step by step: a pole on a cart, and an arm from its file.
 
+use gauss_examples::ddp::{Expansion, Matrix, Plant, Vector};
 use gauss_runtime::hessian::Hessian;
 use gauss_runtime::integrate::{Feedback, OneStep, Problem, State, SystemProblem};
 use gauss_runtime::linearize::Linearization;
@@ -31,37 +32,6 @@ pub struct CartPole {
 #[derive(GaussDynamics)]
 #[gauss(urdf = "../tests/robots/panda.urdf", gravity = 9.81, linearize(hessian))]
 pub struct Arm;
-
-pub type Vector<const N: usize> = SVector<f64, N>;
-pub type Matrix<const N: usize, const M: usize> = SMatrix<f64, N, M>;
-
-/// A step from a state x = (q, z) with an input that is held, and its derivatives.
-pub trait Plant<const D: usize, const U: usize> {
-    /// What second derivatives are made of.
-    type Stages;
-    /// Whether it has some.
-    const IS_CURVED: bool = false;
-    /// Where it ends.
-    fn step(&self, x: &Vector<D>, u: &Vector<U>) -> Vector<D>;
-    /// ∂(end)/∂x and ∂(end)/∂u.
-    fn expansion(&self, x: &Vector<D>, u: &Vector<U>) -> Expansion<Self::Stages, D, U>;
-    /// ∂²(weights · end), where that is known; else zero.
-    fn curvature(&self, _: &Self::Stages, _: &Vector<U>, _: &Vector<D>) -> Hessian<f64, D, U> {
-        flat()
-    }
-}
-
-/// No curvature.
-pub fn flat<const D: usize, const U: usize>() -> Hessian<f64, D, U> {
-    Hessian::new(Matrix::zeros(), Matrix::zeros(), Matrix::zeros())
-}
-
-/// The derivatives of a step.
-pub struct Expansion<S, const D: usize, const U: usize> {
-    pub by_state: Matrix<D, D>,
-    pub by_input: Matrix<D, U>,
-    pub stages: S,
-}
 
 /// A kernel of N scalar coordinates.
 pub trait Scalar<const N: usize, const D: usize, const U: usize>:

@@ -1,8 +1,9 @@
 //! Steps with their second derivatives, of `linearize` and `hessian` at their stages.
 
+use gauss_examples::ddp::{Expansion, Matrix, Plant, Vector, flat};
 use gauss_runtime::hessian::Hessian;
 
-use crate::model::{Exact, Expansion, Matrix, Plant, Scalar, Vector, flat, parts};
+use crate::model::{Exact, Scalar, parts};
 
 /// The same steps as of [`Exact`]: on a linear space the method is the classical one of order 4.
 pub struct Second<'k, K, const N: usize>(pub Exact<'k, K, N>);

@@ -51,7 +51,11 @@ impl<const N: usize> Dual<N> {
     #[inline]
     fn chain(self, value: f64, derivative: f64) -> Self {
         let mut slopes = self.slopes;
-        slopes.iter_mut().for_each(|slope| *slope *= derivative);
+        let mut k = 0;
+        while k < N {
+            slopes[k] *= derivative;
+            k += 1;
+        }
         Self { value, slopes }
     }
 
@@ -65,7 +69,11 @@ impl<const N: usize> Dual<N> {
     #[inline]
     fn chain_of_two(self, other: &Self, value: f64, [a, b]: [f64; 2]) -> Self {
         let mut slopes = self.slopes;
-        slopes.iter_mut().zip(&other.slopes).for_each(|(x, y)| *x = a * *x + b * *y);
+        let mut k = 0;
+        while k < N {
+            slopes[k] = a * slopes[k] + b * other.slopes[k];
+            k += 1;
+        }
         Self { value, slopes }
     }
 }

@@ -4,21 +4,70 @@
 
 use std::time::{Duration, Instant};
 
-use crate::model::{Expansion, Matrix, Plant, Vector, flat};
+use gauss_runtime::hessian::Hessian;
+use gauss_runtime::nalgebra::{SMatrix, SVector};
+
+/// N numbers.
+pub type Vector<const N: usize> = SVector<f64, N>;
+/// N rows of M numbers.
+pub type Matrix<const N: usize, const M: usize> = SMatrix<f64, N, M>;
+
+/// A step from a state with an input that is held, and its derivatives. Where no step can be made all is not a number.
+pub trait Plant<const D: usize, const U: usize> {
+    /// What second derivatives are made of.
+    type Stages;
+    /// Whether it has some.
+    const IS_CURVED: bool = false;
+    /// Where it ends.
+    fn step(&self, x: &Vector<D>, u: &Vector<U>) -> Vector<D>;
+    /// ∂(end)/∂x and ∂(end)/∂u.
+    fn expansion(&self, x: &Vector<D>, u: &Vector<U>) -> Expansion<Self::Stages, D, U>;
+    /// ∂²(weights · end), where that is known; else zero.
+    fn curvature(&self, _: &Self::Stages, _: &Vector<U>, _: &Vector<D>) -> Hessian<f64, D, U> {
+        flat()
+    }
+}
+
+/// No curvature.
+#[must_use]
+pub fn flat<const D: usize, const U: usize>() -> Hessian<f64, D, U> {
+    Hessian::new(Matrix::zeros(), Matrix::zeros(), Matrix::zeros())
+}
+
+/// The derivatives of a step.
+#[derive(Clone, Debug)]
+pub struct Expansion<S, const D: usize, const U: usize> {
+    /// ∂(end)/∂x.
+    pub by_state: Matrix<D, D>,
+    /// ∂(end)/∂u.
+    pub by_input: Matrix<D, U>,
+    /// What second derivatives are made of.
+    pub stages: S,
+}
 
 /// ½ Σ (uᵀ R u + (x − goal)ᵀ Q (x − goal)) and, at the end, ½ (x − goal)ᵀ F (x − goal); all three diagonal.
+#[derive(Clone, Debug)]
 pub struct Task<const D: usize, const U: usize> {
+    /// The state at the start.
     pub start: Vector<D>,
+    /// The state that is wanted.
     pub goal: Vector<D>,
+    /// The diagonal of R.
     pub effort: Vector<U>,
+    /// The diagonal of Q.
     pub on_the_way: Vector<D>,
+    /// The diagonal of F.
     pub at_the_end: Vector<D>,
+    /// How many inputs there are.
     pub steps: usize,
 }
 
 /// What was found.
+#[derive(Clone, Debug)]
 pub struct Plan<const D: usize, const U: usize> {
+    /// Before the first step and after each.
     pub states: Vec<Vector<D>>,
+    /// Of each step.
     pub inputs: Vec<Vector<U>>,
     /// After each iteration, the first before any.
     pub costs: Vec<f64>,
@@ -38,7 +87,9 @@ struct Change<const D: usize, const U: usize> {
 }
 
 impl<const D: usize, const U: usize> Task<D, U> {
-    fn cost(&self, states: &[Vector<D>], inputs: &[Vector<U>]) -> f64 {
+    /// What a way costs, by its states and inputs.
+    #[must_use]
+    pub fn cost(&self, states: &[Vector<D>], inputs: &[Vector<U>]) -> f64 {
         let weighed = |x: &Vector<D>, weight: &Vector<D>| {
             let off = x - self.goal;
             0.5 * off.component_mul(weight).dot(&off)
@@ -48,12 +99,29 @@ impl<const D: usize, const U: usize> Task<D, U> {
         ways.take(self.steps).sum::<f64>() + efforts.sum::<f64>() + weighed(&states[self.steps], &self.at_the_end)
     }
 
+    /// ∂cost/∂inputs along a way, by its states and inputs: from the end to the start.
+    pub fn slopes<P: Plant<D, U>>(&self, plant: &P, states: &[Vector<D>], inputs: &[Vector<U>]) -> Vec<Vector<U>> {
+        let mut slope = (states[self.steps] - self.goal).component_mul(&self.at_the_end);
+        let mut slopes = Vec::new();
+        for (x, u) in states.iter().zip(inputs).rev() {
+            let step = plant.expansion(x, u);
+            slopes.push(u.component_mul(&self.effort) + step.by_input.tr_mul(&slope));
+            slope = (x - self.goal).component_mul(&self.on_the_way) + step.by_state.tr_mul(&slope);
+        }
+        slopes.reverse();
+        slopes
+    }
+
+    /// States along a way, by its inputs.
+    pub fn way<P: Plant<D, U>>(&self, plant: &P, inputs: &[Vector<U>]) -> Vec<Vector<D>> {
+        let mut states = vec![self.start];
+        inputs.iter().for_each(|u| states.push(plant.step(&states[states.len() - 1], u)));
+        states
+    }
+
     /// The best inputs from a first guess; `None` where the guess leaves all bounds.
     pub fn solve<P: Plant<D, U>>(&self, plant: &P, guess: &[Vector<U>]) -> Option<Plan<D, U>> {
-        let (mut states, mut inputs) = (vec![self.start], guess.to_vec());
-        for u in guess {
-            states.push(plant.step(&states[states.len() - 1], u));
-        }
+        let (mut states, mut inputs) = (self.way(plant, guess), guess.to_vec());
         let mut costs = vec![self.cost(&states, &inputs)];
         let (mut damping, mut gains, mut in_derivatives) = (1e-6, Vec::new(), Duration::ZERO);
         costs[0].is_finite().then_some(())?;
