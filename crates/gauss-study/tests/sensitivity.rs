@@ -42,8 +42,7 @@ fn found(seed: u64) -> Result<Vec<Index>, Box<dyn std::error::Error>> {
 fn indices_of_the_ishigami_function_are_those_in_closed_form() -> Outcome {
     for seed in 1..=4 {
         for (index, [first, total]) in found(seed)?.into_iter().zip(known()) {
-            // Errors are those of independent points: four deviations. Points of a sequence are closer, so that a
-            // quarter of the error that independent ones would have is aimed at as well.
+            // Four deviations of independent points; those of a sequence are closer.
             let off = [index.first - first, index.total - total];
             for (off, error) in off.into_iter().zip(index.errors) {
                 assert!(error < 0.05, "an error that says something: {index:?}");
