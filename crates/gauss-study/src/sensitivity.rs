@@ -14,8 +14,8 @@ pub struct Index {
 /// The indices of each parameter, from one result of all runs in the order of their numbers: groups of A, A with a
 /// parameter of B for each, and B, as of [`Plan::Saltelli`](crate::Plan::Saltelli).
 ///
-/// First order by Saltelli and others (2010), (b) of table 2, about the mean; total by Jansen (1999), (f). Groups in
-/// which a value is missing are left out.
+/// First order by Saltelli and others (2010), (b) of table 2, about the mean of all runs; total by Jansen (1999), (f);
+/// the variance is that of A and B. SALib forms the same. Groups in which a value is missing are left out.
 ///
 /// Nothing is returned where less than two groups are whole, or where the result does not vary.
 #[must_use]
@@ -27,8 +27,9 @@ pub fn sobol_indices(values: &[Option<f64>], parameters: usize) -> Option<Vec<In
     }
     let ends = || groups.iter().flat_map(|group| [group[0], group[parameters + 1]]);
     let count = 2.0 * groups.len() as f64;
-    let mean = ends().sum::<f64>() / count;
-    let variance = ends().map(|value| (value - mean).powi(2)).sum::<f64>() / count;
+    let mean_of_ends = ends().sum::<f64>() / count;
+    let variance = ends().map(|value| (value - mean_of_ends).powi(2)).sum::<f64>() / count;
+    let mean = groups.iter().flatten().sum::<f64>() / (groups.len() * (parameters + 2)) as f64;
     // What is left of equal values is their rounding.
     let rounding = count * f64::EPSILON * mean.abs();
     if !(variance > rounding * rounding) {

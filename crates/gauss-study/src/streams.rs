@@ -22,7 +22,7 @@ pub enum Purpose {
     Shift = 3,
 }
 
-/// Random numbers within a run, all that it asks for: [`Sample::stream`](crate::Sample::stream).
+/// Random numbers within a run, all that it asks for: [`Draw::stream`](crate::Draw::stream).
 #[derive(Debug)]
 pub struct Stream(ChaCha8Rng);
 

@@ -10,12 +10,12 @@ use std::sync::Mutex;
 use rayon::prelude::*;
 
 use crate::declaration::{Declaration, Sampler};
+use crate::draw::Draw;
 use crate::error::StudyError;
 use crate::files::{Folder, PartState, Results};
 use crate::row::Row;
-use crate::sample::Sample;
 
-type Runs<'a> = Box<dyn Fn(&[Sample], &mut [Row]) -> Result<(), String> + Send + Sync + 'a>;
+type Runs<'a> = Box<dyn Fn(&[Draw], &mut [Row]) -> Result<(), String> + Send + Sync + 'a>;
 
 /// A study: its declaration and what a run is.
 #[must_use = "a study does nothing before `run`"]
@@ -86,7 +86,7 @@ impl<'a> Study<'a> {
 
     /// The names and the numbers of the parameters of one run, and its results: to look at one that failed.
     #[must_use]
-    pub fn one(&self, run: u64) -> (Sample, Row) {
+    pub fn one(&self, run: u64) -> (Draw, Row) {
         let mut samples = vec![self.sampler.sample(run)];
         let mut rows = self.rows(&samples);
         (samples.remove(0), rows.remove(0))
@@ -155,14 +155,14 @@ impl<'a> Study<'a> {
 
     /// Makes and writes a part; how many of its runs failed.
     fn make(&self, folder: &Folder<'_>, part: u64, runs: Range<u64>) -> Result<u64, StudyError> {
-        let samples: Vec<Sample> = runs.into_par_iter().map(|run| self.sampler.sample(run)).collect();
+        let samples: Vec<Draw> = runs.into_par_iter().map(|run| self.sampler.sample(run)).collect();
         let rows: Vec<Row> = samples.par_chunks(self.width).flat_map_iter(|samples| self.rows(samples)).collect();
         folder.write(part, &samples, &rows)?;
         Ok(rows.iter().filter(|row| row.cause.is_some()).count() as u64)
     }
 
     /// The rows of a block.
-    fn rows(&self, samples: &[Sample]) -> Vec<Row> {
+    fn rows(&self, samples: &[Draw]) -> Vec<Row> {
         let columns = &self.declaration.columns;
         let mut rows = vec![Row::new(columns.len()); samples.len()];
         if let Err(cause) = caught(|| (self.runs)(samples, &mut rows)) {

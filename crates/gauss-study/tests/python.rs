@@ -5,6 +5,8 @@ mod common;
 use std::process::Command;
 
 use common::{Outcome, declaration, failures, waves};
+use gauss_study::sensitivity::sobol_indices;
+use gauss_study::{Declaration, Plan, fixed, uniform};
 
 const READ: &str = r#"
 import json, sys
@@ -51,5 +53,36 @@ fn pyarrow_and_polars_read_the_files() -> Outcome {
     let output = Command::new(python).args(["-c", READ, &path, &failures().to_string()]).output()?;
     let words = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && output.stdout.starts_with(b"read"), "{words}");
+    Ok(())
+}
+
+/// `examples/study/sensitivity.py` finds what [`sobol_indices`] finds.
+#[test]
+fn salib_finds_the_same_sensitivities() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let mut declaration = Declaration::new("sum", 3, 4 * 512).plan(Plan::Saltelli);
+    let [a, b] = ["a", "b"].map(|name| declaration.parameter(name, "", uniform(-1.0, 2.0)));
+    declaration.parameter("c", "", fixed(1.0));
+    let y = declaration.number("y", "");
+    let study = declaration.study(move |draw, row| {
+        row.set(y, draw[a] + 3.0 * draw[b] + draw[a] * draw[b]);
+        Ok::<_, String>(())
+    })?;
+    study.run(folder.path(), |_| ())?;
+    let file = study.merge(folder.path())?;
+    let ours = sobol_indices(&study.results(folder.path())?.numbers("y")?, 2).ok_or("it varies")?;
+    let Some(python) = python("pyarrow, SALib") else { return Ok(()) };
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/study/sensitivity.py");
+    let output = Command::new(python).arg(script).arg(file).args(["y", "--json"]).output()?;
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let theirs: serde_json::Value = serde_json::from_slice(&output.stdout)?;
+    assert_eq!(theirs["names"], serde_json::json!(["a", "b"]));
+    for (n, index) in ours.iter().enumerate() {
+        for (name, here) in [("S1", index.first), ("ST", index.total)] {
+            let there = theirs[name][n].as_f64().ok_or("a number")?;
+            // The same estimators; SALib brings the results to mean 0 and deviation 1 first: some thousand roundings.
+            assert!((there - here).abs() < 2048.0 * f64::EPSILON, "{name} of {n}: {here} here, {there} there");
+        }
+    }
     Ok(())
 }

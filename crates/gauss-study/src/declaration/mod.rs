@@ -7,10 +7,10 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::distribution::Distribution;
+use crate::draw::{Draw, Parameter};
 use crate::error::DeclarationError;
 use crate::plan::{Axis, Plan};
 use crate::row::{Column, ColumnType, Kind, Row};
-use crate::sample::{Parameter, Sample};
 use crate::study::{Study, caught};
 
 /// What a study is: a name and a version of its model, a seed, how many runs, parameters and results.
@@ -118,7 +118,7 @@ impl Declaration {
     /// All mistakes of the declaration.
     pub fn study<'a, E: std::fmt::Display>(
         self,
-        run: impl Fn(&Sample, &mut Row) -> Result<(), E> + Send + Sync + 'a,
+        run: impl Fn(&Draw, &mut Row) -> Result<(), E> + Send + Sync + 'a,
     ) -> Result<Study<'a>, DeclarationError> {
         self.study_in_blocks(1, move |samples, rows| {
             samples.iter().zip(rows).try_for_each(|(sample, row)| run(sample, row))
@@ -133,10 +133,10 @@ impl Declaration {
     pub fn study_in_blocks<'a, E: std::fmt::Display>(
         self,
         width: usize,
-        run: impl Fn(&[Sample], &mut [Row]) -> Result<(), E> + Send + Sync + 'a,
+        run: impl Fn(&[Draw], &mut [Row]) -> Result<(), E> + Send + Sync + 'a,
     ) -> Result<Study<'a>, DeclarationError> {
         let sampler = self.sampler()?;
-        let run = move |samples: &[Sample], rows: &mut [Row]| run(samples, rows).map_err(|error| error.to_string());
+        let run = move |samples: &[Draw], rows: &mut [Row]| run(samples, rows).map_err(|error| error.to_string());
         Ok(Study::new(self, sampler, width.max(1), Box::new(run)))
     }
 
@@ -190,12 +190,12 @@ enum Source {
 impl Sampler {
     /// The parameters of run `run`: a function of the seed and that number.
     #[must_use]
-    pub fn sample(&self, run: u64) -> Sample {
+    pub fn sample(&self, run: u64) -> Draw {
         let value = |(name, distribution, source): &(String, Distribution, Source)| match source {
             Source::Axis(axis) => distribution.at(axis.at(self.seed, name, run)),
             Source::Steps { stride, steps } => distribution.step(run / stride % steps),
         };
-        Sample { seed: self.seed, run, values: self.axes.iter().map(value).collect() }
+        Draw { seed: self.seed, run, values: self.axes.iter().map(value).collect() }
     }
 
     /// What becomes of all runs, in the order of their numbers, on all threads and in memory: for studies of a size that
@@ -204,7 +204,7 @@ impl Sampler {
     /// A run that fails or panics is its cause.
     pub fn map<T: Send, E: std::fmt::Display>(
         &self,
-        run: impl Fn(&Sample) -> Result<T, E> + Sync,
+        run: impl Fn(&Draw) -> Result<T, E> + Sync,
     ) -> Vec<Result<T, String>> {
         let one = |number| caught(|| run(&self.sample(number)).map_err(|error| error.to_string()));
         (0..self.runs).into_par_iter().map(one).collect()

@@ -12,9 +12,9 @@ use std::path::{Path, PathBuf};
 pub use results::Results;
 
 use crate::declaration::Declaration;
+use crate::draw::Draw;
 use crate::error::StudyError;
 use crate::row::Row;
-use crate::sample::Sample;
 
 /// The file of the declaration, and of all results in one.
 const DECLARATION: &str = "study.json";
@@ -88,7 +88,7 @@ impl<'a> Folder<'a> {
     }
 
     /// Writes a part, whole or not at all.
-    pub fn write(&self, part: u64, samples: &[Sample], rows: &[Row]) -> Result<(), StudyError> {
+    pub fn write(&self, part: u64, samples: &[Draw], rows: &[Row]) -> Result<(), StudyError> {
         let file = self.part(part);
         let bytes = part::bytes(self.declaration, samples, rows);
         let bytes = bytes.map_err(|error| StudyError::Damaged { file: file.clone(), reason: error.to_string() })?;

@@ -10,17 +10,17 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use super::PartState;
 use super::schema::{KEY, properties, schema};
 use crate::declaration::Declaration;
+use crate::draw::Draw;
 use crate::row::{Kind, Row, Value};
-use crate::sample::Sample;
 
 /// The file of these runs.
-pub fn bytes(declaration: &Declaration, samples: &[Sample], rows: &[Row]) -> Result<Vec<u8>, ParquetError> {
+pub fn bytes(declaration: &Declaration, samples: &[Draw], rows: &[Row]) -> Result<Vec<u8>, ParquetError> {
     let mut writer = SerializedFileWriter::new(Vec::new(), schema(declaration)?, properties(declaration))?;
     let mut group = writer.next_row_group()?;
     // The bits of numbers above 2⁶³ stay; the schema says that they are unsigned.
-    let whole = |of: fn(&Sample) -> u64| samples.iter().map(|sample| of(sample) as i64).collect::<Vec<_>>();
-    put::<Int64Type>(&mut group, &whole(Sample::seed), None)?;
-    put::<Int64Type>(&mut group, &whole(Sample::run), None)?;
+    let whole = |of: fn(&Draw) -> u64| samples.iter().map(|sample| of(sample) as i64).collect::<Vec<_>>();
+    put::<Int64Type>(&mut group, &whole(Draw::seed), None)?;
+    put::<Int64Type>(&mut group, &whole(Draw::run), None)?;
     for place in 0..declaration.parameters.len() {
         let values: Vec<f64> = samples.iter().map(|sample| sample.values[place]).collect();
         put::<DoubleType>(&mut group, &values, None)?;

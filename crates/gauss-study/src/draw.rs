@@ -11,13 +11,13 @@ pub struct Parameter(pub(crate) usize);
 
 /// The parameters of one run, a function of the study's seed and the run's number alone.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sample {
+pub struct Draw {
     pub(crate) seed: u64,
     pub(crate) run: u64,
     pub(crate) values: Vec<f64>,
 }
 
-impl Sample {
+impl Draw {
     /// The seed of the study.
     #[must_use]
     pub fn seed(&self) -> u64 {
@@ -45,7 +45,7 @@ impl Sample {
 
 /// # Panics
 /// When the parameter is another study's and this one has fewer.
-impl Index<Parameter> for Sample {
+impl Index<Parameter> for Draw {
     type Output = f64;
 
     fn index(&self, parameter: Parameter) -> &f64 {
