@@ -32,7 +32,7 @@ pub fn sobol_indices(values: &[Option<f64>], parameters: usize) -> Option<Vec<In
     let mean = groups.iter().flatten().sum::<f64>() / (groups.len() * (parameters + 2)) as f64;
     // What is left of equal values is their rounding.
     let rounding = count * f64::EPSILON * mean.abs();
-    if !(variance > rounding * rounding) {
+    if variance.is_nan() || variance <= rounding * rounding {
         return None;
     }
     let of = |parameter: usize| {

@@ -62,7 +62,7 @@ fn plan(declaration: &Declaration, mistakes: &mut Vec<String>) {
             .push(format!("{plan:?} beside a grid: every number of the grid would get a part of the sequence only"));
     }
     let group = plan.group(random);
-    if plan == Plan::Saltelli && (random == 0 || declaration.runs % group != 0) {
+    if plan == Plan::Saltelli && (random == 0 || !declaration.runs.is_multiple_of(group)) {
         mistakes.push(format!("Saltelli of {random} random parameters: runs should come in groups of {group}"));
     }
 }
