@@ -93,7 +93,7 @@ impl<'a> Study<'a> {
     }
 
     /// Makes the runs that the folder lacks, on all threads, and writes them part by part. `progress` is called at the
-    /// beginning and after each part.
+    /// beginning, and after each part by the thread that wrote it, which holds up no other.
     ///
     /// # Errors
     /// [`StudyError::Other`] where the folder holds another study, [`StudyError::Unreadable`], [`StudyError::Io`].
@@ -126,11 +126,14 @@ impl<'a> Study<'a> {
             let runs = self.declaration.runs_of(part);
             let count = runs.end - runs.start;
             let failed = self.make(&folder, part, runs)?;
-            // A thread that panicked while it held the lock has counted nothing: only `progress` is called then.
-            let mut done = done.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-            done.runs += count;
-            done.failed += failed;
-            progress(*done);
+            // Nothing panics while it holds the lock: what is called of the user's comes after.
+            let now = {
+                let mut done = done.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+                done.runs += count;
+                done.failed += failed;
+                *done
+            };
+            progress(now);
             Ok(())
         })?;
         Ok(done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner))
