@@ -30,10 +30,7 @@ use gauss_examples::runs;
 use gauss_study::{Declaration, Study, grid, uniform};
 
 use lander::{Along, OUTCOMES, Parameters};
-
-/// The sweep: speeds along the ground up to 3 m/s, slopes up to 15°.
-const SPEEDS: u32 = 25;
-const SLOPES: u32 = 16;
+use map::{SLOPES, SPEEDS};
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let words: Vec<_> = std::env::args_os().skip(1).collect();

@@ -8,7 +8,9 @@ use gauss_examples::plots::{Plot, sheet, write_into};
 use gauss_study::Study;
 use plotters::style::RGBColor;
 
-use crate::{SLOPES, SPEEDS};
+/// The sweep: speeds along the ground up to 3 m/s, slopes up to 15°.
+pub const SPEEDS: u32 = 25;
+pub const SLOPES: u32 = 16;
 
 /// Runs of a cell: all, those that tip over, those that slide.
 type Cell = [u32; 3];

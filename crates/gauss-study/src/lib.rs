@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod caught;
 mod command;
 mod declaration;
 mod distribution;

@@ -1,17 +1,16 @@
 //! The runs of a study, on all cores, into files.
 
-use std::any::Any;
 use std::fmt;
 use std::ops::Range;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use rayon::prelude::*;
 
+use crate::caught::caught;
 use crate::declaration::{Declaration, Sampler};
 use crate::draw::Draw;
-use crate::error::StudyError;
+use crate::error::{DeclarationError, StudyError};
 use crate::files::{Folder, PartState, Results};
 use crate::row::Row;
 
@@ -64,12 +63,34 @@ pub struct Progress {
 }
 
 impl Declaration {
-    pub(crate) fn parts(&self) -> u64 {
-        self.runs.div_ceil(self.part)
+    /// The study, a run of which is a function of its sample.
+    ///
+    /// What it returns as an error, or panics with, is the cause in its row, and the other runs go on.
+    ///
+    /// # Errors
+    /// All mistakes of the declaration.
+    pub fn study<'a, E: std::fmt::Display>(
+        self,
+        run: impl Fn(&Draw, &mut Row) -> Result<(), E> + Send + Sync + 'a,
+    ) -> Result<Study<'a>, DeclarationError> {
+        self.study_in_blocks(1, move |samples, rows| {
+            samples.iter().zip(rows).try_for_each(|(sample, row)| run(sample, row))
+        })
     }
 
-    pub(crate) fn runs_of(&self, part: u64) -> Range<u64> {
-        (part * self.part)..((part + 1) * self.part).min(self.runs)
+    /// The same by blocks of up to `width` neighbouring runs, for runs that share vectors as those of `gauss-batch` do.
+    /// Which runs are in a block depends on the declaration alone. A block that fails or panics is repeated run by run.
+    ///
+    /// # Errors
+    /// All mistakes of the declaration.
+    pub fn study_in_blocks<'a, E: std::fmt::Display>(
+        self,
+        width: usize,
+        run: impl Fn(&[Draw], &mut [Row]) -> Result<(), E> + Send + Sync + 'a,
+    ) -> Result<Study<'a>, DeclarationError> {
+        let sampler = self.sampler()?;
+        let run = move |samples: &[Draw], rows: &mut [Row]| run(samples, rows).map_err(|error| error.to_string());
+        Ok(Study::new(self, sampler, width.max(1), Box::new(run)))
     }
 }
 
@@ -210,15 +231,4 @@ impl<'a> Study<'a> {
     pub(crate) fn declaration(&self) -> &Declaration {
         &self.declaration
     }
-}
-
-/// What a function gives, or what it panicked with.
-pub fn caught<T>(run: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
-    // What the panic left half done is thrown away or is the row of this run alone.
-    catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|panic| Err(format!("panicked: {}", message(&*panic))))
-}
-
-fn message(panic: &(dyn Any + Send)) -> &str {
-    let text = panic.downcast_ref::<&str>().copied();
-    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("without words")
 }

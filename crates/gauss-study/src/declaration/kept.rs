@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::Declaration;
+use super::declared::Declaration;
 
 impl Declaration {
     /// As it is kept beside the results: JSON.

@@ -9,6 +9,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+pub use part::PartState;
 pub use results::Results;
 
 use crate::declaration::Declaration;
@@ -25,18 +26,6 @@ const MERGED: &str = "study.parquet";
 pub struct Folder<'a> {
     path: &'a Path,
     declaration: &'a Declaration,
-}
-
-/// What there is of a part.
-#[derive(Debug, PartialEq, Eq)]
-pub enum PartState {
-    Missing,
-    /// With so many failed runs.
-    Whole {
-        failed: u64,
-    },
-    /// Not whole, or of another study.
-    Damaged(String),
 }
 
 impl<'a> Folder<'a> {

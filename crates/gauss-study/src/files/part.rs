@@ -7,11 +7,22 @@ use parquet::errors::ParquetError;
 use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 
-use super::PartState;
 use super::schema::{KEY, properties, schema};
 use crate::declaration::Declaration;
 use crate::draw::Draw;
 use crate::row::{Kind, Row, Value};
+
+/// What there is of a part.
+#[derive(Debug, PartialEq, Eq)]
+pub enum PartState {
+    Missing,
+    /// With so many failed runs.
+    Whole {
+        failed: u64,
+    },
+    /// Not whole, or of another study.
+    Damaged(String),
+}
 
 /// The file of these runs.
 pub fn bytes(declaration: &Declaration, samples: &[Draw], rows: &[Row]) -> Result<Vec<u8>, ParquetError> {

@@ -48,8 +48,8 @@ impl Directions {
 mod tests {
     use super::*;
 
-    /// Points 1, 2, 3 and 1000003 of scipy 1.17.1, `qmc.Sobol(100, scramble=False)`, which has the same direction numbers,
-    /// times 2³⁰.
+    /// Points 1, 2, 3 and 1000003 of scipy 1.17.1, `qmc.Sobol(100, scramble=False)`, which has the same direction
+    /// numbers, times 2³⁰.
     #[test]
     fn points_are_those_of_scipy() {
         for (dimension, points) in SCIPY {
