@@ -23,6 +23,7 @@ chapters! {
     HardCases: "src/hard_cases.md",
     Derivatives: "src/derivatives.md",
     Many: "src/many.md",
+    Studies: "src/studies.md",
     Embedded: "src/embedded.md",
     Robots: "src/robots.md",
     RobotsTouching: "src/robots_touching.md",

@@ -3,9 +3,9 @@
 use std::error::Error;
 use std::f64::consts::PI;
 
-use gauss_charts::statistics::Random;
 use gauss_contact::{ContactStepper, ContactSteps, StepSample};
 use gauss_runtime::prelude::*;
+use gauss_study::Draw;
 
 /// A cube over a table, on its corners. Its center of mass lies off the middle along k₃ of the die, away from the six.
 #[derive(GaussDynamics)]
@@ -63,10 +63,8 @@ impl Die {
 }
 
 /// Where a throw starts: any attitude, 25 to 35 cm up, with a push and a spin.
-fn start(seed: u64) -> (Isometry3<f64>, SVector<f64, 6>) {
-    let mut random = Random(seed);
-    // Streams of neighbouring seeds begin alike.
-    (0..4).for_each(|_| _ = random.normal());
+fn start(draw: &Draw) -> (Isometry3<f64>, SVector<f64, 6>) {
+    let mut random = draw.stream("throw");
     let turn = Quaternion::new(random.normal(), random.normal(), random.normal(), random.normal());
     let height = 0.3 + 0.05 * (random.normal() / PI).tanh();
     let pose = Isometry3::from_parts(Translation3::new(0.0, 0.0, height), UnitQuaternion::new_normalize(turn));
@@ -79,8 +77,8 @@ fn start(seed: u64) -> (Isometry3<f64>, SVector<f64, 6>) {
 ///
 /// # Errors
 /// Where a step is one.
-pub fn throw(kernel: &DieKernel, seed: u64) -> Result<Throw, gauss_contact::ContactError> {
-    let (q, z) = start(seed);
+pub fn throw(kernel: &DieKernel, draw: &Draw) -> Result<Throw, gauss_contact::ContactError> {
+    let (q, z) = start(draw);
     let mut stepper = ContactStepper::new(kernel, 0.0, q, z)?;
     let mut throw = Throw { face: None, rests: false, steps: 0, residual: 0.0, lowest: 0.0 };
     while stepper.time() < LONGEST && !throw.rests {
@@ -101,7 +99,7 @@ pub fn throw(kernel: &DieKernel, seed: u64) -> Result<Throw, gauss_contact::Cont
 ///
 /// # Errors
 /// Where a step is one.
-pub fn path(kernel: &DieKernel, seed: u64) -> Result<Vec<StepSample<DieKernel>>, Box<dyn Error>> {
-    let (q, z) = start(seed);
+pub fn path(kernel: &DieKernel, draw: &Draw) -> Result<Vec<StepSample<DieKernel>>, Box<dyn Error>> {
+    let (q, z) = start(draw);
     Ok(ContactSteps::new(kernel, STEP).run(q, z, 0.0..1.2)?)
 }

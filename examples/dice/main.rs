@@ -8,22 +8,24 @@ mod die;
 mod picture;
 
 use std::error::Error;
-use std::num::NonZero;
-use std::thread;
 use std::time::Instant;
 
 use gauss_examples::plots::{write, write_page};
 use gauss_examples::runs;
+use gauss_study::Declaration;
 
 use die::{Die, Faces, Throw, throw};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let count = runs(10_000);
     let dice = [("even", Die::even()), ("loaded", Die::loaded(1.5e-3))];
+    // A throw is a function of its number alone.
+    let numbers = Declaration::new("dice", 1, count as u64).sampler()?;
     let mut found = Vec::new();
     for (name, die) in &dice {
         let clock = Instant::now();
-        let throws = dropped(die, count)?;
+        let kernel = die.kernel()?;
+        let throws = numbers.map(|sample| throw(&kernel, sample)).into_iter().collect::<Result<Vec<_>, _>>()?;
         let faces = faces(&throws);
         println!("{count} {name} dice in {:.1} s, {} steps:", clock.elapsed().as_secs_f64(), steps(&throws));
         println!("  faces 1 to 6: {faces:?}; χ² of even faces {:.2}, of 5 degrees of freedom", chi_square(&faces));
@@ -33,21 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         found.push((*name, faces));
     }
     write("dice", &picture::draw(&found)?)?;
-    write_page("dice", &picture::page(&dice[0].1)?)
-}
-
-/// Dice of all seeds, on all threads: a throw is a function of its seed alone.
-fn dropped(die: &Die, count: usize) -> Result<Vec<Throw>, Box<dyn Error>> {
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    let kernel = &die.kernel()?;
-    let part = |n: usize| (count * n / threads)..(count * (n + 1) / threads);
-    let of_part = move |n: usize| part(n).map(|seed| throw(kernel, seed as u64)).collect::<Result<Vec<_>, _>>();
-    let parts: Vec<_> = thread::scope(|scope| {
-        let running: Vec<_> = (0..threads).map(|n| scope.spawn(move || of_part(n))).collect();
-        running.into_iter().map(|part| part.join().map_err(|_| "a thread ended")).collect::<Result<_, _>>()
-    })?;
-    let parts: Vec<Vec<Throw>> = parts.into_iter().collect::<Result<_, _>>()?;
-    Ok(parts.into_iter().flatten().collect())
+    write_page("dice", &picture::page(&dice[0].1, &numbers.sample(7))?)
 }
 
 fn faces(throws: &[Throw]) -> Faces {

@@ -7,6 +7,7 @@ use gauss_contact::Mode;
 use gauss_examples::plots::{Line, Plot, sheet};
 use gauss_playback::{Playback, Shape, Touch};
 use gauss_runtime::prelude::*;
+use gauss_study::Draw;
 
 use crate::die::{Die, DieKernel, Faces, path};
 
@@ -40,10 +41,10 @@ pub fn draw(found: &[(&str, Faces)]) -> Result<String, Box<dyn Error>> {
 ///
 /// # Errors
 /// Where a step is one.
-pub fn page(die: &Die) -> Result<Playback<DieKernel>, Box<dyn Error>> {
+pub fn page(die: &Die, draw: &Draw) -> Result<Playback<DieKernel>, Box<dyn Error>> {
     let kernel = die.kernel()?;
     // A picture each two milliseconds.
-    let steps: Vec<_> = path(&kernel, 7)?.into_iter().step_by(4).collect();
+    let steps: Vec<_> = path(&kernel, draw)?.into_iter().step_by(4).collect();
     let samples = steps.iter().map(|step| step.state).collect();
     let table = Shape::cuboid([0.6, 0.4, 0.01]).at(&Isometry3::translation(0.0, 0.0, -0.005)).colour("#4d7a5a");
     let mut page = Playback::of_samples("A die that is dropped", samples)

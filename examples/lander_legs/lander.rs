@@ -1,8 +1,10 @@
 //! A lander on four legs, one touchdown of it, and the speed above which it tips over where it touches flat.
 
-use gauss_charts::statistics::Random;
+use std::f64::consts::TAU;
+
 use gauss_contact::{ContactError, ContactStepper, Mode};
 use gauss_runtime::prelude::*;
+use gauss_study::{Declaration, Draw, Parameter, normal, uniform};
 
 /// A hull on four struts; each has a foot that touches the ground, and is crushed where more than a force loads it, as
 /// honeycomb is: dry friction along the strut, between two stops. The observer's axes are those of the ground, z = 0;
@@ -108,10 +110,8 @@ pub enum Outcome {
 
 pub type State = ((Isometry3<f64>, SVector<f64, 4>), SVector<f64, 10>);
 
-/// What is random in a touchdown.
+/// A touchdown before it begins.
 pub struct Approach {
-    /// Which run of its study it is.
-    pub number: u64,
     /// m/s: along the ground that is level, and downward.
     pub lateral: f64,
     pub fall: f64,
@@ -120,6 +120,23 @@ pub struct Approach {
     pub tilt: f64,
     pub mu: f64,
     pub start: State,
+}
+
+/// The velocity along the ground that is level, m/s: in two directions, or how much and whither.
+pub enum Along {
+    Parts([Parameter; 2]),
+    Polar { speed: Parameter, direction: Parameter },
+}
+
+/// What is random in a touchdown.
+pub struct Parameters {
+    slope: Parameter,
+    along: Along,
+    mu: Parameter,
+    heading: Parameter,
+    tilts: [Parameter; 2],
+    fall: Parameter,
+    spin: [Parameter; 3],
 }
 
 /// A touchdown.
@@ -135,26 +152,57 @@ pub struct Landing {
     pub lowest: f64,
 }
 
-impl Approach {
-    /// Run i of a study with a seed.
+impl Parameters {
+    /// Of a study that has declared slope and velocity.
+    pub fn declare(study: &mut Declaration, slope: Parameter, along: Along) -> Self {
+        let degrees = |deviation: f64| normal(0.0, deviation.to_radians());
+        Self {
+            slope,
+            along,
+            mu: study.parameter("mu", "", uniform(0.3, 0.9)),
+            heading: study.parameter("heading", "rad", uniform(0.0, TAU)),
+            tilts: ["tilt_x", "tilt_y"].map(|name| study.parameter(name, "rad", degrees(3.0))),
+            fall: study.parameter("fall", "m/s", uniform(1.0, 1.5)),
+            spin: ["spin_x", "spin_y", "spin_z"].map(|name| study.parameter(name, "rad/s", degrees(2.0))),
+        }
+    }
+
+    /// Any slope up to 15°, and a velocity that is normal.
+    pub fn declare_all(study: &mut Declaration) -> Self {
+        let slope = study.parameter("slope", "rad", uniform(0.0, 15.0_f64.to_radians()));
+        let along = ["along_x", "along_y"].map(|name| study.parameter(name, "m/s", normal(0.0, 1.1)));
+        Self::declare(study, slope, Along::Parts(along))
+    }
+
+    /// The approach of one run.
     #[must_use]
-    pub fn random(seed: u64, i: u64) -> Self {
-        let mut random = Random::of_run(seed, i);
-        let degree = std::f64::consts::PI / 180.0;
-        let slope = 15.0 * degree * random.uniform();
-        let mu = 0.3 + 0.6 * random.uniform();
-        let heading = 360.0 * degree * random.uniform();
-        let tilts = [3.0 * degree * random.normal(), 3.0 * degree * random.normal()];
-        let fall = 1.0 + 0.5 * random.uniform();
-        let along = Vector3::new(1.1 * random.normal(), 1.1 * random.normal(), 0.0);
-        let spin = 2.0 * degree * Vector3::new(random.normal(), random.normal(), random.normal());
+    pub fn approach(&self, draw: &Draw) -> Approach {
+        let [slope, mu, heading, fall] = [self.slope, self.mu, self.heading, self.fall].map(|name| draw[name]);
+        let (tilts, spin) = (self.tilts.map(|tilt| draw[tilt]), self.spin.map(|spin| draw[spin]));
+        let along = match &self.along {
+            Along::Parts(parts) => parts.map(|part| draw[part]),
+            Along::Polar { speed, direction } => {
+                [draw[*speed] * draw[*direction].cos(), draw[*speed] * draw[*direction].sin()]
+            }
+        };
         // From axes whose third is vertical to those of the ground, whose first points downhill.
         let level = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), -slope);
         let turned = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), heading);
         let lean = UnitQuaternion::from_scaled_axis(Vector3::new(tilts[0], tilts[1], 0.0));
-        let velocity = level * (along - fall * Vector3::z());
-        let start = above_ground(&Lander::small(mu, slope), level * lean * turned, velocity, spin);
-        Self { number: i, lateral: along.norm(), fall, slope, tilt: tilts[0].hypot(tilts[1]), mu, start }
+        let velocity = level * Vector3::new(along[0], along[1], -fall);
+        let start = above_ground(&Lander::small(mu, slope), level * lean * turned, velocity, Vector3::from(spin));
+        Approach { lateral: along[0].hypot(along[1]), fall, slope, tilt: tilts[0].hypot(tilts[1]), mu, start }
+    }
+}
+
+impl Approach {
+    /// What comes of it.
+    ///
+    /// # Errors
+    /// Where a step is one, or a parameter.
+    pub fn touch_down(&self) -> Result<Landing, Box<dyn std::error::Error>> {
+        let kernel = Lander::small(self.mu, self.slope).kernel()?;
+        Ok(touch_down(&kernel, self.start, (STEP, LONGEST), |_| ())?)
     }
 }
 

@@ -4,26 +4,33 @@
 //! `cargo run --release --example lander_legs [-- FOLDER]` draws the picture into `FOLDER`, by default `target/gauss`.
 //! `RUNS=100` before it: fewer runs; `SEED=2`: other ones.
 
+// The example `study` takes more of it.
+#[allow(dead_code, reason = "a module of two examples")]
 mod lander;
 mod picture;
 
 use std::error::Error;
-use std::num::NonZero;
-use std::thread;
 use std::time::Instant;
 
 use gauss_examples::plots::{write, write_page};
 use gauss_examples::runs;
+use gauss_study::Declaration;
 
-use lander::{Approach, LONGEST, Lander, Landing, OUTCOMES, Outcome, Run, STEP, touch_down, wilson};
+use lander::{LONGEST, Lander, Landing, OUTCOMES, Outcome, Parameters, Run, wilson};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let count = runs(1000);
     let seed = std::env::var("SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(1);
     let clock = Instant::now();
-    let (runs, refused): (Vec<_>, Vec<_>) = all(seed, count)?.into_iter().partition(Result::is_ok);
-    let runs: Vec<Run> = runs.into_iter().flatten().collect();
-    let refused: Vec<String> = refused.into_iter().filter_map(Result::err).collect();
+    let mut study = Declaration::new("touchdowns", seed, count as u64);
+    let parameters = Parameters::declare_all(&mut study);
+    let ends = study.sampler()?.map(|sample| {
+        let approach = parameters.approach(sample);
+        let landing = approach.touch_down().map_err(|error| format!("run {}: {error}", sample.run()))?;
+        Ok::<Run, String>((approach, landing))
+    });
+    let refused: Vec<String> = ends.iter().filter_map(|end| end.as_ref().err().cloned()).collect();
+    let runs: Vec<Run> = ends.into_iter().flatten().collect();
     println!("{count} touchdowns of seed {seed} in {:.1} s\n", clock.elapsed().as_secs_f64());
     println!("                                               means: speed   fall    tilt   slope   slid   crushed");
     println!("  outcome     runs   share   95 % of it         m/s     m/s     °      °       m      m");
@@ -52,26 +59,5 @@ fn main() -> Result<(), Box<dyn Error>> {
     let bound = Lander::small(1.0, 0.0).tips_above(1.25);
     println!("\nFlat on level ground, with feet that stick and struts that hold, it would tip above {bound:.3} m/s.");
     write("lander_legs", &picture::draw(&runs, bound)?)?;
-    write_page("lander_legs", &picture::page(&runs, seed)?)
-}
-
-/// All runs, on all threads; of those in which a step found no impulses that satisfy the laws, the reason.
-fn all(seed: u64, count: usize) -> Result<Vec<Result<Run, String>>, Box<dyn Error>> {
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    let one = move |i: usize| -> Result<Result<Run, String>, String> {
-        let approach = Approach::random(seed, i as u64);
-        let kernel = Lander::small(approach.mu, approach.slope).kernel().map_err(|error| error.to_string())?;
-        Ok(match touch_down(&kernel, approach.start, (STEP, LONGEST), |_| ()) {
-            Ok(landing) => Ok((approach, landing)),
-            Err(error) => Err(format!("run {i}: {error}")),
-        })
-    };
-    let part = |n: usize| (count * n / threads)..(count * (n + 1) / threads);
-    let parts: Vec<_> = thread::scope(|scope| {
-        let start = |n: usize| scope.spawn(move || part(n).map(one).collect::<Result<Vec<_>, _>>());
-        let running: Vec<_> = (0..threads).map(start).collect();
-        running.into_iter().map(|part| part.join().map_err(|_| "a thread ended")).collect::<Result<_, _>>()
-    })?;
-    let parts: Vec<Vec<Result<Run, String>>> = parts.into_iter().collect::<Result<_, _>>()?;
-    Ok(parts.into_iter().flatten().collect())
+    write_page("lander_legs", &picture::page(&runs)?)
 }

@@ -8,7 +8,7 @@ use gauss_examples::plots::{Line, Plot, sheet};
 use gauss_playback::{Playback, Shape, Touch};
 use gauss_runtime::prelude::*;
 
-use crate::lander::{Approach, LONGEST, Lander, LanderKernel, OUTCOMES, Outcome, PADS, Run, STEP, touch_down, wilson};
+use crate::lander::{LONGEST, Lander, LanderKernel, OUTCOMES, Outcome, PADS, Run, STEP, touch_down, wilson};
 
 /// m/s: the end of the axis of speeds, and how many parts of it are counted.
 const FASTEST: f64 = 3.0;
@@ -66,9 +66,8 @@ pub fn draw(runs: &[Run], bound: f64) -> Result<String, Box<dyn Error>> {
 ///
 /// # Errors
 /// Where a step is one.
-pub fn page(runs: &[Run], seed: u64) -> Result<Playback<LanderKernel>, Box<dyn Error>> {
-    let (shown, _) = runs.iter().find(|run| run.1.outcome == Outcome::Tips).or(runs.first()).ok_or("no run")?;
-    let approach = Approach::random(seed, shown.number);
+pub fn page(runs: &[Run]) -> Result<Playback<LanderKernel>, Box<dyn Error>> {
+    let (approach, _) = runs.iter().find(|run| run.1.outcome == Outcome::Tips).or(runs.first()).ok_or("no run")?;
     let lander = Lander::small(approach.mu, approach.slope);
     let kernel = lander.kernel()?;
     let mut samples = Vec::new();

@@ -9,7 +9,8 @@ use std::error::Error;
 mod lander;
 
 use gauss_runtime::prelude::*;
-use lander::{Approach, G, LONGEST, Lander, Lever, Outcome, STEP, above_ground, touch_down};
+use gauss_study::Declaration;
+use lander::{G, LONGEST, Lander, Lever, Outcome, Parameters, STEP, above_ground, touch_down};
 
 /// Feet that stick, struts that hold.
 fn stiff() -> Lander {
@@ -70,9 +71,10 @@ fn on_a_slope_it_stands_below_the_angle_of_friction_and_slides_above() -> Result
 #[test]
 fn a_run_is_a_function_of_its_seed_and_number() -> Result<(), Box<dyn Error>> {
     let run = |seed: u64, i: u64| {
-        let approach = Approach::random(seed, i);
-        let kernel = Lander::small(approach.mu, approach.slope).kernel()?;
-        let landing = touch_down(&kernel, approach.start, (STEP, LONGEST), |_| ())?;
+        let mut study = Declaration::new("touchdowns", seed, 6);
+        let parameters = Parameters::declare_all(&mut study);
+        let approach = parameters.approach(&study.sampler()?.sample(i));
+        let landing = approach.touch_down()?;
         // Laws are solved to 1e-12 of the largest rate, some m/s, nearly always, and to 1e-8 of it always; gaps are
         // rounded at the size of coordinates, some ten metres.
         assert!(landing.residual < 1e-7 && landing.lowest > -1e-13, "{} {}", landing.residual, landing.lowest);

@@ -27,6 +27,7 @@ const FOLDERS: &[&str] = &[
     "crates/gauss-playback",
     "crates/gauss-rerun",
     "crates/gauss-robots",
+    "crates/gauss-study",
     "crates/gauss-tables",
     "crates/gauss-tune",
     "tools/cargo-gauss",

@@ -6,14 +6,6 @@ use std::f64::consts::TAU;
 pub struct Random(pub u64);
 
 impl Random {
-    /// The numbers of run i of a study: a function of the study's seed and i, whichever thread has the run.
-    #[must_use]
-    pub fn of_run(seed: u64, i: u64) -> Self {
-        // Starts that are mixed twice: neighbouring runs would otherwise share their numbers but for one.
-        let mixed = Self(Self(seed).next() ^ i).next();
-        Self(mixed)
-    }
-
     /// From 0 to 1.
     pub fn uniform(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1_u64 << 53) as f64
