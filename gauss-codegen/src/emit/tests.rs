@@ -191,7 +191,7 @@ fn literals_read_back_as_what_they_are() {
 fn python_is_one_call_more() {
     let scene = |clause: &str| {
         format!(
-            "/// Swings.\n#[gauss({clause} coordinates(a), frames(rod), body(rod, rotation = rotation_y(a), mass = m, inertia = m), \
+            "/// Swings.\n#[gauss({clause} coordinates(a), frames(rod), body(rod, rotation = rotation_y(a), mass = m, inertia = 1), \
              input(motor = \"N m\"), drive(a = motor))] struct Swing<T> {{ #[gauss(unit = \"kg\")] m: T }}"
         )
     };
