@@ -4,6 +4,7 @@ mod arguments;
 mod charts;
 mod create;
 mod page;
+mod python;
 mod robots;
 mod show;
 mod shown;
