@@ -32,6 +32,12 @@ impl Kernel {
     /// The number of a frame.
     pub fn frame(&self, name: &str) -> PyResult<usize> {
         let frames = self.scene().frames();
+        if frames.is_empty() {
+            let scene = self.scene().description().name;
+            return Err(PyTypeError::new_err(format!(
+                "{scene} has no frames: its struct does not say `#[gauss(frames(…))]`"
+            )));
+        }
         frames.iter().position(|frame| *frame == name).ok_or_else(|| {
             let (scene, frames) = (self.scene().description().name, frames.join(", "));
             PyKeyError::new_err(format!("{scene} has no frame {name}; those of `frames(…)`: {frames}"))
@@ -169,11 +175,10 @@ impl Kernel {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let py = slf.py();
-        let make = py.import("copyreg")?.getattr("__newobj_ex__")?;
-        let parameters = slf.get().parameters(py)?;
-        let arguments = (slf.get_type(), PyTuple::empty(py), parameters).into_pyobject(py)?;
-        Ok((make, arguments))
+        // In all protocols, which `copyreg.__newobj_ex__` is not.
+        let (py, partial) = (slf.py(), slf.py().import("functools")?.getattr("partial")?);
+        let make = partial.call((slf.get_type(),), Some(&slf.get().parameters(py)?))?;
+        Ok((make, PyTuple::empty(py)))
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! A struct gets the clause `#[gauss(python)]`, and [`module!`] makes a module of such structs:
 //!
-//! ```ignore
+//! ```
 //! use gauss_runtime::prelude::*;
 //!
 //! /// A pendulum.
@@ -66,9 +66,7 @@ pub use scene::{ConfigurationOf, Pack, ScalarOf, Scene, SpeedsOf};
 /// A module of Python with a class for each struct; its name is that of the library in `Cargo.toml`. Structs that are
 /// generic in their scalar are written with `f64`: their batches are computed in lanes all the same.
 ///
-/// ```ignore
-/// gauss_python::module!(robots: Arm<f64>, Leg<f64>);
-/// ```
+/// `gauss_python::module!(robots: Arm<f64>, Leg<f64>);`
 #[macro_export]
 macro_rules! module {
     ($name:ident: $($scene:ty),+ $(,)?) => {

@@ -1,6 +1,7 @@
 //! A struct as Python sees it, and its kernels with their types forgotten.
 
 use std::ops::Range;
+use std::time::Duration;
 
 use gauss_runtime::accuracy::Accuracy;
 use gauss_runtime::description::{Equations, Operations};
@@ -105,6 +106,8 @@ pub trait AnyKernel: Send + Sync {
     fn simulate(&self, request: &Request<'_>) -> Result<Outcome, String>;
     /// Many runs.
     fn ensemble(&self, many: &Many<'_>) -> Result<ManyEnds, String>;
+    /// The time of the same batch in Rust.
+    fn batch_time(&self, many: &Many<'_>) -> Result<Duration, String>;
 }
 
 /// A rotation that is none.
@@ -257,6 +260,10 @@ impl<S: Scene> AnyKernel for Instance<S> {
 
     fn ensemble(&self, many: &Many<'_>) -> Result<ManyEnds, String> {
         runs::ensemble::<S>(&self.packed, &self.numbers, many)
+    }
+
+    fn batch_time(&self, many: &Many<'_>) -> Result<Duration, String> {
+        runs::batch_time::<S>(&self.packed, many)
     }
 }
 

@@ -369,6 +369,40 @@ impl Kernel {
     }
 }
 
+#[pymethods]
+impl Kernel {
+    /// Seconds of one thread for accelerations of this batch in Rust alone, for measurements.
+    fn _batch_seconds(
+        &self,
+        py: Python<'_>,
+        q: &Bound<'_, PyAny>,
+        z: &Bound<'_, PyAny>,
+        input: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<f64> {
+        let sizes = self.kernel().scene().sizes();
+        let ((q, rows), (z, _)) = (states("q", q, sizes.configuration)?, states("z", z, sizes.speeds)?);
+        let input = match self::input(self.kernel().scene(), input)? {
+            GivenInput::Numbers(numbers) => Input::Constant(numbers),
+            _ => return Err(PyTypeError::new_err("the input is an array")),
+        };
+        let (calls, ended) = (Calls::new(), AtomicUsize::new(0));
+        let many = Many {
+            count: rows.unwrap_or(1),
+            q: &q,
+            z: &z,
+            parameters: Vec::new(),
+            interval: (0.0, 0.0),
+            tolerances: (1.0, 1.0),
+            input,
+            until: None,
+            stop: &calls.stop,
+            ended: &ended,
+        };
+        let time = py.detach(|| self.kernel().batch_time(&many)).map_err(PyValueError::new_err)?;
+        Ok(time.as_secs_f64())
+    }
+}
+
 /// Runs on another thread while this one looks for Ctrl-C, which only the first thread of Python is told of.
 fn watched_run<R: Send>(run: impl FnOnce() -> R + Send, calls: &Calls) -> R {
     std::thread::scope(|scope| {

@@ -49,4 +49,33 @@ pub struct Torpedo<T> {
     lift: T,
 }
 
-gauss_python::module!(scenes: Pendulum<f64>, Torpedo<f64>);
+/// An arm of two joints, read from its file.
+#[derive(GaussDynamics)]
+#[gauss(python, urdf = "arm.urdf", frames(tool), methods(centroidal, gravity_torques, jacobian_rates))]
+pub struct Arm<T> {
+    /// Acceleration of free fall.
+    #[gauss(gravity, unit = "m/s^2")]
+    g: T,
+}
+
+/// A block that turns and slides on a wire around a circle: batches of a struct in `f64` go row by row.
+#[derive(GaussDynamics)]
+#[gauss(
+    python,
+    coordinates(x, y, turn: Rotation),
+    body(block, position = [x, y, 0], rotation = turn),
+    constraint(position = x * x + y * y - radius * radius),
+)]
+pub struct Wire {
+    /// The block.
+    #[gauss(body)]
+    block: RigidBody<f64>,
+    /// Of the circle.
+    #[gauss(unit = "m")]
+    radius: f64,
+    /// Acceleration of free fall, in the observer's axes.
+    #[gauss(gravity)]
+    g: Vector3<f64>,
+}
+
+gauss_python::module!(scenes: Pendulum<f64>, Torpedo<f64>, Arm<f64>, Wire);

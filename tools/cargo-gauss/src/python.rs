@@ -66,7 +66,9 @@ fn robot(file: &Path) -> Result<(&'static str, String), String> {
         Some("urdf") => Ok(("urdf", text)),
         Some("mjcf") => Ok(("mjcf", text)),
         Some("xml") if text.contains("<mujoco") => Ok(("mjcf", text)),
-        _ => Err(format!("{}: robots are read from files of URDF (`.urdf`) and MJCF (`.xml`, `.mjcf`)", file.display())),
+        _ => {
+            Err(format!("{}: robots are read from files of URDF (`.urdf`) and MJCF (`.xml`, `.mjcf`)", file.display()))
+        }
     }
 }
 

@@ -1,11 +1,13 @@
 //! Runs of one state and of many, their types forgotten: numbers in, columns of numbers out.
 
 mod many;
+mod measured;
 mod one;
 mod request;
 mod stoppable;
 
 pub use many::{Many, ManyEnds, ensemble};
+pub use measured::batch_time;
 pub use one::{Outcome, simulate};
 pub use request::{Control, Input, Request, Table, Until, Watched};
 
