@@ -7,7 +7,11 @@
 //!
 //! /// A pendulum.
 //! #[derive(GaussDynamics)]
-//! #[gauss(python, coordinates(angle), particle(mass = mass, position = [length * sin(angle), 0, -length * cos(angle)]))]
+//! #[gauss(
+//!     python,
+//!     coordinates(angle),
+//!     particle(mass = mass, position = [length * sin(angle), 0, -length * cos(angle)]),
+//! )]
 //! struct Pendulum<T> {
 //!     mass: T,
 //!     length: T,
@@ -24,8 +28,8 @@
 //! accelerations = pendulum.acceleration(numpy.zeros((1000, 1)), numpy.ones((1000, 1)))
 //! ```
 //!
-//! `cargo gauss create --python NAME` writes such a package, which `pip install .` builds. The guide, "From Python", has
-//! what classes offer.
+//! `cargo gauss create --python NAME` writes such a package, which `pip install .` builds. The guide, "From Python",
+//! has what classes offer.
 //!
 //! Rooms, those below know those above: `description`, `parameter` (what is known of a struct, its fields), `memory`
 //! (the only access to arrays by address), `methods` (methods of a kernel over rows), `runs` (runs, their types

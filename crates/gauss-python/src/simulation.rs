@@ -13,7 +13,7 @@ use pyo3::types::{PyDict, PyList, PyTuple};
 use crate::arrays::{self, shown};
 use crate::class::Kernel;
 use crate::run::{Ends, IntegrationError, Run};
-use crate::runs::{Control, Input, Many, Request, Table, Until, Watched};
+use crate::runs::{Control, Function, Input, Many, Request, Table, Until, Watched};
 use crate::scene::AnyScene;
 
 /// How long a run goes on before somebody looks for Ctrl-C.
@@ -227,8 +227,8 @@ impl Kernel {
     /// as long as the tolerances allow, or of the length `step`.
     ///
     /// `input` is an array, a pair (times, values), straight between them, or a function of (t, q, z). `until` ends the
-    /// run early: (name, value), (name, value, "falling"), a function of (t, q, z), or a list of such. `times` are those
-    /// of the states that are given back, instead of the ends of steps. Ctrl-C ends the run with what there is.
+    /// run early: (name, value), (name, value, "falling"), a function of (t, q, z), or a list of such. `times` are
+    /// those of the states that are given back, instead of the ends of steps. Ctrl-C ends the run with what there is.
     #[pyo3(signature = (q, z, interval, *, rtol=1e-9, atol=1e-9, step=None, largest_step=None, input=None, until=None,
         times=None, max_steps=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords")]
@@ -271,13 +271,7 @@ impl Kernel {
             GivenInput::Function(_) => Input::Function(&by_function),
         };
         let watched: Vec<_> = ends.iter().map(|(end, _)| watch(end, &calls)).collect();
-        let until = ends.iter().zip(&watched).map(|((end, crossing), watched)| Until {
-            watched: match end {
-                GivenEnd::Number(place, value) => Watched::Number(*place, *value),
-                GivenEnd::Function(_) => Watched::Function(watched),
-            },
-            crossing: *crossing,
-        });
+        let until = ends.iter().zip(&watched).map(|(end, watched)| until_of(end, watched));
         let (stop, look, limit) = (&calls.stop, &|| calls.look(), max_steps);
         let until = until.collect();
         let times = times.as_deref();
@@ -288,15 +282,7 @@ impl Kernel {
         if let Some(error) = calls.error(py) {
             return Err(error);
         }
-        let run = Bound::new(py, Run::new(scene, outcome.map_err(PyValueError::new_err)?))?;
-        match run.get().failure() {
-            None => Ok(run),
-            Some(failure) => {
-                let error = IntegrationError::new_err(failure.to_owned());
-                error.value(py).setattr("run", run.clone())?;
-                Err(error)
-            }
-        }
+        finished(py, Run::new(scene, outcome.map_err(PyValueError::new_err)?))
     }
 
     /// Carries many states, in lanes and on all threads, each with steps of its own: q and z are rows, or one for all;
@@ -331,18 +317,7 @@ impl Kernel {
                 return Err(PyTypeError::new_err("the input of an ensemble is an array or a pair (times, values)"));
             }
         };
-        let mut ends = self::ends(scene, until)?;
-        let until = match (ends.pop(), ends.is_empty()) {
-            (None, _) => None,
-            (Some((GivenEnd::Number(place, value), crossing)), true) => {
-                Some(Until { watched: Watched::Number(place, value), crossing })
-            }
-            _ => {
-                return Err(PyTypeError::new_err(
-                    "the end of an ensemble is one (name, value), with a direction or not",
-                ));
-            }
-        };
+        let until = one_end(self::ends(scene, until)?)?;
         let repeated = |(numbers, rows): (Vec<f64>, Option<usize>)| match rows {
             Some(_) => numbers,
             None => numbers.repeat(count),
@@ -366,6 +341,39 @@ impl Kernel {
         drop(many);
         let interrupted = calls.stop.load(Ordering::Relaxed);
         Ok(Ends::new(scene, ends.map_err(PyValueError::new_err)?, interrupted))
+    }
+}
+
+/// The run; an error of Python that has it, where it did not reach its end.
+fn finished(py: Python<'_>, run: Run) -> PyResult<Bound<'_, Run>> {
+    let run = Bound::new(py, run)?;
+    match run.get().failure() {
+        None => Ok(run),
+        Some(failure) => {
+            let error = IntegrationError::new_err(failure.to_owned());
+            error.value(py).setattr("run", run.clone())?;
+            Err(error)
+        }
+    }
+}
+
+/// An end of a run, with the function that is watched where it is one.
+fn until_of<'a>((end, crossing): &(GivenEnd, Crossing), watched: Function<'a, f64>) -> Until<'a> {
+    let watched = match end {
+        GivenEnd::Number(place, value) => Watched::Number(*place, *value),
+        GivenEnd::Function(_) => Watched::Function(watched),
+    };
+    Until { watched, crossing: *crossing }
+}
+
+/// The end of an ensemble: none, or one number.
+fn one_end<'a>(mut ends: Vec<(GivenEnd, Crossing)>) -> PyResult<Option<Until<'a>>> {
+    match (ends.pop(), ends.is_empty()) {
+        (None, _) => Ok(None),
+        (Some((GivenEnd::Number(place, value), crossing)), true) => {
+            Ok(Some(Until { watched: Watched::Number(place, value), crossing }))
+        }
+        _ => Err(PyTypeError::new_err("the end of an ensemble is one (name, value), with a direction or not")),
     }
 }
 

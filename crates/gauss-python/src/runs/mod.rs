@@ -9,7 +9,7 @@ mod stoppable;
 pub use many::{Many, ManyEnds, ensemble};
 pub use measured::batch_time;
 pub use one::{Outcome, simulate};
-pub use request::{Control, Input, Request, Table, Until, Watched};
+pub use request::{Control, Function, Input, Request, Table, Until, Watched};
 
 use gauss_runtime::prelude::{Configuration, VectorSpace};
 
