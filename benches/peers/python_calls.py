@@ -7,10 +7,14 @@ joints of examples/python, accelerations, one thread. Each is timed in turn, the
 """
 
 import pathlib
+import sys
 import time
 
 import numpy as np
-import scenes
+
+# Beside this file there is another `scenes`.
+sys.path.pop(0)
+import scenes  # noqa: E402
 
 URDF = pathlib.Path(__file__).resolve().parents[2] / "examples/python/arm.urdf"
 COUNT, ROUNDS = 100_000, 7
