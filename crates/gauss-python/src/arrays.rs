@@ -30,10 +30,7 @@ fn is_plain(array: &Bound<'_, PyArrayDyn<f64>>) -> bool {
 fn converted<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     static ASARRAY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
     let py = value.py();
-    let named = |error: PyErr| {
-        let error = PyTypeError::new_err(format!("{name} is no array of real numbers: {}", error.value(py)));
-        error
-    };
+    let named = |error: PyErr| PyTypeError::new_err(format!("{name} is no array of real numbers: {}", error.value(py)));
     let asarray = ASARRAY.get_or_try_init(py, || Ok::<_, PyErr>(py.import("numpy")?.getattr("asarray")?.unbind()))?;
     let array = asarray.bind(py).call1((value,)).map_err(named)?;
     let how = PyDict::new(py);

@@ -30,9 +30,12 @@ pub struct Given<'a, 'py> {
     pub out: Option<&'a Bound<'py, PyAny>>,
 }
 
+/// An array by the name of its argument, where it was given.
+type Named<'py> = Option<(&'static str, Rows<'py>)>;
+
 /// Arrays that are read, with what is known of them.
 struct Reading<'py> {
-    rows: [Option<(&'static str, Rows<'py>)>; 5],
+    rows: [Named<'py>; 5],
     work: Work,
     zero: f64,
 }
@@ -134,7 +137,7 @@ fn missing(scene: &dyn AnyScene, spec: &Spec, name: &str) -> PyErr {
 fn batch_of<'a>(
     scene: &dyn AnyScene,
     spec: &Spec,
-    rows: &'a [Option<(&'static str, Rows<'_>)>; 5],
+    rows: &'a [Named<'_>; 5],
     times: Option<&'a (&'static str, Rows<'_>)>,
 ) -> PyResult<Batch<'a>> {
     let mut batch = Batch { axes: &[], of: "" };
@@ -170,7 +173,7 @@ fn results<'py>(
     spec: &Spec,
     batch: Batch<'_>,
     out: Option<&Bound<'py, PyAny>>,
-    (rows, times): (&[Option<(&'static str, Rows<'py>)>; 5], &Option<(&'static str, Rows<'py>)>),
+    (rows, times): (&[Named<'py>; 5], &Named<'py>),
 ) -> PyResult<Arrays<'py>> {
     let axes = |k: usize| {
         let own = spec.results[k].axes.iter().map(|axis| scene.sizes().get(*axis));

@@ -11,6 +11,7 @@ type Any<'py> = Bound<'py, PyAny>;
 type Result<'py> = PyResult<Bound<'py, PyAny>>;
 
 #[pymethods]
+#[allow(clippy::too_many_arguments)] // Keywords.
 impl Kernel {
     #[pyo3(signature = (q, z, input=None, *, t=None, out=None))]
     fn acceleration<'py>(

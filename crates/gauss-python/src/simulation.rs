@@ -118,8 +118,9 @@ fn table(times: &Bound<'_, PyAny>, values: &Bound<'_, PyAny>, size: usize) -> Py
             "an input over time is (times, values) of shapes (n,) and (n, {size}); found {of_times} and {of_values}"
         )));
     }
-    // Written so that what is not a number is refused.
-    if let Some(k) = (1..rows).find(|&k| !(times[k - 1] < times[k])) {
+    // What is not a number does not increase.
+    let increases = |k: usize| times[k - 1].partial_cmp(&times[k]).is_some_and(core::cmp::Ordering::is_lt);
+    if let Some(k) = (1..rows).find(|&k| !increases(k)) {
         return Err(PyValueError::new_err(format!("times of the input do not increase at number {k}")));
     }
     Ok(Table { times, values })
@@ -183,7 +184,7 @@ fn checked(interval: (f64, f64), positive: &[(&str, f64)]) -> PyResult<()> {
     if !(interval.0.is_finite() && interval.1.is_finite()) {
         return Err(PyValueError::new_err("the interval is a pair of finite times"));
     }
-    match positive.iter().find(|(_, value)| !(*value > 0.0)) {
+    match positive.iter().find(|(_, value)| value.is_nan() || *value <= 0.0) {
         Some((name, value)) => Err(PyValueError::new_err(format!("{name} must be positive, found {value}"))),
         None => Ok(()),
     }
