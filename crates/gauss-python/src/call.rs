@@ -9,9 +9,9 @@ use pyo3::types::PyTuple;
 use rayon::prelude::*;
 
 use crate::arrays::{self, Batch, Rows, shown};
+use crate::kernels::{AnyKernel, AnyScene, OffGroup};
 use crate::memory::{Source, Target};
 use crate::methods::{Id, SPECS, Spec, Work};
-use crate::scene::{AnyKernel, AnyScene, OffGroup};
 
 /// From so many rows on other threads of Python may run meanwhile: letting them costs as much as some rows.
 const DETACHED: usize = 64;

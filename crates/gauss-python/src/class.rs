@@ -8,10 +8,31 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 use numpy::{PyArray1, PyArrayDyn, PyArrayMethods};
 
 use crate::arrays;
-use crate::make::scene_of;
+use crate::kernels::{AnyKernel, AnyScene};
 use crate::methods::Spec;
 use crate::parameters;
-use crate::scene::{AnyKernel, AnyScene};
+
+/// The scene of a class, as its attribute `_scene`.
+#[pyclass(frozen, module = "gauss_python")]
+pub struct SceneHandle {
+    scene: &'static dyn AnyScene,
+}
+
+impl SceneHandle {
+    /// The attribute of the class of a scene.
+    pub fn new(scene: &'static dyn AnyScene) -> Self {
+        Self { scene }
+    }
+}
+
+/// The scene of a class.
+fn scene_of(class: &Bound<'_, PyType>) -> PyResult<&'static dyn AnyScene> {
+    let handle = class.getattr(pyo3::intern!(class.py(), "_scene"));
+    match handle.ok().and_then(|handle| handle.cast_into::<SceneHandle>().ok()) {
+        Some(handle) => Ok(handle.get().scene),
+        None => Err(PyTypeError::new_err("Kernel is the base of the classes of scenes, and none itself")),
+    }
+}
 
 /// A kernel: parameters checked, constants computed once. It never changes, so that threads may share it.
 #[pyclass(subclass, frozen, module = "gauss_python")]
@@ -225,19 +246,10 @@ pub fn named_tuple<'py>(
         Some(class) => class,
         None => {
             let names: Vec<&str> = spec.results.iter().map(|result| result.name).collect();
-            let class = py.import("collections")?.call_method1("namedtuple", (class_name(spec), names))?;
+            let class = py.import("collections")?.call_method1("namedtuple", (spec.class_name(), names))?;
             classes.set_item(spec.name, &class)?;
             class
         }
     };
     class.call1(PyTuple::new(py, results)?)
-}
-
-/// `LinearizeInverse`.
-pub fn class_name(spec: &Spec) -> String {
-    let capital = |word: &str| {
-        let mut letters = word.chars();
-        letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-    };
-    spec.name.split('_').map(capital).collect()
 }

@@ -33,7 +33,7 @@
 //!
 //! Rooms, those below know those above: `description`, `parameter` (what is known of a struct, its fields), `memory`
 //! (the only access to arrays by address), `methods` (methods of a kernel over rows), `runs` (runs, their types
-//! forgotten), `scene` (a struct and its kernels), and what Python sees: `arrays`, `columns`, `call`, `parameters`,
+//! forgotten), `scene` (a struct as Python sees it), `kernels` (its kernels, their types forgotten), and what Python sees: `arrays`, `columns`, `call`, `parameters`,
 //! `class` with `of_kernels` and `simulation`, `run`, `stubs`, `make`.
 
 #![deny(missing_docs, unsafe_code)]
@@ -43,6 +43,8 @@ mod call;
 mod class;
 mod columns;
 mod description;
+mod documentation;
+mod kernels;
 mod make;
 mod memory;
 mod methods;

@@ -1,30 +1,16 @@
 //! Classes of a module: one for each struct, with its documentation and keywords.
 
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCFunction, PyDict, PyList, PyTuple, PyType};
 
-use crate::class::Kernel;
-use crate::description::{Description, Shape};
-use crate::parameters::{ParameterError, described};
+use crate::class::{Kernel, SceneHandle};
+use crate::description::Description;
+use crate::documentation::documentation;
+use crate::kernels::{AnyScene, Registered};
+use crate::parameters::ParameterError;
 use crate::run::{Ends, IntegrationError, Run};
-use crate::scene::{AnyScene, Registered, Scene};
+use crate::scene::Scene;
 use crate::stubs;
-
-/// The scene of a class, as its attribute `_scene`.
-#[pyclass(frozen, module = "gauss_python")]
-pub struct SceneHandle {
-    scene: &'static dyn AnyScene,
-}
-
-/// The scene of a class.
-pub fn scene_of(class: &Bound<'_, PyType>) -> PyResult<&'static dyn AnyScene> {
-    let handle = class.getattr(pyo3::intern!(class.py(), "_scene"));
-    match handle.ok().and_then(|handle| handle.cast_into::<SceneHandle>().ok()) {
-        Some(handle) => Ok(handle.get().scene),
-        None => Err(PyTypeError::new_err("Kernel is the base of the classes of scenes, and none itself")),
-    }
-}
 
 /// Adds what all modules have: [`finish`] comes after the last class.
 pub fn begin(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -43,7 +29,7 @@ pub fn add<S: Scene>(module: &Bound<'_, PyModule>) -> PyResult<&'static dyn AnyS
     let scene: &'static dyn AnyScene = Box::leak(Box::new(Registered::<S>::new()));
     let description = scene.description();
     let attributes = PyDict::new(py);
-    attributes.set_item("_scene", Py::new(py, SceneHandle { scene })?)?;
+    attributes.set_item("_scene", Py::new(py, SceneHandle::new(scene))?)?;
     attributes.set_item("__module__", module.name()?)?;
     attributes.set_item("__qualname__", description.name)?;
     attributes.set_item("__doc__", documentation(description))?;
@@ -64,32 +50,6 @@ pub fn finish(module: &Bound<'_, PyModule>, scenes: Vec<&'static dyn AnyScene>) 
     let stubs = move |_: &Bound<'_, PyTuple>, _: Option<&Bound<'_, PyDict>>| stubs::text(&scenes);
     let function = PyCFunction::new_closure(py, Some(c"stubs"), Some(c"The text of the stubs of this module."), stubs)?;
     module.add("stubs", function)
-}
-
-/// The class in words: the struct's doc comment, its parameters, coordinates, speeds and inputs.
-pub fn documentation(description: &Description) -> String {
-    let mut text = description.documentation.to_owned();
-    if !description.fields.is_empty() {
-        text.push_str("\n\nParameters:\n");
-        for field in description.fields {
-            let shape = match field.shape {
-                Shape::Array([]) => "number".to_owned(),
-                Shape::Array(axes) => format!("array {}", crate::arrays::shown(axes)),
-                Shape::Body => "mapping of mass, center_of_mass, inertia".to_owned(),
-            };
-            text.push_str(&format!("  {}: {shape}{}\n", field.name, described(field)));
-        }
-    }
-    let parts =
-        [("Coordinates", description.coordinates), ("Speeds", description.speeds), ("Inputs", description.inputs)];
-    for (title, parts) in parts.into_iter().filter(|(_, parts)| !parts.is_empty()) {
-        text.push_str(&format!("\n{title}:\n"));
-        for part in parts {
-            let numbers = if part.size == 1 { String::new() } else { format!(" ({} numbers)", part.size) };
-            text.push_str(&format!("  {}{numbers}: {}\n", part.name, part.label));
-        }
-    }
-    text
 }
 
 /// Keywords only, as `inspect.signature` and editors show them.

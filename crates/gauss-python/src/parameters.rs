@@ -6,7 +6,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays::{self, shown};
 use crate::description::{Field, Shape};
-use crate::scene::{AnyKernel, AnyScene};
+use crate::kernels::{AnyKernel, AnyScene};
 
 pyo3::create_exception!(
     gauss_python,

@@ -5,8 +5,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 
 use crate::columns::Columns;
+use crate::kernels::AnyScene;
 use crate::runs::{ManyEnds, Outcome};
-use crate::scene::AnyScene;
 
 pyo3::create_exception!(
     gauss_python,

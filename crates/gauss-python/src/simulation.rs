@@ -12,9 +12,9 @@ use pyo3::types::{PyDict, PyList, PyTuple};
 
 use crate::arrays::{self, shown};
 use crate::class::Kernel;
+use crate::kernels::AnyScene;
 use crate::run::{Ends, IntegrationError, Run};
 use crate::runs::{Control, Function, Input, Many, Request, Table, Until, Watched};
-use crate::scene::AnyScene;
 
 /// How long a run goes on before somebody looks for Ctrl-C.
 const PATIENCE: Duration = Duration::from_millis(50);

@@ -3,11 +3,10 @@
 use std::fmt::Write;
 
 use crate::arrays::shown;
-use crate::class::class_name;
 use crate::description::Shape;
-use crate::make::documentation;
+use crate::documentation::documentation;
+use crate::kernels::AnyScene;
 use crate::methods::{Argument, Id, SPECS, Size, Spec};
-use crate::scene::AnyScene;
 
 const HEAD: &str = include_str!("stubs.pyi.txt");
 
@@ -15,7 +14,7 @@ const HEAD: &str = include_str!("stubs.pyi.txt");
 pub fn text(scenes: &[&'static dyn AnyScene]) -> String {
     let mut text = HEAD.to_owned();
     for spec in SPECS.iter().filter(|spec| spec.results.len() > 1) {
-        let _ = write!(text, "\nclass {}(NamedTuple):\n", class_name(spec));
+        let _ = write!(text, "\nclass {}(NamedTuple):\n", spec.class_name());
         for result in spec.results {
             let _ = writeln!(text, "    {}: Array", result.name);
         }
@@ -55,7 +54,7 @@ fn method(scene: &dyn AnyScene, spec: &Spec) -> String {
     let arguments: Vec<String> = frame.into_iter().chain(spec.arguments.iter().map(argument)).collect();
     let (result, out) = match spec.results {
         [_] => ("Array".to_owned(), "Array".to_owned()),
-        _ => (class_name(spec), "tuple[Array, ...]".to_owned()),
+        _ => (spec.class_name(), "tuple[Array, ...]".to_owned()),
     };
     let head = format!("    def {}(self, {}, *, t: ArrayLike = 0.0,", spec.name, arguments.join(", "));
     format!("{head} out: {out} | None = None) -> {result}:\n{}        ...\n", docstring(&shapes(scene, spec), 8))

@@ -1,9 +1,9 @@
 //! `cargo gauss new`: a package that runs, or one for Python.
 
 use std::fs;
-use std::path::Path;
 
 use crate::arguments::New;
+use crate::package::{Files, from};
 use crate::python;
 
 const MAIN: &str = include_str!("template.rs.txt");
@@ -66,9 +66,6 @@ pub fn create(wanted: &New) -> Result<(), String> {
     Ok(())
 }
 
-/// Names of files, and what is in them.
-pub type Files = Vec<(String, String)>;
-
 /// A program.
 fn program(wanted: &New, name: &str) -> Result<Files, String> {
     let (runtime, tables) = (from(wanted, "gauss-runtime")?, from(wanted, "crates/gauss-tables")?);
@@ -80,19 +77,4 @@ fn program(wanted: &New, name: &str) -> Result<Files, String> {
     );
     let files = [("Cargo.toml", &manifest[..]), ("src/main.rs", MAIN), (".gitignore", "/target\n/top.csv\n")];
     Ok(files.map(|(file, text)| (file.to_owned(), text.to_owned())).to_vec())
-}
-
-/// Where a crate comes from: the registry, or a clone.
-pub fn from(wanted: &New, folder: &str) -> Result<String, String> {
-    match &wanted.gauss {
-        Some(clone) => at(clone, folder),
-        None => Ok(format!("version = \"{}\"", env!("CARGO_PKG_VERSION"))),
-    }
-}
-
-/// A crate in a clone.
-fn at(clone: &Path, folder: &str) -> Result<String, String> {
-    let folder = clone.join(folder);
-    let absolute = folder.canonicalize().map_err(|error| format!("{}: {error}", folder.display()))?;
-    Ok(format!("path = {:?}", absolute.display().to_string()))
 }

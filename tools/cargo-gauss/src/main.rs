@@ -3,6 +3,7 @@
 mod arguments;
 mod charts;
 mod create;
+mod package;
 mod page;
 mod python;
 mod robots;

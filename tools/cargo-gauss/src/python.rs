@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::arguments::New;
-use crate::create::{Files, from};
+use crate::package::{Files, from};
 
 const PENDULUM: &str = include_str!("template_python.rs.txt");
 

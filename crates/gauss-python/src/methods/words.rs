@@ -172,6 +172,16 @@ const fn spec(
 }
 
 impl Spec {
+    /// The class of its results, where there are several: `LinearizeInverse`.
+    #[must_use]
+    pub fn class_name(&self) -> String {
+        let capital = |word: &str| {
+            let mut letters = word.chars();
+            letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+        };
+        self.name.split('_').map(capital).collect()
+    }
+
     const fn by(self, clause: &'static str) -> Self {
         Self { clause, ..self }
     }
