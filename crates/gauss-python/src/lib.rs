@@ -31,10 +31,11 @@
 //! `cargo gauss create --python NAME` writes such a package, which `pip install .` builds. The guide, "From Python",
 //! has what classes offer.
 //!
-//! Rooms, those below know those above: `description`, `parameter` (what is known of a struct, its fields), `memory`
+//! Rooms, each knows those before it: `description`, `parameter` (what is known of a struct, its fields), `memory`
 //! (the only access to arrays by address), `methods` (methods of a kernel over rows), `runs` (runs, their types
-//! forgotten), `scene` (a struct as Python sees it), `kernels` (its kernels, their types forgotten), and what Python sees: `arrays`, `columns`, `call`, `parameters`,
-//! `class` with `of_kernels` and `simulation`, `run`, `stubs`, `make`.
+//! forgotten), `scene` (a struct as Python sees it), `kernels` (its kernels, their types forgotten), and what Python
+//! sees: `arrays`, `columns`, `call`, `parameters`, `class` with `of_kernels` and `simulation`, `run`, `stubs`,
+//! `make`.
 
 #![deny(missing_docs, unsafe_code)]
 
