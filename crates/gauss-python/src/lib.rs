@@ -32,10 +32,9 @@
 //! has what classes offer.
 //!
 //! Rooms, each knows those before it: `description`, `parameter` (what is known of a struct, its fields), `memory`
-//! (the only access to arrays by address), `methods` (methods of a kernel over rows), `runs` (runs, their types
-//! forgotten), `scene` (a struct as Python sees it), `kernels` (its kernels, their types forgotten), and what Python
-//! sees: `arrays`, `columns`, `call`, `parameters`, `class` with `of_kernels` and `simulation`, `run`, `stubs`,
-//! `make`.
+//! (the only access to arrays by address), `methods` (methods of a kernel over rows), `scene` (a struct as Python sees
+//! it), `runs` (numbers in, columns out), `kernels` (its kernels, their types forgotten), and what Python sees:
+//! `arrays`, `columns`, `call`, `parameters`, `class` with `of_kernels` and `simulation`, `run`, `stubs`, `make`.
 
 #![deny(missing_docs, unsafe_code)]
 
