@@ -29,6 +29,7 @@ chapters! {
     RobotsTouching: "src/robots_touching.md",
     Seeing: "src/seeing.md",
     Results: "src/results.md",
+    Python: "src/python.md",
     Tasks: "src/tasks.md",
     FromSympy: "src/from_sympy.md",
     FromPinocchioMujoco: "src/from_pinocchio_mujoco.md",

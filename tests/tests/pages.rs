@@ -25,6 +25,7 @@ const FOLDERS: &[&str] = &[
     "crates/gauss-exact",
     "crates/gauss-files",
     "crates/gauss-playback",
+    "crates/gauss-python",
     "crates/gauss-rerun",
     "crates/gauss-robots",
     "crates/gauss-study",

@@ -11,6 +11,7 @@
 //! | `quantities` | powers and forces, frames, the pose of a body, sums over the system |
 //! | `text` | equations and costs as text, LaTeX and rustdoc; the file that a robot was read from, and warnings of what in it has no effect |
 //! | `constructor` | the kernel struct and `kernel()`: parameters read, checked, and turned into constants; `warnings()`; numbers of a robot's file |
+//! | `python` | what another language is to know of the struct: the call of one macro |
 //! | `fallback` | where there are mistakes |
 //!
 //! Rooms know those above them. One file for each item that is generated, a function from [`Derived`] to tokens.
@@ -25,6 +26,7 @@ mod derived;
 mod dialect;
 mod equations;
 mod fallback;
+mod python;
 mod quantities;
 mod records;
 #[cfg(test)]
@@ -72,6 +74,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let [state, conversions] = state::state(derived);
     let [input, inputs] = input::input(derived);
     let of_file = of_file::of_file(derived);
+    let python = python::scene(derived);
     quote! {
         #kernel
         #state
@@ -99,5 +102,6 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
             #framed
             #whole
         };
+        #python
     }
 }

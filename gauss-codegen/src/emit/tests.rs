@@ -185,3 +185,24 @@ fn literals_read_back_as_what_they_are() {
         }
     }
 }
+
+/// A struct that asks for no Python has no word of it; one that does has the same code, and one call of a macro more.
+#[test]
+fn python_is_one_call_more() {
+    let scene = |clause: &str| {
+        format!(
+            "/// Swings.\n#[gauss({clause} coordinates(a), frames(rod), body(rod, rotation = rotation_y(a), mass = m, inertia = 1), \
+             input(motor = \"N m\"), drive(a = motor))] struct Swing<T> {{ #[gauss(unit = \"kg\")] m: T }}"
+        )
+    };
+    let expanded = |clause: &str| {
+        let input: syn::DeriveInput = syn::parse_str(&scene(clause)).expect("a struct");
+        crate::expand::expand(&input).expect("a scene").to_string()
+    };
+    let (without, with) = (expanded(""), expanded("python,"));
+    let call = with.strip_prefix(&without).expect("the same code first");
+    let expected = ":: gauss_python :: scene ! { scene Swing [T] \"Swings.\" ; kernel SwingKernel ; state SwingState ; \
+         fields { m [T] \"m\" \"kg\" \"\" ; } coordinates { \"a\" 1 0 \"coordinate\" ; } \
+         speeds { \"a_dot\" 1 0 \"rate of `a`\" ; } inputs { \"motor\" 1 0 \"input, in N m\" ; } offers { frames } }";
+    assert_eq!(call.split_whitespace().collect::<Vec<_>>(), expected.split_whitespace().collect::<Vec<_>>());
+}

@@ -2,7 +2,7 @@
 
 use crate::model::checks::{bodies, coefficients, constraints, contacts, field_shapes, forces, masses, motion};
 use crate::model::language::context::Context;
-use crate::model::language::fields::{ReadField, Reader};
+use crate::model::language::fields::{ReadField, Reader, documentation};
 use crate::model::language::shapes::TypeKind;
 use crate::model::language::statements::Statements;
 use crate::model::language::struct_clauses::Clauses;
@@ -162,6 +162,7 @@ fn assembled(
     Some(Model {
         item: Item {
             ident: input.ident.clone(),
+            documentation: documentation(&input.attrs),
             visibility: input.vis.to_token_stream(),
             generics: generics(&input.generics),
             scalar,

@@ -10,7 +10,7 @@ use crate::model::names::inputs;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 use crate::model::robots;
 use crate::model::scene::model::Model;
-use crate::terms::Described;
+use crate::terms::{Described, Item, Scalar};
 use proc_macro2::TokenStream;
 use syn::ext::IdentExt;
 use syn::punctuated::Punctuated;
@@ -43,6 +43,7 @@ pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
         let described = robot_of_file(&clauses.robot, &reader, &mut clauses.statements, &mut context);
         inputs::name(&mut clauses.statements, &reader.fields, &mut context);
         let mut model = assembly::model(input, clauses, reader, &mut context)?;
+        check_python(&model.item, &input.generics, &mut context);
         model.item.described = described;
         Some(model)
     });
@@ -130,6 +131,20 @@ fn check_generics(generics: &Generics, context: &mut Context) {
                 ),
             ),
         }
+    }
+}
+
+/// Python makes the struct from numbers of 64 bits, so nothing else may be open in its type.
+fn check_python(item: &Item, generics: &Generics, context: &mut Context) {
+    let Some(clause) = &item.wanted.python else { return };
+    if item.scalar == Scalar::F32 {
+        context
+            .error(clause.span(), "`python` computes in `f64`; write the fields in `f64` or in a type parameter `T`");
+    }
+    let other = |parameter: &&syn::TypeParam| item.scalar != Scalar::Parameter(parameter.ident.clone());
+    for parameter in generics.type_params().filter(other) {
+        let name = &parameter.ident;
+        context.error(name.span(), format!("with `python` the scalar is the only type parameter; `{name}` is none"));
     }
 }
 

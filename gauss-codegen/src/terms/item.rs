@@ -13,6 +13,8 @@ use super::wanted::Wanted;
 pub struct Item {
     /// Name of the struct.
     pub ident: Ident,
+    /// Its doc comment, trimmed; empty when it has none.
+    pub documentation: String,
     /// Visibility of the struct; the kernel gets the same.
     pub visibility: TokenStream,
     /// Generics of the struct: type parameters only.

@@ -19,6 +19,8 @@ pub struct Wanted {
     pub regressor: Option<Ident>,
     /// `frames(…)`: bodies and frames whose poses and velocities are methods, by their names, each once.
     pub frames: Vec<Ident>,
+    /// `python`, where it is written: a class of Python.
+    pub python: Option<Ident>,
     /// `methods(…)`: quantities of the system as a whole, each once.
     pub methods: Vec<WantedMethod>,
 }

@@ -20,7 +20,8 @@ pub enum Cargo {
 pub enum Command {
     /// Prints the equations, what they cost, and how many digits they keep.
     Show(Show),
-    /// Makes a package that runs: a body, its equations, a run, a table for plots.
+    /// Makes a package that runs: a body, its equations, a run, a table for plots; or one for Python.
+    #[command(visible_alias = "create")]
     New(New),
 }
 
@@ -72,4 +73,10 @@ pub struct New {
     /// A clone of Gauss, whose crates the package uses; without it the published ones.
     #[arg(long)]
     pub gauss: Option<PathBuf>,
+    /// A package for Python, which `pip install .` builds.
+    #[arg(long)]
+    pub python: bool,
+    /// With `--python`: the robot of this file, URDF or MJCF, which is copied.
+    #[arg(long, requires = "python")]
+    pub robot: Option<PathBuf>,
 }

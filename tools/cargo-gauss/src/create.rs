@@ -1,9 +1,10 @@
-//! `cargo gauss new`: a package that runs.
+//! `cargo gauss new`: a package that runs, or one for Python.
 
 use std::fs;
-use std::path::Path;
 
 use crate::arguments::New;
+use crate::package::{Files, from};
+use crate::python;
 
 const MAIN: &str = include_str!("template.rs.txt");
 
@@ -50,35 +51,30 @@ pub fn create(wanted: &New) -> Result<(), String> {
     if folder.exists() {
         return Err(format!("{} exists", folder.display()));
     }
-    let from = |folder: &str| match &wanted.gauss {
-        Some(clone) => at(clone, folder),
-        None => Ok(format!("version = \"{}\"", env!("CARGO_PKG_VERSION"))),
-    };
-    let (runtime, tables) = (from("gauss-runtime")?, from("crates/gauss-tables")?);
+    let files = if wanted.python { python::files(wanted, name)? } else { program(wanted, name)? };
+    for (file, text) in &files {
+        let path = folder.join(file);
+        let parent = path.parent().unwrap_or(folder);
+        fs::create_dir_all(parent).map_err(|error| format!("{}: {error}", parent.display()))?;
+        fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    if wanted.gauss.is_none() {
+        println!("its crates are the published ones; `--gauss FOLDER` takes those of a clone");
+    }
+    let then = if wanted.python { "pip install ." } else { "cargo run --release" };
+    println!("made {}; now `cd {} && {then}`", folder.display(), folder.display());
+    Ok(())
+}
+
+/// A program.
+fn program(wanted: &New, name: &str) -> Result<Files, String> {
+    let (runtime, tables) = (from(wanted, "gauss-runtime")?, from(wanted, "crates/gauss-tables")?);
     let manifest = format!(
         "[package]\nname = \"{name}\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[dependencies]\ngauss-runtime = {{ {runtime} }}\n\
          gauss-tables = {{ {tables}, default-features = false }}\n\n\
          # A macro that is not optimised takes longer to compile than it saves.\n[profile.dev.build-override]\nopt-level = 1\n\n\
          [workspace]\n"
     );
-    let write = |file: &str, text: &str| {
-        let path = folder.join(file);
-        fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
-    };
-    fs::create_dir_all(folder.join("src")).map_err(|error| format!("{}: {error}", folder.display()))?;
-    write("Cargo.toml", &manifest)?;
-    write("src/main.rs", MAIN)?;
-    write(".gitignore", "/target\n/top.csv\n")?;
-    if wanted.gauss.is_none() {
-        println!("its crates are the published ones; `--gauss FOLDER` takes those of a clone");
-    }
-    println!("made {}; now `cd {} && cargo run --release`", folder.display(), folder.display());
-    Ok(())
-}
-
-/// A crate in a clone.
-fn at(clone: &Path, folder: &str) -> Result<String, String> {
-    let folder = clone.join(folder);
-    let absolute = folder.canonicalize().map_err(|error| format!("{}: {error}", folder.display()))?;
-    Ok(format!("path = {:?}", absolute.display().to_string()))
+    let files = [("Cargo.toml", &manifest[..]), ("src/main.rs", MAIN), (".gitignore", "/target\n/top.csv\n")];
+    Ok(files.map(|(file, text)| (file.to_owned(), text.to_owned())).to_vec())
 }

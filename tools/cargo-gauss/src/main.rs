@@ -3,7 +3,9 @@
 mod arguments;
 mod charts;
 mod create;
+mod package;
 mod page;
+mod python;
 mod robots;
 mod show;
 mod shown;

@@ -21,6 +21,11 @@ struct Swing { m: f64, k: f64 }
 struct Other;
 "#;
 
+/// A robot of one joint.
+const ARM: &str = r#"<robot name="arm"><link name="base"/><link name="upper"><inertial><mass value="1"/>
+        <inertia ixx="1" iyy="1" izz="1"/></inertial></link><joint name="elbow" type="continuous"><parent link="base"/>
+        <child link="upper"/><axis xyz="0 0 1"/></joint></robot>"#;
+
 /// A file of its own for each test.
 fn file(name: &str, text: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
@@ -96,9 +101,6 @@ fn mistakes_have_their_place() {
 /// A robot's file is found from the package of the source, wherever the command runs.
 #[test]
 fn robots_are_those_of_the_package() {
-    const ARM: &str = r#"<robot name="arm"><link name="base"/><link name="upper"><inertial><mass value="1"/>
-        <inertia ixx="1" iyy="1" izz="1"/></inertial></link><joint name="elbow" type="continuous"><parent link="base"/>
-        <child link="upper"/><axis xyz="0 0 1"/></joint></robot>"#;
     let package = Path::new(env!("CARGO_TARGET_TMPDIR")).join("with_robot");
     fs::create_dir_all(package.join("src")).expect("a folder that can be written");
     let write = |name: &str, text: &str| fs::write(package.join(name), text).expect("a file that can be written");
@@ -136,6 +138,33 @@ fn a_package_is_made_once() {
         let folder = format!("{}/{name}", env!("CARGO_TARGET_TMPDIR"));
         assert!(refused(&["new", &folder]).contains("no name of a package"), "{name}");
     }
+}
+
+/// Files of a package for Python; that it builds, and what its classes do, is tested where there is Python.
+#[test]
+fn a_package_for_python_is_made() {
+    let clone = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).expect("the workspace");
+    let made = |name: &str, more: &[&str]| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let _ = fs::remove_dir_all(&folder);
+        let clone = clone.to_str().expect("UTF-8");
+        let arguments = ["create", "--python", folder.to_str().expect("UTF-8"), "--gauss", clone];
+        printed(&[&arguments[..], more].concat());
+        move |file: &str| fs::read_to_string(folder.join(file)).unwrap_or_else(|error| panic!("{file}: {error}"))
+    };
+    let read = made("my-swings", &[]);
+    assert!(read("src/lib.rs").contains("gauss_python::module!(my_swings: Pendulum<f64>);"));
+    assert!(read("pyproject.toml").contains("module-name = \"my_swings\""));
+    assert!(read("Cargo.toml").contains("name = \"my_swings\"\ncrate-type = [\"cdylib\"]"));
+    let robot = file("two.urdf", ARM);
+    let read = made("my_robot", &["--robot", robot.to_str().expect("UTF-8")]);
+    assert_eq!(read("my_robot.urdf"), ARM);
+    assert!(read("Cargo.toml").contains("features = [\"urdf\"]"));
+    let source = read("src/lib.rs");
+    assert!(source.contains("urdf = \"my_robot.urdf\"") && syn::parse_file(&source).is_ok(), "{source}");
+    let text = file("robot.txt", "a robot");
+    let arguments = ["create", "--python", "--robot", text.to_str().expect("UTF-8"), "no_such_folder"];
+    assert!(refused(&arguments).contains("robots are read from files of URDF"));
 }
 
 /// Brackets in brackets, in a struct, beside it and around it.

@@ -14,7 +14,7 @@ pub fn input_name(derived: &Derived<'_, '_>) -> Ident {
 }
 
 /// In their order: one number, a vector, or of a wrench two.
-fn parts(derived: &Derived<'_, '_>) -> Vec<Part> {
+pub fn parts(derived: &Derived<'_, '_>) -> Vec<Part> {
     let part = |input: &InputName| {
         let ident = input.called.clone();
         let unit = input.unit.as_deref().map(|unit| format!(", in {unit}")).unwrap_or_default();

@@ -258,8 +258,8 @@ fn read_form(role: Role, clause: &Clause, context: &mut Context) -> (Option<Form
     (form, false)
 }
 
-/// The doc comment of a field, each line trimmed, lines joined as they were.
-fn documentation(attributes: &[Attribute]) -> String {
+/// The doc comment of a field or of the struct, each line trimmed, lines joined as they were.
+pub fn documentation(attributes: &[Attribute]) -> String {
     let mut lines = Vec::new();
     for attribute in attributes.iter().filter(|attribute| attribute.path().is_ident("doc")) {
         if let Meta::NameValue(pair) = &attribute.meta

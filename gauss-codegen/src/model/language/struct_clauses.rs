@@ -1,8 +1,8 @@
 //! The clauses of the struct that choose a chart and methods. Clauses of motion and forces are read by `statements`.
 //!
 //! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
-//! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor`
-//! and `regressor` alone; `linearize` alone or as `linearize(word, …)`; `frames(name, …)`; `methods(word, …)`.
+//! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor`,
+//! `regressor` and `python` alone; `linearize` alone or as `linearize(word, …)`; `frames(name, …)`; `methods(word, …)`.
 
 use super::arguments::UNIT;
 use super::attributes::{self, Clause, Content, Owner, Word};
@@ -45,6 +45,7 @@ pub const CLAUSES: &Table<Topic> = &[
     ("regressor", Topic::Regressor),
     ("frames", Topic::Frames),
     ("methods", Topic::Methods),
+    ("python", Topic::Python),
 ];
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -57,6 +58,7 @@ pub enum Topic {
     Regressor,
     Frames,
     Methods,
+    Python,
 }
 
 /// `None` stands for `jet`, which needs to know the motion.
@@ -194,6 +196,10 @@ impl Topics {
             }
             Topic::Regressor => {
                 self.wanted.regressor.get_or_insert(clause.name.clone());
+                check_alone(clause, context);
+            }
+            Topic::Python => {
+                self.wanted.python.get_or_insert(clause.name.clone());
                 check_alone(clause, context);
             }
             Topic::Frames => self.wanted.frames.extend(declarations::read_frames(clause, context)),

@@ -289,3 +289,17 @@ fn clauses_of_what_acts() {
         ],
     );
 }
+
+#[test]
+fn python_stands_alone_and_has_one_scalar() {
+    check_body("#[gauss(python = yes)]", &[("yes", "`python` takes no value; write `python` alone, or leave it out")]);
+    let mistakes = |source: &str| {
+        let input: syn::DeriveInput = syn::parse_str(source).expect("a struct");
+        let error = crate::model::parse(&input).err().expect("a mistake");
+        error.into_iter().map(|error| error.to_string()).collect::<Vec<_>>()
+    };
+    let single = "#[gauss(python)] struct Ball { #[gauss(mass)] m: f32, #[gauss(inertia)] i: f32 }";
+    assert_eq!(mistakes(single), ["`python` computes in `f64`; write the fields in `f64` or in a type parameter `T`"]);
+    let two = "#[gauss(python)] struct Ball<T, U> { #[gauss(mass)] m: T, #[gauss(inertia)] i: T, other: U }";
+    assert_eq!(mistakes(two), ["with `python` the scalar is the only type parameter; `U` is none"]);
+}

@@ -1,0 +1,158 @@
+//! Arrays of NumPy as rows of numbers: arguments read in place where they are what a kernel reads, converted otherwise.
+
+use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::PyDict;
+
+use crate::memory::{Source, Target};
+
+/// An array of 64-bit floats in C order, alive as long as its rows are read.
+pub struct Rows<'py> {
+    array: Bound<'py, PyArrayDyn<f64>>,
+}
+
+/// The leading axes of a call.
+#[derive(Clone, Copy)]
+pub struct Batch<'a> {
+    /// Their lengths; none of a call for one state.
+    pub axes: &'a [usize],
+    /// The argument that they were read from.
+    pub of: &'static str,
+}
+
+fn is_plain(array: &Bound<'_, PyArrayDyn<f64>>) -> bool {
+    array.is_c_contiguous() && array.is_aligned()
+}
+
+/// `numpy.asarray(x).astype(float, order="C", casting="same_kind", copy=False)`: complex numbers and texts are refused.
+fn converted<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    static ASARRAY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+    let py = value.py();
+    let named = |error: PyErr| PyTypeError::new_err(format!("{name} is no array of real numbers: {}", error.value(py)));
+    let asarray = ASARRAY.get_or_try_init(py, || Ok::<_, PyErr>(py.import("numpy")?.getattr("asarray")?.unbind()))?;
+    let array = asarray.bind(py).call1((value,)).map_err(named)?;
+    let how = PyDict::new(py);
+    how.set_item("order", "C")?;
+    how.set_item("casting", "same_kind")?;
+    how.set_item("copy", false)?;
+    let array = array.call_method("astype", ("float64",), Some(&how)).map_err(named)?;
+    array.cast_into::<PyArrayDyn<f64>>().map_err(Into::into)
+}
+
+/// All numbers of a value in C order, with the axes that it has.
+pub fn numbers(name: &str, value: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, Vec<usize>)> {
+    let array = converted(name, value)?;
+    Ok((array.readonly().as_slice()?.to_vec(), array.shape().to_vec()))
+}
+
+impl<'py> Rows<'py> {
+    /// Reads an argument.
+    pub fn of(name: &'static str, value: &Bound<'py, PyAny>) -> PyResult<Self> {
+        match value.cast::<PyArrayDyn<f64>>() {
+            Ok(array) if is_plain(array) => Ok(Self { array: array.clone() }),
+            _ => Ok(Self { array: converted(name, value)? }),
+        }
+    }
+
+    /// The axes before the last one, which has so many numbers.
+    pub fn leading(&self, name: &'static str, size: usize) -> PyResult<&[usize]> {
+        match self.array.shape().split_last() {
+            Some((&last, leading)) if last == size => Ok(leading),
+            _ => {
+                let shape = shown(self.array.shape());
+                Err(PyValueError::new_err(format!("{name} has shape {shape}; expected (..., {size})")))
+            }
+        }
+    }
+
+    /// All axes: of an array of numbers, one for each state.
+    pub fn axes(&self) -> &[usize] {
+        self.array.shape()
+    }
+
+    /// Its rows: `stride` numbers from one to the next, 0 where one row is for all.
+    pub fn source(&self, stride: usize) -> Source {
+        // SAFETY: the array is alive, in C order, and has the rows: its shape was compared.
+        #[allow(unsafe_code)]
+        unsafe {
+            Source::new(self.array.data(), stride)
+        }
+    }
+
+    /// The addresses that it occupies.
+    pub fn extent(&self) -> (usize, usize) {
+        extent(&self.array)
+    }
+}
+
+fn extent(array: &Bound<'_, PyArrayDyn<f64>>) -> (usize, usize) {
+    let first = array.data() as usize;
+    (first, first + array.len() * size_of::<f64>())
+}
+
+/// `(100, 7)`, as Python writes it.
+pub fn shown(axes: &[usize]) -> String {
+    match axes {
+        [one] => format!("({one},)"),
+        axes => format!("({})", axes.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
+    }
+}
+
+/// An array for results, new.
+pub fn new<'py>(py: Python<'py>, axes: &[usize]) -> Bound<'py, PyArrayDyn<f64>> {
+    // SAFETY: every number is written before anybody reads it: by the loop over all rows, or the array is dropped.
+    #[allow(unsafe_code)]
+    unsafe {
+        PyArrayDyn::<f64>::new(py, axes, false)
+    }
+}
+
+/// The array that `out` is, if it can take these results as they are.
+pub fn given<'py>(
+    name: &str,
+    out: &Bound<'py, PyAny>,
+    axes: impl Iterator<Item = usize> + Clone,
+    inputs: &[(&'static str, (usize, usize))],
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let Ok(array) = out.cast::<PyArrayDyn<f64>>() else {
+        return Err(PyTypeError::new_err(format!(
+            "{name} must be an array of float64, found {}",
+            out.get_type().name()?
+        )));
+    };
+    if !is_plain(array) {
+        return Err(PyValueError::new_err(format!("{name} must be in C order")));
+    }
+    if !array.shape().iter().copied().eq(axes.clone()) {
+        let (shape, axes) = (shown(array.shape()), shown(&axes.collect::<Vec<_>>()));
+        return Err(PyValueError::new_err(format!("{name} has shape {shape}; expected {axes}")));
+    }
+    if !is_writeable(array) {
+        return Err(PyValueError::new_err(format!("{name} is read-only")));
+    }
+    let (first, last) = extent(array);
+    for (other, (start, end)) in inputs {
+        if first < *end && *start < last {
+            return Err(PyValueError::new_err(format!("{name} shares memory with {other}")));
+        }
+    }
+    Ok(array.clone())
+}
+
+fn is_writeable(array: &Bound<'_, PyArrayDyn<f64>>) -> bool {
+    // SAFETY: the object is an array.
+    #[allow(unsafe_code)]
+    let flags = unsafe { (*array.as_array_ptr()).fields.flags };
+    flags & numpy::npyffi::NPY_ARRAY_WRITEABLE != 0
+}
+
+/// Where results go.
+pub fn target(array: &Bound<'_, PyArrayDyn<f64>>, stride: usize) -> Target {
+    // SAFETY: the array is alive over the call, has rows of this length, and shares no memory with arguments.
+    #[allow(unsafe_code)]
+    unsafe {
+        Target::new(array.data(), stride)
+    }
+}

@@ -1,0 +1,245 @@
+//! One call of a method: arrays in, lanes and threads, arrays out.
+
+use std::sync::Mutex;
+
+use numpy::{PyArrayDyn, PyArrayMethods};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use rayon::prelude::*;
+
+use crate::arrays::{self, Batch, Rows, shown};
+use crate::kernels::{AnyKernel, AnyScene, OffGroup};
+use crate::memory::{Source, Target};
+use crate::methods::{Id, SPECS, Spec, Work};
+
+/// From so many rows on other threads of Python may run meanwhile: letting them costs as much as some rows.
+const DETACHED: usize = 64;
+/// Rows that a thread takes at a time: whole lanes, and work for some microseconds.
+const CHUNK: usize = 512;
+
+/// What was given in Python: arrays by their slots, the time, where results go.
+pub struct Given<'a, 'py> {
+    /// By [`Slot`].
+    pub arguments: [Option<&'a Bound<'py, PyAny>>; 4],
+    /// One number, or one for each state; 0 where it is left out.
+    pub t: Option<&'a Bound<'py, PyAny>>,
+    /// The frame, by its number.
+    pub frame: usize,
+    /// The array for the result; a tuple of them where there are several.
+    pub out: Option<&'a Bound<'py, PyAny>>,
+}
+
+/// An array by the name of its argument, where it was given.
+type Named<'py> = Option<(&'static str, Rows<'py>)>;
+
+/// Arrays that are read, with what is known of them.
+struct Reading<'py> {
+    rows: [Named<'py>; 5],
+    work: Work,
+    zero: f64,
+}
+
+/// Where the time is among what is read.
+const TIME: usize = 4;
+
+/// Calls a method.
+pub fn call<'py>(
+    py: Python<'py>,
+    kernel: &dyn AnyKernel,
+    id: Id,
+    given: &Given<'_, 'py>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (scene, spec) = (kernel.scene(), &SPECS[id as usize]);
+    if !scene.has(id) {
+        let (name, method) = (scene.description().name, spec.name);
+        return Err(PyTypeError::new_err(format!(
+            "{name} has no {method}: its struct does not say `#[gauss({})]`",
+            spec.clause
+        )));
+    }
+    let mut reading = Reading::new(given.frame);
+    let arguments = spec.arguments.iter().map(|argument| {
+        let size = scene.sizes().get(argument.size);
+        (argument.name, argument.slot as usize, size, given.arguments[argument.slot as usize])
+    });
+    for (name, place, size, value) in arguments {
+        match value {
+            Some(value) => reading.rows[place] = Some((name, Rows::of(name, value)?)),
+            None if size == 0 => {}
+            None => return Err(missing(scene, spec, name)),
+        }
+    }
+    reading.read_time(given.t)?;
+    let times = std::mem::take(&mut reading.rows[TIME]);
+    let rows = reading.rows;
+    let batch = batch_of(scene, spec, &rows, times.as_ref())?;
+    let count: usize = batch.axes.iter().product();
+    let mut work = reading.work;
+    for argument in spec.arguments {
+        let (place, size) = (argument.slot as usize, scene.sizes().get(argument.size));
+        if let Some((name, rows)) = &rows[place] {
+            let own = !rows.leading(name, size)?.is_empty();
+            work.arguments[place] = rows.source(if own { size } else { 0 });
+        }
+    }
+    if let Some((_, times)) = &times {
+        work.t = times.source(usize::from(!times.axes().is_empty()));
+    }
+    let results = results(py, scene, spec, batch, given.out, (&rows, &times))?;
+    for (k, (result, array)) in spec.results.iter().zip(&results).enumerate() {
+        let stride = result.axes.iter().map(|axis| scene.sizes().get(*axis)).product();
+        work.results[k] = arrays::target(array, stride);
+    }
+    if times.is_none() {
+        // SAFETY: one row for all, of one number, which outlives the call.
+        #[allow(unsafe_code)]
+        let source = unsafe { Source::new(&raw const reading.zero, 0) };
+        work.t = source;
+    }
+    compute(py, kernel, id, &work, count).map_err(|off| off_group(spec, &off, batch))?;
+    match (given.out, &results[..]) {
+        (Some(out), _) => Ok(out.clone()),
+        (None, [one]) => Ok(one.clone().into_any()),
+        (None, _) => crate::class::named_tuple(py, spec, &results),
+    }
+}
+
+impl<'py> Reading<'py> {
+    fn new(frame: usize) -> Self {
+        let work = Work { t: Source::NONE, arguments: [Source::NONE; 4], results: [Target::NONE; 6], frame };
+        Self { rows: [const { None }; 5], work, zero: 0.0 }
+    }
+
+    /// One time for all is most often a plain float.
+    fn read_time(&mut self, t: Option<&Bound<'py, PyAny>>) -> PyResult<()> {
+        match t {
+            None => {}
+            Some(t) => match t.extract::<f64>() {
+                Ok(t) => self.zero = t,
+                Err(_) => self.rows[TIME] = Some(("t", Rows::of("t", t)?)),
+            },
+        }
+        Ok(())
+    }
+}
+
+fn missing(scene: &dyn AnyScene, spec: &Spec, name: &str) -> PyErr {
+    let mut message = format!("{} needs {name}", spec.name);
+    if name == "input" {
+        let words = scene.description().inputs.iter().map(|part| format!("{} ({})", part.name, part.label));
+        message.push_str(&format!(": {}", words.collect::<Vec<_>>().join(", ")));
+    }
+    PyTypeError::new_err(message)
+}
+
+/// The leading axes that all arguments share, but those that are one for all.
+fn batch_of<'a>(
+    scene: &dyn AnyScene,
+    spec: &Spec,
+    rows: &'a [Named<'_>; 5],
+    times: Option<&'a (&'static str, Rows<'_>)>,
+) -> PyResult<Batch<'a>> {
+    let mut batch = Batch { axes: &[], of: "" };
+    let of_arguments = spec.arguments.iter().filter_map(|argument| {
+        let (name, rows) = rows[argument.slot as usize].as_ref()?;
+        Some((*name, rows.leading(name, scene.sizes().get(argument.size))))
+    });
+    let of_time = times.map(|(name, rows)| (*name, Ok(rows.axes())));
+    for (name, axes) in of_arguments.chain(of_time) {
+        let axes = axes?;
+        if axes.is_empty() || axes == batch.axes {
+            continue;
+        }
+        if !batch.axes.is_empty() {
+            return Err(PyValueError::new_err(format!(
+                "leading axes differ: {} of {}, {} of {name}",
+                shown(batch.axes),
+                batch.of,
+                shown(axes)
+            )));
+        }
+        batch = Batch { axes, of: name };
+    }
+    Ok(batch)
+}
+
+type Arrays<'py> = Vec<Bound<'py, PyArrayDyn<f64>>>;
+
+/// Arrays for the results: those of `out`, or new ones.
+fn results<'py>(
+    py: Python<'py>,
+    scene: &dyn AnyScene,
+    spec: &Spec,
+    batch: Batch<'_>,
+    out: Option<&Bound<'py, PyAny>>,
+    (rows, times): (&[Named<'py>; 5], &Named<'py>),
+) -> PyResult<Arrays<'py>> {
+    let axes = |k: usize| {
+        let own = spec.results[k].axes.iter().map(|axis| scene.sizes().get(*axis));
+        batch.axes.iter().copied().chain(own)
+    };
+    let Some(out) = out else {
+        return Ok((0..spec.results.len()).map(|k| arrays::new(py, &axes(k).collect::<Vec<_>>())).collect());
+    };
+    let inputs: Vec<_> = rows.iter().chain([times]).flatten().map(|(name, rows)| (*name, rows.extent())).collect();
+    if spec.results.len() == 1 {
+        return Ok(vec![arrays::given("out", out, axes(0), &inputs)?]);
+    }
+    let arrays = out.cast::<PyTuple>().ok().filter(|arrays| arrays.len() == spec.results.len());
+    let Some(arrays) = arrays else {
+        let names: Vec<&str> = spec.results.iter().map(|result| result.name).collect();
+        return Err(PyTypeError::new_err(format!("out must be a tuple of arrays: {}", names.join(", "))));
+    };
+    let mut taken = inputs;
+    let mut all = Vec::new();
+    for (k, result) in spec.results.iter().enumerate() {
+        let array = arrays::given(result.name, &arrays.get_item(k)?, axes(k), &taken)?;
+        let first = array.data() as usize;
+        taken.push((result.name, (first, first + numpy::PyUntypedArrayMethods::len(&array) * size_of::<f64>())));
+        all.push(array);
+    }
+    Ok(all)
+}
+
+/// All rows, on all threads where there are many.
+fn compute(py: Python<'_>, kernel: &dyn AnyKernel, id: Id, work: &Work, count: usize) -> Result<(), OffGroup> {
+    // SAFETY: arrays have the rows and sizes: `call` compared the shapes.
+    #[allow(unsafe_code)]
+    let run = |rows| unsafe { kernel.run(id, work, rows) };
+    if count < DETACHED {
+        return run(0..count);
+    }
+    py.detach(|| {
+        if count <= CHUNK {
+            return run(0..count);
+        }
+        let first: Mutex<Option<OffGroup>> = Mutex::new(None);
+        (0..count.div_ceil(CHUNK)).into_par_iter().for_each(|chunk| {
+            if let Err(off) = run(chunk * CHUNK..((chunk + 1) * CHUNK).min(count))
+                && let Ok(mut first) = first.lock()
+                && first.is_none_or(|other| off.row < other.row)
+            {
+                *first = Some(off);
+            }
+        });
+        first.into_inner().ok().flatten().map_or(Ok(()), Err)
+    })
+}
+
+/// The message for a rotation that is none, with its place as Python indexes it.
+fn off_group(spec: &Spec, off: &OffGroup, batch: Batch<'_>) -> PyErr {
+    let name = spec.arguments.iter().find(|argument| argument.slot == off.slot).map_or("q", |argument| argument.name);
+    let (mut rest, mut index) = (off.row, Vec::new());
+    for axis in batch.axes.iter().rev() {
+        index.push((rest % axis).to_string());
+        rest /= axis;
+    }
+    index.reverse();
+    index.push(format!("{}:{}", off.place, off.place + off.count));
+    PyValueError::new_err(format!(
+        "{name}[{}] is no rotation: squares of its numbers add up to {:.6}, and to 1 of every rotation",
+        index.join(", "),
+        off.squares
+    ))
+}

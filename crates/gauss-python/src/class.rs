@@ -1,0 +1,255 @@
+//! The class of all kernels; each struct gets a subclass of its name ([`make`](crate::make)).
+
+use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyDict, PyTuple, PyType};
+
+use numpy::{PyArray1, PyArrayDyn, PyArrayMethods};
+
+use crate::arrays;
+use crate::kernels::{AnyKernel, AnyScene};
+use crate::methods::Spec;
+use crate::parameters;
+
+/// The scene of a class, as its attribute `_scene`.
+#[pyclass(frozen, module = "gauss_python")]
+pub struct SceneHandle {
+    scene: &'static dyn AnyScene,
+}
+
+impl SceneHandle {
+    /// The attribute of the class of a scene.
+    pub fn new(scene: &'static dyn AnyScene) -> Self {
+        Self { scene }
+    }
+}
+
+/// The scene of a class.
+fn scene_of(class: &Bound<'_, PyType>) -> PyResult<&'static dyn AnyScene> {
+    let handle = class.getattr(pyo3::intern!(class.py(), "_scene"));
+    match handle.ok().and_then(|handle| handle.cast_into::<SceneHandle>().ok()) {
+        Some(handle) => Ok(handle.get().scene),
+        None => Err(PyTypeError::new_err("Kernel is the base of the classes of scenes, and none itself")),
+    }
+}
+
+/// A kernel: parameters checked, constants computed once. It never changes, so that threads may share it.
+#[pyclass(subclass, frozen, module = "gauss_python")]
+pub struct Kernel {
+    kernel: Box<dyn AnyKernel>,
+}
+
+impl Kernel {
+    /// The kernel, its type forgotten.
+    pub fn kernel(&self) -> &dyn AnyKernel {
+        &*self.kernel
+    }
+
+    fn scene(&self) -> &'static dyn AnyScene {
+        self.kernel.scene()
+    }
+
+    /// The number of a frame.
+    pub fn frame(&self, name: &str) -> PyResult<usize> {
+        let frames = self.scene().frames();
+        if frames.is_empty() {
+            let scene = self.scene().description().name;
+            return Err(PyTypeError::new_err(format!(
+                "{scene} has no frames: its struct does not say `#[gauss(frames(…))]`"
+            )));
+        }
+        frames.iter().position(|frame| *frame == name).ok_or_else(|| {
+            let (scene, frames) = (self.scene().description().name, frames.join(", "));
+            PyKeyError::new_err(format!("{scene} has no frame {name}; those of `frames(…)`: {frames}"))
+        })
+    }
+}
+
+#[pymethods]
+impl Kernel {
+    #[new]
+    #[classmethod]
+    #[pyo3(signature = (**parameters))]
+    fn new(class: &Bound<'_, PyType>, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let scene = scene_of(class)?;
+        Ok(Self { kernel: parameters::kernel(class.py(), scene, parameters)? })
+    }
+
+    /// The parameters by name.
+    #[getter]
+    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        parameters::as_dict(py, self.kernel())
+    }
+
+    /// What is likely not meant, although a kernel can be made of it.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.kernel.warnings()
+    }
+
+    /// The equations of motion as they were derived.
+    #[getter]
+    fn equations(&self) -> &'static str {
+        self.scene().equations().text
+    }
+
+    /// The equations in LaTeX.
+    #[getter]
+    fn latex(&self) -> &'static str {
+        self.scene().equations().latex
+    }
+
+    fn _repr_latex_(&self) -> String {
+        format!("$$\n{}\n$$", self.scene().equations().latex)
+    }
+
+    /// What every method costs.
+    #[getter]
+    fn operations(&self) -> String {
+        self.scene().operations().to_string()
+    }
+
+    /// What methods lose to rounding.
+    #[getter]
+    fn accuracy(&self) -> String {
+        self.scene().accuracy().to_string()
+    }
+
+    /// The names of the numbers of q.
+    #[getter]
+    fn coordinate_names(&self) -> Vec<&'static str> {
+        self.scene().names()[0].to_vec()
+    }
+
+    /// The names of the numbers of z.
+    #[getter]
+    fn speed_names(&self) -> Vec<&'static str> {
+        self.scene().names()[1].to_vec()
+    }
+
+    /// The names of the numbers of the input.
+    #[getter]
+    fn input_names(&self) -> Vec<String> {
+        let numbers = |part: &'static crate::Part| {
+            (0..part.size).map(move |k| match part.size {
+                1 => part.name.to_owned(),
+                _ => format!("{}_{}", part.name, ["x", "y", "z"].get(k).unwrap_or(&"")),
+            })
+        };
+        self.scene().description().inputs.iter().flat_map(numbers).collect()
+    }
+
+    /// The names of the frames.
+    #[getter]
+    fn frames(&self) -> Vec<&'static str> {
+        self.scene().frames().to_vec()
+    }
+
+    /// How many speeds there are.
+    #[getter]
+    fn dof(&self) -> usize {
+        self.scene().sizes().speeds
+    }
+
+    /// The arrays q and z of a state: coordinates and speeds by name, whole ones or their numbers; what is not named
+    /// is at rest in the origin.
+    #[pyo3(signature = (**named))]
+    fn state<'py>(
+        &self,
+        py: Python<'py>,
+        named: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 2]> {
+        let scene = self.scene();
+        let mut numbers = scene.at_rest();
+        for (name, value) in named.into_iter().flat_map(|named| named.iter()) {
+            let name: String = name.extract()?;
+            place(scene, &name, &arrays::numbers(&name, &value)?.0, &mut numbers)?;
+        }
+        Ok(numbers.map(|numbers| PyArray1::from_vec(py, numbers).to_dyn().clone()))
+    }
+
+    fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
+        let parameters = slf.get().parameters(slf.py())?;
+        let words = parameters.iter().map(|(name, value)| {
+            let value = if value.hasattr("tolist")? { value.call_method0("tolist")? } else { value };
+            Ok(format!("{}={}", name.str()?, value.repr()?))
+        });
+        let words: PyResult<Vec<String>> = words.collect();
+        Ok(format!("{}({})", slf.get().scene().description().name, words?.join(", ")))
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<Self>().is_ok_and(|other| {
+            let (own, other) = (self.kernel(), other.get().kernel());
+            std::ptr::eq(own.scene().description(), other.scene().description()) && own.numbers() == other.numbers()
+        })
+    }
+
+    fn __hash__(&self) -> u64 {
+        use std::hash::{DefaultHasher, Hash, Hasher};
+        let mut hasher = DefaultHasher::new();
+        self.scene().description().name.hash(&mut hasher);
+        // Zeros of both signs are equal.
+        self.kernel.numbers().iter().for_each(|number| (number + 0.0).to_bits().hash(&mut hasher));
+        hasher.finish()
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        // In all protocols, which `copyreg.__newobj_ex__` is not.
+        let (py, partial) = (slf.py(), slf.py().import("functools")?.getattr("partial")?);
+        let make = partial.call((slf.get_type(),), Some(&slf.get().parameters(py)?))?;
+        Ok((make, PyTuple::empty(py)))
+    }
+}
+
+/// Puts the numbers of one name into a state.
+fn place(scene: &dyn AnyScene, name: &str, values: &[f64], [q, z]: &mut [Vec<f64>; 2]) -> PyResult<()> {
+    let description = scene.description();
+    let mut speeds = 0;
+    let of_speeds = description.speeds.iter().map(|part| {
+        let first = speeds;
+        speeds += part.size;
+        (first, part)
+    });
+    let of_speeds: Vec<_> = of_speeds.collect();
+    let find = |parts: &[(usize, &'static crate::Part)], names: &[&str]| {
+        let whole = parts.iter().find(|(_, part)| part.name == name).map(|&(first, part)| (first, part.size));
+        whole.or_else(|| names.iter().position(|other| *other == name).map(|place| (place, 1)))
+    };
+    let [coordinate_names, speed_names] = scene.names();
+    let configuration: Vec<_> = description.configuration().collect();
+    let (numbers, (first, size)) = match (find(&configuration, coordinate_names), find(&of_speeds, speed_names)) {
+        (Some(found), _) => (q, found),
+        (None, Some(found)) => (z, found),
+        (None, None) => {
+            let all = [coordinate_names, speed_names].concat().join(", ");
+            return Err(PyTypeError::new_err(format!("no coordinate or speed is called {name}; there are {all}")));
+        }
+    };
+    if values.len() != size {
+        return Err(PyValueError::new_err(format!("{name} has {size} numbers, found {}", values.len())));
+    }
+    numbers[first..first + size].copy_from_slice(values);
+    Ok(())
+}
+
+/// Results by their names: one class of tuples for each method.
+pub fn named_tuple<'py>(
+    py: Python<'py>,
+    spec: &Spec,
+    results: &[Bound<'py, PyArrayDyn<f64>>],
+) -> PyResult<Bound<'py, PyAny>> {
+    static CLASSES: PyOnceLock<Py<PyDict>> = PyOnceLock::new();
+    let classes = CLASSES.get_or_init(py, || PyDict::new(py).unbind()).bind(py);
+    let class = match classes.get_item(spec.name)? {
+        Some(class) => class,
+        None => {
+            let names: Vec<&str> = spec.results.iter().map(|result| result.name).collect();
+            let class = py.import("collections")?.call_method1("namedtuple", (spec.class_name(), names))?;
+            classes.set_item(spec.name, &class)?;
+            class
+        }
+    };
+    class.call1(PyTuple::new(py, results)?)
+}

@@ -1,0 +1,79 @@
+//! Columns of numbers: views for NumPy and a stream for Arrow, none of which copies.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use arrow_array::ffi_stream::FFI_ArrowArrayStream;
+use arrow_array::{ArrayRef, Float64Array, RecordBatch, RecordBatchIterator};
+use arrow_buffer::{Buffer, ScalarBuffer};
+use arrow_schema::{ArrowError, DataType, Field, Schema};
+use numpy::ndarray::{ArrayView2, ShapeBuilder};
+use numpy::{PyArray2, PyArrayMethods};
+use pyo3::exceptions::{PyKeyError, PyRuntimeError};
+use pyo3::prelude::*;
+use pyo3::types::PyCapsule;
+
+/// Named columns of one length, one after the other in memory that is never written again.
+pub struct Columns {
+    names: Vec<String>,
+    numbers: ScalarBuffer<f64>,
+    rows: usize,
+}
+
+impl Columns {
+    /// From numbers, column by column.
+    pub fn new(names: Vec<String>, numbers: Vec<f64>, rows: usize) -> Self {
+        let length = names.len() * rows;
+        Self { numbers: ScalarBuffer::new(Buffer::from_vec(numbers), 0, length), names, rows }
+    }
+
+    /// How many rows there are.
+    pub fn len(&self) -> usize {
+        self.rows
+    }
+
+    /// The names.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Some columns side by side as an array that cannot be written; `owner` has these columns.
+    pub fn view<'py>(&self, owner: Bound<'py, PyAny>, first: usize, count: usize) -> Bound<'py, PyArray2<f64>> {
+        let numbers = &self.numbers[first * self.rows..(first + count) * self.rows];
+        let shape = (self.rows, count).f();
+        // As many numbers as the shape has: the slice was cut for it.
+        let view = ArrayView2::from_shape(shape, numbers).unwrap_or_else(|_| ArrayView2::from(&[[0.0; 0]; 0]));
+        // SAFETY: `owner` keeps the memory as long as the array lives.
+        #[allow(unsafe_code)]
+        let array = unsafe { PyArray2::borrow_from_array(&view, owner) };
+        array.readwrite().make_nonwriteable();
+        array
+    }
+
+    /// One column.
+    pub fn column<'py>(&self, owner: Bound<'py, PyAny>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        match self.names.iter().position(|other| other == name) {
+            Some(place) => self.view(owner, place, 1).call_method0("ravel"),
+            None => Err(PyKeyError::new_err(format!("no column {name}; there are {}", self.names.join(", ")))),
+        }
+    }
+
+    /// The columns as a stream of one record batch: a capsule named `arrow_array_stream`.
+    pub fn stream<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
+        let batch = self.batch().map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        let schema = batch.schema();
+        let batches = RecordBatchIterator::new([Ok(batch)], schema);
+        PyCapsule::new_with_value(py, FFI_ArrowArrayStream::new(Box::new(batches)), c"arrow_array_stream")
+    }
+
+    fn batch(&self) -> Result<RecordBatch, ArrowError> {
+        let fields = self.names.iter().map(|name| {
+            let unit = (name == "t").then(|| ("unit".to_owned(), "s".to_owned()));
+            Field::new(name, DataType::Float64, false).with_metadata(HashMap::from_iter(unit))
+        });
+        let fields: Vec<Field> = fields.collect();
+        let column = |k: usize| self.numbers.slice(k * self.rows, self.rows);
+        let arrays = (0..self.names.len()).map(|k| Arc::new(Float64Array::new(column(k), None)) as ArrayRef);
+        RecordBatch::try_new(Arc::new(Schema::new(fields)), arrays.collect())
+    }
+}

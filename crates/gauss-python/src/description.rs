@@ -1,0 +1,88 @@
+//! What is known of a scene without a kernel: its parameters, coordinates, speeds and inputs in words.
+
+/// A field of the struct: a keyword of the class.
+#[derive(Clone, Copy, Debug)]
+pub struct Field {
+    /// Its name.
+    pub name: &'static str,
+    /// Its unit; empty where none is written.
+    pub unit: &'static str,
+    /// Its doc comment; empty where there is none.
+    pub documentation: &'static str,
+    /// What values it takes.
+    pub shape: Shape,
+}
+
+/// What values a field takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// An array of these axes, none of a number; matrices row by row.
+    Array(&'static [usize]),
+    /// Mass, centre of mass and inertia about O: a mapping of Python.
+    Body,
+}
+
+impl Shape {
+    /// How many numbers it has.
+    #[must_use]
+    pub fn size(self) -> usize {
+        match self {
+            Self::Array(axes) => axes.iter().product(),
+            Self::Body => 1 + 3 + 9,
+        }
+    }
+}
+
+/// A coordinate, a speed or an input by name: one number or several.
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
+    /// Its name.
+    pub name: &'static str,
+    /// How many numbers it consists of.
+    pub size: usize,
+    /// How many of them, in the beginning, have squares that add up to 1.
+    pub unit: usize,
+    /// What it is, in words, with its unit where that is known.
+    pub label: &'static str,
+}
+
+/// All that is known of a scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Description {
+    /// The name of the struct and of the class.
+    pub name: &'static str,
+    /// The doc comment of the struct.
+    pub documentation: &'static str,
+    /// The fields of the struct, in order.
+    pub fields: &'static [Field],
+    /// Coordinates, in the order of the struct's clauses.
+    pub coordinates: &'static [Part],
+    /// Speeds, in their order.
+    pub speeds: &'static [Part],
+    /// Inputs, in their order.
+    pub inputs: &'static [Part],
+}
+
+impl Description {
+    /// Parts of the configuration, with the place of the first number of each: scalars are behind all others.
+    pub fn configuration(&self) -> impl Iterator<Item = (usize, &'static Part)> + use<> {
+        let coordinates = self.coordinates;
+        let of = move |scalar: bool| coordinates.iter().filter(move |part| (part.size == 1) == scalar);
+        of(false).chain(of(true)).scan(0, |next, part| {
+            let place = *next;
+            *next += part.size;
+            Some((place, part))
+        })
+    }
+
+    /// Blocks of a configuration whose squares add up to 1: the first number, and how many.
+    pub fn unit_blocks(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        self.configuration().filter(|(_, part)| part.unit > 0).map(|(place, part)| (place, part.unit))
+    }
+
+    /// How many numbers the input has.
+    #[must_use]
+    pub fn input_size(&self) -> usize {
+        self.inputs.iter().map(|part| part.size).sum()
+    }
+}

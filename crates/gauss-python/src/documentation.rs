@@ -1,0 +1,31 @@
+//! A class in words.
+
+use crate::arrays::shown;
+use crate::description::{Description, Shape};
+use crate::parameters::described;
+
+/// The class in words: the struct's doc comment, its parameters, coordinates, speeds and inputs.
+pub fn documentation(description: &Description) -> String {
+    let mut text = description.documentation.to_owned();
+    if !description.fields.is_empty() {
+        text.push_str("\n\nParameters:\n");
+        for field in description.fields {
+            let shape = match field.shape {
+                Shape::Array([]) => "number".to_owned(),
+                Shape::Array(axes) => format!("array {}", shown(axes)),
+                Shape::Body => "mapping of mass, center_of_mass, inertia".to_owned(),
+            };
+            text.push_str(&format!("  {}: {shape}{}\n", field.name, described(field)));
+        }
+    }
+    let parts =
+        [("Coordinates", description.coordinates), ("Speeds", description.speeds), ("Inputs", description.inputs)];
+    for (title, parts) in parts.into_iter().filter(|(_, parts)| !parts.is_empty()) {
+        text.push_str(&format!("\n{title}:\n"));
+        for part in parts {
+            let numbers = if part.size == 1 { String::new() } else { format!(" ({} numbers)", part.size) };
+            text.push_str(&format!("  {}{numbers}: {}\n", part.name, part.label));
+        }
+    }
+    text
+}

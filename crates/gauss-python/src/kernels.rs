@@ -1,0 +1,222 @@
+//! Scenes and their kernels with their types forgotten.
+
+use std::ops::Range;
+use std::time::Duration;
+
+use gauss_runtime::accuracy::Accuracy;
+use gauss_runtime::description::{Equations, Operations};
+use gauss_runtime::error::ParameterError;
+use gauss_runtime::prelude::DescribedSystem;
+use gauss_runtime::simd::Packed;
+
+use crate::description::Description;
+use crate::memory::Source;
+use crate::methods::{Id, SPECS, Sizes, Slot, Table, Work};
+use crate::runs::{self, Many, ManyEnds, Outcome, Request};
+use crate::scene::{ScalarOf, Scene};
+
+/// A scene, its type forgotten.
+pub trait AnyScene: Send + Sync {
+    /// The struct in words.
+    fn description(&self) -> &'static Description;
+    /// The equations.
+    fn equations(&self) -> Equations;
+    /// What methods cost.
+    fn operations(&self) -> Operations;
+    /// What methods lose to rounding.
+    fn accuracy(&self) -> Accuracy;
+    /// Names of the numbers of q and of z.
+    fn names(&self) -> [&'static [&'static str]; 2];
+    /// Sizes of vectors.
+    fn sizes(&self) -> Sizes;
+    /// Frames.
+    fn frames(&self) -> &[&'static str];
+    /// Whether kernels have the method.
+    fn has(&self, id: Id) -> bool;
+    /// The numbers of q and z at rest in the origin.
+    fn at_rest(&self) -> [Vec<f64>; 2];
+    /// A kernel.
+    ///
+    /// # Errors
+    /// Parameters that no body can have.
+    fn kernel(&'static self, numbers: Vec<f64>) -> Result<Box<dyn AnyKernel>, ParameterError>;
+}
+
+/// A kernel, its type forgotten.
+pub trait AnyKernel: Send + Sync {
+    /// Its scene.
+    fn scene(&self) -> &'static dyn AnyScene;
+    /// Its parameters.
+    fn numbers(&self) -> &[f64];
+    /// What is likely not meant.
+    fn warnings(&self) -> Vec<String>;
+    /// Computes rows; the first row whose rotation is none, with how far the squares of its numbers are from 1.
+    ///
+    /// # Safety
+    /// All arrays that the method names have these rows, each of the sizes of the scene.
+    #[allow(unsafe_code)]
+    unsafe fn run(&self, id: Id, work: &Work, rows: Range<usize>) -> Result<(), OffGroup>;
+    /// A run.
+    fn simulate(&self, request: &Request<'_>) -> Result<Outcome, String>;
+    /// Many runs.
+    fn ensemble(&self, many: &Many<'_>) -> Result<ManyEnds, String>;
+    /// The time of the same batch in Rust.
+    fn batch_time(&self, many: &Many<'_>) -> Result<Duration, String>;
+}
+
+/// A rotation that is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OffGroup {
+    /// The row.
+    pub row: usize,
+    /// The argument that it is in.
+    pub slot: Slot,
+    /// The first of its numbers.
+    pub place: usize,
+    /// How many numbers.
+    pub count: usize,
+    /// The sum of their squares.
+    pub squares: f64,
+}
+
+/// A scene with the tables of its methods.
+pub struct Registered<S: Scene> {
+    single: Table<S::Single>,
+    packed: Table<S::Packed>,
+    sizes: Sizes,
+    blocks: Vec<(usize, usize)>,
+}
+
+impl<S: Scene> Registered<S> {
+    /// With all methods that the struct asked for.
+    #[must_use]
+    pub fn new() -> Self {
+        let (mut single, mut packed) = (Table::new(), Table::new());
+        S::offer(&mut single, &mut packed);
+        let sizes = Sizes::of::<S::Single>(single.multipliers);
+        Self { single, packed, sizes, blocks: S::DESCRIPTION.unit_blocks().collect() }
+    }
+}
+
+impl<S: Scene> Default for Registered<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<S: Scene> AnyScene for Registered<S> {
+    fn description(&self) -> &'static Description {
+        const { &S::DESCRIPTION }
+    }
+
+    fn equations(&self) -> Equations {
+        <S::Single as DescribedSystem>::EQUATIONS
+    }
+
+    fn operations(&self) -> Operations {
+        <S::Single as DescribedSystem>::OPERATIONS
+    }
+
+    fn accuracy(&self) -> Accuracy {
+        <S::Single as DescribedSystem>::ACCURACY
+    }
+
+    fn names(&self) -> [&'static [&'static str]; 2] {
+        [<S::Single as DescribedSystem>::COORDINATE_NAMES, <S::Single as DescribedSystem>::SPEED_NAMES]
+    }
+
+    fn sizes(&self) -> Sizes {
+        self.sizes
+    }
+
+    fn frames(&self) -> &[&'static str] {
+        &self.single.frames
+    }
+
+    fn has(&self, id: Id) -> bool {
+        self.single.has(id)
+    }
+
+    fn at_rest(&self) -> [Vec<f64>; 2] {
+        let (q, z) = S::at_rest();
+        [runs::numbers_of(&q), runs::components(&z)]
+    }
+
+    fn kernel(&'static self, numbers: Vec<f64>) -> Result<Box<dyn AnyKernel>, ParameterError> {
+        let single = S::single(&numbers)?;
+        let repeated: Vec<_> = numbers.iter().map(ScalarOf::<S::Packed>::repeat).collect();
+        let packed = S::packed(&repeated)?;
+        Ok(Box::new(Instance { scene: self, single, packed, numbers }))
+    }
+}
+
+/// Kernels of one set of parameters.
+struct Instance<S: Scene> {
+    scene: &'static Registered<S>,
+    single: S::Single,
+    packed: S::Packed,
+    numbers: Vec<f64>,
+}
+
+impl<S: Scene> Instance<S> {
+    /// The first rotation in these rows that is none. What is not a number passes: it gives none.
+    fn off_group(&self, slot: Slot, source: &Source, rows: Range<usize>) -> Result<(), OffGroup> {
+        for &(place, count) in &self.scene.blocks {
+            for row in rows.clone() {
+                // SAFETY: of `run`.
+                #[allow(unsafe_code)]
+                let squares: f64 = (place..place + count).map(|i| unsafe { source.get(row, i) }.powi(2)).sum();
+                // The squares of numbers with half of the digits: as `configuration::check` has it.
+                if (squares - 1.0).abs() > 2.0 * f64::EPSILON.sqrt() {
+                    return Err(OffGroup { row, slot, place, count, squares });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<S: Scene> AnyKernel for Instance<S> {
+    fn scene(&self) -> &'static dyn AnyScene {
+        self.scene
+    }
+
+    fn numbers(&self) -> &[f64] {
+        &self.numbers
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        S::warnings(&self.numbers).iter().map(ToString::to_string).collect()
+    }
+
+    #[allow(unsafe_code)]
+    unsafe fn run(&self, id: Id, work: &Work, rows: Range<usize>) -> Result<(), OffGroup> {
+        let (mut next, end) = (rows.start, rows.end);
+        let spec = &SPECS[id as usize];
+        for argument in spec.arguments {
+            if argument.slot == Slot::Q || argument.name == "other" {
+                self.off_group(argument.slot, &work.arguments[argument.slot as usize], rows.clone())?;
+            }
+        }
+        // SAFETY: of this function.
+        unsafe {
+            if rows.len() >= <ScalarOf<S::Packed> as Packed>::WIDTH {
+                next = self.scene.packed.run(&self.packed, id, work, next..end);
+            }
+            self.scene.single.run(&self.single, id, work, next..end);
+        }
+        Ok(())
+    }
+
+    fn simulate(&self, request: &Request<'_>) -> Result<Outcome, String> {
+        runs::simulate(&self.single, request)
+    }
+
+    fn ensemble(&self, many: &Many<'_>) -> Result<ManyEnds, String> {
+        runs::ensemble::<S>(&self.packed, &self.numbers, many)
+    }
+
+    fn batch_time(&self, many: &Many<'_>) -> Result<Duration, String> {
+        runs::batch_time::<S>(&self.packed, many)
+    }
+}

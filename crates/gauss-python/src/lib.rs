@@ -1,0 +1,89 @@
+//! Packages of Python from structs of Gauss.
+//!
+//! A struct gets the clause `#[gauss(python)]`, and [`module!`] makes a module of such structs:
+//!
+//! ```
+//! use gauss_runtime::prelude::*;
+//!
+//! /// A pendulum.
+//! #[derive(GaussDynamics)]
+//! #[gauss(
+//!     python,
+//!     coordinates(angle),
+//!     particle(mass = mass, position = [length * sin(angle), 0, -length * cos(angle)]),
+//! )]
+//! struct Pendulum<T> {
+//!     mass: T,
+//!     length: T,
+//!     #[gauss(gravity)]
+//!     g: T,
+//! }
+//!
+//! gauss_python::module!(swings: Pendulum<f64>);
+//! ```
+//!
+//! ```python
+//! import numpy, swings
+//! pendulum = swings.Pendulum(mass=0.3, length=0.5, g=9.81)
+//! accelerations = pendulum.acceleration(numpy.zeros((1000, 1)), numpy.ones((1000, 1)))
+//! ```
+//!
+//! `cargo gauss create --python NAME` writes such a package, which `pip install .` builds. The guide, "From Python",
+//! has what classes offer.
+//!
+//! Rooms, each knows those before it: `description`, `parameter` (what is known of a struct, its fields), `memory`
+//! (the only access to arrays by address), `methods` (methods of a kernel over rows), `scene` (a struct as Python sees
+//! it), `runs` (numbers in, columns out), `kernels` (its kernels, their types forgotten), and what Python sees:
+//! `arrays`, `columns`, `call`, `parameters`, `class` with `of_kernels` and `simulation`, `run`, `stubs`, `make`.
+
+#![deny(missing_docs, unsafe_code)]
+
+mod arrays;
+mod call;
+mod class;
+mod columns;
+mod description;
+mod documentation;
+mod kernels;
+mod make;
+mod memory;
+mod methods;
+mod of_kernels;
+mod parameter;
+mod parameters;
+mod run;
+mod runs;
+mod scene;
+mod simulation;
+mod stubs;
+
+pub use description::{Description, Field, Part, Shape};
+pub use gauss_runtime::error::{ParameterError, ParameterWarnings};
+pub use gauss_runtime::real::Real;
+#[doc(hidden)]
+pub use make::{add, begin, finish};
+#[doc(hidden)]
+pub use methods::Table;
+pub use parameter::{FromNumbers, Numbers, Parameter};
+#[doc(hidden)]
+pub use pyo3;
+pub use scene::{ConfigurationOf, Pack, ScalarOf, Scene, SpeedsOf};
+
+/// A module of Python with a class for each struct; its name is that of the library in `Cargo.toml`. Structs that are
+/// generic in their scalar are written with `f64`: their batches are computed in lanes all the same.
+///
+/// `gauss_python::module!(robots: Arm<f64>, Leg<f64>);`
+#[macro_export]
+macro_rules! module {
+    ($name:ident: $($scene:ty),+ $(,)?) => {
+        /// Rigid-body dynamics, generated.
+        #[$crate::pyo3::pymodule]
+        #[pyo3(crate = "::gauss_python::pyo3")]
+        fn $name(
+            module: &$crate::pyo3::Bound<'_, $crate::pyo3::types::PyModule>,
+        ) -> $crate::pyo3::PyResult<()> {
+            $crate::begin(module)?;
+            $crate::finish(module, ::std::vec![$($crate::add::<$scene>(module)?),+])
+        }
+    };
+}

@@ -1,0 +1,62 @@
+//! Classes of a module: one for each struct, with its documentation and keywords.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyCFunction, PyDict, PyList, PyTuple, PyType};
+
+use crate::class::{Kernel, SceneHandle};
+use crate::description::Description;
+use crate::documentation::documentation;
+use crate::kernels::{AnyScene, Registered};
+use crate::parameters::ParameterError;
+use crate::run::{Ends, IntegrationError, Run};
+use crate::scene::Scene;
+use crate::stubs;
+
+/// Adds what all modules have: [`finish`] comes after the last class.
+pub fn begin(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = module.py();
+    module.add_class::<Kernel>()?;
+    module.add_class::<Run>()?;
+    module.add_class::<Ends>()?;
+    module.add("ParameterError", py.get_type::<ParameterError>())?;
+    module.add("IntegrationError", py.get_type::<IntegrationError>())
+}
+
+/// Adds the class of a struct.
+pub fn add<S: Scene>(module: &Bound<'_, PyModule>) -> PyResult<&'static dyn AnyScene> {
+    let py = module.py();
+    // Classes live as long as the process.
+    let scene: &'static dyn AnyScene = Box::leak(Box::new(Registered::<S>::new()));
+    let description = scene.description();
+    let attributes = PyDict::new(py);
+    attributes.set_item("_scene", Py::new(py, SceneHandle::new(scene))?)?;
+    attributes.set_item("__module__", module.name()?)?;
+    attributes.set_item("__qualname__", description.name)?;
+    attributes.set_item("__doc__", documentation(description))?;
+    attributes.set_item("__slots__", PyTuple::empty(py))?;
+    attributes.set_item("__signature__", signature(py, description)?)?;
+    let bases = (py.get_type::<Kernel>(),);
+    let class = py.get_type::<PyType>().call1((description.name, bases, attributes))?;
+    module.add(description.name, class)?;
+    Ok(scene)
+}
+
+/// Adds `stubs()`, the text of the module's `.pyi`, and `__all__`.
+pub fn finish(module: &Bound<'_, PyModule>, scenes: Vec<&'static dyn AnyScene>) -> PyResult<()> {
+    let py = module.py();
+    let names = ["Kernel", "Run", "Ends", "ParameterError", "IntegrationError", "stubs"];
+    let all = names.into_iter().chain(scenes.iter().map(|scene| scene.description().name));
+    module.add("__all__", PyList::new(py, all)?)?;
+    let stubs = move |_: &Bound<'_, PyTuple>, _: Option<&Bound<'_, PyDict>>| stubs::text(&scenes);
+    let function = PyCFunction::new_closure(py, Some(c"stubs"), Some(c"The text of the stubs of this module."), stubs)?;
+    module.add("stubs", function)
+}
+
+/// Keywords only, as `inspect.signature` and editors show them.
+fn signature<'py>(py: Python<'py>, description: &Description) -> PyResult<Bound<'py, PyAny>> {
+    let inspect = py.import("inspect")?;
+    let parameter = inspect.getattr("Parameter")?;
+    let keyword = parameter.getattr("KEYWORD_ONLY")?;
+    let fields = description.fields.iter().map(|field| parameter.call1((field.name, &keyword)));
+    inspect.getattr("Signature")?.call1((PyList::new(py, fields.collect::<PyResult<Vec<_>>>()?)?,))
+}

@@ -1,0 +1,66 @@
+//! The only code that touches memory of arrays: rows of numbers by their addresses.
+//!
+//! Arrays of Python may be written by other threads while these rows are read, as with every function of NumPy; numbers
+//! are then any, and nothing else is. No reference is ever made to the numbers, only copies of single ones.
+
+#![allow(unsafe_code)]
+
+/// Rows that are read: row `k` begins `k · stride` numbers behind the first.
+#[derive(Clone, Copy, Debug)]
+pub struct Source {
+    first: *const f64,
+    stride: usize,
+}
+
+/// Rows that are written.
+#[derive(Clone, Copy, Debug)]
+pub struct Target {
+    first: *mut f64,
+    stride: usize,
+}
+
+// Addresses of numbers that the caller keeps alive over the call; threads write different rows.
+unsafe impl Send for Source {}
+unsafe impl Sync for Source {}
+unsafe impl Send for Target {}
+unsafe impl Sync for Target {}
+
+impl Source {
+    /// Of a method that does not read it.
+    pub const NONE: Self = Self { first: std::ptr::null(), stride: 0 };
+
+    /// # Safety
+    /// Numbers at all rows that will be read outlive it.
+    pub unsafe fn new(first: *const f64, stride: usize) -> Self {
+        Self { first, stride }
+    }
+
+    /// Number `i` of a row.
+    ///
+    /// # Safety
+    /// The row and the number exist.
+    #[inline(always)]
+    pub unsafe fn get(&self, row: usize, i: usize) -> f64 {
+        unsafe { self.first.add(row * self.stride + i).read() }
+    }
+}
+
+impl Target {
+    /// Of results that a method does not have.
+    pub const NONE: Self = Self { first: std::ptr::null_mut(), stride: 0 };
+
+    /// # Safety
+    /// Numbers at all rows that will be written outlive it, and nobody else writes them.
+    pub unsafe fn new(first: *mut f64, stride: usize) -> Self {
+        Self { first, stride }
+    }
+
+    /// Writes number `i` of a row.
+    ///
+    /// # Safety
+    /// The row and the number exist.
+    #[inline(always)]
+    pub unsafe fn set(&self, row: usize, i: usize, value: f64) {
+        unsafe { self.first.add(row * self.stride + i).write(value) }
+    }
+}

@@ -1,0 +1,8 @@
+//! Methods of kernels over rows of arrays: what each is called, what it reads and gives, and how it is computed.
+
+mod asked;
+mod table;
+mod words;
+
+pub use table::{Sizes, System, Table, Work};
+pub use words::{Argument, Id, SPECS, Size, Slot, Spec};

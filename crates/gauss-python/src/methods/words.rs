@@ -1,0 +1,285 @@
+//! The methods by name.
+
+/// The number of a method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Id {
+    Acceleration,
+    InverseDynamics,
+    NonlinearEffects,
+    MassMatrix,
+    Kinematics,
+    Rates,
+    Momentum,
+    Velocity,
+    MomentumRate,
+    KineticEnergy,
+    PotentialEnergy,
+    Energy,
+    Regularity,
+    Retract,
+    Difference,
+    Linearize,
+    LinearizeInverse,
+    Hessian,
+    Pose,
+    Twist,
+    Jacobian,
+    Bias,
+    JacobianRate,
+    Multipliers,
+    GravityTorques,
+    CenterOfMass,
+    CentroidalMomentum,
+    CentroidalMatrix,
+    CenterJacobian,
+}
+
+impl Id {
+    /// All, in their order.
+    pub const ALL: [Self; COUNT] = [
+        Self::Acceleration,
+        Self::InverseDynamics,
+        Self::NonlinearEffects,
+        Self::MassMatrix,
+        Self::Kinematics,
+        Self::Rates,
+        Self::Momentum,
+        Self::Velocity,
+        Self::MomentumRate,
+        Self::KineticEnergy,
+        Self::PotentialEnergy,
+        Self::Energy,
+        Self::Regularity,
+        Self::Retract,
+        Self::Difference,
+        Self::Linearize,
+        Self::LinearizeInverse,
+        Self::Hessian,
+        Self::Pose,
+        Self::Twist,
+        Self::Jacobian,
+        Self::Bias,
+        Self::JacobianRate,
+        Self::Multipliers,
+        Self::GravityTorques,
+        Self::CenterOfMass,
+        Self::CentroidalMomentum,
+        Self::CentroidalMatrix,
+        Self::CenterJacobian,
+    ];
+}
+
+/// How many methods there are.
+pub const COUNT: usize = SPECS.len();
+
+/// Which of the arrays of a call an argument is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slot {
+    /// The configuration.
+    Q,
+    /// Speeds, or momenta.
+    Z,
+    /// What only some methods have.
+    X,
+    /// The input.
+    U,
+}
+
+/// How many numbers a vector has, or an axis of a result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Size {
+    /// Components of the configuration.
+    Configuration,
+    /// Speeds.
+    Speeds,
+    /// Components of an increment of the configuration.
+    Increment,
+    /// Inputs.
+    Input,
+    /// Increment and speeds.
+    State,
+    /// Configuration and speeds.
+    Flat,
+    /// Multipliers.
+    Multipliers,
+    /// So many.
+    Exactly(usize),
+}
+
+/// An argument of a method.
+#[derive(Clone, Copy, Debug)]
+pub struct Argument {
+    /// Its name in Python.
+    pub name: &'static str,
+    /// Where it is handed over.
+    pub slot: Slot,
+    /// How many numbers it has.
+    pub size: Size,
+}
+
+/// An array that a method gives: its name, and its axes behind those of the batch.
+#[derive(Clone, Copy, Debug)]
+pub struct Result {
+    /// Its name.
+    pub name: &'static str,
+    /// Its axes.
+    pub axes: &'static [Size],
+}
+
+/// What a method is in Python.
+#[derive(Clone, Copy, Debug)]
+pub struct Spec {
+    /// Its name.
+    pub name: &'static str,
+    /// Whether the name of a frame comes first.
+    pub frame: bool,
+    /// Its arguments besides time.
+    pub arguments: &'static [Argument],
+    /// What it gives.
+    pub results: &'static [Result],
+    /// The clause of the struct that it needs; empty of those that every kernel has.
+    pub clause: &'static str,
+    /// What it is, for the stubs.
+    pub documentation: &'static str,
+}
+
+const Q: Argument = Argument { name: "q", slot: Slot::Q, size: Size::Configuration };
+const Z: Argument = Argument { name: "z", slot: Slot::Z, size: Size::Speeds };
+const P: Argument = Argument { name: "p", slot: Slot::Z, size: Size::Speeds };
+const U: Argument = Argument { name: "input", slot: Slot::U, size: Size::Input };
+const RATES: Argument = Argument { name: "acceleration", slot: Slot::X, size: Size::Speeds };
+const SIGMA: Argument = Argument { name: "increment", slot: Slot::X, size: Size::Increment };
+const OTHER: Argument = Argument { name: "other", slot: Slot::X, size: Size::Configuration };
+const WEIGHTS: Argument = Argument { name: "weights", slot: Slot::X, size: Size::State };
+
+const fn one(axes: &'static [Size]) -> Result {
+    Result { name: "", axes }
+}
+
+const SPEEDS: &[Result] = &[one(&[Size::Speeds])];
+const NUMBER: &[Result] = &[one(&[])];
+const TWIST: &[Result] = &[one(&[Size::Exactly(6)])];
+const JACOBIAN: &[Result] = &[one(&[Size::Exactly(6), Size::Speeds])];
+
+const fn spec(
+    name: &'static str,
+    arguments: &'static [Argument],
+    results: &'static [Result],
+    documentation: &'static str,
+) -> Spec {
+    Spec { name, frame: false, arguments, results, clause: "", documentation }
+}
+
+impl Spec {
+    /// The class of its results, where there are several: `LinearizeInverse`.
+    #[must_use]
+    pub fn class_name(&self) -> String {
+        let capital = |word: &str| {
+            let mut letters = word.chars();
+            letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+        };
+        self.name.split('_').map(capital).collect()
+    }
+
+    const fn by(self, clause: &'static str) -> Self {
+        Self { clause, ..self }
+    }
+
+    const fn of_frame(self) -> Self {
+        Self { frame: true, clause: "frames(…)", ..self }
+    }
+}
+
+/// All methods, in the order of [`Id`].
+pub const SPECS: [Spec; 29] = [
+    spec("acceleration", &[Q, Z, U], SPEEDS, "The rates of the speeds."),
+    spec(
+        "inverse_dynamics",
+        &[Q, Z, RATES, U],
+        SPEEDS,
+        "The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.",
+    ),
+    spec("nonlinear_effects", &[Q, Z, U], SPEEDS, "Inverse dynamics at acceleration zero."),
+    spec("mass_matrix", &[Q], &[one(&[Size::Speeds, Size::Speeds])], "Second derivatives of the kinetic energy by z."),
+    spec("kinematics", &[Q, Z], &[one(&[Size::Increment])], "The velocity of the configuration, seen from the body."),
+    spec("rates", &[Q, Z, U], &[one(&[Size::Flat])], "Rates of the numbers of q, then those of z, for any solver."),
+    spec("momentum", &[Q, Z], SPEEDS, "Derivatives of the kinetic energy by z."),
+    spec("velocity", &[Q, P], SPEEDS, "The speeds with these momenta."),
+    spec("momentum_rate", &[Q, P, U], SPEEDS, "The rates of the momenta."),
+    spec("kinetic_energy", &[Q, Z], NUMBER, "The kinetic energy, that of a fluid included."),
+    spec("potential_energy", &[Q], NUMBER, "The potential energy."),
+    spec("energy", &[Q, Z], NUMBER, "Kinetic and potential energy."),
+    spec("regularity", &[Q], NUMBER, "The distance from a singularity of the coordinates: 0 there, 1 at best."),
+    spec(
+        "retract",
+        &[Q, SIGMA],
+        &[one(&[Size::Configuration])],
+        "The configuration moved by an increment that is seen from the body.",
+    ),
+    spec("difference", &[Q, OTHER], &[one(&[Size::Increment])], "The shortest increment from q to the other."),
+    spec(
+        "linearize",
+        &[Q, Z, U],
+        &[
+            Result { name: "rate", axes: &[Size::State] },
+            Result { name: "by_state", axes: &[Size::State, Size::State] },
+            Result { name: "by_time", axes: &[Size::State] },
+            Result { name: "by_input", axes: &[Size::State, Size::Input] },
+        ],
+        "Velocity and acceleration with their derivatives by (increment, z), time and input.",
+    )
+    .by("linearize"),
+    spec(
+        "linearize_inverse",
+        &[Q, Z, RATES, U],
+        &[
+            Result { name: "force", axes: &[Size::Speeds] },
+            Result { name: "by_configuration", axes: &[Size::Speeds, Size::Increment] },
+            Result { name: "by_speeds", axes: &[Size::Speeds, Size::Speeds] },
+            Result { name: "by_acceleration", axes: &[Size::Speeds, Size::Speeds] },
+            Result { name: "by_time", axes: &[Size::Speeds] },
+            Result { name: "by_input", axes: &[Size::Speeds, Size::Input] },
+        ],
+        "Inverse dynamics with its derivatives.",
+    )
+    .by("linearize(inverse)"),
+    spec(
+        "hessian",
+        &[Q, Z, WEIGHTS, U],
+        &[
+            Result { name: "by_state", axes: &[Size::State, Size::State] },
+            Result { name: "by_input_and_state", axes: &[Size::Input, Size::State] },
+            Result { name: "by_input", axes: &[Size::Input, Size::Input] },
+        ],
+        "Second derivatives of the weighted sum of velocity and acceleration.",
+    )
+    .by("linearize(hessian)"),
+    spec(
+        "pose",
+        &[Q],
+        &[one(&[Size::Exactly(4), Size::Exactly(4)])],
+        "Rotation and origin of a frame as a matrix of four rows, frame to observer.",
+    )
+    .of_frame(),
+    spec("twist", &[Q, Z], TWIST, "Velocity of a frame's origin, then angular velocity, in axes of the frame.")
+        .of_frame(),
+    spec("jacobian", &[Q], JACOBIAN, "Derivatives of a frame's twist by z, in axes of the frame.").of_frame(),
+    spec("bias", &[Q, Z], TWIST, "Acceleration of a frame's origin, then angular, at acceleration zero; its axes.")
+        .of_frame(),
+    Spec {
+        frame: true,
+        ..spec("jacobian_rate", &[Q, Z], JACOBIAN, "The rate of a frame's Jacobian.")
+            .by("frames(…), methods(jacobian_rates)")
+    },
+    spec("multipliers", &[Q, Z, U], &[one(&[Size::Multipliers])], "Lagrange multipliers.").by("constraint(…)"),
+    spec("gravity_torques", &[Q], SPEEDS, "The generalised forces that balance weight and buoyancy.")
+        .by("methods(gravity_torques)"),
+    spec("center_of_mass", &[Q], &[one(&[Size::Exactly(3)])], "The centre of mass, in observer's axes.")
+        .by("methods(centroidal)"),
+    spec("centroidal_momentum", &[Q, Z], TWIST, "Momentum, then angular momentum about the centre of mass.")
+        .by("methods(centroidal)"),
+    spec("centroidal_matrix", &[Q], JACOBIAN, "Derivatives of the centroidal momentum by z.").by("methods(centroidal)"),
+    spec("center_jacobian", &[Q], &[one(&[Size::Exactly(3), Size::Speeds])], "Derivatives of the centre's velocity.")
+        .by("methods(centroidal)"),
+];

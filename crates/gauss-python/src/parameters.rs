@@ -1,0 +1,147 @@
+//! Keywords of Python as the parameters of a struct, and back.
+
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{self, shown};
+use crate::description::{Field, Shape};
+use crate::kernels::{AnyKernel, AnyScene};
+
+pyo3::create_exception!(
+    gauss_python,
+    ParameterError,
+    PyValueError,
+    "Parameters that cannot be: `fields` has a pair (name, what is wrong) for each mistake."
+);
+
+/// What is wrong: the name of a field, and why.
+type Mistakes = Vec<(String, String)>;
+
+/// The parts of a body, with their numbers.
+const BODY: [(&str, &[usize]); 3] = [("mass", &[]), ("center_of_mass", &[3]), ("inertia", &[3, 3])];
+
+/// The kernel with these parameters.
+pub fn kernel(
+    py: Python<'_>,
+    scene: &'static dyn AnyScene,
+    given: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Box<dyn AnyKernel>> {
+    let (mut mistakes, mut numbers) = (Mistakes::new(), Vec::new());
+    let fields = scene.description().fields;
+    for field in fields {
+        match given.map(|given| given.get_item(field.name)).transpose()?.flatten() {
+            Some(value) => read(field, &value, &mut numbers, &mut mistakes),
+            None => mistakes.push((field.name.to_owned(), format!("is missing{}", described(field)))),
+        }
+    }
+    for name in given.into_iter().flat_map(|given| given.keys()) {
+        let name: String = name.extract()?;
+        if fields.iter().all(|field| field.name != name) {
+            let names: Vec<&str> = fields.iter().map(|field| field.name).collect();
+            mistakes.push((name, format!("is no parameter; there are {}", names.join(", "))));
+        }
+    }
+    if mistakes.is_empty() {
+        match scene.kernel(numbers) {
+            Ok(kernel) => return Ok(kernel),
+            Err(error) => mistakes
+                .extend(error.violations().iter().map(|violation| (violation.field.to_owned(), violation.to_string()))),
+        }
+    }
+    Err(raised(py, scene, mistakes))
+}
+
+fn raised(py: Python<'_>, scene: &dyn AnyScene, mistakes: Mistakes) -> PyErr {
+    let lines = mistakes.iter().map(|(name, why)| match why.starts_with(name.as_str()) || why.starts_with('`') {
+        true => format!("\n  {why}"),
+        false => format!("\n  {name} {why}"),
+    });
+    let error = ParameterError::new_err(format!("{}:{}", scene.description().name, lines.collect::<Vec<_>>().concat()));
+    match error.value(py).setattr("fields", mistakes) {
+        Ok(()) => error,
+        Err(other) => other,
+    }
+}
+
+/// ` (kg): of the hull`.
+pub fn described(field: &Field) -> String {
+    let unit = if field.unit.is_empty() { String::new() } else { format!(" ({})", field.unit) };
+    let first = field.documentation.lines().next().unwrap_or_default();
+    if first.is_empty() { unit } else { format!("{unit}: {first}") }
+}
+
+/// Reads one field; what is wrong is noted, zeros then stand for it.
+fn read(field: &Field, value: &Bound<'_, PyAny>, numbers: &mut Vec<f64>, mistakes: &mut Mistakes) {
+    let next = numbers.len() + field.shape.size();
+    let read = match field.shape {
+        Shape::Array(axes) => array(field.name, value, axes).map(|array| numbers.extend(array)),
+        Shape::Body => body(field.name, value).map(|body| numbers.extend(body)),
+    };
+    if let Err(why) = read {
+        mistakes.push((field.name.to_owned(), why));
+    }
+    numbers.resize(next, 0.0);
+}
+
+fn array(name: &str, value: &Bound<'_, PyAny>, axes: &[usize]) -> Result<Vec<f64>, String> {
+    let (numbers, found) = arrays::numbers(name, value).map_err(|error| error.value(value.py()).to_string())?;
+    if found == axes {
+        return Ok(numbers);
+    }
+    let expected = if axes.is_empty() { "one number".to_owned() } else { format!("shape {}", shown(axes)) };
+    Err(format!("has shape {}; expected {expected}", shown(&found)))
+}
+
+/// Mass, centre of mass and inertia of a mapping; the centre of mass is O where it is left out, and three numbers are
+/// principal moments.
+fn body(name: &str, value: &Bound<'_, PyAny>) -> Result<Vec<f64>, String> {
+    let expected = "is a mapping with mass, center_of_mass and inertia";
+    let Ok(parts) = value.cast::<PyDict>() else { return Err(expected.to_owned()) };
+    if let Some(other) = parts.keys().iter().find(|key| BODY.iter().all(|(part, _)| !key.eq(part).unwrap_or(false))) {
+        return Err(format!("has {other}, and {expected}"));
+    }
+    let mut numbers = Vec::new();
+    for (part, axes) in BODY {
+        let word = format!("{name}.{part}");
+        match (part, parts.get_item(part).ok().flatten()) {
+            ("center_of_mass", None) => numbers.extend([0.0; 3]),
+            (_, None) => return Err(format!("has no {part}, and {expected}")),
+            ("inertia", Some(value)) => match array(&word, &value, &[3]) {
+                Ok(moments) => numbers.extend((0..9).map(|k| if k % 4 == 0 { moments[k / 4] } else { 0.0 })),
+                Err(_) => numbers.extend(array(&word, &value, axes).map_err(|why| format!("{part} {why}"))?),
+            },
+            (_, Some(value)) => numbers.extend(array(&word, &value, axes).map_err(|why| format!("{part} {why}"))?),
+        }
+    }
+    Ok(numbers)
+}
+
+/// The parameters of a kernel by name: numbers as floats, others as arrays.
+pub fn as_dict<'py>(py: Python<'py>, kernel: &dyn AnyKernel) -> PyResult<Bound<'py, PyDict>> {
+    let (parameters, mut rest) = (PyDict::new(py), kernel.numbers());
+    for field in kernel.scene().description().fields {
+        let (own, others) = rest.split_at(field.shape.size());
+        rest = others;
+        match field.shape {
+            Shape::Array(axes) => parameters.set_item(field.name, value(py, own, axes)?)?,
+            Shape::Body => {
+                let (body, mut own) = (PyDict::new(py), own);
+                for (part, axes) in BODY {
+                    let (numbers, others) = own.split_at(axes.iter().product());
+                    body.set_item(part, value(py, numbers, axes)?)?;
+                    own = others;
+                }
+                parameters.set_item(field.name, body)?;
+            }
+        }
+    }
+    Ok(parameters)
+}
+
+fn value<'py>(py: Python<'py>, numbers: &[f64], axes: &[usize]) -> PyResult<Bound<'py, PyAny>> {
+    match (axes, numbers) {
+        ([], [number]) => Ok(number.into_pyobject(py)?.into_any()),
+        _ => numpy::PyArray1::from_slice(py, numbers).call_method1("reshape", (axes.to_vec(),)),
+    }
+}

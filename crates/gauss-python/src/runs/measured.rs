@@ -1,0 +1,37 @@
+//! How long the same batch takes in Rust: what `benches/peers/python_calls.py` compares calls from Python with.
+
+use std::time::{Duration, Instant};
+
+use gauss_batch::{Batch, States};
+use gauss_runtime::prelude::*;
+
+use super::many::Many;
+use super::{configuration, vector};
+use crate::scene::Scene;
+
+/// The least time of some rounds for accelerations of all states, written over earlier ones by one thread.
+///
+/// # Errors
+/// A state that is none.
+pub fn batch_time<S: Scene>(system: &S::Packed, many: &Many<'_>) -> Result<Duration, String> {
+    let of = |numbers: &[f64]| numbers.len().checked_div(many.count).unwrap_or(0);
+    let (sizes, speeds) = (of(many.q), of(many.z));
+    let mut all = Vec::with_capacity(many.count);
+    for i in 0..many.count {
+        all.push((configuration(&many.q[i * sizes..(i + 1) * sizes])?, vector(&many.z[i * speeds..(i + 1) * speeds])));
+    }
+    let states = States::<S::Packed>::from_fn(many.count, |i| all[i]);
+    let batch = Batch::new(system);
+    let input =
+        |t: <S::Packed as GaussSystem>::Scalar, _: &_, _: &_| many.input.at(t, |number| Real::from_f64(number(0)));
+    let batch = batch.input::<S::Packed, _>(input);
+    let mut accelerations = batch.accelerations(0.0, &states);
+    let mut least = Duration::MAX;
+    for _ in 0..15 {
+        let begin = Instant::now();
+        batch.accelerations_into(0.0, &states, &mut accelerations);
+        std::hint::black_box(&accelerations);
+        least = least.min(begin.elapsed());
+    }
+    Ok(least)
+}

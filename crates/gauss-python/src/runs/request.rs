@@ -1,0 +1,124 @@
+//! What is asked of runs.
+
+use std::sync::atomic::AtomicBool;
+
+use gauss_runtime::prelude::{Crossing, Real, VectorSpace};
+
+/// The choice of steps, by the method of Dormand and Prince of order 8.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Control {
+    /// As long as tolerances allow, and no longer than the last number.
+    Adaptive(f64, f64, f64),
+    /// Of one length.
+    Fixed(f64),
+}
+
+/// Points of the input over time, straight between them and constant beyond.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// Times, each larger than the one before.
+    pub times: Vec<f64>,
+    /// A row for each time.
+    pub values: Vec<f64>,
+}
+
+impl Table {
+    /// Number `i` of the input, of rows of `size`.
+    fn number(&self, t: f64, i: usize, size: usize) -> f64 {
+        let value = |row: usize| self.values[row * size + i];
+        let after = self.times.partition_point(|&time| time <= t);
+        match after {
+            0 => value(0),
+            _ if after == self.times.len() => value(after - 1),
+            _ => {
+                let (from, to) = (self.times[after - 1], self.times[after]);
+                let part = (t - from) / (to - from);
+                value(after - 1) + part * (value(after) - value(after - 1))
+            }
+        }
+    }
+}
+
+/// A function of time and the numbers of q and z.
+pub type Function<'a, R> = &'a (dyn Fn(f64, &[f64], &[f64]) -> R + Sync);
+
+/// Where the input comes from.
+pub enum Input<'a> {
+    /// The same at all times; no number where a scene has no input.
+    Constant(Vec<f64>),
+    /// Over time.
+    Table(Table),
+    /// Of time and state.
+    Function(Function<'a, Vec<f64>>),
+}
+
+impl Input<'_> {
+    /// The input at a time, in any number of lanes; a function has no value here.
+    pub fn at<T: Real, U: VectorSpace<T>>(&self, t: T, in_lanes: impl Fn(&dyn Fn(usize) -> f64) -> T) -> U {
+        let mut input = U::zero();
+        for i in 0..U::DIM {
+            let number = match self {
+                Self::Constant(numbers) => T::from_f64(numbers[i]),
+                Self::Table(table) => in_lanes(&|lane| table.number(t.lane(lane), i, U::DIM)),
+                Self::Function(_) => T::from_f64(f64::NAN),
+            };
+            input.set_component(i, number);
+        }
+        input
+    }
+}
+
+/// What passes through zero where a run ends.
+pub enum Watched<'a> {
+    /// A number of q, or behind these of z, less a value.
+    Number(usize, f64),
+    /// A function.
+    Function(Function<'a, f64>),
+}
+
+/// An end of a run before its time.
+pub struct Until<'a> {
+    /// What passes through zero.
+    pub watched: Watched<'a>,
+    /// In which direction.
+    pub crossing: Crossing,
+}
+
+/// One run.
+pub struct Request<'a> {
+    /// The numbers of the first q.
+    pub q: &'a [f64],
+    /// Those of the first z.
+    pub z: &'a [f64],
+    /// From when to when.
+    pub interval: (f64, f64),
+    /// The steps.
+    pub control: Control,
+    /// The input.
+    pub input: Input<'a>,
+    /// Where it ends.
+    pub until: Vec<Until<'a>>,
+    /// The times at which states are wanted; those of the steps where there are none.
+    pub times: Option<&'a [f64]>,
+    /// The most steps.
+    pub limit: Option<u64>,
+    /// Set from outside, or by a function that failed, the run ends with what there is.
+    pub stop: &'a AtomicBool,
+    /// Called after every step.
+    pub look: &'a (dyn Fn() + Sync),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_are_straight_between_points_and_constant_beyond() {
+        let table = Table { times: vec![1.0, 2.0, 4.0], values: vec![10.0, 0.0, 20.0, 1.0, 40.0, 2.0] };
+        let at = |t| [table.number(t, 0, 2), table.number(t, 1, 2)];
+        assert_eq!(at(0.0), [10.0, 0.0]);
+        assert_eq!(at(1.5), [15.0, 0.5]);
+        assert_eq!(at(3.0), [30.0, 1.5]);
+        assert_eq!(at(9.0), [40.0, 2.0]);
+    }
+}

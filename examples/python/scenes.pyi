@@ -1,0 +1,692 @@
+"""Rigid-body dynamics, generated. Stubs written by `stubs()` of the module."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+Direction = Literal["any", "rising", "falling"]
+Function = Callable[[float, Array, Array], Any]
+Input = ArrayLike | tuple[ArrayLike, ArrayLike] | Function
+End = tuple[str, float] | tuple[str, float, Direction] | Function | tuple[Function, Direction]
+
+class ParameterError(ValueError):
+    """Parameters that cannot be: a pair (name, what is wrong) for each mistake."""
+    fields: list[tuple[str, str]]
+
+class IntegrationError(RuntimeError):
+    """A run that did not reach its end, with the states up to the last good one."""
+    run: Run
+
+class Run:
+    """A run: its states in columns that NumPy and Arrow see without a copy."""
+    @property
+    def t(self) -> Array: ...
+    @property
+    def q(self) -> Array: ...
+    @property
+    def z(self) -> Array: ...
+    @property
+    def kinetic_energy(self) -> Array: ...
+    @property
+    def potential_energy(self) -> Array: ...
+    @property
+    def columns(self) -> list[str]: ...
+    @property
+    def stopped_by(self) -> int | None: ...
+    @property
+    def interrupted(self) -> bool: ...
+    @property
+    def error(self) -> str | None: ...
+    @property
+    def steps(self) -> int: ...
+    @property
+    def rejected(self) -> int: ...
+    def __getitem__(self, name: str) -> Array: ...
+    def __len__(self) -> int: ...
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
+
+class Ends:
+    """The ends of many runs, a row for each."""
+    @property
+    def t(self) -> Array: ...
+    @property
+    def q(self) -> Array: ...
+    @property
+    def z(self) -> Array: ...
+    @property
+    def stopped(self) -> NDArray[np.bool_]: ...
+    @property
+    def errors(self) -> list[tuple[int, str]]: ...
+    @property
+    def interrupted(self) -> bool: ...
+    @property
+    def columns(self) -> list[str]: ...
+    def __getitem__(self, name: str) -> Array: ...
+    def __len__(self) -> int: ...
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
+
+def stubs() -> str:
+    """The text of the stubs of this module."""
+
+class Kernel:
+    """A kernel: parameters checked, constants computed once. It never changes, so that threads may share it."""
+    @property
+    def parameters(self) -> dict[str, Any]: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    @property
+    def equations(self) -> str: ...
+    @property
+    def latex(self) -> str: ...
+    @property
+    def operations(self) -> str: ...
+    @property
+    def accuracy(self) -> str: ...
+    @property
+    def coordinate_names(self) -> list[str]: ...
+    @property
+    def speed_names(self) -> list[str]: ...
+    @property
+    def input_names(self) -> list[str]: ...
+    @property
+    def frames(self) -> list[str]: ...
+    @property
+    def dof(self) -> int: ...
+    def state(self, **named: ArrayLike) -> tuple[Array, Array]: ...
+    def simulate(
+        self,
+        q: ArrayLike,
+        z: ArrayLike,
+        interval: tuple[float, float],
+        *,
+        rtol: float = 1e-9,
+        atol: float = 1e-9,
+        step: float | None = None,
+        largest_step: float | None = None,
+        input: Input | None = None,
+        until: End | Sequence[End] | None = None,
+        times: ArrayLike | None = None,
+        max_steps: int | None = None,
+    ) -> Run: ...
+    def ensemble(
+        self,
+        q: ArrayLike,
+        z: ArrayLike,
+        interval: tuple[float, float],
+        *,
+        rtol: float = 1e-9,
+        atol: float = 1e-9,
+        input: ArrayLike | tuple[ArrayLike, ArrayLike] | None = None,
+        until: tuple[str, float] | tuple[str, float, Direction] | None = None,
+        parameters: Mapping[str, ArrayLike] | None = None,
+    ) -> Ends: ...
+
+class Linearize(NamedTuple):
+    rate: Array
+    by_state: Array
+    by_time: Array
+    by_input: Array
+
+class LinearizeInverse(NamedTuple):
+    force: Array
+    by_configuration: Array
+    by_speeds: Array
+    by_acceleration: Array
+    by_time: Array
+    by_input: Array
+
+class Hessian(NamedTuple):
+    by_state: Array
+    by_input_and_state: Array
+    by_input: Array
+
+class Pendulum(Kernel):
+    """A pendulum with a motor in its hinge: a point on a rod.
+
+    Parameters:
+      mass: number (kg): Of the point.
+      length: number (m): From the hinge to the point.
+      g: number: Acceleration of free fall.
+
+    Coordinates:
+      angle: coordinate
+
+    Speeds:
+      angle_dot: rate of `angle`
+
+    Inputs:
+      motor: input, in N m
+    """
+    def __init__(self, *, mass: float, length: float, g: float) -> None: ...
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The rates of the speeds.
+
+        q (..., 1), z (..., 1), input (..., 1) -> (..., 1)
+
+        Inputs: motor (1,), input, in N m.
+        """
+        ...
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
+
+        q (..., 1), z (..., 1), acceleration (..., 1), input (..., 1) -> (..., 1)
+
+        Inputs: motor (1,), input, in N m.
+        """
+        ...
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Inverse dynamics at acceleration zero.
+
+        q (..., 1), z (..., 1), input (..., 1) -> (..., 1)
+
+        Inputs: motor (1,), input, in N m.
+        """
+        ...
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Second derivatives of the kinetic energy by z.
+
+        q (..., 1) -> (..., 1, 1)
+        """
+        ...
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The velocity of the configuration, seen from the body.
+
+        q (..., 1), z (..., 1) -> (..., 1)
+        """
+        ...
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Rates of the numbers of q, then those of z, for any solver.
+
+        q (..., 1), z (..., 1), input (..., 1) -> (..., 2)
+
+        Inputs: motor (1,), input, in N m.
+        """
+        ...
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Derivatives of the kinetic energy by z.
+
+        q (..., 1), z (..., 1) -> (..., 1)
+        """
+        ...
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The speeds with these momenta.
+
+        q (..., 1), p (..., 1) -> (..., 1)
+        """
+        ...
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The rates of the momenta.
+
+        q (..., 1), p (..., 1), input (..., 1) -> (..., 1)
+
+        Inputs: motor (1,), input, in N m.
+        """
+        ...
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The kinetic energy, that of a fluid included.
+
+        q (..., 1), z (..., 1) -> (...)
+        """
+        ...
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The potential energy.
+
+        q (..., 1) -> (...)
+        """
+        ...
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Kinetic and potential energy.
+
+        q (..., 1), z (..., 1) -> (...)
+        """
+        ...
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The distance from a singularity of the coordinates: 0 there, 1 at best.
+
+        q (..., 1) -> (...)
+        """
+        ...
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The configuration moved by an increment that is seen from the body.
+
+        q (..., 1), increment (..., 1) -> (..., 1)
+        """
+        ...
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The shortest increment from q to the other.
+
+        q (..., 1), other (..., 1) -> (..., 1)
+        """
+        ...
+    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | None = None) -> Linearize:
+        """Velocity and acceleration with their derivatives by (increment, z), time and input.
+
+        q (..., 1), z (..., 1), input (..., 1) -> rate (..., 2), by_state (..., 2, 2), by_time (..., 2), by_input (..., 2, 1)
+
+        Inputs: motor (1,), input, in N m.
+        """
+        ...
+    def linearize_inverse(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | None = None) -> LinearizeInverse:
+        """Inverse dynamics with its derivatives.
+
+        q (..., 1), z (..., 1), acceleration (..., 1), input (..., 1) -> force (..., 1), by_configuration (..., 1, 1), by_speeds (..., 1, 1), by_acceleration (..., 1, 1), by_time (..., 1), by_input (..., 1, 1)
+
+        Inputs: motor (1,), input, in N m.
+        """
+        ...
+    def hessian(self, q: ArrayLike, z: ArrayLike, weights: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | None = None) -> Hessian:
+        """Second derivatives of the weighted sum of velocity and acceleration.
+
+        q (..., 1), z (..., 1), weights (..., 2), input (..., 1) -> by_state (..., 2, 2), by_input_and_state (..., 1, 2), by_input (..., 1, 1)
+
+        Inputs: motor (1,), input, in N m.
+        """
+        ...
+
+class Torpedo(Kernel):
+    """A torpedo as heavy as the water that it displaces; fins 0.8 m behind O hold its nose forward.
+
+    Parameters:
+      mass: number: Of the hull.
+      center: array (3,): Centre of mass, from O.
+      inertia: array (3,): About O, principal moments.
+      added: array (6,): Of the water, about O.
+      lift: number: Of the fins, in kg/m.
+
+    Coordinates:
+      pose (7 numbers): R and b of the body: x̂ = R x + b
+
+    Speeds:
+      u (3 numbers): velocity of O, body axes
+      omega (3 numbers): angular velocity, body axes
+    """
+    def __init__(self, *, mass: float, center: ArrayLike, inertia: ArrayLike, added: ArrayLike, lift: float) -> None: ...
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The rates of the speeds.
+
+        q (..., 7), z (..., 6) -> (..., 6)
+        """
+        ...
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
+
+        q (..., 7), z (..., 6), acceleration (..., 6) -> (..., 6)
+        """
+        ...
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Inverse dynamics at acceleration zero.
+
+        q (..., 7), z (..., 6) -> (..., 6)
+        """
+        ...
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Second derivatives of the kinetic energy by z.
+
+        q (..., 7) -> (..., 6, 6)
+        """
+        ...
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The velocity of the configuration, seen from the body.
+
+        q (..., 7), z (..., 6) -> (..., 6)
+        """
+        ...
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Rates of the numbers of q, then those of z, for any solver.
+
+        q (..., 7), z (..., 6) -> (..., 13)
+        """
+        ...
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Derivatives of the kinetic energy by z.
+
+        q (..., 7), z (..., 6) -> (..., 6)
+        """
+        ...
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The speeds with these momenta.
+
+        q (..., 7), p (..., 6) -> (..., 6)
+        """
+        ...
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The rates of the momenta.
+
+        q (..., 7), p (..., 6) -> (..., 6)
+        """
+        ...
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The kinetic energy, that of a fluid included.
+
+        q (..., 7), z (..., 6) -> (...)
+        """
+        ...
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The potential energy.
+
+        q (..., 7) -> (...)
+        """
+        ...
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Kinetic and potential energy.
+
+        q (..., 7), z (..., 6) -> (...)
+        """
+        ...
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The distance from a singularity of the coordinates: 0 there, 1 at best.
+
+        q (..., 7) -> (...)
+        """
+        ...
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The configuration moved by an increment that is seen from the body.
+
+        q (..., 7), increment (..., 6) -> (..., 7)
+        """
+        ...
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The shortest increment from q to the other.
+
+        q (..., 7), other (..., 7) -> (..., 6)
+        """
+        ...
+
+class Arm(Kernel):
+    """An arm of two joints, read from its file.
+
+    Parameters:
+      g: number (m/s^2): Acceleration of free fall.
+
+    Coordinates:
+      shoulder: coordinate
+      elbow: coordinate
+
+    Speeds:
+      shoulder_dot: rate of `shoulder`
+      elbow_dot: rate of `elbow`
+
+    Inputs:
+      shoulder: input, in N m
+      elbow: input, in N m
+    """
+    def __init__(self, *, g: float) -> None: ...
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The rates of the speeds.
+
+        q (..., 2), z (..., 2), input (..., 2) -> (..., 2)
+
+        Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
+        """
+        ...
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
+
+        q (..., 2), z (..., 2), acceleration (..., 2), input (..., 2) -> (..., 2)
+
+        Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
+        """
+        ...
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Inverse dynamics at acceleration zero.
+
+        q (..., 2), z (..., 2), input (..., 2) -> (..., 2)
+
+        Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
+        """
+        ...
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Second derivatives of the kinetic energy by z.
+
+        q (..., 2) -> (..., 2, 2)
+        """
+        ...
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The velocity of the configuration, seen from the body.
+
+        q (..., 2), z (..., 2) -> (..., 2)
+        """
+        ...
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Rates of the numbers of q, then those of z, for any solver.
+
+        q (..., 2), z (..., 2), input (..., 2) -> (..., 4)
+
+        Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
+        """
+        ...
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Derivatives of the kinetic energy by z.
+
+        q (..., 2), z (..., 2) -> (..., 2)
+        """
+        ...
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The speeds with these momenta.
+
+        q (..., 2), p (..., 2) -> (..., 2)
+        """
+        ...
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The rates of the momenta.
+
+        q (..., 2), p (..., 2), input (..., 2) -> (..., 2)
+
+        Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
+        """
+        ...
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The kinetic energy, that of a fluid included.
+
+        q (..., 2), z (..., 2) -> (...)
+        """
+        ...
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The potential energy.
+
+        q (..., 2) -> (...)
+        """
+        ...
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Kinetic and potential energy.
+
+        q (..., 2), z (..., 2) -> (...)
+        """
+        ...
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The distance from a singularity of the coordinates: 0 there, 1 at best.
+
+        q (..., 2) -> (...)
+        """
+        ...
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The configuration moved by an increment that is seen from the body.
+
+        q (..., 2), increment (..., 2) -> (..., 2)
+        """
+        ...
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The shortest increment from q to the other.
+
+        q (..., 2), other (..., 2) -> (..., 2)
+        """
+        ...
+    def pose(self, frame: Literal["tool"], q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Rotation and origin of a frame as a matrix of four rows, frame to observer.
+
+        q (..., 2) -> (..., 4, 4)
+        """
+        ...
+    def twist(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Velocity of a frame's origin, then angular velocity, in axes of the frame.
+
+        q (..., 2), z (..., 2) -> (..., 6)
+        """
+        ...
+    def jacobian(self, frame: Literal["tool"], q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Derivatives of a frame's twist by z, in axes of the frame.
+
+        q (..., 2) -> (..., 6, 2)
+        """
+        ...
+    def bias(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Acceleration of a frame's origin, then angular, at acceleration zero; its axes.
+
+        q (..., 2), z (..., 2) -> (..., 6)
+        """
+        ...
+    def jacobian_rate(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The rate of a frame's Jacobian.
+
+        q (..., 2), z (..., 2) -> (..., 6, 2)
+        """
+        ...
+    def gravity_torques(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The generalised forces that balance weight and buoyancy.
+
+        q (..., 2) -> (..., 2)
+        """
+        ...
+    def center_of_mass(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The centre of mass, in observer's axes.
+
+        q (..., 2) -> (..., 3)
+        """
+        ...
+    def centroidal_momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Momentum, then angular momentum about the centre of mass.
+
+        q (..., 2), z (..., 2) -> (..., 6)
+        """
+        ...
+    def centroidal_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Derivatives of the centroidal momentum by z.
+
+        q (..., 2) -> (..., 6, 2)
+        """
+        ...
+    def center_jacobian(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Derivatives of the centre's velocity.
+
+        q (..., 2) -> (..., 3, 2)
+        """
+        ...
+
+class Wire(Kernel):
+    """A block that turns and slides on a wire around a circle: batches of a struct in `f64` go row by row.
+
+    Parameters:
+      block: mapping of mass, center_of_mass, inertia: The block.
+      radius: number (m): Of the circle.
+      g: array (3,): Acceleration of free fall, in the observer's axes.
+
+    Coordinates:
+      x: coordinate
+      y: coordinate
+      turn (4 numbers): coordinate: an element of SO(3)
+
+    Speeds:
+      x_dot: rate of `x`
+      y_dot: rate of `y`
+      turn_omega (3 numbers): angular velocity of `turn`, in its own axes
+    """
+    def __init__(self, *, block: Mapping[str, Any], radius: float, g: ArrayLike) -> None: ...
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The rates of the speeds.
+
+        q (..., 6), z (..., 5) -> (..., 5)
+        """
+        ...
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
+
+        q (..., 6), z (..., 5), acceleration (..., 5) -> (..., 5)
+        """
+        ...
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Inverse dynamics at acceleration zero.
+
+        q (..., 6), z (..., 5) -> (..., 5)
+        """
+        ...
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Second derivatives of the kinetic energy by z.
+
+        q (..., 6) -> (..., 5, 5)
+        """
+        ...
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The velocity of the configuration, seen from the body.
+
+        q (..., 6), z (..., 5) -> (..., 5)
+        """
+        ...
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Rates of the numbers of q, then those of z, for any solver.
+
+        q (..., 6), z (..., 5) -> (..., 11)
+        """
+        ...
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Derivatives of the kinetic energy by z.
+
+        q (..., 6), z (..., 5) -> (..., 5)
+        """
+        ...
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The speeds with these momenta.
+
+        q (..., 6), p (..., 5) -> (..., 5)
+        """
+        ...
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The rates of the momenta.
+
+        q (..., 6), p (..., 5) -> (..., 5)
+        """
+        ...
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The kinetic energy, that of a fluid included.
+
+        q (..., 6), z (..., 5) -> (...)
+        """
+        ...
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The potential energy.
+
+        q (..., 6) -> (...)
+        """
+        ...
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Kinetic and potential energy.
+
+        q (..., 6), z (..., 5) -> (...)
+        """
+        ...
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The distance from a singularity of the coordinates: 0 there, 1 at best.
+
+        q (..., 6) -> (...)
+        """
+        ...
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The configuration moved by an increment that is seen from the body.
+
+        q (..., 6), increment (..., 5) -> (..., 6)
+        """
+        ...
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The shortest increment from q to the other.
+
+        q (..., 6), other (..., 6) -> (..., 5)
+        """
+        ...
+    def multipliers(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Lagrange multipliers.
+
+        q (..., 6), z (..., 5) -> (..., 1)
+        """
+        ...

@@ -1,0 +1,81 @@
+//! Structs as classes of Python: what the notebook and the tests use.
+
+use gauss_runtime::prelude::*;
+
+/// A pendulum with a motor in its hinge: a point on a rod.
+#[derive(GaussDynamics)]
+#[gauss(
+    python,
+    linearize(hessian, inverse),
+    coordinates(angle),
+    particle(mass = mass, position = [length * sin(angle), 0, -length * cos(angle)]),
+    input(motor = "N m"),
+    drive(angle = motor),
+)]
+pub struct Pendulum<T> {
+    /// Of the point.
+    #[gauss(unit = "kg")]
+    mass: T,
+    /// From the hinge to the point.
+    #[gauss(unit = "m")]
+    length: T,
+    /// Acceleration of free fall.
+    #[gauss(gravity)]
+    g: T,
+}
+
+/// A torpedo as heavy as the water that it displaces; fins 0.8 m behind O hold its nose forward.
+#[derive(GaussDynamics)]
+#[gauss(
+    python,
+    chart = left_invariant,
+    define(v = body.relative_velocity, w = body.body_angular_velocity),
+    force(fins, at = [-0.8, 0, 0], value = [0, -lift * v.x * (v.y - 0.8 * w.z), -lift * v.x * (v.z + 0.8 * w.y)]),
+)]
+pub struct Torpedo<T> {
+    /// Of the hull.
+    #[gauss(mass)]
+    mass: T,
+    /// Centre of mass, from O.
+    #[gauss(center_of_mass)]
+    center: Vector3<T>,
+    /// About O, principal moments.
+    #[gauss(inertia)]
+    inertia: Vector3<T>,
+    /// Of the water, about O.
+    #[gauss(added_mass)]
+    added: Vector6<T>,
+    /// Of the fins, in kg/m.
+    lift: T,
+}
+
+/// An arm of two joints, read from its file.
+#[derive(GaussDynamics)]
+#[gauss(python, urdf = "arm.urdf", frames(tool), methods(centroidal, gravity_torques, jacobian_rates))]
+pub struct Arm<T> {
+    /// Acceleration of free fall.
+    #[gauss(gravity, unit = "m/s^2")]
+    g: T,
+}
+
+/// A block that turns and slides on a wire around a circle: batches of a struct in `f64` go row by row.
+#[derive(GaussDynamics)]
+#[gauss(
+    python,
+    coordinates(x, y, turn: Rotation),
+    body(block, position = [x, y, 0], rotation = turn),
+    constraint(position = x * x + y * y - radius * radius),
+)]
+pub struct Wire {
+    /// The block.
+    #[gauss(body)]
+    block: RigidBody<f64>,
+    /// Of the circle.
+    #[gauss(unit = "m")]
+    radius: f64,
+    /// Acceleration of free fall, in the observer's axes.
+    #[gauss(gravity)]
+    g: Vector3<f64>,
+}
+
+gauss_python::module!(scenes: Pendulum<f64>, Torpedo<f64>, Arm<f64>, Wire);

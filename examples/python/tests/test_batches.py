@@ -1,0 +1,177 @@
+"""Methods over arrays: against formulas and against one state at a time, to the last bit."""
+
+import threading
+
+import numpy as np
+import pytest
+
+EPS = np.finfo(float).eps
+
+
+def states(kernel, random, shape):
+    """Random configurations and speeds; rotations of norm 1."""
+    rest, _ = kernel.state()
+    q = random.standard_normal((*shape, len(rest)))
+    for k, name in enumerate(kernel.coordinate_names):
+        if name.endswith("_i"):
+            q[..., k : k + 4] /= np.linalg.norm(q[..., k : k + 4], axis=-1, keepdims=True)
+    return q, random.standard_normal((*shape, kernel.dof))
+
+
+def test_accelerations_of_a_pendulum(pendulum, random):
+    q, z, u = (random.standard_normal((1000, 1)) for _ in range(3))
+    expected = -9.81 / 0.5 * np.sin(q) + u / (2 * 0.5**2)
+    # Five roundings of terms of this size.
+    size = 9.81 / 0.5 + abs(u) / 0.5
+    assert (abs(pendulum.acceleration(q, z, u) - expected) <= 5 * EPS * size).all()
+
+
+@pytest.mark.parametrize("name", ["pendulum", "torpedo", "arm", "wire"])
+def test_batches_have_the_bits_of_single_states(name, request, random):
+    kernel = request.getfixturevalue(name)
+    q, z = states(kernel, random, (3, 7))
+    u = random.standard_normal((3, 7, len(kernel.input_names)))
+    inputs = [u] if kernel.input_names else []
+    calls = {
+        kernel.acceleration: (q, z, *inputs),
+        kernel.mass_matrix: (q,),
+        kernel.rates: (q, z, *inputs),
+        kernel.energy: (q, z),
+        kernel.inverse_dynamics: (q, z, np.flip(z), *inputs),
+    }
+    for method, arguments in calls.items():
+        whole = method(*arguments, t=0.5)
+        assert whole.shape[:2] == (3, 7)
+        for i, j in np.ndindex(3, 7):
+            alone = method(*(argument[i, j] for argument in arguments), t=0.5)
+            assert np.array_equal(alone, whole[i, j])
+
+
+def test_inverse_dynamics_is_inverse(arm, random):
+    q, z = states(arm, random, (500,))
+    u, wanted = random.standard_normal((2, 500, 2))
+    force = arm.inverse_dynamics(q, z, wanted, u)
+    mass = arm.mass_matrix(q)
+    residual = np.einsum("nij,nj->ni", mass, wanted - arm.acceleration(q, z, u)) - force
+    # Some dozens of roundings, times the condition of the mass matrix.
+    bound = 100 * EPS * np.linalg.cond(mass)[:, None] * (1 + abs(force).max(axis=1, keepdims=True))
+    assert (abs(residual) <= bound).all()
+
+
+def test_leading_axes_are_the_batch(pendulum):
+    q, z, u = np.zeros((4, 5, 1)), np.ones((4, 5, 1)), np.full(1, 0.3)
+    assert pendulum.acceleration(q, z, u).shape == (4, 5, 1)
+    assert pendulum.energy(q, z).shape == (4, 5)
+    assert pendulum.mass_matrix(q).shape == (4, 5, 1, 1)
+    assert pendulum.acceleration(q[:0], z[:0], u).shape == (0, 5, 1)
+    assert pendulum.acceleration([0.0], [0.0], [0.3]).shape == (1,)
+    assert pendulum.acceleration(np.zeros(1, dtype=np.float32), [0], [0]).dtype == np.float64
+    # Neither order of memory nor strides matter.
+    far = np.arange(24.0).reshape(4, 6, 1)[:, ::2]
+    assert np.array_equal(pendulum.potential_energy(far), pendulum.potential_energy(far.copy()))
+    assert np.array_equal(pendulum.potential_energy(np.asfortranarray(far)), pendulum.potential_energy(far))
+
+
+def test_results_are_written_where_they_are_wanted(pendulum, random):
+    q, z, u = (random.standard_normal((100, 1)) for _ in range(3))
+    out = np.full((100, 1), np.nan)
+    assert pendulum.acceleration(q, z, u, out=out) is out
+    assert np.array_equal(out, pendulum.acceleration(q, z, u))
+    linear = pendulum.linearize(q, z, u)
+    given = tuple(np.empty_like(array) for array in linear)
+    assert pendulum.linearize(q, z, u, out=given) is given
+    assert all(np.array_equal(a, b) for a, b in zip(linear, given))
+
+
+def test_mistakes_in_arrays(pendulum, torpedo):
+    q, z, u = np.zeros((6, 1)), np.zeros((6, 1)), np.zeros((6, 1))
+    with pytest.raises(ValueError, match=r"q has shape \(6, 2\); expected \(\.\.\., 1\)"):
+        pendulum.acceleration(np.zeros((6, 2)), z, u)
+    with pytest.raises(ValueError, match=r"leading axes differ: \(6,\) of q, \(5,\) of z"):
+        pendulum.acceleration(q, z[:5], u)
+    with pytest.raises(TypeError, match=r"acceleration needs input: motor \(input, in N m\)"):
+        pendulum.acceleration(q, z)
+    with pytest.raises(TypeError, match="no array of real numbers"):
+        pendulum.acceleration(q * 1j, z, u)
+    for out, why in [(np.zeros((5, 1)), "has shape"), (np.zeros((6, 2))[:, :1], "C order"), (q, "shares memory with q")]:
+        with pytest.raises(ValueError, match=why):
+            pendulum.acceleration(q, z, u, out=out)
+    with pytest.raises(TypeError, match="float64"):
+        pendulum.acceleration(q, z, u, out=np.zeros((6, 1), dtype=np.float32))
+    frozen = np.zeros((6, 1))
+    frozen.flags.writeable = False
+    with pytest.raises(ValueError, match="read-only"):
+        pendulum.acceleration(q, z, u, out=frozen)
+    with pytest.raises(TypeError, match="has no frames: its struct does not say"):
+        pendulum.pose("tool", q)
+    with pytest.raises(TypeError, match=r"has no multipliers: its struct does not say `#\[gauss\(constraint"):
+        pendulum.multipliers(q, z, u)
+    with pytest.raises(ValueError, match=r"q\[2, 1, 0:4\] is no rotation: squares of its numbers add up to 4"):
+        poses = np.zeros((3, 5, 7)) + torpedo.state()[0]
+        poses[2, 1, 3] = 2.0
+        torpedo.acceleration(poses, np.zeros(6))
+
+
+def test_what_is_no_number_stays_none(pendulum, torpedo):
+    assert np.isnan(pendulum.acceleration([np.nan], [0.0], [0.0])).all()
+    assert np.isnan(torpedo.energy(torpedo.state()[0], np.full(6, np.nan)))
+
+
+def test_derivatives_against_differences(pendulum, random):
+    q, z, u = (random.standard_normal((50, 1)) for _ in range(3))
+    linear = pendulum.linearize(q, z, u)
+    step = EPS ** (1 / 3)
+    by_q = (pendulum.acceleration(q + step, z, u) - pendulum.acceleration(q - step, z, u)) / (2 * step)
+    # Second order in the step, and rounding over the step, of terms up to g/l.
+    bound = 20 * (step**2 + EPS / step)
+    assert (abs(linear.by_state[:, 1, :1] - by_q) <= bound).all()
+    weights = np.array([0.0, 3.0])
+    second = pendulum.hessian(q, z, weights, u)
+    assert np.allclose(second.by_state[:, 0, 0], 3 * 9.81 / 0.5 * np.sin(q[:, 0]), rtol=0, atol=60 * 10 * EPS)
+    inverse = pendulum.linearize_inverse(q, z, z, u)
+    assert np.array_equal(inverse.force, pendulum.inverse_dynamics(q, z, z, u))
+
+
+def test_frames(arm, random):
+    q, z = states(arm, random, (40,))
+    pose, jacobian = arm.pose("tool", q), arm.jacobian("tool", q)
+    a, b = q[:, 0], q[:, 0] + q[:, 1]
+    place = np.stack([0.4 * np.sin(a) + 0.3 * np.sin(b), 0 * a, 0.1 + 0.4 * np.cos(a) + 0.3 * np.cos(b)], axis=1)
+    # A handful of roundings of lengths below 1.
+    assert abs(pose[:, :3, 3] - place).max() <= 10 * EPS
+    assert np.array_equal(pose[:, 3], np.tile([0.0, 0, 0, 1], (40, 1)))
+    assert abs(pose[:, :3, :3] @ pose[:, :3, :3].transpose(0, 2, 1) - np.eye(3)).max() <= 10 * EPS
+    assert abs(arm.twist("tool", q, z) - np.einsum("nij,nj->ni", jacobian, z)).max() <= 40 * EPS
+    assert arm.bias("tool", q, z).shape == (40, 6) and arm.jacobian_rate("tool", q, z).shape == (40, 6, 2)
+    assert arm.center_of_mass(q).shape == (40, 3) and arm.centroidal_matrix(q).shape == (40, 6, 2)
+    with pytest.raises(KeyError, match="no frame hand"):
+        arm.pose("hand", q)
+
+
+def test_constraints(wire):
+    q, z = wire.state(x=1.5, y_dot=2.0)
+    (force,) = wire.multipliers(q, z)
+    # m v²/r along 2 r of the gradient.
+    assert abs(abs(force) - 2.0 * 2.0**2 / 1.5 / 3.0) <= 20 * EPS
+    assert abs(wire.acceleration(q, z)[wire.speed_names.index("x_dot")] + 2.0**2 / 1.5) <= 20 * EPS
+
+
+def test_configurations_move(torpedo, random):
+    q, _ = states(torpedo, random, (30,))
+    increment = 0.3 * random.standard_normal((30, 6))
+    moved = torpedo.retract(q, increment)
+    assert abs(torpedo.difference(q, moved) - increment).max() <= 100 * EPS
+
+
+def test_threads_share_a_kernel(torpedo, random):
+    q, z = states(torpedo, random, (5000,))
+    expected = torpedo.acceleration(q, z)
+    results = [None] * 4
+
+    def work(k):
+        results[k] = torpedo.acceleration(q, z)
+
+    threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
+    [thread.start() for thread in threads]
+    [thread.join() for thread in threads]
+    assert all(np.array_equal(result, expected) for result in results)

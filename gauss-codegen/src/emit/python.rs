@@ -1,0 +1,80 @@
+//! `python`: what has to be known of a struct to make a class of it, as the call of one macro of the crate
+//! `gauss-python`. Nothing here knows how classes are made.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote, quote_spanned};
+
+use crate::emit::derived::Derived;
+use crate::emit::records::record::{Part, PartKind};
+use crate::emit::records::{input, state};
+use crate::methods::DerivativeKind;
+use crate::terms::{Field, Scalar, WantedMethod};
+use crate::words::Unraw;
+
+/// The call; nothing where no Python is wanted.
+pub fn scene(derived: &Derived<'_, '_>) -> TokenStream {
+    let item = derived.item();
+    let Some(clause) = &item.wanted.python else { return TokenStream::new() };
+    let (name, documentation, kernel) = (&item.ident, &item.documentation, derived.kernel_name());
+    let state = state::state_name(derived);
+    let scalar = match &item.scalar {
+        Scalar::Parameter(ident) => quote!(#ident),
+        Scalar::F64 | Scalar::F32 => TokenStream::new(),
+    };
+    let fields = item.fields.iter().map(field);
+    let [coordinates, speeds] = state::parts(derived).map(|parts| parts.iter().map(part).collect::<Vec<_>>());
+    let inputs = input::parts(derived);
+    let inputs = inputs.iter().map(part);
+    let offers = offers(derived);
+    // Where the crate is missing, the clause is to blame.
+    let path = quote_spanned!(clause.span()=> ::gauss_python::scene!);
+    quote! {
+        #path {
+            scene #name [#scalar] #documentation;
+            kernel #kernel; state #state;
+            fields { #(#fields)* }
+            coordinates { #(#coordinates)* }
+            speeds { #(#speeds)* }
+            inputs { #(#inputs)* }
+            offers { #(#offers)* }
+        }
+    }
+}
+
+/// `mass [f64] "mass" "kg" "of the hull";`
+fn field(Field { ident, ty, unit, documentation, .. }: &Field) -> TokenStream {
+    let (word, unit) = (ident.unraw().to_string(), unit.as_deref().unwrap_or_default());
+    quote!(#ident [#ty] #word #unit #documentation;)
+}
+
+/// `"craft" 7 4 "R and b";`: the numbers that it consists of, and how many of them in the beginning have norm 1.
+fn part(part: &Part) -> TokenStream {
+    let unit = match part.kind {
+        PartKind::Scalar | PartKind::Vector(_) => 0,
+        PartKind::Rotation | PartKind::Pose => 4,
+        PartKind::Plane => 2,
+    };
+    let [size, unit] = [part.names().len(), unit].map(Literal::usize_unsuffixed);
+    let (word, label) = (part.ident.unraw().to_string(), &part.label);
+    quote!(#word #size #unit #label;)
+}
+
+/// The traits that the kernel has besides those of every kernel, a word for each.
+fn offers(derived: &Derived<'_, '_>) -> Vec<proc_macro2::Ident> {
+    let wanted = &derived.item().wanted;
+    let derivatives = derived.kernel.derivatives.iter().filter_map(|derivative| match derivative.kind {
+        DerivativeKind::ByState | DerivativeKind::OfInverse | DerivativeKind::Hessian => Some(derivative.kind.name()),
+        DerivativeKind::ByParameters | DerivativeKind::Regressor => None,
+    });
+    let mut words: Vec<&str> = derivatives.collect();
+    words.extend((!wanted.frames.is_empty()).then_some("frames"));
+    let of_methods = wanted.methods.iter().filter_map(|method| match method {
+        WantedMethod::Centroidal => Some("centroidal"),
+        WantedMethod::GravityTorques => Some("gravity_torques"),
+        WantedMethod::JacobianRates => Some("jacobian_rates"),
+        WantedMethod::NonlinearEffects => None,
+    });
+    words.extend(of_methods);
+    words.extend((!derived.subject.constraints.is_empty()).then_some("constraints"));
+    words.into_iter().map(|word| format_ident!("{}", word)).collect()
+}
