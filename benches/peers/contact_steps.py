@@ -25,13 +25,15 @@ def body(links, link, feet, height):
     """A link with all that hang on it."""
     quaternion = np.zeros(4)
     mujoco.mju_mat2Quat(quaternion, np.ravel(link["rotation"]).astype(float))
-    place = [0.0, 0.0, height] if link["parent"] is None else link["position"]
+    floating = link["joint"] == "floating"
+    place = [0.0, 0.0, height] if floating else link["position"]
     inertia = link["inertia_about_center_of_mass"]
     moments = text(*(inertia[k] for k in ["ixx", "iyy", "izz", "ixy", "ixz", "iyz"]))
+    kind = {"revolute": "hinge", "prismatic": "slide"}.get(link["joint"])
     joint = (
         "<freejoint/>"
-        if link["parent"] is None
-        else f'<joint name="{link["name"]}" axis="{text(link["axis"])}" damping="0" armature="0"/>'
+        if floating
+        else f'<joint name="{link["name"]}" type="{kind}" axis="{text(link["axis"])}" damping="0" armature="0"/>'
     )
     inside = "".join(body(links, child, feet, 0.0) for child in links if child["parent"] == link["name"])
     return (

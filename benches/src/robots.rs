@@ -6,7 +6,9 @@
 use std::error::Error;
 
 use gauss_runtime::description::{OperationCount, Operations};
+#[cfg(feature = "robot-derivatives")]
 use gauss_runtime::inverse::InverseLinearization;
+#[cfg(feature = "robot-derivatives")]
 use gauss_runtime::linearize::Linearization;
 use gauss_runtime::prelude::*;
 

@@ -83,7 +83,7 @@ pub struct Hand {
 pub const STEP: f64 = 5e-4;
 /// N: with which each finger presses. N m/rad, N m s/rad: of the joints.
 const GRIP: f64 = 2.0;
-const GAINS: [f64; 2] = [0.5, 0.002];
+pub const GAINS: [f64; 2] = [0.5, 0.002];
 /// rad: knuckle and the three joints that bend, of a finger that touches.
 const BENT: [f64; 4] = [0.0, -0.35, 0.85, 0.7];
 

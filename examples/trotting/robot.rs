@@ -37,7 +37,7 @@ const SHANK: [f64; 2] = [0.033, 0.33797];
 const HEIGHT: f64 = 0.46;
 const LIFT: f64 = 0.07;
 /// N m/rad, N m s/rad: of the joints.
-const GAINS: [f64; 2] = [250.0, 6.0];
+pub const GAINS: [f64; 2] = [250.0, 6.0];
 
 pub type Place = (Isometry3<f64>, SVector<f64, 12>);
 pub type Speeds = SVector<f64, 18>;
@@ -76,14 +76,20 @@ fn angles(foot: impl Fn(usize) -> [f64; 3]) -> SVector<f64, 12> {
     all
 }
 
-/// Torques that make it trot at about this speed, m/s: feet on the ground go back under it, feet in the air are put
-/// down where they keep the speed.
+/// Torques that make it trot at about this speed, m/s.
 #[must_use]
-pub fn trot(t: f64, (base, joints): &Place, z: &Speeds, wanted: f64) -> Torques {
+pub fn trot(t: f64, q: &Place, z: &Speeds, wanted: f64) -> Torques {
+    GAINS[0] * (goal(t, q, z, wanted) - q.1) - GAINS[1] * z.fixed_rows::<12>(6)
+}
+
+/// Angles of the joints for it: feet on the ground go back under it, feet in the air are put down where they keep the
+/// speed.
+#[must_use]
+pub fn goal(t: f64, (base, _): &Place, z: &Speeds, wanted: f64) -> SVector<f64, 12> {
     let begun = (t / STRIDE).min(1.0);
     let speed = z.fixed_rows::<3>(0);
     let (roll, _, yaw) = base.rotation.euler_angles();
-    let goal = angles(|k| {
+    angles(|k| {
         let phase = (t / STRIDE + LEGS[k].1).fract();
         let fore = if LEGS[k].0 { 1.0 } else { -1.0 };
         // Joints lag behind what is wanted; feet are put down further ahead the faster it goes.
@@ -97,8 +103,7 @@ pub fn trot(t: f64, (base, joints): &Place, z: &Speeds, wanted: f64) -> Torques 
         };
         let aside = if phase < 0.5 { 0.0 } else { aside };
         [begun * aside, begun * way * along, HEIGHT - begun * LIFT * up]
-    });
-    GAINS[0] * (goal - joints) - GAINS[1] * z.fixed_rows::<12>(6)
+    })
 }
 
 /// On its feet.
