@@ -74,11 +74,11 @@ fn forces(end: f64, looked: &Looked) -> Plot<'static> {
         Line::new("left", COLOURS[0], of(0)),
         Line::new("right", COLOURS[1], of(1)),
     ];
-    Plot::new("Forces of the ground", ("time, s", 0.0..end), ("force upward, N", 0.0..400.0), lines)
+    Plot::new("Forces of the ground", ("time, s", 0.0..end), ("force upward, N", 0.0..900.0), lines)
 }
 
 fn costs(costs: &[f64]) -> Plot<'static> {
     let points = costs.iter().enumerate().map(|(n, cost)| (n as f64, cost.log10()));
     let line = Line::new("", COLOURS[2], points);
-    Plot::new("What the plan costs", ("iteration", 0.0..costs.len() as f64), ("log₁₀", -1.0..3.0), vec![line])
+    Plot::new("What the plan costs", ("iteration", 0.0..costs.len() as f64), ("log₁₀ of it", -1.0..3.0), vec![line])
 }

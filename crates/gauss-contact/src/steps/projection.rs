@@ -5,6 +5,7 @@ use gauss_runtime::constraint::{ConstraintLevel, ProjectionError, ProjectionFail
 use gauss_runtime::contact::{ContactSystem, Each, ImpulseResponse};
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
+use gauss_runtime::system::GaussSystem;
 
 use crate::dense::value;
 use crate::mode::{Mode, after_impulses};
@@ -47,6 +48,9 @@ pub(crate) struct Factored<K: ContactSystem> {
     pub(crate) count: usize,
 }
 
+/// What is known of factors, with their numbers.
+type Known<'a, K> = (&'a Factored<K>, &'a [<K as GaussSystem>::Scalar]);
+
 impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     /// How many rows there are.
     const ROWS: usize = K::ContactRows::DIM;
@@ -87,7 +91,7 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     }
 
     /// Takes factors that are known already; whether they are those at some rows.
-    fn adopt(&mut self, (known, factors): (&Factored<K>, &[T]), rows: impl Iterator<Item = usize>) -> bool {
+    fn adopt(&mut self, (known, factors): Known<K>, rows: impl Iterator<Item = usize>) -> bool {
         let of_known = &known.rows.as_ref()[..known.count];
         if !rows.eq(of_known.iter().map(|row| usize::from(*row))) {
             return false;
@@ -171,7 +175,7 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
         &mut self,
         kernel: &K,
         (t, q, mut z, mut rates): (T, &K::Configuration, K::Speeds, K::ContactRows),
-        (response, known): (&ImpulseResponse<K>, Option<(&Factored<K>, &[T])>),
+        (response, known): (&ImpulseResponse<K>, Option<Known<K>>),
         (mode, rounding): (impl Fn(usize) -> Mode, f64),
     ) -> (K::Speeds, K::ContactRows) {
         let rows = || {
