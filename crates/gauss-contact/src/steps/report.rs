@@ -37,8 +37,10 @@ pub struct StepReport {
     pub corrections: u32,
     /// Sweeps of the solver, where corrections alone came to no end.
     pub sweeps: u32,
-    /// The work of contact impulses, of friction too: negative where they take energy away. Newton's law with friction
-    /// can give energy at an impact (T. R. Kane 1984); then it is positive.
+    /// The work of contact impulses on the speeds that the step would end with without them, of friction too: negative
+    /// where they take energy away. What holds a weight therefore takes the energy that it would gain in the step:
+    /// balances of energy are formed from rates before and after the step. Newton's law with friction can give energy
+    /// at an impact (T. R. Kane 1984); then it is positive.
     pub work: f64,
     /// In how many parts the step was made, where no impulses were found for all of it; else 0.
     pub parts: u32,
