@@ -81,9 +81,12 @@ def test_failures_keep_what_there_is(pendulum):
 
 
 def test_interruption_keeps_what_there_is(pendulum):
+    # What runs in the background of a shell ignores Ctrl-C.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
     run = pendulum.simulate([1.0], [0.0], (0.0, 1e9), input=[0.0], max_steps=10**12)
+    signal.signal(signal.SIGINT, before)
     assert run.interrupted and run.error is None and 0.0 < run.t[-1] < 1e9
 
 
