@@ -163,8 +163,8 @@ fn corrections<T: Real>() -> usize {
     if T::DERIVATIVES { 3 } else { 0 }
 }
 
-/// What is smaller than this part of the largest speed, before or after impulses, may be rounding: terms can be some 10⁴
-/// times larger than it.
+/// What is smaller than this part of the largest speed, before or after impulses, may be rounding: terms can be some
+/// 10⁴ times larger than it.
 const NEAR: f64 = 1e-9;
 
 /// The speeds `z + A⁻¹WᵀP` after impulses P, where components that are no more than the rounding of their terms are 0:

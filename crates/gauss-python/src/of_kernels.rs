@@ -10,8 +10,8 @@ use crate::methods::Id;
 type Any<'py> = Bound<'py, PyAny>;
 type Result<'py> = PyResult<Bound<'py, PyAny>>;
 
-/// A method by its name and number, what Python gives it (the [name] of a frame, arrays, after a semicolon one that may be
-/// left out) and these by their slots. All have `t` and `out` besides.
+/// A method by its name and number, what Python gives it (the [name] of a frame, arrays, after a semicolon one that may
+/// be left out) and these by their slots. All have `t` and `out` besides.
 macro_rules! methods {
     ($($method:ident $id:ident ($([$frame:ident])? $($array:ident),* $(; $optional:ident)?) [$($slot:expr),*];)*) => {
         #[pymethods]

@@ -67,7 +67,20 @@ fn scene(file: &str, item: &ItemStruct) -> Scene {
     let mut item = item.clone();
     item.attrs.retain(|attribute| attribute.path().is_ident("gauss"));
     let name = format!("{}: {}", file.trim_end_matches(".rs"), item.ident);
-    Scene { name, source: item.to_token_stream().to_string() }
+    Scene { name, source: located(&item.to_token_stream().to_string(), file) }
+}
+
+/// With the robot's file of a struct by the folder of its own package, where it is not found from this one.
+fn located(source: &str, file: &str) -> String {
+    let path = root().join(file);
+    let package = path.ancestors().find(|folder| folder.join("Cargo.toml").is_file()).unwrap_or(&path);
+    let named = |word: &str| source.split_once(word)?.1.split('"').next();
+    match named("urdf = \"").or_else(|| named("mjcf = \"")) {
+        Some(robot) if !Path::new(env!("CARGO_MANIFEST_DIR")).join(robot).is_file() => {
+            source.replacen(&format!("\"{robot}\""), &format!("{:?}", package.join(robot)), 1)
+        }
+        _ => source.to_owned(),
+    }
 }
 
 /// The struct of the first rule of a macro, for given metavariables. Repetitions are written once, those of other

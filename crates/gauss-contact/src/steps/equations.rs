@@ -27,14 +27,7 @@ impl Impulses<'_> {
         self.count = count;
         self.symmetric = !states.iter().any(|state| matches!(state, State::Slides(..)));
         if self.symmetric {
-            let rows = stride(count);
-            for k in 0..count {
-                self.equal((k, rows), count, usize::from(self.unknown[k]));
-                self.matrix[k * rows + count..(k + 1) * rows].fill(0.0);
-            }
-            let part = if self.dependent { 0.0 } else { DEPENDENT };
-            let ends = &mut self.order[..count];
-            return factorise_symmetric(self.matrix, ends, self.solution, part).then_some(count);
+            return self.symmetric_factors(count);
         }
         let mut k = 0;
         for (cone, state) in cones.iter().zip(states) {
@@ -74,6 +67,18 @@ impl Impulses<'_> {
         }
         let part = if self.dependent { 0.0 } else { DEPENDENT };
         factorise(&mut self.matrix[..count * count], &mut self.order[..count], part).then_some(count)
+    }
+
+    /// The factors where nothing slides.
+    fn symmetric_factors(&mut self, count: usize) -> Option<usize> {
+        let rows = stride(count);
+        for k in 0..count {
+            self.equal((k, rows), count, usize::from(self.unknown[k]));
+            self.matrix[k * rows + count..(k + 1) * rows].fill(0.0);
+        }
+        let part = if self.dependent { 0.0 } else { DEPENDENT };
+        let ends = &mut self.order[..count];
+        factorise_symmetric(self.matrix, ends, self.solution, part).then_some(count)
     }
 
     pub(super) fn pull(&self) -> f64 {

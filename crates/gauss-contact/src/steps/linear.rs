@@ -133,7 +133,8 @@ pub(crate) fn factorise_symmetric<T: Real>(
                 return false;
             }
             first[k] = T::one() / pivot;
-            // Contacts in a row, as in a stack, are coupled to their neighbours only. What is zero may have a derivative.
+            // Contacts in a row, as in a stack, are coupled to their neighbours only. What is zero may have
+            // a derivative.
             let last = if T::DERIVATIVES { n - 1 } else { (k..n).rfind(|j| value(first[*j]) != 0.0).unwrap_or(k) };
             ends[k] = (last + 1) as Place;
             most = last.max(most);

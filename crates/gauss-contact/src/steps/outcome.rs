@@ -2,11 +2,13 @@
 
 use gauss_runtime::contact::ContactSystem;
 
+use crate::law::carrier;
 use crate::mode::Mode;
 use crate::residual::Residual;
 
 use super::impulses::Found;
 use super::projection::Factored;
+use super::relaxed::{StepLaw, lifts};
 use super::report::StepReport;
 use super::watch::Attempted;
 
@@ -61,4 +63,22 @@ pub(super) struct Solved<K: ContactSystem> {
     pub(super) work: f64,
     /// Factors of D that the laws were solved with.
     pub(super) factored: Option<Factored<K>>,
+}
+
+impl<K: ContactSystem<Scalar = f64>> Solved<K> {
+    /// Which contacts have struck and which rest, from modes before and after the step and the rates that impacts pass
+    /// on.
+    pub(super) fn tell(&mut self, law: StepLaw, [before, after]: [&[Mode]; 2], passed_on: impl Fn(usize) -> f64) {
+        for i in 0..K::CONTACTS.len() {
+            let (was_open, is_closed) = (!before[i].is_closed(), after[i].is_closed());
+            let closes = is_closed && K::CONTACTS[i].has_gap();
+            let lifts = lifts::<K>(law, after, i);
+            self.struck |= closes && (was_open || lifts);
+            let carries = carrier(K::CONTACTS, i);
+            let parts = K::CONTACTS[carries].has_gap() && passed_on(carries) != 0.0;
+            let bounces = passed_on(carries) > self.found.residual.rounding;
+            self.impacts += usize::from(closes && (was_open || bounces));
+            self.rests[i] = is_closed && !parts && !lifts;
+        }
+    }
 }

@@ -530,18 +530,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         for (next, cone) in self.next.as_mut().iter_mut().zip(&*cones) {
             *next = problem.mode(cones, cone, scales.as_ref(), self.tolerance);
         }
-        for i in 0..cones.len() {
-            let was_open = !self.modes[i].is_closed();
-            let is_closed = self.next[i].is_closed();
-            let closes = is_closed && K::CONTACTS[i].has_gap();
-            let lifts = lifts::<K>(self.law, self.next.as_ref(), i);
-            solved.struck |= closes && (was_open || lifts);
-            let carries = carrier(K::CONTACTS, i);
-            let parts = K::CONTACTS[carries].has_gap() && passed_on(carries) != 0.0;
-            let bounces = passed_on(carries) > found.residual.rounding;
-            solved.impacts += usize::from(closes && (was_open || bounces));
-            solved.rests[i] = is_closed && !parts && !lifts;
-        }
+        solved.tell(self.law, [self.modes.as_ref(), self.next.as_ref()], passed_on);
         (0..rows).for_each(|row| impulses.set_component(row, scales[row] * problem.impulses[row]));
         let of_delassus = problem.factored().filter(|_| scales.as_ref().iter().all(|scale| *scale == 1.0));
         solved.factored = of_delassus.map(|count| unknowns.factored(count));
