@@ -168,21 +168,27 @@ fn corrections<T: Real>() -> usize {
 const NEAR: f64 = 1e-9;
 
 /// The speeds `z + A⁻¹WᵀP` after impulses P, where components that are no more than the rounding of their terms are 0:
-/// what rests does not creep.
+/// what rests does not creep. Where something moves as fast as `fastest`, or more than that, terms are asked for where a
+/// speed is a small part of it.
 pub(crate) fn after_impulses<K: ContactSystem>(
     kernel: &K,
-    z: &K::Speeds,
+    (z, fastest): (&K::Speeds, f64),
     factors: &K::ImpulseFactors,
     impulses: &K::ContactRows,
 ) -> K::Speeds {
     let speeds = z.add_scaled(K::Scalar::one(), &kernel.impulse_velocities(factors, impulses));
-    settled(z, speeds, acting::<K>(impulses), || kernel.impulse_terms(factors, impulses))
+    settled((z, fastest), speeds, acting::<K>(impulses), || kernel.impulse_terms(factors, impulses))
 }
 
 /// Speeds with components of zero for those that are rounding of so many terms, of given sizes.
-fn settled<V: VectorSpace<T>, T: Real>(z: &V, mut speeds: V, count: u32, terms: impl FnOnce() -> V) -> V {
+fn settled<V: VectorSpace<T>, T: Real>(
+    (z, fastest): (&V, f64),
+    mut speeds: V,
+    count: u32,
+    terms: impl FnOnce() -> V,
+) -> V {
     let size = |v: &V, i: usize| value(v.component(i)).abs();
-    let largest = (0..V::DIM).map(|i| size(z, i).max(size(&speeds, i))).fold(0.0, f64::max);
+    let largest = (0..V::DIM).map(|i| size(z, i).max(size(&speeds, i))).fold(fastest, f64::max);
     let is_near = |speed: f64| speed != 0.0 && speed <= NEAR * largest;
     if count == 0 || !(0..V::DIM).any(|i| is_near(size(&speeds, i))) {
         return speeds;
@@ -204,7 +210,7 @@ pub(crate) fn pushed<K: ContactSystem>(x: &K::Speeds, columns: &K::ContactColumn
     let mut rows = K::ContactRows::zero();
     forces.iter().enumerate().for_each(|(row, force)| rows.set_component(row, *force));
     let speeds = x.add_scaled(K::Scalar::one(), &impulse_velocities::<K>(columns, &rows));
-    settled(x, speeds, acting::<K>(&rows), || impulse_terms::<K>(columns, &rows))
+    settled((x, f64::INFINITY), speeds, acting::<K>(&rows), || impulse_terms::<K>(columns, &rows))
 }
 
 /// How many of the rows act.

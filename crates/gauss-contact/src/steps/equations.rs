@@ -24,7 +24,6 @@ impl Impulses<'_> {
                 count += 1;
             }
         }
-        self.count = count;
         self.symmetric = !states.iter().any(|state| matches!(state, State::Slides(..)));
         if self.symmetric {
             return self.symmetric_factors(count);

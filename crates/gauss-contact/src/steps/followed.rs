@@ -156,7 +156,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         same.solved += 1;
         let mut rows = L::ContactRows::zero();
         impulses.iter().enumerate().for_each(|(row, impulse)| rows.set_component(row, *impulse));
-        let z = after_impulses(*kernel, &free, &dynamics.response.factors, &rows);
+        let z = after_impulses(*kernel, (&free, f64::INFINITY), &dynamics.response.factors, &rows);
         let (q, z) = self.second_half(z)?;
         self.projected((q, z), &dynamics, (taken, modes, &passes), same)
     }
@@ -204,7 +204,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
     ) -> Moved<L> {
         let (kernel, t) = (self.kernel, Dual::constant(self.t + self.h));
         let mut memory = vec![Dual::constant(0.0); Projection::<L>::MEMORY];
-        let mut projection = Projection::<L>::new(&mut memory);
+        let mut projection = Projection::<L>::new(&mut memory, f64::INFINITY);
         let before = kernel.gaps(t, &q);
         let closed = projection.close(kernel, (t, q, before), &dynamics.response, &taken.rests);
         let Closed { mut q, gaps, .. } = closed.map_err(ContactErrorKind::Projection)?;
@@ -227,7 +227,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
 
         let mode = |i: usize| if taken.rests[i] { modes[i] } else { Mode::Open };
         let rates = kernel.contact_rates(t, &q, &z);
-        let (mut z, rates) = projection.stop(kernel, (t, &q, z, rates), (&dynamics.response, None), (mode, 0.0));
+        let (mut z, rates) = projection.stop(kernel, (t, &q, z, rates), &dynamics.response, (mode, 0.0));
         let stopped: Vec<usize> =
             L::CONTACTS.iter().enumerate().flat_map(|(i, contact)| stopped(contact, &mode(i))).collect();
         let passed = |row: usize| gap_of(row).and_then(|i| passes[i]).unwrap_or(Dual::constant(0.0));

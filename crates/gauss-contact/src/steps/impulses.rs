@@ -74,9 +74,8 @@ pub(crate) struct Impulses<'m> {
     /// Whether the law is the convex relaxation of Coulomb's.
     pub(crate) relaxed: bool,
     pub(super) pull: f64,
-    /// Whether the factors are those of a symmetric matrix, and how many unknowns it has.
+    /// Whether the factors are those of a symmetric matrix.
     pub(super) symmetric: bool,
-    pub(super) count: usize,
 }
 
 impl<'m> Impulses<'m> {
@@ -119,7 +118,6 @@ impl<'m> Impulses<'m> {
             relaxed: false,
             pull: 0.0,
             symmetric: false,
-            count: 0,
         }
     }
 
@@ -265,16 +263,6 @@ impl<'m> Impulses<'m> {
                 return found;
             }
         }
-    }
-
-    /// How many unknowns factors are of that are those of D, as it is at the rows of these.
-    pub(crate) fn factored(&self) -> Option<usize> {
-        (self.symmetric && self.pull() == 0.0).then_some(self.count)
-    }
-
-    /// Where factors are in memory for so many rows.
-    pub(crate) const fn matrix(rows: usize) -> Range<usize> {
-        rows * rows..rows * rows + rows * stride(rows)
     }
 
     /// The work of the impulses: half of the rates before and after them, times these. Rates before are given without

@@ -7,7 +7,6 @@ use crate::mode::Mode;
 use crate::residual::Residual;
 
 use super::impulses::Found;
-use super::projection::Factored;
 use super::relaxed::{StepLaw, lifts};
 use super::report::StepReport;
 use super::watch::Attempted;
@@ -15,6 +14,8 @@ use super::watch::Attempted;
 /// What impulses have made of the speeds of a step.
 pub(super) struct Pushed<K: ContactSystem> {
     pub(super) z: K::Speeds,
+    /// The largest speed without impulses.
+    pub(super) fastest: f64,
     pub(super) impulses: K::ContactRows,
     /// Whether rates were those of contacts that depend on one another.
     pub(super) dependent: bool,
@@ -61,8 +62,6 @@ pub(super) struct Solved<K: ContactSystem> {
     pub(super) impacts: usize,
     /// Of the impulses.
     pub(super) work: f64,
-    /// Factors of D that the laws were solved with.
-    pub(super) factored: Option<Factored<K>>,
 }
 
 impl<K: ContactSystem<Scalar = f64>> Solved<K> {

@@ -5,7 +5,6 @@ use gauss_runtime::constraint::{ConstraintLevel, ProjectionError, ProjectionFail
 use gauss_runtime::contact::{ContactSystem, Each, ImpulseResponse};
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
-use gauss_runtime::system::GaussSystem;
 
 use crate::dense::value;
 use crate::mode::{Mode, after_impulses};
@@ -26,6 +25,8 @@ pub(crate) struct Projection<'m, K: ContactSystem> {
     rows: K::EachRow<Place>,
     /// Of the rows of factors.
     ends: K::EachRow<Place>,
+    /// What is much smaller may be rounding.
+    fastest: f64,
     count: usize,
     /// Contacts whose gaps were brought to zero.
     pub(crate) held: K::EachContact<bool>,
@@ -41,28 +42,19 @@ pub(crate) struct Closed<K: ContactSystem> {
     pub(crate) closure: f64,
 }
 
-/// Factors of D that a step has at some of its rows, with these.
-pub(crate) struct Factored<K: ContactSystem> {
-    pub(crate) rows: K::EachRow<Place>,
-    pub(crate) ends: K::EachRow<Place>,
-    pub(crate) count: usize,
-}
-
-/// What is known of factors, with their numbers.
-type Known<'a, K> = (&'a Factored<K>, &'a [<K as GaussSystem>::Scalar]);
-
 impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     /// How many rows there are.
     const ROWS: usize = K::ContactRows::DIM;
     /// How many numbers it needs.
     pub(crate) const MEMORY: usize = stride(Self::ROWS) * (Self::ROWS + 1) + Self::ROWS;
 
-    pub(crate) fn new(memory: &'m mut [T]) -> Self {
+    /// `fastest`: how large speeds of the step are, or increments.
+    pub(crate) fn new(memory: &'m mut [T], fastest: f64) -> Self {
         let (matrix, memory) = memory.split_at_mut(Self::ROWS * stride(Self::ROWS));
         let (solution, memory) = memory.split_at_mut(stride(Self::ROWS));
         let right = &mut memory[..Self::ROWS];
         let (rows, ends) = (Each::from_fn(|_| 0), Each::from_fn(|_| 0));
-        Self { matrix, right, solution, rows, ends, count: 0, held: Each::from_fn(|_| false) }
+        Self { matrix, right, solution, rows, ends, fastest, count: 0, held: Each::from_fn(|_| false) }
     }
 
     /// Factors of D at some rows; whether there are any.
@@ -90,18 +82,6 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
         })
     }
 
-    /// Takes factors that are known already; whether they are those at some rows.
-    fn adopt(&mut self, (known, factors): Known<K>, rows: impl Iterator<Item = usize>) -> bool {
-        let of_known = &known.rows.as_ref()[..known.count];
-        if !rows.eq(of_known.iter().map(|row| usize::from(*row))) {
-            return false;
-        }
-        let used = known.count * stride(known.count);
-        self.matrix[..used].copy_from_slice(&factors[..used]);
-        (self.rows, self.ends, self.count) = (known.rows, known.ends, known.count);
-        true
-    }
-
     /// Speeds after impulses that take away rates.
     fn pushed(
         &mut self,
@@ -115,7 +95,7 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
         solve_symmetric(self.matrix, &self.ends.as_ref()[..n], &self.right[..n], self.solution);
         let mut impulses = K::ContactRows::zero();
         (0..n).for_each(|k| impulses.set_component(usize::from(self.rows[k]), self.solution[k]));
-        after_impulses(kernel, z, &response.factors, &impulses)
+        after_impulses(kernel, (z, self.fastest), &response.factors, &impulses)
     }
 
     /// Gaps of closed contacts brought to zero, and those that are negative, from places with their gaps.
@@ -170,12 +150,12 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     }
 
     /// Rates of closed gaps, and slips of what sticks, brought to zero where they are more than rounding; with all
-    /// rates there. Factors that are known save their making.
+    /// rates there.
     pub(crate) fn stop(
         &mut self,
         kernel: &K,
         (t, q, mut z, mut rates): (T, &K::Configuration, K::Speeds, K::ContactRows),
-        (response, known): (&ImpulseResponse<K>, Option<Known<K>>),
+        response: &ImpulseResponse<K>,
         (mode, rounding): (impl Fn(usize) -> Mode, f64),
     ) -> (K::Speeds, K::ContactRows) {
         let rows = || {
@@ -192,10 +172,7 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
                 break;
             }
             left = size;
-            let has_factors = n > 0
-                || known.is_some_and(|known| self.adopt(known, rows()))
-                || self.factorise(&response.delassus, rows());
-            if !has_factors {
+            if n == 0 && !self.factorise(&response.delassus, rows()) {
                 break;
             }
             z = self.pushed(kernel, &z, response, |row| rates.component(row));

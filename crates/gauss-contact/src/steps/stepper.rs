@@ -406,8 +406,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
         let solved = solved.map_err(|kind| self.error(None, kind))?;
         let dependent = known || again;
-        let z = after_impulses(self.kernel, &free, &response.factors, &impulses);
-        Ok(Pushed { z, impulses, dependent, solved })
+        let fastest = (0..K::Speeds::DIM).map(|i| free.component(i).abs()).fold(0.0, f64::max);
+        let z = after_impulses(self.kernel, (&free, fastest), &response.factors, &impulses);
+        Ok(Pushed { z, fastest, impulses, dependent, solved })
     }
 
     /// Closed gaps brought to zero at the end of a step.
@@ -420,7 +421,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let (start, t) = (self.t, self.t + h);
         let failed = |cause| ContactError { contact: None, time: start, kind: ContactErrorKind::Projection(cause) };
         let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
-        let mut projection = Projection::<K>::new(of_projection);
+        let mut projection = Projection::<K>::new(of_projection, h * pushed.fastest);
         projection.close(self.kernel, (t, q, gaps), response, pushed.solved.rests.as_ref()).map_err(failed)
     }
 
@@ -432,19 +433,18 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         closed: Closed<K>,
         (z, rates): (K::Speeds, K::ContactRows),
     ) -> End<K> {
-        let Pushed { impulses, dependent, solved, .. } = pushed;
+        let Pushed { impulses, fastest, dependent, solved, .. } = pushed;
         let Closed { q, gaps, penetration, closure } = closed;
         // What begins to rest is brought to zero to the last bit, and stays there.
         let kind = |mode: &Mode| core::mem::discriminant(mode);
         let changes = (0..K::CONTACTS.len()).any(|i| kind(&self.next[i]) != kind(&self.modes[i]));
         self.dependent &= !changes;
         let rounding = if changes { 0.0 } else { solved.found.residual.rounding };
-        let (of_impulses, of_projection) = self.memory.as_mut().split_at_mut(Impulses::memory(Self::ROWS));
-        let mut projection = Projection::<K>::new(of_projection);
-        let known = solved.factored.as_ref().map(|known| (known, &of_impulses[Impulses::matrix(Self::ROWS)]));
+        let of_projection = &mut self.memory.as_mut()[Impulses::memory(Self::ROWS)..];
+        let mut projection = Projection::<K>::new(of_projection, fastest);
         let mode = |i: usize| if solved.rests[i] { self.next[i] } else { Mode::Open };
         let at_end = (self.t + h, &q, z, rates);
-        let (z, rates) = projection.stop(self.kernel, at_end, (response, known), (mode, rounding));
+        let (z, rates) = projection.stop(self.kernel, at_end, response, (mode, rounding));
         let report = StepReport {
             residual: solved.found.residual,
             from_coulomb: solved.from_coulomb,
@@ -518,22 +518,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
         let work = problem.work(|row| scales[row] * free.component(row));
         let from_coulomb = if problem.relaxed { problem.residual_of_coulomb(cones) } else { found.residual };
-        let mut solved = Solved::<K> {
-            found,
-            from_coulomb,
-            rests: Each::from_fn(|_| false),
-            struck: false,
-            impacts: 0,
-            work,
-            factored: None,
-        };
+        let rests = Each::from_fn(|_| false);
+        let mut solved = Solved::<K> { found, from_coulomb, rests, struck: false, impacts: 0, work };
         for (next, cone) in self.next.as_mut().iter_mut().zip(&*cones) {
             *next = problem.mode(cones, cone, scales.as_ref(), self.tolerance);
         }
         solved.tell(self.law, [self.modes.as_ref(), self.next.as_ref()], passed_on);
         (0..rows).for_each(|row| impulses.set_component(row, scales[row] * problem.impulses[row]));
-        let of_delassus = problem.factored().filter(|_| scales.as_ref().iter().all(|scale| *scale == 1.0));
-        solved.factored = of_delassus.map(|count| unknowns.factored(count));
         Ok(solved)
     }
 }

@@ -3,7 +3,6 @@
 use gauss_runtime::contact::{ContactSystem, Each};
 
 use super::linear::Place;
-use super::projection::Factored;
 
 /// What a contact does in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,11 +48,6 @@ impl<K: ContactSystem> Unknowns<K> {
             extents: Each::from_fn(|_| [0; 2]),
             states: Each::from_fn(|_| State::Leaves),
         }
-    }
-
-    /// What is known of factors of so many unknowns.
-    pub(crate) fn factored(&self, count: usize) -> Factored<K> {
-        Factored { rows: self.rows, ends: self.order, count }
     }
 
     pub(crate) fn slices(&mut self) -> UnknownsIn<'_> {
