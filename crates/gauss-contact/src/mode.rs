@@ -168,8 +168,8 @@ fn corrections<T: Real>() -> usize {
 const NEAR: f64 = 1e-9;
 
 /// The speeds `z + A⁻¹WᵀP` after impulses P, where components that are no more than the rounding of their terms are 0:
-/// what rests does not creep. Where something moves as fast as `fastest`, or faster, terms are asked for where a speed is
-/// a small part of it.
+/// what rests does not creep. Where something moves as fast as `fastest`, or faster, terms are asked for where a speed
+/// is a small part of it.
 pub(crate) fn after_impulses<K: ContactSystem>(
     kernel: &K,
     (z, fastest): (&K::Speeds, f64),
