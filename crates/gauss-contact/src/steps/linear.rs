@@ -5,7 +5,7 @@ use gauss_runtime::real::Real;
 
 use crate::dense::value;
 
-/// The place of a row. There are 256 at most; small numbers leave less to be zeroed in each step.
+/// The place of a row, in two bytes: less to be written in each step.
 pub(crate) type Place = u16;
 
 /// The scalar product, in four sums that do not wait for one another.
