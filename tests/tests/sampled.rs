@@ -5,6 +5,7 @@ use std::cell::{Cell, RefCell};
 use gauss_runtime::dual::Dual;
 use gauss_runtime::integrate::problem::input::InputSource;
 use gauss_runtime::integrate::{Controller, SamplingMistake};
+use gauss_runtime::monitor::power_balance;
 use gauss_runtime::prelude::*;
 use gauss_tables::Tabulate;
 
@@ -386,6 +387,18 @@ fn what_cannot_be_sampled_is_refused() {
     // Outside a run there is no input that anybody could take for one.
     let simulation = Simulation::new(&kernel).sampled(0.1, give(1.0));
     assert!(simulation.problem().input.input(0.0, &One::zeros(), &One::zeros())[0].is_nan());
+}
+
+#[test]
+fn the_balance_of_energy_is_that_of_what_was_held() {
+    let kernel = Cart { m: 1.0 }.kernel().expect("a cart");
+    let law = |_t: f64, q: &One, z: &One| One::new(-4.0 * q[0] - z[0]);
+    let run = Simulation::new(&kernel).sampled(0.1, law).adaptive(1e-9, 1e-9);
+    let run = run.run(One::new(1.0), One::zeros(), 0.0..4.0).expect("runs");
+    let balance = power_balance(&kernel, &run, |t, q, z| run.input(t, q, z));
+    // The power is linear in time within a step: nothing but roundings of energies up to 4.
+    assert!(balance.largest_residual() < 4.0 * 8.0 * f64::EPSILON * run.len() as f64, "{balance}");
+    assert!(balance.points().iter().any(|point| point.work < -0.5), "{balance}");
 }
 
 #[test]

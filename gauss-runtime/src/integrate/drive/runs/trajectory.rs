@@ -198,6 +198,11 @@ impl<'k, S: GaussSystem> Trajectory<'k, S> {
         self.between.input(&self.held, t, q, z)
     }
 
+    /// Whether the input that controllers hold changes at this time.
+    pub(crate) fn samples_at(&self, t: S::Scalar) -> bool {
+        self.held.get(acting(&self.held, t)).is_some_and(|(since, _)| since.lane(0) == t.lane(0))
+    }
+
     /// The number of the last sample that is not behind `t`, if the trajectory covers it.
     fn last_before(&self, t: S::Scalar) -> Option<usize> {
         let time = t.lane(0);
