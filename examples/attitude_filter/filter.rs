@@ -99,9 +99,8 @@ impl Estimate {
     }
 
     /// (σ, δω) from the estimate to the truth.
-    pub fn error(&self, truth: &State) -> Vector6<f64> {
-        let sigma = self.state.0.difference(&truth.0);
-        let omega = truth.1 - self.state.1;
+    pub fn error(&self, (rotation, rate): &State) -> Vector6<f64> {
+        let (sigma, omega) = (self.state.0.difference(rotation), rate - self.state.1);
         Vector6::new(sigma.x, sigma.y, sigma.z, omega.x, omega.y, omega.z)
     }
 
@@ -146,9 +145,9 @@ pub fn follow(
     let mut estimate = Estimate::first();
     let moment = |estimate: &Estimate, step: usize, updated: bool| Moment {
         t: step as f64 * STEP,
-        error: estimate.error(&truth.states[step]),
+        error: estimate.error(&truth.state(step)),
         deviations: estimate.covariance.diagonal().map(f64::sqrt),
-        normalised: estimate.normalised_error(&truth.states[step]),
+        normalised: estimate.normalised_error(&truth.state(step)),
         updated,
     };
     let mut moments = vec![moment(&estimate, 0, false)];

@@ -71,6 +71,13 @@ pub struct Truth {
     pub looks: Vec<UnitQuaternion<f64>>,
 }
 
+impl Truth {
+    /// After so many steps.
+    pub fn state(&self, step: usize) -> State {
+        (self.samples[step].q, self.samples[step].z)
+    }
+}
+
 /// A motion from an unknown start under an unknown torque, made with steps ten times finer than those of the filters.
 ///
 /// # Errors

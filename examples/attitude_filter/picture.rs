@@ -9,7 +9,7 @@ use gauss_runtime::prelude::*;
 use plotters::style::RGBColor;
 
 use crate::filter::{Moment, Transition};
-use crate::model::{ARCSECOND, STEP, STEPS, SpacecraftKernel, State, Truth, spacecraft};
+use crate::model::{ARCSECOND, STEP, STEPS, SpacecraftKernel, Truth, spacecraft};
 use crate::study::{Followed, interval};
 
 /// Other motions, behind the one that is drawn.
@@ -97,18 +97,13 @@ fn by_transition(followed: &[Followed], look: f64) -> Vec<Plot<'static>> {
 
 /// One of the motions: the satellite, where the filter takes it to look, and how wrong that is.
 pub fn page(kernel: &SpacecraftKernel, truth: &Truth, run: &[Moment]) -> Playback<SpacecraftKernel> {
-    let sample = |(step, &(q, z)): (usize, &State)| {
-        let t = step as f64 * STEP;
-        Sample { t, q, z, p: kernel.momentum(t, &q, &z) }
-    };
     // After each step, before what the tracker sees then.
     let moments: Vec<&Moment> = run.iter().filter(|m| !m.updated).collect();
     let at = |s: &Sample<SpacecraftKernel>| moments[((s.t / STEP).round() as usize).min(moments.len() - 1)];
     let part = |v: &Vector6<f64>, from: usize| -> Vector3<f64> { v.fixed_rows::<3>(from).into() };
     let estimated = |s: &Sample<SpacecraftKernel>| s.q.retract(&-part(&at(s).error, 0));
-    let samples = truth.states.iter().enumerate().map(sample).collect();
     let log_arcseconds = |v: &Vector6<f64>, from: usize| (part(v, from).norm() / ARCSECOND).log10();
-    Playback::of_samples("A filter follows a satellite", samples)
+    Playback::of_samples("A filter follows a satellite", truth.samples.clone())
         .body(
             "satellite",
             |s| Isometry3::from_parts(Translation3::identity(), s.q),

@@ -152,6 +152,7 @@ fn streams_within_runs_are_their_own() -> Outcome {
     let sampler = sampler(1, Plan::Random, &["a"])?;
     let number = |run: u64, name: &str| sampler.sample(run).stream(name).uniform();
     assert_eq!(number(3, "wind"), number(3, "wind"));
+    assert_eq!(number(3, "wind"), gauss_study::Stream::by(1, "wind", 3).uniform());
     let all = [number(3, "wind"), number(4, "wind"), number(3, "a"), sampler.sample(3).values()[0]];
     assert_eq!(all.map(f64::to_bits).into_iter().collect::<HashSet<_>>().len(), 4);
     Ok(())
