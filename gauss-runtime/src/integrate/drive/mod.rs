@@ -17,7 +17,7 @@ pub use acceptance::{cause, pace, projection, tolerance};
 #[cfg(feature = "alloc")]
 pub use events::{each, task};
 pub use events::{event, schedule, search};
-pub(in crate::integrate) use events::{jump, leaving, zero};
+pub(in crate::integrate) use events::{jump, leaving, watched, zero};
 pub(in crate::integrate) use runs::interval;
 #[cfg(feature = "alloc")]
 pub use runs::{boxed, trajectory};

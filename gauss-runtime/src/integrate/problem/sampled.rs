@@ -139,6 +139,7 @@ impl<S: GaussSystem<Input: VectorSpace<S::Scalar>>, R> Sampled<S, R> {
     }
 }
 
+#[diagnostic::do_not_recommend]
 impl<S, R> InputSource<S> for Sampled<S, R>
 where
     S: GaussSystem<Input: VectorSpace<S::Scalar>>,

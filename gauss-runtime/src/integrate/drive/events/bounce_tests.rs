@@ -3,8 +3,7 @@
 use nalgebra::SVector;
 use std::string::ToString;
 
-use super::*;
-use crate::integrate::{Adaptive, Control, Fixed, IntegrationErrorKind, JumpMistake, Simulation};
+use crate::integrate::{Adaptive, Control, Crossing, Fixed, IntegrationErrorKind, JumpMistake, Sample, Simulation};
 use crate::testing::coasting::Coasting;
 
 type Pair = SVector<f64, 2>;

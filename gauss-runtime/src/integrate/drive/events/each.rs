@@ -2,9 +2,9 @@
 
 use alloc::vec::Vec;
 
-use crate::integrate::drive::event::{Events, Mark};
 use crate::integrate::drive::schedule::Scheduled;
 use crate::integrate::drive::search::{Crossing, Function};
+use crate::integrate::drive::watched::{Events, Mark};
 use crate::integrate::problem::state::Sample;
 use crate::sealed::Sealed;
 use crate::system::GaussSystem;

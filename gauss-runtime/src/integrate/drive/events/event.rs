@@ -1,7 +1,7 @@
 //! Events: where a function of the state passes through zero during a run, and jumps of the state there.
 //!
 //! **What is an event.** A function passes from one side of zero to zero or to the other side, in the chosen direction
-//! ([`Crossing`]), in the order of integration.
+//! ([`Crossing`](crate::integrate::Crossing)), in the order of integration.
 //!
 //! - *A zero at the start* is none: what starts on zero is on the side to which it leaves zero at first, and passes
 //!   when it comes back. So a run goes on from where another one ended.
@@ -59,169 +59,14 @@ pub use crate::integrate::drive::jump::{Jump, JumpFunction, NoJump};
 use crate::integrate::drive::leaving::{Leaving, OnZero, rounding};
 use crate::integrate::drive::projection::consistent;
 use crate::integrate::drive::schedule::Scheduled;
-use crate::integrate::drive::search::{Crossing, Function, Looking, Made, side, value};
+use crate::integrate::drive::search::{Function, Looking, Made, side, value};
+use crate::integrate::drive::watched::BeforeJump;
+pub use crate::integrate::drive::watched::{Events, Mark, NoEvents, Watched};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake, SamplingMistake};
-use crate::integrate::problem::state::{Sample, State, TangentOf};
+use crate::integrate::problem::state::{State, TangentOf};
 use crate::real::Real;
-use crate::sealed::Sealed;
 use crate::system::GaussSystem;
-
-/// The state of one event from step to step.
-#[derive(Clone, Copy, Debug)]
-pub struct Mark {
-    crossing: Crossing,
-    terminal: bool,
-    /// Whether its jump may let the function go on through zero.
-    through: bool,
-    value: f64,
-    /// Where in the present step the next one is, if there is one, with the value there.
-    next: Option<(f64, f64)>,
-    /// Where in the present step the last one was, and the value before it.
-    last: Option<(f64, f64)>,
-    /// Whether that is where the run is cut, and whether the state has jumped by it there.
-    here: bool,
-    jumped: bool,
-    /// Whether a jump has led over it.
-    passed: bool,
-    /// What is known of the function before a jump.
-    cut: Option<BeforeJump>,
-    /// The function has not been seen to leave zero.
-    resting: Option<OnZero>,
-}
-
-/// What is known of a function where the state jumps at its zero.
-#[derive(Clone, Copy, Debug)]
-struct BeforeJump {
-    /// The side that it came from.
-    side: f64,
-    /// Per unit of time in the direction of integration.
-    rate: f64,
-    /// How far beyond zero it may be, since zeros are found to a part of the step.
-    beyond: f64,
-}
-
-/// The events of a run, in the order in which they were added to the simulation.
-pub trait Events<S: GaussSystem>: Sealed {
-    /// Whether there are any.
-    const ANY: bool;
-
-    /// Their number.
-    fn count(&self) -> usize;
-
-    /// Shows every one.
-    fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark));
-
-    /// Changes the state as the event of this number does; whether it does.
-    fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool;
-
-    /// Whether there are controllers that sample.
-    const SAMPLED: bool = false;
-
-    /// Shows every controller that samples, in the order in which they were added.
-    fn schedule(&mut self, visit: &mut dyn FnMut(&mut dyn Scheduled<S>)) {
-        let _ = visit;
-    }
-}
-
-/// None.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct NoEvents;
-
-impl Sealed for NoEvents {}
-
-impl<S: GaussSystem> Events<S> for NoEvents {
-    const ANY: bool = false;
-
-    fn count(&self) -> usize {
-        0
-    }
-
-    fn each(&mut self, _: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {}
-
-    fn jump(&mut self, _: usize, _: &mut Sample<S>) -> bool {
-        false
-    }
-}
-
-impl<E: Sealed> Sealed for &mut E {}
-
-impl<S: GaussSystem, E: Events<S>> Events<S> for &mut E {
-    const ANY: bool = E::ANY;
-
-    fn count(&self) -> usize {
-        (**self).count()
-    }
-
-    fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {
-        (**self).each(visit);
-    }
-
-    fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {
-        (**self).jump(number, state)
-    }
-
-    const SAMPLED: bool = E::SAMPLED;
-
-    fn schedule(&mut self, visit: &mut dyn FnMut(&mut dyn Scheduled<S>)) {
-        (**self).schedule(visit);
-    }
-}
-
-/// One event after others, with what becomes of the state there.
-#[derive(Clone, Copy, Debug)]
-pub struct Watched<E, G, J = NoJump> {
-    others: E,
-    function: G,
-    jump: J,
-    mark: Mark,
-}
-
-impl<E, G> Watched<E, G> {
-    /// One more event after others.
-    #[doc(hidden)]
-    pub fn after(others: E, crossing: Crossing, terminal: bool, function: G) -> Self {
-        Self { others, function, jump: NoJump, mark: Mark::new(crossing, terminal, false) }
-    }
-
-    /// With a jump, after which the function may go on through zero or has to be led back.
-    #[doc(hidden)]
-    pub fn then<J>(self, jump: J, through: bool) -> Watched<E, G, JumpFunction<J>> {
-        let Self { others, function, mark, .. } = self;
-        Watched { others, function, jump: JumpFunction(jump), mark: Mark { through, ..mark } }
-    }
-}
-
-impl<E, G, J> Sealed for Watched<E, G, J> {}
-
-impl<S, E, G, J> Events<S> for Watched<E, G, J>
-where
-    S: GaussSystem,
-    E: Events<S>,
-    G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
-    J: Jump<S>,
-{
-    const ANY: bool = true;
-
-    fn count(&self) -> usize {
-        self.others.count() + 1
-    }
-
-    fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {
-        self.others.each(visit);
-        visit(&self.function, &mut self.mark);
-    }
-
-    fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {
-        if number == self.others.count() { self.jump.jump(state) } else { self.others.jump(number, state) }
-    }
-
-    const SAMPLED: bool = E::SAMPLED;
-
-    fn schedule(&mut self, visit: &mut dyn FnMut(&mut dyn Scheduled<S>)) {
-        self.others.schedule(visit);
-    }
-}
 
 /// What the events of a step come to.
 pub enum Outcome<S: GaussSystem> {
@@ -244,29 +89,6 @@ pub enum Outcome<S: GaussSystem> {
 type Here<S> = (State<S>, Option<State<S>>, usize, Option<usize>);
 
 impl Mark {
-    /// Before a run.
-    pub(in crate::integrate) const fn new(crossing: Crossing, terminal: bool, through: bool) -> Self {
-        Self {
-            crossing,
-            terminal,
-            through,
-            value: 0.0,
-            next: None,
-            last: None,
-            here: false,
-            jumped: false,
-            passed: false,
-            cut: None,
-            resting: None,
-        }
-    }
-
-    /// Before another run.
-    #[cfg(feature = "alloc")]
-    pub(in crate::integrate) fn renew(&mut self) {
-        *self = Self::new(self.crossing, self.terminal, self.through);
-    }
-
     /// The first event of the step.
     fn first<S: GaussSystem, P: Problem<System = S>, C: Control<S>>(
         &mut self,

@@ -7,7 +7,9 @@ use std::vec::Vec;
 
 use super::*;
 use crate::integrate::tests::slope;
-use crate::integrate::{Classical4, Fixed, IntegrationErrorKind, Observer, RunPart, RungeKutta, Sample, Simulation};
+use crate::integrate::{
+    Classical4, Crossing, Fixed, IntegrationErrorKind, Observer, RunPart, RungeKutta, Sample, Simulation,
+};
 use crate::system::Smoothness;
 use crate::testing::oscillator::{Law, Oscillator};
 

@@ -10,4 +10,5 @@ pub mod schedule;
 pub mod search;
 #[cfg(feature = "alloc")]
 pub mod task;
+pub(in crate::integrate) mod watched;
 pub(in crate::integrate) mod zero;

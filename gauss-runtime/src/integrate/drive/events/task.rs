@@ -4,9 +4,9 @@ use core::fmt;
 
 use alloc::collections::VecDeque;
 
-use crate::integrate::drive::event::{Events, Mark};
 use crate::integrate::drive::schedule::Scheduled;
 use crate::integrate::drive::search::Function;
+use crate::integrate::drive::watched::{Events, Mark};
 use crate::integrate::problem::error::SamplingMistake;
 use crate::integrate::problem::sampled::Controller;
 use crate::integrate::problem::state::Sample;

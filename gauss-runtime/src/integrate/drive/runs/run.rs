@@ -223,32 +223,28 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         let mut pace = Pace::new(start.t.lane(0), self.limit);
         let mut reached = Reached::default();
         let mut passing = Passing::new();
-        let mut from = start;
-        if E::SAMPLED {
-            match begin(self.problem, &mut watch, (start, end), self.limit) {
-                Ok(start) => from = start,
-                Err(kind) => return (reached, Err(IntegrationError::at(self.problem, &start, kind))),
-            }
-        }
+        // Without controllers all of this is known when the program is compiled.
+        let begun = if E::SAMPLED { begin(self.problem, &mut watch, (start, end), self.limit) } else { Ok(start) };
+        let mut from = match begun {
+            Ok(start) => start,
+            Err(kind) => return (reached, Err(IntegrationError::at(self.problem, &start, kind))),
+        };
         loop {
-            let mut stop = end;
-            if E::SAMPLED {
-                let held;
-                (held, stop) = match tick(self.problem, &mut watch, &from, end) {
-                    Ok(ticked) => ticked,
-                    Err(kind) => {
-                        passing.end(pass);
-                        return (reached, Err(IntegrationError::at(self.problem, &from, kind)));
-                    }
-                };
-                held.into_iter().for_each(|input| pass(Seen::Held(from.t, input)));
-            }
+            let ticked = if E::SAMPLED { tick(self.problem, &mut watch, &from, end) } else { Ok((None, end)) };
+            let stop = match ticked {
+                Ok((held, stop)) => {
+                    held.into_iter().for_each(|input| pass(Seen::Held(from.t, input)));
+                    stop
+                }
+                Err(kind) => {
+                    passing.end(pass);
+                    return (reached, Err(IntegrationError::at(self.problem, &from, kind)));
+                }
+            };
             let now = (&mut jumps, &mut reached, &mut passing);
             let (outcome, cut, last) = self.part(&mut watch, now, from, stop, pass);
-            if let (None, Ok(state)) = (&cut, &outcome)
-                && E::SAMPLED
-                && stop != end
-            {
+            let goes_on = E::SAMPLED && stop.lane(0) != end.lane(0);
+            if let (true, None, Ok(state)) = (goes_on, &cut, &outcome) {
                 (from, passing.resumed) = (*state, true);
                 continue;
             }

@@ -19,8 +19,8 @@ where
     /// after that, once each, in the order of time, and the input that it gives is held in between. It may have a state
     /// of its own, which it moves in.
     ///
-    /// - Each instant is the end of a step, so that no step meets the jump of the input, with whatever method, steps and
-    ///   events. The run is one run, with one [`Trajectory`](crate::integrate::Trajectory), one table and one page;
+    /// - Each instant is the end of a step, so that no step meets the jump of the input, with whatever method, steps
+    ///   and events. The run is one run, with one [`Trajectory`](crate::integrate::Trajectory), one table and one page;
     ///   [`input`](crate::integrate::Trajectory::input) tells what was held.
     /// - Several controllers, each with a period of its own, add up what they hold; a loop within another one is given
     ///   its goal by a `Cell` that both closures refer to. Those that sample at the same time do so in the order in
@@ -32,9 +32,9 @@ where
     /// - Runs go forward in time; a controller that cannot sample ends the run with
     ///   [`Sampling`](crate::integrate::IntegrationErrorKind::Sampling).
     /// - Random numbers are those of a generator that the controller owns, such as a `Stream` of the crate
-    ///   `gauss-study`, a function of seed, name and the number of a run: every run has the same bits. Of simulations that
-    ///   are run many times ([`boxed`](Self::boxed)) a closure keeps its data from run to run, as observers do; a type
-    ///   begins anew by [`Controller::start`].
+    ///   `gauss-study`, a function of seed, name and the number of a run: every run has the same bits.
+    /// - Of simulations that are run many times ([`boxed`](Self::boxed)) a closure keeps its data from run to run, as
+    ///   observers do; a type begins anew by [`Controller::start`].
     ///
     #[cfg_attr(
         feature = "derive",
@@ -47,10 +47,10 @@ use gauss_runtime::prelude::*;
 
 #[derive(GaussDynamics)]
 #[gauss(coordinates(x), particle(mass = 2, position = [x, 0, 0]), input(push), drive(x = push))]
-struct Cart;
+struct Cart {}
 
 # fn main() -> Result<(), Box<dyn std::error::Error>> {
-let kernel = Cart.kernel()?;
+let kernel = Cart {}.kernel()?;
 let mut before = None;
 let run = Simulation::new(&kernel)
     .sampled(0.05, move |_t, q, _z| {
@@ -68,7 +68,6 @@ assert_eq!((push(0.005)?, push(0.01)?, push(0.059)?), (0.0, -8.0, -8.0));
 ```
 "##
     )]
-    #[expect(clippy::type_complexity, reason = "a builder, whose type nobody writes")]
     pub fn sampled<G>(self, period: f64, controller: G) -> With<'k, S, F, I, Law<G>, C, O, E>
     where
         I: Samples<S>,
@@ -78,7 +77,6 @@ assert_eq!((push(0.005)?, push(0.01)?, push(0.059)?), (0.0, -8.0, -8.0));
     }
 
     /// A controller that samples, as a type that implements [`Controller`]: see [`sampled`](Self::sampled).
-    #[expect(clippy::type_complexity, reason = "a builder, whose type nobody writes")]
     pub fn sampled_by<K>(self, period: f64, controller: K) -> With<'k, S, F, I, K, C, O, E>
     where
         I: Samples<S>,
@@ -104,7 +102,8 @@ where
         self.with_events(|Controlled { others, task }| Controlled { others, task: task.delayed(time) })
     }
 
-    /// Lets the input of the controller that was added last act so many of its periods after each sample, at an instant.
+    /// Lets the input of the controller that was added last act so many of its periods after each sample, at one of its
+    /// instants.
     pub fn delayed_samples(self, samples: u32) -> Self {
         self.with_events(|Controlled { others, task }| Controlled { others, task: task.delayed_samples(samples) })
     }

@@ -359,6 +359,7 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
         Simulation { problem: change(problem), control, observer, events, every, limit }
     }
 
+    #[cfg(feature = "alloc")]
     pub(in crate::integrate) fn with_events<F>(self, change: impl FnOnce(E) -> F) -> Simulation<P, C, O, F> {
         let Self { problem, control, observer, events, every, limit } = self;
         Simulation { problem, control, observer, events: change(events), every, limit }
