@@ -18,9 +18,9 @@ use crate::system::GaussSystem;
 /// A system that gives the forces and torques of its joints.
 ///
 /// The reaction (f, m) of a joint acts **on what it carries**: the body or frame with its name, and all that hangs on
-/// that. Components are in the axes of that body or frame, the pole is its origin O: in robots of files the axes and the
-/// origin of the joint. Units are N and N m. The parent bears (−f, −m) at the same point; a root is held by the ground.
-/// [`in_observers_axes`](crate::frames::in_observers_axes) turns it.
+/// that. Components are in the axes of that body or frame, the pole is its origin O: in robots of files the axes and
+/// the origin of the joint. Units are N and N m. The parent bears (−f, −m) at the same point; a root is held by the
+/// ground. [`in_observers_axes`](crate::frames::in_observers_axes) turns it.
 ///
 /// It is all that goes through the joint: what the bearing takes up, and what acts on the rate of the joint itself
 /// (motors, springs and friction `along` its coordinate, armatures, limits). So its component along a free hinge is
@@ -32,9 +32,9 @@ use crate::system::GaussSystem;
 /// | (f, m) on the child | [`reactions`](Self::reactions) | `data.f` after `rnea` | `reaction_forces` output port |
 ///
 /// Loops: forces of `constraint(…)` act on the points that it names, with the multipliers of the motion; a constraint
-/// on a coordinate (`piston` in the place of `block.position`) acts on its rate, as a motor does. Where constraints hold
-/// more than they need, as a planar loop whose closing pin is held across the plane by nothing that is written, the
-/// distribution is the one in which what is not written holds nothing.
+/// on a coordinate (`piston` in the place of `block.position`) acts on its rate, as a motor does. Where constraints
+/// hold more than they need, as a planar loop whose closing pin is held across the plane by nothing that is written,
+/// the distribution is the one in which what is not written holds nothing.
 #[cfg_attr(
     feature = "derive",
     doc = r##"

@@ -62,8 +62,8 @@ fn close(found: &Vector6<f64>, expected: &Vector6<f64>, what: &str) {
     assert!((found - expected).amax() <= bound, "{what}: {found:?}, expected {expected:?}");
 }
 
-/// A post that turns, a slanted arm on it, a box that is welded to the arm, a slide in the box; a motor between post and
-/// arm, friction in the arm's hinge, a push on the slide, a spring from the arm to a fixed point.
+/// A post that turns, a slanted arm on it, a box that is welded to the arm, a slide in the box; a motor between post
+/// and arm, friction in the arm's hinge, a push on the slide, a spring from the arm to a fixed point.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(turn, lift, way),

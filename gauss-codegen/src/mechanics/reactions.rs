@@ -1,7 +1,7 @@
-//! Reactions of joints: the multipliers of partial velocities that joints do not allow. With a joint let go there are six
-//! speeds more, by which what it carries moves along and about its axes; that they stay zero is a constraint, and its
-//! multipliers are what the Gauss condition (3.4) for the six lacks at the motion: the force and the torque that hold
-//! what the joint carries.
+//! Reactions of joints: the multipliers of partial velocities that joints do not allow. With a joint let go there are
+//! six speeds more, by which what it carries moves along and about its axes; that they stay zero is a constraint, and
+//! its multipliers are what the Gauss condition (3.4) for the six lacks at the motion: the force and the torque that
+//! hold what the joint carries.
 //!
 //! What acts on the rate of the joint itself, as a motor or friction does, goes through the joint, and is part of it.
 

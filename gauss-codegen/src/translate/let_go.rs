@@ -2,46 +2,14 @@
 //! moves along and about its own axes as if nothing held it. They and their rates are zero wherever anything is
 //! computed; what is of use is how everything would change by them.
 
-use crate::algebra::{Expr, Graph, Map};
+use crate::algebra::{Expr, Map};
 use crate::error::Result;
-use crate::mechanics::{Coordinate, LetGo, Name, Placement, Turn};
+use crate::mechanics::{LetGo, Placement, Turn};
 use crate::words::Unraw;
 
+use super::freedom::LetGoBy;
 use super::notes::Notes;
-use super::symbols::Declared;
 use super::translator::Translator;
-
-/// What a joint that is let go moves by.
-#[derive(Clone)]
-pub(super) struct LetGoBy<'g> {
-    /// The name of the body or frame that it carries.
-    link: String,
-    /// Along the axes, then about them one after the other.
-    coordinates: [Expr<'g>; 6],
-    pub speeds: [Expr<'g>; 6],
-    rates: [Expr<'g>; 6],
-}
-
-impl<'g> LetGoBy<'g> {
-    fn new(graph: &'g Graph, link: String) -> Self {
-        let symbols = |letter: &str| {
-            std::array::from_fn(|i| graph.symbol(format!("{letter}{}_{link}", i + 1), letter.to_owned(), false))
-        };
-        Self { coordinates: symbols("x"), speeds: symbols("s"), rates: symbols("ds"), link }
-    }
-
-    fn declare(&self, declared: &mut Declared<'g>) {
-        let name = || Name::new("x", "x");
-        declared.coordinates.extend(self.coordinates.map(Coordinate::Scalar));
-        declared.coordinate_names.extend((0..6).map(|_| name()));
-        declared.speeds.extend(self.speeds);
-        declared.speed_rates.extend(self.rates);
-        declared.momentum_names.extend((0..6).map(|_| name()));
-        declared.force_names.extend((0..6).map(|_| name()));
-        // Momenta are not asked for.
-        declared.momenta.extend(self.speeds);
-    }
-}
 
 impl<'g> Translator<'_, 'g> {
     /// The scene with the joints let go whose reactions are wanted; `None` where none are.

@@ -12,7 +12,7 @@
 //! - `forces`: loads; `contacts`: gaps, slips and their coefficients; `shapes`: those of points, spheres, boxes.
 //! - `laws`, `drag`: constants of loads, for checks and warnings.
 //! - `parameters`: what the numbers of fields are called; `state`: what coordinates and speeds are called.
-//! - `let_go`: the scene once more, with joints let go, for their reactions.
+//! - `let_go`: the scene once more, with joints let go, for their reactions; `freedom`: what they move by then.
 //! - `placements`: where bodies, frames and points are.
 
 mod blame;
@@ -20,6 +20,7 @@ mod contacts;
 mod domains;
 mod drag;
 mod forces;
+mod freedom;
 mod kinematics;
 mod laws;
 mod let_go;

@@ -15,8 +15,8 @@ use crate::model::{self, ExpressionKind, Model, SpeedPart};
 use crate::terms::{InChart, InputKind, LawKind, UserFunction};
 use crate::words::Unraw;
 
+use super::freedom::LetGoBy;
 use super::laws::Law;
-use super::let_go::LetGoBy;
 use super::notes::Notes;
 use super::parameters::parameters;
 use super::state::quantities;

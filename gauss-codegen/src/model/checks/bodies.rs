@@ -144,8 +144,8 @@ fn places(bodies: &[BodyClause]) -> HashMap<String, usize> {
     places
 }
 
-/// Refuses names of parents, of bodies with points, of bodies with forces, in `frames(…)` and `reactions(…)` that are no
-/// bodies or frames of the system.
+/// Refuses names of parents, of bodies with points, of bodies with forces, in `frames(…)` and `reactions(…)` that are
+/// no bodies or frames of the system.
 fn check_references(statements: &Statements, wanted: &Wanted, context: &mut Context) {
     if statements.missed_any(&[Statement::Body, Statement::Frame]) {
         return;

@@ -1,7 +1,7 @@
 //! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating` or
-//! `base(position = […], rotation = …)`, `inputs = all | none | transmissions | actuators`, `joint_friction = dry | smooth(width) | none`,
-//! `limits = range | stop(…) | none`, `ground(…)`, `self_contact(…)`, `saturation = clamp | none`,
-//! `parameters = inertial`, `ignore(…)`.
+//! `base(position = […], rotation = …)`, `inputs = all | none | transmissions | actuators`,
+//! `joint_friction = dry | smooth(width) | none`, `limits = range | stop(…) | none`, `ground(…)`, `self_contact(…)`,
+//! `saturation = clamp | none`, `parameters = inertial`, `ignore(…)`.
 
 use super::arguments;
 use super::arithmetic;

@@ -2,8 +2,8 @@
 //!
 //! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
 //! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor`,
-//! `regressor` and `python` alone; `linearize` alone or as `linearize(word, …)`; `frames(name, …)`; `reactions(name, …)`;
-//! `methods(word, …)`.
+//! `regressor` and `python` alone; `linearize` alone or as `linearize(word, …)`; `frames(name, …)`;
+//! `reactions(name, …)`; `methods(word, …)`.
 
 use super::arguments::UNIT;
 use super::attributes::{self, Clause, Content, Owner, Word};

@@ -130,9 +130,10 @@ impl<'a> Robot<'a> {
         }
     }
 
-    /// Finds the links that joints carry whose reactions are wanted, by the names of either. Links that are fixed to one
-    /// another keep the mass data of their own if one of the joints between them is among these.
+    /// Finds the links that joints carry whose reactions are wanted, by the names of either. Links that are fixed to
+    /// one another keep the mass data of their own if one of the joints between them is among these.
     fn cut(&mut self, reactions: &mut [WantedJoint], context: &mut Context) {
+        let mut carried_links: Vec<usize> = Vec::new();
         for WantedJoint { name, link } in reactions {
             let word = name.unraw().to_string();
             let is_called = |&joint: &usize| {
@@ -154,6 +155,11 @@ impl<'a> Robot<'a> {
                 (own, other) => own.or(other),
             };
             let Some(found) = found else { continue };
+            if carried_links.contains(&found) {
+                let message = format!("`{name}` is a joint that is named before by another name; remove it");
+                context.error(name.span(), message);
+            }
+            carried_links.push(found);
             *link = Ident::new(&self.links[found].to_string(), name.span());
             let owner = self.structure.owner_of[found];
             self.cut[owner] |= owner != found || !self.moves(found);

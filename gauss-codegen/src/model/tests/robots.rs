@@ -475,6 +475,8 @@ fn reactions() {
     assert_eq!(of(", reactions(arm, weld)"), (both, vec![false, true, true]));
     let twice = "`elbow` is named twice; keep one of the two";
     assert_eq!(mistakes(&text, ", reactions(elbow, elbow)", ""), [twice]);
+    let same = "`arm` is a joint that is named before by another name; remove it";
+    assert_eq!(mistakes(&text, ", reactions(elbow, arm)", ""), [same]);
     let other = joint("arm", "fixed", "arm", "hand", "") + &link("hand");
     let text = robot(&(joint("elbow", "revolute", "base", "arm", "") + &link("arm") + &other));
     let unclear = "`arm` is a link of the file and the joint that carries `hand`; name that link";
