@@ -47,7 +47,16 @@ HEIGHT, LONGEST = 300.0, 600.0
 TOLERANCES = {"rtol": 1e-7, "atol": 1e-7}
 
 _lander = scenes.Lander(
-    mass=80.0, inertia=[8.0, 8.0, 5.0], drag_area=25.0, air=65.0, riser=6.0, density=1.2, wind_x=0.0, wind_y=0.0, layer=50.0, g=9.81
+    mass=80.0,
+    inertia=[8.0, 8.0, 5.0],
+    drag_area=25.0,
+    air=65.0,
+    riser=6.0,
+    density=1.2,
+    wind_x=0.0,
+    wind_y=0.0,
+    layer=50.0,
+    g=9.81,
 )
 
 
