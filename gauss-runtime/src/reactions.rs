@@ -45,7 +45,8 @@ use gauss_runtime::prelude::*;
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(angle),
-    body(rod, rotation = rotation_y(angle), mass = m, center_of_mass = [0, 0, -l], inertia = [m * l * l, m * l * l, m * l * l]),
+    body(rod, rotation = rotation_y(angle), mass = m, center_of_mass = [0, 0, -l],
+         inertia_about_center_of_mass = [0.02, 0.02, 0.001]),
     reactions(rod),
 )]
 struct Pendulum {
