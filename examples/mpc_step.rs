@@ -137,37 +137,33 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 
     // The true cart, pushed by no more than 4 N; a push holds for a sample.
-    let limit = 4.0;
-    let (mut q, mut z) = (SVector::from([0.0, 0.3]), still);
-    let (mut worst, mut at_limit) = (0.0_f64, 0);
-    let (mut path, mut pushes) = (Vec::new(), Vec::new());
+    let (limit, (mut worst, mut at_limit, mut samples)) = (4.0, (0.0_f64, 0, 0));
     println!("   t/s    x/m  θ/rad  push/N");
-    for n in 0..160 {
-        let x = State::new(q[0], q[1], z[0], z[1]);
-        let f = slope * x;
-        let plan = best(&hessian, &f, limit).ok_or("no plan")?;
-        // Kuhn and Tucker: no slope inside the limits, and at a limit one that pushes against it.
-        for (push, slope) in plan.iter().zip(&(hessian * plan + f)) {
-            let wrong = if push.abs() < limit { slope.abs() } else { (slope * push.signum()).max(0.0) };
-            worst = worst.max(wrong / f.amax());
-        }
-        at_limit += usize::from(plan[0].abs() == limit);
-        if n % 20 == 0 {
-            println!("  {:4.1} {:6.3} {:6.3} {:7.3}", f64::from(n) * SAMPLE, q[0], q[1], plan[0]);
-        }
-        let held = SVector::from([plan[0]]);
-        let run = Simulation::new(&kernel).input(move |_t, _q, _z| held).adaptive(1e-9, 1e-9);
-        let next = run.run(q, z, 0.0..SAMPLE)?;
-        // Each interval begins at time zero; the last state of one is the first of the next.
-        path.extend(next.iter().skip(usize::from(n > 0)).map(|s| Sample { t: f64::from(n) * SAMPLE + s.t, ..*s }));
-        pushes.push(plan[0]);
-        (q, z) = (next.last().q, next.last().z);
-    }
+    let run = Simulation::new(&kernel)
+        .sampled(SAMPLE, |t, q, z| {
+            let f = slope * State::new(q[0], q[1], z[0], z[1]);
+            // What is no number ends the run.
+            let Some(plan) = best(&hessian, &f, limit) else { return SVector::from([f64::NAN]) };
+            // Kuhn and Tucker: no slope inside the limits, and at a limit one that pushes against it.
+            for (push, slope) in plan.iter().zip(&(hessian * plan + f)) {
+                let wrong = if push.abs() < limit { slope.abs() } else { (slope * push.signum()).max(0.0) };
+                worst = worst.max(wrong / f.amax());
+            }
+            at_limit += usize::from(plan[0].abs() == limit);
+            if samples % 20 == 0 {
+                println!("  {t:4.1} {:6.3} {:6.3} {:7.3}", q[0], q[1], plan[0]);
+            }
+            samples += 1;
+            SVector::from([plan[0]])
+        })
+        .adaptive(1e-9, 1e-9)
+        .run(SVector::from([0.0, 0.3]), still, 0.0..160.0 * SAMPLE)?;
+    let (q, z) = (run.last().q, run.last().z);
     println!("at the limit for {at_limit} samples; worst residual of the conditions {worst:.0e}");
     if at_limit < 3 || worst > 1e-9 || q.amax() > 1e-2 || z.amax() > 1e-2 {
         return Err("the pole is not balanced by best plans".into());
     }
-    let page = Playback::of_samples("A pole balanced by plans, with at most 4 N", path);
-    let push = |s: &Sample<CartPoleKernel>| pushes[((s.t / SAMPLE) as usize).min(pushes.len() - 1)];
+    let page = Playback::new("A pole balanced by plans, with at most 4 N", &run)?;
+    let push = |s: &Sample<CartPoleKernel>| run.input(s.t, &s.q, &s.z)[0];
     write_page("mpc_step", &stage::cart_and_pole(page, 0.6, 0.1, push).energy(&kernel))
 }

@@ -64,9 +64,9 @@ fn vector(random: &mut Random, deviations: [f64; 3]) -> Vector3<f64> {
     Vector3::from(deviations.map(|deviation| deviation * random.normal()))
 }
 
-/// What happened: the states after each step, the first one at 0, and what the tracker saw.
+/// What happened: the states at each step, the first one at 0, and what the tracker saw.
 pub struct Truth {
-    pub states: Vec<State>,
+    pub samples: Vec<Sample<SpacecraftKernel>>,
     /// An attitude after each [`STEPS`] steps.
     pub looks: Vec<UnitQuaternion<f64>>,
 }
@@ -77,17 +77,18 @@ pub struct Truth {
 /// When the run does not reach the end.
 pub fn happens(kernel: &SpacecraftKernel, random: &mut Random) -> Result<Truth, IntegrationError> {
     let (q, z) = nominal();
-    let mut state = (q.retract(&vector(random, [FIRST.0; 3])), z + vector(random, [FIRST.1; 3]));
-    let mut truth = Truth { states: vec![state], looks: vec![] };
-    for step in 0..LOOKS * STEPS {
-        let torque = wheels(step) + vector(random, [DISTURBANCE / STEP.sqrt(); 3]);
-        let run = Simulation::new(kernel).input(|_, _: &_, _: &_| torque).fixed_step(STEP / 10.0);
-        let end = run.run_to_end(state.0, state.1, 0.0..STEP)?;
-        state = (end.q, end.z);
-        truth.states.push(state);
-        if (step + 1) % STEPS == 0 {
-            truth.looks.push(state.0.retract(&vector(random, TRACKER)));
+    let start = (q.retract(&vector(random, [FIRST.0; 3])), z + vector(random, [FIRST.1; 3]));
+    let (mut looks, mut steps) = (vec![], 0);
+    let end = (LOOKS * STEPS) as f64 * STEP;
+    // The tracker looks at the end of a step, then the torque of the next one begins.
+    let run = Simulation::new(kernel).sampled(STEP, |_t, q, _z| {
+        if steps > 0 && steps % STEPS == 0 {
+            looks.push(q.retract(&vector(random, TRACKER)));
         }
-    }
-    Ok(truth)
+        steps += 1;
+        wheels(steps - 1) + vector(random, [DISTURBANCE / STEP.sqrt(); 3])
+    });
+    let samples = run.fixed_step(STEP / 10.0).every(10).run(start.0, start.1, 0.0..end)?.into_samples();
+    looks.push(samples[samples.len() - 1].q.retract(&vector(random, TRACKER)));
+    Ok(Truth { samples, looks })
 }

@@ -37,6 +37,13 @@ impl Stream {
         Self(generator)
     }
 
+    /// Random numbers by a seed, a name and the number of a run, for what is no study: noise of a sensor, a disturbance.
+    /// Those of [`Draw::stream`](crate::Draw::stream) where seed, name and run are the same.
+    #[must_use]
+    pub fn by(seed: u64, name: &str, run: u64) -> Self {
+        Self::new(seed, Purpose::Within, name, run)
+    }
+
     /// 64 bits.
     pub fn bits(&mut self) -> u64 {
         self.0.next_u64()

@@ -2,7 +2,7 @@
 //!
 //! | folder | files |
 //! |---|---|
-//! | [`problem`] | what is integrated. [`equations`](problem::equations): the [`Problem`] that a method sees; [`form`](problem::form): velocity form and momentum form; [`input`](problem::input): sources of inputs; [`state`](problem::state): states, rates, samples; [`error`](problem::error): [`IntegrationError`] |
+//! | [`problem`] | what is integrated. [`equations`](problem::equations): the [`Problem`] that a method sees; [`form`](problem::form): velocity form and momentum form; [`input`](problem::input): sources of inputs; `sampled`: inputs that controllers hold; [`state`](problem::state): states, rates, samples; [`error`](problem::error): [`IntegrationError`] |
 //! | [`step`] | the seam. [`one_step`](step::one_step): what a method of one step is and keeps; `iteration`: when an implicit step is solved |
 //! | [`runge_kutta`] | [`tableau`](runge_kutta::tableau): coefficients; [`components`](runge_kutta::components): steps on the components, brought back onto the group |
 //! | [`lie_group`] | [`rkmk`](lie_group::rkmk): Runge–Kutta–Munthe-Kaas steps; [`commutator_free`](lie_group::commutator_free): a method of order 4; [`discrete`](lie_group::discrete): exact derivatives of its steps, transition matrices for filters and regulators |
@@ -10,7 +10,7 @@
 //! | [`rosenbrock`] | a linearly implicit method of order 4 for stiff scenes |
 //! | [`adams`] | multistep methods: from the derivatives of earlier steps |
 //! | [`taylor`] | power series of the solution, where the derive gives them |
-//! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with [`step_length`](drive::step_length): how steps grow and shrink, and [`tolerance`](drive::tolerance): errors, and what rounding does to them; [`pace`](drive::pace), [`cause`](drive::cause): when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; [`projection`](drive::projection): constraints; [`event`](drive::event), [`search`](drive::search), `each`, `zero`: zeros of functions, jumps; [`run`](drive::run): from jump to jump; [`trajectory`](drive::trajectory), [`summary`](drive::summary): what is kept; [`simulation`](drive::simulation): [`Simulation`], the front; `boxed`: in a type for fields of structs |
+//! | [`drive`] | runs. [`control`](drive::control): what carries a state over an interval; [`fixed`](drive::fixed); [`adaptive`](drive::adaptive), with [`step_length`](drive::step_length): how steps grow and shrink, and [`tolerance`](drive::tolerance): errors, and what rounding does to them; [`pace`](drive::pace), [`cause`](drive::cause): when and why a run is given up; [`compensated`](drive::compensated): what is rounded off is carried; [`projection`](drive::projection): constraints; [`event`](drive::event), [`search`](drive::search), `each`, `zero`: zeros of functions, jumps; `schedule`: controllers that sample; [`run`](drive::run): from jump to jump; `interval`: from instant to instant; [`trajectory`](drive::trajectory), [`summary`](drive::summary): what is kept; [`simulation`](drive::simulation): [`Simulation`], the front; `boxed`: in a type for fields of structs |
 
 pub mod adams;
 pub mod drive;
@@ -39,9 +39,11 @@ pub use lie_group::commutator_free::CommutatorFree4;
 pub use lie_group::discrete::DiscreteLinearization;
 pub use lie_group::rkmk::Rkmk;
 pub use problem::equations::{Problem, SystemProblem};
-pub use problem::error::{IntegrationError, IntegrationErrorKind, JumpMistake, RunPart};
+pub use problem::error::{IntegrationError, IntegrationErrorKind, JumpMistake, RunPart, SamplingMistake};
 pub use problem::form::{Form, MomentumForm, VelocityForm, WithoutContacts};
 pub use problem::input::{Feedback, InputSource, NoInput};
+#[cfg(feature = "alloc")]
+pub use problem::sampled::Controller;
 pub use problem::state::{Rates, Sample, State};
 pub use rosenbrock::Rosenbrock;
 pub use runge_kutta::components::RungeKutta;

@@ -78,6 +78,8 @@ impl fmt::Display for EnergyBalance {
 /// The balance of energy over a trajectory, with the input that it was run with. The first lane speaks for packs of
 /// numbers.
 ///
+/// Where controllers sample, that input is `|t, q, z| run.input(t, q, z)`: see [`Trajectory::input`].
+///
 /// The power is integrated from sample to sample by Kronrod's extension of Gauss–Lobatto quadrature with four nodes
 /// (Gander & Gautschi, *Adaptive quadrature – revisited*, BIT 40, 2000), at states of the run ([`Trajectory::at`]). The
 /// uncertainty is the difference to the four nodes alone, of sixth order in the distance of samples; it is no bound. A
@@ -108,7 +110,10 @@ pub fn power_balance<S: ForcedSystem>(
     for (left, right) in trajectory.iter().zip(trajectory.iter().skip(1)) {
         let length = right.t - left.t;
         let h = length.lane(0);
-        let (start, end) = (power_of(left), power_of(right));
+        // Where controllers sample, a step has the input from before its end: some roundings of the time earlier.
+        let rounding = 4.0 * S::Scalar::EPSILON * f64::max(left.t.lane(0).abs(), right.t.lane(0).abs());
+        let earlier = S::Scalar::from_f64(if trajectory.samples_at(right.t) { rounding } else { 0.0 });
+        let (start, end) = (power_of(left), power_of(&Sample { t: right.t - earlier, ..*right }));
         let within = |node: f64| power(left.t + length * S::Scalar::from_f64(0.5 + 0.5 * node));
         // Nodes on [−1, 1] that lie symmetrically.
         let both = |square: f64| within(Real::sqrt(square)) + within(-Real::sqrt(square));

@@ -15,10 +15,11 @@ mod step_control;
 
 pub use acceptance::{cause, pace, projection, tolerance};
 #[cfg(feature = "alloc")]
-pub use events::each;
-pub use events::{event, search};
+pub use events::{each, task};
+pub use events::{event, schedule, search};
 pub(in crate::integrate) use events::{jump, leaving, zero};
 #[cfg(feature = "alloc")]
 pub use runs::{boxed, trajectory};
+pub(in crate::integrate) use runs::interval;
 pub use runs::{observer, run, simulation, summary};
 pub use step_control::{adaptive, compensated, control, fixed, logarithms, step_length};

@@ -1,5 +1,7 @@
 //! Equations that are called.
 
+use core::cell::Cell;
+
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::state::{Rates, State};
 use crate::system::GaussSystem;
@@ -55,6 +57,11 @@ impl<P: Problem> Problem for Called<'_, P> {
     #[inline(always)]
     fn both_rates(&self, state: &State<P::System>, known: &Speeds<P>) -> (Speeds<P>, Speeds<P>) {
         self.0.both_rates(state, known)
+    }
+
+    #[inline(always)]
+    fn held(&self) -> Option<&Cell<Input<P>>> {
+        self.0.held()
     }
 
     #[inline(always)]

@@ -1,5 +1,7 @@
 //! What a method integrates, whatever the form and the input: `q̇ = q·V(t, q, y)`, `ẏ = f(t, q, y)`.
 
+use core::cell::Cell;
+
 use super::form::{Form, VelocityForm};
 use super::input::{InputSource, NoInput};
 use super::state::{Rates, Sample, State};
@@ -38,6 +40,12 @@ pub trait Problem {
 
     /// (ż, ṗ) at a state, one of which is the known ẏ.
     fn both_rates(&self, state: &State<Self::System>, known: &Speeds<Self>) -> (Speeds<Self>, Speeds<Self>);
+
+    /// The part of the input that controllers hold, where there are some that sample: a run makes a step end where that
+    /// changes.
+    fn held(&self) -> Option<&Cell<Input<Self>>> {
+        None
+    }
 
     /// Whether the equations leave out [contacts](GaussSystem::HAS_CONTACTS) on purpose.
     fn leaves_contacts_out(&self) -> bool {
@@ -131,6 +139,10 @@ impl<S: GaussSystem, F: Form<S>, I: InputSource<S>> Problem for SystemProblem<'_
     #[inline(always)]
     fn both_rates(&self, state: &State<S>, known: &S::Speeds) -> (S::Speeds, S::Speeds) {
         self.form.both_rates(self.system, &self.input, state, known)
+    }
+    #[inline(always)]
+    fn held(&self) -> Option<&Cell<S::Input>> {
+        self.input.held()
     }
     #[inline(always)]
     fn leaves_contacts_out(&self) -> bool {

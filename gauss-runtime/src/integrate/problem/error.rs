@@ -143,6 +143,13 @@ pub enum IntegrationErrorKind {
         /// Which of the two.
         mistake: JumpMistake,
     },
+    /// A controller cannot sample.
+    Sampling {
+        /// The number of the controller, in the order in which they were added, from 0.
+        controller: usize,
+        /// Why it cannot.
+        mistake: SamplingMistake,
+    },
     /// The rotation in one step exceeds half a turn, beyond which its logarithm is not the shortest and the method's
     /// differential soon is singular.
     IncrementTooLarge {
@@ -217,6 +224,34 @@ pub enum JumpMistake {
     Time,
     /// Speeds and momenta that do not belong to each other.
     SpeedsAndMomenta,
+}
+
+/// A mistake in how a controller samples: see `Simulation::sampled`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SamplingMistake {
+    /// The time between samples has to be finite and positive.
+    Period(f64),
+    /// The delay has to be finite and not negative.
+    Delay(f64),
+    /// The input that the controller gave is infinite or undefined.
+    Input,
+    /// The run goes backward in time.
+    Backward,
+    /// An input that was given after the controller has taken its place.
+    Replaced,
+}
+
+impl fmt::Display for SamplingMistake {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Period(period) => write!(f, "samples every {period:e}; that must be finite and positive"),
+            Self::Delay(delay) => write!(f, "acts after a delay of {delay:e}, which must be finite and not negative"),
+            Self::Input => f.write_str("gave an input that is infinite or undefined"),
+            Self::Backward => f.write_str("samples in the order of time, and the run goes backward"),
+            Self::Replaced => f.write_str("has no effect: call `input` before `sampled`, and both add up"),
+        }
+    }
 }
 
 /// Where a number that is not finite was seen first.
@@ -365,6 +400,7 @@ impl fmt::Display for IntegrationErrorKind {
             | Self::NotTurnedBack { .. }
             | Self::NoDerivative { .. }
             | Self::InvalidJump { .. } => self.of_jump(f),
+            Self::Sampling { controller, mistake } => write!(f, "controller {controller} {mistake}"),
             Self::IncrementTooLarge { angle } => write!(
                 f,
                 "the body turns by {angle:.3} rad in one step, and at most π can be told from less; use a smaller step"

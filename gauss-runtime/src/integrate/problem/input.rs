@@ -1,5 +1,7 @@
 //! Where the values of the input come from during a run.
 
+use core::cell::Cell;
+
 use crate::sealed::Sealed;
 use crate::system::GaussSystem;
 
@@ -69,6 +71,13 @@ assert!((end.q.translation.vector - Vector3::new(1.0, 2.0, 0.0)).norm() < 1e-6 &
 pub trait InputSource<S: GaussSystem> {
     /// The input at time t in the state (q, z).
     fn input(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Input;
+
+    /// The part that controllers hold, where there are some that sample.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn held(&self) -> Option<&Cell<S::Input>> {
+        None
+    }
 }
 
 /// The source of a scene without inputs.

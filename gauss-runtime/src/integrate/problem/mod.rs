@@ -5,4 +5,6 @@ pub mod equations;
 pub mod error;
 pub mod form;
 pub mod input;
+#[cfg(feature = "alloc")]
+pub mod sampled;
 pub mod state;

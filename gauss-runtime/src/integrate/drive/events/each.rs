@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use crate::integrate::drive::event::{Events, Mark};
+use crate::integrate::drive::schedule::Scheduled;
 use crate::integrate::drive::search::{Crossing, Function};
 use crate::integrate::problem::state::Sample;
 use crate::sealed::Sealed;
@@ -47,5 +48,11 @@ where
 
     fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {
         number < self.others.count() && self.others.jump(number, state)
+    }
+
+    const SAMPLED: bool = E::SAMPLED;
+
+    fn schedule(&mut self, visit: &mut dyn FnMut(&mut dyn Scheduled<S>)) {
+        self.others.schedule(visit);
     }
 }

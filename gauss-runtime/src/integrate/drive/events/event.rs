@@ -58,9 +58,10 @@ use crate::integrate::drive::jump::differs;
 pub use crate::integrate::drive::jump::{Jump, JumpFunction, NoJump};
 use crate::integrate::drive::leaving::{Leaving, OnZero, rounding};
 use crate::integrate::drive::projection::consistent;
+use crate::integrate::drive::schedule::Scheduled;
 use crate::integrate::drive::search::{Crossing, Function, Looking, Made, side, value};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake};
+use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake, SamplingMistake};
 use crate::integrate::problem::state::{Sample, State, TangentOf};
 use crate::real::Real;
 use crate::sealed::Sealed;
@@ -113,6 +114,14 @@ pub trait Events<S: GaussSystem>: Sealed {
 
     /// Changes the state as the event of this number does; whether it does.
     fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool;
+
+    /// Whether there are controllers that sample.
+    const SAMPLED: bool = false;
+
+    /// Shows every controller that samples, in the order in which they were added.
+    fn schedule(&mut self, visit: &mut dyn FnMut(&mut dyn Scheduled<S>)) {
+        let _ = visit;
+    }
 }
 
 /// None.
@@ -150,6 +159,12 @@ impl<S: GaussSystem, E: Events<S>> Events<S> for &mut E {
 
     fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {
         (**self).jump(number, state)
+    }
+
+    const SAMPLED: bool = E::SAMPLED;
+
+    fn schedule(&mut self, visit: &mut dyn FnMut(&mut dyn Scheduled<S>)) {
+        (**self).schedule(visit);
     }
 }
 
@@ -199,6 +214,12 @@ where
 
     fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {
         if number == self.others.count() { self.jump.jump(state) } else { self.others.jump(number, state) }
+    }
+
+    const SAMPLED: bool = E::SAMPLED;
+
+    fn schedule(&mut self, visit: &mut dyn FnMut(&mut dyn Scheduled<S>)) {
+        self.others.schedule(visit);
     }
 }
 
@@ -322,6 +343,21 @@ where
     /// Of a run in some of the numbers of a pack.
     pub fn new(control: &'a C, problem: &'a P, events: E, lanes: Range<usize>) -> Self {
         Self { control, problem, events, lanes }
+    }
+
+    /// Does something with every controller that samples, by its number, until it fails.
+    pub(in crate::integrate) fn schedule(
+        &mut self,
+        mut visit: impl FnMut(&mut dyn Scheduled<S>) -> Result<(), SamplingMistake>,
+    ) -> Result<(), IntegrationErrorKind> {
+        let (mut controller, mut outcome) = (0, Ok(()));
+        self.events.schedule(&mut |scheduled| {
+            if outcome.is_ok() {
+                outcome = visit(scheduled).map_err(|mistake| IntegrationErrorKind::Sampling { controller, mistake });
+            }
+            controller += 1;
+        });
+        outcome
     }
 
     /// Does something with every event, by its number, until it fails.

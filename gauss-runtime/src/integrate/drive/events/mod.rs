@@ -6,5 +6,8 @@ pub mod each;
 pub mod event;
 pub(in crate::integrate) mod jump;
 pub(in crate::integrate) mod leaving;
+pub mod schedule;
 pub mod search;
+#[cfg(feature = "alloc")]
+pub mod task;
 pub(in crate::integrate) mod zero;

@@ -1,10 +1,14 @@
-//! One run: the method is driven from jump to jump, and its samples and events are passed on.
+//! One run: the method is driven from jump to jump, and from instant to instant where controllers sample; its samples
+//! and events are passed on.
 
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
 use crate::configuration::Configuration;
 use crate::integrate::drive::control::{Control, DEFAULT_LIMIT, StepStatistics};
 use crate::integrate::drive::event::{Events, Outcome, Watch};
+use crate::integrate::drive::interval::{begin, tick};
 use crate::integrate::drive::observer::Observer;
 use crate::integrate::drive::pace::Pace;
 use crate::integrate::drive::search::Made;
@@ -21,6 +25,8 @@ use crate::system::GaussSystem;
 pub(in crate::integrate) enum Seen<'a, S: GaussSystem> {
     Sample(&'a State<S>),
     Event(usize, &'a State<S>),
+    /// From this time on an input is held.
+    Held(S::Scalar, S::Input),
 }
 
 /// The data of a run that stay the same during it.
@@ -97,7 +103,31 @@ impl Jumps {
     }
 }
 
-/// How a part of a run between two jumps ended, unless it reached its end.
+/// What a run has passed on since its start or the last jump.
+struct Passing<S: GaussSystem> {
+    count: u64,
+    /// The state before, for events.
+    before: Option<(State<S>, Rates<S>)>,
+    /// Whether that is still to be passed on: it is, at the end or at an error.
+    held: bool,
+    /// Whether the next state is that one.
+    resumed: bool,
+}
+
+impl<S: GaussSystem> Passing<S> {
+    const fn new() -> Self {
+        Self { count: 0, before: None, held: false, resumed: false }
+    }
+
+    /// Passes on what was held back.
+    fn end(&mut self, pass: &mut dyn FnMut(Seen<'_, S>)) {
+        if let (true, Some((state, _))) = (core::mem::take(&mut self.held), &self.before) {
+            pass(Seen::Sample(state));
+        }
+    }
+}
+
+/// How a part of a run between two jumps or instants ended, unless it reached its end.
 enum Cut<S: GaussSystem> {
     Stopped(State<S>),
     Jumped(State<S>),
@@ -139,7 +169,7 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
     ) -> (Kept<S>, Option<IntegrationError>) {
         let problem = self.problem;
         let start = problem.state(interval.start, q0.renormalise(), &z0);
-        let (mut samples, mut found) = (alloc::vec::Vec::new(), alloc::vec::Vec::new());
+        let (mut samples, mut found, mut held) = (Vec::new(), Vec::new(), Vec::new());
         let (reached, outcome) = self.drive(events, start, interval.end, &mut |seen| match seen {
             Seen::Sample(state) => {
                 let sample = problem.sample(state);
@@ -151,12 +181,13 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
                 found.push(EventSample { number, sample });
                 observer.event(number, &sample);
             }
+            Seen::Held(t, input) => held.push((t, input)),
         });
         if samples.is_empty() {
             samples.push(problem.sample(&start));
         }
         let Reached { summary, stopped_by } = reached;
-        (Kept { samples, events: found, stopped_by, summary }, outcome.err())
+        (Kept { samples, events: found, held, stopped_by, summary }, outcome.err())
     }
 
     /// Keeps nothing but the end.
@@ -172,6 +203,7 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         let (reached, outcome) = self.drive(events, start, interval.end, &mut |seen| match seen {
             Seen::Sample(state) => observer.see(&problem.sample(state)),
             Seen::Event(number, state) => observer.event(number, &problem.sample(state)),
+            Seen::Held(..) => {}
         });
         let state = outcome?;
         Ok(End { sample: problem.sample(&state), stopped_by: reached.stopped_by, summary: reached.summary })
@@ -190,13 +222,41 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         let mut jumps = Jumps::new::<S::Scalar>(start.t.lane(0), end.lane(0));
         let mut pace = Pace::new(start.t.lane(0), self.limit);
         let mut reached = Reached::default();
+        let mut passing = Passing::new();
         let mut from = start;
+        if E::SAMPLED {
+            match begin(self.problem, &mut watch, (start, end), self.limit) {
+                Ok(start) => from = start,
+                Err(kind) => return (reached, Err(IntegrationError::at(self.problem, &start, kind))),
+            }
+        }
         loop {
-            let (outcome, cut, last) = self.part(&mut watch, (&mut jumps, &mut reached), from, end, pass);
+            let mut stop = end;
+            if E::SAMPLED {
+                let held;
+                (held, stop) = match tick(self.problem, &mut watch, &from, end) {
+                    Ok(ticked) => ticked,
+                    Err(kind) => {
+                        passing.end(pass);
+                        return (reached, Err(IntegrationError::at(self.problem, &from, kind)));
+                    }
+                };
+                held.into_iter().for_each(|input| pass(Seen::Held(from.t, input)));
+            }
+            let now = (&mut jumps, &mut reached, &mut passing);
+            let (outcome, cut, last) = self.part(&mut watch, now, from, stop, pass);
+            if let (None, Ok(state)) = (&cut, &outcome)
+                && E::SAMPLED
+                && stop != end
+            {
+                (from, passing.resumed) = (*state, true);
+                continue;
+            }
+            passing.end(pass);
             let failed = |kind| Err(IntegrationError::at(self.problem, &last, kind));
             match cut {
                 Some(Cut::Jumped(state)) => {
-                    from = state;
+                    (from, passing) = (state, Passing::new());
                     let (left, tries) =
                         ((end - from.t).lane(0).abs(), reached.summary.steps + reached.summary.rejected);
                     if pace.jumped(from.t.lane(0), left, tries) {
@@ -222,28 +282,30 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         }
     }
 
-    /// From one jump to the next, with the last state that was reached.
+    /// From one jump or instant to the next, with the last state that was reached.
     #[expect(clippy::type_complexity, reason = "three things that belong together here alone")]
     fn part<E: Events<S>>(
         &self,
         watch: &mut Watch<'_, P, C, E>,
-        (jumps, reached): (&mut Jumps, &mut Reached),
+        (jumps, reached, passing): (&mut Jumps, &mut Reached, &mut Passing<S>),
         start: State<S>,
         end: S::Scalar,
         pass: &mut dyn FnMut(Seen<'_, S>),
     ) -> (Result<State<S>, IntegrationError>, Option<Cut<S>>, State<S>) {
-        let mut count = 0_u64;
-        // The state before, for events; and whether it is still to be passed on: it is, at the end or at an error.
-        let mut before: Option<(State<S>, Rates<S>)> = None;
-        let (mut held, mut cut) = (false, None);
+        let mut cut = None;
         let limit = self.limit.saturating_sub(reached.summary.steps + reached.summary.rejected);
         let outcome =
             self.control.drive(self.problem, start, end, limit, &mut |state, rates, taken: StepStatistics| {
-                if count > 0 {
+                if core::mem::take(&mut passing.resumed) {
+                    // Passed on before; the derivatives are those of another input.
+                    passing.before = Some((*state, *rates));
+                    return ControlFlow::Continue(());
+                }
+                if passing.count > 0 {
                     reached.summary.count(taken);
                 }
                 if E::ANY {
-                    let found = match &before {
+                    let found = match &passing.before {
                         None => watch.begin(state).map(|()| Outcome::On),
                         Some((from, slopes)) => {
                             let made = Made { lane: 0, before: (from, slopes), after: (state, rates) };
@@ -253,7 +315,8 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
                     cut = match found {
                         Ok(Outcome::On) => None,
                         Ok(Outcome::Here { state, after, number, stopped_by }) => {
-                            (held, reached.stopped_by, before) = (false, stopped_by, Some((state, *rates)));
+                            reached.stopped_by = stopped_by;
+                            (passing.held, passing.before) = (false, Some((state, *rates)));
                             let counted = after.map_or(Ok(()), |_| {
                                 reached.summary.jumps += 1;
                                 jumps.count(state.t.lane(0), number)
@@ -266,19 +329,16 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
                         return ControlFlow::Break(());
                     }
                 }
-                held = !count.is_multiple_of(self.every);
-                if !held {
+                passing.held = !passing.count.is_multiple_of(self.every);
+                if !passing.held {
                     pass(Seen::Sample(state));
                 }
-                if held || E::ANY {
-                    before = Some((*state, *rates));
+                if passing.held || E::ANY {
+                    passing.before = Some((*state, *rates));
                 }
-                count += 1;
+                passing.count += 1;
                 ControlFlow::Continue(())
             });
-        if let (true, Some((state, _))) = (held, &before) {
-            pass(Seen::Sample(state));
-        }
-        (outcome, cut, before.map_or(start, |(state, _)| state))
+        (outcome, cut, passing.before.map_or(start, |(state, _)| state))
     }
 }

@@ -354,9 +354,14 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
         self.limit
     }
 
-    fn with_problem<Q>(self, change: impl FnOnce(P) -> Q) -> Simulation<Q, C, O, E> {
+    pub(in crate::integrate) fn with_problem<Q>(self, change: impl FnOnce(P) -> Q) -> Simulation<Q, C, O, E> {
         let Self { problem, control, observer, events, every, limit } = self;
         Simulation { problem: change(problem), control, observer, events, every, limit }
+    }
+
+    pub(in crate::integrate) fn with_events<F>(self, change: impl FnOnce(E) -> F) -> Simulation<P, C, O, F> {
+        let Self { problem, control, observer, events, every, limit } = self;
+        Simulation { problem, control, observer, events: change(events), every, limit }
     }
 
     fn watch<G>(self, crossing: Crossing, terminal: bool, function: G) -> Simulation<P, C, O, Watched<E, G>> {

@@ -42,6 +42,7 @@ copy_and_debug!(EventSample { number, sample });
 pub struct Trajectory<'k, S: GaussSystem> {
     samples: Vec<Sample<S>>,
     events: Vec<EventSample<S>>,
+    held: Vec<Held<S>>,
     stopped_by: Option<usize>,
     summary: Summary,
     between: Rc<dyn Between<S> + 'k>,
@@ -49,10 +50,11 @@ pub struct Trajectory<'k, S: GaussSystem> {
 
 impl<S: GaussSystem> Clone for Trajectory<'_, S> {
     fn clone(&self) -> Self {
-        let Self { samples, events, stopped_by, summary, between } = self;
+        let Self { samples, events, held, stopped_by, summary, between } = self;
         Self {
             samples: samples.clone(),
             events: events.clone(),
+            held: held.clone(),
             stopped_by: *stopped_by,
             summary: *summary,
             between: Rc::clone(between),
@@ -66,10 +68,14 @@ impl<S: GaussSystem> fmt::Debug for Trajectory<'_, S> {
     }
 }
 
+/// From when on controllers held which input.
+pub(in crate::integrate) type Held<S> = (<S as GaussSystem>::Scalar, <S as GaussSystem>::Input);
+
 /// The record of a run.
 pub(in crate::integrate) struct Kept<S: GaussSystem> {
     pub(in crate::integrate) samples: Vec<Sample<S>>,
     pub(in crate::integrate) events: Vec<EventSample<S>>,
+    pub(in crate::integrate) held: Vec<Held<S>>,
     pub(in crate::integrate) stopped_by: Option<usize>,
     pub(in crate::integrate) summary: Summary,
 }
@@ -87,8 +93,8 @@ impl<'k, S: GaussSystem> Trajectory<'k, S> {
 
     /// The samples of a run, with what makes states between them.
     pub(in crate::integrate) fn made_by(kept: Kept<S>, between: Rc<dyn Between<S> + 'k>) -> Self {
-        let Kept { samples, events, stopped_by, summary } = kept;
-        Self { samples, events, stopped_by, summary, between }
+        let Kept { samples, events, held, stopped_by, summary } = kept;
+        Self { samples, events, held, stopped_by, summary, between }
     }
 
     /// The events in the order in which they happened. They are states of the run by themselves; only where the state
@@ -172,7 +178,7 @@ impl<'k, S: GaussSystem> Trajectory<'k, S> {
         };
         let from = &self.samples[before];
         // The last one has none behind it.
-        if from.t == t || before + 1 == self.samples.len() { Ok(*from) } else { self.between.reach(from, t) }
+        if from.t == t || before + 1 == self.samples.len() { Ok(*from) } else { self.between.reach(from, t, &self.held) }
     }
 
     /// The states at given times, in any order: [`at`](Self::at) each of them.
@@ -181,6 +187,20 @@ impl<'k, S: GaussSystem> Trajectory<'k, S> {
     /// The error of [`at`](Self::at) for the first time whose state cannot be found.
     pub fn at_times(&self, times: impl IntoIterator<Item = S::Scalar>) -> Result<Vec<Sample<S>>, IntegrationError> {
         times.into_iter().map(|t| self.at(t)).collect()
+    }
+
+    /// The input that acted at a time of the run in a state: that of [`Simulation::input`], or what controllers that
+    /// [sample](crate::integrate::Simulation::sampled) held, at an instant where that changes the one from there on.
+    /// For tables and curves: `run.table().columns(["push"], |s| run.input(s.t, &s.q, &s.z).into())`.
+    ///
+    /// [`Simulation::input`]: crate::integrate::Simulation::input
+    pub fn input(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Input {
+        self.between.input(&self.held, t, q, z)
+    }
+
+    /// Whether the input that controllers hold changes at this time.
+    pub(crate) fn samples_at(&self, t: S::Scalar) -> bool {
+        self.held.get(acting(&self.held, t)).is_some_and(|(since, _)| since.lane(0) == t.lane(0))
     }
 
     /// The number of the last sample that is not behind `t`, if the trajectory covers it.
@@ -206,8 +226,11 @@ impl<'a, S: GaussSystem> IntoIterator for &'a Trajectory<'_, S> {
 
 /// The computation of states between samples.
 pub(in crate::integrate) trait Between<S: GaussSystem> {
-    /// The state at a time, from the sample before it.
-    fn reach(&self, from: &Sample<S>, t: S::Scalar) -> Result<Sample<S>, IntegrationError>;
+    /// The state at a time, from the sample before it, with what controllers held in the run.
+    fn reach(&self, from: &Sample<S>, t: S::Scalar, held: &[Held<S>]) -> Result<Sample<S>, IntegrationError>;
+
+    /// The input at a time in a state.
+    fn input(&self, held: &[Held<S>], t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Input;
 
     /// The error for a state that cannot be found.
     fn refuse(&self, near: &Sample<S>, kind: IntegrationErrorKind) -> IntegrationError;
@@ -221,8 +244,13 @@ pub(in crate::integrate) struct Maker<P, C> {
     pub(in crate::integrate) every_step: bool,
 }
 
-impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Between<S> for Maker<P, C> {
-    fn reach(&self, from: &Sample<S>, t: S::Scalar) -> Result<Sample<S>, IntegrationError> {
+impl<P, C> Maker<P, C> {
+    /// A step from a sample, or where samples are several steps apart a short run.
+    fn step<S: GaussSystem>(&self, from: &Sample<S>, t: S::Scalar) -> Result<Sample<S>, IntegrationError>
+    where
+        P: Problem<System = S>,
+        C: Control<S>,
+    {
         let Self { problem, control, every_step } = self;
         let state = problem.state(from.t, from.q, &from.z);
         if !every_step {
@@ -232,6 +260,42 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Between<S> for Maker
         match control.within(problem, &state, &problem.rates(&state), t - state.t) {
             Ok(end) => Ok(problem.sample(&State { t, ..end })),
             Err(kind) => Err(IntegrationError::at(problem, &state, kind)),
+        }
+    }
+}
+
+/// The number of the input that is held at a time.
+fn acting<T: Real, I>(held: &[(T, I)], t: T) -> usize {
+    held.partition_point(|(since, _)| since.lane(0) <= t.lane(0)).saturating_sub(1)
+}
+
+impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Between<S> for Maker<P, C> {
+    fn reach(&self, from: &Sample<S>, t: S::Scalar, held: &[Held<S>]) -> Result<Sample<S>, IntegrationError> {
+        let Some(cell) = self.problem.held() else { return self.step(from, t) };
+        let mut state = *from;
+        // Samples may be several instants apart.
+        for (n, &(since, input)) in held.iter().enumerate().skip(acting(held, from.t)) {
+            if since.lane(0) >= t.lane(0) {
+                break;
+            }
+            let until = held.get(n + 1).map_or(t, |&(next, _)| if next.lane(0) < t.lane(0) { next } else { t });
+            let before = cell.replace(input);
+            let reached = self.step(&state, until);
+            cell.set(before);
+            state = reached?;
+        }
+        Ok(state)
+    }
+
+    fn input(&self, held: &[Held<S>], t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Input {
+        match (self.problem.held(), held.get(acting(held, t))) {
+            (Some(cell), Some(&(_, input))) => {
+                let before = cell.replace(input);
+                let acts = self.problem.input(t, q, z);
+                cell.set(before);
+                acts
+            }
+            _ => self.problem.input(t, q, z),
         }
     }
 

@@ -1,0 +1,181 @@
+//! When a controller samples, and when what it gives acts.
+
+use core::fmt;
+
+use alloc::collections::VecDeque;
+
+use crate::integrate::drive::event::{Events, Mark};
+use crate::integrate::drive::schedule::Scheduled;
+use crate::integrate::drive::search::Function;
+use crate::integrate::problem::error::SamplingMistake;
+use crate::integrate::problem::sampled::Controller;
+use crate::integrate::problem::state::Sample;
+use crate::real::Real;
+use crate::sealed::Sealed;
+use crate::system::GaussSystem;
+use crate::vector_space::VectorSpace;
+
+/// From a sample to its effect.
+#[derive(Clone, Copy, Debug)]
+enum Delay {
+    Samples(u32),
+    Time(f64),
+}
+
+/// A controller with its instants.
+#[derive(Clone)]
+pub struct Task<S: GaussSystem, C> {
+    controller: C,
+    period: f64,
+    delay: Delay,
+    initially: S::Input,
+    start: S::Scalar,
+    /// Samples so far.
+    count: u64,
+    now: S::Input,
+    /// Inputs that are to act, with their times, in this order.
+    pending: VecDeque<(S::Scalar, S::Input)>,
+}
+
+impl<S: GaussSystem<Input: VectorSpace<S::Scalar>>, C> Task<S, C> {
+    /// Without a delay.
+    pub(in crate::integrate) fn new(period: f64, controller: C) -> Self {
+        let (zero, start) = (S::Input::zero(), S::Scalar::zero());
+        let (delay, pending) = (Delay::Samples(0), VecDeque::new());
+        Self { controller, period, delay, initially: zero, start, count: 0, now: zero, pending }
+    }
+
+    /// Acts after so much time.
+    pub(in crate::integrate) fn delayed(self, delay: f64) -> Self {
+        Self { delay: Delay::Time(delay), ..self }
+    }
+
+    /// Acts after so many samples.
+    pub(in crate::integrate) fn delayed_samples(self, samples: u32) -> Self {
+        Self { delay: Delay::Samples(samples), ..self }
+    }
+
+    /// What is held until the first sample acts.
+    pub(in crate::integrate) fn initially(self, input: S::Input) -> Self {
+        Self { initially: input, ..self }
+    }
+
+    /// The instants are multiples of the period, not sums of it, as the times of steps of one length are.
+    fn time(&self, count: u64) -> S::Scalar {
+        S::Scalar::from_f64(count as f64).fma(S::Scalar::from_f64(self.period), self.start)
+    }
+
+    /// When the input of a sample acts; nothing where that is at once. What is a whole number of periods but for a few
+    /// roundings ends at an instant.
+    fn acts(&self, count: u64) -> Option<S::Scalar> {
+        let later = |samples: u64| (samples > 0).then(|| self.time(count + samples));
+        match self.delay {
+            Delay::Samples(samples) => later(samples.into()),
+            Delay::Time(delay) => {
+                let samples = delay / self.period;
+                let whole = (samples + 0.5) as u64;
+                if Real::abs(samples - whole as f64) <= 8.0 * f64::EPSILON * samples {
+                    later(whole)
+                } else {
+                    Some(self.time(count) + S::Scalar::from_f64(delay))
+                }
+            }
+        }
+    }
+}
+
+impl<S: GaussSystem, C> fmt::Debug for Task<S, C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { period, delay, count, now, .. } = self;
+        let mut shown = f.debug_struct("Task");
+        shown.field("period", period).field("delay", delay).field("count", count).field("now", now);
+        shown.finish_non_exhaustive()
+    }
+}
+
+impl<S, C> Scheduled<S> for Task<S, C>
+where
+    S: GaussSystem<Input: VectorSpace<S::Scalar>>,
+    C: Controller<S>,
+{
+    fn begin(&mut self, start: S::Scalar) -> Result<(), SamplingMistake> {
+        if !(self.period.is_finite() && self.period > 0.0) {
+            return Err(SamplingMistake::Period(self.period));
+        }
+        if let Delay::Time(delay) = self.delay
+            && !(delay.is_finite() && delay >= 0.0)
+        {
+            return Err(SamplingMistake::Delay(delay));
+        }
+        (self.start, self.count, self.now) = (start, 0, self.initially);
+        self.pending.clear();
+        self.controller.start();
+        Ok(())
+    }
+
+    fn period(&self) -> f64 {
+        self.period
+    }
+
+    fn tick(&mut self, now: &Sample<S>) -> Result<(), SamplingMistake> {
+        let t = now.t.lane(0);
+        while let Some(&(at, input)) = self.pending.front()
+            && at.lane(0) <= t
+        {
+            self.now = input;
+            self.pending.pop_front();
+        }
+        if self.time(self.count).lane(0) <= t {
+            let input = self.controller.sample(now.t, &now.q, &now.z);
+            if !input.is_finite() {
+                return Err(SamplingMistake::Input);
+            }
+            match self.acts(self.count) {
+                None => self.now = input,
+                Some(at) => self.pending.push_back((at, input)),
+            }
+            self.count += 1;
+        }
+        Ok(())
+    }
+
+    fn next(&self) -> S::Scalar {
+        let sample = self.time(self.count);
+        self.pending.front().map_or(sample, |&(at, _)| if at.lane(0) < sample.lane(0) { at } else { sample })
+    }
+
+    fn added_to(&self, others: Option<S::Input>) -> S::Input {
+        others.map_or(self.now, |others| others.add_scaled(S::Scalar::one(), &self.now))
+    }
+}
+
+/// Events, and a controller that samples.
+#[derive(Clone, Debug)]
+pub struct Controlled<E, K> {
+    pub(in crate::integrate) others: E,
+    pub(in crate::integrate) task: K,
+}
+
+impl<E, K> Sealed for Controlled<E, K> {}
+
+impl<S: GaussSystem, E: Events<S>, K: Scheduled<S>> Events<S> for Controlled<E, K> {
+    const ANY: bool = E::ANY;
+    const SAMPLED: bool = true;
+
+    fn count(&self) -> usize {
+        self.others.count()
+    }
+
+    fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {
+        self.others.each(visit);
+    }
+
+    fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {
+        self.others.jump(number, state)
+    }
+
+    fn schedule(&mut self, visit: &mut dyn FnMut(&mut dyn Scheduled<S>)) {
+        self.others.schedule(visit);
+        visit(&mut self.task);
+    }
+}
