@@ -168,27 +168,27 @@ fn corrections<T: Real>() -> usize {
 const NEAR: f64 = 1e-9;
 
 /// The speeds `z + A⁻¹WᵀP` after impulses P, where components that are no more than the rounding of their terms are 0:
-/// what rests does not creep. Where something moves as fast as `fastest`, or faster, terms are asked for where a speed
-/// is a small part of it.
+/// what rests does not creep. Terms are asked for where a speed is a small part of the largest.
 pub(crate) fn after_impulses<K: ContactSystem>(
     kernel: &K,
-    (z, fastest): (&K::Speeds, f64),
+    z: &K::Speeds,
     factors: &K::ImpulseFactors,
     impulses: &K::ContactRows,
 ) -> K::Speeds {
     let speeds = z.add_scaled(K::Scalar::one(), &kernel.impulse_velocities(factors, impulses));
-    settled((z, fastest), speeds, acting::<K>(impulses), || kernel.impulse_terms(factors, impulses))
+    settled((z, 0.0), speeds, acting::<K>(impulses), || kernel.impulse_terms(factors, impulses))
 }
 
-/// Speeds with components of zero for those that are rounding of so many terms, of given sizes.
+/// Speeds with components of zero for those that are rounding of so many terms, of given sizes. Terms are asked for where
+/// a speed is a small part of the largest, or of a speed that is given.
 fn settled<V: VectorSpace<T>, T: Real>(
-    (z, fastest): (&V, f64),
+    (z, given): (&V, f64),
     mut speeds: V,
     count: u32,
     terms: impl FnOnce() -> V,
 ) -> V {
     let size = |v: &V, i: usize| value(v.component(i)).abs();
-    let largest = (0..V::DIM).map(|i| size(z, i).max(size(&speeds, i))).fold(fastest, f64::max);
+    let largest = (0..V::DIM).map(|i| size(z, i).max(size(&speeds, i))).fold(given, f64::max);
     let is_near = |speed: f64| speed != 0.0 && speed <= NEAR * largest;
     if count == 0 || !(0..V::DIM).any(|i| is_near(size(&speeds, i))) {
         return speeds;

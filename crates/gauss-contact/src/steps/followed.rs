@@ -156,7 +156,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         same.solved += 1;
         let mut rows = L::ContactRows::zero();
         impulses.iter().enumerate().for_each(|(row, impulse)| rows.set_component(row, *impulse));
-        let z = after_impulses(*kernel, (&free, f64::INFINITY), &dynamics.response.factors, &rows);
+        let z = after_impulses(*kernel, &free, &dynamics.response.factors, &rows);
         let (q, z) = self.second_half(z)?;
         self.projected((q, z), &dynamics, (taken, modes, &passes), same)
     }
@@ -204,7 +204,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
     ) -> Moved<L> {
         let (kernel, t) = (self.kernel, Dual::constant(self.t + self.h));
         let mut memory = vec![Dual::constant(0.0); Projection::<L>::MEMORY];
-        let mut projection = Projection::<L>::new(&mut memory, f64::INFINITY);
+        let mut projection = Projection::<L>::new(&mut memory);
         let before = kernel.gaps(t, &q);
         let closed = projection.close(kernel, (t, q, before), &dynamics.response, &taken.rests);
         let Closed { mut q, gaps, .. } = closed.map_err(ContactErrorKind::Projection)?;

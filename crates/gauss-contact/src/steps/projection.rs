@@ -25,8 +25,6 @@ pub(crate) struct Projection<'m, K: ContactSystem> {
     rows: K::EachRow<Place>,
     /// Of the rows of factors.
     ends: K::EachRow<Place>,
-    /// What is much smaller may be rounding.
-    fastest: f64,
     count: usize,
     /// Contacts whose gaps were brought to zero.
     pub(crate) held: K::EachContact<bool>,
@@ -48,13 +46,12 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     /// How many numbers it needs.
     pub(crate) const MEMORY: usize = stride(Self::ROWS) * (Self::ROWS + 1) + Self::ROWS;
 
-    /// `fastest`: how large speeds of the step are, or increments.
-    pub(crate) fn new(memory: &'m mut [T], fastest: f64) -> Self {
+    pub(crate) fn new(memory: &'m mut [T]) -> Self {
         let (matrix, memory) = memory.split_at_mut(Self::ROWS * stride(Self::ROWS));
         let (solution, memory) = memory.split_at_mut(stride(Self::ROWS));
         let right = &mut memory[..Self::ROWS];
         let (rows, ends) = (Each::from_fn(|_| 0), Each::from_fn(|_| 0));
-        Self { matrix, right, solution, rows, ends, fastest, count: 0, held: Each::from_fn(|_| false) }
+        Self { matrix, right, solution, rows, ends, count: 0, held: Each::from_fn(|_| false) }
     }
 
     /// Factors of D at some rows; whether there are any.
@@ -95,7 +92,7 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
         solve_symmetric(self.matrix, &self.ends.as_ref()[..n], &self.right[..n], self.solution);
         let mut impulses = K::ContactRows::zero();
         (0..n).for_each(|k| impulses.set_component(usize::from(self.rows[k]), self.solution[k]));
-        after_impulses(kernel, (z, self.fastest), &response.factors, &impulses)
+        after_impulses(kernel, z, &response.factors, &impulses)
     }
 
     /// Gaps of closed contacts brought to zero, and those that are negative, from places with their gaps.

@@ -406,9 +406,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
         let solved = solved.map_err(|kind| self.error(None, kind))?;
         let dependent = known || again;
-        let fastest = (0..K::Speeds::DIM).map(|i| free.component(i).abs()).fold(0.0, f64::max);
-        let z = after_impulses(self.kernel, (&free, fastest), &response.factors, &impulses);
-        Ok(Pushed { z, fastest, impulses, dependent, solved })
+        let z = after_impulses(self.kernel, &free, &response.factors, &impulses);
+        Ok(Pushed { z, impulses, dependent, solved })
     }
 
     /// Closed gaps brought to zero at the end of a step.
@@ -421,7 +420,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let (start, t) = (self.t, self.t + h);
         let failed = |cause| ContactError { contact: None, time: start, kind: ContactErrorKind::Projection(cause) };
         let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
-        let mut projection = Projection::<K>::new(of_projection, h * pushed.fastest);
+        let mut projection = Projection::<K>::new(of_projection);
         projection.close(self.kernel, (t, q, gaps), response, pushed.solved.rests.as_ref()).map_err(failed)
     }
 
@@ -433,7 +432,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         closed: Closed<K>,
         (z, rates): (K::Speeds, K::ContactRows),
     ) -> End<K> {
-        let Pushed { impulses, fastest, dependent, solved, .. } = pushed;
+        let Pushed { impulses, dependent, solved, .. } = pushed;
         let Closed { q, gaps, penetration, closure } = closed;
         // What begins to rest is brought to zero to the last bit, and stays there.
         let kind = |mode: &Mode| core::mem::discriminant(mode);
@@ -441,7 +440,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         self.dependent &= !changes;
         let rounding = if changes { 0.0 } else { solved.found.residual.rounding };
         let of_projection = &mut self.memory.as_mut()[Impulses::memory(Self::ROWS)..];
-        let mut projection = Projection::<K>::new(of_projection, fastest);
+        let mut projection = Projection::<K>::new(of_projection);
         let mode = |i: usize| if solved.rests[i] { self.next[i] } else { Mode::Open };
         let at_end = (self.t + h, &q, z, rates);
         let (z, rates) = projection.stop(self.kernel, at_end, response, (mode, rounding));
