@@ -200,7 +200,8 @@ fn delays_by_samples_and_by_time() {
         } else {
             simulation.delayed(whole as f64 * 0.1 + part)
         };
-        let run = delayed.initially(One::new(0.5)).adaptive(1e-12, 1e-12).run(start.0, start.1, 0.0..5.0).expect("runs");
+        let run =
+            delayed.initially(One::new(0.5)).adaptive(1e-12, 1e-12).run(start.0, start.1, 0.0..5.0).expect("runs");
         let (mut body, mut given) = (Parabola { x: 1.0, v: 0.0 }, vec![0.5; whole + 1]);
         for n in 0..50 {
             let input = law(body.x, body.v);
@@ -292,7 +293,10 @@ fn events_and_samples_in_one_run() {
     assert_eq!(events.iter().map(|(number, _)| *number).collect::<Vec<_>>(), [0, 1, 2], "{events:?}");
     // Zeros are found to some roundings of the time.
     let expected = [0.1 * 7.0, 2.0 + root, 4.0];
-    assert!(events.iter().zip(expected).all(|(event, t)| (event.1 - t).abs() < 64.0 * f64::EPSILON * 4.0), "{events:?}");
+    assert!(
+        events.iter().zip(expected).all(|(event, t)| (event.1 - t).abs() < 64.0 * f64::EPSILON * 4.0),
+        "{events:?}"
+    );
     let flight = 4.0 - (2.0 + root);
     let height = 0.5 * root * flight - 0.5 * flight * flight + 3.0 * 0.5 - 0.5 * 0.25;
     assert!((run.last().q[0] - height).abs() < 1e-10 && (run.last().z[0] - 2.5).abs() < 1e-10);

@@ -18,8 +18,8 @@ pub use acceptance::{cause, pace, projection, tolerance};
 pub use events::{each, task};
 pub use events::{event, schedule, search};
 pub(in crate::integrate) use events::{jump, leaving, zero};
+pub(in crate::integrate) use runs::interval;
 #[cfg(feature = "alloc")]
 pub use runs::{boxed, trajectory};
-pub(in crate::integrate) use runs::interval;
 pub use runs::{observer, run, simulation, summary};
 pub use step_control::{adaptive, compensated, control, fixed, logarithms, step_length};

@@ -178,7 +178,11 @@ impl<'k, S: GaussSystem> Trajectory<'k, S> {
         };
         let from = &self.samples[before];
         // The last one has none behind it.
-        if from.t == t || before + 1 == self.samples.len() { Ok(*from) } else { self.between.reach(from, t, &self.held) }
+        if from.t == t || before + 1 == self.samples.len() {
+            Ok(*from)
+        } else {
+            self.between.reach(from, t, &self.held)
+        }
     }
 
     /// The states at given times, in any order: [`at`](Self::at) each of them.
