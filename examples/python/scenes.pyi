@@ -690,3 +690,121 @@ class Wire(Kernel):
         q (..., 6), z (..., 5) -> (..., 1)
         """
         ...
+
+class Lander(Kernel):
+    """A capsule that comes down on its parachute, through a wind that freshens with height.
+    The canopy hangs at a fixed place above the capsule. Its drag grows with the square of its velocity against the air,
+    along that velocity; the air that it carries along is a point there, which weighs nothing. The wind grows with the
+    height h as h/√(h² + `layer`²): it is smooth at the ground, too, below which a step may try before it is cut at the
+    touchdown. Not modelled: the weight of the canopy, its lift, slack lines, gusts, the drag of the capsule.
+
+    Parameters:
+      mass: number (kg): Of the capsule.
+      inertia: array (3,): About its centre of mass, principal moments.
+      drag_area: number (m^2): Of the canopy: coefficient of drag times area.
+      air: number (kg): Mass of what it carries along.
+      riser: number (m): From the centre of mass of the capsule up to the canopy.
+      density: number (kg/m^3): Of the air.
+      wind_x: number (m/s): High above the ground.
+      wind_y: number (m/s): High above the ground.
+      layer: number (m): Height in which the wind freshens.
+      g: number (m/s^2): Acceleration of free fall.
+
+    Coordinates:
+      pose (7 numbers): R and b of the body: x̂ = R x + b
+
+    Speeds:
+      b_dot (3 numbers): velocity of O, observer's axes
+      omega (3 numbers): angular velocity, body axes
+    """
+    def __init__(self, *, mass: float, inertia: ArrayLike, drag_area: float, air: float, riser: float, density: float, wind_x: float, wind_y: float, layer: float, g: float) -> None: ...
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The rates of the speeds.
+
+        q (..., 7), z (..., 6) -> (..., 6)
+        """
+        ...
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
+
+        q (..., 7), z (..., 6), acceleration (..., 6) -> (..., 6)
+        """
+        ...
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Inverse dynamics at acceleration zero.
+
+        q (..., 7), z (..., 6) -> (..., 6)
+        """
+        ...
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Second derivatives of the kinetic energy by z.
+
+        q (..., 7) -> (..., 6, 6)
+        """
+        ...
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The velocity of the configuration, seen from the body.
+
+        q (..., 7), z (..., 6) -> (..., 6)
+        """
+        ...
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Rates of the numbers of q, then those of z, for any solver.
+
+        q (..., 7), z (..., 6) -> (..., 13)
+        """
+        ...
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Derivatives of the kinetic energy by z.
+
+        q (..., 7), z (..., 6) -> (..., 6)
+        """
+        ...
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The speeds with these momenta.
+
+        q (..., 7), p (..., 6) -> (..., 6)
+        """
+        ...
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The rates of the momenta.
+
+        q (..., 7), p (..., 6) -> (..., 6)
+        """
+        ...
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The kinetic energy, that of a fluid included.
+
+        q (..., 7), z (..., 6) -> (...)
+        """
+        ...
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The potential energy.
+
+        q (..., 7) -> (...)
+        """
+        ...
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """Kinetic and potential energy.
+
+        q (..., 7), z (..., 6) -> (...)
+        """
+        ...
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The distance from a singularity of the coordinates: 0 there, 1 at best.
+
+        q (..., 7) -> (...)
+        """
+        ...
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The configuration moved by an increment that is seen from the body.
+
+        q (..., 7), increment (..., 6) -> (..., 7)
+        """
+        ...
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+        """The shortest increment from q to the other.
+
+        q (..., 7), other (..., 7) -> (..., 6)
+        """
+        ...

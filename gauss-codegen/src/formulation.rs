@@ -6,13 +6,13 @@ use crate::algebra::{Expr, Graph, Map, Notation, Substitution};
 use crate::error::Result;
 use crate::kernel::{Differentiation, Wanted};
 use crate::mechanics::{
-    Claims, Constraints, Coordinate, Elimination, Formulas, Hessian, InertialParameter, InertialParameters,
-    InverseLinearization, Linearization, Regressor, System, check_system_against_definition, needless_constraints,
-    rotation_of_quaternion,
+    Claims, Constraints, Coordinate, Elimination, Formula, Formulas, Hessian, InertialParameter, InertialParameters,
+    InverseLinearization, Linearization, Method, Reactions, Regressor, System, SystemFault, check_reactions,
+    check_system_against_definition, needless_constraints, rotation_of_quaternion,
 };
 use crate::methods::DerivativeKind;
 use crate::mistakes::{
-    eliminate, not_linear, refuse_contacts, refuse_curved_kinematics, refuse_exhausted, refuse_idle_speeds,
+    eliminate, failed, not_linear, refuse_contacts, refuse_curved_kinematics, refuse_exhausted, refuse_idle_speeds,
     system_faults,
 };
 use crate::terms::{self, WantedMethod};
@@ -45,7 +45,7 @@ impl<'g> Formulation<'g> {
     /// # Errors
     /// What only the derivation finds wrong with a system.
     pub fn of(translated: Translated<'g>) -> Result<Self> {
-        let Reduced { given, mut system, elimination } = Reduced::of(translated)?;
+        let Reduced { given, mut system, elimination, reactions } = Reduced::of(translated)?;
         let (wanted_of, graph) = (&given.item.wanted, system.scene.graph);
         refuse_contacts(&given, &system)?;
         let printed = printed(&mut system);
@@ -74,6 +74,9 @@ impl<'g> Formulation<'g> {
                 WantedMethod::GravityTorques => formulas.extend([system.gravity_torques()]),
                 WantedMethod::JacobianRates => formulas.extend(system.jacobian_rates(&given.frames)),
             }
+        }
+        if let Some(reactions) = reactions {
+            formulas.extend(reactions_of(&reactions, (&given, &system), elimination.as_ref(), &formulas)?);
         }
         let mut inertial_parameters = Vec::new();
         if let Some(Regressor { differentiated, formulas: of_regressor, parameters }) = regressor {
@@ -130,6 +133,24 @@ impl<'g> Formulation<'g> {
     pub fn can_drift(&self) -> bool {
         self.elimination.as_ref().map_or(!self.system.constraints.is_empty(), Elimination::can_drift)
     }
+}
+
+/// Reactions of joints, held to the definition.
+fn reactions_of<'g>(
+    reactions: &Reactions<'g>,
+    (given, system): (&Given<'g>, &System<'g>),
+    elimination: Option<&Elimination<'g>>,
+    formulas: &Formulas<'g>,
+) -> Result<Vec<Formula<'g>>> {
+    check_reactions(reactions).map_err(|found| system_faults(given, system, &[SystemFault::Disagreement(found)]))?;
+    let none = Vec::new();
+    let multipliers = formulas.get(Method::Multipliers).unwrap_or(&none);
+    let constraints = multipliers.first().map_or(0, Vec::len);
+    if !reactions.has([constraints, system.contacts.rates.len()]) {
+        return Err(failed(given, system, &"joints that are let go have other constraints or contacts"));
+    }
+    let formula = reactions.formula(multipliers, elimination.map(|elimination| (elimination, system)));
+    Ok(std::iter::once(formula).chain(reactions.of_contacts()).collect())
 }
 
 /// Whatever is derived from the system as it is, and λ.
@@ -201,28 +222,34 @@ struct Reduced<'g> {
     given: Given<'g>,
     system: System<'g>,
     elimination: Option<Elimination<'g>>,
+    reactions: Option<Reactions<'g>>,
 }
 
 impl<'g> Reduced<'g> {
-    fn of(Translated { scene, mut given }: Translated<'g>) -> Result<Self> {
+    fn of(Translated { scene, let_go, mut given }: Translated<'g>) -> Result<Self> {
         refuse_exhausted(&given.item, scene.graph)?;
         refuse_curved_kinematics(&given, &scene)?;
         let mut whole = System::new(scene);
         refuse_exhausted(&given.item, whole.scene.graph)?;
-        leave_out_needless(&given, &mut whole);
+        let needless = leave_out_needless(&given, &mut whole);
+        let reactions = let_go.map(|mut let_go| {
+            let_go.leave_out(&needless);
+            Reactions::new(let_go)
+        });
         refuse_idle_speeds(&given, &whole)?;
         let Some(independent) = &given.independent else {
-            return Ok(Self { given, system: whole, elimination: None });
+            return Ok(Self { given, system: whole, elimination: None, reactions });
         };
         let elimination = eliminate(&given.constraints, whole, independent)?;
         let system = System::new(elimination.reduced());
         given.substitute(&Substitution::new(elimination.replacement()));
-        Ok(Self { given, system, elimination: Some(elimination) })
+        Ok(Self { given, system, elimination: Some(elimination), reactions })
     }
 }
 
 /// Components of vectors that follow from others, and what a file says twice: nobody has written those one by one.
-fn leave_out_needless<'g>(given: &Given<'g>, system: &mut System<'g>) {
+/// Gives back their numbers.
+fn leave_out_needless<'g>(given: &Given<'g>, system: &mut System<'g>) -> Vec<usize> {
     let together = |clause: usize| given.constraints[clause].is_vector || given.constraints[clause].in_file.is_some();
     if system.scene.constraints.iter().any(|constraint| together(constraint.clause)) {
         let mut needless = system.scene.graph.aside(|| needless_constraints(system, &given.literals));
@@ -232,7 +259,9 @@ fn leave_out_needless<'g>(given: &Given<'g>, system: &mut System<'g>) {
         if !needless.is_empty() {
             system.leave_out(&needless);
         }
+        return needless;
     }
+    Vec::new()
 }
 
 /// What the numbers of fields are called, by their symbols.

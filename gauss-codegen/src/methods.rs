@@ -48,6 +48,10 @@ pub enum Method {
     CentroidalMomentum,
     CentroidalMatrix,
     CentroidalBias,
+    /// Of the joints that are wanted, one after the other: force and torque.
+    Reactions,
+    /// What unit contact forces take from them, row by row; only with contacts, and without constraints.
+    ContactReactions,
     /// ∂C/∂ż at ż = 0; what holds weight and buoyancy.
     NonlinearEffects,
     GravityTorques,
@@ -101,8 +105,10 @@ impl Method {
         [Self::TotalMass, Self::CenterOfMass, Self::CentroidalMomentum, Self::CentroidalMatrix, Self::CentroidalBias];
 
     /// What a kernel has on request, but single frames, and with contacts.
-    pub const ASKED_FOR: [Self; 15] = [
+    pub const ASKED_FOR: [Self; 17] = [
         Self::Frames,
+        Self::Reactions,
+        Self::ContactReactions,
         Self::CenterOfMass,
         Self::CentroidalMomentum,
         Self::CentroidalMatrix,
@@ -151,6 +157,8 @@ impl Method {
             Method::OtherForces => "other_forces",
             Method::OfFrame(quantity, _) => quantity.name(),
             Method::Frames => "frames",
+            Method::Reactions => "reactions_at",
+            Method::ContactReactions => "contact_reactions",
             Method::TotalMass => "total_mass",
             Method::CenterOfMass => "center_of_mass",
             Method::CentroidalMomentum => "centroidal_momentum",

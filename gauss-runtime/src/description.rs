@@ -148,6 +148,10 @@ by_method! {
     regressor,
     /// Of [`FramedSystem::frames`](crate::frames::FramedSystem::frames).
     frames,
+    /// Of [`Reactions::reactions_at`](crate::reactions::Reactions::reactions_at): of all joints together.
+    reactions_at,
+    /// Of [`ContactReactions::contact_reactions`](crate::reactions::ContactReactions::contact_reactions).
+    contact_reactions,
     /// Of [`CentroidalSystem::center_of_mass`](crate::centroidal::CentroidalSystem::center_of_mass).
     center_of_mass,
     /// Of [`CentroidalSystem::centroidal_momentum`](crate::centroidal::CentroidalSystem::centroidal_momentum).

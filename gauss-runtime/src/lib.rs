@@ -9,6 +9,7 @@
 //! | [`constraint`] | [`ConstrainedSystem`](constraint::ConstrainedSystem): multipliers, projection on constraints |
 //! | [`forces`] | [`ForcedSystem`](forces::ForcedSystem): forces, element by element; powers and the balance of energy |
 //! | [`frames`] | [`FramedSystem`](frames::FramedSystem): poses, velocities and Jacobians of frames by name |
+//! | [`reactions`](mod@reactions) | [`Reactions`](reactions::Reactions): forces and torques of joints and bearings |
 //! | [`centroidal`] | [`CentroidalSystem`](centroidal::CentroidalSystem): centre of mass, momenta about it; gravity torques |
 //! | [`operational`] | the inertia of a system as felt at a frame, and the mass matrix factored |
 //! | [`linearize`] | [`LinearizedSystem`](linearize::LinearizedSystem): exact derivatives by state, time and input |
@@ -91,6 +92,7 @@ pub mod linearize;
 pub mod monitor;
 pub mod operational;
 pub mod prelude;
+pub mod reactions;
 pub mod real;
 #[cfg(feature = "serde")]
 pub mod saved;

@@ -26,6 +26,7 @@ pub use crate::integrate::{
 };
 pub use crate::inverse::InverseLinearizedSystem;
 pub use crate::linearize::LinearizedSystem;
+pub use crate::reactions::{ContactReactions, Reactions};
 pub use crate::real::Real;
 pub use crate::series::TaylorSystem;
 pub use crate::simd::Lanes;

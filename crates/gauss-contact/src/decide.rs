@@ -13,7 +13,7 @@ use gauss_runtime::system::GaussSystem;
 
 use crate::dense::{Matrix, dot, epsilon, norm, size, sum, value};
 use crate::error::{ContactError, ContactErrorKind};
-use crate::friction::Bounds;
+use crate::friction::{Bounds, invalid};
 use crate::history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
 use crate::impact::{Impact, Struck, after, rows};
 use crate::law::{Law, carrier};
@@ -290,7 +290,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
     fn friction(&self, made: &ContactTrajectory<'k, K>) -> Result<K::ContactRows, ContactError> {
         let friction = self.kernel.friction(self.t, &self.q, &self.z, &(made.input)(self.t, &self.q, &self.z));
         for (i, contact) in K::CONTACTS.iter().enumerate() {
-            if let Some(friction) = Bounds::of(contact, &friction).invalid() {
+            if let Some(friction) = invalid(contact, &friction) {
                 return Err(self.error(Some(i), ContactErrorKind::InvalidFriction { friction }));
             }
         }

@@ -19,6 +19,18 @@ pub(crate) struct Bounds<T = f64> {
     pub(crate) weights: [T; 3],
 }
 
+/// The number that is no bound of friction: negative, not finite, or zero along some of the axes alone, where nothing
+/// would hold what sticks along them. Of several lanes that of the first that has one.
+pub(crate) fn invalid<T: Real, V: VectorSpace<T>>(contact: &Contact, friction: &V) -> Option<f64> {
+    let of_lane = |lane: usize| {
+        let each = || contact.friction_rows().map(|row| friction.component(row).lane(lane));
+        let is_bound = |x: f64| x >= 0.0 && x.is_finite();
+        let alone = each().any(|x| x == 0.0) && each().any(|x| x != 0.0);
+        each().find(|x| !is_bound(*x)).or(alone.then_some(0.0))
+    };
+    (0..T::LANES).find_map(of_lane)
+}
+
 impl<T: Real> Bounds<T> {
     /// From the bounds of all rows.
     pub(crate) fn of<V: VectorSpace<T>>(contact: &Contact, friction: &V) -> Self {
@@ -32,15 +44,6 @@ impl<T: Real> Bounds<T> {
             if same { T::one() } else { bound / largest }
         };
         Self { largest, weights: [weight(first), weight(second), weight(third)] }
-    }
-
-    /// The number that is no bound: negative, not finite, or zero along some of the axes alone, where nothing would
-    /// hold what sticks along them.
-    pub(crate) fn invalid(self) -> Option<f64> {
-        let each = self.weights.map(|weight| value(weight * self.largest));
-        let is_bound = |x: f64| x >= 0.0 && x.is_finite();
-        let alone = each.contains(&0.0) && each != [0.0; 3];
-        each.into_iter().find(|x| !is_bound(*x)).or(alone.then_some(0.0))
     }
 
     /// What is known in values.

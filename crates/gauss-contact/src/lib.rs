@@ -48,6 +48,7 @@ mod friction;
 mod history;
 mod impact;
 mod law;
+mod lockstep;
 mod mode;
 mod poisson;
 mod problem;

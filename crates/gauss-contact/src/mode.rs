@@ -22,6 +22,7 @@ use crate::dense::{Decomposition, Matrix, dot, epsilon, norm, size, sum, value};
 use crate::friction::Bounds;
 use crate::impact::after;
 use crate::law::carrier;
+use crate::lockstep::{Lockstep, larger};
 
 /// What a contact does during a part of a run. Dry friction sticks or slides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -168,39 +169,45 @@ fn corrections<T: Real>() -> usize {
 const NEAR: f64 = 1e-9;
 
 /// The speeds `z + A⁻¹WᵀP` after impulses P, where components that are no more than the rounding of their terms are 0:
-/// what rests does not creep. Where something moves as fast as `fastest`, or faster, terms are asked for where a speed
-/// is a small part of it.
+/// what rests does not creep. Terms are asked for where a speed is a small part of the largest.
 pub(crate) fn after_impulses<K: ContactSystem>(
+    lockstep: &Lockstep,
     kernel: &K,
-    (z, fastest): (&K::Speeds, f64),
-    factors: &K::ImpulseFactors,
-    impulses: &K::ContactRows,
+    z: &K::Speeds,
+    (factors, impulses): (&K::ImpulseFactors, &K::ContactRows),
 ) -> K::Speeds {
     let speeds = z.add_scaled(K::Scalar::one(), &kernel.impulse_velocities(factors, impulses));
-    settled((z, fastest), speeds, acting::<K>(impulses), || kernel.impulse_terms(factors, impulses))
+    settled((z, 0.0), speeds, acting::<K>(lockstep, impulses), || kernel.impulse_terms(factors, impulses))
 }
 
-/// Speeds with components of zero for those that are rounding of so many terms, of given sizes.
+/// Speeds with components of zero for those that are rounding of so many terms, of given sizes; lane by lane. Terms are
+/// asked for where a speed is a small part of the largest, or of a speed that is given.
 fn settled<V: VectorSpace<T>, T: Real>(
-    (z, fastest): (&V, f64),
+    (z, given): (&V, f64),
     mut speeds: V,
     count: u32,
     terms: impl FnOnce() -> V,
 ) -> V {
-    let size = |v: &V, i: usize| value(v.component(i)).abs();
-    let largest = (0..V::DIM).map(|i| size(z, i).max(size(&speeds, i))).fold(fastest, f64::max);
-    let is_near = |speed: f64| speed != 0.0 && speed <= NEAR * largest;
-    if count == 0 || !(0..V::DIM).any(|i| is_near(size(&speeds, i))) {
+    let (zero, one) = (T::zero(), T::one());
+    let size = |v: &V, i: usize| v.component(i).abs();
+    let sizes = |i: usize| larger(size(z, i), size(&speeds, i));
+    let near = T::from_f64(NEAR) * (0..V::DIM).map(sizes).fold(T::from_f64(given), larger);
+    // 1 in lanes with a speed that is small, but not zero.
+    let small = |i: usize| T::select_lt(near, size(&speeds, i), zero, T::select_lt(zero, size(&speeds, i), one, zero));
+    let asks = (0..V::DIM).map(small).fold(zero, larger);
+    if count == 0 || !(0..T::LANES).any(|lane| asks.lane(lane) > 0.0) {
         return speeds;
     }
     let terms = terms();
     // Each term has roundings of its own, those of its factors and of the solution for λ.
-    let part = 16.0 * f64::from(count + 1) * epsilon::<T>();
+    let part = T::from_f64(16.0 * f64::from(count + 1) * epsilon::<T>());
     for i in 0..V::DIM {
-        let rounding = value(speeds.component(i));
-        if rounding.abs() <= part * (size(z, i) + value(terms.component(i))) {
-            speeds.set_component(i, speeds.component(i) - T::from_f64(rounding));
-        }
+        let speed = speeds.component(i);
+        let rounding = part * (size(z, i) + terms.component(i));
+        let rounding = T::select_lt(zero, asks, rounding, -one);
+        // Derivatives stay.
+        let value = if T::DERIVATIVES { T::from_f64(value(speed)) } else { speed };
+        speeds.set_component(i, T::select_lt(rounding, value.abs(), speed, speed - value));
     }
     speeds
 }
@@ -210,12 +217,12 @@ pub(crate) fn pushed<K: ContactSystem>(x: &K::Speeds, columns: &K::ContactColumn
     let mut rows = K::ContactRows::zero();
     forces.iter().enumerate().for_each(|(row, force)| rows.set_component(row, *force));
     let speeds = x.add_scaled(K::Scalar::one(), &impulse_velocities::<K>(columns, &rows));
-    settled((x, f64::INFINITY), speeds, acting::<K>(&rows), || impulse_terms::<K>(columns, &rows))
+    settled((x, f64::INFINITY), speeds, acting::<K>(&Lockstep::default(), &rows), || impulse_terms::<K>(columns, &rows))
 }
 
 /// How many of the rows act.
-pub(crate) fn acting<K: ContactSystem>(rows: &K::ContactRows) -> u32 {
-    let acts = |row: &usize| K::Scalar::DERIVATIVES || value(rows.component(*row)) != 0.0;
+pub(crate) fn acting<K: ContactSystem>(lockstep: &Lockstep, rows: &K::ContactRows) -> u32 {
+    let acts = |row: &usize| K::Scalar::DERIVATIVES || !lockstep.is_zero(rows.component(*row));
     (0..K::ContactRows::DIM).filter(acts).fold(0, |count, _| count + 1)
 }
 

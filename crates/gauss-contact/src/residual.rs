@@ -1,43 +1,60 @@
 //! How far contacts are from their laws.
 
+use gauss_runtime::real::Real;
+
 /// How far a contact is from its laws, in units of u: a velocity after an impact, else an acceleration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
-pub struct Residual {
+pub struct Residual<T = f64> {
     /// `min(u_N, D_NN λ_N)`, without its sign: 0 where the gap does not close and nothing pulls.
-    pub signorini: f64,
+    pub signorini: T,
     /// By how much friction is larger than μ λ_N, times D_TT.
-    pub coulomb: f64,
+    pub coulomb: T,
     /// How far friction is from the force within μ λ_N that opposes slip most, times D_TT.
-    pub dissipation: f64,
+    pub dissipation: T,
     /// What rounding makes of these.
-    pub rounding: f64,
+    pub rounding: T,
 }
 
-impl Residual {
+impl<T: Real> Residual<T> {
+    /// None at all.
+    pub(crate) fn zero() -> Self {
+        let [signorini, coulomb, dissipation, rounding] = [T::zero(); 4];
+        Self { signorini, coulomb, dissipation, rounding }
+    }
+
     /// The larger of each; NaN where one is.
     pub(crate) fn worse(self, other: Self) -> Self {
-        let larger = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
         Self {
-            signorini: larger(self.signorini, other.signorini),
-            coulomb: larger(self.coulomb, other.coulomb),
-            dissipation: larger(self.dissipation, other.dissipation),
-            rounding: larger(self.rounding, other.rounding),
+            signorini: self.signorini.max(other.signorini),
+            coulomb: self.coulomb.max(other.coulomb),
+            dissipation: self.dissipation.max(other.dissipation),
+            rounding: self.rounding.max(other.rounding),
         }
     }
 
     /// The largest of the three; NaN where one is.
-    pub fn worst(&self) -> f64 {
-        let larger = |worst: f64, r: f64| if r > worst || r.is_nan() { r } else { worst };
-        [self.signorini, self.coulomb, self.dissipation].into_iter().fold(0.0, larger)
+    pub fn worst(&self) -> T {
+        self.signorini.max(self.coulomb).max(self.dissipation)
     }
 
+    /// That of one lane.
+    pub(crate) fn lane(&self, lane: usize) -> Residual {
+        Residual {
+            signorini: self.signorini.lane(lane),
+            coulomb: self.coulomb.lane(lane),
+            dissipation: self.dissipation.lane(lane),
+            rounding: self.rounding.lane(lane),
+        }
+    }
+}
+
+impl Residual {
     /// Whether all of it is rounding.
     pub(crate) fn holds(&self) -> bool {
         self.worst() <= self.rounding
     }
 }
-
 #[cfg(test)]
 mod tests {
     use super::Residual;

@@ -78,4 +78,56 @@ pub struct Wire {
     g: Vector3<f64>,
 }
 
-gauss_python::module!(scenes: Pendulum<f64>, Torpedo<f64>, Arm<f64>, Wire);
+/// A capsule that comes down on its parachute, through a wind that freshens with height.
+///
+/// The canopy hangs at a fixed place above the capsule. Its drag grows with the square of its velocity against the air,
+/// along that velocity; the air that it carries along is a point there, which weighs nothing. The wind grows with the
+/// height h as h/√(h² + `layer`²): it is smooth at the ground, too, below which a step may try before it is cut at the
+/// touchdown. Not modelled: the weight of the canopy, its lift, slack lines, gusts, the drag of the capsule.
+#[derive(GaussDynamics)]
+#[gauss(
+    python,
+    chart = hybrid,
+    point(canopy, body = body, at = [0, 0, riser]),
+    particle(mass = air, position = [0, 0, riser], parent = body),
+    define(
+        share = canopy.z / sqrt(canopy.z * canopy.z + layer * layer),
+        v = canopy.velocity - share * [wind_x, wind_y, 0],
+    ),
+    force(parachute, at = canopy, value = -0.5 * density * drag_area * sqrt(dot(v, v)) * v, axes = observer),
+    force(weight, at = [0, 0, 0], value = [0, 0, -mass * g], axes = observer),
+)]
+pub struct Lander<T> {
+    /// Of the capsule.
+    #[gauss(mass, unit = "kg")]
+    mass: T,
+    /// About its centre of mass, principal moments.
+    #[gauss(inertia)]
+    inertia: Vector3<T>,
+    /// Of the canopy: coefficient of drag times area.
+    #[gauss(unit = "m^2")]
+    drag_area: T,
+    /// Mass of what it carries along.
+    #[gauss(unit = "kg")]
+    air: T,
+    /// From the centre of mass of the capsule up to the canopy.
+    #[gauss(unit = "m")]
+    riser: T,
+    /// Of the air.
+    #[gauss(unit = "kg/m^3")]
+    density: T,
+    /// High above the ground.
+    #[gauss(unit = "m/s")]
+    wind_x: T,
+    /// High above the ground.
+    #[gauss(unit = "m/s")]
+    wind_y: T,
+    /// Height in which the wind freshens.
+    #[gauss(unit = "m")]
+    layer: T,
+    /// Acceleration of free fall.
+    #[gauss(unit = "m/s^2")]
+    g: T,
+}
+
+gauss_python::module!(scenes: Pendulum<f64>, Torpedo<f64>, Arm<f64>, Wire, Lander<f64>);

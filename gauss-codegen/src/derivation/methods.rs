@@ -56,6 +56,10 @@ fn of_method<'g>(
             }
             signature.program(name, &arguments, code, results)
         }
+        Method::ContactReactions => {
+            let lines = derived.subject.system.contacts.rates.len();
+            signature.program(name, &arguments, code, results(count / lines, lines))
+        }
         Method::Regularity => signature.program(name, &arguments, &regularity(code), results(1, 1)),
         _ => signature.program(name, &arguments, code, results(count, 1)),
     }

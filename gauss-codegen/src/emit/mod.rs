@@ -8,7 +8,7 @@
 //! | `records` | states and inputs by name |
 //! | `equations` | `GaussSystem`, constraints, contacts, power series |
 //! | `derivatives` | a file for each kind of derivative; `columns`: solved together |
-//! | `quantities` | powers and forces, frames, the pose of a body, sums over the system |
+//! | `quantities` | powers and forces, frames, reactions of joints, the pose of a body, sums over the system |
 //! | `text` | equations and costs as text, LaTeX and rustdoc; the file that a robot was read from, and warnings of what in it has no effect |
 //! | `constructor` | the kernel struct and `kernel()`: parameters read, checked, and turned into constants; `warnings()`; numbers of a robot's file |
 //! | `python` | what another language is to know of the struct: the call of one macro |
@@ -48,7 +48,7 @@ pub use text::file::file;
 use constructor::{kernel, of_file};
 use derivatives::{hessian, inverse, linearized, parametric, regressor};
 use equations::{constrained, contact, gauss_system, taylor};
-use quantities::{forced, framed, rigid_body, whole};
+use quantities::{forced, framed, reactions, rigid_body, whole};
 use records::{input, state};
 use text::description;
 
@@ -71,6 +71,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let regressor = regressor::inertial_regressor(derived);
     let whole = whole::of_the_whole(derived);
     let [frames, framed] = framed::framed_system(derived);
+    let [joints, reactions] = reactions::reactions(derived);
     let [state, conversions] = state::state(derived);
     let [input, inputs] = input::input(derived);
     let of_file = of_file::of_file(derived);
@@ -80,6 +81,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
         #state
         #input
         #frames
+        #joints
 
         const _: () = {
             #tables
@@ -100,6 +102,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
             #parametric
             #regressor
             #framed
+            #reactions
             #whole
         };
         #python

@@ -17,7 +17,7 @@
 //!
 //! `scene` is what is given, `system` puts everything together: every method (`formula`) of a kernel, each in several
 //! arrangements; `one_body` defines the body that is all the matter; `frames` has quantities of single links, `whole`
-//! those of all together. `tidy` is what is multiplied out where that is short.
+//! those of all together, `reactions` those of joints. `tidy` is what is multiplied out where that is short.
 
 mod arrangements;
 mod check;
@@ -35,6 +35,7 @@ mod print;
 mod proof;
 #[cfg(test)]
 mod random_systems;
+mod reactions;
 mod scene;
 #[cfg(test)]
 mod snapshots;
@@ -49,6 +50,7 @@ mod whole;
 pub use arrangements::balance::KineticMatrix;
 pub use check::dependent::needless_constraints;
 pub use check::faults::{Claims, SystemFault, check_system_against_definition, has_values};
+pub use check::let_go::check_reactions;
 #[cfg(test)]
 pub use check::witness::acceleration_by_definition;
 pub use constraints::constraint::{Constraint, ConstraintKind};
@@ -59,7 +61,7 @@ pub use derivatives::hessian::Hessian;
 pub use derivatives::inverse::InverseLinearization;
 pub use derivatives::linearize::Linearization;
 pub use derivatives::regressor::{InertialParameter, InertialParameters, Regressor};
-pub use formula::{Arrangements, Formulas, FrameQuantity, Method};
+pub use formula::{Arrangements, Formula, Formulas, FrameQuantity, Method};
 pub use kinematics::chart::ChartedBody;
 pub use kinematics::rotation::{about_axis, poisson, rotation_of_quaternion};
 pub use kinematics::turn::Turn;
@@ -75,5 +77,6 @@ pub use loads::observed::Observed;
 pub use matter::body::{Body, BodyShape, ParameterSymbol, QuantityValues};
 pub use matter::rotor::Rotor;
 pub use print::names::Name;
+pub use reactions::{LetGo, Reactions};
 pub use scene::{Charted, Coordinate, SystemScene};
 pub use system::System;

@@ -69,34 +69,39 @@ struct Arrangement<'g> {
 }
 
 impl<'g> System<'g> {
-    pub fn new(scene: SystemScene<'g>) -> Self {
+    /// Of a scene whose equations are only written down, not solved: A is not formed.
+    pub fn unsolved(scene: SystemScene<'g>) -> Self {
         let mut along = scene.rates.clone();
         along.extend(scene.speeds.iter().zip(&scene.speed_rates).map(|(z, rate)| (z.key(), *rate)));
         let constraints = Constraints::new(&scene, &scene.rates);
         let contacts = Contacts::new(&scene);
-        let free = FreeLink::all(&scene);
         let (potential, forces) = (potential_of(&scene.elements), forces_of(&scene.elements));
         let loads = Loads::of(&scene.elements);
-        let (driven, matrix) = (false, Vec::new());
-        // Where sums of squares keep the digits, other links stay as they were given: little is to be gained there.
-        let short = scene.speeds.len() <= most_squares(&scene);
-        let working = if short { Working::of_rotors(&scene.tree, &loads) } else { Working::of(&scene.tree, &loads) };
-        let in_own_axes = if short { scene.tree.in_own_axes() } else { None };
-        let mut system = Self {
+        Self {
             scene,
             potential,
             forces,
             loads,
-            working,
-            in_own_axes,
+            working: None,
+            in_own_axes: None,
             constraints,
             contacts,
-            free,
-            driven,
+            free: Vec::new(),
+            driven: false,
             along,
-            matrix,
+            matrix: Vec::new(),
             halves: OnceCell::new(),
-        };
+        }
+    }
+
+    pub fn new(scene: SystemScene<'g>) -> Self {
+        let mut system = Self::unsolved(scene);
+        let (scene, loads) = (&system.scene, &system.loads);
+        system.free = FreeLink::all(scene);
+        // Where sums of squares keep the digits, other links stay as they were given: little is to be gained there.
+        let short = scene.speeds.len() <= most_squares(scene);
+        system.working = if short { Working::of_rotors(&scene.tree, loads) } else { Working::of(&scene.tree, loads) };
+        system.in_own_axes = if short { scene.tree.in_own_axes() } else { None };
         system.matrix = system.mass_matrix();
         let at_rest = system.at_rest();
         let mut velocities = system.constraints.on_velocities.clone();

@@ -39,7 +39,7 @@ pub fn model(input: &DeriveInput, clauses: Clauses, mut reader: Reader<'_>, cont
     }
     motion::check_kinematics(&statements, uncertain, context);
     masses::check_roles(input, &statements, &reader, &owners, &scalar_name, uncertain, context);
-    bodies::check(&statements, &reader, &wanted.frames, &scalar_name, context);
+    bodies::check(&statements, &reader, &wanted, &scalar_name, context);
     let unused = check_expressions(&mut statements, &reader, &shapes, &scalar_name, uncertain, context);
     if in_chart.is_none() && statements.coordinates.is_none() && !uncertain {
         let span = statements.first.as_ref().map_or(input.ident.span(), Ident::span);

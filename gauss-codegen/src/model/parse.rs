@@ -3,8 +3,8 @@
 use crate::model::assembly;
 use crate::model::language::context::Context;
 use crate::model::language::fields::Reader;
-use crate::model::language::robots::{Format, RobotClauses};
-use crate::model::language::statements::Statements;
+use crate::model::language::robots::Format;
+use crate::model::language::struct_clauses::Clauses;
 use crate::model::language::{fields, nesting, struct_clauses};
 use crate::model::names::inputs;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
@@ -40,7 +40,7 @@ pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
     let without = clauses.robot.file.is_some().then_some(&none);
     let model = named_fields(input, without, &mut context).and_then(|named| {
         let reader = fields::read(named, &input.generics, clauses.own, &mut context);
-        let described = robot_of_file(&clauses.robot, &reader, &mut clauses.statements, &mut context);
+        let described = robot_of_file(&mut clauses, &reader, &mut context);
         inputs::name(&mut clauses.statements, &reader.fields, &mut context);
         let mut model = assembly::model(input, clauses, reader, &mut context)?;
         check_python(&model.item, &input.generics, &mut context);
@@ -52,12 +52,8 @@ pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
 
 /// Puts the clauses of a robot's file before those of the struct. `None` without a file, or where it has a mistake,
 /// which is noted.
-fn robot_of_file(
-    robot: &RobotClauses,
-    reader: &Reader<'_>,
-    statements: &mut Statements,
-    context: &mut Context,
-) -> Option<Described> {
+fn robot_of_file(clauses: &mut Clauses, reader: &Reader<'_>, context: &mut Context) -> Option<Described> {
+    let Clauses { robot, statements, wanted, .. } = clauses;
     let file = robot.file.as_ref()?;
     let (feature, is_read) = match file.format {
         Format::Urdf => ("urdf", cfg!(feature = "urdf")),
@@ -71,10 +67,10 @@ fn robot_of_file(
         return None;
     }
     #[cfg(any(feature = "urdf", feature = "mjcf"))]
-    return robots::compose(file, robot, reader, statements, context);
+    return robots::compose(file, robot, reader, (statements, &mut wanted.reactions), context);
     #[cfg(not(any(feature = "urdf", feature = "mjcf")))]
     {
-        let _ = reader;
+        let _ = (reader, wanted);
         None
     }
 }

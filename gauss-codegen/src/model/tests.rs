@@ -64,4 +64,4 @@ const ALL_CLAUSES: &str = "motion is declared by `chart`, `motion`, `coordinates
     `frame`, `particle`, `constraint`, `independent` or `redundant`, forces and more by `point`, `contact`, `range`, `dry_friction`, `potential`, `input`, `force`, \
     `torque`, `wrench`, `drive`, `spring`, `stop`, `drag`, `friction`, `coupling`, `torsional_spring`, `bushing`, `damping`, `armature`, `medium`, \
     `central_gravity`, `define`, `function`, `table`, `waive` or `limit`, and generated code is chosen by `crate`, \
-    `taylor`, `linearize`, `regressor`, `frames`, `methods` or `python`";
+    `taylor`, `linearize`, `regressor`, `frames`, `reactions`, `methods` or `python`";

@@ -21,4 +21,4 @@ pub use inputs::{InputKind, InputName};
 pub use item::{Field, Generics, Item, Scalar};
 pub use laws::LawKind;
 pub use roles::{Role, Shape};
-pub use wanted::{Wanted, WantedMethod};
+pub use wanted::{Wanted, WantedJoint, WantedMethod};

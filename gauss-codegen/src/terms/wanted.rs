@@ -19,6 +19,8 @@ pub struct Wanted {
     pub regressor: Option<Ident>,
     /// `frames(…)`: bodies and frames whose poses and velocities are methods, by their names, each once.
     pub frames: Vec<Ident>,
+    /// `reactions(…)`: joints whose reactions are methods, each once.
+    pub reactions: Vec<WantedJoint>,
     /// `python`, where it is written: a class of Python.
     pub python: Option<Ident>,
     /// `methods(…)`: quantities of the system as a whole, each once.
@@ -36,4 +38,11 @@ pub enum WantedMethod {
     GravityTorques,
     /// d/dt of the Jacobians of the frames in `frames(…)`.
     JacobianRates,
+}
+
+/// A joint whose reaction is wanted: what it is called, and the body or frame that it joins to a parent.
+#[derive(Clone)]
+pub struct WantedJoint {
+    pub name: Ident,
+    pub link: Ident,
 }

@@ -29,6 +29,7 @@ impl<'g> Translator<'_, 'g> {
                 _ => return Err(bug(e.span)),
             }
         }
+        rates.extend(self.let_go.iter().flat_map(|by| by.speeds));
         Ok((rates, observed))
     }
 

@@ -12,6 +12,7 @@
 //! - `forces`: loads; `contacts`: gaps, slips and their coefficients; `shapes`: those of points, spheres, boxes.
 //! - `laws`, `drag`: constants of loads, for checks and warnings.
 //! - `parameters`: what the numbers of fields are called; `state`: what coordinates and speeds are called.
+//! - `let_go`: the scene once more, with joints let go, for their reactions; `freedom`: what they move by then.
 //! - `placements`: where bodies, frames and points are.
 
 mod blame;
@@ -19,8 +20,10 @@ mod contacts;
 mod domains;
 mod drag;
 mod forces;
+mod freedom;
 mod kinematics;
 mod laws;
+mod let_go;
 mod mass_data;
 mod notes;
 mod parameters;

@@ -22,9 +22,9 @@ impl<'g> Translator<'_, 'g> {
             let hung = |name: &Ident| self.links.contains_key(&name.unraw().to_string());
             let ready = open.iter().position(|&k| clauses[k].parent.as_ref().is_none_or(hung));
             let next = open.remove(ready.ok_or_else(|| bug(clauses[open[0]].span))?);
-            let placement = self.placement(next, &clauses[next])?;
-            self.links_of_clauses[next] = placements.len();
             let name = clauses[next].name.as_ref().map_or_else(|| "body".to_owned(), |name| name.unraw().to_string());
+            let placement = self.placed_freely(&name, self.placement(next, &clauses[next])?);
+            self.links_of_clauses[next] = placements.len();
             self.links.insert(name, placements.len());
             placements.push(placement);
         }

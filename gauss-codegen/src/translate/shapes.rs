@@ -267,7 +267,7 @@ impl<'g> Translator<'_, 'g> {
         let velocity = subtract(&self.velocity_at(part, &arm, tree), &facing.velocity);
         let slips = facing.tangents.iter().map(|tangent| dot(tangent, &velocity));
         // Across the plane of a motion nothing slips.
-        let slips: Slips<'g> = slips.enumerate().filter(|(_, slip)| !slip.collected(LIMIT).is_zero()).collect();
+        let slips: Slips<'g> = slips.enumerate().filter(|(_, slip)| !self.says_nothing(*slip, LIMIT)).collect();
         frame.axes.extend(slips.iter().map(|(k, _)| facing.tangents[*k]));
         let (spin, rolls) = self.turns([part.link, facing.link], facing, asked, tree);
         Ok(Form { gap, slips, spin, rolls, frame: Some(frame), bodies: [None, None] })
@@ -288,7 +288,7 @@ impl<'g> Translator<'_, 'g> {
         let [own, other] =
             links.map(|link| link.map_or(still, |link| self.velocity_of(link, Property::AngularVelocity, tree)));
         let relative = subtract(&own, &other);
-        let turns = |rate: &Expr<'g>| !rate.collected(LIMIT).is_zero();
+        let turns = |rate: &Expr<'g>| !self.says_nothing(*rate, LIMIT);
         let spin = asked.drilling.map(|radius| radius * dot(&facing.normal, &relative)).filter(turns);
         let tangents = facing.tangents.iter().filter(|_| asked.rolls);
         let rolls = tangents.map(|tangent| dot(tangent, &relative)).enumerate().filter(|(_, rate)| turns(rate));

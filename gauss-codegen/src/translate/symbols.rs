@@ -30,6 +30,7 @@ pub struct Source<'g> {
 }
 
 /// What a scene declares, in symbols.
+#[derive(Clone)]
 pub struct Declared<'g> {
     graph: &'g Graph,
     pub time: Expr<'g>,

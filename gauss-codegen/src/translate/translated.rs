@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Span};
 
 use crate::algebra::{Expr, Rational, Substitution};
-use crate::mechanics::{QuantityValues, SystemScene};
+use crate::mechanics::{LetGo, QuantityValues, SystemScene};
 use crate::terms::{Item, Role, Shape};
 use crate::words::Unraw;
 
@@ -16,6 +16,8 @@ use super::symbols::Source;
 /// A system in symbols.
 pub struct Translated<'g> {
     pub scene: SystemScene<'g>,
+    /// The same with joints let go, where their reactions are wanted.
+    pub let_go: Option<LetGo<'g>>,
     pub given: Given<'g>,
 }
 

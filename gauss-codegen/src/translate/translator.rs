@@ -15,6 +15,7 @@ use crate::model::{self, ExpressionKind, Model, SpeedPart};
 use crate::terms::{InChart, InputKind, LawKind, UserFunction};
 use crate::words::Unraw;
 
+use super::freedom::LetGoBy;
 use super::laws::Law;
 use super::notes::Notes;
 use super::parameters::parameters;
@@ -42,6 +43,7 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
     let mut translator = Translator::new(graph, model, &declared, &functions, pi, &notes);
     let scene = translator.scene()?;
     translator.refuse_mistakes()?;
+    let let_go = translator.let_go()?;
     let independent = model.independent.as_ref().map(|names| Independent {
         kept: translator.indices_of_speeds(names),
         span: names.first().map_or(model.item.ident.span(), |first| first.ident.span()),
@@ -53,6 +55,7 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
     let noted = notes.into_inner();
     Ok(Translated {
         scene,
+        let_go,
         given: Given {
             parameters: parameters(&model.item.fields, &declared.sources),
             sources: declared.sources,
@@ -118,6 +121,7 @@ pub(super) struct Translator<'a, 'g> {
     /// Functions that clauses declare, by name.
     pub(super) functions: &'a HashMap<String, OwnFunction>,
     pub(super) notes: &'a Notes<'g>,
+    pub(super) pi: Expr<'g>,
     /// What names stand for, those of bodies and frames excepted.
     pub(super) names: HashMap<String, Value<'g>>,
     /// Indices of bodies and frames among the links, by name.
@@ -133,11 +137,13 @@ pub(super) struct Translator<'a, 'g> {
     pub(super) observed: Option<Observed<'g>>,
     /// The horizontal coordinates over which a height is given, while it is translated.
     pub(super) place: Option<[Expr<'g>; 2]>,
+    /// Of joints that are let go, while the scene is translated for their reactions.
+    pub(super) let_go: Vec<LetGoBy<'g>>,
 }
 
 impl<'a, 'g> Translator<'a, 'g> {
     /// Knows fields, and nothing yet of what moves.
-    fn new(
+    pub(super) fn new(
         graph: &'g Graph,
         model: &'a Model,
         declared: &'a Declared<'g>,
@@ -153,6 +159,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             declared,
             functions,
             notes,
+            pi,
             names,
             links: HashMap::new(),
             links_of_clauses: vec![0; model.bodies.len()],
@@ -161,6 +168,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             observed_rates: vec![[None; 2]; model.coordinates.len()],
             observed: None,
             place: None,
+            let_go: Vec::new(),
         }
     }
 
@@ -203,7 +211,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         self.declared.chart.as_ref()
     }
 
-    fn scene(&mut self) -> Result<SystemScene<'g>> {
+    pub(super) fn scene(&mut self) -> Result<SystemScene<'g>> {
         let (graph, model) = (self.graph, self.model);
         self.name_everything();
         (self.kinematics, self.observed_rates) = self.kinematics()?;
@@ -232,7 +240,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         }
         tree.rotors = self.rotors(&tree)?;
         let elements = match (model.chart_of_all(), self.chart()) {
-            (Some(_), Some(chart)) => self.elements_on(chart)?,
+            (Some(_), Some(chart)) if self.let_go.is_empty() => self.elements_on(chart)?,
             _ => self.elements(&tree)?.into_iter().map(|(_, element)| element).collect(),
         };
         let constraints = self.constraints(&tree)?;
@@ -263,6 +271,9 @@ impl<'a, 'g> Translator<'a, 'g> {
     /// The body in the chart.
     fn charted(&self) -> Option<Charted> {
         let clause = self.model.bodies.iter().position(|body| self.model.is_in_chart(body))?;
+        if !self.let_go.is_empty() {
+            return None;
+        }
         let alone = self.model.chart_of_all().is_some();
         Some(Charted { link: self.links_of_clauses[clause], own: self.model.in_chart?, alone })
     }
@@ -374,11 +385,11 @@ impl<'a, 'g> Translator<'a, 'g> {
             };
             match self.value(&written.expression, tree)?.observed() {
                 // So do some of those that a file makes of one relation.
-                Value::Scalar(value) if written.place.is_some() && value.collected(LIMIT).is_zero() => {}
+                Value::Scalar(value) if written.place.is_some() && self.says_nothing(value, LIMIT) => {}
                 Value::Scalar(value) => constraints.push(Constraint { kind, value, clause }),
                 Value::Vector(values) => {
                     // What is identically zero, as across a plane, says nothing.
-                    let values = values.into_iter().filter(|e| !e.collected(LIMIT).is_zero());
+                    let values = values.into_iter().filter(|e| !self.says_nothing(*e, LIMIT));
                     constraints.extend(values.map(|value| Constraint { kind, value, clause }));
                 }
                 _ => return Err(bug(written.expression.span)),

@@ -37,6 +37,7 @@ pub use crate::hessian::{Hessian, HessianSystem};
 pub use crate::identification::{InertialRegressor, ParametricSystem};
 pub use crate::inverse::{InverseLinearization, InverseLinearizedSystem};
 pub use crate::linearize::{LinearModel, Linearization, LinearizedSystem};
+pub use crate::reactions::{ContactReactions, Reactions};
 pub use crate::real::Real;
 pub use crate::series::{Series, TaylorSystem};
 pub use crate::system::{Evaluated, GaussSystem, RigidBodySystem, Smoothness};

@@ -2,13 +2,15 @@
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::{ContactSystem, Each};
+use gauss_runtime::real::Real;
 
 use crate::error::ContactErrorKind;
-use crate::friction::Bounds;
+use crate::friction::invalid;
+use crate::lockstep::larger;
 
 /// The normal of a gap, or friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Cone {
+pub(crate) struct Cone<T = f64> {
     /// The row of the normal, if there is a gap.
     pub(crate) normal: Option<usize>,
     /// The row of the normal whose impulse bounds friction: its own, or of rolling resistance that of another contact.
@@ -17,12 +19,12 @@ pub(crate) struct Cone {
     pub(crate) first: usize,
     pub(crate) count: usize,
     /// μ, or of dry friction the bound of its impulse; the largest of its rows.
-    pub(crate) friction: f64,
+    pub(crate) friction: T,
     /// Whether its laws hold in this step.
     pub(crate) acts: bool,
 }
 
-impl Cone {
+impl<T: Real> Cone<T> {
     pub(crate) fn tangents(&self) -> core::ops::Range<usize> {
         self.first..self.first + self.count
     }
@@ -33,36 +35,36 @@ impl Cone {
     }
 
     /// The largest friction under impulses.
-    pub(crate) fn radius(&self, impulses: &[f64]) -> f64 {
-        self.friction * self.pressed.map_or(1.0, |row| impulses[row].max(0.0))
+    pub(crate) fn radius(&self, impulses: &[T]) -> T {
+        self.friction * self.pressed.map_or(T::one(), |row| larger(impulses[row], T::zero()))
     }
 }
 
 /// The contacts of a system in a step.
 pub(crate) struct Laws<K: ContactSystem> {
-    pub(crate) cones: K::EachContact<Cone>,
+    pub(crate) cones: K::EachContact<Cone<K::Scalar>>,
     /// By what forces of rows are those of circles, and slips in reverse: 1 but for friction that differs by direction.
-    pub(crate) scales: K::EachRow<f64>,
+    pub(crate) scales: K::EachRow<K::Scalar>,
 }
 
-impl<K: ContactSystem<Scalar = f64>> Laws<K> {
+impl<T: Real, K: ContactSystem<Scalar = T>> Laws<K> {
     /// Cones that do not act yet, of friction in all rows. An error is the contact whose friction is no bound, with it.
     pub(crate) fn new(h: f64, friction: &K::ContactRows) -> Result<Self, (usize, ContactErrorKind)> {
-        let none = Cone { normal: None, pressed: None, first: 0, count: 0, friction: 0.0, acts: false };
-        let mut laws = Self { cones: Each::from_fn(|_| none), scales: Each::from_fn(|_| 1.0) };
+        let none = Cone { normal: None, pressed: None, first: 0, count: 0, friction: T::zero(), acts: false };
+        let mut laws = Self { cones: Each::from_fn(|_| none), scales: Each::from_fn(|_| T::one()) };
         for (i, contact) in K::CONTACTS.iter().enumerate() {
-            if let Some(friction) = Bounds::of(contact, friction).invalid() {
+            if let Some(friction) = invalid(contact, friction) {
                 return Err((i, ContactErrorKind::InvalidFriction { friction }));
             }
             let rows = contact.friction_rows();
-            let largest = rows.clone().map(|row| friction.component(row)).fold(0.0, f64::max);
+            let largest = rows.clone().map(|row| friction.component(row)).fold(T::zero(), larger);
             let normal = contact.has_gap().then_some(contact.normal);
             let pressed = contact.rolls_on().map(|on| K::CONTACTS[on].normal).or(normal);
-            if largest > 0.0 {
-                rows.clone().for_each(|row| laws.scales[row] = friction.component(row) / largest);
-            }
+            // 1 where there is none.
+            let scale = |row: usize| T::select_lt(T::zero(), largest, friction.component(row) / largest, T::one());
+            rows.clone().for_each(|row| laws.scales[row] = scale(row));
             // A force that is bounded by f has an impulse of h f.
-            let friction = if pressed.is_some() { largest } else { h * largest };
+            let friction = if pressed.is_some() { largest } else { T::from_f64(h) * largest };
             laws.cones[i] = Cone { normal, pressed, first: rows.start, count: rows.len(), friction, acts: false };
         }
         Ok(laws)

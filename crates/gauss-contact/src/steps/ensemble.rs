@@ -15,7 +15,7 @@ use super::stepper::ContactStepper;
 /// Each has the bits of a stepper of its own, whatever the number of lanes and threads. One whose step is an error
 /// stays where it was; the others go on.
 #[derive(Debug)]
-pub struct ContactEnsemble<'k, W, K: ContactSystem<Scalar = f64>> {
+pub struct ContactEnsemble<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> {
     blocks: Vec<ContactLanes<'k, W, K>>,
     failures: Vec<Vec<(usize, ContactError)>>,
 }

@@ -1,5 +1,7 @@
 //! The linear equations of a step in given states of its contacts.
 
+use gauss_runtime::real::Real;
+
 use super::cones::Cone;
 use super::impulses::Impulses;
 use super::linear::{Place, factorise, factorise_symmetric, stride};
@@ -8,10 +10,10 @@ use super::unknowns::State;
 /// Contacts depend on one another where this is left of a column.
 const DEPENDENT: f64 = 1e-11;
 
-impl Impulses<'_> {
+impl<T: Real> Impulses<'_, T> {
     /// Factors of the equations in given states; how many unknowns there are. `None` where they have no solution. Where
     /// nothing slides the equations are those of D.
-    pub(super) fn factors(&mut self, cones: &[Cone], states: &[State]) -> Option<usize> {
+    pub(super) fn factors(&mut self, cones: &[Cone<T>], states: &[State<T>]) -> Option<usize> {
         let mut count = 0;
         for (cone, state) in cones.iter().zip(states) {
             let rows = match state {
@@ -65,7 +67,7 @@ impl Impulses<'_> {
             }
         }
         let part = if self.dependent { 0.0 } else { DEPENDENT };
-        factorise(&mut self.matrix[..count * count], &mut self.order[..count], part).then_some(count)
+        factorise(&self.lockstep, &mut self.matrix[..count * count], &mut self.order[..count], part).then_some(count)
     }
 
     /// The factors where nothing slides.
@@ -73,11 +75,11 @@ impl Impulses<'_> {
         let rows = stride(count);
         for k in 0..count {
             self.equal((k, rows), count, usize::from(self.unknown[k]));
-            self.matrix[k * rows + count..(k + 1) * rows].fill(0.0);
+            self.matrix[k * rows + count..(k + 1) * rows].fill(T::zero());
         }
         let part = if self.dependent { 0.0 } else { DEPENDENT };
         let ends = &mut self.order[..count];
-        factorise_symmetric(self.matrix, ends, self.solution, part).then_some(count)
+        factorise_symmetric(&self.lockstep, self.matrix, ends, self.solution, part).then_some(count)
     }
 
     pub(super) fn pull(&self) -> f64 {
@@ -87,7 +89,7 @@ impl Impulses<'_> {
     /// The equation of a rate that is zero, in rows of some length.
     fn equal(&mut self, (k, rows): (usize, usize), count: usize, row: usize) {
         let n = self.b.len();
-        let (own, more) = (&self.delassus[row * n..(row + 1) * n], 1.0 + self.pull());
+        let (own, more) = (&self.delassus[row * n..(row + 1) * n], T::from_f64(1.0 + self.pull()));
         let entries = self.matrix[k * rows..k * rows + count].iter_mut().zip(&*self.unknown);
         for (entry, &of) in entries {
             let of = usize::from(of);
@@ -97,28 +99,31 @@ impl Impulses<'_> {
 
     /// Of `d P_a − d μ P_N t_a − part Σ_b (δ_ab − t_a t_b) (d P_b − u_b) = 0`, which is Coulomb's law to first order
     /// in the direction t: the factor of an impulse.
-    fn sliding_entry(&self, cone: &Cone, (along, part, scale): (&[f64; 3], f64, f64), a: usize, column: usize) -> f64 {
-        let mut entry = if column == cone.first + a { scale * (1.0 + self.pull()) } else { 0.0 };
+    fn sliding_entry(&self, cone: &Cone<T>, (along, part, scale): (&[T; 3], T, T), a: usize, column: usize) -> T {
+        let is_own = column == cone.first + a;
+        let mut entry = if is_own { scale * T::from_f64(1.0 + self.pull()) } else { T::zero() };
         if cone.pressed == Some(column) {
             entry -= scale * cone.friction * along[a];
         }
         for (b, row) in cone.tangents().enumerate() {
-            let across = f64::from(u8::from(a == b)) - along[a] * along[b];
-            let own = if column == row { scale } else { 0.0 };
+            let across = same::<T>(a, b) - along[a] * along[b];
+            let own = if column == row { scale } else { T::zero() };
             entry -= part * across * (own - self.at(row, column));
         }
         entry
     }
 
-    pub(super) fn right_sides(&mut self, cones: &[Cone], states: &[State], count: usize) {
+    pub(super) fn right_sides(&mut self, cones: &[Cone<T>], states: &[State<T>], count: usize) {
         let mut k = 0;
         for (cone, state) in cones.iter().zip(states) {
             if *state == State::Leaves {
                 continue;
             }
-            let pulled = |this: &Self, row: usize| this.pull() * this.at(row, row) * this.impulses[row] - this.b[row];
+            let pulled = |this: &Self, row: usize| {
+                T::from_f64(this.pull()) * this.at(row, row) * this.impulses[row] - this.b[row]
+            };
             if let Some(normal) = cone.normal {
-                let lifted = if self.relaxed { self.lift_free(cones, states, normal) } else { 0.0 };
+                let lifted = if self.relaxed { self.lift_free(cones, states, normal) } else { T::zero() };
                 self.right[k] = pulled(self, normal) - lifted;
                 k += 1;
             }
@@ -132,12 +137,13 @@ impl Impulses<'_> {
                 State::Slides(along, part) => {
                     let scale = self.scale(cone);
                     for a in 0..cone.count {
-                        let fixed = if cone.pressed.is_none() { scale * cone.friction * along[a] } else { 0.0 };
+                        let fixed = if cone.pressed.is_none() { scale * cone.friction * along[a] } else { T::zero() };
                         let each = cone.tangents().enumerate();
-                        let turned: f64 = each
-                            .map(|(b, row)| (f64::from(u8::from(a == b)) - along[a] * along[b]) * self.b[row])
-                            .sum();
-                        self.right[k] = fixed - part * turned + self.pull() * scale * self.impulses[cone.first + a];
+                        let turned = each
+                            .map(|(b, row)| (same::<T>(a, b) - along[a] * along[b]) * self.b[row])
+                            .fold(T::zero(), |sum, term| sum + term);
+                        let pulled = T::from_f64(self.pull()) * scale * self.impulses[cone.first + a];
+                        self.right[k] = fixed - *part * turned + pulled;
                         k += 1;
                     }
                 }
@@ -146,4 +152,9 @@ impl Impulses<'_> {
         }
         debug_assert_eq!(k, count);
     }
+}
+
+/// δ.
+fn same<T: Real>(a: usize, b: usize) -> T {
+    if a == b { T::one() } else { T::zero() }
 }

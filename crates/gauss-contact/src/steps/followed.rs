@@ -13,6 +13,7 @@ use gauss_runtime::system::GaussSystem;
 use crate::dense::Matrix;
 use crate::error::ContactErrorKind;
 use crate::friction::Bounds;
+use crate::lockstep::Lockstep;
 use crate::mode::{Mode, after_impulses};
 
 use super::active::{Active, LEFT, NOTHING, Solvable, inverse, largest_slope, multiplied};
@@ -156,7 +157,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         same.solved += 1;
         let mut rows = L::ContactRows::zero();
         impulses.iter().enumerate().for_each(|(row, impulse)| rows.set_component(row, *impulse));
-        let z = after_impulses(*kernel, (&free, f64::INFINITY), &dynamics.response.factors, &rows);
+        let z = after_impulses(&Lockstep::default(), *kernel, &free, (&dynamics.response.factors, &rows));
         let (q, z) = self.second_half(z)?;
         self.projected((q, z), &dynamics, (taken, modes, &passes), same)
     }
@@ -204,9 +205,14 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
     ) -> Moved<L> {
         let (kernel, t) = (self.kernel, Dual::constant(self.t + self.h));
         let mut memory = vec![Dual::constant(0.0); Projection::<L>::MEMORY];
-        let mut projection = Projection::<L>::new(&mut memory, f64::INFINITY);
+        let mut projection = Projection::<L>::new(&mut memory);
         let before = kernel.gaps(t, &q);
-        let closed = projection.close(kernel, (t, q, before), &dynamics.response, &taken.rests);
+        let closed = projection.close(
+            kernel,
+            (t, q, before),
+            (&dynamics.response, Dual::constant(motion::magnitude(&q))),
+            &taken.rests,
+        );
         let Closed { mut q, gaps, .. } = closed.map_err(ContactErrorKind::Projection)?;
         if same.looks && same.at_change.is_none() {
             let nothing = same.tolerance * self.h * (1.0 + z.max_norm());
@@ -227,7 +233,8 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
 
         let mode = |i: usize| if taken.rests[i] { modes[i] } else { Mode::Open };
         let rates = kernel.contact_rates(t, &q, &z);
-        let (mut z, rates) = projection.stop(kernel, (t, &q, z, rates), &dynamics.response, (mode, 0.0));
+        let (mut z, rates) =
+            projection.stop(kernel, (t, &q, z, rates), &dynamics.response, (mode, Dual::constant(0.0)));
         let stopped: Vec<usize> =
             L::CONTACTS.iter().enumerate().flat_map(|(i, contact)| stopped(contact, &mode(i))).collect();
         let passed = |row: usize| gap_of(row).and_then(|i| passes[i]).unwrap_or(Dual::constant(0.0));

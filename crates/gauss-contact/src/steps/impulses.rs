@@ -12,6 +12,9 @@
 
 use core::ops::Range;
 
+use gauss_runtime::real::Real;
+
+use crate::lockstep::{Lockstep, larger, last};
 use crate::mode::Mode;
 use crate::residual::Residual;
 
@@ -23,13 +26,11 @@ use super::unknowns::{State, UnknownsIn};
 /// another. What cannot stick all at once, as two corners that an impact parts, or cannot all stay closed, drifts to
 /// the bound of its friction or to zero by the inverse of that; corrections that gain nothing pull less, those that go
 /// too far more.
-const PULL: f64 = 1e-5;
+pub(super) const PULL: f64 = 1e-5;
 const LEAST_PULL: f64 = 1e-9;
 const MOST_PULL: f64 = 1e-3;
 /// What is looked for at first, as a part of the tolerance.
-const STRICT: f64 = 1e-4;
-/// Rounds of sweeps and corrections.
-const ROUNDS: u32 = 11;
+pub(super) const STRICT: f64 = 1e-4;
 /// Corrections of a round.
 const CORRECTIONS: usize = 60;
 /// Roundings of each product of a row that its sum may be off by.
@@ -37,9 +38,9 @@ const ROUNDINGS: f64 = 64.0;
 
 /// How a solution was found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Found {
+pub(crate) struct Found<T = f64> {
     /// The worst of all contacts.
-    pub(crate) residual: Residual,
+    pub(crate) residual: Residual<T>,
     /// Whether it is within the tolerance.
     pub(crate) holds: bool,
     /// How many corrections and sweeps there were.
@@ -47,26 +48,38 @@ pub(crate) struct Found {
     pub(crate) sweeps: u32,
 }
 
+impl<T: Real> Found<T> {
+    /// That of one lane.
+    pub(super) fn lane(&self, lane: usize) -> Found {
+        let Self { residual, holds, corrections, sweeps } = *self;
+        Found { residual: residual.lane(lane), holds, corrections, sweeps }
+    }
+
+    fn none() -> Self {
+        Self { residual: Residual::zero(), holds: false, corrections: 0, sweeps: 0 }
+    }
+}
+
 /// The laws of a step in memory. All but `matrix` and `right` is for all rows of the system.
-pub(crate) struct Impulses<'m> {
+pub(crate) struct Impulses<'m, T = f64> {
     /// D, row by row.
-    pub(crate) delassus: &'m mut [f64],
-    pub(crate) b: &'m mut [f64],
+    pub(crate) delassus: &'m mut [T],
+    pub(crate) b: &'m mut [T],
     /// P; what it holds is where the search begins.
-    pub(crate) impulses: &'m mut [f64],
+    pub(crate) impulses: &'m mut [T],
     /// u.
-    pub(crate) rates: &'m mut [f64],
+    pub(crate) rates: &'m mut [T],
     /// The sizes of the terms of each rate.
-    pub(super) terms: &'m mut [f64],
-    pub(super) best: &'m mut [f64],
-    pub(super) swept: &'m mut [f64],
-    pub(super) solution: &'m mut [f64],
-    pub(super) right: &'m mut [f64],
-    pub(super) matrix: &'m mut [f64],
+    pub(super) terms: &'m mut [T],
+    pub(super) best: &'m mut [T],
+    pub(super) swept: &'m mut [T],
+    pub(super) solution: &'m mut [T],
+    pub(super) right: &'m mut [T],
+    pub(super) matrix: &'m mut [T],
     /// Rows of the unknowns.
     pub(super) unknown: &'m mut [Place],
     pub(super) order: &'m mut [Place],
-    pub(super) states: &'m mut [State],
+    pub(super) states: &'m mut [State<T>],
     /// Of each row of D, where its first entry is that is not zero, and where the last is behind.
     pub(super) extents: &'m mut [[Place; 2]],
     /// Whether contacts depend on one another, as far as is known.
@@ -76,17 +89,18 @@ pub(crate) struct Impulses<'m> {
     pub(super) pull: f64,
     /// Whether the factors are those of a symmetric matrix.
     pub(super) symmetric: bool,
+    pub(crate) lockstep: Lockstep,
 }
 
-impl<'m> Impulses<'m> {
-    /// How many numbers it needs for so many rows.
-    pub(crate) const fn memory(rows: usize) -> usize {
-        rows * rows + stride(rows) * (rows + 1) + 7 * rows
-    }
+/// How many numbers [`Impulses`] need for so many rows.
+pub(crate) const fn memory(rows: usize) -> usize {
+    rows * rows + stride(rows) * (rows + 1) + 7 * rows
+}
 
+impl<'m, T: Real> Impulses<'m, T> {
     pub(crate) fn new(
-        memory: &'m mut [f64],
-        UnknownsIn { rows: unknown, order, extents, states }: UnknownsIn<'m>,
+        memory: &'m mut [T],
+        UnknownsIn { rows: unknown, order, extents, states }: UnknownsIn<'m, T>,
     ) -> Self {
         let rows = unknown.len();
         let (delassus, memory) = memory.split_at_mut(rows * rows);
@@ -118,17 +132,13 @@ impl<'m> Impulses<'m> {
             relaxed: false,
             pull: 0.0,
             symmetric: false,
+            lockstep: Lockstep::default(),
         }
     }
 
     /// A problem of so many rows: D, and for each row its rate without impulses and the impulse to begin with. Rows of
     /// friction are scaled to circles.
-    pub(crate) fn set_up(
-        &mut self,
-        scales: &[f64],
-        delassus: impl Fn(usize, usize) -> f64,
-        row: impl Fn(usize) -> [f64; 2],
-    ) {
+    pub(crate) fn set_up(&mut self, scales: &[T], delassus: impl Fn(usize, usize) -> T, row: impl Fn(usize) -> [T; 2]) {
         let n = self.b.len();
         for i in 0..n {
             let [rate, impulse] = row(i);
@@ -138,11 +148,9 @@ impl<'m> Impulses<'m> {
             row.iter_mut()
                 .zip(scales)
                 .enumerate()
-                .for_each(|(j, (entry, scale))| *entry = scales[i] * delassus(j, i) * scale);
-            let is_zero = |x: &f64| *x == 0.0;
-            let from = row.iter().position(|x| !is_zero(x)).unwrap_or(0);
-            self.extents[i] =
-                [from, row.iter().rposition(|x| !is_zero(x)).map_or(from, |last| last + 1)].map(|k| k as Place);
+                .for_each(|(j, (entry, scale))| *entry = scales[i] * delassus(j, i) * *scale);
+            let from = last(&self.lockstep, (0..n).rev(), row).unwrap_or(0);
+            self.extents[i] = [from, last(&self.lockstep, 0..n, row).map_or(from, |last| last + 1)].map(|k| k as Place);
         }
     }
 
@@ -153,22 +161,22 @@ impl<'m> Impulses<'m> {
     }
 
     /// What impulses are multiplied with in a row, from the first that acts on it to the last; with these.
-    fn row(&self, row: usize) -> [&[f64]; 2] {
+    fn row(&self, row: usize) -> [&[T]; 2] {
         let (n, extent) = (self.b.len(), self.extent(row));
         [&self.delassus[row * n..(row + 1) * n][extent.clone()], &self.impulses[extent]]
     }
 
-    pub(super) fn at(&self, i: usize, j: usize) -> f64 {
+    pub(super) fn at(&self, i: usize, j: usize) -> T {
         self.delassus[i * self.b.len() + j]
     }
 
-    pub(super) fn rate(&self, row: usize) -> f64 {
+    pub(super) fn rate(&self, row: usize) -> T {
         let [row_of, impulses] = self.row(row);
         self.b[row] + dot(row_of, impulses)
     }
 
     /// The rates of the rows that act, with their terms.
-    fn update(&mut self, cones: &[Cone]) {
+    pub(super) fn update(&mut self, cones: &[Cone<T>]) {
         for row in cones.iter().flat_map(Cone::rows) {
             let [row_of, impulses] = self.row(row);
             let (sum, size) = dot_and_size(row_of, impulses);
@@ -177,13 +185,13 @@ impl<'m> Impulses<'m> {
     }
 
     /// The largest diagonal entry of friction.
-    pub(super) fn scale(&self, cone: &Cone) -> f64 {
-        cone.tangents().map(|row| self.at(row, row)).fold(0.0, f64::max)
+    pub(super) fn scale(&self, cone: &Cone<T>) -> T {
+        cone.tangents().map(|row| self.at(row, row)).fold(T::zero(), larger)
     }
 
     /// `d P_T − u_T`, at most three, and its length.
-    fn wanted(&self, cone: &Cone, scale: f64) -> ([f64; 3], f64) {
-        let mut wanted = [0.0; 3];
+    fn wanted(&self, cone: &Cone<T>, scale: T) -> ([T; 3], T) {
+        let mut wanted = [T::zero(); 3];
         for (wanted, row) in wanted.iter_mut().zip(cone.tangents()) {
             *wanted = scale * self.impulses[row] - self.rates[row];
         }
@@ -191,146 +199,98 @@ impl<'m> Impulses<'m> {
     }
 
     /// The rate that is zero where a gap is closed: that of the gap, or of the relaxed law less what slips take.
-    fn closing(&self, cones: &[Cone], row: usize) -> f64 {
+    fn closing(&self, cones: &[Cone<T>], row: usize) -> T {
         if self.relaxed { self.rates[row] - self.lift(cones, row) } else { self.rates[row] }
     }
 
     /// What a contact does, judged by impulses and rates.
-    fn state(&self, cones: &[Cone], cone: &Cone) -> State {
+    pub(super) fn state(&self, cones: &[Cone<T>], cone: &Cone<T>) -> State<T> {
         if !cone.acts {
             return State::Leaves;
         }
         let pressing = |row: usize| self.impulses[row] - self.closing(cones, row) / self.at(row, row);
-        let pressed = cone.pressed.map_or(1.0, pressing);
-        if pressed <= 0.0 {
+        let pressed = cone.pressed.map_or(T::one(), pressing);
+        let lockstep = &self.lockstep;
+        if lockstep.at_most(pressed, T::zero()) {
             return State::Leaves;
         }
         let scale = self.scale(cone);
-        if cone.count == 0 || cone.friction == 0.0 || scale == 0.0 {
+        if cone.count == 0 || lockstep.is_zero(cone.friction) || lockstep.is_zero(scale) {
             return State::Closed;
         }
         let (wanted, size) = self.wanted(cone, scale);
         let largest = cone.friction * pressed * scale;
-        if size <= largest {
+        if lockstep.at_most(size, largest) {
             return State::Sticks;
         }
         State::Slides(wanted.map(|x| x / size), largest / size)
     }
 
-    /// What a contact does, in forces and slips as they are: rows were scaled. Slips within the tolerance are none.
-    pub(crate) fn mode(&self, cones: &[Cone], cone: &Cone, scales: &[f64], tolerance: f64) -> Mode {
-        let terms = cone.tangents().map(|row| self.terms[row]).fold(0.0, f64::max);
-        let slip = cone.tangents().map(|row| self.rates[row].abs()).fold(0.0, f64::max);
-        match self.state(cones, cone) {
-            State::Slides(..) if slip <= tolerance * terms => Mode::Sticks,
+    /// What a contact does in a lane, by its state, in forces and slips as they are: rows were scaled. Slips within the
+    /// tolerance are none.
+    pub(crate) fn mode(&self, (cone, state): (&Cone<T>, &State<T>), scales: &[T], tolerance: f64, lane: usize) -> Mode {
+        let largest = |of: &dyn Fn(usize) -> T| cone.tangents().map(|row| of(row).lane(lane)).fold(0.0, f64::max);
+        let slips = || largest(&|row| self.rates[row].abs()) > tolerance * largest(&|row| self.terms[row]);
+        match state {
+            State::Slides(..) if !slips() => Mode::Sticks,
             State::Leaves => Mode::Open,
             State::Closed => Mode::Closed,
             State::Sticks => Mode::Sticks,
             State::Slides(against, _) => {
                 let mut along = [0.0; 3];
-                along.iter_mut().zip(cone.tangents()).zip(against).for_each(|((x, row), y)| *x = -y / scales[row]);
+                let each = along.iter_mut().zip(cone.tangents()).zip(against);
+                each.for_each(|((x, row), y)| *x = (-*y / scales[row]).lane(lane));
                 let size = norm(&along);
                 Mode::Slides(along.map(|x| x / size))
             }
         }
     }
 
-    /// Finds the impulses; contacts that others press closed, judged by their number and rate, take part as well.
-    pub(crate) fn solve_with_more(
-        &mut self,
-        cones: &mut [Cone],
-        tolerance: f64,
-        closes: impl Fn(usize, f64) -> bool,
-    ) -> Found {
-        let mut found = Found::default();
-        loop {
-            let next = self.solve(cones, tolerance);
-            let (corrections, sweeps) = (found.corrections + next.corrections, found.sweeps + next.sweeps);
-            found = Found { corrections, sweeps, ..next };
-            let mut more = false;
-            for i in 0..cones.len() {
-                let Cone { normal, pressed, acts, .. } = cones[i];
-                let joins = match normal {
-                    Some(normal) => closes(i, self.rates[normal]),
-                    None => cones.iter().any(|cone| cone.acts && pressed.is_some() && cone.normal == pressed),
-                };
-                if !acts && joins {
-                    cones[i].acts = true;
-                    more = true;
-                }
-            }
-            if !more {
-                return found;
-            }
-        }
-    }
-
     /// The work of the impulses: half of the rates before and after them, times these. Rates before are given without
     /// what impacts pass on.
-    pub(crate) fn work(&self, before: impl Fn(usize) -> f64) -> f64 {
-        let work = |row: usize| self.impulses[row] * (before(row) + 0.5 * (self.rates[row] - self.b[row]));
-        (0..self.b.len()).map(work).sum()
+    pub(crate) fn work(&self, before: impl Fn(usize) -> T) -> T {
+        let change = |row: usize| T::from_f64(0.5) * (self.rates[row] - self.b[row]);
+        let work = |row: usize| self.impulses[row] * (before(row) + change(row));
+        (0..self.b.len()).map(work).fold(T::zero(), |sum, work| sum + work)
     }
 
-    /// Finds the impulses from those that are there.
-    pub(crate) fn solve(&mut self, cones: &[Cone], tolerance: f64) -> Found {
-        let mut found = Found::default();
+    /// The rates with which the search begins; whether there is anything to look for.
+    pub(super) fn begin(&mut self, cones: &[Cone<T>]) -> bool {
         for row in cones.iter().filter(|cone| !cone.acts).flat_map(|cone| cone.rows()) {
-            self.impulses[row] = 0.0;
+            self.impulses[row] = T::zero();
         }
         self.update(cones);
         self.best.copy_from_slice(self.impulses);
-        if !cones.iter().any(|cone| cone.acts) {
-            found.holds = true;
-            return found;
-        }
-        // Also where those of the step before satisfy the laws within the tolerance: what rests is to rest exactly.
-        for round in 0..ROUNDS {
-            // From the impulses of the step before; from none, since dependent contacts may press against one another
-            // up to the bounds of their friction; then from sweeps that go on from where they were.
-            if round == 1 {
-                self.swept.fill(0.0);
-            }
-            if round > 0 {
-                self.impulses.copy_from_slice(self.swept);
-                let sweeps = if round == 1 { 0 } else { 4 << round };
-                (0..sweeps).for_each(|_| if self.relaxed { self.sweep_convex(cones) } else { self.sweep(cones) });
-                found.sweeps += sweeps;
-                self.swept.copy_from_slice(self.impulses);
-                self.update(cones);
-            }
-            self.pull = PULL;
-            if self.correct(cones, STRICT * tolerance, &mut found) {
-                return found;
-            }
-            if found.corrections == 0 {
-                (found.residual, found.holds) = self.worst(cones, tolerance);
-            }
-            // Where contacts depend on one another rates of places that moved agree only to the order of the step.
-            if round > 0 {
-                self.impulses.copy_from_slice(self.best);
-                self.update(cones);
-                (found.residual, found.holds) = self.worst(cones, tolerance);
-                if found.holds {
-                    return found;
-                }
-            }
-        }
-        found
+        cones.iter().any(|cone| cone.acts)
+    }
+
+    /// Finds the impulses of all lanes by corrections alone; nothing where lanes part, or where that is not enough for
+    /// one of them.
+    pub(crate) fn solve_in_lockstep(&mut self, cones: &[Cone<T>], tolerance: f64) -> Option<Found<T>> {
+        let mut found = Found::none();
+        found.holds = !self.begin(cones);
+        self.pull = PULL;
+        let solved = found.holds || self.correct(cones, STRICT * tolerance, &mut found);
+        (solved && !self.lockstep.has_parted()).then_some(found)
     }
 
     /// Newton's method; whether it ends with a solution.
-    fn correct(&mut self, cones: &[Cone], tolerance: f64, found: &mut Found) -> bool {
+    pub(super) fn correct(&mut self, cones: &[Cone<T>], tolerance: f64, found: &mut Found<T>) -> bool {
         let states = core::mem::take(&mut self.states);
         let solved = self.correct_in(states, cones, (tolerance, found));
         self.states = states;
         solved
     }
 
-    fn correct_in(&mut self, states: &mut [State], cones: &[Cone], (tolerance, found): (f64, &mut Found)) -> bool {
+    fn correct_in(
+        &mut self,
+        states: &mut [State<T>],
+        cones: &[Cone<T>],
+        (tolerance, found): (f64, &mut Found<T>),
+    ) -> bool {
         states.fill(State::Leaves);
         let mut known = 0;
-        let (mut last, mut changed) = (f64::INFINITY, false);
+        let (mut before, mut changed) = (T::from_f64(f64::INFINITY), false);
         for n in 0..CORRECTIONS {
             let mut same = n > 0 && !changed;
             for (state, cone) in states.iter_mut().zip(cones) {
@@ -354,111 +314,85 @@ impl<'m> Impulses<'m> {
                 true => solve_symmetric(factors, order, right, self.solution),
                 false => solve(factors, order, right, &mut self.solution[..known]),
             }
-            self.impulses.fill(0.0);
+            self.impulses.fill(T::zero());
             (0..known).for_each(|k| self.impulses[usize::from(self.unknown[k])] = self.solution[k]);
             self.update(cones);
             found.corrections += 1;
             let (residual, holds) = self.worst(cones, tolerance);
             let size = residual.worst();
-            if n == 0 || size < found.residual.worst() || holds {
+            if n == 0 || holds || self.lockstep.less(size, found.residual.worst()) {
                 (found.residual, found.holds) = (residual, holds);
                 self.best.copy_from_slice(self.impulses);
             }
             if holds {
                 return true;
             }
-            if !size.is_finite() || (n > 12 && !self.dependent) {
+            let is_finite = self.lockstep.agree::<T>(|lane| size.lane(lane).is_finite());
+            if !is_finite || (n > 12 && !self.dependent) || self.lockstep.has_parted() {
                 return false;
             }
             let pull = self.pull;
-            if size > 3.0 * last {
+            if self.lockstep.less(T::from_f64(3.0) * before, size) {
                 self.pull = (10.0 * pull).min(MOST_PULL);
-            } else if size > 0.3 * last {
+            } else if self.lockstep.less(T::from_f64(0.3) * before, size) {
                 self.pull = (0.1 * pull).max(LEAST_PULL);
             }
             changed = self.dependent && self.pull != pull;
-            last = size;
+            before = size;
         }
         false
     }
 
-    /// One sweep over the contacts: each impulse is brought to its cone as if the others stayed.
-    fn sweep(&mut self, cones: &[Cone]) {
-        for cone in cones.iter().filter(|cone| cone.acts) {
-            if let Some(normal) = cone.normal {
-                let diagonal = self.at(normal, normal);
-                if diagonal > 0.0 {
-                    self.impulses[normal] = (self.impulses[normal] - self.rate(normal) / diagonal).max(0.0);
-                }
-            }
-            let scale: f64 = cone.tangents().map(|row| self.at(row, row)).sum();
-            if scale > 0.0 {
-                let largest = cone.radius(self.impulses);
-                let mut wanted = [0.0; 3];
-                for (wanted, row) in wanted.iter_mut().zip(cone.tangents()) {
-                    *wanted = self.impulses[row] - self.rate(row) / scale;
-                }
-                let size = norm(&wanted);
-                let part = if size > largest { largest / size } else { 1.0 };
-                cone.tangents().zip(wanted).for_each(|(row, impulse)| self.impulses[row] = part * impulse);
-            }
-        }
-    }
-
     /// The worst residuals, and whether they are within the tolerance, a part of the largest rate, or rounding.
-    fn worst(&self, cones: &[Cone], tolerance: f64) -> (Residual, bool) {
+    pub(super) fn worst(&self, cones: &[Cone<T>], tolerance: f64) -> (Residual<T>, bool) {
         self.worst_by(cones, tolerance, |row| self.closing(cones, row))
     }
 
     /// The worst residuals of Coulomb's law, whatever law the impulses satisfy.
-    pub(crate) fn residual_of_coulomb(&self, cones: &[Cone]) -> Residual {
+    pub(crate) fn residual_of_coulomb(&self, cones: &[Cone<T>]) -> Residual<T> {
         self.worst_by(cones, 0.0, |row| self.rates[row]).0
     }
 
     /// The same by given rates of the gaps.
-    fn worst_by(&self, cones: &[Cone], tolerance: f64, closing: impl Fn(usize) -> f64) -> (Residual, bool) {
+    fn worst_by(&self, cones: &[Cone<T>], tolerance: f64, closing: impl Fn(usize) -> T) -> (Residual<T>, bool) {
         let acting = || cones.iter().filter(|cone| cone.acts);
         let rows = || acting().flat_map(|cone| cone.rows());
-        let largest = rows().map(|row| self.terms[row]).fold(0.0, f64::max);
+        let largest = rows().map(|row| self.terms[row]).fold(T::zero(), larger);
         let rounding = ROUNDINGS * (1 + self.b.len()) as f64 * f64::EPSILON;
-        let mut worst = Residual::default();
+        let mut worst = Residual::zero();
         let mut holds = true;
         for cone in acting() {
             let residual = self.residual(cone, rounding, &closing);
             // Written so that what is not a number does not hold.
-            holds &= residual.worst() <= residual.rounding.max(tolerance * largest);
+            let allowed = larger(residual.rounding, T::from_f64(tolerance) * largest);
+            holds &= self.lockstep.at_most(residual.worst(), allowed);
             worst = worst.worse(residual);
         }
         (worst, holds)
     }
 
-    fn residual(&self, cone: &Cone, rounding: f64, closing: impl Fn(usize) -> f64) -> Residual {
-        let pressed = cone.normal.map_or(0.0, |row| self.at(row, row) * self.impulses[row]);
-        let signorini = cone.normal.map_or(0.0, |row| nan_or(closing(row), f64::min, pressed).abs());
+    fn residual(&self, cone: &Cone<T>, rounding: f64, closing: impl Fn(usize) -> T) -> Residual<T> {
+        let pressed = cone.normal.map_or(T::zero(), |row| self.at(row, row) * self.impulses[row]);
+        let signorini = cone.normal.map_or(T::zero(), |row| closing(row).min(pressed).abs());
         let scale = self.scale(cone);
-        let terms = cone.rows().map(|row| self.terms[row]).fold(0.0, f64::max);
-        let mut residual = Residual { signorini, rounding: rounding * terms, ..Residual::default() };
+        let terms = cone.rows().map(|row| self.terms[row]).fold(T::zero(), larger);
+        let mut residual = Residual { signorini, rounding: T::from_f64(rounding) * terms, ..Residual::zero() };
         if cone.count > 0 {
             let largest = scale * cone.radius(self.impulses);
-            let mut friction = [0.0; 3];
+            let mut friction = [T::zero(); 3];
             friction.iter_mut().zip(cone.tangents()).for_each(|(x, row)| *x = scale * self.impulses[row]);
-            residual.coulomb = nan_or(norm(&friction) - largest, f64::max, 0.0);
+            residual.coulomb = (norm(&friction) - largest).max(T::zero());
             let (wanted, size) = self.wanted(cone, scale);
-            let part = if size > largest { largest / size } else { 1.0 };
-            let off: [f64; 3] = core::array::from_fn(|k| friction[k] - part * wanted[k]);
+            let part = T::select_lt(largest, size, largest / size, T::one());
+            let off: [T; 3] = core::array::from_fn(|k| friction[k] - part * wanted[k]);
             residual.dissipation = norm(&off);
         }
         residual
     }
 }
 
-/// The smaller or larger of two; NaN where there is one.
-fn nan_or(a: f64, choose: fn(f64, f64) -> f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { choose(a, b) }
-}
-
-pub(super) fn norm(x: &[f64; 3]) -> f64 {
-    gauss_runtime::real::Real::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])
+pub(super) fn norm<T: Real>(x: &[T; 3]) -> T {
+    (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt()
 }
 
 #[cfg(test)]

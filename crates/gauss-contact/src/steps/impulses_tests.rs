@@ -72,7 +72,7 @@ impl Random {
     /// Impulses and rates, found from given ones.
     fn solve(&self, start: &[f64]) -> (Found, Vec<f64>, Vec<f64>) {
         let n = self.b.len();
-        let mut memory = vec![0.0; Impulses::memory(n)];
+        let mut memory = vec![0.0; memory(n)];
         let (mut rows, mut order, mut extents) = (vec![0; n], vec![0; n], vec![[0; 2]; n]);
         let mut states = vec![State::Leaves; self.cones.len()];
         let unknowns = UnknownsIn { rows: &mut rows, order: &mut order, extents: &mut extents, states: &mut states };

@@ -1,15 +1,18 @@
-//! Steps of several states at once: the kernel works on all of them in lockstep, the laws are solved one by one.
+//! Steps of several states at once, in lockstep.
 //!
-//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone,
-//! and everything else in a step is made by the stepper of the lane: so a lane has the bits of a stepper of its own.
-//! Lanes that need something else than the others go that step alone: at the start and after impacts, where the step is
-//! made twice, where a flight ends, and where a step is made in parts.
+//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone. So do
+//! the laws, whose solution is generic in its scalar, as long as all lanes decide alike: which contacts act, which of
+//! these slide, how often the solution is corrected. Where they do not, the laws of that step are solved by the stepper
+//! of each lane: so a lane has the bits of a stepper of its own. Lanes that need something else than the others go that
+//! step alone: at the start and after impacts, where the step is made twice, where a flight ends, and where a step is
+//! made in parts.
 
 use alloc::vec::Vec;
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::{ContactSystem, ImpulseResponse};
 use gauss_runtime::integrate::problem::state::TangentOf;
+use gauss_runtime::real::Real;
 use gauss_runtime::simd::Packed;
 
 use crate::error::{ContactError, ContactErrorKind};
@@ -19,6 +22,7 @@ use super::outcome::Pushed;
 use super::projection::Closed;
 use super::report::StepReport;
 use super::stepper::ContactStepper;
+use super::together;
 
 /// A system in packs, each lane of which is the system `K`: `Kernel<wide::f64x8>` of a struct that is generic in its
 /// scalar, of which `K` is `Kernel<f64>`.
@@ -48,25 +52,35 @@ impl<W, K: ContactSystem<Scalar = f64>> LanesOf<K> for W where
 ///
 /// Both kernels are of the same struct with the same parameters, or lanes of the first have those of their own and
 /// steppers have kernels of their own ([`of`](Self::of)).
-#[derive(Debug)]
-pub struct ContactLanes<'k, W, K: ContactSystem<Scalar = f64>> {
-    wide: &'k W,
-    steppers: Vec<ContactStepper<'k, K>>,
+pub struct ContactLanes<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> {
+    pub(super) wide: &'k W,
+    pub(super) steppers: Vec<ContactStepper<'k, K>>,
     /// What the last step came to, lane by lane.
-    outcomes: Vec<Result<StepReport, ContactError>>,
+    pub(super) outcomes: Vec<Result<StepReport, ContactError>>,
     /// How far the lanes are in a step.
-    stages: Vec<Stage<K>>,
-    /// What impulses do in each lane: large, so that it stays where it is.
-    responses: Vec<Option<ImpulseResponse<K>>>,
+    pub(super) stages: Vec<Stage<K>>,
+    /// What impulses do, in all lanes and in those that solve their laws alone: large, so that it stays where it is.
+    pub(super) response: Option<ImpulseResponse<W>>,
+    pub(super) responses: Vec<Option<ImpulseResponse<K>>>,
+    /// For the laws of all lanes.
+    pub(super) memory: Vec<W::Scalar>,
     /// Whether contacts of a lane depended on one another before the step.
-    known: Vec<bool>,
+    pub(super) known: Vec<bool>,
     /// Lanes that do not go on.
     halted: Vec<bool>,
     alone: u64,
 }
 
+impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> core::fmt::Debug for ContactLanes<'_, W, K> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self { steppers, outcomes, alone, .. } = self;
+        let mut shown = f.debug_struct("ContactLanes");
+        shown.field("steppers", steppers).field("outcomes", outcomes).field("alone", alone).finish_non_exhaustive()
+    }
+}
+
 /// How far a lane is in a step.
-enum Stage<K: ContactSystem<Scalar = f64>> {
+pub(super) enum Stage<K: ContactSystem<Scalar = f64>> {
     /// It goes this step alone.
     Alone,
     /// The step is made.
@@ -119,7 +133,8 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let (stages, known) = (Vec::with_capacity(steppers.len()), Vec::with_capacity(steppers.len()));
         let halted = steppers.iter().map(|_| false).collect();
         let responses = steppers.iter().map(|_| None).collect();
-        Ok(Self { wide, steppers, outcomes, stages, responses, known, halted, alone: 0 })
+        let memory = alloc::vec![W::Scalar::zero(); together::memory::<W>()];
+        Ok(Self { wide, steppers, outcomes, stages, response: None, responses, memory, known, halted, alone: 0 })
     }
 
     /// The steppers, lane by lane.
@@ -164,7 +179,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
     }
 
     /// A number of each lane; those without one repeat that of the first.
-    fn number(&self, of: impl Fn(usize) -> f64) -> W::Scalar {
+    pub(super) fn number(&self, of: impl Fn(usize) -> f64) -> W::Scalar {
         let mut pack = W::Scalar::repeat(&of(0));
         (1..self.steppers.len()).for_each(|lane| pack.replace(lane, &of(lane)));
         pack
@@ -177,12 +192,17 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
     }
 
     fn speeds(&self, of: impl Fn(usize) -> K::Speeds) -> W::Speeds {
-        let mut pack = W::Speeds::zero();
+        self.vectors(of)
+    }
+
+    /// The numbers of all lanes; those without one repeat the first.
+    pub(super) fn vectors<V: VectorSpace<f64>, P: VectorSpace<W::Scalar>>(&self, of: impl Fn(usize) -> V) -> P {
+        let mut pack = P::zero();
         for lane in 0..W::Scalar::WIDTH {
-            let speeds = of(if lane < self.steppers.len() { lane } else { 0 });
-            for i in 0..W::Speeds::DIM {
+            let vector = of(if lane < self.steppers.len() { lane } else { 0 });
+            for i in 0..P::DIM {
                 let mut number = pack.component(i);
-                number.replace(lane, &speeds.component(i));
+                number.replace(lane, &vector.component(i));
                 pack.set_component(i, number);
             }
         }
@@ -259,6 +279,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         }
     }
 
+    /// Impulses; in lockstep where all lanes touch and decide alike.
     fn push(&mut self, h: f64, input: &W::Input) {
         if !self.stages.iter().any(|stage| matches!(stage, Stage::Middle(_))) {
             return;
@@ -266,6 +287,12 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let (t, q, z) = self.middles();
         let friction = self.wide.friction(t, &q, &z, input);
         let dynamics = self.wide.impulse_dynamics(t, &q, &z, input);
+        let middle = Middle { t, q, z };
+        if self.push_together(h, &middle, &friction, &dynamics).is_some() {
+            self.response = Some(dynamics.response);
+            return;
+        }
+        self.response = None;
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
             let middle = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
                 Stage::Middle(middle) => middle,
@@ -319,7 +346,14 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
 
     fn close(&mut self, h: f64) {
         let t = self.number(|lane| self.steppers[lane].t + h);
-        let gaps = self.wide.gaps(t, &self.places(|lane| self.place(lane).0));
+        let q = self.places(|lane| self.place(lane).0);
+        let gaps = self.wide.gaps(t, &q);
+        if self.response.is_some() {
+            if self.close_together((t, q, gaps)).is_some() {
+                return;
+            }
+            self.go_apart();
+        }
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
             let gaps = single::<W, _, K::Gaps>(&gaps, lane);
             let response = &self.responses[lane];
@@ -338,12 +372,20 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
     fn end(&mut self, h: f64) {
         let t = self.number(|lane| self.steppers[lane].t + h);
         let q = self.places(|lane| self.place(lane).0);
-        let rates = self.wide.contact_rates(t, &q, &self.speeds(|lane| self.place(lane).1));
+        let z = self.speeds(|lane| self.place(lane).1);
+        let rates = self.wide.contact_rates(t, &q, &z);
+        if self.response.is_some() {
+            if self.stop_together(h, (t, &q, z, rates)).is_some() {
+                return;
+            }
+            self.go_apart();
+        }
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
             let rates = single::<W, _, K::ContactRows>(&rates, lane);
             let end = match (core::mem::replace(&mut self.stages[lane], Stage::Alone), &self.responses[lane]) {
                 (Stage::Closed(closed, z, pushed), Some(response)) => {
-                    stepper.end(h, (response, pushed), closed, (z, rates))
+                    let (z, rates) = stepper.stop(h, (response, &pushed), &closed, (z, rates));
+                    stepper.end(pushed, closed, (z, rates))
                 }
                 (Stage::Lands(q, z, gaps), _) => ContactStepper::<K, Vec<f64>>::flown((q, z), gaps, rates),
                 (other, _) => {
@@ -351,15 +393,14 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
                     continue;
                 }
             };
-            let made = stepper.take(h, end);
-            stepper.report = *made.as_ref().unwrap_or(&stepper.report);
-            (self.outcomes[lane], self.stages[lane]) = (made, Stage::Made);
+            self.outcomes[lane] = stepper.made(h, end);
+            self.stages[lane] = Stage::Made;
         }
     }
 }
 
 /// The numbers of a lane.
-fn single<W: ContactSystem<Scalar: Packed<Single = f64>>, V: VectorSpace<W::Scalar>, U: VectorSpace<f64>>(
+pub(super) fn single<W: ContactSystem<Scalar: Packed<Single = f64>>, V: VectorSpace<W::Scalar>, U: VectorSpace<f64>>(
     pack: &V,
     lane: usize,
 ) -> U {

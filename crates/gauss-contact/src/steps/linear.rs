@@ -3,7 +3,7 @@
 
 use gauss_runtime::real::Real;
 
-use crate::dense::value;
+use crate::lockstep::{Lockstep, larger, last};
 
 /// The place of a row, in two bytes: less to be written in each step.
 pub(crate) type Place = u16;
@@ -21,9 +21,9 @@ pub(crate) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
 }
 
 /// The scalar product, and the sum of the sizes of its terms.
-pub(crate) fn dot_and_size(a: &[f64], b: &[f64]) -> (f64, f64) {
-    let (mut sums, mut sizes) = ([0.0; 4], [0.0; 4]);
-    let mut add = |k: usize, term: f64| {
+pub(crate) fn dot_and_size<T: Real>(a: &[T], b: &[T]) -> (T, T) {
+    let (mut sums, mut sizes) = ([T::zero(); 4], [T::zero(); 4]);
+    let mut add = |k: usize, term: T| {
         sums[k] += term;
         sizes[k] += term.abs();
     };
@@ -32,21 +32,22 @@ pub(crate) fn dot_and_size(a: &[f64], b: &[f64]) -> (f64, f64) {
     for (a, b) in a.iter().zip(b) {
         (0..4).for_each(|k| add(k, a[k] * b[k]));
     }
-    rest_a.iter().zip(rest_b).for_each(|(a, b)| add(0, a * b));
-    let whole = |all: [f64; 4]| (all[0] + all[1]) + (all[2] + all[3]);
+    rest_a.iter().zip(rest_b).for_each(|(a, b)| add(0, *a * *b));
+    let whole = |all: [T; 4]| (all[0] + all[1]) + (all[2] + all[3]);
     (whole(sums), whole(sizes))
 }
 
 /// Replaces a matrix, row by row, by its factors; `order` takes the rows in the order of their pivots. Whether no pivot
 /// is smaller than a part of the largest entry of its column.
-pub(crate) fn factorise(matrix: &mut [f64], order: &mut [Place], part: f64) -> bool {
+pub(crate) fn factorise<T: Real>(lockstep: &Lockstep, matrix: &mut [T], order: &mut [Place], part: f64) -> bool {
     let n = order.len();
     order.iter_mut().enumerate().for_each(|(i, row)| *row = i as Place);
     for k in 0..n {
-        let size = |i: &usize| matrix[*i * n + k].abs();
+        let size = |i: usize| matrix[i * n + k].abs();
         // Of the factors above and of what is left: an entry of the column to begin with is not far from these.
-        let column = (0..n).map(|i| size(&i)).fold(0.0, f64::max);
-        let Some(pivot) = (k..n).max_by(|a, b| size(a).total_cmp(&size(b))) else { return true };
+        let column = (0..n).map(size).fold(T::zero(), larger);
+        // The last of the largest.
+        let pivot = (k..n).reduce(|a, b| if lockstep.less(size(b), size(a)) { a } else { b }).unwrap_or(k);
         if pivot != k {
             (0..n).for_each(|j| matrix.swap(pivot * n + j, k * n + j));
             order.swap(pivot, k);
@@ -54,16 +55,17 @@ pub(crate) fn factorise(matrix: &mut [f64], order: &mut [Place], part: f64) -> b
         let (above, below) = matrix.split_at_mut((k + 1) * n);
         let first = &above[k * n..];
         let diagonal = first[k];
-        if diagonal.abs() <= part * column || !diagonal.is_finite() {
+        let is_small = lockstep.at_most(diagonal.abs(), T::from_f64(part) * column);
+        if is_small || !lockstep.agree::<T>(|lane| diagonal.lane(lane).is_finite()) {
             return false;
         }
         // Of contacts in a row, as in a stack, most of it is zero.
-        let end = first[..n].iter().rposition(|x| *x != 0.0).unwrap_or(k) + 1;
+        let end = last(lockstep, 0..n, first).unwrap_or(k) + 1;
         for row in below.chunks_exact_mut(n) {
             let factor = row[k] / diagonal;
             row[k] = factor;
-            if factor != 0.0 {
-                row[k + 1..end].iter_mut().zip(&first[k + 1..end]).for_each(|(x, y)| *x -= factor * y);
+            if !lockstep.is_zero(factor) {
+                row[k + 1..end].iter_mut().zip(&first[k + 1..end]).for_each(|(x, y)| *x -= factor * *y);
             }
         }
     }
@@ -71,7 +73,7 @@ pub(crate) fn factorise(matrix: &mut [f64], order: &mut [Place], part: f64) -> b
 }
 
 /// Solves for a right side that is given in the order of the rows before elimination.
-pub(crate) fn solve(factors: &[f64], order: &[Place], right: &[f64], x: &mut [f64]) {
+pub(crate) fn solve<T: Real>(factors: &[T], order: &[Place], right: &[T], x: &mut [T]) {
     let n = order.len();
     for k in 0..n {
         let row = &factors[k * n..k * n + k];
@@ -110,6 +112,7 @@ fn subtract<T: Real, const N: usize>(x: &mut [T], factors: [T; N], y: [&[T]; N],
 /// last entry that is not zero, and `diagonal` what is its first. Whether no pivot is smaller than a part of the
 /// diagonal entry that it was to begin with: of these matrices no other entry of a column is larger in its own scale.
 pub(crate) fn factorise_symmetric<T: Real>(
+    lockstep: &Lockstep,
     matrix: &mut [T],
     ends: &mut [Place],
     diagonal: &mut [T],
@@ -127,19 +130,19 @@ pub(crate) fn factorise_symmetric<T: Real>(
         for k in from..to {
             let (before, after) = pivots.split_at_mut((k - from + 1) * rows);
             let first = &mut before[(k - from) * rows..];
-            let (pivot, was) = (first[k], value(diagonal[k]));
-            let size = value(pivot);
-            if !(size > part * was && size > 0.0 && size.is_finite()) {
+            let (pivot, was) = (first[k], diagonal[k]);
+            let is_large = |size: f64, was: f64| size > part * was && size > 0.0 && size.is_finite();
+            if !lockstep.agree::<T>(|lane| is_large(pivot.lane(lane), was.lane(lane))) {
                 return false;
             }
             first[k] = T::one() / pivot;
             // Contacts in a row, as in a stack, are coupled to their neighbours only. What is zero may have
             // a derivative.
-            let last = if T::DERIVATIVES { n - 1 } else { (k..n).rfind(|j| value(first[*j]) != 0.0).unwrap_or(k) };
-            ends[k] = (last + 1) as Place;
-            most = last.max(most);
+            let end = if T::DERIVATIVES { n - 1 } else { last(lockstep, k..n, first).unwrap_or(k) };
+            ends[k] = (end + 1) as Place;
+            most = end.max(most);
             for (i, row) in (k + 1..to).zip(after.chunks_exact_mut(rows)) {
-                subtract(row, [first[i] * first[k]], [first], i, last + 1);
+                subtract(row, [first[i] * first[k]], [first], i, end + 1);
             }
         }
         let pivot = |p: usize| &pivots[p * rows..(p + 1) * rows];
@@ -175,7 +178,11 @@ pub(crate) fn solve_symmetric<T: Real>(factors: &[T], ends: &[Place], right: &[T
 mod tests {
     use alloc::vec::Vec;
 
-    use super::{factorise, factorise_symmetric, solve, solve_symmetric};
+    use super::{Lockstep, factorise, factorise_symmetric, solve, solve_symmetric};
+
+    fn lockstep() -> Lockstep {
+        Lockstep::default()
+    }
 
     #[test]
     fn symmetric_systems_are_solved() {
@@ -184,13 +191,13 @@ mod tests {
         let x = [3.0, -1.0, 2.0];
         let right: Vec<f64> = matrix.chunks(4).map(|row| row.iter().zip(&x).map(|(a, x)| a * x).sum()).collect();
         let (mut factors, mut found, mut ends) = (matrix, [0.0; 4], [0; 3]);
-        assert!(factorise_symmetric(&mut factors, &mut ends, &mut [0.0; 3], 1e-11));
+        assert!(factorise_symmetric(&lockstep(), &mut factors, &mut ends, &mut [0.0; 3], 1e-11));
         solve_symmetric(&factors, &ends, &right, &mut found);
         // The inverse has entries up to 3, right sides up to 22, three products each.
         found.iter().zip(&x).for_each(|(a, b)| assert!((a - b).abs() <= 3.0 * 66.0 * f64::EPSILON, "{a} {b}"));
         let dependent = &mut [1.0, 2.0, 0.0, 0.0, 2.0, 4.0, 0.0, 0.0];
-        assert!(!factorise_symmetric(dependent, &mut [0; 2], &mut [0.0; 2], 1e-11));
-        assert!(!factorise_symmetric(&mut [f64::NAN, 0.0, 0.0, 0.0], &mut [0], &mut [0.0], 0.0));
+        assert!(!factorise_symmetric(&lockstep(), dependent, &mut [0; 2], &mut [0.0; 2], 1e-11));
+        assert!(!factorise_symmetric(&lockstep(), &mut [f64::NAN, 0.0, 0.0, 0.0], &mut [0], &mut [0.0], 0.0));
     }
 
     /// A chain of masses: each row ends after its neighbour, and what is solved is what the rows say.
@@ -207,7 +214,7 @@ mod tests {
         let x: Vec<f64> = (0..N).map(|i| ((i * i) % 7) as f64 - 3.0).collect();
         let right: Vec<f64> = (0..N).map(|i| (0..N).map(|j| entry(i, j) * x[j]).sum()).collect();
         let (mut found, mut ends) = ([0.0; 24], [0; N]);
-        assert!(factorise_symmetric(&mut factors, &mut ends, &mut [0.0; N], 0.0));
+        assert!(factorise_symmetric(&lockstep(), &mut factors, &mut ends, &mut [0.0; N], 0.0));
         solve_symmetric(&factors, &ends, &right, &mut found);
         (0..N).for_each(|k| assert_eq!(usize::from(ends[k]), (k + 2).min(N)));
         // The inverse is at most 1/(2.5 − 2), right sides up to 14, three products each.
@@ -221,10 +228,10 @@ mod tests {
         let x = [3.0, -1.0, 2.0];
         let right: Vec<f64> = matrix.chunks(3).map(|row| row.iter().zip(&x).map(|(a, x)| a * x).sum()).collect();
         let (mut factors, mut order, mut found) = (matrix, [0; 3], [0.0; 3]);
-        assert!(factorise(&mut factors, &mut order, 0.0));
+        assert!(factorise(&lockstep(), &mut factors, &mut order, 0.0));
         solve(&factors, &order, &right, &mut found);
         // Six products of numbers up to 12 stand behind each.
         found.iter().zip(&x).for_each(|(a, b)| assert!((a - b).abs() <= 6.0 * 12.0 * f64::EPSILON, "{a} {b}"));
-        assert!(!factorise(&mut [1.0, 2.0, 2.0, 4.0], &mut [0; 2], 0.0));
+        assert!(!factorise(&lockstep(), &mut [1.0, 2.0, 2.0, 4.0], &mut [0; 2], 0.0));
     }
 }

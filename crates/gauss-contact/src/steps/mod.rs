@@ -25,11 +25,14 @@ mod lanes;
 mod linear;
 mod motion;
 mod outcome;
+mod posed;
 mod projection;
 mod relaxed;
 mod report;
+mod rounds;
 mod run;
 mod stepper;
+mod together;
 mod unknowns;
 mod watch;
 

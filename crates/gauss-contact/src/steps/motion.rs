@@ -50,3 +50,8 @@ pub(super) fn free_rates<K: ContactSystem>(
 pub(super) fn passed_on<T: Real>(restitution: T, before: T) -> T {
     -restitution * before.min(T::zero())
 }
+
+/// How large numbers of a configuration are.
+pub(super) fn magnitude<Q: Configuration>(q: &Q) -> f64 {
+    (0..Q::Tangent::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max)
+}

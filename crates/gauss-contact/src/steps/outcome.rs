@@ -14,8 +14,6 @@ use super::watch::Attempted;
 /// What impulses have made of the speeds of a step.
 pub(super) struct Pushed<K: ContactSystem> {
     pub(super) z: K::Speeds,
-    /// The largest speed without impulses.
-    pub(super) fastest: f64,
     pub(super) impulses: K::ContactRows,
     /// Whether rates were those of contacts that depend on one another.
     pub(super) dependent: bool,

@@ -3,10 +3,10 @@
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::constraint::{ConstraintLevel, ProjectionError, ProjectionFailure};
 use gauss_runtime::contact::{ContactSystem, Each, ImpulseResponse};
-use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 
 use crate::dense::value;
+use crate::lockstep::{Lockstep, larger};
 use crate::mode::{Mode, after_impulses};
 
 use super::linear::{Place, factorise_symmetric, solve_symmetric, stride};
@@ -25,9 +25,8 @@ pub(crate) struct Projection<'m, K: ContactSystem> {
     rows: K::EachRow<Place>,
     /// Of the rows of factors.
     ends: K::EachRow<Place>,
-    /// What is much smaller may be rounding.
-    fastest: f64,
     count: usize,
+    pub(crate) lockstep: Lockstep,
     /// Contacts whose gaps were brought to zero.
     pub(crate) held: K::EachContact<bool>,
 }
@@ -37,9 +36,9 @@ pub(crate) struct Closed<K: ContactSystem> {
     pub(crate) q: K::Configuration,
     pub(crate) gaps: K::Gaps,
     /// How far the lowest gap was below zero.
-    pub(crate) penetration: f64,
+    pub(crate) penetration: K::Scalar,
     /// How far from zero those were that are closed, above it too.
-    pub(crate) closure: f64,
+    pub(crate) closure: K::Scalar,
 }
 
 impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
@@ -48,21 +47,31 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     /// How many numbers it needs.
     pub(crate) const MEMORY: usize = stride(Self::ROWS) * (Self::ROWS + 1) + Self::ROWS;
 
-    /// `fastest`: how large speeds of the step are, or increments.
-    pub(crate) fn new(memory: &'m mut [T], fastest: f64) -> Self {
+    pub(crate) fn new(memory: &'m mut [T]) -> Self {
         let (matrix, memory) = memory.split_at_mut(Self::ROWS * stride(Self::ROWS));
         let (solution, memory) = memory.split_at_mut(stride(Self::ROWS));
         let right = &mut memory[..Self::ROWS];
         let (rows, ends) = (Each::from_fn(|_| 0), Each::from_fn(|_| 0));
-        Self { matrix, right, solution, rows, ends, fastest, count: 0, held: Each::from_fn(|_| false) }
+        Self {
+            matrix,
+            right,
+            solution,
+            rows,
+            ends,
+            count: 0,
+            lockstep: Lockstep::default(),
+            held: Each::from_fn(|_| false),
+        }
     }
 
     /// Factors of D at some rows; whether there are any.
     fn factorise(&mut self, delassus: &K::Delassus, rows: impl Iterator<Item = usize>) -> bool {
         let mut count = 0;
-        for row in rows.filter(|&row| value(delassus[(row, row)]) > 0.0) {
-            self.rows[count] = row as Place;
-            count += 1;
+        for row in rows {
+            if self.lockstep.less(T::zero(), delassus[(row, row)]) {
+                self.rows[count] = row as Place;
+                count += 1;
+            }
         }
         self.count = count;
         // Rounding may ask for more where masses are far apart.
@@ -78,7 +87,7 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
                 row[..i].fill(T::zero());
                 row[count..].fill(T::zero());
             }
-            factorise_symmetric(self.matrix, &mut self.ends.as_mut()[..count], self.solution, 0.0)
+            factorise_symmetric(&self.lockstep, self.matrix, &mut self.ends.as_mut()[..count], self.solution, 0.0)
         })
     }
 
@@ -95,37 +104,43 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
         solve_symmetric(self.matrix, &self.ends.as_ref()[..n], &self.right[..n], self.solution);
         let mut impulses = K::ContactRows::zero();
         (0..n).for_each(|k| impulses.set_component(usize::from(self.rows[k]), self.solution[k]));
-        after_impulses(kernel, (z, self.fastest), &response.factors, &impulses)
+        after_impulses(&self.lockstep, kernel, z, (&response.factors, &impulses))
     }
 
-    /// Gaps of closed contacts brought to zero, and those that are negative, from places with their gaps.
+    /// Gaps of closed contacts brought to zero, and those that are negative, from places with their gaps. `magnitude`:
+    /// how large numbers of the configuration are.
     pub(crate) fn close(
         &mut self,
         kernel: &K,
         (t, mut q, mut gaps): (T, K::Configuration, K::Gaps),
-        response: &ImpulseResponse<K>,
+        (response, magnitude): (&ImpulseResponse<K>, T),
         closed: &[bool],
     ) -> Result<Closed<K>, ProjectionError> {
-        let magnitude = (0..TangentOf::<K>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max);
+        let (zero, infinite) = (T::zero(), T::from_f64(f64::INFINITY));
         let each = || K::CONTACTS.iter().enumerate().filter(|(_, contact)| contact.has_gap());
-        let lowest = each().map(|(i, _)| value(gaps.component(i))).fold(0.0, f64::min);
+        let smaller = |a: T, b: T| T::select_lt(b, a, b, a);
+        let lowest = each().map(|(i, _)| gaps.component(i)).fold(zero, smaller);
         self.held = Each::from_fn(|_| false);
-        let (mut left, mut size, mut closure) = (f64::INFINITY, 0.0, 0.0);
+        let (mut left, mut size, mut closure, mut goes_on) = (infinite, zero, zero, T::one());
         for n in 0..CORRECTIONS {
             let mut grown = n == 0;
             for (i, _) in each() {
-                let joins = !self.held[i] && (closed[i] || value(gaps.component(i)) < 0.0);
+                let joins = !self.held[i] && (closed[i] || self.lockstep.less(gaps.component(i), zero));
                 self.held[i] |= joins;
                 grown |= joins;
             }
             let held = self.held;
-            let gap = |i: usize| if held[i] { gaps.component(i) } else { T::zero() };
-            size = (0..K::CONTACTS.len()).map(|i| value(gap(i)).abs()).fold(0.0, f64::max);
+            let gap = |i: usize| if held[i] { gaps.component(i) } else { zero };
+            size = (0..K::CONTACTS.len()).map(|i| gap(i).abs()).fold(zero, larger);
             if n == 0 {
                 closure = size;
             }
             // Below rounding, or where a correction no longer halves what is left, there is nothing to gain.
-            if size <= 2.0 * f64::EPSILON * magnitude || (!grown && size >= 0.5 * left) {
+            goes_on = T::select_lt(T::from_f64(2.0 * f64::EPSILON) * magnitude, size, goes_on, zero);
+            if !grown {
+                goes_on = T::select_lt(size, T::from_f64(0.5) * left, goes_on, zero);
+            }
+            if !goes_on_somewhere(goes_on) {
                 break;
             }
             left = size;
@@ -133,18 +148,23 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
             if grown && !self.factorise(&response.delassus, normals) {
                 break;
             }
-            let of_row =
-                |row: usize| each().find(|(_, contact)| contact.normal == row).map_or(T::zero(), |(i, _)| gap(i));
-            let zero = K::Speeds::zero();
-            let moved = self.pushed(kernel, &zero, response, of_row);
+            let of_row = |row: usize| each().find(|(_, contact)| contact.normal == row).map_or(zero, |(i, _)| gap(i));
+            let still = K::Speeds::zero();
+            let moved = self.pushed(kernel, &still, response, of_row);
             // ψ is affine in z: what an impulse adds to it is an increment of the configuration.
-            let still = kernel.kinematics(t, &q, &zero);
-            q = q.advance(&kernel.kinematics(t, &q, &moved).add_scaled(-T::one(), &still));
+            let still = kernel.kinematics(t, &q, &still);
+            let next = q.advance(&kernel.kinematics(t, &q, &moved).add_scaled(-T::one(), &still));
+            q = if T::LANES == 1 {
+                next
+            } else {
+                K::Configuration::from_components(&chosen(goes_on, &next.components(), &q.components()))
+            };
             gaps = kernel.gaps(t, &q);
         }
         // Half of the digits: what is farther off was not on its way to zero.
-        if size.is_nan() || size > Real::sqrt(f64::EPSILON) * magnitude.max(1e-3) {
-            return Err(ProjectionError::new(ConstraintLevel::Position, ProjectionFailure::NotConverged, size));
+        let allowed = T::from_f64(Real::sqrt(f64::EPSILON)) * larger(T::from_f64(1e-3), magnitude);
+        if !self.lockstep.at_most(size, allowed) {
+            return Err(ProjectionError::new(ConstraintLevel::Position, ProjectionFailure::NotConverged, value(size)));
         }
         Ok(Closed { q, gaps, penetration: -lowest, closure })
     }
@@ -156,7 +176,7 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
         kernel: &K,
         (t, q, mut z, mut rates): (T, &K::Configuration, K::Speeds, K::ContactRows),
         response: &ImpulseResponse<K>,
-        (mode, rounding): (impl Fn(usize) -> Mode, f64),
+        (mode, rounding): (impl Fn(usize) -> Mode, T),
     ) -> (K::Speeds, K::ContactRows) {
         let rows = || {
             K::CONTACTS.iter().enumerate().flat_map(|(i, contact)| match mode(i) {
@@ -165,19 +185,36 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
                 Mode::Closed | Mode::Slides(_) => contact.normal..contact.tangent_rows().start,
             })
         };
-        let mut left = f64::INFINITY;
+        let (mut left, mut goes_on) = (T::from_f64(f64::INFINITY), T::one());
         for n in 0..CORRECTIONS {
-            let size = rows().map(|row| value(rates.component(row)).abs()).fold(0.0, f64::max);
-            if size <= rounding || size >= 0.5 * left {
+            let size = rows().map(|row| rates.component(row).abs()).fold(T::zero(), larger);
+            goes_on = T::select_lt(rounding, size, goes_on, T::zero());
+            goes_on = T::select_lt(size, T::from_f64(0.5) * left, goes_on, T::zero());
+            if !goes_on_somewhere(goes_on) {
                 break;
             }
             left = size;
             if n == 0 && !self.factorise(&response.delassus, rows()) {
                 break;
             }
-            z = self.pushed(kernel, &z, response, |row| rates.component(row));
+            let next = self.pushed(kernel, &z, response, |row| rates.component(row));
+            z = if T::LANES == 1 { next } else { chosen(goes_on, &next, &z) };
             rates = kernel.contact_rates(t, q, &z);
         }
         (z, rates)
     }
+}
+
+/// Whether there is a lane that is not done.
+fn goes_on_somewhere<T: Real>(goes_on: T) -> bool {
+    (0..T::LANES).any(|lane| goes_on.lane(lane) > 0.0)
+}
+
+/// The next value in the lanes that go on, in the others that before.
+fn chosen<T: Real, V: VectorSpace<T>>(goes_on: T, next: &V, before: &V) -> V {
+    let mut chosen = *before;
+    for i in 0..V::DIM {
+        chosen.set_component(i, T::select_lt(T::zero(), goes_on, next.component(i), before.component(i)));
+    }
+    chosen
 }

@@ -9,6 +9,7 @@
 //! cone; Newton's method of the other law ends at it.
 
 use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::real::Real;
 
 use crate::law::carrier;
 use crate::mode::Mode;
@@ -38,45 +39,54 @@ pub(super) fn lifts<K: ContactSystem>(law: StepLaw, modes: &[Mode], i: usize) ->
     relaxed && (0..K::CONTACTS.len()).any(slides)
 }
 
-impl Impulses<'_> {
+impl<T: Real> Impulses<'_, T> {
     /// The cones whose friction this normal bounds.
-    fn pressed_by(cones: &[Cone], normal: usize) -> impl Iterator<Item = (usize, &Cone)> {
-        let own = move |(_, cone): &(usize, &Cone)| cone.acts && cone.pressed == Some(normal);
+    fn pressed_by(cones: &[Cone<T>], normal: usize) -> impl Iterator<Item = (usize, &Cone<T>)> {
+        let own = move |(_, cone): &(usize, &Cone<T>)| cone.acts && cone.pressed == Some(normal);
         cones.iter().enumerate().filter(own)
     }
 
     /// What the slips at a normal take from its rate: `μ |u_T|`, with ρ |ω| of rolling resistance.
-    pub(super) fn lift(&self, cones: &[Cone], normal: usize) -> f64 {
-        let slip = |cone: &Cone| {
-            let mut slip = [0.0; 3];
+    pub(super) fn lift(&self, cones: &[Cone<T>], normal: usize) -> T {
+        let slip = |cone: &Cone<T>| {
+            let mut slip = [T::zero(); 3];
             slip.iter_mut().zip(cone.tangents()).for_each(|(x, row)| *x = self.rates[row]);
             cone.friction * norm(&slip)
         };
-        Self::pressed_by(cones, normal).map(|(_, cone)| slip(cone)).sum()
+        Self::pressed_by(cones, normal).map(|(_, cone)| slip(cone)).fold(T::zero(), |sum, slip| sum + slip)
     }
 
     /// What is added to the equation of a normal, in an unknown: to second order |u_T| is `−t·u_T` with the direction t
     /// of friction.
-    pub(super) fn lift_entry(&self, cones: &[Cone], states: &[State], normal: usize, column: usize) -> f64 {
+    pub(super) fn lift_entry(&self, cones: &[Cone<T>], states: &[State<T>], normal: usize, column: usize) -> T {
         self.lift_along(cones, states, normal, |this, row| this.at(row, column))
     }
 
     /// The same of the rates without impulses.
-    pub(super) fn lift_free(&self, cones: &[Cone], states: &[State], normal: usize) -> f64 {
+    pub(super) fn lift_free(&self, cones: &[Cone<T>], states: &[State<T>], normal: usize) -> T {
         self.lift_along(cones, states, normal, |this, row| this.b[row])
     }
 
-    fn lift_along(&self, cones: &[Cone], states: &[State], normal: usize, of_row: impl Fn(&Self, usize) -> f64) -> f64 {
-        let along = |(i, cone): (usize, &Cone)| match states[i] {
+    fn lift_along(
+        &self,
+        cones: &[Cone<T>],
+        states: &[State<T>],
+        normal: usize,
+        of_row: impl Fn(&Self, usize) -> T,
+    ) -> T {
+        let along = |(i, cone): (usize, &Cone<T>)| match states[i] {
             State::Slides(along, _) => {
                 let each = cone.tangents().zip(along);
-                cone.friction * each.map(|(row, along)| along * of_row(self, row)).sum::<f64>()
+                cone.friction
+                    * each.map(|(row, along)| along * of_row(self, row)).fold(T::zero(), |sum, term| sum + term)
             }
-            _ => 0.0,
+            _ => T::zero(),
         };
-        Self::pressed_by(cones, normal).map(along).sum()
+        Self::pressed_by(cones, normal).map(along).fold(T::zero(), |sum, term| sum + term)
     }
+}
 
+impl Impulses<'_> {
     /// One sweep: impulses at each gap are brought down to the least value along its gradient and back into the cone,
     /// while others stay. Diagonal entries times the number of rows bound the second derivative, so that no sweep goes
     /// up.

@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
-use super::super::impulses::Found;
 use super::super::impulses::tests::{Random, numbers};
+use super::super::impulses::{Found, memory};
 use super::super::unknowns::UnknownsIn;
 use super::*;
 use crate::dense::{dot, size};
@@ -15,7 +15,7 @@ use crate::dense::{dot, size};
 /// Impulses and rates by the relaxed law, with how far they are from Coulomb's.
 fn solve(random: &Random) -> (Found, Vec<f64>, Vec<f64>, f64) {
     let n = random.b.len();
-    let mut memory = vec![0.0; Impulses::memory(n)];
+    let mut memory = vec![0.0; memory(n)];
     let (mut rows, mut order, mut extents) = (vec![0; n], vec![0; n], vec![[0; 2]; n]);
     let mut states = vec![State::Leaves; random.cones.len()];
     let unknowns = UnknownsIn { rows: &mut rows, order: &mut order, extents: &mut extents, states: &mut states };

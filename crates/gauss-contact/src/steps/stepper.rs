@@ -11,17 +11,19 @@ use gauss_runtime::real::Real;
 
 use crate::error::{ContactError, ContactErrorKind};
 use crate::law::carrier;
+use crate::lockstep::Lockstep;
 use crate::mode::{Mode, after_impulses};
 use crate::sensors::ContactForces;
 
 use super::cones::Laws;
-use super::impulses::Impulses;
+use super::impulses::{Impulses, memory};
 use super::kept::Kept;
 use super::linear::Place;
 use super::motion::{self, Middle};
 use super::outcome::{End, Pushed, Solved};
+use super::posed::Posed;
 use super::projection::{Closed, Projection};
-use super::relaxed::{StepLaw, lifts};
+use super::relaxed::StepLaw;
 use super::report::{StepReport, StepScheme};
 use super::unknowns::Unknowns;
 use super::watch::Watch;
@@ -78,7 +80,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> ContactStepper<'k, K> {
 impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, M> {
     const ROWS: usize = K::ContactRows::DIM;
     /// How many numbers steps need.
-    pub const MEMORY: usize = Impulses::memory(Self::ROWS) + Projection::<K>::MEMORY;
+    pub const MEMORY: usize = memory(Self::ROWS) + Projection::<K>::MEMORY;
 
     /// Like [`new`](ContactStepper::new), in memory of one's own.
     ///
@@ -383,7 +385,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let gaps = kernel.gaps(t, &q);
         let closed = self.close(h, (response, &pushed), (q, gaps))?;
         let rates = kernel.contact_rates(t, &closed.q, &z);
-        Ok(self.end(h, (response, pushed), closed, (z, rates)))
+        let (z, rates) = self.stop(h, (response, &pushed), &closed, (z, rates));
+        Ok(self.end(pushed, closed, (z, rates)))
     }
 
     /// Impulses at half of a step, with the speeds after them: of the motion without them its acceleration, and of
@@ -396,19 +399,17 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         (acceleration, bias, response): (&K::Speeds, &K::ContactRows, &ImpulseResponse<K>),
     ) -> Result<Pushed<K>, ContactError> {
         let laws = Laws::<K>::new(h, friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
-        let mut impulses = self.impulses;
         let free = self.z.add_scaled(h, acceleration);
         let known = self.dependent;
-        let mut solved = self.solve(h, (&laws, response), self.free_rates(h, middle, (&free, bias)), &mut impulses);
+        let mut solved = self.solve(h, (&laws, response), self.free_rates(h, middle, (&free, bias)));
         let again = solved.is_err() && self.dependent && !known;
         if again {
-            solved = self.solve(h, (&laws, response), self.free_rates(h, middle, (&free, bias)), &mut impulses);
+            solved = self.solve(h, (&laws, response), self.free_rates(h, middle, (&free, bias)));
         }
-        let solved = solved.map_err(|kind| self.error(None, kind))?;
+        let (solved, impulses) = solved.map_err(|kind| self.error(None, kind))?;
         let dependent = known || again;
-        let fastest = (0..K::Speeds::DIM).map(|i| free.component(i).abs()).fold(0.0, f64::max);
-        let z = after_impulses(self.kernel, (&free, fastest), &response.factors, &impulses);
-        Ok(Pushed { z, fastest, impulses, dependent, solved })
+        let z = after_impulses(&Lockstep::default(), self.kernel, &free, (&response.factors, &impulses));
+        Ok(Pushed { z, impulses, dependent, solved })
     }
 
     /// Closed gaps brought to zero at the end of a step.
@@ -420,31 +421,54 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     ) -> Result<Closed<K>, ContactError> {
         let (start, t) = (self.t, self.t + h);
         let failed = |cause| ContactError { contact: None, time: start, kind: ContactErrorKind::Projection(cause) };
-        let of_projection = &mut self.memory.as_mut()[Impulses::memory(K::ContactRows::DIM)..];
-        let mut projection = Projection::<K>::new(of_projection, h * pushed.fastest);
-        projection.close(self.kernel, (t, q, gaps), response, pushed.solved.rests.as_ref()).map_err(failed)
+        let of_projection = &mut self.memory.as_mut()[memory(K::ContactRows::DIM)..];
+        let mut projection = Projection::<K>::new(of_projection);
+        projection
+            .close(self.kernel, (t, q, gaps), (response, motion::magnitude(&q)), pushed.solved.rests.as_ref())
+            .map_err(failed)
     }
 
-    /// The end of a step: rates of what rests brought to zero from those that are given.
-    pub(super) fn end(
+    /// What a contact does at the end of a step, whose rates are brought to zero.
+    pub(super) fn mode_at_end(&self, pushed: &Pushed<K>, i: usize) -> Mode {
+        if pushed.solved.rests[i] { self.next[i] } else { Mode::Open }
+    }
+
+    /// Whether contacts do something else than before the step.
+    fn changes(&self) -> bool {
+        let kind = |mode: &Mode| core::mem::discriminant(mode);
+        (0..K::CONTACTS.len()).any(|i| kind(&self.next[i]) != kind(&self.modes[i]))
+    }
+
+    /// What is rounding of rates: what begins to rest is brought to zero to the last bit, and stays there.
+    pub(super) fn rounding_at_end(&self, pushed: &Pushed<K>) -> f64 {
+        if self.changes() { 0.0 } else { pushed.solved.found.residual.rounding }
+    }
+
+    /// Rates of what rests brought to zero from those that are given.
+    pub(super) fn stop(
         &mut self,
         h: f64,
-        (response, pushed): (&ImpulseResponse<K>, Pushed<K>),
+        (response, pushed): (&ImpulseResponse<K>, &Pushed<K>),
+        closed: &Closed<K>,
+        (z, rates): (K::Speeds, K::ContactRows),
+    ) -> (K::Speeds, K::ContactRows) {
+        let (modes, rounding) = (Each::from_fn(|i| self.mode_at_end(pushed, i)), self.rounding_at_end(pushed));
+        let (kernel, modes): (_, K::EachContact<Mode>) = (self.kernel, modes);
+        let of_projection = &mut self.memory.as_mut()[memory(Self::ROWS)..];
+        let at_end = (self.t + h, &closed.q, z, rates);
+        Projection::<K>::new(of_projection).stop(kernel, at_end, response, (|i| modes[i], rounding))
+    }
+
+    /// The end of a step.
+    pub(super) fn end(
+        &mut self,
+        pushed: Pushed<K>,
         closed: Closed<K>,
         (z, rates): (K::Speeds, K::ContactRows),
     ) -> End<K> {
-        let Pushed { impulses, fastest, dependent, solved, .. } = pushed;
+        let Pushed { impulses, dependent, solved, .. } = pushed;
         let Closed { q, gaps, penetration, closure } = closed;
-        // What begins to rest is brought to zero to the last bit, and stays there.
-        let kind = |mode: &Mode| core::mem::discriminant(mode);
-        let changes = (0..K::CONTACTS.len()).any(|i| kind(&self.next[i]) != kind(&self.modes[i]));
-        self.dependent &= !changes;
-        let rounding = if changes { 0.0 } else { solved.found.residual.rounding };
-        let of_projection = &mut self.memory.as_mut()[Impulses::memory(Self::ROWS)..];
-        let mut projection = Projection::<K>::new(of_projection, fastest);
-        let mode = |i: usize| if solved.rests[i] { self.next[i] } else { Mode::Open };
-        let at_end = (self.t + h, &q, z, rates);
-        let (z, rates) = projection.stop(self.kernel, at_end, response, (mode, rounding));
+        self.dependent &= !self.changes();
         let report = StepReport {
             residual: solved.found.residual,
             from_coulomb: solved.from_coulomb,
@@ -461,6 +485,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         End { q, z, gaps, rates, impulses, rests, touches: true, dependent, report, struck }
     }
 
+    /// The end of a step as the state, with the report.
+    pub(super) fn made(&mut self, h: f64, end: End<K>) -> Result<StepReport, ContactError> {
+        self.report = self.take(h, end)?;
+        Ok(self.report)
+    }
+
     fn free_rates(
         &self,
         h: f64,
@@ -470,61 +500,31 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         motion::free_rates(self.kernel, (h, self.dependent), middle, (&self.z, &self.rates), (free, bias))
     }
 
-    /// Impulses of a step, at first those of the step before, and its modes.
+    /// Impulses of a step, and its modes.
     fn solve(
         &mut self,
         h: f64,
         (laws, response): (&Laws<K>, &ImpulseResponse<K>),
-        [before, free]: [K::ContactRows; 2],
-        impulses: &mut K::ContactRows,
-    ) -> Result<Solved<K>, ContactErrorKind> {
-        let rows = K::ContactRows::DIM;
-        let (gaps, e) = (self.gaps, self.kernel.restitution());
-        let scales = laws.scales;
+        rates: [K::ContactRows; 2],
+    ) -> Result<(Solved<K>, K::ContactRows), ContactErrorKind> {
         let mut unknowns = Unknowns::<K>::new();
-        let mut problem = Impulses::new(&mut self.memory.as_mut()[..Impulses::memory(rows)], unknowns.slices());
-        problem.dependent = self.dependent;
-        problem.relaxed = self.law == StepLaw::ConvexRelaxation;
-        let entry = |i: usize, j: usize| response.delassus[(i, j)];
-        problem.set_up(scales.as_ref(), entry, |row| [free.component(row), impulses.component(row)]);
-        // What an impact passes on is a part of the rate before it.
-        let passed_on = |i: usize| motion::passed_on(e.component(i), before.component(K::CONTACTS[i].normal));
-        let end = |i: usize, rate: f64| gaps.component(i) + 0.5 * h * (before.component(K::CONTACTS[i].normal) + rate);
-        let mut cones = laws.cones;
-        for (i, contact) in K::CONTACTS.iter().enumerate() {
-            let free = problem.b[contact.normal];
-            // Rolling resistance comes after the contact that it is of.
-            cones[i].acts = match contact.rolls_on() {
-                Some(on) => cones[on].acts,
-                None => {
-                    !contact.has_gap()
-                        || (self.modes[i].is_closed() && !lifts::<K>(self.law, self.modes.as_ref(), i))
-                        || end(i, free) <= 0.0
-                }
-            };
-            if contact.has_gap() {
-                problem.b[contact.normal] -= passed_on(i);
-            }
-        }
-        let cones = cones.as_mut();
+        let Self { law, tolerance, gaps, impulses, dependent, .. } = *self;
+        let (restitution, delassus, modes) = (self.kernel.restitution(), &response.delassus, self.modes.as_ref());
+        let posed = Posed { h, law, tolerance, laws, delassus, restitution, gaps, rates, impulses, modes, dependent };
+        let memory = &mut self.memory.as_mut()[..memory(Self::ROWS)];
+        let mut problem = Impulses::new(memory, unknowns.slices());
+        let mut cones = posed.pose(&mut problem);
         // A contact that others press closed takes part as well.
-        let closes = |i: usize, rate: f64| end(i, rate + passed_on(i)) < 0.0;
-        let found = problem.solve_with_more(cones, self.tolerance, closes);
+        let closes = |i: usize, rate: f64| posed.gap_left_open(i, rate) < 0.0;
+        let found = problem.solve_with_more(cones.as_mut(), tolerance, closes);
         self.dependent = problem.dependent;
         if !found.holds {
             let finite = found.residual.worst().is_finite();
             let unsolved = ContactErrorKind::Unsolved { residual: found.residual };
             return Err(if finite { unsolved } else { ContactErrorKind::NonFinite });
         }
-        let work = problem.work(|row| scales[row] * free.component(row));
-        let from_coulomb = if problem.relaxed { problem.residual_of_coulomb(cones) } else { found.residual };
-        let rests = Each::from_fn(|_| false);
-        let mut solved = Solved::<K> { found, from_coulomb, rests, struck: false, impacts: 0, work };
-        for (next, cone) in self.next.as_mut().iter_mut().zip(&*cones) {
-            *next = problem.mode(cones, cone, scales.as_ref(), self.tolerance);
-        }
-        solved.tell(self.law, [self.modes.as_ref(), self.next.as_ref()], passed_on);
-        (0..rows).for_each(|row| impulses.set_component(row, scales[row] * problem.impulses[row]));
-        Ok(solved)
+        let answer = posed.answer(&problem, found, cones.as_ref());
+        let solved = posed.solved(&problem, (&answer, cones.as_ref()), (modes, self.next.as_mut()), 0);
+        Ok((solved, posed.impulses(&problem)))
     }
 }

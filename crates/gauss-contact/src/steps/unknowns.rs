@@ -6,16 +6,16 @@ use super::linear::Place;
 
 /// What a contact does in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum State {
+pub(crate) enum State<T = f64> {
     Leaves,
     /// Without friction.
     Closed,
     Sticks,
     /// The direction of `P_T − u_T/d`, against the slip, and by what part of its length friction is smaller.
-    Slides([f64; 3], f64),
+    Slides([T; 3], T),
 }
 
-impl State {
+impl<T: PartialEq> State<T> {
     /// Whether the equations are the same.
     pub(super) fn is_as(&self, other: &Self) -> bool {
         !matches!(self, Self::Slides(..)) && self == other
@@ -27,17 +27,17 @@ pub(crate) struct Unknowns<K: ContactSystem> {
     rows: K::EachRow<Place>,
     order: K::EachRow<Place>,
     extents: K::EachRow<[Place; 2]>,
-    states: K::EachContact<State>,
+    states: K::EachContact<State<K::Scalar>>,
 }
 
 /// The same in slices: of rows, and of contacts.
-pub(crate) struct UnknownsIn<'m> {
+pub(crate) struct UnknownsIn<'m, T = f64> {
     pub(crate) rows: &'m mut [Place],
     /// Of pivots; of symmetric factors the ends of their rows.
     pub(crate) order: &'m mut [Place],
     /// Of rows of D.
     pub(crate) extents: &'m mut [[Place; 2]],
-    pub(crate) states: &'m mut [State],
+    pub(crate) states: &'m mut [State<T>],
 }
 
 impl<K: ContactSystem> Unknowns<K> {
@@ -50,7 +50,7 @@ impl<K: ContactSystem> Unknowns<K> {
         }
     }
 
-    pub(crate) fn slices(&mut self) -> UnknownsIn<'_> {
+    pub(crate) fn slices(&mut self) -> UnknownsIn<'_, K::Scalar> {
         let Self { rows, order, extents, states } = self;
         UnknownsIn { rows: rows.as_mut(), order: order.as_mut(), extents: extents.as_mut(), states: states.as_mut() }
     }

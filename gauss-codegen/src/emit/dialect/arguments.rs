@@ -63,7 +63,7 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
         | Method::ContactRates => &[Speeds],
         Method::Velocity => &[Momenta],
         Method::MomentumRate => &[Momenta, Inputs],
-        Method::GaussResidual | Method::ConstraintFunction | Method::OtherForces => OF_RESIDUAL,
+        Method::GaussResidual | Method::ConstraintFunction | Method::OtherForces | Method::Reactions => OF_RESIDUAL,
         Method::Speeds => &[Twist],
         Method::PositionCorrection => &[Residuals],
         Method::VelocityCorrection => &[Speeds, Residuals],
@@ -81,6 +81,7 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
         | Method::CentroidalMatrix
         | Method::GravityTorques
         | Method::Gaps
+        | Method::ContactReactions
         | Method::ContactJacobian
         | Method::ContactFrames
         | Method::Restitution

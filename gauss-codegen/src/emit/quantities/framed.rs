@@ -47,11 +47,20 @@ fn jacobian_rates(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 }
 
 fn names(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
-    let (private, visibility) = (derived.private(), &derived.item().visibility);
-    let (name, frames) = (name_of_frames(derived), derived.frames());
+    let frames = derived.frames();
     let words: Vec<String> = frames.iter().map(|frame| word(derived, frame)).collect();
-    let label = words.iter().map(|word| format!("The body or frame `{word}`."));
     let documentation = format!("Frames of [`{}`] whose motion its kernel computes.", derived.item().ident);
+    let labels = words.iter().map(|word| format!("The body or frame `{word}`.")).collect();
+    enumerated(derived, (&name_of_frames(derived), documentation), (frames, &words, labels))
+}
+
+/// An enum of names; its implementation of `FrameName`.
+pub fn enumerated(
+    derived: &Derived<'_, '_>,
+    (name, documentation): (&Ident, String),
+    (frames, words, label): (&[Ident], &[String], Vec<String>),
+) -> [TokenStream; 2] {
+    let (private, visibility) = (derived.private(), &derived.item().visibility);
     let places = 0..frames.len();
     let names = quote! {
         #[doc = #documentation]

@@ -5,5 +5,6 @@ mod agreement;
 pub mod definition;
 pub mod dependent;
 pub mod faults;
+pub mod let_go;
 mod pushed;
 pub mod witness;

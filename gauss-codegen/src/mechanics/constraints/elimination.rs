@@ -84,6 +84,17 @@ impl<'g> Elimination<'g> {
         symbols.map(|(z, value)| (z.key(), *value)).collect()
     }
 
+    /// What the dependent speeds and their rates are in the motion of the reduced system.
+    pub fn motion(&self, reduced: &System<'g>) -> Map<u32, Expr<'g>> {
+        let mut motion = self.replacement();
+        let dependent = (0..self.values.len()).filter(|k| !self.kept.contains(k));
+        motion.extend(dependent.map(|k| {
+            let rate = self.values[k].derivative(&reduced.along).group();
+            (self.whole.scene.speed_rates[k].key(), rate)
+        }));
+        motion
+    }
+
     /// Whether rounding and discretisation can lead away from the constraints: velocities satisfy them by construction.
     pub fn can_drift(&self) -> bool {
         self.whole.scene.constraints.iter().any(|c| c.kind == ConstraintKind::Position)

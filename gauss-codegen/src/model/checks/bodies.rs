@@ -7,16 +7,16 @@ use crate::model::language::statements::{Statement, Statements};
 use crate::model::language::words::{self, UNNAMED, same, word};
 use crate::model::scene::clauses::BodyClause;
 use crate::model::scene::elements::Argument;
-use crate::terms::Role;
+use crate::terms::{Role, Wanted};
 use proc_macro2::Ident;
 use std::collections::{HashMap, HashSet};
 use syn::ext::IdentExt;
 
 /// Checks the clauses and the fields of bodies against one another; `scalar` is what proposed types are made of.
-pub fn check(statements: &Statements, reader: &Reader<'_>, frames: &[Ident], scalar: &str, context: &mut Context) {
+pub fn check(statements: &Statements, reader: &Reader<'_>, wanted: &Wanted, scalar: &str, context: &mut Context) {
     check_names(statements, scalar, context);
     check_fields(statements, reader, scalar, context);
-    check_references(statements, frames, context);
+    check_references(statements, wanted, context);
     check_cycles(&statements.bodies, context);
 }
 
@@ -144,9 +144,9 @@ fn places(bodies: &[BodyClause]) -> HashMap<String, usize> {
     places
 }
 
-/// Refuses names of parents, of bodies with points, of bodies with forces and in `frames(…)` that are no bodies or
-/// frames of the system.
-fn check_references(statements: &Statements, frames: &[Ident], context: &mut Context) {
+/// Refuses names of parents, of bodies with points, of bodies with forces, in `frames(…)` and `reactions(…)` that are
+/// no bodies or frames of the system.
+fn check_references(statements: &Statements, wanted: &Wanted, context: &mut Context) {
     if statements.missed_any(&[Statement::Body, Statement::Frame]) {
         return;
     }
@@ -160,7 +160,8 @@ fn check_references(statements: &Statements, frames: &[Ident], context: &mut Con
     }
     references.extend(statements.points.iter().map(|point| (&point.body, None, None)));
     references.extend(statements.formal.iter().flatten().map(|body| (body, None, None)));
-    references.extend(frames.iter().map(|frame| (frame, None, None)));
+    references.extend(wanted.frames.iter().map(|frame| (frame, None, None)));
+    references.extend(wanted.reactions.iter().map(|joint| (&joint.link, None, None)));
     for clause in &statements.forces {
         let body = clause.body();
         references.extend(body.map(|body| (body, None, None)));

@@ -8,7 +8,7 @@ use super::placements;
 use super::words::{self, Table};
 use crate::model::scene::clauses::{Coordinate, CoordinateKind, Speed, SpeedKind, SpeedPart};
 use crate::model::scene::expression::Expression;
-use crate::terms::{InputKind, InputName, WantedMethod};
+use crate::terms::{InputKind, InputName, WantedJoint, WantedMethod};
 use proc_macro2::{Ident, Span, TokenTree};
 
 /// What a clause declares, in brackets.
@@ -125,7 +125,18 @@ pub fn read_words<T: Copy + PartialEq>(
 
 /// `frames(tool, left_foot)`: names of bodies and frames, each once.
 pub fn read_frames(clause: &Clause, context: &mut Context) -> Vec<Ident> {
-    let language = Language { noun: "frame", example: "tool", kinds: &[], scalar: (), units: false, component: None };
+    read_once(clause, ["frame", "tool"], context)
+}
+
+/// `reactions(upper_arm, wrist)`: names of joints, each once. Of scenes that are written the bodies and frames that
+/// joints carry.
+pub fn read_reactions(clause: &Clause, context: &mut Context) -> Vec<WantedJoint> {
+    let names = read_once(clause, ["joint", "upper_arm"], context).into_iter();
+    names.map(|name| WantedJoint { link: name.clone(), name }).collect()
+}
+
+fn read_once(clause: &Clause, [noun, example]: [&'static str; 2], context: &mut Context) -> Vec<Ident> {
+    let language = Language { noun, example, kinds: &[], scalar: (), units: false, component: None };
     let names = read_names(clause, &language, |ident, (), _| ident, context);
     let mut frames: Vec<Ident> = Vec::new();
     for name in names.names {

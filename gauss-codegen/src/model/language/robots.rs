@@ -1,7 +1,7 @@
-//! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating`,
-//! `inputs = all | none | transmissions | actuators`, `joint_friction = dry | smooth(width) | none`,
-//! `limits = range | stop(…) | none`, `ground(…)`, `self_contact(…)`, `saturation = clamp | none`,
-//! `parameters = inertial`, `ignore(…)`.
+//! Clauses about a robot that a file describes: `urdf = "…"` or `mjcf = "…"` with `base = fixed | floating` or
+//! `base(position = […], rotation = …)`, `inputs = all | none | transmissions | actuators`,
+//! `joint_friction = dry | smooth(width) | none`, `limits = range | stop(…) | none`, `ground(…)`, `self_contact(…)`,
+//! `saturation = clamp | none`, `parameters = inertial`, `ignore(…)`.
 
 use super::arguments;
 use super::arithmetic;
@@ -19,6 +19,8 @@ use syn::LitStr;
 pub struct RobotClauses {
     pub file: Option<File>,
     pub base: Option<Base>,
+    /// Where the root is held, if not at Ω and along k.
+    pub mount: Option<Mount>,
     pub inputs: Option<Inputs>,
     pub friction: Option<Friction>,
     pub limits: Option<Limits>,
@@ -53,6 +55,15 @@ pub enum Format {
 pub enum Base {
     Fixed,
     Floating,
+}
+
+/// `base(position = [0, 0, h], rotation = rotation_x(pi))`: how the axes of the file lie in those of the observer.
+#[cfg_attr(not(any(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "files of robots are not read"))]
+pub struct Mount {
+    /// The word `base`.
+    pub span: Span,
+    pub position: Option<Expression>,
+    pub rotation: Option<Expression>,
 }
 
 /// Which joints have an input.
@@ -138,6 +149,7 @@ const FRICTION: &Table<bool> = &[("dry", false), ("smooth", true), ("none", fals
 const LIMITS: &Table<bool> = &[("range", false), ("stop", true), ("none", false)];
 const SATURATION: &Table<Saturation> = &[("clamp", Saturation::Clamp), ("none", Saturation::None)];
 const STOP: &Table<()> = &[("stiffness", ()), ("width", ()), ("damping", ())];
+const MOUNT: &Table<()> = &[("position", ()), ("rotation", ())];
 const PARAMETERS: &Table<()> = &[("inertial", ())];
 
 /// The clause with this word, if it is one of these; options are clauses only where the struct names a file.
@@ -157,7 +169,7 @@ impl RobotClauses {
     pub fn read(&mut self, topic: RobotTopic, clause: &Clause, context: &mut Context) {
         let twice = match topic {
             RobotTopic::File(_) => self.file.is_some(),
-            RobotTopic::Base => self.base.is_some(),
+            RobotTopic::Base => self.base.is_some() || self.mount.is_some(),
             RobotTopic::Inputs => self.inputs.is_some(),
             RobotTopic::Friction => self.friction.is_some(),
             RobotTopic::Limits => self.limits.is_some(),
@@ -172,7 +184,10 @@ impl RobotClauses {
         }
         match topic {
             RobotTopic::File(format) => self.file = self.file.take().or(read_file(format, clause, context)),
-            RobotTopic::Base => self.base = self.base.or(read_word("base", clause, BASES, context)),
+            RobotTopic::Base => match &clause.value {
+                Content::Brackets(group) => self.mount = self.mount.take().or(read_mount(clause, group, context)),
+                _ => self.base = self.base.or(read_word("base", clause, BASES, context)),
+            },
             RobotTopic::Inputs => self.inputs = self.inputs.or(read_word("inputs", clause, INPUTS, context)),
             RobotTopic::Friction => self.friction = self.friction.take().or(read_friction(clause, context)),
             RobotTopic::Limits => self.limits = self.limits.take().or(read_limits(clause, context)),
@@ -209,6 +224,28 @@ fn read_ignored(clause: &Clause, context: &mut Context) -> Vec<Ident> {
         }
     }
     names
+}
+
+/// `None` if something is wrong, which is noted.
+fn read_mount(clause: &Clause, group: &Group, context: &mut Context) -> Option<Mount> {
+    let (earlier, span) = (context.count(), clause.name.span());
+    let owner = Owner::Action { word: "base", example: "an argument such as `position = [0, 0, h]`" };
+    let (arguments, _) = arguments::arguments(group, owner, context);
+    let mut mount = Mount { span, position: None, rotation: None };
+    let mut given = Vec::new();
+    for argument in &arguments {
+        if !arguments::known(argument, "base", MOUNT, &mut given, context) {
+            continue;
+        }
+        match argument.word().as_str() {
+            "position" => mount.position = arguments::value(argument, "[0, 0, h]", context),
+            _ => mount.rotation = arguments::value(argument, "rotation_x(pi)", context),
+        }
+    }
+    if given.is_empty() && context.count() == earlier {
+        context.error(span, "`base(…)` says where the root is held; write `base(position = [0, 0, h])`");
+    }
+    (context.count() == earlier).then_some(mount)
 }
 
 fn read_file(format: Format, clause: &Clause, context: &mut Context) -> Option<File> {

@@ -2,7 +2,8 @@
 //!
 //! `chart = left_invariant | right_invariant | hybrid | jet(…) | jet`, by default `left_invariant`;
 //! `motion = free | fixed_point | planar`, by default `free`; `crate = path`, by default `::gauss_runtime`; `taylor`,
-//! `regressor` and `python` alone; `linearize` alone or as `linearize(word, …)`; `frames(name, …)`; `methods(word, …)`.
+//! `regressor` and `python` alone; `linearize` alone or as `linearize(word, …)`; `frames(name, …)`;
+//! `reactions(name, …)`; `methods(word, …)`.
 
 use super::arguments::UNIT;
 use super::attributes::{self, Clause, Content, Owner, Word};
@@ -44,6 +45,7 @@ pub const CLAUSES: &Table<Topic> = &[
     ("linearize", Topic::Linearize),
     ("regressor", Topic::Regressor),
     ("frames", Topic::Frames),
+    ("reactions", Topic::Reactions),
     ("methods", Topic::Methods),
     ("python", Topic::Python),
 ];
@@ -57,6 +59,7 @@ pub enum Topic {
     Linearize,
     Regressor,
     Frames,
+    Reactions,
     Methods,
     Python,
 }
@@ -203,6 +206,7 @@ impl Topics {
                 check_alone(clause, context);
             }
             Topic::Frames => self.wanted.frames.extend(declarations::read_frames(clause, context)),
+            Topic::Reactions => self.wanted.reactions.extend(declarations::read_reactions(clause, context)),
             Topic::Methods => {
                 self.methods = Some(clause.name.span());
                 self.wanted.methods.extend(declarations::read_methods(clause, context));

@@ -21,7 +21,7 @@ use crate::model::scene::clauses::{
 };
 use crate::model::scene::expression::{Expression, FunctionName, Property};
 use crate::terms::{Described, Remark};
-use crate::terms::{Role, Shape};
+use crate::terms::{Role, Shape, WantedJoint};
 use gauss_robots::{Coupling, Structure, Text, all_located, located};
 
 /// What the free root of a robot moves by.
@@ -32,18 +32,23 @@ pub fn compose(
     file: &File,
     clauses: &RobotClauses,
     reader: &Reader<'_>,
-    statements: &mut Statements,
+    (statements, reactions): (&mut Statements, &mut [WantedJoint]),
     context: &mut Context,
 ) -> Option<Described> {
     if file.format == Format::Mjcf && clauses.base.is_some() {
         context.error(file.span, "in an MJCF file <freejoint/> marks bodies that move freely; remove `base`");
+    }
+    if let (Some(mount), Some(Base::Floating)) = (&clauses.mount, clauses.base) {
+        context.error(mount.span, "a floating root is placed by its pose `base`; remove `base(…)`");
     }
     let path = source::path(file);
     let read = source::text(file, &path).and_then(|text| {
         let faults = |faults: Vec<Fault>| all_located(&text.names(), &faults);
         let description = source::read(file.format, &text).map_err(faults)?;
         let structure = Structure::new(&description).map_err(faults)?;
-        let robot = Robot::new(file, clauses, reader, &description, &structure);
+        let mut robot = Robot::new(file, clauses, reader, &description, &structure);
+        robot.cut(reactions, context);
+        robot.refuse_mount(file, context);
         let idle = robot.without_inertia();
         let moves = statements.coordinates.is_some() || statements.in_chart;
         let idle = if idle.is_empty() && !moves { robot.without_motion(file) } else { idle };
@@ -75,6 +80,8 @@ pub struct Robot<'a> {
     pub links: Vec<Ident>,
     /// The mass data of the link are those of a field.
     pub in_field: Vec<bool>,
+    /// A joint within the link and what is fixed to it has a reaction that is wanted, by the link that they move with.
+    cut: Vec<bool>,
     pub gravity_in_field: bool,
     pub notes: Vec<Note>,
     pub names: Names,
@@ -116,9 +123,46 @@ impl<'a> Robot<'a> {
             inputs,
             links,
             in_field,
+            cut: vec![false; structure.owner_of.len()],
             gravity_in_field,
             notes,
             names,
+        }
+    }
+
+    /// Finds the links that joints carry whose reactions are wanted, by the names of either. Links that are fixed to
+    /// one another keep the mass data of their own if one of the joints between them is among these.
+    fn cut(&mut self, reactions: &mut [WantedJoint], context: &mut Context) {
+        let mut carried_links: Vec<usize> = Vec::new();
+        for WantedJoint { name, link } in reactions {
+            let word = name.unraw().to_string();
+            let is_called = |&joint: &usize| {
+                let coordinates = self.coordinates[joint].iter().any(|q| q.ident.unraw() == word);
+                coordinates || self.description.joints[joint].name == word
+            };
+            let carried = |k: &usize| self.structure.joint_of[*k].is_some_and(|joint| is_called(&joint));
+            let by_joint = (0..self.links.len()).find(carried);
+            let by_link = self.links.iter().position(|ident| ident.unraw() == word);
+            let found = match (by_link, by_joint) {
+                (Some(own), Some(other)) if own != other => {
+                    let message = format!(
+                        "`{name}` is a link of the file and the joint that carries `{}`; name that link",
+                        self.links[other]
+                    );
+                    context.error(name.span(), message);
+                    continue;
+                }
+                (own, other) => own.or(other),
+            };
+            let Some(found) = found else { continue };
+            if carried_links.contains(&found) {
+                let message = format!("`{name}` is a joint that is named before by another name; remove it");
+                context.error(name.span(), message);
+            }
+            carried_links.push(found);
+            *link = Ident::new(&self.links[found].to_string(), name.span());
+            let owner = self.structure.owner_of[found];
+            self.cut[owner] |= owner != found || !self.moves(found);
         }
     }
 
@@ -128,14 +172,32 @@ impl<'a> Robot<'a> {
     }
 
     /// Whether the mass data of a link are not added to those of the link that it is fixed to: one of the two is a
-    /// field.
+    /// field, or the reaction between them is wanted.
     fn is_apart(&self, link: usize) -> bool {
-        self.in_field[link] || self.in_field[self.structure.owner_of[link]]
+        let owner = self.structure.owner_of[link];
+        self.in_field[link] || self.in_field[owner] || self.cut[owner]
     }
 
     /// The mass data of a link and of all links fixed to it, but for those in fields.
     pub fn merged(&self, link: usize) -> Option<Inertial> {
         self.structure.merged(self.description, link, |link| self.is_apart(link))
+    }
+
+    /// What of a file is placed in the world by itself would not move with the root.
+    fn refuse_mount(&self, file: &File, context: &mut Context) {
+        let Some(mount) = self.clauses.mount.as_ref().filter(|_| file.format == Format::Mjcf) else { return };
+        let is_free = |joint: &Joint| joint.kind == JointKind::Floating;
+        if let Some(joint) = self.description.joints.iter().find(|joint| is_free(joint)) {
+            let message = format!(
+                "`base(…)` moves what the file holds, and `{}` moves freely: it is placed by its pose; remove `base(…)`",
+                joint.name
+            );
+            context.error(mount.span, message);
+        }
+        if self.clauses.grounds.iter().any(|ground| ground.normal.is_none() && ground.height.is_none()) {
+            let message = "beside `base(…)` planes of the file are not used; write `ground(height = h, …)`";
+            context.error(mount.span, message);
+        }
     }
 
     /// Links that move where nothing beyond their joint has mass or inertia.
@@ -322,7 +384,10 @@ impl<'a> Robot<'a> {
             (None, Some(base)) => {
                 [Property::Position, Property::Rotation].map(|part| Some(writer.property(base, part)))
             }
-            (None, None) => [None, None],
+            (None, None) => {
+                let mount = self.clauses.mount.as_ref();
+                mount.map_or([None, None], |mount| [mount.position.clone(), mount.rotation.clone()])
+            }
         }
     }
 
@@ -330,7 +395,8 @@ impl<'a> Robot<'a> {
         let writer = self.writer;
         let [position, rotation] = self.placement(link);
         let own = &self.description.links[link].inertial;
-        let own = match (self.moves(link), self.is_apart(link)) {
+        let weighs = self.moves(link) || self.cut[self.structure.owner_of[link]];
+        let own = match (weighs, self.is_apart(link)) {
             (false, _) => None,
             (true, true) if self.in_field[link] => Some(Vec::new()),
             (true, true) => own.as_ref().map(|own| self.mass_data(own)),

@@ -433,6 +433,14 @@ fn mistakes_of_clauses() {
             ", limits = stop(stiffness = 1.0)",
             "stops at limits need `width`; write `limits = stop(stiffness = 1e4, width = 0.01)`",
         ),
+        (", base()", "`base(…)` says where the root is held; write `base(position = [0, 0, h])`"),
+        (", base(place = [0, 0, 1])", "unknown argument of `base`: `place`; write `position`"),
+        (", base = fixed, base(position = [0, 0, 1])", "`base` is given twice; keep one of the two"),
+        (
+            ", base(rotation = 1.0)",
+            "expected a rotation, found a scalar; write `rotation_z(theta)`, or a product of such turns",
+        ),
+        (", reactions(elbw)", "no body or frame is called `elbw`; expected `base` or `arm`"),
         (", coordinates(elbow)", "the coordinate `elbow` is declared twice; remove one of the two"),
         (
             ", drive(elbw = 1.0)",
@@ -448,6 +456,31 @@ fn mistakes_of_clauses() {
     assert!(error.to_string().starts_with("`urdf` is the path of a file from the folder of the package"), "{error}");
     let error = read("#[gauss(base = fixed)] struct Robot { m: f64 }").map(|_| ()).expect_err("no file");
     assert!(error.to_string().starts_with("unknown clause `base`"), "{error}");
+}
+
+/// By joints and by what they carry; fixed ones are cut, and only these keep their own mass data.
+#[test]
+fn reactions() {
+    let fixed = joint("weld", "fixed", "arm", "hand", "") + &link("hand");
+    let text = robot(&(joint("elbow", "revolute", "base", "arm", "") + &link("arm") + &fixed));
+    let of = |clauses: &str| {
+        let read = model(&text, clauses, "");
+        let joints = read.item.wanted.reactions.iter();
+        let joints: Vec<_> = joints.map(|joint| format!("{} {}", joint.name, joint.link)).collect();
+        (joints, read.bodies.iter().map(|body| !body.massless).collect::<Vec<_>>())
+    };
+    assert_eq!(of(""), (Vec::new(), vec![false, true, false]));
+    assert_eq!(of(", reactions(elbow)"), (vec!["elbow arm".to_owned()], vec![false, true, false]));
+    let both = vec!["arm arm".to_owned(), "weld hand".to_owned()];
+    assert_eq!(of(", reactions(arm, weld)"), (both, vec![false, true, true]));
+    let twice = "`elbow` is named twice; keep one of the two";
+    assert_eq!(mistakes(&text, ", reactions(elbow, elbow)", ""), [twice]);
+    let same = "`arm` is a joint that is named before by another name; remove it";
+    assert_eq!(mistakes(&text, ", reactions(elbow, arm)", ""), [same]);
+    let other = joint("arm", "fixed", "arm", "hand", "") + &link("hand");
+    let text = robot(&(joint("elbow", "revolute", "base", "arm", "") + &link("arm") + &other));
+    let unclear = "`arm` is a link of the file and the joint that carries `hand`; name that link";
+    assert_eq!(mistakes(&text, ", reactions(arm)", ""), [unclear]);
 }
 
 /// Prefixes that nothing declares, as Drake has them, and what stands before the root.

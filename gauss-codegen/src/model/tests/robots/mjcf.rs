@@ -109,6 +109,14 @@ fn what_is_told_and_refused() {
             Some("in an MJCF file <freejoint/> marks bodies that move freely; remove `base`"),
         ),
         (
+            "<freejoint/></body></worldbody>".to_owned(),
+            ", base(position = [0, 0, 1])",
+            Some(
+                "`base(…)` moves what the file holds, and `arm_joint` moves freely: it is placed by its pose; remove \
+                 `base(…)`",
+            ),
+        ),
+        (
             format!("{hinge}<equality><weld site1=\"arm\"/></equality>"),
             "",
             Some("3:51: <weld> does not act: it joins no two bodies or joints"),

@@ -1,0 +1,121 @@
+//! The laws of a step as they are posed: the contacts that act in it, and what they begin with.
+
+use gauss_runtime::configuration::VectorSpace;
+use gauss_runtime::contact::{ContactSystem, Each};
+use gauss_runtime::real::Real;
+
+use crate::mode::Mode;
+use crate::residual::Residual;
+
+use super::cones::{Cone, Laws};
+use super::impulses::{Found, Impulses};
+use super::motion;
+use super::outcome::Solved;
+use super::relaxed::{StepLaw, lifts};
+use super::unknowns::State;
+
+/// What is known of a step before its impulses.
+pub(super) struct Posed<'a, K: ContactSystem> {
+    pub(super) h: f64,
+    pub(super) law: StepLaw,
+    pub(super) tolerance: f64,
+    pub(super) laws: &'a Laws<K>,
+    pub(super) delassus: &'a K::Delassus,
+    pub(super) restitution: K::Gaps,
+    /// Before the step.
+    pub(super) gaps: K::Gaps,
+    /// Before the step, and at its end without impulses.
+    pub(super) rates: [K::ContactRows; 2],
+    /// Of the step before.
+    pub(super) impulses: K::ContactRows,
+    pub(super) modes: &'a [Mode],
+    /// Whether contacts depend on one another, as far as is known.
+    pub(super) dependent: bool,
+}
+
+impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
+    /// What an impact passes on: a part of the rate before it.
+    pub(super) fn passed_on(&self, i: usize) -> T {
+        motion::passed_on(self.restitution.component(i), self.rates[0].component(K::CONTACTS[i].normal))
+    }
+
+    /// The gap with which a contact ends the step, given its rate there.
+    fn gap_at_end(&self, i: usize, rate: T) -> T {
+        let before = self.rates[0].component(K::CONTACTS[i].normal);
+        self.gaps.component(i) + T::from_f64(0.5 * self.h) * (before + rate)
+    }
+
+    /// The gap of a contact that does not act, given its rate without what impacts pass on.
+    pub(super) fn gap_left_open(&self, i: usize, rate: T) -> T {
+        self.gap_at_end(i, rate + self.passed_on(i))
+    }
+
+    /// Poses the problem; the cones of which those act that may.
+    pub(super) fn pose(&self, problem: &mut Impulses<T>) -> K::EachContact<Cone<T>> {
+        problem.dependent = self.dependent;
+        problem.relaxed = self.law == StepLaw::ConvexRelaxation;
+        let row = |row: usize| [self.rates[1].component(row), self.impulses.component(row)];
+        problem.set_up(self.laws.scales.as_ref(), |i, j| self.delassus[(i, j)], row);
+        let mut cones = self.laws.cones;
+        for (i, contact) in K::CONTACTS.iter().enumerate() {
+            // Rolling resistance comes after the contact that it is of.
+            cones[i].acts = match contact.rolls_on() {
+                Some(on) => cones[on].acts,
+                None => {
+                    !contact.has_gap()
+                        || (self.modes[i].is_closed() && !lifts::<K>(self.law, self.modes, i))
+                        || problem.lockstep.at_most(self.gap_at_end(i, problem.b[contact.normal]), T::zero())
+                }
+            };
+            if contact.has_gap() {
+                problem.b[contact.normal] -= self.passed_on(i);
+            }
+        }
+        cones
+    }
+
+    /// The impulses that were found.
+    pub(super) fn impulses(&self, problem: &Impulses<T>) -> K::ContactRows {
+        let mut impulses = K::ContactRows::zero();
+        let scales = self.laws.scales.as_ref();
+        (0..scales.len()).for_each(|row| impulses.set_component(row, scales[row] * problem.impulses[row]));
+        impulses
+    }
+
+    /// What the laws came to.
+    pub(super) fn answer(&self, problem: &Impulses<T>, found: Found<T>, cones: &[Cone<T>]) -> Answer<T, K> {
+        let scales = self.laws.scales.as_ref();
+        let from_coulomb = if problem.relaxed { problem.residual_of_coulomb(cones) } else { found.residual };
+        let work = problem.work(|row| scales[row] * self.rates[1].component(row));
+        let states = Each::from_fn(|i| problem.state(cones, &cones[i]));
+        Answer { found, from_coulomb, work, states }
+    }
+
+    /// The same in a lane, whose modes before the step are given, with the modes after it.
+    pub(super) fn solved<S: ContactSystem<Scalar = f64>>(
+        &self,
+        problem: &Impulses<T>,
+        (answer, cones): (&Answer<T, K>, &[Cone<T>]),
+        (before, after): (&[Mode], &mut [Mode]),
+        lane: usize,
+    ) -> Solved<S> {
+        let scales = self.laws.scales.as_ref();
+        for (i, mode) in after.iter_mut().enumerate() {
+            *mode = problem.mode((&cones[i], &answer.states[i]), scales, self.tolerance, lane);
+        }
+        let (found, from_coulomb, work) =
+            (answer.found.lane(lane), answer.from_coulomb.lane(lane), answer.work.lane(lane));
+        let rests = Each::from_fn(|_| false);
+        let mut solved = Solved { found, from_coulomb, rests, struck: false, impacts: 0, work };
+        solved.tell(self.law, [before, after], |i| self.passed_on(i).lane(lane));
+        solved
+    }
+}
+
+/// What the laws of a step came to, of all lanes.
+pub(super) struct Answer<T: Real, K: ContactSystem<Scalar = T>> {
+    found: Found<T>,
+    from_coulomb: Residual<T>,
+    work: T,
+    states: K::EachContact<State<T>>,
+}

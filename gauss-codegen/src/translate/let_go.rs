@@ -1,0 +1,59 @@
+//! The scene once more, with joints let go for their reactions: each has six coordinates more, by which what it carries
+//! moves along and about its own axes as if nothing held it. They and their rates are zero wherever anything is
+//! computed; what is of use is how everything would change by them.
+
+use crate::algebra::{Expr, Map};
+use crate::error::Result;
+use crate::mechanics::{LetGo, Placement, Turn};
+use crate::words::Unraw;
+
+use super::freedom::LetGoBy;
+use super::notes::Notes;
+use super::translator::Translator;
+
+impl<'g> Translator<'_, 'g> {
+    /// The scene with the joints let go whose reactions are wanted; `None` where none are.
+    pub(super) fn let_go(&self) -> Result<Option<LetGo<'g>>> {
+        let graph = self.graph;
+        let joints = self.model.item.wanted.reactions.iter();
+        let let_go: Vec<_> = joints.map(|joint| LetGoBy::new(graph, joint.link.unraw().to_string())).collect();
+        if let_go.is_empty() {
+            return Ok(None);
+        }
+        let mut declared = self.declared.clone();
+        let_go.iter().for_each(|by| by.declare(&mut declared));
+        // What is noted has been noted before, of literal numbers more than once would be other symbols.
+        let notes = Notes::new(self.notes.read().literals.clone());
+        let fresh = Translator::new(graph, self.model, &declared, self.functions, self.pi, &notes);
+        let mut translator = Translator { let_go, ..fresh };
+        let scene = translator.scene()?;
+        translator.refuse_mistakes()?;
+        let home = translator.home();
+        self.notes.add().literals = notes.into_inner().literals;
+        Ok(Some(LetGo { scene, home }))
+    }
+
+    /// Zero for everything that joints that are let go move by.
+    pub(super) fn home(&self) -> Map<u32, Expr<'g>> {
+        let zero = self.graph.zero();
+        let all = self.let_go.iter().flat_map(|by| [by.coordinates, by.speeds, by.rates]).flatten();
+        all.map(|symbol| (symbol.key(), zero)).collect()
+    }
+
+    /// Whether a component of a constraint or a slip vanishes with joints where they are, seen by so many terms.
+    pub(super) fn says_nothing(&self, component: Expr<'g>, limit: usize) -> bool {
+        let home = if self.let_go.is_empty() { component } else { component.substitute(&self.home()) };
+        home.collected(limit).is_zero()
+    }
+
+    /// The placement of a body or frame whose joint may be let go.
+    pub(super) fn placed_freely(&self, name: &str, placement: Placement<'g>) -> Placement<'g> {
+        let Some(by) = self.let_go.iter().find(|by| by.link == name) else { return placement };
+        let [x, y, z, angles @ ..] = by.coordinates;
+        let way = placement.turns.iter().rev().fold([x, y, z], |way, turn| turn.vector(&way));
+        let position = std::array::from_fn(|i| placement.position[i] + way[i]);
+        let further = angles.iter().enumerate().map(|(axis, angle)| Turn::about(self.graph, axis, *angle, &self.rates));
+        let turns = placement.turns.iter().copied().chain(further).collect();
+        Placement { position, turns, velocity: None, angular_velocity: None, ..placement }
+    }
+}
