@@ -27,7 +27,7 @@ const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/data/recorded_inputs.cs
 
 fn main() -> Result<(), Box<dyn Error>> {
     let file = env::args_os().nth(1).map_or_else(|| PathBuf::from(FILE), PathBuf::from);
-    let folder = env::args_os().nth(2).map_or_else(|| PathBuf::from("target/gauss"), PathBuf::from);
+    let folder = env::args_os().nth(2).map_or_else(gauss_files::output_folder, PathBuf::from);
     let recording = Recording::read(File::open(&file)?).map_err(|error| format!("{}, {error}", file.display()))?;
     let rows = recording.rows();
     let (from, to) = (rows[0].time, rows[rows.len() - 1].time);

@@ -1,6 +1,5 @@
 //! Plots with plain axes: a title, a legend in a row of its own below it, curves, words among them.
 
-use std::env;
 use std::error::Error;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -305,5 +304,5 @@ pub fn write_page_into<S: GaussSystem<Scalar = f64>>(
 }
 
 fn folder() -> PathBuf {
-    env::args_os().nth(1).map_or_else(|| PathBuf::from("target/gauss"), PathBuf::from)
+    gauss_files::output_folder_or_argument()
 }
