@@ -156,6 +156,7 @@ fn mean_throw() -> Result<Playback<OvalKernel<f64>>, Box<dyn Error>> {
     let path = Simulation::new(&kernel).adaptive(1e-9, 1e-9).run(q, z, 0.0..FLIGHT)?;
     let place = |s: &Sample<OvalKernel<f64>>| s.q.translation.vector;
     let mut page = Playback::new("The mean throw", &path)?
+        .si()
         .body("ball", |s| s.q, [Shape::ellipsoid([0.14, 0.095, 0.095])])
         .follow("ball")
         .trace("ball", [0.0; 3])

@@ -85,6 +85,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn page(kernel: &CraftKernel, recording: &Recording, samples: Vec<Sample<CraftKernel>>) -> Playback<CraftKernel> {
     let pose = |s: &Sample<CraftKernel>| kernel.pose(s.t, &s.q);
     let mut page = Playback::of_samples("A vehicle driven by recorded inputs", samples)
+        .si()
         .up([0.0, 0.0, -1.0])
         .from_above()
         .body("REMUS 100", pose, torpedo())

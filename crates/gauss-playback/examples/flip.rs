@@ -23,6 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = given.unwrap_or_else(|| gauss_files::output_folder().join("flip.html"));
     let spatial = |s: &Sample<_>| racket.space_momentum(s.t, &s.q, &s.z);
     Playback::new("A racket thrown about its middle axis", &path)?
+        .si()
         .body(
             "racket",
             |s| racket.pose(s.t, &s.q),
