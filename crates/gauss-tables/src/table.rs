@@ -12,6 +12,8 @@ use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
 
 /// Tables of a run.
+#[doc(alias = "csv")]
+#[doc(alias = "plot")]
 pub trait Tabulate<S: GaussSystem>: crate::sealed::Sealed {
     /// A table with a row for every sample, and the time as its first column.
     ///
@@ -76,6 +78,8 @@ impl<S: GaussSystem> Tabulate<S> for Trajectory<'_, S> {
 ///
 /// Columns have units where these were [given](Self::units) or are those of the [SI](Self::si); the heading of CSV is
 /// then `angle / rad`. [`Export`](crate::Export) has other formats and plots.
+#[doc(alias = "csv")]
+#[doc(alias = "dataframe")]
 pub struct Table<S: GaussSystem> {
     samples: Vec<Sample<S>>,
     columns: Vec<Stored>,
