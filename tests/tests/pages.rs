@@ -199,6 +199,22 @@ fn words_of_the_field_are_found() {
     }
 }
 
+/// The README's first command runs the README's first program, but for what that does with its table.
+#[test]
+fn the_first_command_is_the_first_program() {
+    let read = |file: &str| fs::read_to_string(repository().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let program = |text: &str| {
+        let from = text.find("/// A torpedo").expect("the struct");
+        let length = text[from..].find("println!(\"after 10 s").expect("the run");
+        // rustfmt breaks lines, and ends lists of several lines with a comma.
+        let words: String = text[from..from + length].split_whitespace().collect();
+        words.replace(",}", "}").replace(",)", ")").replace(",]", "]")
+    };
+    let readme = read("README.md");
+    assert!(readme.contains("cargo run --release -p gauss-first"));
+    assert_eq!(program(&readme), program(&read("examples/first/main.rs")));
+}
+
 #[test]
 fn the_readme_is_short() {
     let lines = fs::read_to_string(repository().join("README.md")).expect("README.md is there").lines().count();
