@@ -5,7 +5,8 @@
 #![deny(missing_docs)]
 
 /// Derives the equations of motion of rigid bodies from the Gauss condition, and generates `Name::kernel()`, the
-/// `NameKernel` that implements `GaussSystem`, `Name::warnings()`, and `NameState`: coordinates and speeds by name.
+/// `NameKernel` that implements `GaussSystem`, `Name::warnings()`, `NameState`: coordinates and speeds by name, and
+/// `NameIndex`: the places of their increments in flat vectors.
 /// Where the only matter is one body, however its coordinates and speeds are written, the kernel implements
 /// `RigidBodySystem`, and `convert` carries states to others.
 ///

@@ -62,6 +62,7 @@ assert!((0.202 * end.w.z + 0.002 * end.spin - 0.01).abs() < 1e-12);
 //! | [`linearize`] | [`LinearizedSystem`](linearize::LinearizedSystem): exact derivatives by state, time and input |
 //! | [`hessian`] | [`HessianSystem`](hessian::HessianSystem): second derivatives along given weights |
 //! | [`inverse`] | [`InverseLinearizedSystem`](inverse::InverseLinearizedSystem): derivatives of inverse dynamics |
+//! | [`increments`] | [`Increments`](increments::Increments): increments of a state as one flat vector, for filters |
 //! | [`configuration`] | groups as configurations, linear spaces of increments |
 //! | [`lie`] | exp, log, dexp⁻¹ on SO(3), SE(3), SE(2), accurate from angle 0 up to the pole of dexp⁻¹ at 2π |
 //! | [`chart`] | names of charts, rotation coordinates, exact conversion of states |
@@ -132,6 +133,7 @@ pub mod forces;
 pub mod frames;
 pub mod hessian;
 pub mod identification;
+pub mod increments;
 pub mod integrate;
 pub mod inverse;
 pub mod lie;

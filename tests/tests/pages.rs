@@ -202,7 +202,8 @@ fn words_of_the_field_are_found() {
 /// The README's first command runs the README's first program, but for what that does with its table.
 #[test]
 fn the_first_command_is_the_first_program() {
-    let read = |file: &str| fs::read_to_string(repository().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let read =
+        |file: &str| fs::read_to_string(repository().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
     let program = |text: &str| {
         let from = text.find("/// A torpedo").expect("the struct");
         let length = text[from..].find("println!(\"after 10 s").expect("the run");
