@@ -3,7 +3,7 @@
 //! `cargo run --release -p gauss-first [-- FOLDER]` writes a picture, a table and a page that plays into `FOLDER`, by
 //! default `target/gauss`. The struct and the run are those of the README.
 
-use {gauss_playback::Playback, gauss_playback::Shape, gauss_tables::Export};
+use gauss_playback::{Playback, Shape};
 use {gauss_runtime::prelude::*, gauss_tables::Tabulate};
 
 /// A torpedo as heavy as the water that it displaces, body axes: e₁ forward. Kirchhoff's equations.

@@ -4,7 +4,7 @@
 use std::error::Error;
 
 use gauss_runtime::prelude::*;
-use gauss_tables::{Export, Tabulate};
+use gauss_tables::Tabulate;
 
 /// A heavy top.
 #[derive(GaussDynamics)]
