@@ -1,11 +1,11 @@
 //! Steps of several states at once, in lockstep.
 //!
-//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone. So do
-//! the laws, whose solution is generic in its scalar, as long as all lanes decide alike: which contacts act, which of
-//! these slide, how often the solution is corrected. Where they do not, the laws of that step are solved by the stepper
-//! of each lane: so a lane has the bits of a stepper of its own. Lanes that need something else than the others go that
-//! step alone: at the start and after impacts, where the step is made twice, where a flight ends, and where a step is
-//! made in parts.
+//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone. So
+//! do the laws, whose solution is generic in its scalar, as long as all lanes decide alike: which contacts act, which
+//! of these slide, how often the solution is corrected. Where they do not, the laws of that step are solved by the
+//! stepper of each lane: so a lane has the bits of a stepper of its own. Lanes that need something else than the others
+//! go that step alone: at the start and after impacts, where the step is made twice, where a flight ends, and where a
+//! step is made in parts.
 
 use alloc::vec::Vec;
 
@@ -17,12 +17,12 @@ use gauss_runtime::simd::Packed;
 
 use crate::error::{ContactError, ContactErrorKind};
 
+use super::impulses;
 use super::motion::Middle;
 use super::outcome::Pushed;
-use super::projection::Closed;
+use super::projection::{Closed, Projection};
 use super::report::StepReport;
 use super::stepper::ContactStepper;
-use super::together;
 
 /// A system in packs, each lane of which is the system `K`: `Kernel<wide::f64x8>` of a struct that is generic in its
 /// scalar, of which `K` is `Kernel<f64>`.
@@ -133,7 +133,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let (stages, known) = (Vec::with_capacity(steppers.len()), Vec::with_capacity(steppers.len()));
         let halted = steppers.iter().map(|_| false).collect();
         let responses = steppers.iter().map(|_| None).collect();
-        let memory = alloc::vec![W::Scalar::zero(); together::memory::<W>()];
+        let memory = alloc::vec![W::Scalar::zero(); memory::<W>()];
         Ok(Self { wide, steppers, outcomes, stages, response: None, responses, memory, known, halted, alone: 0 })
     }
 
@@ -397,6 +397,11 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
             self.stages[lane] = Stage::Made;
         }
     }
+}
+
+/// How many numbers the laws of all lanes need.
+const fn memory<W: ContactSystem>() -> usize {
+    impulses::memory(W::ContactRows::DIM) + Projection::<W>::MEMORY
 }
 
 /// The numbers of a lane.

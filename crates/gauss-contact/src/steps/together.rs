@@ -13,16 +13,11 @@ use super::cones::Laws;
 use super::impulses::{self, Impulses};
 use super::lanes::{ContactLanes, LanesOf, Stage, single};
 use super::motion::{self, Middle};
-use super::outcome::Pushed;
+use super::outcome::{Pushed, Solved};
 use super::posed::Posed;
 use super::projection::{Closed, Projection};
 use super::relaxed::StepLaw;
 use super::unknowns::Unknowns;
-
-/// How many numbers the laws of all lanes need.
-pub(super) const fn memory<W: ContactSystem>() -> usize {
-    impulses::memory(W::ContactRows::DIM) + Projection::<W>::MEMORY
-}
 
 impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
     /// Whether an answer is that of the first lane in all of them.
@@ -89,26 +84,29 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         if (0..cones.len()).any(joins) || problem.dependent != dependent || problem.lockstep.has_parted() {
             return None;
         }
-        let pushed = (0..lanes)
-            .map(|lane| {
-                let mut after: K::EachContact<Mode> = Each::from_fn(|_| Mode::Open);
-                let modes = (self.steppers[lane].modes.as_ref(), after.as_mut());
-                let solved = posed.solved::<K>(&problem, (&answer, cones), modes, lane);
-                let (z, impulses) =
-                    (single::<W, _, K::Speeds>(&z, lane), single::<W, _, K::ContactRows>(&impulses, lane));
-                (after, Pushed { z, impulses, dependent, solved })
-            })
-            .collect();
-        self.hand_out(pushed);
+        let solved = |lane: usize| {
+            let mut after: K::EachContact<Mode> = Each::from_fn(|_| Mode::Open);
+            let modes = (self.steppers[lane].modes.as_ref(), after.as_mut());
+            let solved = posed.solved::<K>(&problem, (&answer, cones), modes, lane);
+            (after, solved)
+        };
+        let solved: Vec<_> = (0..lanes).map(solved).collect();
+        self.hand_out(solved, (&z, &impulses, dependent));
         Some(())
     }
 
-    /// Impulses and modes to each lane.
-    fn hand_out(&mut self, pushed: Vec<(K::EachContact<Mode>, Pushed<K>)>) {
-        for (lane, (after, pushed)) in pushed.into_iter().enumerate() {
+    /// Impulses, the speeds after them, and modes to each lane.
+    fn hand_out(
+        &mut self,
+        solved: Vec<(K::EachContact<Mode>, Solved<K>)>,
+        (z, impulses, dependent): (&W::Speeds, &W::ContactRows, bool),
+    ) {
+        for (lane, (after, solved)) in solved.into_iter().enumerate() {
             self.steppers[lane].next = after;
             if let Stage::Middle(middle) = core::mem::replace(&mut self.stages[lane], Stage::Alone) {
-                self.stages[lane] = Stage::Pushed(middle, pushed);
+                let (z, impulses) =
+                    (single::<W, _, K::Speeds>(z, lane), single::<W, _, K::ContactRows>(impulses, lane));
+                self.stages[lane] = Stage::Pushed(middle, Pushed { z, impulses, dependent, solved });
             }
         }
     }
