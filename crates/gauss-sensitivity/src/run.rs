@@ -1,0 +1,163 @@
+//! What is differentiated: a run as a function of numbers.
+
+use gauss_runtime::configuration::VectorSpace;
+use gauss_runtime::error::ParameterError;
+use gauss_runtime::integrate::{Crossing, InputSource};
+use gauss_runtime::real::Real;
+use gauss_runtime::system::GaussSystem;
+
+/// The input of a system.
+pub type InputOf<S> = <S as GaussSystem>::Input;
+
+/// Where a run starts: q and z.
+pub type Start<S> = (<S as GaussSystem>::Configuration, <S as GaussSystem>::Speeds);
+
+/// A state of a run, as inputs, events, costs and residuals see it.
+pub struct At<'a, S: GaussSystem> {
+    /// Of costs and residuals: which of the [instants](Run::instants) it is, from 0. Where an [event](Run::until) ended
+    /// the run it is the instant that would have come next. Of inputs and events: which of the intervals between
+    /// instants the state is in, from 0.
+    pub number: usize,
+    /// Whether the run was ended by its event here.
+    pub ended: bool,
+    /// Time.
+    pub t: S::Scalar,
+    /// Configuration.
+    pub q: &'a S::Configuration,
+    /// Quasi-velocities.
+    pub z: &'a S::Speeds,
+}
+
+// Written by hand: deriving would ask the same of the system S, which is only named here.
+impl<S: GaussSystem> Clone for At<'_, S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: GaussSystem> Copy for At<'_, S> {}
+
+/// A run as a function of P numbers: parameters of bodies, what the initial state is made of, gains of a controller, the
+/// values of an input. Each method is written once, for any scalar, as kernels of structs `Arm<T>` are.
+///
+/// ```
+/// use gauss_runtime::prelude::*;
+/// use gauss_sensitivity::{Derivatives, Run, Start};
+///
+/// #[derive(GaussDynamics)]
+/// #[gauss(coordinates(x), particle(mass = m, position = [x, 0, 0]), spring(along = x, stiffness = k))]
+/// struct Oscillator<T> {
+///     m: T,
+///     k: T,
+/// }
+///
+/// /// By mass, stiffness and where it is let go.
+/// struct Swing;
+///
+/// impl Run<3> for Swing {
+///     type System<T: Real> = OscillatorKernel<T>;
+///
+///     fn instants(&self) -> &[f64] {
+///         &[0.0, 2.0]
+///     }
+///
+///     fn system<T: Real>(&self, &[m, k, _]: &[T; 3]) -> Result<OscillatorKernel<T>, ParameterError> {
+///         Oscillator { m, k }.kernel()
+///     }
+///
+///     fn start<T: Real>(&self, &[_, _, x]: &[T; 3]) -> Start<OscillatorKernel<T>> {
+///         (SVector::from([x]), SVector::from([T::zero()]))
+///     }
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let (m, k, x) = (1.3_f64, 2.0_f64, 0.1);
+/// let run = Derivatives::adaptive(1e-12, 1e-12).run(&Swing, &[m, k, x])?;
+/// // x cos(ωt), ω = √(k/m).
+/// let (omega, end) = ((k / m).sqrt(), &run[1]);
+/// let by_omega = -x * 2.0 * (2.0 * omega).sin();
+/// assert!((end.q_slopes[0][0] + by_omega * 0.5 * omega / m).abs() < 1e-11);
+/// assert!((end.q_slopes[0][1] - by_omega * 0.5 * omega / k).abs() < 1e-11);
+/// assert!((end.q_slopes[0][2] - (2.0 * omega).cos()).abs() < 1e-11);
+/// # Ok(())
+/// # }
+/// ```
+pub trait Run<const P: usize> {
+    /// The kernel, in any scalar.
+    type System<T: Real>: GaussSystem<Scalar = T, Input: VectorSpace<T>>;
+
+    /// The time at which the run starts, those at which something is asked of it, and that of its end: at least two, each
+    /// later than the one before (or each earlier). Steps end at all of them.
+    fn instants(&self) -> &[f64];
+
+    /// The system with these numbers.
+    ///
+    /// # Errors
+    /// When no body has them.
+    fn system<T: Real>(&self, numbers: &[T; P]) -> Result<Self::System<T>, ParameterError>;
+
+    /// The initial state. Under constraints it is [projected](GaussSystem::project) onto them, and its derivatives with
+    /// it, as runs do.
+    fn start<T: Real>(&self, numbers: &[T; P]) -> Start<Self::System<T>>;
+
+    /// The input, where the scene has one: a function of time and state that is smooth between instants.
+    /// [`At::number`] tells which of the intervals it is for, so that an input may be held over each. A scene with
+    /// inputs that does not write this does not compile.
+    fn input<T: Real>(&self, numbers: &[T; P], at: &At<'_, Self::System<T>>) -> InputOf<Self::System<T>> {
+        let _ = (numbers, at);
+        const { assert!(InputOf::<Self::System<T>>::DIM == 0, "the scene has inputs: write `input`") }
+        InputOf::<Self::System<T>>::zero()
+    }
+
+    /// A function that ends the run where it passes through zero in a direction; none, where this is not written. The
+    /// answer is `Some` for all states or for none, always with the same direction. The state and the time there have
+    /// derivatives where the function passes at a rate.
+    fn until<T: Real>(&self, numbers: &[T; P], at: &At<'_, Self::System<T>>) -> Option<(Crossing, T)> {
+        let _ = (numbers, at);
+        None
+    }
+}
+
+/// A run with a cost: the sum of one number for each instant.
+pub trait Cost<const P: usize>: Run<P> {
+    /// What an instant adds to the cost, the first one included; 0 where nothing is asked.
+    fn cost<T: Real>(&self, numbers: &[T; P], at: &At<'_, Self::System<T>>) -> T;
+}
+
+/// A run with R residuals for each instant: what was measured less what the run gives, over the standard deviation of
+/// the measurement.
+pub trait Residuals<const P: usize, const R: usize>: Run<P> {
+    /// The residuals of an instant, the first one included; zeros where nothing was measured.
+    fn residuals<T: Real>(&self, numbers: &[T; P], at: &At<'_, Self::System<T>>) -> [T; R];
+}
+
+/// The input of a run, in one interval between instants.
+pub(crate) struct Fed<'a, R, T, const P: usize> {
+    pub(crate) run: &'a R,
+    pub(crate) numbers: &'a [T; P],
+    pub(crate) number: usize,
+}
+
+impl<T: Real, R: Run<P>, const P: usize> InputSource<R::System<T>> for Fed<'_, R, T, P> {
+    fn input(
+        &self,
+        t: T,
+        q: &<R::System<T> as GaussSystem>::Configuration,
+        z: &<R::System<T> as GaussSystem>::Speeds,
+    ) -> InputOf<R::System<T>> {
+        self.run.input(self.numbers, &At { number: self.number, ended: false, t, q, z })
+    }
+}
+
+impl<T: Real, R: Run<P>, const P: usize> Fed<'_, R, T, P> {
+    /// The function that ends the run; NaN where there is none.
+    pub(crate) fn until(
+        &self,
+        t: T,
+        q: &<R::System<T> as GaussSystem>::Configuration,
+        z: &<R::System<T> as GaussSystem>::Speeds,
+    ) -> T {
+        let at = At { number: self.number, ended: false, t, q, z };
+        self.run.until(self.numbers, &at).map_or(T::from_f64(f64::NAN), |(_, value)| value)
+    }
+}
