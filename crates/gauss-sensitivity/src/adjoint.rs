@@ -6,13 +6,13 @@
 //! ([`checkpoints`](crate::checkpoints)).
 
 use gauss_runtime::configuration::VectorSpace;
-use gauss_runtime::integrate::{IntegrationError, Problem, State, SystemProblem, VelocityForm};
+use gauss_runtime::integrate::{IntegrationError, Problem, State};
 
 use crate::checkpoints::reverse;
 use crate::error::SensitivityError;
 use crate::forward::{advance, check_rate};
 use crate::mesh::{Mesh, initial};
-use crate::run::{At, Cost, Fed, Run};
+use crate::run::{At, Cost, Equations, Fed, Run, equations};
 use crate::states::{ComponentsOf, by_increments, in_numbers, numbers_of};
 use crate::steps::Steps;
 use crate::tape::{Adjoints, Recording, Taped};
@@ -48,15 +48,12 @@ pub struct Gradient<const P: usize> {
     pub effort: Effort,
 }
 
-type TapedProblem<'a, R, const P: usize> =
-    SystemProblem<'a, <R as Run<P>>::System<Taped>, VelocityForm, Fed<'a, R, Taped, P>>;
-
 /// The way back.
 struct Back<'a, R: Run<P>, C, const P: usize> {
     steps: &'a C,
     mesh: &'a Mesh,
     recording: &'a Recording,
-    problem: TapedProblem<'a, R, P>,
+    problem: Equations<'a, R, Taped, P>,
     /// The nodes of the numbers, the system and the initial state: they stay.
     kept: usize,
     adjoints: Adjoints,
@@ -79,8 +76,8 @@ struct Taking {
 impl<R: Cost<P>, C: Steps, const P: usize> Back<'_, R, C, P> {
     fn cost(&mut self, made: usize, state: &State<R::System<Taped>>) -> Taped {
         let Some((number, ended)) = self.mesh.instant(made) else { return Taped::constant(0.0) };
-        let Fed { run, numbers, .. } = self.problem.input;
-        let cost = run.cost(numbers, &At { number, ended, t: state.t, q: &state.q, z: &state.y });
+        let Fed { run, numbers, system, .. } = self.problem.input;
+        let cost = run.cost(numbers, &At { number, ended, system, t: state.t, q: &state.q, z: &state.y });
         self.costs[number] = cost.value();
         cost
     }
@@ -145,12 +142,12 @@ pub(crate) fn gradient<R: Cost<P>, C: Steps, const P: usize>(
 ) -> Result<Gradient<P>, SensitivityError> {
     let mesh = &Mesh::of(run, steps, numbers)?;
     let plain = run.system(numbers)?;
-    let start = initial(&SystemProblem::new(&plain).input_from(Fed { run, numbers, number: 0 }), mesh)?;
+    let start = initial(&equations(run, numbers, &plain), mesh)?;
 
     let recording = &Recording::start().ok_or(SensitivityError::Nested)?;
     let variables = &numbers.map(|number| recording.variable(number));
     let system = run.system(variables)?;
-    let problem = SystemProblem::new(&system).input_from(Fed { run, numbers: variables, number: 0 });
+    let problem = equations(run, variables, &system);
     let given: Vec<Taped> = numbers_of(&initial(&problem, mesh)?).collect();
     let before = recording.len();
     // Variables of their own, so that the derivatives by the initial state are known as well.

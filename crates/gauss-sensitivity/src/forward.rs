@@ -2,13 +2,13 @@
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::dual::Dual;
-use gauss_runtime::integrate::{IntegrationError, Problem, State, SystemProblem};
+use gauss_runtime::integrate::{IntegrationError, Problem, State};
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
 
 use crate::error::SensitivityError;
 use crate::mesh::{Mesh, initial};
-use crate::run::{At, Fed, Residuals, Run};
+use crate::run::{At, Residuals, Run, equations};
 use crate::states::{ComponentsOf, TangentOf, in_numbers, increment, numbers_of};
 use crate::steps::Steps;
 
@@ -46,11 +46,11 @@ fn walk<R: Run<P>, C: Steps, T: Real, const P: usize>(
     mut see: impl FnMut(&At<'_, R::System<T>>),
 ) -> Result<(), SensitivityError> {
     let system = run.system(numbers)?;
-    let mut problem = SystemProblem::new(&system).input_from(Fed { run, numbers, number: 0 });
+    let mut problem = equations(run, numbers, &system);
     let mut state = initial(&problem, mesh)?;
     let mut show = |made: usize, state: &State<R::System<T>>| {
         if let Some((number, ended)) = mesh.instant(made) {
-            see(&At { number, ended, t: state.t, q: &state.q, z: &state.y });
+            see(&At { number, ended, system: &system, t: state.t, q: &state.q, z: &state.y });
         }
     };
     show(0, &state);
@@ -86,7 +86,8 @@ fn rate_at_end<R: Run<P>, C: Steps, const P: usize>(
     let state = state_at((run, steps, mesh), numbers, last)?;
     let numbers = &numbers.map(Number::constant);
     let system = run.system(numbers)?;
-    let problem = SystemProblem::new(&system).input_from(Fed { run, numbers, number: mesh.interval(last) });
+    let mut problem = equations(run, numbers, &system);
+    problem.input.number = mesh.interval(last);
     let (from, to) = (mesh.times[last], mesh.times[last + 1]);
     let start: State<R::System<Number>> = in_numbers(&state, Number::constant(from), Number::constant);
     let h = Number::variable(to - from, 0);
@@ -113,7 +114,7 @@ fn state_at<R: Run<P>, C: Steps, const P: usize>(
     made: usize,
 ) -> Result<State<R::System<f64>>, SensitivityError> {
     let system = run.system(numbers)?;
-    let problem = SystemProblem::new(&system).input_from(Fed { run, numbers, number: 0 });
+    let problem = equations(run, numbers, &system);
     let start = initial(&problem, mesh)?;
     advance((run, steps, mesh), (&system, numbers), start, 0..made)
 }
@@ -125,7 +126,7 @@ pub(crate) fn advance<R: Run<P>, C: Steps, const P: usize>(
     mut state: State<R::System<f64>>,
     which: std::ops::Range<usize>,
 ) -> Result<State<R::System<f64>>, SensitivityError> {
-    let mut problem = SystemProblem::new(system).input_from(Fed { run, numbers, number: 0 });
+    let mut problem = equations(run, numbers, system);
     for n in which {
         problem.input.number = mesh.interval(n);
         let h = mesh.times[n + 1] - mesh.times[n];

@@ -47,7 +47,7 @@ pub use derivatives::{Derivatives, FixedSteps};
 pub use error::{EnsembleError, SensitivityError};
 pub use fit::{Fit, FitError};
 pub use forward::Point;
-pub use run::{At, Cost, InputOf, Residuals, Run, Start};
+pub use run::{At, ConfigurationOf, Cost, InputOf, Residuals, Run, SpeedsOf, Start};
 pub use steps::Steps;
 
 /// The example of the README is a test.

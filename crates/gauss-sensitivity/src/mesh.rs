@@ -1,12 +1,11 @@
 //! The steps of a run, as its values choose them: derivatives are those of these very steps, with their lengths held.
 
 use gauss_runtime::integrate::drive::control::prepare;
-use gauss_runtime::integrate::{IntegrationError, State, SystemProblem, VelocityForm};
+use gauss_runtime::integrate::{IntegrationError, State, SystemProblem};
 use gauss_runtime::real::Real;
-use gauss_runtime::system::GaussSystem;
 
 use crate::error::SensitivityError;
-use crate::run::{At, Fed, Run};
+use crate::run::{Equations, Fed, Run, equations};
 use crate::steps::Steps;
 
 /// When each step of a run ends.
@@ -29,16 +28,16 @@ impl Mesh {
         let instants = run.instants();
         check(instants)?;
         let system = run.system(numbers)?;
-        let (q, z) = run.start(numbers);
+        let (q, z) = run.start(numbers, &system);
         let mut state = State { t: instants[0], q, y: z };
-        let crossing = run.until(numbers, &at(0, &state)).map(|(crossing, _)| crossing);
+        let first = equations(run, numbers, &system);
+        let crossing = run.until(numbers, &first.input.at(state.t, &state.q, &state.y)).map(|(crossing, _)| crossing);
         let mut mesh = Self { times: vec![state.t], reached: vec![0], ended: false };
         let mut length = None;
         for (number, &end) in instants.iter().enumerate().skip(1) {
-            let number = number - 1;
-            let problem = SystemProblem::new(&system).input_from(Fed { run, numbers, number });
+            let fed = || Fed { number: number - 1, run, numbers, system: &system };
+            let (problem, function) = (SystemProblem::new(&system).input_from(fed()), fed());
             let steps = &steps.after(length);
-            let function = Fed { run, numbers, number };
             let event = crossing.map(|crossing| (crossing, move |t: f64, q: &_, z: &_| function.until(t, q, z)));
             let first = mesh.times.len();
             let times = &mut mesh.times;
@@ -92,22 +91,13 @@ impl Mesh {
     }
 }
 
-/// A state as functions of a run see it.
-pub(crate) fn at<S: GaussSystem>(number: usize, state: &State<S>) -> At<'_, S> {
-    At { number, ended: false, t: state.t, q: &state.q, z: &state.y }
-}
-
 /// The initial state of a run in any scalar, on the constraints.
-pub(crate) fn initial<R, T, const P: usize>(
-    problem: &SystemProblem<'_, R::System<T>, VelocityForm, Fed<'_, R, T, P>>,
+pub(crate) fn initial<R: Run<P>, T: Real, const P: usize>(
+    problem: &Equations<'_, R, T, P>,
     mesh: &Mesh,
-) -> Result<State<R::System<T>>, IntegrationError>
-where
-    T: Real,
-    R: Run<P>,
-{
-    let Fed { run, numbers, .. } = problem.input;
-    let (q, z) = run.start(numbers);
+) -> Result<State<R::System<T>>, IntegrationError> {
+    let Fed { run, numbers, system, .. } = problem.input;
+    let (q, z) = run.start(numbers, system);
     let [t, end] = [mesh.times[0], mesh.times[mesh.steps()]].map(T::from_f64);
     let state = State { t, q, y: z };
     let (_, state, _) = prepare(problem, &state, end).map_err(|kind| IntegrationError::at(problem, &state, kind))?;

@@ -2,15 +2,21 @@
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::error::ParameterError;
-use gauss_runtime::integrate::{Crossing, InputSource};
+use gauss_runtime::integrate::{Crossing, InputSource, SystemProblem, VelocityForm};
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
 
 /// The input of a system.
 pub type InputOf<S> = <S as GaussSystem>::Input;
 
+/// The configuration q of a system.
+pub type ConfigurationOf<S> = <S as GaussSystem>::Configuration;
+
+/// The quasi-velocities z of a system.
+pub type SpeedsOf<S> = <S as GaussSystem>::Speeds;
+
 /// Where a run starts: q and z.
-pub type Start<S> = (<S as GaussSystem>::Configuration, <S as GaussSystem>::Speeds);
+pub type Start<S> = (ConfigurationOf<S>, SpeedsOf<S>);
 
 /// A state of a run, as inputs, events, costs and residuals see it.
 pub struct At<'a, S: GaussSystem> {
@@ -20,6 +26,8 @@ pub struct At<'a, S: GaussSystem> {
     pub number: usize,
     /// Whether the run was ended by its event here.
     pub ended: bool,
+    /// The system: energies, frames, inverse dynamics.
+    pub system: &'a S,
     /// Time.
     pub t: S::Scalar,
     /// Configuration.
@@ -65,7 +73,7 @@ impl<S: GaussSystem> Copy for At<'_, S> {}
 ///         Oscillator { m, k }.kernel()
 ///     }
 ///
-///     fn start<T: Real>(&self, &[_, _, x]: &[T; 3]) -> Start<OscillatorKernel<T>> {
+///     fn start<T: Real>(&self, &[_, _, x]: &[T; 3], _: &OscillatorKernel<T>) -> Start<OscillatorKernel<T>> {
 ///         (SVector::from([x]), SVector::from([T::zero()]))
 ///     }
 /// }
@@ -96,9 +104,9 @@ pub trait Run<const P: usize> {
     /// When no body has them.
     fn system<T: Real>(&self, numbers: &[T; P]) -> Result<Self::System<T>, ParameterError>;
 
-    /// The initial state. Under constraints it is [projected](GaussSystem::project) onto them, and its derivatives with
-    /// it, as runs do.
-    fn start<T: Real>(&self, numbers: &[T; P]) -> Start<Self::System<T>>;
+    /// The initial state. Under constraints it satisfies them, by [`project`](GaussSystem::project) of the system where
+    /// nothing else does it; its derivatives are projected onto them.
+    fn start<T: Real>(&self, numbers: &[T; P], system: &Self::System<T>) -> Start<Self::System<T>>;
 
     /// The input, where the scene has one: a function of time and state that is smooth between instants.
     /// [`At::number`] tells which of the intervals it is for, so that an input may be held over each. A scene with
@@ -131,33 +139,47 @@ pub trait Residuals<const P: usize, const R: usize>: Run<P> {
     fn residuals<T: Real>(&self, numbers: &[T; P], at: &At<'_, Self::System<T>>) -> [T; R];
 }
 
-/// The input of a run, in one interval between instants.
-pub(crate) struct Fed<'a, R, T, const P: usize> {
+/// What a system is fed with in one interval between instants.
+pub(crate) struct Fed<'a, R: Run<P>, T: Real, const P: usize> {
     pub(crate) run: &'a R,
     pub(crate) numbers: &'a [T; P],
+    pub(crate) system: &'a R::System<T>,
     pub(crate) number: usize,
 }
 
 impl<T: Real, R: Run<P>, const P: usize> InputSource<R::System<T>> for Fed<'_, R, T, P> {
-    fn input(
-        &self,
-        t: T,
-        q: &<R::System<T> as GaussSystem>::Configuration,
-        z: &<R::System<T> as GaussSystem>::Speeds,
-    ) -> InputOf<R::System<T>> {
-        self.run.input(self.numbers, &At { number: self.number, ended: false, t, q, z })
+    fn input(&self, t: T, q: &ConfigurationOf<R::System<T>>, z: &SpeedsOf<R::System<T>>) -> InputOf<R::System<T>> {
+        self.run.input(self.numbers, &self.at(t, q, z))
     }
 }
 
-impl<T: Real, R: Run<P>, const P: usize> Fed<'_, R, T, P> {
-    /// The function that ends the run; NaN where there is none.
-    pub(crate) fn until(
+impl<'a, T: Real, R: Run<P>, const P: usize> Fed<'a, R, T, P> {
+    /// A state in the interval.
+    pub(crate) fn at(
         &self,
         t: T,
-        q: &<R::System<T> as GaussSystem>::Configuration,
-        z: &<R::System<T> as GaussSystem>::Speeds,
-    ) -> T {
-        let at = At { number: self.number, ended: false, t, q, z };
-        self.run.until(self.numbers, &at).map_or(T::from_f64(f64::NAN), |(_, value)| value)
+        q: &'a ConfigurationOf<R::System<T>>,
+        z: &'a SpeedsOf<R::System<T>>,
+    ) -> At<'a, R::System<T>> {
+        At { number: self.number, ended: false, system: self.system, t, q, z }
     }
+
+    /// The function that ends the run; NaN where there is none.
+    pub(crate) fn until(&self, t: T, q: &ConfigurationOf<R::System<T>>, z: &SpeedsOf<R::System<T>>) -> T {
+        let found = self.run.until(self.numbers, &self.at(t, q, z));
+        found.map_or(T::from_f64(f64::NAN), |(_, value)| value)
+    }
+}
+
+/// The equations of a run in one interval between instants.
+pub(crate) type Equations<'a, R, T, const P: usize> =
+    SystemProblem<'a, <R as Run<P>>::System<T>, VelocityForm, Fed<'a, R, T, P>>;
+
+/// Those of the first interval.
+pub(crate) fn equations<'a, R: Run<P>, T: Real, const P: usize>(
+    run: &'a R,
+    numbers: &'a [T; P],
+    system: &'a R::System<T>,
+) -> Equations<'a, R, T, P> {
+    SystemProblem::new(system).input_from(Fed { run, numbers, system, number: 0 })
 }
