@@ -48,6 +48,7 @@ pub use error::{EnsembleError, SensitivityError};
 pub use fit::{Fit, FitError};
 pub use forward::Point;
 pub use run::{At, ConfigurationOf, Cost, InputOf, Residuals, Run, SpeedsOf, Start};
+pub use states::constant;
 pub use steps::Steps;
 
 /// The example of the README is a test.

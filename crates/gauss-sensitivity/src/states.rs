@@ -20,6 +20,21 @@ fn recast<T: Real, U: Real, V: VectorSpace<T>, W: VectorSpace<U>>(vector: &V, nu
     result
 }
 
+/// A configuration in the scalar of a run, as a constant: what was measured, or where a run is to end.
+///
+/// ```
+/// use gauss_runtime::dual::Dual;
+/// use gauss_runtime::prelude::*;
+///
+/// let q = UnitQuaternion::from_euler_angles(0.1, 0.2, 0.3);
+/// let same: UnitQuaternion<Dual<4>> = gauss_sensitivity::constant(&q);
+/// assert_eq!(same.as_ref().coords[2], Dual::constant(q.as_ref().coords[2]));
+/// ```
+#[must_use]
+pub fn constant<A: Configuration<Scalar = f64>, B: Configuration>(q: &A) -> B {
+    B::from_components(&recast(&q.components(), &mut B::Scalar::from_f64))
+}
+
 /// A state of the same system in another scalar: the components of q, then z, number by number. The time is not asked
 /// for, but given.
 pub(crate) fn in_numbers<A: GaussSystem, B: GaussSystem>(
