@@ -3,7 +3,8 @@
 //! 1. Identification: three runs under known torques are recorded, angles with noise. Six numbers of the arm are those
 //!    that fit all three best (Gauss–Newton), with their deviations: derivatives of runs, forward.
 //! 2. Design: 120 torques swing the arm up to rest in less than four seconds with as little torque as can be: the gradient of one
-//!    cost by all of them, backward, for the price of a few runs.
+//!    cost by all of them, backward, for the price of some tens of runs, whatever
+//!    their count.
 //!
 //! The plan is made for the arm that was found, and flown on the true one.
 

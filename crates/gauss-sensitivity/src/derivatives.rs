@@ -63,7 +63,7 @@ impl<C: Steps> Derivatives<C> {
     }
 
     /// The cost of a run with its derivatives by all P numbers and by the initial state: back through its steps, for the
-    /// price of some runs, however many numbers there are.
+    /// price of some tens of runs, however many numbers there are.
     ///
     /// # Errors
     /// [`SensitivityError`].

@@ -5,8 +5,8 @@
 //!
 //! | asked for | found | costs about |
 //! |---|---|---|
-//! | states at all instants with their derivatives: [`run`](Derivatives::run) | forward, in dual numbers | a run in dual numbers for every four numbers |
-//! | a cost with its gradient: [`gradient`](Derivatives::gradient) | backward, with few states kept | some runs, whatever the count of numbers |
+//! | states at all instants with their derivatives: [`run`](Derivatives::run) | forward, in dual numbers | three or four runs for every four numbers |
+//! | a cost with its gradient: [`gradient`](Derivatives::gradient) | backward, with few states kept | some tens of runs, whatever the count of numbers |
 //! | that of an ensemble: [`gradient_of_all`](Derivatives::gradient_of_all) | backward, run by run | the same for each run |
 //! | the numbers that fit measurements: [`fit`](Derivatives::fit) | forward, Gauss–Newton | a handful of the first |
 //!

@@ -51,12 +51,19 @@ thread_local! {
 /// The number of the next recording, over all threads.
 static NEXT: AtomicU32 = AtomicU32::new(1);
 
-impl Tape {
-    fn push(&mut self, node: Node) -> Option<u32> {
-        let index = u32::try_from(self.nodes.len()).ok().filter(|&index| index != NONE)?;
-        self.nodes.push(node);
-        Some(index)
-    }
+/// One more node on the tape of this thread; `NONE` where the tape is full, or is that of another recording.
+// A call whose numbers come in registers: a node that is handed on as a whole is written and read again at once, which
+// takes longer than all else.
+#[inline(never)]
+fn record(tape: u32, a: u32, b: u32, by_a: f64, by_b: f64) -> u32 {
+    TAPE.with_borrow_mut(|found| {
+        let index = found.nodes.len();
+        if found.number != tape || index >= NONE as usize {
+            return NONE;
+        }
+        found.nodes.push(Node { arguments: [a, b], derivatives: [by_a, by_b] });
+        index as u32
+    })
 }
 
 impl Taped {
@@ -78,7 +85,7 @@ impl Taped {
         if self.node == NONE || derivative == 0.0 {
             return Self::constant(value);
         }
-        self.recorded(value, Node { arguments: [self.node, NONE], derivatives: [derivative, 0.0] })
+        self.recorded(value, [self.node, NONE], [derivative, 0.0])
     }
 
     /// A function of two numbers by its value and derivatives.
@@ -88,17 +95,15 @@ impl Taped {
             (_, NONE) => self.chain(value, a),
             (NONE, _) => other.chain(value, b),
             _ if self.tape != other.tape => Self::constant(f64::NAN),
-            arguments => self.recorded(value, Node { arguments: arguments.into(), derivatives: [a, b] }),
+            arguments => self.recorded(value, arguments.into(), [a, b]),
         }
     }
 
     /// NaN where the number is of another recording, or the tape is full.
     #[inline]
-    fn recorded(self, value: f64, node: Node) -> Self {
-        TAPE.with_borrow_mut(|tape| {
-            let node = if tape.number == self.tape { tape.push(node) } else { None };
-            node.map_or(Self::constant(f64::NAN), |node| Self { value, node, tape: self.tape })
-        })
+    fn recorded(self, value: f64, [a, b]: [u32; 2], [by_a, by_b]: [f64; 2]) -> Self {
+        let node = record(self.tape, a, b, by_a, by_b);
+        if node == NONE { Self::constant(f64::NAN) } else { Self { value, node, tape: self.tape } }
     }
 }
 
@@ -234,7 +239,7 @@ impl Recording {
     /// A number by which derivatives are sought; NaN where the tape is full.
     pub(crate) fn variable(&self, value: f64) -> Taped {
         let leaf = Taped { value, node: NONE, tape: self.number };
-        leaf.recorded(value, Node { arguments: [NONE; 2], derivatives: [0.0; 2] })
+        leaf.recorded(value, [NONE; 2], [0.0; 2])
     }
 
     /// How many nodes there are.
