@@ -5,11 +5,11 @@
 //! velocity and its attitude are measured, with noise. Two ways to its parameters, one after the other:
 //!
 //! 1. `#[gauss(regressor)]`: the torques are linear in first moments and inertia, `Y(q, ω, ω̇) π = torque`, a
-//!    least-squares problem with one solution and no need to guess. It asks for ω̇, here the slope of parabolas through
-//!    seven measured values of ω, which flatten what oscillates: the estimate is a percent off.
+//!    least-squares problem with one solution and no need to guess. It asks for ω̇, here the slope of parabolas
+//!    through seven measured values of ω, which flatten what oscillates: the estimate is a percent off.
 //! 2. `gauss-sensitivity`: the whole motion is fitted, parameters and initial state at once (Gauss–Newton), with the
-//!    derivatives of the run by all of them. This is the maximum-likelihood estimate; its covariance says how far it can
-//!    be trusted, and many runs say whether that is true.
+//!    derivatives of the run by all of them. This is the maximum-likelihood estimate; its covariance says how far it
+//!    can be trusted, and many runs say whether that is true.
 
 use std::error::Error;
 use std::f64::consts::TAU;

@@ -2,9 +2,8 @@
 //!
 //! 1. Identification: three runs under known torques are recorded, angles with noise. Six numbers of the arm are those
 //!    that fit all three best (Gauss–Newton), with their deviations: derivatives of runs, forward.
-//! 2. Design: 120 torques swing the arm up to rest in less than four seconds with as little torque as can be: the gradient of one
-//!    cost by all of them, backward, for the price of some tens of runs, whatever
-//!    their count.
+//! 2. Design: 120 torques swing the arm up to rest in less than four seconds with as little torque as can be: the
+//!    gradient of one cost by all of them, backward, for the price of some tens of runs, whatever their count.
 //!
 //! The plan is made for the arm that was found, and flown on the true one.
 
@@ -124,8 +123,8 @@ fn price(run: &Planned, torques: &[f64; TORQUES]) -> Result<bool, Box<dyn Error>
         "{} steps, {} more to come back to them, {} states and {} bytes kept",
         effort.steps, effort.repeated, effort.states, effort.bytes
     );
-    // Central differences by a step and its double: what the step leaves out is a third of what they differ by. The cost
-    // is known to the rounding of a state at its end, squared and weighted: 1e-9 at most, over the step.
+    // Central differences by a step and its double: what the step leaves out is a third of what they differ by. The
+    // cost is known to the rounding of a state at its end, squared and weighted: 1e-9 at most, over the step.
     let mut right = true;
     for k in [0, 37, TORQUES - 1] {
         let at = |by: f64| {

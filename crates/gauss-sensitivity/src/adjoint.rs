@@ -1,8 +1,8 @@
 //! The derivatives of a cost by any number of numbers: back through a run, step by step.
 //!
-//! A sweep back through one step (on its [tape](crate::tape)) takes what the cost changes with its end to what it changes
-//! with its start, and adds what it changes with the numbers: vᵀ∂(step). The system, as a function of the numbers, is on
-//! the tape once for all steps. States on the way back are made again from those that are kept
+//! A sweep back through one step (on its [tape](crate::tape)) takes what the cost changes with its end to what it
+//! changes with its start, and adds what it changes with the numbers: vᵀ∂(step). The system, as a function of the
+//! numbers, is on the tape once for all steps. States on the way back are made again from those that are kept
 //! ([`checkpoints`](crate::checkpoints)).
 
 use gauss_runtime::configuration::VectorSpace;

@@ -1,9 +1,9 @@
 //! Which states are kept on the way back through a run.
 //!
 //! With s states in memory, the first one among them, l steps are taken back by the fewest steps forward in binomial
-//! order (A. Griewank & A. Walther, *Algorithm 799: revolve*, ACM Transactions on Mathematical Software 26, 2000): with
-//! β(s, r) = (s + r)!/(s! r!) and β(s, r − 1) < l ≤ β(s, r) no step is made more than r times, and r l − β(s + 1, r − 1)
-//! are made altogether.
+//! order (A. Griewank & A. Walther, *Algorithm 799: revolve*, ACM Transactions on Mathematical Software 26, 2000):
+//! with β(s, r) = (s + r)!/(s! r!) and β(s, r − 1) < l ≤ β(s, r) no step is made more than r times, and r l − β(s + 1,
+//! r − 1) are made altogether.
 
 /// β(s, r), or what is more than any number of steps.
 fn binomial(s: usize, r: usize) -> usize {

@@ -14,8 +14,8 @@ pub type FixedSteps = Fixed<f64, RungeKutta<DormandPrince8, 12>>;
 
 /// Derivatives of runs, by steps that are chosen here.
 ///
-/// They are the exact derivatives of the steps that the values of the run choose, with the lengths of steps held: of what
-/// was computed, not of the motion that it approximates, from which they differ by what the tolerances let pass.
+/// They are the exact derivatives of the steps that the values of the run choose, with the lengths of steps held: of
+/// what was computed, not of the motion that it approximates, from which they differ by what the tolerances let pass.
 #[derive(Clone, Copy, Debug)]
 #[must_use = "nothing is done before something is asked"]
 pub struct Derivatives<C> {
@@ -49,8 +49,8 @@ impl<C: Steps> Derivatives<C> {
         Self { checkpoints: Some(states.max(1)), ..self }
     }
 
-    /// The states of a run at all its instants, the first one included, with their derivatives by all P numbers: forward,
-    /// in dual numbers, four numbers at a time. The last state is that of the event where one ended the run.
+    /// The states of a run at all its instants, the first one included, with their derivatives by all P numbers:
+    /// forward, in dual numbers, four numbers at a time. The last state is that of the event where one ended the run.
     ///
     /// # Errors
     /// [`SensitivityError`].
@@ -62,8 +62,8 @@ impl<C: Steps> Derivatives<C> {
         follow(run, &self.steps, numbers)
     }
 
-    /// The cost of a run with its derivatives by all P numbers and by the initial state: back through its steps, for the
-    /// price of some tens of runs, however many numbers there are.
+    /// The cost of a run with its derivatives by all P numbers and by the initial state: back through its steps, for
+    /// the price of some tens of runs, however many numbers there are.
     ///
     /// # Errors
     /// [`SensitivityError`].
@@ -75,8 +75,8 @@ impl<C: Steps> Derivatives<C> {
         gradient(run, &self.steps, numbers, self.checkpoints)
     }
 
-    /// The sum of the costs of several runs with its derivatives by all P numbers. With the feature `rayon` they run on
-    /// all threads; the sums are those of one thread, to the bit.
+    /// The sum of the costs of several runs with its derivatives by all P numbers. With the feature `rayon` they run
+    /// on all threads; the sums are those of one thread, to the bit.
     ///
     /// # Errors
     /// [`EnsembleError`]: the first run that has no derivatives.

@@ -19,16 +19,16 @@ pub enum SensitivityError {
         /// The first one that is at fault, by its number; how many there are where these are too few.
         number: usize,
     },
-    /// The run is ended by its event, whose time has no derivative: its function touches zero, jumps over it, or the run
-    /// starts there.
+    /// The run is ended by its event, whose time has no derivative: its function touches zero, jumps over it, or the
+    /// run starts there.
     NoDerivative {
         /// The time.
         time: f64,
         /// The rate of the function there, per unit of time.
         rate: f64,
     },
-    /// The run is as it should be, and a derivative of it, or a cost, is not a number: a root at zero, or what was made
-    /// of numbers on another thread.
+    /// The run is as it should be, and a derivative of it, or a cost, is not a number: a root at zero, or what was
+    /// made of numbers on another thread.
     NonFinite {
         /// The time up to which there is no such.
         time: f64,

@@ -75,8 +75,8 @@ impl Error for FitError {
 const MOST_ITERATIONS: usize = 50;
 /// Halvings of an increment that does not make the fit better.
 const MOST_HALVINGS: i32 = 20;
-/// The fit ends where the next increment promises to take no more than this part of the sum of squares, which is that of
-/// a number moved by a thousandth of its deviation where there are as many residuals as numbers.
+/// The fit ends where the next increment promises to take no more than this part of the sum of squares, which is that
+/// of a number moved by a thousandth of its deviation where there are as many residuals as numbers.
 const PROMISE: f64 = 1e-6;
 /// Or changes no number by more than this part of it.
 const CHANGE: f64 = 1e-9;

@@ -33,8 +33,8 @@ pub struct Point<S: GaussSystem<Scalar = f64>, const P: usize> {
     pub q_slopes: Vec<[f64; P]>,
     /// ∂z/∂numbers, a row for each component of z.
     pub z_slopes: Vec<[f64; P]>,
-    /// ∂t/∂numbers: zero but where the run was ended by its event. Derivatives of q and z are those of the state at that
-    /// time, wherever it moves to.
+    /// ∂t/∂numbers: zero but where the run was ended by its event. Derivatives of q and z are those of the state at
+    /// that time, wherever it moves to.
     pub t_slopes: [f64; P],
 }
 
@@ -99,8 +99,8 @@ fn rate_at_end<R: Run<P>, C: Steps, const P: usize>(
     Ok(after.slopes[0])
 }
 
-/// Refuses an event whose function passes through zero so much slower than it changes over the last step that it rather
-/// touches zero, or jumps over it: then its time has no derivative, or one without digits.
+/// Refuses an event whose function passes through zero so much slower than it changes over the last step that it
+/// rather touches zero, or jumps over it: then its time has no derivative, or one without digits.
 pub(crate) fn check_rate(time: f64, rate: f64, mean: f64) -> Result<(), SensitivityError> {
     const TOUCHES: f64 = 1e-6;
     let passes = rate.is_finite() && mean.is_finite() && rate.abs() > TOUCHES * mean.abs();

@@ -1,5 +1,5 @@
-//! Derivatives of whole runs of [`gauss_runtime`] by any numbers: parameters of bodies, initial states, gains, values of
-//! inputs.
+//! Derivatives of whole runs of [`gauss_runtime`] by any numbers: parameters of bodies, initial states, gains, values
+//! of inputs.
 //!
 //! A run is described once as a function of numbers ([`Run`]); [`Derivatives`] then gives
 //!
@@ -11,9 +11,9 @@
 //! | the numbers that fit measurements: [`fit`](Derivatives::fit) | forward, Gauss–Newton | a handful of the first |
 //!
 //! All are exact derivatives of the steps that were made, whose lengths the values choose. Rotations and poses are
-//! differentiated as increments seen from the body, `q ∘ exp(σ)`; constraints hold differentiated; an event that ends the
-//! run has the derivative of its time. Not differentiated: contacts, jumps at events (both have derivatives in dual
-//! numbers, `gauss-contact` and `Simulation::then`), implicit methods, the momentum form.
+//! differentiated as increments seen from the body, `q ∘ exp(σ)`; constraints hold differentiated; an event that ends
+//! the run has the derivative of its time. Not differentiated: contacts, jumps at events (both have derivatives in
+//! dual numbers, `gauss-contact` and `Simulation::then`), implicit methods, the momentum form.
 //!
 //! | file | holds |
 //! |---|---|

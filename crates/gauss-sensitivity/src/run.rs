@@ -20,8 +20,8 @@ pub type Start<S> = (ConfigurationOf<S>, SpeedsOf<S>);
 
 /// A state of a run, as inputs, events, costs and residuals see it.
 pub struct At<'a, S: GaussSystem> {
-    /// Of costs and residuals: which of the [instants](Run::instants) it is, from 0. Where an [event](Run::until) ended
-    /// the run it is the instant that would have come next. Of inputs and events: which of the intervals between
+    /// Of costs and residuals: which of the [instants](Run::instants) it is, from 0. Where an [event](Run::until)
+    /// ended the run it is the instant that would have come next. Of inputs and events: which of the intervals between
     /// instants the state is in, from 0.
     pub number: usize,
     /// Whether the run was ended by its event here.
@@ -45,8 +45,8 @@ impl<S: GaussSystem> Clone for At<'_, S> {
 
 impl<S: GaussSystem> Copy for At<'_, S> {}
 
-/// A run as a function of P numbers: parameters of bodies, what the initial state is made of, gains of a controller, the
-/// values of an input. Each method is written once, for any scalar, as kernels of structs `Arm<T>` are.
+/// A run as a function of P numbers: parameters of bodies, what the initial state is made of, gains of a controller,
+/// the values of an input. Each method is written once, for any scalar, as kernels of structs `Arm<T>` are.
 ///
 /// ```
 /// use gauss_runtime::prelude::*;
@@ -94,8 +94,8 @@ pub trait Run<const P: usize> {
     /// The kernel, in any scalar.
     type System<T: Real>: GaussSystem<Scalar = T, Input: VectorSpace<T>>;
 
-    /// The time at which the run starts, those at which something is asked of it, and that of its end: at least two, each
-    /// later than the one before (or each earlier). Steps end at all of them.
+    /// The time at which the run starts, those at which something is asked of it, and that of its end: at least two,
+    /// each later than the one before (or each earlier). Steps end at all of them.
     fn instants(&self) -> &[f64];
 
     /// The system with these numbers.
@@ -104,8 +104,8 @@ pub trait Run<const P: usize> {
     /// When no body has them.
     fn system<T: Real>(&self, numbers: &[T; P]) -> Result<Self::System<T>, ParameterError>;
 
-    /// The initial state. Under constraints it satisfies them, by [`project`](GaussSystem::project) of the system where
-    /// nothing else does it; its derivatives are projected onto them.
+    /// The initial state. Under constraints it satisfies them, by [`project`](GaussSystem::project) of the system
+    /// where nothing else does it; its derivatives are projected onto them.
     fn start<T: Real>(&self, numbers: &[T; P], system: &Self::System<T>) -> Start<Self::System<T>>;
 
     /// The input, where the scene has one: a function of time and state that is smooth between instants.

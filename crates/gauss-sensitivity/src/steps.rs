@@ -15,7 +15,8 @@ mod sealed {
 /// Explicit methods with their choice of steps: [`Fixed`] and [`Adaptive`] by [`RungeKutta`], [`Fixed`] by
 /// [`CommutatorFree4`].
 ///
-/// Implicit methods are not among them: their iterations end where values have converged, and derivatives may not have.
+/// Implicit methods are not among them: their iterations end where values have converged, and derivatives may not
+/// have.
 pub trait Steps: sealed::Sealed {
     /// One step, brought onto the constraints where there are any.
     #[doc(hidden)]
@@ -27,8 +28,8 @@ pub trait Steps: sealed::Sealed {
         h: S::Scalar,
     ) -> Result<State<S>, IntegrationErrorKind>;
 
-    /// From a state to a time, by steps as long as they are chosen: `reached` is told the times at which they end. Where
-    /// the function of an event passes through zero the run ends there; whether it did.
+    /// From a state to a time, by steps as long as they are chosen: `reached` is told the times at which they end.
+    /// Where the function of an event passes through zero the run ends there; whether it did.
     #[doc(hidden)]
     fn drive<S: GaussSystem<Scalar = f64>, I: InputSource<S>, E: Fn(f64, &S::Configuration, &S::Speeds) -> f64>(
         &self,

@@ -19,8 +19,8 @@ const NONE: u32 = u32::MAX;
 /// A number on the tape of its thread, or a constant.
 ///
 /// Comparisons are those of values; kinks are as those of [`Dual`](gauss_runtime::dual::Dual): where two numbers are
-/// equal, `min`, `max` and `abs` have the mean of the derivatives on both sides. What does not change a result to first
-/// order adds nothing to a derivative, also where another factor is infinite.
+/// equal, `min`, `max` and `abs` have the mean of the derivatives on both sides. What does not change a result to
+/// first order adds nothing to a derivative, also where another factor is infinite.
 ///
 /// It belongs to one recording of one thread. In another one what is made of it is not a number.
 #[derive(Clone, Copy, Debug, PartialEq)]

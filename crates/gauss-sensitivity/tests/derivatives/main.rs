@@ -34,9 +34,9 @@ fn differences<const P: usize, const N: usize>(
     slopes
 }
 
-/// Holds derivatives to central differences by two steps, this one and its half. What the half leaves out is 1/64 of what
-/// the whole does, so about 1/63 of what they differ by: four times that is allowed, and the rounding of the function over
-/// the half step, of which the weights of the differences make less than two.
+/// Holds derivatives to central differences by two steps, this one and its half. What the half leaves out is 1/64 of
+/// what the whole does, so about 1/63 of what they differ by: four times that is allowed, and the rounding of the
+/// function over the half step, of which the weights of the differences make less than two.
 fn hold<const P: usize, const N: usize>(
     found: [[f64; P]; N],
     numbers: &[f64; P],
