@@ -42,18 +42,11 @@ impl fmt::Display for SensitivityError {
         match self {
             Self::Parameters(error) => error.fmt(f),
             Self::Run(error) => error.fmt(f),
-            Self::Instants { number } if *number < 2 => {
-                write!(
-                    f,
-                    "a run has at least two instants, its start and its end; the one with number {number} is missing or not finite"
-                )
-            }
-            Self::Instants { number } => {
-                write!(
-                    f,
-                    "the instant with number {number} is not finite, or not behind the one before it as the others are"
-                )
-            }
+            Self::Instants { number } => write!(
+                f,
+                "the instant with number {number} is missing, not finite, or not behind the one before it as the others \
+                 are: a run has at least two, its start and its end"
+            ),
             Self::NoDerivative { time, rate } => write!(
                 f,
                 "at t = {time} the function that ends the run passes through zero at the rate {rate:e}: it touches zero, \

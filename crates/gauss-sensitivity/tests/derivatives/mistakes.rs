@@ -139,3 +139,33 @@ fn what_measurements_do_not_tell_is_refused() {
     let found = Derivatives::fixed_step(0.1).fit(&[free(&[0.0, 1.0])], &[2.0, 9.81]);
     assert_eq!(found, Err(FitError::Undetermined));
 }
+
+/// An event that is given up on the way.
+struct Forgets;
+
+impl Run<1> for Forgets {
+    type System<T: Real> = ThrownKernel<T>;
+
+    fn instants(&self) -> &[f64] {
+        &[0.0, 1.0]
+    }
+
+    fn system<T: Real>(&self, &[g]: &[T; 1]) -> Result<ThrownKernel<T>, ParameterError> {
+        Thrown { m: T::one(), g }.kernel()
+    }
+
+    fn start<T: Real>(&self, _: &[T; 1], _: &ThrownKernel<T>) -> Start<ThrownKernel<T>> {
+        (SVector::from([T::zero(), T::one()]), SVector::from([T::zero(); 2]))
+    }
+
+    fn until<T: Real>(&self, _: &[T; 1], at: &At<'_, ThrownKernel<T>>) -> Option<(Crossing, T)> {
+        (at.t.lane(0) < 0.2).then_some((Crossing::Falling, at.q[1]))
+    }
+}
+
+#[test]
+fn events_that_are_forgotten_are_errors() {
+    let error = Derivatives::fixed_step(0.1).run(&Forgets, &[9.81]).err().expect("an event without a value");
+    let SensitivityError::Run(error) = error else { panic!("{error}") };
+    assert!(matches!(error.kind, IntegrationErrorKind::NonFinite { .. }), "{error}");
+}
