@@ -23,6 +23,7 @@ chapters! {
     Integrators: "src/integrators.md",
     HardCases: "src/hard_cases.md",
     Derivatives: "src/derivatives.md",
+    Sensitivities: "src/sensitivities.md",
     Many: "src/many.md",
     Studies: "src/studies.md",
     Embedded: "src/embedded.md",
