@@ -125,8 +125,8 @@ impl Hull {
     }
 
     /// Heave of the hull without coupling to pitch, let go at `z`, at each of so many steps: Cummins' equation as it
-    /// stands, `(m + A) z̈ + c z + ∫ K(t − s) ż(s) ds = 0`, by the trapezoidal rule in time and in the integral over all
-    /// steps before. No state stands for anything here. The error is of the second order in the step.
+    /// stands, `(m + A) z̈ + c z + ∫ K(t − s) ż(s) ds = 0`, by the trapezoidal rule in time and in the integral over
+    /// all steps before. No state stands for anything here. The error is of the second order in the step.
     pub fn heave_by_history(&self, z: f64, step: f64, steps: usize) -> Vec<f64> {
         let (mass, memory) = (self.mass + self.added[2], |t: f64| self.kernel_of_memory(t)[0]);
         let (mut places, mut speeds, mut force) = (vec![z], vec![0.0], -self.c * z);

@@ -74,8 +74,8 @@ pub enum ContactErrorKind {
         /// How many steppers were given.
         given: usize,
     },
-    /// Elements have [states](gauss_runtime::system::GaussSystem::STATES), which steps of one length do not follow: runs
-    /// from event to event do.
+    /// Elements have [states](gauss_runtime::system::GaussSystem::STATES), which steps of one length do not follow:
+    /// runs from event to event do.
     States {
         /// How many.
         states: usize,

@@ -78,8 +78,8 @@ pub struct SystemScene<'g> {
     pub time: Expr<'g>,
     pub coordinates: Vec<Coordinate<'g>>,
     pub coordinate_names: Vec<Name>,
-    /// Which of the coordinates are states of elements: forces may depend on them, nothing else of the motion does. Their
-    /// rates are any function of t, q, z and inputs.
+    /// Which of the coordinates are states of elements: forces may depend on them, nothing else of the motion does.
+    /// Their rates are any function of t, q, z and inputs.
     pub states: Range<usize>,
     pub speeds: Vec<Expr<'g>>,
     pub charted: Option<Charted>,
@@ -88,7 +88,8 @@ pub struct SystemScene<'g> {
     pub force_names: Vec<Name>,
     pub speed_rates: Vec<Expr<'g>>,
     pub momenta: Vec<Expr<'g>>,
-    /// ψ: rates of scalar coordinates, twists of the others, in the order of the coordinates; affine in z but for states.
+    /// ψ: rates of scalar coordinates, twists of the others, in the order of the coordinates; affine in z, but for those
+    /// of states.
     pub kinematics: Vec<Expr<'g>>,
     /// Rates of t and of the symbols of q.
     pub rates: Map<u32, Expr<'g>>,

@@ -37,7 +37,8 @@ impl Quantity {
     }
 }
 
-/// Coordinates, with states of elements behind them, then the speeds with these indices (`None`: all), each in their order. Names may be there twice.
+/// Coordinates, with states of elements behind them, then the speeds with these indices (`None`: all), each in their
+/// order. Names may be there twice.
 pub(super) fn quantities(model: &Model, kept: Option<&[usize]>) -> [Vec<Quantity>; 2] {
     [coordinates(model), speeds(model, kept)]
 }

@@ -3,6 +3,7 @@
 use super::*;
 use gauss_batch::{Batch, States};
 use gauss_contact::{ContactErrorKind, ContactRun, ContactStepper};
+use gauss_runtime::chart::{ChartError, MotionRule, convert};
 
 /// A ball that bounces, and a filter of its height.
 #[derive(GaussDynamics)]
@@ -29,8 +30,8 @@ fn states_go_on_through_impacts() {
     let end = run.last().expect("a sample");
     let end = BallState::of(&end.q, &end.z);
     assert!((end.hits - 1.5).abs() < 1e-9, "{end:?}");
-    // ẏ = (h − y)/τ under h = a + b s + c s² from y₀: the particular solution is p(s) = a − b τ + 2 c τ² + (b − 2 c τ) s
-    // + c s².
+    // ẏ = (h − y)/τ under h = a + b s + c s² from y₀: the particular solution is
+    // p(s) = a − b τ + 2 c τ² + (b − 2 c τ) s + c s².
     let filtered = |[a, b, c]: [f64; 3], y: f64, s: f64| {
         let p = |s: f64| a - b * tau + 2.0 * c * tau * tau + (b - 2.0 * c * tau) * s + c * s * s;
         p(s) + (y - p(0.0)) * f64::exp(-s / tau)
@@ -184,6 +185,41 @@ fn a_body_in_a_chart_has_states() {
     let pose = Isometry3::new(Vector3::new(1.0, -2.0, 0.5), Vector3::new(0.3, 2.0, -1.0));
     let (found, state) = kernel.configuration(&pose).unwrap();
     assert!(found.difference(&pose).max_norm() < 1e-14 && state[0] == 0.0, "{found:?} {state}");
+}
+
+/// The same in another chart, and without the filter.
+#[derive(GaussDynamics)]
+#[gauss(chart = jet(euler_zyx), states(gyro = (body.body_angular_velocity.z - gyro) / tau))]
+struct InAngles {
+    #[gauss(mass)]
+    mass: f64,
+    #[gauss(inertia)]
+    inertia: f64,
+    tau: f64,
+}
+
+#[derive(GaussDynamics)]
+#[gauss(chart = hybrid)]
+struct Unfiltered {
+    #[gauss(mass)]
+    mass: f64,
+    #[gauss(inertia)]
+    inertia: f64,
+}
+
+#[test]
+fn conversions_carry_states() {
+    let (here, there) = (damped::<f64>(), InAngles { mass: 2.0, inertia: 0.3, tau: 0.1 }.kernel().unwrap());
+    let pose = Isometry3::new(Vector3::new(1.0, -2.0, 0.5), Vector3::new(0.3, 0.4, -1.0));
+    let start = DampedState { pose, omega: Vector3::new(0.1, 0.2, 0.3), gyro: 0.7, ..Default::default() };
+    let (q, z) = convert(&here, &start.q(), &start.z(), &there).unwrap();
+    let (back, rates) = convert(&there, &q, &z, &here).unwrap();
+    // Rounding of angles and back.
+    assert!(back.difference(&start.q()).max_norm() < 1e-14 && (rates - start.z()).amax() < 1e-14);
+    assert_eq!([q[6], back.1[0]], [0.7, 0.7]);
+    let unfiltered = Unfiltered { mass: 2.0, inertia: 0.3 }.kernel().unwrap();
+    let refused = convert(&here, &start.q(), &start.z(), &unfiltered).expect_err("a state would be lost");
+    assert_eq!(refused, ChartError::Inexpressible { rule: MotionRule::States, value: -1.0 });
 }
 
 /// The bits of single runs, in lanes.

@@ -76,7 +76,8 @@ fn energy_is_balanced_and_forces_are_those_of_the_elements() {
     let run = run.adaptive(1e-11, 1e-11).run(SVector::from([0.1, 0.0, 0.0]), SVector::from([0.0]), 0.0..4.0).unwrap();
     let balance =
         gauss_runtime::monitor::power_balance(&kernel, &run, |t, _: &_, _: &_| SVector::from([f64::sin(5.0 * t)]));
-    // A state has no energy: what the motor supplies is all that comes in. The tolerance over 4 units, and the quadrature.
+    // A state has no energy: what the motor supplies is all that comes in. The tolerance over 4 units, and the
+    // quadrature.
     let uncertain = balance.last().uncertainty;
     assert!(balance.largest_residual() < 1e-9 + 10.0 * uncertain && uncertain < 1e-6, "{:?}", balance.last());
 }

@@ -71,7 +71,8 @@ impl<'k, K: ContactSystem<Scalar = f64>> ContactStepper<'k, K> {
     /// A system in the state (q, z) at a time.
     ///
     /// # Errors
-    /// `NegativeGap`, `InvalidRestitution`, `NonFinite`: as runs from event to event. `States` of a scene with `states(…)`.
+    /// `NegativeGap`, `InvalidRestitution`, `NonFinite`: as runs from event to event. `States` where elements have
+    /// states.
     pub fn new(kernel: &'k K, t: f64, q: K::Configuration, z: K::Speeds) -> Result<Self, ContactError> {
         Self::with_memory(kernel, (t, q, z), vec![0.0; Self::MEMORY])
     }
