@@ -88,8 +88,8 @@ pub struct SystemScene<'g> {
     pub force_names: Vec<Name>,
     pub speed_rates: Vec<Expr<'g>>,
     pub momenta: Vec<Expr<'g>>,
-    /// ψ: rates of scalar coordinates, twists of the others, in the order of the coordinates; affine in z, but for those
-    /// of states.
+    /// ψ: rates of scalar coordinates, twists of the others, in the order of the coordinates; affine in z, but for
+    /// those of states.
     pub kinematics: Vec<Expr<'g>>,
     /// Rates of t and of the symbols of q.
     pub rates: Map<u32, Expr<'g>>,
