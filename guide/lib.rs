@@ -17,6 +17,7 @@ chapters! {
     OwnCoordinates: "src/own_coordinates.md",
     Constraints: "src/constraints.md",
     Loads: "src/loads.md",
+    States: "src/states.md",
     Reactions: "src/reactions.md",
     Touching: "src/touching.md",
     Inputs: "src/inputs.md",

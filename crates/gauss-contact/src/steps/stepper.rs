@@ -71,7 +71,8 @@ impl<'k, K: ContactSystem<Scalar = f64>> ContactStepper<'k, K> {
     /// A system in the state (q, z) at a time.
     ///
     /// # Errors
-    /// `NegativeGap`, `InvalidRestitution`, `NonFinite`: as runs from event to event.
+    /// `NegativeGap`, `InvalidRestitution`, `NonFinite`: as runs from event to event. `States` where elements have
+    /// states.
     pub fn new(kernel: &'k K, t: f64, q: K::Configuration, z: K::Speeds) -> Result<Self, ContactError> {
         Self::with_memory(kernel, (t, q, z), vec![0.0; Self::MEMORY])
     }
@@ -97,6 +98,10 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         const { assert!(Self::ROWS <= Place::MAX as usize, "steps number rows by two bytes") }
         assert!(memory.as_mut().len() >= Self::MEMORY, "steps of this system need {} numbers", Self::MEMORY);
         crate::start::check(kernel, t, &q, &z)?;
+        if K::STATES > 0 {
+            let kind = ContactErrorKind::States { states: K::STATES };
+            return Err(ContactError { contact: None, time: t, kind });
+        }
         let q = q.renormalise();
         let mut stepper = Self {
             kernel,
