@@ -5,39 +5,38 @@
 //! velocity and its attitude are measured, with noise. Two ways to its parameters, one after the other:
 //!
 //! 1. `#[gauss(regressor)]`: the torques are linear in first moments and inertia, `Y(q, ω, ω̇) π = torque`, a
-//!    least-squares problem with one solution and no need to guess. It asks for ω̇, here the slope of parabolas through
-//!    seven measured values of ω, which flatten what oscillates: the estimate is a percent off.
-//! 2. `#[gauss(linearize(parameters))]`: the whole motion is fitted, parameters and initial state at once
-//!    (Gauss–Newton). The derivatives of the motion by them come from `error_matrix` and `by_parameters` along it. This
-//!    is the maximum-likelihood estimate; its covariance says how far it can be trusted, and many runs say whether that
-//!    is true.
+//!    least-squares problem with one solution and no need to guess. It asks for ω̇, here the slope of parabolas
+//!    through seven measured values of ω, which flatten what oscillates: the estimate is a percent off.
+//! 2. `gauss-sensitivity`: the whole motion is fitted, parameters and initial state at once (Gauss–Newton), with the
+//!    derivatives of the run by all of them. This is the maximum-likelihood estimate; its covariance says how far it
+//!    can be trusted, and many runs say whether that is true.
 
 use std::error::Error;
 use std::f64::consts::TAU;
 
 use gauss_examples::plots::write_page;
 use gauss_playback::{Playback, Shape};
-use gauss_runtime::linearize::error_matrix;
+use gauss_runtime::integrate::Fixed;
 use gauss_runtime::prelude::*;
+use gauss_sensitivity::{At, Derivatives, Fit, Residuals, Run, Start, constant};
 
 /// A body on a ball joint at O.
 #[derive(GaussDynamics)]
 #[gauss(
-    linearize(parameters),
     regressor,
     motion = fixed_point,
     input(torque: Vector3 = "N m"),
     torque(body = body, value = torque),
 )]
-struct Satellite {
+struct Satellite<T> {
     #[gauss(mass, unit = "kg")]
-    mass: f64,
+    mass: T,
     #[gauss(center_of_mass, unit = "m")]
-    center: Vector3<f64>,
+    center: Vector3<T>,
     #[gauss(inertia, unit = "kg m^2")]
-    inertia: Matrix3<f64>,
+    inertia: Matrix3<T>,
     #[gauss(gravity, unit = "m/s^2")]
-    g: f64,
+    g: T,
 }
 
 /// Unknown: three components of the centre of mass, six entries of the inertia tensor, beside the parameters that are
@@ -57,23 +56,26 @@ const NOISE: [f64; 2] = [2e-4, 1e-3];
 
 type Attitude = UnitQuaternion<f64>;
 type Unknown = SVector<f64, UNKNOWN>;
-type Fitted = SVector<f64, FITTED>;
+type Kernel = SatelliteKernel<f64>;
 
-/// c, then the inertia tensor below its diagonal, column by column: the order of `PARAMETERS`.
+/// c, then the inertia tensor below its diagonal, column by column.
+const NAMES: [&str; UNKNOWN] =
+    ["c[0]", "c[1]", "c[2]", "I[0][0]", "I[1][0]", "I[2][0]", "I[1][1]", "I[2][1]", "I[2][2]"];
 const TRUTH: [f64; UNKNOWN] = [0.8e-3, -0.5e-3, -2.5e-3, 4.1, 0.12, -0.2, 5.3, 0.08, 6.2];
 
-fn satellite(p: &Unknown) -> Satellite {
+fn satellite<T: Real>(p: &[T; UNKNOWN]) -> Satellite<T> {
     Satellite {
-        mass: MASS,
+        mass: T::from_f64(MASS),
         center: Vector3::new(p[0], p[1], p[2]),
         inertia: Matrix3::from([[p[3], p[4], p[5]], [p[4], p[6], p[7]], [p[5], p[7], p[8]]]),
-        g: GRAVITY,
+        g: T::from_f64(GRAVITY),
     }
 }
 
 /// What the thrusters do, in N m, body axes.
-fn torque(t: f64) -> Vector3<f64> {
-    Vector3::new((TAU * 0.11 * t).sin(), (TAU * 0.16 * t + 1.0).sin(), (TAU * 0.05 * t + 2.0).sin()) * 0.3
+fn torque<T: Real>(t: T) -> Vector3<T> {
+    let wave = |[rate, phase]: [f64; 2]| T::from_f64(0.3) * (T::from_f64(TAU * rate) * t + T::from_f64(phase)).sin();
+    SVector::from([[0.11, 0.0], [0.16, 1.0], [0.05, 2.0]].map(wave))
 }
 
 /// What is measured at one time.
@@ -99,10 +101,10 @@ impl Normal {
 
 /// The motion at all multiples of the interval over `parts`.
 fn motion(
-    kernel: &SatelliteKernel,
+    kernel: &Kernel,
     (q, omega): (Attitude, Vector3<f64>),
     parts: u32,
-) -> Result<Vec<Sample<SatelliteKernel>>, Box<dyn Error>> {
+) -> Result<Vec<Sample<Kernel>>, Box<dyn Error>> {
     let end = INTERVAL * (COUNT - 1) as f64;
     let simulation = Simulation::new(kernel).input(|t: f64, _: &Attitude, _: &Vector3<f64>| torque(t));
     Ok(simulation.fixed_step(INTERVAL / f64::from(parts)).run(q, omega, 0.0..end)?.iter().copied().collect())
@@ -111,7 +113,7 @@ fn motion(
 /// The torques explained by the regressor: `Σ YᵀY π = Σ Yᵀ torque`.
 fn first_estimate(measured: &[Measured]) -> Result<Unknown, Box<dyn Error>> {
     // Y does not depend on the parameters that are sought: those of any body will do.
-    let kernel = satellite(&Unknown::from([0.0, 0.0, 0.0, 5.0, 0.0, 0.0, 5.0, 0.0, 5.0])).kernel()?;
+    let kernel = satellite(&[0.0, 0.0, 0.0, 5.0, 0.0, 0.0, 5.0, 0.0, 5.0]).kernel()?;
     let (mut normal, mut right) = (SMatrix::<f64, UNKNOWN, UNKNOWN>::zeros(), Unknown::zeros());
     for (k, window) in measured.windows(7).enumerate() {
         let t = INTERVAL * (k + 3) as f64;
@@ -129,111 +131,85 @@ fn first_estimate(measured: &[Measured]) -> Result<Unknown, Box<dyn Error>> {
     Ok(estimate)
 }
 
-/// An estimate from the whole motion.
-struct Fit {
-    parameters: Unknown,
-    covariance: SMatrix<f64, UNKNOWN, UNKNOWN>,
-    /// Σ (residual/deviation)² of all measurements.
-    misfit: f64,
-    iterations: usize,
+// ANCHOR: run
+/// The motion by an increment of the first attitude that was measured, the first angular velocity, c and the inertia.
+struct Recorded<'m> {
+    times: &'m [f64],
+    measured: &'m [Measured],
 }
 
-/// One step of Gauss and Newton: the increment, its covariance, and the misfit before it.
-fn step(
-    kernel: &SatelliteKernel,
-    start: (Attitude, Vector3<f64>),
-    measured: &[Measured],
-) -> Result<(Fitted, SMatrix<f64, FITTED, FITTED>, f64), Box<dyn Error>> {
-    const PARTS: usize = 4;
-    let path = motion(kernel, start, PARTS as u32)?;
-    // How an increment of attitude and ω grows, and what parameters add to it: d/dt S = F S + G.
-    let growth: Vec<_> = path
-        .iter()
-        .map(|s| {
-            let input = torque(s.t);
-            let linear = kernel.linearize(s.t, &s.q, &s.z, &input);
-            let mut forcing = SMatrix::<f64, 6, FITTED>::zeros();
-            let by_parameters = kernel.by_parameters(s.t, &s.q, &s.z, &input);
-            forcing.fixed_columns_mut::<UNKNOWN>(6).copy_from(&by_parameters.fixed_columns::<UNKNOWN>(FIRST));
-            (error_matrix::<SatelliteKernel>(&linear), forcing)
+impl Run<FITTED> for Recorded<'_> {
+    type System<T: Real> = SatelliteKernel<T>;
+
+    fn instants(&self) -> &[f64] {
+        self.times
+    }
+
+    fn system<T: Real>(&self, numbers: &[T; FITTED]) -> Result<SatelliteKernel<T>, ParameterError> {
+        satellite(&std::array::from_fn(|i| numbers[6 + i])).kernel()
+    }
+
+    fn start<T: Real>(&self, numbers: &[T; FITTED], _: &SatelliteKernel<T>) -> Start<SatelliteKernel<T>> {
+        let attitude: UnitQuaternion<T> = constant(&self.measured[0].attitude);
+        let three = |first: usize| SVector::from(std::array::from_fn(|i| numbers[first + i]));
+        (attitude.retract(&three(0)), three(3))
+    }
+
+    fn input<T: Real>(&self, _: &[T; FITTED], at: &At<'_, SatelliteKernel<T>>) -> Vector3<T> {
+        torque(at.t)
+    }
+}
+
+impl Residuals<FITTED, 6> for Recorded<'_> {
+    fn residuals<T: Real>(&self, _: &[T; FITTED], at: &At<'_, SatelliteKernel<T>>) -> [T; 6] {
+        let seen = &self.measured[at.number];
+        let of_attitude = constant::<_, UnitQuaternion<T>>(&seen.attitude).difference(at.q);
+        std::array::from_fn(|i| match i {
+            0..3 => (at.z[i] - T::from_f64(seen.omega[i])) / T::from_f64(NOISE[0]),
+            _ => of_attitude[i - 3] / T::from_f64(NOISE[1]),
         })
-        .collect();
-    let mut sensitivity = SMatrix::<f64, 6, FITTED>::zeros();
-    sensitivity.fixed_columns_mut::<6>(0).fill_with_identity();
-    let weights = NOISE.map(|deviation| deviation.powi(-2));
-    let (mut normal, mut right, mut misfit) = (SMatrix::<f64, FITTED, FITTED>::zeros(), Fitted::zeros(), 0.0);
-    for (k, seen) in measured.iter().enumerate() {
-        let sample = &path[PARTS * k];
-        let of_attitude = sample.q.difference(&seen.attitude);
-        let of_omega = seen.omega - sample.z;
-        for (residual, first, weight) in [(of_omega, 3, weights[0]), (of_attitude, 0, weights[1])] {
-            let rows = sensitivity.fixed_rows::<3>(first);
-            normal += rows.transpose() * rows * weight;
-            right += rows.transpose() * residual * weight;
-            misfit += residual.norm_squared() * weight;
-        }
-        if k + 1 < measured.len() {
-            // Classical Runge–Kutta, two parts of the path a step.
-            for first in (0..PARTS).step_by(2) {
-                let [a, b, c] = [0, 1, 2].map(|j| &growth[PARTS * k + first + j]);
-                let h = 2.0 * INTERVAL / PARTS as f64;
-                let rate = |(f, g): &(SMatrix<f64, 6, 6>, SMatrix<f64, 6, FITTED>), s| f * s + g;
-                let k1 = rate(a, sensitivity);
-                let k2 = rate(b, sensitivity + k1 * (h / 2.0));
-                let k3 = rate(b, sensitivity + k2 * (h / 2.0));
-                let k4 = rate(c, sensitivity + k3 * h);
-                sensitivity += (k1 + k2 * 2.0 + k3 * 2.0 + k4) * (h / 6.0);
-            }
-        }
     }
-    let covariance = normal.try_inverse().ok_or("the motion does not tell the parameters")?;
-    Ok((covariance * right, covariance, misfit))
 }
 
-fn refine(first: Unknown, measured: &[Measured]) -> Result<Fit, Box<dyn Error>> {
-    let (mut parameters, mut start) = (first, (measured[0].attitude, measured[0].omega));
-    for iterations in 1..=20 {
-        let kernel = satellite(&parameters).kernel()?;
-        let (change, covariance, misfit) = step(&kernel, start, measured)?;
-        // A hundredth of a standard deviation more or less tells nothing.
-        let done = (0..FITTED).all(|i| change[i].abs() < 1e-2 * covariance[(i, i)].sqrt());
-        if done {
-            let covariance = covariance.fixed_view::<UNKNOWN, UNKNOWN>(6, 6).into();
-            return Ok(Fit { parameters, covariance, misfit, iterations });
-        }
-        parameters += change.fixed_rows::<UNKNOWN>(6);
-        start = (start.0.retract(&change.fixed_rows::<3>(0).into()), start.1 + change.fixed_rows::<3>(3));
-    }
-    Err("the fit does not converge".into())
+fn refine(first: &Unknown, times: &[f64], measured: &[Measured]) -> Result<Fit<FITTED>, Box<dyn Error>> {
+    let omega = measured[0].omega;
+    let guess = std::array::from_fn(|i| match i {
+        0..3 => 0.0,
+        3..6 => omega[i - 3],
+        _ => first[i - 6],
+    });
+    let derivatives = Derivatives::by(Fixed::by(RungeKutta(Classical4), INTERVAL / 2.0));
+    Ok(derivatives.fit(&[Recorded { times, measured }], &guess)?)
 }
+// ANCHOR_END: run
 
 /// One fit, parameter by parameter.
-fn report(truth: &Unknown, first: &Unknown, fit: &Fit) {
+fn report(truth: &Unknown, first: &Unknown, fit: &Fit<FITTED>) {
     println!("parameter                true  by torques  by motion  deviation  error/deviation");
     for i in 0..UNKNOWN {
-        let name = SatelliteKernel::PARAMETERS[FIRST + i];
         let (unit, scale) = if i < 3 { ("mm", 1e3) } else { ("kg m²", 1.0) };
-        let deviation = fit.covariance[(i, i)].sqrt();
+        let (deviation, found) = (fit.deviations()[6 + i], fit.numbers[6 + i]);
         println!(
-            "{name:13} {unit:6}{:9.5}  {:10.5}  {:9.5}  {:9.5}  {:15.2}",
+            "{:13} {unit:6}{:9.5}  {:10.5}  {:9.5}  {:9.5}  {:15.2}",
+            NAMES[i],
             scale * truth[i],
             scale * first[i],
-            scale * fit.parameters[i],
+            scale * found,
             scale * deviation,
-            (fit.parameters[i] - truth[i]) / deviation
+            (found - truth[i]) / deviation
         );
     }
     println!("(Gauss–Newton: {} iterations)\n", fit.iterations);
 }
 
 /// The motion as a page that plays.
-fn write(truth: &Unknown, body: &SatelliteKernel, path: Vec<Sample<SatelliteKernel>>) -> Result<(), Box<dyn Error>> {
+fn write(body: &Kernel, path: Vec<Sample<Kernel>>) -> Result<(), Box<dyn Error>> {
     let page = Playback::of_samples("A satellite on an air bearing, shaken to tell its inertia", path)
         .si()
         .body(
             "satellite",
             |s| Isometry3::from_parts(Translation3::identity(), s.q),
-            [Shape::of_inertia(MASS, [truth[0], truth[1], truth[2]], &satellite(truth).inertia)],
+            [Shape::of_inertia(MASS, [TRUTH[0], TRUTH[1], TRUTH[2]], &satellite(&TRUTH).inertia)],
         )
         .trace("satellite", [0.0, 0.0, 0.5])
         .arrow("torque", 2.0, |s| (Vector3::zeros(), s.q * torque(s.t)))
@@ -246,7 +222,7 @@ fn write(truth: &Unknown, body: &SatelliteKernel, path: Vec<Sample<SatelliteKern
 
 fn main() -> Result<(), Box<dyn Error>> {
     let truth = Unknown::from(TRUTH);
-    let body = satellite(&truth).kernel()?;
+    let body = satellite(&TRUTH).kernel()?;
     let start = (Attitude::from_euler_angles(0.05, -0.1, 0.3), Vector3::new(0.02, 0.05, -0.1));
     // Finer than what the fits use.
     let exact: Vec<Measured> =
@@ -260,8 +236,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         NOISE[1]
     );
 
-    write(&truth, &body, motion(&body, start, 4)?)?;
+    write(&body, motion(&body, start, 4)?)?;
 
+    let times: Vec<f64> = (0..COUNT).map(|k| INTERVAL * k as f64).collect();
     let runs = gauss_examples::runs(50);
     let (mut distance, mut misfit) = (0.0, 0.0);
     for run in 0..runs {
@@ -272,9 +249,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let measured: Vec<Measured> = exact.iter().map(with_noise).collect();
         let first = first_estimate(&measured)?;
-        let fit = refine(first, &measured)?;
-        let error = fit.parameters - truth;
-        let information = fit.covariance.try_inverse().ok_or("a covariance is singular")?;
+        let fit = refine(&first, &times, &measured)?;
+        let error = SVector::from(fit.numbers).fixed_rows::<UNKNOWN>(6) - truth;
+        let covariance: SMatrix<f64, UNKNOWN, UNKNOWN> = fit.covariance.fixed_view::<UNKNOWN, UNKNOWN>(6, 6).into();
+        let information = covariance.try_inverse().ok_or("a covariance is singular")?;
         distance += error.dot(&(information * error));
         misfit += fit.misfit;
         if run == 0 {

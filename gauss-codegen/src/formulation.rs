@@ -54,6 +54,7 @@ impl<'g> Formulation<'g> {
         refuse_exhausted(&given.item, graph)?;
         check_system_against_definition(&system, &Claims::of(&formulas))
             .map_err(|faults| system_faults(&given, &system, &faults))?;
+        formulas.extend(system.configuration_rates());
         formulas.extend(system.formulas_by_coordinates().into_iter().flatten());
         if let Some(elimination) = &elimination {
             formulas.acceleration.extend(elimination.accelerations());

@@ -3,6 +3,7 @@
 /// The methods that a kernel has, in the order in which they are generated and counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Method {
+    /// q̇ with states of elements standing still.
     Kinematics,
     Acceleration,
     Momentum,
@@ -13,6 +14,8 @@ pub enum Method {
     PotentialEnergy,
     GaussResidual,
     ConstraintFunction,
+    /// q̇ with the rates of the states; only where elements have states.
+    ConfigurationRates,
     /// λ; only with constraints.
     Multipliers,
     /// One for each element of the loads, as are the columns of the generalised forces; dE/dt. Only where there are
@@ -138,6 +141,7 @@ impl Method {
             Method::PotentialEnergy => "potential_energy",
             Method::GaussResidual => "gauss_residual",
             Method::ConstraintFunction => "constraint_function",
+            Method::ConfigurationRates => "configuration_rates",
             Method::BodyTwist => "body_twist",
             Method::Speeds => "speeds",
             Method::BodyMomentum => "body_momentum",
@@ -200,7 +204,12 @@ pub struct Methods<T> {
 impl<T> Methods<T> {
     /// The methods that `evaluate` computes together.
     pub fn evaluated(&self) -> [&T; 4] {
-        [&self.kinematics, &self.acceleration, &self.kinetic_energy, &self.potential_energy]
+        [self.configuration_rates(), &self.acceleration, &self.kinetic_energy, &self.potential_energy]
+    }
+
+    /// That of q̇: of the kinematics, where no element has states.
+    pub fn configuration_rates(&self) -> &T {
+        self.get(Method::ConfigurationRates).unwrap_or(&self.kinematics)
     }
 
     /// `None` of a method that this kernel does not have.

@@ -275,6 +275,13 @@ impl Scene {
         self.clause(clause)
     }
 
+    /// `states(amps = (volts - r * amps) / l, …)`: states of elements, each with its rate.
+    #[must_use]
+    pub fn states<W: Into<String>, V: Into<Value>>(self, rates: impl IntoIterator<Item = (W, V)>) -> Self {
+        let clause = rates.into_iter().fold(Clause::new("states"), |clause, (name, rate)| clause.with(name, rate));
+        self.clause(clause)
+    }
+
     /// `input(thrust, rudder)`: values that arrive at run time.
     #[must_use]
     pub fn inputs(self, names: impl IntoIterator<Item = impl Into<Value>>) -> Self {

@@ -146,3 +146,21 @@ fn a_text_stands_for_itself() {
     assert_eq!(clauses(&Scene::new("A {} struct B")), ["A {} struct B"]);
     assert_eq!(clauses(&sleigh().field(Field::new("l", "f64, m: f64"))), ["l"]);
 }
+
+/// A motor with a coil.
+#[test]
+fn states_of_elements() {
+    let scene = Scene::new("Motor")
+        .coordinates(["x"])
+        .inputs(["volts"])
+        .particle("m", ["x", "0", "0"])
+        .states([("amps", "(volts - r * amps) / l")])
+        .clause(Clause::new("drive").with("x", "amps"));
+    let scene = ["m", "r", "l"].into_iter().fold(scene, |scene, name| scene.field(Field::new(name, "f64")));
+    let derived = Derivation::of_scene(&scene).expect("a scene without mistakes");
+    assert!(derived.equations(Notation::Text).contains("damps/dt = volts/l - r*amps/l"));
+    let rates = derived.programs().iter().find(|program| program.name == "configuration_rates").expect("it has states");
+    assert_eq!(rates.results[0].rows, 2);
+    let missing = Derivation::of_scene(&scene.clause(Clause::new("states").name("heat"))).expect_err("no rate");
+    assert!(missing[0].message.contains("the state `heat` has no rate"), "{missing:?}");
+}

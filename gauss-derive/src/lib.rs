@@ -66,8 +66,8 @@
 /// # States by name
 ///
 /// Of a system the configuration is made of its elements of groups in the order in which they are declared, then of one
-/// `SVector` of all its scalars: `A`, `(A, B)`, `(A, (B, C))`. Nobody needs to count: `NameState` has a field for every
-/// coordinate and every speed, vectors as `Vector3`.
+/// `SVector` of all its scalars, states of elements at its end: `A`, `(A, B)`, `(A, (B, C))`. Nobody needs to count:
+/// `NameState` has a field for every coordinate, every state of an element and every speed, vectors as `Vector3`.
 ///
 /// ```text
 /// let start = SpacecraftState { angle: 0.3, spin: 2.0, ..Default::default() }; // the rest at the origin, at rest
@@ -263,6 +263,7 @@
 /// | `central_gravity(name, mu = gm, center = […])` | the acceleration −μ d/\|d\|³ of all mass, d from the center; `mu` of fields and numbers, `center` of these and `t` in observer's axes from Ω, by default Ω |
 /// | `medium(velocity = […])` | the velocity of the medium, observer's axes, of `t`, fields and numbers: drags, added mass and `relative_velocity` feel it |
 /// | `input(thrust = "N", wind: Vector3 = "m/s", gust: Wrench)` | values that arrive at run time, with their units if these are to be checked; of a wrench force then torque, `gust.force` and `gust.torque` |
+/// | `states(thrust = (command - thrust) / lag, …)` | states of elements, each with its rate: a scalar of what forces may name, states among them, with kinks as in forces. They are scalars of the configuration behind all others, without speeds and without energy: kinetic and potential energy do not have them, constraints and impacts do not move them. In a chart the configuration is `(pose, states)` |
 /// | `define(u = body.relative_velocity, q = u.x * u.x)` | names for expressions: scalars, vectors or rotations. A definition can name those before it and stands for what it is, wherever that may stand |
 /// | `force(name, at = …, value = […])` | without a chart: a force at a point, both in observer's axes, the point from Ω |
 /// | `force(name, body = other, at = […], value = […], axes = body)` | a force at a point fixed in a body or a frame, at numbers and fields in its axes from O or at a `point` of that body by its name, by default at O; the value in `axes = body`, which is the default, or `axes = observer` |
@@ -286,7 +287,7 @@
 ///
 /// # Expressions
 ///
-/// Rust arithmetic on coordinates, speeds, fields, definitions, `pi` and the time `t`, with
+/// Rust arithmetic on coordinates, speeds, states, fields, definitions, `pi` and the time `t`, with
 /// `sin cos tan asin acos atan atan2 tanh exp ln sqrt hypot powi powf dot cross`, functions that clauses declare, and
 /// the rotations `rotation_x rotation_y rotation_z inverse`, which are joined by `*` and turn vectors by `*`. A
 /// coordinate that is a `Rotation` is one of them; a `Pose` has `pose.position` and `pose.rotation`. Components are
@@ -296,8 +297,8 @@
 /// | where | what else |
 /// |---|---|
 /// | particles without a parent, potentials, constraints, points of forces, springs, stops, gaps, points of contacts, ranges | points, which are position vectors; of bodies and frames `arm.position` (of O) and `arm.rotation`, all from Ω in observer's axes |
-/// | constraints of velocities, slips; values of forces, torques, wrenches and drives; coefficients of drags; `friction` of contacts; `damping` | the same; speeds; `arm.velocity` (of O) and `arm.angular_velocity` in observer's axes; `arm.body_velocity`, `arm.body_angular_velocity` and `arm.relative_velocity` (of O, relative to the medium) in body axes; of poses and rotations the same but the last, of points `tip.velocity`; the time derivative `rate(expr)` of what has no speeds in it |
-/// | values of forces, torques, wrenches and drives; coefficients of drags; `friction` of contacts; `damping` | inputs |
+/// | constraints of velocities, slips; values of forces, torques, wrenches and drives; coefficients of drags; `friction` of contacts; `damping`; rates of `states` | the same; speeds; `arm.velocity` (of O) and `arm.angular_velocity` in observer's axes; `arm.body_velocity`, `arm.body_angular_velocity` and `arm.relative_velocity` (of O, relative to the medium) in body axes; of poses and rotations the same but the last, of points `tip.velocity`; the time derivative `rate(expr)` of what has no speeds in it |
+/// | values of forces, torques, wrenches and drives; coefficients of drags; `friction` of contacts; `damping`; rates of `states` | inputs; states |
 /// | the same without `damping` | `abs min max clamp(x, low, high) signum smooth_step(x, from, to)`, which are not smooth; the last is 0 below `from`, 1 above `to` and 3s² − 2s³ between |
 ///
 /// # Units

@@ -84,6 +84,9 @@ by_method! {
     gauss_residual,
     /// Of [`GaussSystem::constraint_function`](crate::system::GaussSystem::constraint_function).
     constraint_function,
+    /// Of [`GaussSystem::configuration_rates`](crate::system::GaussSystem::configuration_rates), where elements have
+    /// states.
+    configuration_rates,
     /// Of [`ConstrainedSystem::multipliers`](crate::constraint::ConstrainedSystem::multipliers).
     multipliers,
     /// Of [`ForcedSystem::powers`](crate::forces::ForcedSystem::powers).

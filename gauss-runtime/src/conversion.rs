@@ -15,12 +15,13 @@ use crate::triple::norm;
 /// Both kernels should describe the same body with the same O. They may differ in all else, so this also converts
 /// between a velocity chart of the free motion and any chart of a planar motion or of one with a fixed point, and
 /// between charts and coordinates of a scene's own. At t = 0, which only matters where something is moved as a function
-/// of time: [`convert_at`].
+/// of time: [`convert_at`]. States of elements are carried over one by one, in their order.
 ///
 /// # Errors
 /// - [`ChartError::Singular`] and [`ChartError::Undetermined`] when the pose is a singular point of the target's
 ///   coordinates;
-/// - [`ChartError::Inexpressible`] when the target motion cannot have the pose or the twist beyond rounding;
+/// - [`ChartError::Inexpressible`] when the target motion cannot have the pose or the twist beyond rounding, or has not
+///   as many states of elements;
 /// - [`ChartError::NonFinite`] when the state has an infinite or undefined component.
 pub fn convert<A, B>(
     from: &A,
@@ -50,11 +51,15 @@ where
     A: RigidBodySystem,
     B: RigidBodySystem<Scalar = A::Scalar>,
 {
+    if A::STATES != B::STATES {
+        let value = B::STATES as f64 - A::STATES as f64;
+        return Err(ChartError::Inexpressible { rule: MotionRule::States, value });
+    }
     let (pose, twist) = (from.pose(t, q), from.body_twist(t, q, z));
     if !Configuration::is_finite(&pose) || !VectorSpace::is_finite(&twist) {
         return Err(ChartError::NonFinite);
     }
-    let configuration = to.configuration_at(t, &pose)?;
+    let configuration = with_states::<A, B>(to.configuration_at(t, &pose)?, q);
     refuse_near_singularity(t, to, &configuration, &pose)?;
     refuse_undetermined(to.determinacy(t, &configuration))?;
     let speeds = to.speeds(t, &configuration, &twist);
@@ -74,6 +79,24 @@ where
         refuse_beyond(64.0 * A::Scalar::EPSILON * scale, excess, MotionRule::Twist { index })?;
     }
     Ok((configuration, speeds))
+}
+
+/// The configuration with the states of elements of another one, which are the last components of both.
+fn with_states<A, B>(configuration: B::Configuration, other: &A::Configuration) -> B::Configuration
+where
+    A: RigidBodySystem,
+    B: RigidBodySystem<Scalar = A::Scalar>,
+{
+    if B::STATES == 0 {
+        return configuration;
+    }
+    let (mut own, other) = (configuration.components(), other.components());
+    let last = |dimension: usize, k: usize| dimension - B::STATES + k;
+    for k in 0..B::STATES {
+        let state = other.component(last(<A::Configuration as Configuration>::Components::DIM, k));
+        own.set_component(last(<B::Configuration as Configuration>::Components::DIM, k), state);
+    }
+    B::Configuration::from_components(&own)
 }
 
 /// Refuses a value that is larger than rounding.

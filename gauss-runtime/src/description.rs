@@ -131,6 +131,9 @@ by_method! {
     constraint_function,
     /// Of [`GaussSystem::evaluate`](crate::system::GaussSystem::evaluate).
     evaluate,
+    /// Of [`GaussSystem::configuration_rates`](crate::system::GaussSystem::configuration_rates), where elements have
+    /// states; else it is that of the kinematics.
+    configuration_rates,
     /// Of [`ConstrainedSystem::multipliers`](crate::constraint::ConstrainedSystem::multipliers); none without
     /// constraints.
     multipliers,

@@ -89,6 +89,7 @@ assert!((0.202 * end.w.z + 0.002 * end.spin - 0.01).abs() < 1e-12);
 //! | `gauss-playback`, `gauss-rerun` | motions as a page that plays; in the viewer Rerun |
 //! | `gauss-exact` | exact motions of free bodies and tops, splitting methods |
 //! | `gauss-adapters` | integrators, dual numbers and vectors of other crates |
+//! | `gauss-sensitivity` | derivatives of whole runs by any numbers, forward and backward; fits |
 //! | `gauss-bounded` | a scalar that knows how many of its digits are right |
 //! | `gauss-tune` | the cheapest method for a scene, measured on it |
 //!

@@ -52,17 +52,37 @@ pub trait GaussSystem {
     /// but for [`Simulation::without_contacts`](crate::integrate::Simulation::without_contacts).
     const HAS_CONTACTS: bool = false;
 
+    /// How many states elements have (`states(…)`): scalars of the configuration behind all others, which move no body.
+    /// They stand still in [`kinematics`](Self::kinematics) and change in
+    /// [`configuration_rates`](Self::configuration_rates).
+    const STATES: usize = 0;
+
     /// How smooth the accelerations are as functions of the state: adaptive integrators step with more care where they
     /// are not.
     const SMOOTHNESS: Smoothness = Smoothness::Smooth;
 
-    /// The velocity of the configuration, q̇ = ψ(t, q, z) (3.2), as seen from the body (left-trivialised).
+    /// The velocity of the configuration, q̇ = ψ(t, q, z) (3.2), as seen from the body (left-trivialised). It is affine
+    /// in z: states of elements stand still in it, as when speeds jump or constraints are restored.
     fn kinematics(
         &self,
         t: Self::Scalar,
         q: &Self::Configuration,
         z: &Self::Speeds,
     ) -> <Self::Configuration as Configuration>::Tangent;
+
+    /// q̇ with the rates ẋ = f(t, q, z, x, input) of the [states](Self::STATES) of elements: what a configuration is
+    /// integrated by. Without states it is [`kinematics`](Self::kinematics). Who wraps a system hands this on, too.
+    #[inline(always)]
+    fn configuration_rates(
+        &self,
+        t: Self::Scalar,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> <Self::Configuration as Configuration>::Tangent {
+        let _ = input;
+        self.kinematics(t, q, z)
+    }
 
     /// ż: the velocity form of the equations of motion. It satisfies the constraints, differentiated to `J ż = γ`,
     /// where there are any.
@@ -85,7 +105,7 @@ pub trait GaussSystem {
         input: &Self::Input,
     ) -> Evaluated<Self> {
         Evaluated::new(
-            self.kinematics(t, q, z),
+            self.configuration_rates(t, q, z, input),
             self.acceleration(t, q, z, input),
             self.kinetic_energy(t, q, z),
             self.potential_energy(t, q),
@@ -217,7 +237,7 @@ pub trait GaussSystem {
 /// The result of [`GaussSystem::evaluate`].
 #[non_exhaustive]
 pub struct Evaluated<S: GaussSystem + ?Sized> {
-    /// q̇ as seen from the body: what [`GaussSystem::kinematics`] gives.
+    /// q̇ as seen from the body: what [`GaussSystem::configuration_rates`] gives.
     pub velocity: <S::Configuration as Configuration>::Tangent,
     /// ż.
     pub acceleration: S::Speeds,

@@ -79,7 +79,7 @@ impl<S: System> Flow<S> {
 impl<S: Driven> Flow<S> {
     /// At a state with values of inputs.
     pub fn driven(system: &S, t: f64, (q, z): (&S::Configuration, &S::Speeds), input: &S::Input) -> Self {
-        let velocity = system.kinematics(t, q, z);
+        let velocity = system.configuration_rates(t, q, z, input);
         let acceleration = system.acceleration(t, q, z, input);
         // Even functions of eight times the fastest angle have a truncation of (8/200)⁸/630 ≈ 1e-14.
         let step = 1.0 / (200.0 * velocity.max_norm().max(1.0));

@@ -28,6 +28,7 @@ const FOLDERS: &[&str] = &[
     "crates/gauss-python",
     "crates/gauss-rerun",
     "crates/gauss-robots",
+    "crates/gauss-sensitivity",
     "crates/gauss-study",
     "crates/gauss-tables",
     "crates/gauss-tune",

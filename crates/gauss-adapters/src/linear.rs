@@ -39,7 +39,8 @@ where
     let (z, input) = (plain(z), plain(input));
     let rates =
         |t: Number, q: &S::Configuration, z: &S::Speeds, input: &S::Input| -> SVector<Number, D> {
-            let (velocity, acceleration) = (system.kinematics(t, q, z), system.acceleration(t, q, z, input));
+            let (velocity, acceleration) =
+                (system.configuration_rates(t, q, z, input), system.acceleration(t, q, z, input));
             SVector::from_fn(|i, _| {
                 if i < components { velocity.component(i) } else { acceleration.component(i - components) }
             })

@@ -74,6 +74,12 @@ pub enum ContactErrorKind {
         /// How many steppers were given.
         given: usize,
     },
+    /// Elements have [states](gauss_runtime::system::GaussSystem::STATES), which steps of one length do not follow:
+    /// runs from event to event do.
+    States {
+        /// How many.
+        states: usize,
+    },
     /// More steps than the run may have.
     TooManySteps {
         /// The limit.
@@ -177,6 +183,11 @@ impl ContactErrorKind {
             Self::TooManySteps { limit } => {
                 write!(f, "{limit} steps do not reach the end; use a larger tolerance, or allow more by `max_steps`")
             }
+            Self::States { states } => write!(
+                f,
+                "elements of the scene have {states} states, which steps of one length do not follow; run it from event \
+                 to event: `ContactRun`"
+            ),
             Self::LawWithoutSteps { law } => {
                 write!(f, "a run by the law {law:?} cannot change over to steps: these have Newton's law alone")
             }
@@ -208,6 +219,7 @@ impl fmt::Display for ContactErrorKind {
             | Self::StepTooSmall { .. }
             | Self::Lanes { .. }
             | Self::LawWithoutSteps { .. }
+            | Self::States { .. }
             | Self::TooManySteps { .. } => self.of_steps(f),
             Self::NonFinite => f.write_str("gaps, rates or coefficients are not finite"),
             Self::Inconsistent => f.write_str("no contact force agrees with rigid bodies and Coulomb's law (Painlevé)"),

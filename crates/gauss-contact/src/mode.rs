@@ -418,10 +418,21 @@ impl<K: ContactSystem> GaussSystem for InMode<'_, K> {
     const DOF: usize = K::DOF;
     const CHART: Chart = K::CHART;
     const CONSTRAINED: bool = true;
+    const STATES: usize = K::STATES;
     const SMOOTHNESS: Smoothness = K::SMOOTHNESS;
 
     fn kinematics(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> TangentOf<Self> {
         self.kernel.kinematics(t, q, z)
+    }
+
+    fn configuration_rates(
+        &self,
+        t: K::Scalar,
+        q: &K::Configuration,
+        z: &K::Speeds,
+        input: &K::Input,
+    ) -> TangentOf<Self> {
+        self.kernel.configuration_rates(t, q, z, input)
     }
 
     fn acceleration(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds, input: &K::Input) -> K::Speeds {

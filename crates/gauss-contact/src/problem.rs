@@ -97,7 +97,11 @@ impl<'k, K: ContactSystem> Problem for InModeProblem<'k, K> {
         } else {
             self.loads(*t, q, y).acceleration()
         };
-        Rates { configuration: self.system.kinematics(*t, q, y), variables }
+        let configuration = match K::STATES {
+            0 => self.system.kinematics(*t, q, y),
+            _ => self.system.configuration_rates(*t, q, y, &self.input(*t, q, y)),
+        };
+        Rates { configuration, variables }
     }
 
     fn both_rates(&self, state: &State<InMode<'k, K>>, known: &K::Speeds) -> (K::Speeds, K::Speeds) {

@@ -83,7 +83,7 @@ def states(drawn):
     """The states at the start: q (quaternion i j k w, place) and z (velocity, angular velocity)."""
     count = len(drawn["descent"])
     q, z = np.zeros((count, 7)), np.zeros((count, 6))
-    # Only what IEEE 754 rounds exactly, so that a run has the same bits in any chunk and on any machine.
+    # Only what IEEE 754 rounds exactly: a run has the same bits in any chunk, on machines that build the same kernel.
     norm = np.sqrt(drawn["tilt_x"] * drawn["tilt_x"] + drawn["tilt_y"] * drawn["tilt_y"] + 1.0)
     q[:, 0], q[:, 1], q[:, 3] = drawn["tilt_x"] / norm, drawn["tilt_y"] / norm, 1.0 / norm
     q[:, 6] = HEIGHT

@@ -44,6 +44,7 @@ impl<S: GaussSystem> GaussSystem for Counted<S> {
     const CHART: Chart = S::CHART;
     const CONSTRAINED: bool = S::CONSTRAINED;
     const HAS_CONTACTS: bool = S::HAS_CONTACTS;
+    const STATES: usize = S::STATES;
     const SMOOTHNESS: Smoothness = S::SMOOTHNESS;
 
     #[inline(always)]
@@ -64,6 +65,17 @@ impl<S: GaussSystem> GaussSystem for Counted<S> {
         z: &S::Speeds,
     ) -> <S::Configuration as Configuration>::Tangent {
         self.kernel.kinematics(t, q, z)
+    }
+
+    #[inline(always)]
+    fn configuration_rates(
+        &self,
+        t: S::Scalar,
+        q: &S::Configuration,
+        z: &S::Speeds,
+        input: &S::Input,
+    ) -> <S::Configuration as Configuration>::Tangent {
+        self.kernel.configuration_rates(t, q, z, input)
     }
 
     #[inline(always)]

@@ -172,8 +172,11 @@ impl<'a, 'g> Derived<'a, 'g> {
         self.subject.system.accounts()
     }
 
+    /// Of the accelerations and the rates of states: kinematics are smooth where they are regular.
     pub fn smoothness(&self) -> Smoothness {
-        self.kernel.functions.acceleration.program.smoothness()
+        let of_states = self.program(Method::ConfigurationRates).map(|program| program.smoothness());
+        let of_loads = self.kernel.functions.acceleration.program.smoothness();
+        of_states.map_or(of_loads, |own| own.max(of_loads))
     }
 
     /// The module of the runtime that generated code names, with the version that both were made for.
@@ -323,7 +326,9 @@ impl<'a, 'g> Derived<'a, 'g> {
                 let (volume, squares, real) = (&outputs[0], &outputs[1], self.scalar().real);
                 quote!(#volume / #real::sqrt(#squares))
             }
-            Method::Kinematics | Method::PositionCorrection => self.subject.tangent(&self.private(), &outputs),
+            Method::Kinematics | Method::ConfigurationRates | Method::PositionCorrection => {
+                self.subject.tangent(&self.private(), &outputs)
+            }
             _ => quote!(#private::vector([#(#outputs),*])),
         };
         body.extend(result);

@@ -42,6 +42,14 @@ const DISK: &str = "#[gauss(
     independent(w1, w2, w3),
 )] struct Disk { #[gauss(body)] disk: RigidBody<f64>, r: f64, #[gauss(gravity)] g: f64 }";
 
+/// Bristles that bend and slip: LuGre's friction, under a motor that is late.
+const BRISTLES: &str = "#[gauss(
+    coordinates(x), input(command), particle(mass = m, position = [x, 0, 0]),
+    define(slide = rate(x) - s0 * abs(rate(x)) * bristle / hold),
+    states(bristle = slide, thrust = (command - thrust) / lag),
+    drive(x = thrust - s0 * bristle - s1 * slide),
+)] struct Bristles { m: f64, s0: f64, s1: f64, hold: f64, lag: f64 }";
+
 /// The text of `EQUATIONS`: the first string in the brackets after the name.
 fn equations(source: &str) -> String {
     fn find(tokens: TokenStream) -> Option<String> {
@@ -70,6 +78,16 @@ fn equations(source: &str) -> String {
 #[test]
 fn equations_of_the_sleigh() {
     insta::assert_snapshot!(equations(SLEIGH));
+}
+
+#[test]
+fn equations_of_bristles() {
+    insta::assert_snapshot!(equations(BRISTLES));
+}
+
+#[test]
+fn rates_of_bristles() {
+    insta::assert_snapshot!(function(BRISTLES, "configuration_rates"));
 }
 
 #[test]

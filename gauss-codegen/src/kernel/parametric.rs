@@ -56,7 +56,7 @@ impl<'g> ByParameters<'g> {
             self.parameters.iter().map(|&parameter| vec![(parameter, graph.one())]).collect();
         let way = self.differentiated(graph, functions, &along, source.hoisted(hoister, &[]));
         let Way { program, hoisted } = self.cheaper(way, source, hoister, trial);
-        let of_velocity = self.order.iter().map(|&k| functions.kinematics.outputs[k]);
+        let of_velocity = self.order.iter().map(|&k| functions.configuration_rates().outputs[k]);
         let outputs: Vec<Expr<'g>> = of_velocity.chain(functions.acceleration.outputs.iter().copied()).collect();
         (program.carried_out(), Expected::of_derivatives(outputs, along), hoisted)
     }
@@ -72,7 +72,7 @@ impl<'g> ByParameters<'g> {
         hoisted: Hoisted<'g>,
     ) -> Way<'g> {
         let rates = ConstantRates::new(graph, &hoisted.constants, along);
-        let velocity = &functions.kinematics.program;
+        let velocity = &functions.configuration_rates().program;
         let ordered = self.order.iter().map(|&k| velocity.outputs[k]).collect();
         let velocity = Program { instructions: velocity.instructions.clone(), outputs: ordered };
         let acceleration = &functions.acceleration.program;

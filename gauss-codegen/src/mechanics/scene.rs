@@ -1,5 +1,7 @@
 //! A system as it is given: coordinates, speeds, ψ, links, constraints, contacts and loads, in symbols.
 
+use std::ops::Range;
+
 use crate::algebra::{Expr, Graph, Map, Substitution};
 use crate::terms::{InChart, Motion};
 
@@ -76,6 +78,9 @@ pub struct SystemScene<'g> {
     pub time: Expr<'g>,
     pub coordinates: Vec<Coordinate<'g>>,
     pub coordinate_names: Vec<Name>,
+    /// Which of the coordinates are states of elements: forces may depend on them, nothing else of the motion does.
+    /// Their rates are any function of t, q, z and inputs.
+    pub states: Range<usize>,
     pub speeds: Vec<Expr<'g>>,
     pub charted: Option<Charted>,
     /// What the momenta and the forces are called.
@@ -83,7 +88,8 @@ pub struct SystemScene<'g> {
     pub force_names: Vec<Name>,
     pub speed_rates: Vec<Expr<'g>>,
     pub momenta: Vec<Expr<'g>>,
-    /// ψ: rates of scalar coordinates, twists of the others, in the order of the coordinates; affine in z.
+    /// ψ: rates of scalar coordinates, twists of the others, in the order of the coordinates; affine in z, but for
+    /// those of states.
     pub kinematics: Vec<Expr<'g>>,
     /// Rates of t and of the symbols of q.
     pub rates: Map<u32, Expr<'g>>,
@@ -145,6 +151,7 @@ impl<'g> SystemScene<'g> {
             time: self.time,
             coordinates: self.coordinates.clone(),
             coordinate_names: self.coordinate_names.clone(),
+            states: self.states.clone(),
             charted: self.charted,
             momentum_names: names(&self.momentum_names),
             force_names: names(&self.force_names),
@@ -206,6 +213,20 @@ impl<'g> SystemScene<'g> {
                 partial.as_number().is_some() || self.speeds.iter().all(|&w| tidy(partial.partial(w)).is_zero())
             })
         };
-        (0..self.kinematics.len()).filter(|&k| !affine(&self.kinematics[k])).collect()
+        let states = self.components_of_states();
+        (0..self.kinematics.len()).filter(|k| !states.contains(k) && !affine(&self.kinematics[*k])).collect()
+    }
+
+    /// Which components of ψ are the rates of states.
+    pub fn components_of_states(&self) -> Range<usize> {
+        let first: usize = self.coordinates[..self.states.start].iter().map(Coordinate::size).sum();
+        first..first + self.states.len()
+    }
+
+    /// ψ with states that stand still: what the speeds move, affine in them.
+    pub fn motion(&self) -> Vec<Expr<'g>> {
+        let states = self.components_of_states();
+        let still = |(k, rate): (usize, &Expr<'g>)| if states.contains(&k) { self.graph.zero() } else { *rate };
+        self.kinematics.iter().enumerate().map(still).collect()
     }
 }

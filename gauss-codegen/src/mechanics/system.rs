@@ -518,7 +518,7 @@ impl<'g> System<'g> {
             let terms = self.scene.speeds.iter().zip(&named).map(|(&z, d)| rate.partial(z) * *d);
             terms.fold(zero, |sum, e| sum + e)
         };
-        self.scene.kinematics.iter().map(row).collect()
+        self.scene.motion().iter().map(row).collect()
     }
 }
 

@@ -114,6 +114,7 @@ impl<'g> Charted<'g> {
             time,
             coordinates: chart.coordinates.clone(),
             coordinate_names: chart.coordinate_names.clone(),
+            states: 0..0,
             speeds,
             charted: Some(InScene { link: 0, own, alone: true }),
             momentum_names: chart.momentum_names.clone(),

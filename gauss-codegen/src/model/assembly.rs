@@ -2,6 +2,7 @@
 
 use crate::model::checks::{bodies, coefficients, constraints, contacts, field_shapes, forces, masses, motion};
 use crate::model::language::context::Context;
+use crate::model::language::declarations::StateClause;
 use crate::model::language::fields::{ReadField, Reader, documentation};
 use crate::model::language::shapes::TypeKind;
 use crate::model::language::statements::Statements;
@@ -10,7 +11,7 @@ use crate::model::language::words::{same, word};
 use crate::model::names::expressions;
 use crate::model::names::places::Place;
 use crate::model::names::{declared, definitions, kinds, naming};
-use crate::model::scene::clauses::BodyClause;
+use crate::model::scene::clauses::{BodyClause, State};
 use crate::model::scene::expression::Expression;
 use crate::model::scene::model::Model;
 use crate::model::units::needs;
@@ -159,6 +160,10 @@ fn assembled(
             kinematics.push((coordinate.ident.clone(), rate.clone()?));
         }
     }
+    let mut states = Vec::new();
+    for StateClause { name, rate } in statements.states {
+        states.push(State { ident: name, rate: rate? });
+    }
     Some(Model {
         item: Item {
             ident: input.ident.clone(),
@@ -178,6 +183,7 @@ fn assembled(
         coordinates,
         speeds: statements.speeds.map(|speeds| speeds.names),
         kinematics,
+        states,
         bodies: statements.bodies,
         particles: statements.particles,
         points: statements.points,

@@ -10,13 +10,17 @@ use super::translator::{ObservedRates, Translator, bug};
 use super::value::Value;
 
 impl<'g> Translator<'_, 'g> {
-    /// ψ, in the order of the coordinates; ḃ and ω̂ of each that is a pose or a rotation, where the kinematics give
-    /// them rather than u and ω.
+    /// ψ, in the order of the coordinates, with zero for the states of elements; ḃ and ω̂ of each that is a pose or a
+    /// rotation, where the kinematics give them rather than u and ω.
     pub(super) fn kinematics(&self) -> Result<(Vec<Expr<'g>>, Vec<ObservedRates<'g>>)> {
         let mut rates = self.chart().map(ChartedBody::coordinate_rates).unwrap_or_default();
         let mut observed = vec![[None; 2]; self.model.coordinates.len()];
+        let still = self.declared.states.clone().map(|_| self.graph.zero());
+        let of_let_go = self.let_go.iter().flat_map(|by| by.speeds);
         if self.model.speeds.is_none() {
-            rates.extend(&self.declared.speeds[self.speeds_of_chart()..]);
+            let own = &self.declared.speeds[self.speeds_of_chart()..];
+            rates.extend(&own[..own.len() - of_let_go.clone().count()]);
+            rates.extend(still.chain(of_let_go));
             return Ok((rates, observed));
         }
         let nothing = self.no_links();
@@ -29,8 +33,25 @@ impl<'g> Translator<'_, 'g> {
                 _ => return Err(bug(e.span)),
             }
         }
-        rates.extend(self.let_go.iter().flat_map(|by| by.speeds));
+        rates.extend(still.chain(of_let_go));
         Ok((rates, observed))
+    }
+
+    /// Puts the rates of states in their places in ψ and among the rates of symbols: they may name all that forces may,
+    /// so the links come first, and no link is moved by a state.
+    pub(super) fn move_states(&mut self, tree: &Tree<'g>) -> Result<()> {
+        let states = self.declared.states.clone();
+        let first: usize = self.declared.coordinates[..states.start].iter().map(Coordinate::size).sum();
+        for (k, (state, coordinate)) in self.model.states.iter().zip(&self.declared.coordinates[states]).enumerate() {
+            let Some(rate) = self.graph.defined(|| self.scalar(&state.rate, tree)) else {
+                self.divides_by_zero(state.rate.span, &state.ident.to_string());
+                continue;
+            };
+            let Coordinate::Scalar(symbol) = coordinate else { return Err(bug(state.rate.span)) };
+            self.kinematics[first + k] = rate?;
+            self.rates.insert(symbol.key(), self.kinematics[first + k]);
+        }
+        Ok(())
     }
 
     /// v and w of `twist(inverse(pose.rotation) * v, inverse(pose.rotation) * w)`, and w of `inverse(rotation) * w`:

@@ -37,7 +37,8 @@ impl Quantity {
     }
 }
 
-/// Coordinates, then the speeds with these indices (`None`: all), each in their order. Names may be there twice.
+/// Coordinates, with states of elements behind them, then the speeds with these indices (`None`: all), each in their
+/// order. Names may be there twice.
 pub(super) fn quantities(model: &Model, kept: Option<&[usize]>) -> [Vec<Quantity>; 2] {
     [coordinates(model), speeds(model, kept)]
 }
@@ -75,6 +76,12 @@ fn coordinates(model: &Model) -> Vec<Quantity> {
         };
         Quantity::new(coordinate.ident.clone(), kind, label)
     }));
+    parts.extend(
+        model
+            .states
+            .iter()
+            .map(|state| Quantity::new(state.ident.clone(), QuantityKind::Scalar, "state of an element")),
+    );
     parts
 }
 

@@ -1,5 +1,7 @@
 //! Symbols of everything that is declared, and where the value of each is read.
 
+use std::ops::Range;
+
 use proc_macro2::Ident;
 
 use crate::algebra::{Expr, Graph, Rational};
@@ -40,6 +42,8 @@ pub struct Declared<'g> {
     /// How many of them are the chart's.
     pub before: usize,
     pub coordinate_names: Vec<Name>,
+    /// Which of the coordinates are states of elements.
+    pub states: Range<usize>,
     pub speeds: Vec<Expr<'g>>,
     /// Of the momenta and of the forces: after the coordinate, where its rate is the speed.
     pub momentum_names: Vec<Name>,
@@ -165,6 +169,12 @@ impl<'g> Declared<'g> {
         }
         declared.coordinates.extend(own);
         declared.coordinate_names.extend(model.coordinates.iter().map(|q| name_of(&q.ident)));
+        let before_states = declared.coordinates.len();
+        for name in model.states.iter().map(|state| name_of(&state.ident)) {
+            declared.coordinates.push(Coordinate::Scalar(symbol(graph, &name, false)));
+            declared.coordinate_names.push(name);
+        }
+        declared.states = before_states..declared.coordinates.len();
         declared.speeds.extend(symbols(&Name::clone));
         declared.speed_rates.extend(symbols(&Name::rate));
         declared.momentum_names.extend(named("p"));
@@ -185,6 +195,7 @@ impl<'g> Declared<'g> {
             coordinates: Vec::new(),
             before: 0,
             coordinate_names: Vec::new(),
+            states: 0..0,
             speeds: Vec::new(),
             momentum_names: Vec::new(),
             force_names: Vec::new(),

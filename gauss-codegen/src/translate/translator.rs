@@ -245,12 +245,14 @@ impl<'a, 'g> Translator<'a, 'g> {
         };
         let constraints = self.constraints(&tree)?;
         let contacts = self.contacts(&tree)?;
+        self.move_states(&tree)?;
         tree.settle();
         Ok(SystemScene {
             graph,
             time: self.declared.time,
             coordinates: self.declared.coordinates.clone(),
             coordinate_names: self.declared.coordinate_names.clone(),
+            states: self.declared.states.clone(),
             charted: self.charted(),
             momentum_names: self.declared.momentum_names.clone(),
             force_names: self.declared.force_names.clone(),
@@ -315,6 +317,13 @@ impl<'a, 'g> Translator<'a, 'g> {
         {
             if let Coordinate::Scalar(symbol) = coordinate {
                 self.names.insert(written.ident.unraw().to_string(), Value::Scalar(*symbol));
+            }
+        }
+        for (state, coordinate) in
+            self.model.states.iter().zip(&self.declared.coordinates[self.declared.states.clone()])
+        {
+            if let Coordinate::Scalar(symbol) = coordinate {
+                self.names.insert(state.ident.unraw().to_string(), Value::Scalar(*symbol));
             }
         }
         // Angular velocities are known once the kinematics are.

@@ -61,6 +61,8 @@ pub enum MotionRule {
     Pose,
     /// The constraints of the target must hold; the value is their residual, or the distance of the state from them.
     Constraints,
+    /// The elements of the target must have as many states; the value is how many more there are.
+    States,
 }
 
 impl fmt::Display for MotionRule {
@@ -82,6 +84,7 @@ impl fmt::Display for MotionRule {
             Self::Constraints => {
                 f.write_str("the state must satisfy the constraints of the target, so their residual must be 0")
             }
+            Self::States => f.write_str("elements of both must have as many states, so the difference must be 0"),
         }
     }
 }

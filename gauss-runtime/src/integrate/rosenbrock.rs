@@ -221,7 +221,7 @@ impl<S: LinearizedSystem> Start<S> {
         t: S::Scalar,
     ) -> Vector<S> {
         let input = problem.input(t, q, z);
-        let velocity = problem.system().kinematics(t, q, z);
+        let velocity = problem.system().configuration_rates(t, q, z, &input);
         let velocity = S::Configuration::dexp_inv(&self.split(increment).0, &velocity);
         let acceleration = problem.system().acceleration(t, q, z, &input);
         let mut rates = Vector::<S>::zero();

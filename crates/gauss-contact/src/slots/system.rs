@@ -262,6 +262,7 @@ where
 
     const CHART: Chart = K::CHART;
     const HAS_CONTACTS: bool = true;
+    const STATES: usize = K::STATES;
     const SMOOTHNESS: Smoothness = K::SMOOTHNESS;
 
     fn kinematics(
@@ -271,6 +272,16 @@ where
         z: &Self::Speeds,
     ) -> <Self::Configuration as Configuration>::Tangent {
         self.kernel.kinematics(t, q, z)
+    }
+
+    fn configuration_rates(
+        &self,
+        t: f64,
+        q: &Self::Configuration,
+        z: &Self::Speeds,
+        input: &Self::Input,
+    ) -> <Self::Configuration as Configuration>::Tangent {
+        self.kernel.configuration_rates(t, q, z, input)
     }
 
     fn acceleration(&self, t: f64, q: &Self::Configuration, z: &Self::Speeds, input: &Self::Input) -> Self::Speeds {

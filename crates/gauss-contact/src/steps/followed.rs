@@ -207,12 +207,8 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         let mut memory = vec![Dual::constant(0.0); Projection::<L>::MEMORY];
         let mut projection = Projection::<L>::new(&mut memory);
         let before = kernel.gaps(t, &q);
-        let closed = projection.close(
-            kernel,
-            (t, q, before),
-            (&dynamics.response, Dual::constant(motion::magnitude(&q))),
-            &taken.rests,
-        );
+        let closed =
+            projection.close(kernel, (t, q, before), (&dynamics.response, motion::magnitude(&q)), &taken.rests);
         let Closed { mut q, gaps, .. } = closed.map_err(ContactErrorKind::Projection)?;
         if same.looks && same.at_change.is_none() {
             let nothing = same.tolerance * self.h * (1.0 + z.max_norm());

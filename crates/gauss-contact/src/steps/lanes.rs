@@ -1,11 +1,10 @@
 //! Steps of several states at once, in lockstep.
 //!
-//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone. So do
-//! the laws, whose solution is generic in its scalar, as long as all lanes decide alike: which contacts act, which of
-//! these slide, how often the solution is corrected. Where they do not, the laws of that step are solved by the stepper
-//! of each lane: so a lane has the bits of a stepper of its own. Lanes that need something else than the others go that
-//! step alone: at the start and after impacts, where the step is made twice, where a flight ends, and where a step is
-//! made in parts.
+//! A kernel whose scalar is a pack ([`simd`](gauss_runtime::simd)) gives each lane the bits that it would get alone. As
+//! long as all lanes decide alike a step is made in packs from end to end (`together`). Where they do not, the kernel
+//! still works on all lanes at once, and the laws of that step are solved by the stepper of each lane: so a lane has
+//! the bits of a stepper of its own. Lanes that need something else than the others go that step alone: at the start
+//! and after impacts, where the step is made twice, where a flight ends, and where a step is made in parts.
 
 use alloc::vec::Vec;
 
@@ -16,13 +15,14 @@ use gauss_runtime::real::Real;
 use gauss_runtime::simd::Packed;
 
 use crate::error::{ContactError, ContactErrorKind};
+use crate::mode::Mode;
 
+use super::impulses;
 use super::motion::Middle;
-use super::outcome::Pushed;
-use super::projection::Closed;
+use super::outcome::{Pushed, Solved};
+use super::projection::{Closed, Projection};
 use super::report::StepReport;
 use super::stepper::ContactStepper;
-use super::together;
 
 /// A system in packs, each lane of which is the system `K`: `Kernel<wide::f64x8>` of a struct that is generic in its
 /// scalar, of which `K` is `Kernel<f64>`.
@@ -58,16 +58,19 @@ pub struct ContactLanes<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> {
     /// What the last step came to, lane by lane.
     pub(super) outcomes: Vec<Result<StepReport, ContactError>>,
     /// How far the lanes are in a step.
-    pub(super) stages: Vec<Stage<K>>,
-    /// What impulses do, in all lanes and in those that solve their laws alone: large, so that it stays where it is.
-    pub(super) response: Option<ImpulseResponse<W>>,
-    pub(super) responses: Vec<Option<ImpulseResponse<K>>>,
+    stages: Vec<Stage<K>>,
+    /// What impulses do, in lanes that solve their laws alone: large, so that it stays where it is.
+    responses: Vec<Option<ImpulseResponse<K>>>,
+    /// The state of all lanes in packs, where the last step was made in packs.
+    pub(super) packed: Option<PackedState<W>>,
+    /// The modes after a step in packs, and what the laws came to, lane by lane.
+    pub(super) solved: Vec<(K::EachContact<Mode>, Solved<K>)>,
     /// For the laws of all lanes.
     pub(super) memory: Vec<W::Scalar>,
     /// Whether contacts of a lane depended on one another before the step.
-    pub(super) known: Vec<bool>,
+    known: Vec<bool>,
     /// Lanes that do not go on.
-    halted: Vec<bool>,
+    pub(super) halted: Vec<bool>,
     alone: u64,
 }
 
@@ -79,8 +82,19 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> core::fmt::Debug for Contact
     }
 }
 
+/// The states of all lanes, which steppers have as well.
+pub(super) struct PackedState<W: ContactSystem> {
+    pub(super) t: W::Scalar,
+    pub(super) q: W::Configuration,
+    pub(super) z: W::Speeds,
+    pub(super) gaps: W::Gaps,
+    pub(super) rates: W::ContactRows,
+    pub(super) impulses: W::ContactRows,
+    pub(super) acceleration: W::Speeds,
+}
+
 /// How far a lane is in a step.
-pub(super) enum Stage<K: ContactSystem<Scalar = f64>> {
+enum Stage<K: ContactSystem<Scalar = f64>> {
     /// It goes this step alone.
     Alone,
     /// The step is made.
@@ -133,8 +147,10 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let (stages, known) = (Vec::with_capacity(steppers.len()), Vec::with_capacity(steppers.len()));
         let halted = steppers.iter().map(|_| false).collect();
         let responses = steppers.iter().map(|_| None).collect();
-        let memory = alloc::vec![W::Scalar::zero(); together::memory::<W>()];
-        Ok(Self { wide, steppers, outcomes, stages, response: None, responses, memory, known, halted, alone: 0 })
+        let memory = alloc::vec![W::Scalar::zero(); memory::<W>()];
+        let solved = Vec::with_capacity(steppers.len());
+        let (packed, alone) = (None, 0);
+        Ok(Self { wide, steppers, outcomes, stages, responses, packed, solved, memory, known, halted, alone })
     }
 
     /// The steppers, lane by lane.
@@ -160,6 +176,10 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
     /// One step of length `h` of all lanes, under inputs that stay; what it came to, lane by lane: as of
     /// [`ContactStepper::step`], bit by bit. A lane whose step is an error stays where it was.
     pub fn step(&mut self, h: f64, input: &W::Input) -> &[Result<StepReport, ContactError>] {
+        if self.step_together(h, input).is_some() {
+            return &self.outcomes;
+        }
+        self.packed = None;
         self.start(h);
         if self.stages.iter().any(|stage| matches!(stage, Stage::Middle(_) | Stage::Flies(_))) {
             self.push(h, input);
@@ -185,7 +205,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         pack
     }
 
-    fn places(&self, of: impl Fn(usize) -> K::Configuration) -> W::Configuration {
+    pub(super) fn places(&self, of: impl Fn(usize) -> K::Configuration) -> W::Configuration {
         let mut pack = W::Configuration::repeat(&of(0));
         (1..self.steppers.len()).for_each(|lane| pack.replace(lane, &of(lane)));
         pack
@@ -200,11 +220,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let mut pack = P::zero();
         for lane in 0..W::Scalar::WIDTH {
             let vector = of(if lane < self.steppers.len() { lane } else { 0 });
-            for i in 0..P::DIM {
-                let mut number = pack.component(i);
-                number.replace(lane, &vector.component(i));
-                pack.set_component(i, number);
-            }
+            put::<W, _, _>(&mut pack, lane, &vector);
         }
         pack
     }
@@ -279,7 +295,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         }
     }
 
-    /// Impulses; in lockstep where all lanes touch and decide alike.
+    /// Impulses, by the laws of each lane.
     fn push(&mut self, h: f64, input: &W::Input) {
         if !self.stages.iter().any(|stage| matches!(stage, Stage::Middle(_))) {
             return;
@@ -287,12 +303,6 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let (t, q, z) = self.middles();
         let friction = self.wide.friction(t, &q, &z, input);
         let dynamics = self.wide.impulse_dynamics(t, &q, &z, input);
-        let middle = Middle { t, q, z };
-        if self.push_together(h, &middle, &friction, &dynamics).is_some() {
-            self.response = Some(dynamics.response);
-            return;
-        }
-        self.response = None;
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
             let middle = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
                 Stage::Middle(middle) => middle,
@@ -348,12 +358,6 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let t = self.number(|lane| self.steppers[lane].t + h);
         let q = self.places(|lane| self.place(lane).0);
         let gaps = self.wide.gaps(t, &q);
-        if self.response.is_some() {
-            if self.close_together((t, q, gaps)).is_some() {
-                return;
-            }
-            self.go_apart();
-        }
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
             let gaps = single::<W, _, K::Gaps>(&gaps, lane);
             let response = &self.responses[lane];
@@ -374,12 +378,6 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let q = self.places(|lane| self.place(lane).0);
         let z = self.speeds(|lane| self.place(lane).1);
         let rates = self.wide.contact_rates(t, &q, &z);
-        if self.response.is_some() {
-            if self.stop_together(h, (t, &q, z, rates)).is_some() {
-                return;
-            }
-            self.go_apart();
-        }
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
             let rates = single::<W, _, K::ContactRows>(&rates, lane);
             let end = match (core::mem::replace(&mut self.stages[lane], Stage::Alone), &self.responses[lane]) {
@@ -399,6 +397,11 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
     }
 }
 
+/// How many numbers the laws of all lanes need.
+const fn memory<W: ContactSystem>() -> usize {
+    impulses::memory(W::ContactRows::DIM) + Projection::<W>::MEMORY
+}
+
 /// The numbers of a lane.
 pub(super) fn single<W: ContactSystem<Scalar: Packed<Single = f64>>, V: VectorSpace<W::Scalar>, U: VectorSpace<f64>>(
     pack: &V,
@@ -407,4 +410,17 @@ pub(super) fn single<W: ContactSystem<Scalar: Packed<Single = f64>>, V: VectorSp
     let mut one = U::zero();
     (0..U::DIM).for_each(|i| one.set_component(i, pack.component(i).extract(lane)));
     one
+}
+
+/// The numbers of a lane, replaced.
+pub(super) fn put<W: ContactSystem<Scalar: Packed<Single = f64>>, V: VectorSpace<W::Scalar>, U: VectorSpace<f64>>(
+    pack: &mut V,
+    lane: usize,
+    one: &U,
+) {
+    for i in 0..V::DIM {
+        let mut number = pack.component(i);
+        number.replace(lane, &one.component(i));
+        pack.set_component(i, number);
+    }
 }

@@ -6,6 +6,8 @@ use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 
+use crate::lockstep::larger;
+
 /// The state at half of a step, with the speeds at which accelerations are taken.
 pub(super) struct Middle<K: ContactSystem> {
     pub(super) t: K::Scalar,
@@ -52,6 +54,6 @@ pub(super) fn passed_on<T: Real>(restitution: T, before: T) -> T {
 }
 
 /// How large numbers of a configuration are.
-pub(super) fn magnitude<Q: Configuration>(q: &Q) -> f64 {
-    (0..Q::Tangent::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max)
+pub(super) fn magnitude<Q: Configuration>(q: &Q) -> Q::Scalar {
+    (0..Q::Tangent::DIM).map(|i| q.magnitudes(i)).fold(Q::Scalar::zero(), larger)
 }

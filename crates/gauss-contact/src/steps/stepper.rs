@@ -71,7 +71,8 @@ impl<'k, K: ContactSystem<Scalar = f64>> ContactStepper<'k, K> {
     /// A system in the state (q, z) at a time.
     ///
     /// # Errors
-    /// `NegativeGap`, `InvalidRestitution`, `NonFinite`: as runs from event to event.
+    /// `NegativeGap`, `InvalidRestitution`, `NonFinite`: as runs from event to event. `States` where elements have
+    /// states.
     pub fn new(kernel: &'k K, t: f64, q: K::Configuration, z: K::Speeds) -> Result<Self, ContactError> {
         Self::with_memory(kernel, (t, q, z), vec![0.0; Self::MEMORY])
     }
@@ -97,6 +98,10 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         const { assert!(Self::ROWS <= Place::MAX as usize, "steps number rows by two bytes") }
         assert!(memory.as_mut().len() >= Self::MEMORY, "steps of this system need {} numbers", Self::MEMORY);
         crate::start::check(kernel, t, &q, &z)?;
+        if K::STATES > 0 {
+            let kind = ContactErrorKind::States { states: K::STATES };
+            return Err(ContactError { contact: None, time: t, kind });
+        }
         let q = q.renormalise();
         let mut stepper = Self {
             kernel,
@@ -433,15 +438,15 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         if pushed.solved.rests[i] { self.next[i] } else { Mode::Open }
     }
 
-    /// Whether contacts do something else than before the step.
-    fn changes(&self) -> bool {
+    /// Whether contacts do something else than before the step, in which they come to these modes.
+    fn changes(&self, next: &[Mode]) -> bool {
         let kind = |mode: &Mode| core::mem::discriminant(mode);
-        (0..K::CONTACTS.len()).any(|i| kind(&self.next[i]) != kind(&self.modes[i]))
+        (0..K::CONTACTS.len()).any(|i| kind(&next[i]) != kind(&self.modes[i]))
     }
 
     /// What is rounding of rates: what begins to rest is brought to zero to the last bit, and stays there.
-    pub(super) fn rounding_at_end(&self, pushed: &Pushed<K>) -> f64 {
-        if self.changes() { 0.0 } else { pushed.solved.found.residual.rounding }
+    pub(super) fn rounding_at_end(&self, next: &[Mode], solved: &Solved<K>) -> f64 {
+        if self.changes(next) { 0.0 } else { solved.found.residual.rounding }
     }
 
     /// Rates of what rests brought to zero from those that are given.
@@ -452,7 +457,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         closed: &Closed<K>,
         (z, rates): (K::Speeds, K::ContactRows),
     ) -> (K::Speeds, K::ContactRows) {
-        let (modes, rounding) = (Each::from_fn(|i| self.mode_at_end(pushed, i)), self.rounding_at_end(pushed));
+        let (modes, rounding) =
+            (Each::from_fn(|i| self.mode_at_end(pushed, i)), self.rounding_at_end(self.next.as_ref(), &pushed.solved));
         let (kernel, modes): (_, K::EachContact<Mode>) = (self.kernel, modes);
         let of_projection = &mut self.memory.as_mut()[memory(Self::ROWS)..];
         let at_end = (self.t + h, &closed.q, z, rates);
@@ -468,7 +474,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     ) -> End<K> {
         let Pushed { impulses, dependent, solved, .. } = pushed;
         let Closed { q, gaps, penetration, closure } = closed;
-        self.dependent &= !self.changes();
+        self.dependent &= !self.changes(self.next.as_ref());
         let report = StepReport {
             residual: solved.found.residual,
             from_coulomb: solved.from_coulomb,

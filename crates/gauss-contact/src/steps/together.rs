@@ -1,6 +1,4 @@
-//! The laws of a step in all lanes at once, as long as lanes decide alike.
-
-use alloc::vec::Vec;
+//! A step of all lanes in packs, as long as lanes decide alike.
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::{ContactSystem, Each, ImpulseDynamics, ImpulseResponse};
@@ -11,17 +9,20 @@ use crate::mode::{Mode, after_impulses};
 
 use super::cones::Laws;
 use super::impulses::{self, Impulses};
-use super::lanes::{ContactLanes, LanesOf, Stage, single};
+use super::lanes::{ContactLanes, LanesOf, PackedState, put, single};
 use super::motion::{self, Middle};
 use super::outcome::Pushed;
 use super::posed::Posed;
 use super::projection::{Closed, Projection};
 use super::relaxed::StepLaw;
+use super::report::StepScheme;
 use super::unknowns::Unknowns;
 
-/// How many numbers the laws of all lanes need.
-pub(super) const fn memory<W: ContactSystem>() -> usize {
-    impulses::memory(W::ContactRows::DIM) + Projection::<W>::MEMORY
+/// What impulses have made of the speeds of all lanes.
+struct PushedLanes<W: ContactSystem> {
+    z: W::Speeds,
+    impulses: W::ContactRows,
+    dependent: bool,
 }
 
 impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
@@ -31,56 +32,91 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         (1..self.steppers.len()).all(|lane| of(lane) == first)
     }
 
-    /// Whether all lanes touch, and begin a step alike.
-    fn begin_alike(&self) -> bool {
+    /// Whether all lanes touch, and begin a step alike, of which the speeds at half are known.
+    fn begin_alike(&self, h: f64) -> bool {
         let of = |lane: usize| &self.steppers[lane];
-        let in_touch = self.stages.iter().all(|stage| matches!(stage, Stage::Middle(_)));
-        let law = |lane: usize| (of(lane).law, of(lane).tolerance.to_bits(), of(lane).dependent);
+        let law = |lane: usize| (of(lane).law, of(lane).tolerance.to_bits(), of(lane).dependent, of(lane).scheme);
+        let known = |lane: usize| of(lane).scheme == StepScheme::MoreauJean || of(lane).acceleration.is_some();
         let closed = |i: usize| self.alike(|lane| of(lane).modes[i].is_closed());
-        in_touch && self.alike(law) && of(0).law == StepLaw::Coulomb && (0..W::CONTACTS.len()).all(closed)
+        let goes_on = |lane: usize| !self.halted[lane] && known(lane);
+        (h > 0.0 && h.is_finite() && of(0).law == StepLaw::Coulomb && !of(0).flies())
+            && (self.alike(law) && (0..self.steppers.len()).all(goes_on))
+            && (0..W::CONTACTS.len()).all(closed)
     }
 
-    /// Impulses of all lanes; nothing, and nothing is changed, where they part.
-    pub(super) fn push_together(
-        &mut self,
-        h: f64,
-        middle: &Middle<W>,
-        friction: &W::ContactRows,
-        dynamics: &ImpulseDynamics<W>,
-    ) -> Option<()> {
-        let lanes = self.steppers.len();
+    /// The states of all lanes.
+    fn pack(&self) -> PackedState<W> {
         let of = |lane: usize| &self.steppers[lane];
-        if !self.begin_alike() {
+        PackedState {
+            t: self.number(|lane| of(lane).t),
+            q: self.places(|lane| of(lane).q),
+            z: self.vectors(|lane| of(lane).z),
+            gaps: self.vectors(|lane| of(lane).gaps),
+            rates: self.vectors(|lane| of(lane).rates),
+            impulses: self.vectors(|lane| of(lane).impulses),
+            acceleration: self.vectors(|lane| of(lane).acceleration.unwrap_or(of(lane).z)),
+        }
+    }
+
+    /// A step of all lanes; nothing, and nothing is changed, where they part.
+    pub(super) fn step_together(&mut self, h: f64, input: &W::Input) -> Option<()> {
+        if !self.begin_alike(h) {
             return None;
         }
-        let laws = Laws::<W>::new(h, friction).ok()?;
-        let (z, before): (W::Speeds, W::ContactRows) =
-            (self.vectors(|lane| of(lane).z), self.vectors(|lane| of(lane).rates));
-        let free = z.add_scaled(W::Scalar::from_f64(h), &dynamics.acceleration);
-        let dependent = of(0).dependent;
-        let free_and_bias = (&free, &dynamics.bias);
-        let rates = motion::free_rates(self.wide, (h, dependent), middle, (&z, &before), free_and_bias);
+        let state = self.packed.take().unwrap_or_else(|| self.pack());
+        let (half, end) = (W::Scalar::from_f64(0.5 * h), state.t + W::Scalar::from_f64(h));
+        let rate = self.wide.kinematics(state.t, &state.q, &state.z);
+        let z = match self.steppers[0].scheme {
+            StepScheme::MoreauJean => state.z,
+            StepScheme::Midpoint => state.z.add_scaled(half, &state.acceleration),
+        };
+        let middle = Middle::<W> { t: state.t + half, q: motion::half_way::<W>(h, &state.q, &rate), z };
+        let friction = self.wide.friction(middle.t, &middle.q, &middle.z, input);
+        let laws = Laws::<W>::new(h, &friction).ok()?;
+        let dynamics = self.wide.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
+        let pushed = self.push_together(h, (&state, &middle), &laws, &dynamics)?;
+        let (q, z) = self.second_half_together(h, &middle, pushed.z)?;
+        let at_end = (end, q, z);
+        let (closed, z, rates) = self.close_together(at_end, &dynamics.response)?;
+        self.take_together(h, (&state, end), &pushed, (closed, z, rates));
+        Some(())
+    }
+
+    /// Impulses of all lanes, and what the laws came to in each.
+    fn push_together(
+        &mut self,
+        h: f64,
+        (state, middle): (&PackedState<W>, &Middle<W>),
+        laws: &Laws<W>,
+        dynamics: &ImpulseDynamics<W>,
+    ) -> Option<PushedLanes<W>> {
+        let first = &self.steppers[0];
+        let dependent = first.dependent;
+        let free = state.z.add_scaled(W::Scalar::from_f64(h), &dynamics.acceleration);
+        let before = (&state.z, &state.rates);
+        let rates = motion::free_rates(self.wide, (h, dependent), middle, before, (&free, &dynamics.bias));
         let posed = Posed::<W> {
             h,
             law: StepLaw::Coulomb,
-            tolerance: of(0).tolerance,
-            laws: &laws,
+            tolerance: first.tolerance,
+            laws,
             delassus: &dynamics.response.delassus,
             restitution: self.wide.restitution(),
-            gaps: self.vectors(|lane| of(lane).gaps),
+            gaps: state.gaps,
             rates,
-            impulses: self.vectors(|lane| of(lane).impulses),
-            modes: of(0).modes.as_ref(),
+            impulses: state.impulses,
+            modes: first.modes.as_ref(),
             dependent,
         };
         let mut unknowns = Unknowns::<W>::new();
-        let mut problem = Impulses::new(&mut self.memory[..impulses::memory(W::ContactRows::DIM)], unknowns.slices());
+        let memory = &mut self.memory[..impulses::memory(W::ContactRows::DIM)];
+        let mut problem = Impulses::new(memory, unknowns.slices());
         let cones = posed.pose(&mut problem);
         let cones = cones.as_ref();
         let found = problem.solve_in_lockstep(cones, posed.tolerance)?;
         let joins = |i: usize| {
             let rate = cones[i].normal.map(|normal| problem.rates[normal]);
-            let closes = |rate| (0..lanes).any(|lane| posed.gap_left_open(i, rate).lane(lane) < 0.0);
+            let closes = |rate| (0..self.steppers.len()).any(|lane| posed.gap_left_open(i, rate).lane(lane) < 0.0);
             !cones[i].acts && rate.is_some_and(closes)
         };
         let answer = posed.answer(&problem, found, cones);
@@ -89,110 +125,96 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         if (0..cones.len()).any(joins) || problem.dependent != dependent || problem.lockstep.has_parted() {
             return None;
         }
-        let pushed = (0..lanes)
-            .map(|lane| {
-                let mut after: K::EachContact<Mode> = Each::from_fn(|_| Mode::Open);
-                let modes = (self.steppers[lane].modes.as_ref(), after.as_mut());
-                let solved = posed.solved::<K>(&problem, (&answer, cones), modes, lane);
-                let (z, impulses) =
-                    (single::<W, _, K::Speeds>(&z, lane), single::<W, _, K::ContactRows>(&impulses, lane));
-                (after, Pushed { z, impulses, dependent, solved })
-            })
-            .collect();
-        self.hand_out(pushed);
-        Some(())
+        self.solved.clear();
+        self.solved.extend(self.steppers.iter().enumerate().map(|(lane, stepper)| {
+            let mut after: K::EachContact<Mode> = Each::from_fn(|_| Mode::Open);
+            let modes = (stepper.modes.as_ref(), after.as_mut());
+            let solved = posed.solved::<K>(&problem, (&answer, cones), modes, lane);
+            (after, solved)
+        }));
+        Some(PushedLanes { z, impulses, dependent })
     }
 
-    /// Impulses and modes to each lane.
-    fn hand_out(&mut self, pushed: Vec<(K::EachContact<Mode>, Pushed<K>)>) {
-        for (lane, (after, pushed)) in pushed.into_iter().enumerate() {
-            self.steppers[lane].next = after;
-            if let Stage::Middle(middle) = core::mem::replace(&mut self.stages[lane], Stage::Alone) {
-                self.stages[lane] = Stage::Pushed(middle, pushed);
-            }
+    /// The second half of a step. What keeps bilateral constraints goes lane by lane: its iterations end where they do.
+    fn second_half_together(&self, h: f64, middle: &Middle<W>, z: W::Speeds) -> Option<(W::Configuration, W::Speeds)> {
+        let rate = self.wide.kinematics(middle.t, &middle.q, &z);
+        let q = motion::half_way::<W>(h, &middle.q, &rate);
+        if !K::CONSTRAINED {
+            return Some((q, z));
         }
-    }
-
-    /// What impulses do, in each lane: lanes part.
-    pub(super) fn go_apart(&mut self) {
-        if let Some(response) = self.response.take() {
-            for (lane, of_lane) in self.responses.iter_mut().enumerate() {
-                let (factors, delassus) = (response.factors.extract(lane), response.delassus.extract(lane));
-                *of_lane = Some(ImpulseResponse::new(factors, delassus));
-            }
+        let mut projected = (q, z);
+        for (lane, stepper) in self.steppers.iter().enumerate() {
+            let (q, z) = (projected.0.extract(lane), single::<W, _, K::Speeds>(&projected.1, lane));
+            let (q, z) = stepper.kernel.project(stepper.t + h, &q, &z).ok()?;
+            projected.0.replace(lane, &q);
+            put::<W, _, _>(&mut projected.1, lane, &z);
         }
+        Some(projected)
     }
 
-    /// Closed gaps of all lanes brought to zero; nothing, and nothing is changed, where they part.
-    pub(super) fn close_together(&mut self, (t, q, gaps): (W::Scalar, W::Configuration, W::Gaps)) -> Option<()> {
-        let rests = |lane: usize, i: usize| match &self.stages[lane] {
-            Stage::Open(_, _, pushed) => Some(pushed.solved.rests[i]),
-            _ => None,
+    /// Closed gaps brought to zero, then rates of what rests, and slips of what sticks.
+    fn close_together(
+        &mut self,
+        (t, q, z): (W::Scalar, W::Configuration, W::Speeds),
+        response: &ImpulseResponse<W>,
+    ) -> Option<(Closed<W>, W::Speeds, W::ContactRows)> {
+        let rest = |lane: usize, i: usize| self.solved[lane].1.rests[i];
+        let rests: W::EachContact<bool> = Each::from_fn(|i| rest(0, i));
+        // The rows that are brought to zero do not depend on the direction of slip.
+        let mode = |lane: usize, i: usize| match self.solved[lane].0[i] {
+            _ if !rest(lane, i) => Mode::Open,
+            Mode::Slides(_) => Mode::Closed,
+            mode => mode,
         };
-        let rest: W::EachContact<Option<bool>> =
-            Each::from_fn(|i| rests(0, i).filter(|_| self.alike(|lane| rests(lane, i))));
-        if rest.as_ref().iter().any(Option::is_none) {
+        let modes: W::EachContact<Mode> = Each::from_fn(|i| mode(0, i));
+        let contacts = 0..W::CONTACTS.len();
+        if !contacts.clone().all(|i| self.alike(|lane| (rest(lane, i), mode(lane, i)))) {
             return None;
         }
-        let rest: W::EachContact<bool> = Each::from_fn(|i| rest[i] == Some(true));
-        let magnitude = self.number(|lane| match &self.stages[lane] {
-            Stage::Open(q, ..) => motion::magnitude(q),
-            _ => f64::NAN,
-        });
-        let response = self.response.as_ref()?;
+        let rounding = |lane: usize| {
+            let (after, solved) = &self.solved[lane];
+            self.steppers[lane].rounding_at_end(after.as_ref(), solved)
+        };
+        let rounding = self.number(rounding);
         let mut projection = Projection::<W>::new(&mut self.memory[impulses::memory(W::ContactRows::DIM)..]);
-        let closed = projection.close(self.wide, (t, q, gaps), (response, magnitude), rest.as_ref()).ok()?;
-        if projection.lockstep.has_parted() {
-            return None;
-        }
-        for (lane, stage) in self.stages.iter_mut().enumerate() {
-            if let Stage::Open(_, z, pushed) = core::mem::replace(stage, Stage::Alone) {
-                let (q, gaps) = (closed.q.extract(lane), single::<W, _, K::Gaps>(&closed.gaps, lane));
-                let (penetration, closure) = (closed.penetration.lane(lane), closed.closure.lane(lane));
-                *stage = Stage::Closed(Closed { q, gaps, penetration, closure }, z, pushed);
-            }
-        }
-        Some(())
+        let (gaps, magnitude) = (self.wide.gaps(t, &q), motion::magnitude(&q));
+        let closed = projection.close(self.wide, (t, q, gaps), (response, magnitude), rests.as_ref()).ok()?;
+        let rates = self.wide.contact_rates(t, &closed.q, &z);
+        let at_end = (t, &closed.q, z, rates);
+        let (z, rates) = projection.stop(self.wide, at_end, response, (|i| modes[i], rounding));
+        (!projection.lockstep.has_parted()).then_some((closed, z, rates))
     }
 
-    /// Rates of what rests in all lanes brought to zero, and the end of the step; nothing, and nothing is changed,
-    /// where they part.
-    pub(super) fn stop_together(
+    /// The end of a step to each lane, and in packs where all of them go on.
+    fn take_together(
         &mut self,
         h: f64,
-        (t, q, z, rates): (W::Scalar, &W::Configuration, W::Speeds, W::ContactRows),
-    ) -> Option<()> {
-        // The rows that are brought to zero do not depend on the direction of slip.
-        let mode = |lane: usize, i: usize| match &self.stages[lane] {
-            Stage::Closed(_, _, pushed) => Some(match self.steppers[lane].mode_at_end(pushed, i) {
-                Mode::Slides(_) => Mode::Closed,
-                mode => mode,
-            }),
-            _ => None,
-        };
-        let modes: W::EachContact<Option<Mode>> =
-            Each::from_fn(|i| mode(0, i).filter(|_| self.alike(|lane| mode(lane, i))));
-        if modes.as_ref().iter().any(Option::is_none) {
-            return None;
+        (state, t): (&PackedState<W>, W::Scalar),
+        pushed: &PushedLanes<W>,
+        (closed, z, rates): (Closed<W>, W::Speeds, W::ContactRows),
+    ) {
+        let mut goes_on = true;
+        for (lane, (after, solved)) in self.solved.drain(..).enumerate() {
+            let stepper = &mut self.steppers[lane];
+            stepper.next = after;
+            let of_lane = Closed {
+                q: closed.q.extract(lane),
+                gaps: single::<W, _, K::Gaps>(&closed.gaps, lane),
+                penetration: closed.penetration.lane(lane),
+                closure: closed.closure.lane(lane),
+            };
+            let (z, rates) = (single::<W, _, K::Speeds>(&z, lane), single::<W, _, K::ContactRows>(&rates, lane));
+            let impulses = single::<W, _, K::ContactRows>(&pushed.impulses, lane);
+            goes_on &= !solved.struck;
+            let of_lane_pushed = Pushed { z, impulses, dependent: pushed.dependent, solved };
+            let end = stepper.end(of_lane_pushed, of_lane, (z, rates));
+            self.outcomes[lane] = stepper.made(h, end);
+            goes_on &= self.outcomes[lane].is_ok();
         }
-        let rounding = self.number(|lane| match &self.stages[lane] {
-            Stage::Closed(_, _, pushed) => self.steppers[lane].rounding_at_end(pushed),
-            _ => f64::NAN,
+        let (PushedLanes { impulses, .. }, Closed { q, gaps, .. }) = (pushed, closed);
+        self.packed = goes_on.then(|| {
+            let acceleration = z.add_scaled(-W::Scalar::one(), &state.z).scale(W::Scalar::from_f64(1.0 / h));
+            PackedState { t, q, z, gaps, rates, impulses: *impulses, acceleration }
         });
-        let response = self.response.as_ref()?;
-        let mut projection = Projection::<W>::new(&mut self.memory[impulses::memory(W::ContactRows::DIM)..]);
-        let mode = |i: usize| modes[i].unwrap_or(Mode::Open);
-        let (z, rates) = projection.stop(self.wide, (t, q, z, rates), response, (mode, rounding));
-        if projection.lockstep.has_parted() {
-            return None;
-        }
-        for (lane, stepper) in self.steppers.iter_mut().enumerate() {
-            if let Stage::Closed(closed, _, pushed) = core::mem::replace(&mut self.stages[lane], Stage::Made) {
-                let (z, rates) = (single::<W, _, K::Speeds>(&z, lane), single::<W, _, K::ContactRows>(&rates, lane));
-                let end = stepper.end(pushed, closed, (z, rates));
-                self.outcomes[lane] = stepper.made(h, end);
-            }
-        }
-        Some(())
     }
 }

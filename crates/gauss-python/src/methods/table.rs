@@ -283,8 +283,9 @@ impl<S: System> Table<S> {
         self.add(Id::Kinematics, |s, at, out| out.vector(&s.kinematics(at.t(), &at.q(), &at.z())));
         self.add(Id::Rates, |s, at, out| {
             let (t, q, z) = (at.t(), at.q(), at.z());
-            out.vector(&q.component_rates(&s.kinematics(t, &q, &z)));
-            out.vector(&s.acceleration(t, &q, &z, &at.input()));
+            let input = at.input();
+            out.vector(&q.component_rates(&s.configuration_rates(t, &q, &z, &input)));
+            out.vector(&s.acceleration(t, &q, &z, &input));
         });
         self.add(Id::Momentum, |s, at, out| out.vector(&s.momentum(at.t(), &at.q(), &at.z())));
         self.add(Id::Velocity, |s, at, out| out.vector(&s.velocity(at.t(), &at.q(), &at.z())));

@@ -29,11 +29,23 @@ impl<S: GaussSystem> GaussSystem for Stoppable<'_, S> {
     const CHART: Chart = S::CHART;
     const CONSTRAINED: bool = S::CONSTRAINED;
     const HAS_CONTACTS: bool = S::HAS_CONTACTS;
+    const STATES: usize = S::STATES;
     const SMOOTHNESS: Smoothness = S::SMOOTHNESS;
 
     #[inline(never)]
     fn kinematics(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> Velocity<S> {
         self.system.kinematics(t, q, z)
+    }
+
+    #[inline(never)]
+    fn configuration_rates(
+        &self,
+        t: S::Scalar,
+        q: &S::Configuration,
+        z: &S::Speeds,
+        input: &S::Input,
+    ) -> Velocity<S> {
+        self.system.configuration_rates(t, q, z, input)
     }
 
     // Methods have a dozen stages: with the kernel in each of them they would take minutes to compile.

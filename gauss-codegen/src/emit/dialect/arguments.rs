@@ -42,6 +42,7 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
     use ArgumentKind::{Factors, Impulses, Inputs, Momenta, Residuals, Speeds, Twist};
     match method {
         Method::Acceleration
+        | Method::ConfigurationRates
         | Method::Multipliers
         | Method::Powers
         | Method::ElementForces

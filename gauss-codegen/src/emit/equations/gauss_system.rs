@@ -13,11 +13,12 @@ use crate::emit::equations::constrained::projection;
 pub fn gauss_system(derived: &Derived<'_, '_>) -> TokenStream {
     let (types, smoothness) = (types(derived), smoothness(derived));
     let (methods, evaluate, projection) = (methods(derived), evaluate(derived), projection(derived));
-    let contacts = contacts(derived);
+    let (contacts, states) = (contacts(derived), states(derived));
     let items = quote! {
         #types
         #smoothness
         #contacts
+        #states
         #methods
         #evaluate
         #projection
@@ -45,6 +46,16 @@ fn types(derived: &Derived<'_, '_>) -> TokenStream {
     }
 }
 
+/// How many states elements have.
+fn states(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let states = derived.subject.system.scene.states.len();
+    (states > 0).then(|| {
+        quote!(
+            const STATES: ::core::primitive::usize = #states;
+        )
+    })
+}
+
 /// Whether gaps may close.
 fn contacts(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let touches = !derived.subject.system.contacts.is_empty();
@@ -55,7 +66,7 @@ fn contacts(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     })
 }
 
-/// Of the loads alone: kinematics are smooth where they are regular.
+/// Of the loads and the rates of states: kinematics are smooth where they are regular.
 fn smoothness(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let word = match derived.smoothness() {
         Smoothness::Smooth => return None,
@@ -82,6 +93,7 @@ fn methods(derived: &Derived<'_, '_>) -> TokenStream {
         (Method::GaussResidual, &speeds),
         (Method::ConstraintFunction, &scalar),
         (Method::Kinematics, &tangent),
+        (Method::ConfigurationRates, &tangent),
         (Method::Regularity, &scalar),
         (Method::NonlinearEffects, &speeds),
     ];

@@ -48,7 +48,9 @@ fn placed_by_coordinates(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (rotation, position) = pose.split_at(9);
     let rows = rotation.chunks(3).map(|row| quote!([#(#row),*]));
     let (by_configuration, columns) = derived.computed(derived.program(Method::PoseByConfiguration)?);
-    let columns: Vec<_> = columns.chunks(6).map(|column| quote!([#(#column),*])).collect();
+    // States of elements, which come last among the components, place no body: they stay zero.
+    let placing = derived.increments() - derived.subject.system.scene.states.len();
+    let columns: Vec<_> = columns.chunks(6).take(placing).map(|column| quote!([#(#column),*])).collect();
     let increments = columns.len();
     let pose = quote!(#instructions #private::pose_from_rows([#(#rows),*], [#(#position),*]));
     let pose = pose_function(derived, pose);

@@ -17,9 +17,14 @@ impl<'g> System<'g> {
         let kinematics = titled(
             "kinematics dq/dt = ψ(t, q, z) (3.2)",
             "kinematics $\\dot q = \\psi(t, q, z)$ (3.2)",
-            self.kinematic_rows(),
+            self.rows_of_rates(false),
         );
-        let mut sections = vec![kinematics];
+        let states = titled(
+            "states of elements dx/dt = f(t, q, z, input)",
+            "states of elements $\\dot x = f(t, q, z, \\text{input})$",
+            self.rows_of_rates(true),
+        );
+        let mut sections = vec![kinematics, states];
         let momenta = scene.momentum_names.iter().zip(self.momentum());
         let momenta = momenta.map(|(name, e)| Row::Definition(name.clone(), legible(e))).collect();
         let names = scene.momentum_names.iter().zip(&scene.force_names);
@@ -89,12 +94,13 @@ impl<'g> System<'g> {
         Section { title: Name::new(title, title), rows }
     }
 
-    /// Rates that are not speeds themselves.
-    fn kinematic_rows(&self) -> Vec<Row<'g>> {
+    /// Rates that are not speeds themselves: of the states of elements, or of the other coordinates.
+    fn rows_of_rates(&self, of_states: bool) -> Vec<Row<'g>> {
         let scene = &self.scene;
         let mut rates = scene.kinematics.iter().copied();
         let mut rows = Vec::new();
-        for (name, coordinate) in scene.coordinate_names.iter().zip(&scene.coordinates) {
+        for (k, (name, coordinate)) in scene.coordinate_names.iter().zip(&scene.coordinates).enumerate() {
+            let is_state = scene.states.contains(&k);
             let (u, omega) = (Name::new("u", "u").of(name), Name::new("ω", "\\omega").of(name));
             let names: Vec<Name> = match coordinate {
                 Coordinate::Scalar(_) => vec![name.time_derivative()],
@@ -103,7 +109,7 @@ impl<'g> System<'g> {
                 Coordinate::Plane { .. } => vec![u.index(0), u.index(1), omega],
             };
             for (name, rate) in names.into_iter().zip(&mut rates) {
-                if !scene.speeds.contains(&rate) {
+                if is_state == of_states && (is_state || !scene.speeds.contains(&rate)) {
                     rows.push(Row::Definition(name, legible(rate)));
                 }
             }

@@ -159,6 +159,7 @@ impl<'g> Symbols<'g> {
             graph: self.graph,
             time: self.time,
             coordinate_names: names("q", coordinates.len()),
+            states: 0..0,
             speeds: pick(&self.speeds),
             charted: None,
             momentum_names: names("p", kept.len()),

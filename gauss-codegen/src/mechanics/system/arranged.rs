@@ -3,7 +3,7 @@
 use crate::algebra::{Expr, Map};
 
 use crate::mechanics::arrangements::free_link::FreeLink;
-use crate::mechanics::formula::{Arrangements, Formulas};
+use crate::mechanics::formula::{Arrangements, Formula, Formulas, Method};
 use crate::mechanics::links::tree::Tree;
 
 use super::{System, tidied};
@@ -104,6 +104,13 @@ impl<'g> System<'g> {
         formulas
     }
 
+    /// q̇ with the rates of states; `None` where no element has states.
+    pub fn configuration_rates(&self) -> Option<Formula<'g>> {
+        let outputs = || vec![self.scene.kinematics.clone()];
+        let stateful = !self.scene.states.is_empty();
+        stateful.then(|| Formula { method: Method::ConfigurationRates, arrangements: outputs() })
+    }
+
     /// By the balance of the free link that is all of the system.
     fn arranged_as_body(&self, body: &FreeLink<'g>) -> Formulas<'g> {
         let balances = body.balances();
@@ -119,7 +126,7 @@ impl<'g> System<'g> {
         let potential = body.potential_energy();
         let potential = self.potential.map_or(potential, |other| potential + other);
         Formulas {
-            kinematics: vec![self.scene.kinematics.clone()],
+            kinematics: vec![self.scene.motion()],
             acceleration: and(balances.iter().map(|b| body.acceleration(b)).chain(dense).collect(), short.acceleration),
             momentum_rate: and(body.momentum_rates(&Map::default()), short.momentum_rate),
             velocity: and(body.velocities_of_momentum(), short.velocity),
@@ -138,7 +145,7 @@ impl<'g> System<'g> {
         let momentum = self.momentum();
         let velocity = self.velocities(&momentum);
         Formulas {
-            kinematics: vec![self.scene.kinematics.clone()],
+            kinematics: vec![self.scene.motion()],
             acceleration: self.accelerations(&arrangements),
             momentum: self.with_tidied(momentum).into_iter().chain(self.by_given_poles(Tree::momentum)).collect(),
             momentum_rate: velocity.iter().flat_map(|z| self.momentum_rates(z, &arrangements[0])).collect(),

@@ -122,7 +122,8 @@ pub fn check_effect(statements: &Statements, context: &mut Context) {
     let of_forces =
         statements.forces.iter().flat_map(|clause| clause.expressions()).map(|(_, _, expression)| expression);
     let of_contacts = statements.contacts.iter().flat_map(|clause| clause.friction.iter().chain(&clause.rolling));
-    of_forces.chain(of_contacts).for_each(|expression| expression.put_names(&mut used));
+    let of_states = statements.states.iter().filter_map(|state| state.rate.as_ref());
+    of_forces.chain(of_contacts).chain(of_states).for_each(|expression| expression.put_names(&mut used));
     for input in statements.inputs.iter().flat_map(|names| &names.names) {
         let ident = &input.ident;
         if !used.contains(&word(ident)) {

@@ -26,6 +26,8 @@ pub enum Owner {
     Point,
     /// In the brackets of `constraint(…)`.
     Constraint,
+    /// In the brackets of `states(…)`.
+    States,
     /// In the brackets of `define(…)`.
     Define,
     /// In the brackets of a clause of a force element, which begins with this word.
@@ -44,6 +46,7 @@ impl Owner {
             Owner::Body | Owner::Frame | Owner::Particle => "an argument such as `position = [x, y, 0]`",
             Owner::Point => "an argument such as `at = [l, 0, 0]`",
             Owner::Constraint => "`position = …` or `velocity = …`",
+            Owner::States => "the rate of a state such as `x = (u - x) / tau`",
             Owner::Define => "a definition such as `u = body.relative_velocity`",
             Owner::Action { example, .. } => example,
         }
@@ -59,6 +62,7 @@ impl Owner {
             Owner::Particle => "particle",
             Owner::Point => "point",
             Owner::Constraint => "constraint",
+            Owner::States => "states",
             Owner::Define => "define",
             Owner::Action { word, .. } => word,
         }

@@ -34,6 +34,13 @@ pub struct Kinematics {
     pub complete: bool,
 }
 
+/// `states(x = …)`: one of its equations.
+pub struct StateClause {
+    pub name: Ident,
+    /// One that could not be read is kept, so that its name is known.
+    pub rate: Option<Expression>,
+}
+
 /// `define(name = …)`: one of its equations.
 pub struct Definition {
     pub name: Ident,
@@ -315,6 +322,34 @@ pub fn read_kinematics(clause: &Clause, context: &mut Context) -> Kinematics {
         kinematics.rates.push((equation.name.clone(), value(equation, "v", context)));
     }
     kinematics
+}
+
+/// `states(current = (voltage - r * current) / l, …)`, and whether every name could be read.
+pub fn read_states(clause: &Clause, context: &mut Context) -> (Vec<StateClause>, bool) {
+    const EXAMPLE: &str = "x = (u - x) / tau";
+    let Some(group) = brackets(clause, EXAMPLE, context) else { return (Vec::new(), false) };
+    let (equations, mut complete) = arguments::arguments(group, Owner::States, context);
+    let mut states = Vec::new();
+    for equation in &equations {
+        let Some(name) = arguments::name(&equation.name, "state", context) else {
+            complete = false;
+            continue;
+        };
+        let rate = if matches!(equation.value, Content::Absent) {
+            context.error(
+                name.span(),
+                format!(
+                    "the state `{name}` has no rate, so nothing determines it; write `{name} = …` with its rate, or \
+                     `coordinates({name})` of what moves a body"
+                ),
+            );
+            None
+        } else {
+            value(equation, "…", context)
+        };
+        states.push(StateClause { name, rate });
+    }
+    (states, complete)
 }
 
 /// `define(u = body.relative_velocity, …)`.

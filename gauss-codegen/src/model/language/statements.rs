@@ -4,7 +4,7 @@
 use super::arguments::{self, brackets, equals, value};
 use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
-use super::declarations::{self, Definition, Kinematics, Names};
+use super::declarations::{self, Definition, Kinematics, Names, StateClause};
 use super::words::{self, Table, same};
 use super::{actions, contacts, own_functions, placements, role_clauses};
 use crate::model::scene::clauses::{
@@ -34,6 +34,8 @@ pub struct Statements {
     pub coordinates: Option<Names<Coordinate>>,
     pub speeds: Option<Names<Speed>>,
     pub kinematics: Option<Kinematics>,
+    /// States of elements.
+    pub states: Vec<StateClause>,
     pub bodies: Vec<BodyClause>,
     pub particles: Vec<ParticleClause>,
     pub points: Vec<PointClause>,
@@ -83,6 +85,7 @@ pub enum Statement {
     Redundant,
     Potential,
     Input,
+    States,
     /// A force element.
     Element(&'static Row),
     Limit,
@@ -96,7 +99,7 @@ pub enum Statement {
 }
 
 /// The clauses of systems, but for those of force elements: these stand between the two.
-const DECLARED: [(&str, Statement); 15] = [
+const DECLARED: [(&str, Statement); 16] = [
     ("coordinates", Statement::Coordinates),
     ("speeds", Statement::Speeds),
     ("kinematics", Statement::Kinematics),
@@ -112,6 +115,7 @@ const DECLARED: [(&str, Statement); 15] = [
     ("redundant", Statement::Redundant),
     ("potential", Statement::Potential),
     ("input", Statement::Input),
+    ("states", Statement::States),
 ];
 const OTHERS: [(&str, Statement); 8] = [
     ("armature", Statement::Armature),
@@ -204,6 +208,7 @@ impl Statements {
             | Statement::Kinematics
             | Statement::Independent
             | Statement::Input
+            | Statement::States
             | Statement::Define
             | Statement::Function
             | Statement::Table
@@ -282,6 +287,11 @@ impl Statements {
             Statement::Input => {
                 let names = declarations::read_inputs(clause, context);
                 self.inputs = self.inputs.take().or(Some(names));
+            }
+            Statement::States => {
+                let (states, complete) = declarations::read_states(clause, context);
+                self.note_read(complete, statement);
+                self.states.extend(states);
             }
             Statement::Define => {
                 let definitions = declarations::read_definitions(clause, context);

@@ -80,7 +80,6 @@ const REFERENCE: &str = "the observer needs no clause; a frame with a known moti
 /// In the place of a clause of the struct.
 pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("state", STATES),
-    ("states", STATES),
     ("dof", STATES),
     ("degrees_of_freedom", STATES),
     ("generalized_coordinates", STATES),

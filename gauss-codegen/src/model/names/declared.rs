@@ -25,6 +25,7 @@ pub fn scope(
         && !statements.missed_any(&[
             Statement::Frame,
             Statement::Point,
+            Statement::States,
             Statement::Define,
             Statement::Function,
             Statement::Table,
@@ -38,6 +39,9 @@ pub fn scope(
     }
     for speed in speeds.iter().flat_map(|names| &names.names) {
         scope.add(&speed.ident, Meaning::Speed(speed.kind));
+    }
+    for state in &statements.states {
+        scope.add(&state.name, Meaning::State);
     }
     for input in inputs.iter().flat_map(|names| &names.names) {
         scope.add(&input.ident, Meaning::Input(input.kind));

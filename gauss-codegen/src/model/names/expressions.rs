@@ -18,6 +18,7 @@ pub fn all(statements: &Statements) -> Vec<(Place, &Expression)> {
         let kind = coordinates().find(|coordinate| same(&coordinate.ident, name)).map(|coordinate| coordinate.kind);
         all.extend(rate.as_ref().map(|rate| (Place::Kinematics(kind), rate)));
     }
+    all.extend(statements.states.iter().filter_map(|state| Some((Place::State, state.rate.as_ref()?))));
     for body in &statements.bodies {
         all.extend(body.position.as_ref().map(|position| (Place::Position, position)));
         all.extend(body.rotation.as_ref().map(|rotation| (Place::Rotation, rotation)));
@@ -65,6 +66,7 @@ impl Statements {
     pub fn each_expression(&mut self, change: &mut dyn FnMut(&mut Expression)) {
         let rates = self.kinematics.iter_mut().flat_map(|kinematics| &mut kinematics.rates);
         rates.filter_map(|(_, rate)| rate.as_mut()).for_each(&mut *change);
+        self.states.iter_mut().filter_map(|state| state.rate.as_mut()).for_each(&mut *change);
         for body in &mut self.bodies {
             body.position.iter_mut().chain(&mut body.rotation).for_each(&mut *change);
         }

@@ -219,10 +219,17 @@ impl Checker<'_> {
                 self.note(name.span(), self.acceleration(&name.to_string(), &format!("`{name}` itself")))
             }
             Meaning::Input(_) if self.differentiated => self.note(name.span(), rate_of_input(name)),
+            Meaning::State if self.differentiated => self.note(
+                name.span(),
+                format!(
+                    "the rate of the state `{name}` is what `states({name} = …)` says; give that a name by `define(…)`, \
+                     and write it in the place of the rate"
+                ),
+            ),
             Meaning::Time | Meaning::Pi | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => {
                 Some(Kind::Scalar)
             }
-            Meaning::Speed(SpeedKind::Scalar) | Meaning::Input(InputKind::Scalar) => Some(Kind::Scalar),
+            Meaning::Speed(SpeedKind::Scalar) | Meaning::State | Meaning::Input(InputKind::Scalar) => Some(Kind::Scalar),
             Meaning::Speed(SpeedKind::Vector) | Meaning::Input(InputKind::Vector) => Some(Kind::Vector),
             Meaning::Function { .. } => self.note(name.span(), format!("`{name}` is a function; write `{name}(x)`")),
             Meaning::Input(InputKind::Wrench) => self.note(

@@ -13,8 +13,8 @@ use syn::ext::IdentExt;
 /// A name, and what it names.
 type Named<'a> = (&'a Ident, &'static str);
 
-/// Refuses names that are used twice, among fields, coordinates, speeds, inputs, definitions, functions, bodies, frames
-/// and points, and among force elements and contacts; and names that expressions use already.
+/// Refuses names that are used twice, among fields, coordinates, speeds, states, inputs, definitions, functions,
+/// bodies, frames and points, and among force elements and contacts; and names that expressions use already.
 pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Context) {
     // Expressions do not name force elements and contacts: a force may have the name of its input.
     let acting = acting(statements);
@@ -60,6 +60,7 @@ pub(super) fn declared<'a>(statements: &'a Statements, fields: &[ReadField<'a>])
         .map(|field| (field.ident, "field"))
         .chain(coordinates.map(|coordinate| (&coordinate.ident, "coordinate")))
         .chain(speeds.map(|speed| (&speed.ident, "speed")))
+        .chain(statements.states.iter().map(|state| (&state.name, "state")))
         .chain(inputs.map(|input| (&input.ident, "input")))
         .chain(statements.definitions.iter().map(|definition| (&definition.name, "definition")))
         .chain(statements.functions.iter().map(|function| (&function.name, "function")))

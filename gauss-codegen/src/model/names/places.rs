@@ -45,6 +45,8 @@ impl Holder {
 pub enum Place {
     /// The rate of a coordinate; of `None` it is not known which.
     Kinematics(Option<CoordinateKind>),
+    /// The rate of a state.
+    State,
     /// Of a body or a frame.
     Position,
     /// Of a body or a frame.
@@ -119,7 +121,7 @@ impl Place {
             Place::Kinematics(None) => true,
             Place::Kinematics(Some(CoordinateKind::Scalar)) | Place::Mass | Place::Potential => kind == Kind::Scalar,
             Place::Gap | Place::Slip | Place::Friction | Place::Bound | Place::Rolling => kind == Kind::Scalar,
-            Place::Limited | Place::Limit => kind == Kind::Scalar,
+            Place::Limited | Place::Limit | Place::State => kind == Kind::Scalar,
             Place::Drive | Place::Along(_) | Place::Constant { .. } | Place::Dissipation | Place::Coefficient(_) => {
                 kind == Kind::Scalar
             }
@@ -159,6 +161,7 @@ impl Place {
                 ("the rate of a coordinate is a scalar", "write one number, such as `v * cos(theta)`")
             }
             Place::Position | Place::Particle { .. } => ("a position is a vector", "write `[x, y, z]`"),
+            Place::State => ("the rate of a state is a scalar", "write one number, such as `(u - x) / tau`"),
             Place::At => ("the place of a point in its body is a vector", "write `[x, y, z]`"),
             Place::Rotation => ("expected a rotation", "write `rotation_z(theta)`, or a product of such turns"),
             Place::Mass => ("the mass of a particle is a scalar", "write one number or the name of a field"),
@@ -241,7 +244,7 @@ impl Place {
             Meaning::Time => !self.is_constant(),
             Meaning::Coordinate(_) => !self.is_constant() && !self.is_given(),
             Meaning::Speed(_) => self.of_velocities(),
-            Meaning::Input(_) => self.is_action(),
+            Meaning::Input(_) | Meaning::State => self.is_action(),
             Meaning::Body | Meaning::Frame | Meaning::Point => {
                 self.is_action()
                     || matches!(
@@ -269,6 +272,7 @@ impl Place {
             Place::Force
                 | Place::Torque
                 | Place::Drive
+                | Place::State
                 | Place::Dissipation
                 | Place::Coefficient(_)
                 | Place::Friction
@@ -314,6 +318,7 @@ impl Place {
     pub fn subject(self) -> String {
         let subject = match self {
             Place::Kinematics(_) => "the rate of a coordinate",
+            Place::State => "the rate of a state",
             Place::Position | Place::Particle { .. } => "a position",
             Place::Rotation => "a rotation",
             Place::Mass => "a mass",
@@ -359,6 +364,11 @@ impl Place {
             (Place::Medium, _) => format!(
                 "`{name}` moves with the system, and there is no added mass in a stream that varies with the place; write \
                  the velocity of the medium in `t`, fields and numbers, and the drag in any other stream as `force(…)`"
+            ),
+            (_, Meaning::State) => format!(
+                "`{name}` is a state of an element, which moves no body and stores no energy that the equations know of; \
+                 states stand in values of `force`, `torque`, `wrench` and `drive`, in coefficients of `drag`, in `damping` \
+                 and in the rates of `states`"
             ),
             (_, Meaning::Input(_)) => format!(
                 "`{name}` is an input, whose value is not known before run time, and whose rate is never; inputs stand \
@@ -458,7 +468,7 @@ impl Place {
     /// Why nothing that is not smooth may stand here.
     pub fn refuses_kinks(self) -> Option<String> {
         match self {
-            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) => None,
+            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) | Place::State => None,
             Place::Friction | Place::Bound | Place::Rolling | Place::Definition => None,
             Place::Dissipation => Some("forces are derivatives of a dissipation function".into()),
             place if place.is_constant() => None,
@@ -469,7 +479,7 @@ impl Place {
     /// What to say of a function that is not smooth, where derivatives are taken.
     pub fn refuses_kink(self, function: FunctionName) -> Option<String> {
         match self {
-            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) => None,
+            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) | Place::State => None,
             Place::Friction | Place::Bound | Place::Rolling | Place::Definition => None,
             place if place.is_constant() => Some(format!(
                 "`{}` stands in values of forces only; make the number a field of the struct",

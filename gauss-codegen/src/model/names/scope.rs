@@ -17,6 +17,8 @@ pub enum Meaning {
     Time,
     Coordinate(CoordinateKind),
     Speed(SpeedKind),
+    /// A state of an element, whose rate is given.
+    State,
     /// A value that arrives at run time.
     Input(InputKind),
     /// An expression, by its place among the definitions.
@@ -190,6 +192,7 @@ impl Scope {
         for noun in [
             "the coordinate ",
             "the speed ",
+            "the state ",
             "the input ",
             "the definition ",
             "the field ",
@@ -224,6 +227,7 @@ impl Meaning {
             Meaning::Time | Meaning::Pi | Meaning::Unusable(_) => "",
             Meaning::Coordinate(_) => "the coordinate ",
             Meaning::Speed(_) => "the speed ",
+            Meaning::State => "the state ",
             Meaning::Input(_) => "the input ",
             Meaning::Definition(_) => "the definition ",
             Meaning::Scalar | Meaning::Vector => "the field ",
@@ -259,7 +263,7 @@ impl Meaning {
         match self {
             Meaning::Function { .. } => "a function",
             Meaning::Time | Meaning::Pi | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => "a scalar",
-            Meaning::Speed(SpeedKind::Scalar) | Meaning::Input(InputKind::Scalar) => "a scalar",
+            Meaning::Speed(SpeedKind::Scalar) | Meaning::State | Meaning::Input(InputKind::Scalar) => "a scalar",
             Meaning::Vector | Meaning::Speed(SpeedKind::Vector) | Meaning::Input(InputKind::Vector) => "a vector",
             Meaning::Input(InputKind::Wrench) => "a wrench",
             Meaning::Definition(_) => "a definition",

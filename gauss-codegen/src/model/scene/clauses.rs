@@ -25,6 +25,15 @@ pub enum CoordinateKind {
     Rotation,
 }
 
+/// A state of an element: a number that changes at a given rate, and moves no body.
+#[derive(Clone)]
+pub struct State {
+    /// Its name.
+    pub ident: Ident,
+    /// ẋ = f(t, q, z, x, input): a scalar of all that is known at an instant.
+    pub rate: Expression,
+}
+
 /// One speed, or three under one name.
 #[derive(Clone)]
 pub struct Speed {

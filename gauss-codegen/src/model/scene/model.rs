@@ -3,7 +3,7 @@
 
 use super::clauses::{
     BodyClause, Coefficients, ConstraintClause, Coordinate, ParticleClause, PointClause, RoleClause, RoleValue, Speed,
-    SpeedPart,
+    SpeedPart, State,
 };
 use super::contacts::ContactClause;
 use super::expression::Expression;
@@ -28,6 +28,8 @@ pub struct Model {
     /// q̇ = ψ(t, q, z) of (3.2): one for each coordinate, in the order of the coordinates; empty without speeds. A
     /// scalar for a scalar, ω in body axes for a rotation, a call of [`Twist`](super::FunctionName::Twist) for a pose.
     pub kinematics: Vec<(Ident, Expression)>,
+    /// States of elements, in order: components of the configuration behind all others, with rates of their own.
+    pub states: Vec<State>,
     /// The bodies and frames, in the order in which they are written: a parent may come after its child.
     pub bodies: Vec<BodyClause>,
     /// The particles of (3.3).
@@ -59,10 +61,11 @@ pub struct Model {
 }
 
 impl Model {
-    /// One body in a chart, which nothing is attached to and nothing constrains.
+    /// One body in a chart, which nothing is attached to and nothing constrains, and which is all of the state.
     pub fn chart_of_all(&self) -> Option<InChart> {
         let alone = self.bodies.len() == 1
             && self.coordinates.is_empty()
+            && self.states.is_empty()
             && self.particles.is_empty()
             && self.constraints.is_empty();
         self.in_chart.filter(|_| alone)

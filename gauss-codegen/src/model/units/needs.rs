@@ -44,6 +44,9 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
         let rotation = coordinate.kind == CoordinateKind::Rotation;
         checker.add(&coordinate.ident, if rotation { Dimensions::Rotation } else { Dimensions::UNKNOWN });
     }
+    for state in &statements.states {
+        checker.add(&state.name, Dimensions::UNKNOWN);
+    }
     for point in &statements.points {
         checker.add(&point.name, Dimensions::of(LENGTH.1));
     }
@@ -90,6 +93,9 @@ impl Checker<'_> {
                     self.value(rate);
                 }
             }
+        }
+        for rate in statements.states.iter().filter_map(|state| state.rate.as_ref()) {
+            self.value(rate);
         }
         for body in &statements.bodies {
             self.optional(&body.position, &Need::new("positions are", LENGTH));

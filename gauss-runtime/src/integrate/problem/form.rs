@@ -75,7 +75,10 @@ impl<S: GaussSystem> Form<S> for VelocityForm {
     fn rates<I: InputSource<S>>(self, system: &S, input: &I, state: &State<S>) -> Rates<S> {
         let State { t, q, y } = state;
         let input = input.input(*t, q, y);
-        Rates { configuration: system.kinematics(*t, q, y), variables: system.acceleration(*t, q, y, &input) }
+        Rates {
+            configuration: system.configuration_rates(*t, q, y, &input),
+            variables: system.acceleration(*t, q, y, &input),
+        }
     }
 
     #[inline(always)]
@@ -118,7 +121,10 @@ impl<S: GaussSystem> Form<S> for MomentumForm {
         let State { t, q, y } = state;
         let z = system.velocity(*t, q, y);
         let input = input.input(*t, q, &z);
-        Rates { configuration: system.kinematics(*t, q, &z), variables: system.momentum_rate(*t, q, y, &input) }
+        Rates {
+            configuration: system.configuration_rates(*t, q, &z, &input),
+            variables: system.momentum_rate(*t, q, y, &input),
+        }
     }
 
     #[inline(always)]

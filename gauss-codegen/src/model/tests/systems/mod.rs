@@ -11,6 +11,7 @@ mod forces;
 mod frames;
 mod groups;
 mod names;
+mod states;
 mod two_bodies;
 
 use super::{Mistake, check};
