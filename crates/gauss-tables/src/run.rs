@@ -1,6 +1,7 @@
 //! Tables of runs: columns that follow from states.
 
-use gauss_runtime::chart::{Chart, EulerSequence, RotationChart, coordinates_of_rotation};
+use gauss_runtime::chart::rotation::coordinates_of_rotation;
+use gauss_runtime::chart::{Chart, EulerSequence, RotationChart};
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::description::DescribedSystem;
