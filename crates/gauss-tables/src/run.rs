@@ -11,7 +11,7 @@ use gauss_runtime::nalgebra::{Quaternion, UnitQuaternion};
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
 
-use crate::table::Table;
+use crate::table::{ColumnError, Table};
 
 /// A table whose rows are states of a system S: what a run is tabulated as.
 pub type RunTable<S> = Table<Sample<S>>;
@@ -184,46 +184,53 @@ impl<S: GaussSystem> Table<Sample<S>> {
     ///
     /// Rotations are found by the [names](DescribedSystem::COORDINATE_NAMES) of a scene; others, such as those of frames,
     /// are tabulated by [`euler_angles_of`](Self::euler_angles_of).
+    ///
+    /// # Errors
+    /// [`ColumnError::Sequence`], [`ColumnError::NoRotation`].
     #[doc(alias = "roll pitch yaw")]
-    #[must_use]
-    pub fn euler_angles(mut self, sequence: EulerSequence) -> Self
+    pub fn euler_angles(mut self, sequence: EulerSequence) -> Result<Self, ColumnError>
     where
         S: DescribedSystem,
     {
-        let names = S::COORDINATE_NAMES;
+        let (names, before) = (S::COORDINATE_NAMES, self.iter().count());
         for first in 0..names.len() {
             let number = move |sample: &Sample<S>, i: usize| sample.q.components().component(first + i).lane(0);
             if let Some(name) = stem(&names[first..], &["_i", "_j", "_k", "_w"]) {
                 self = self.euler_angles_of(name, sequence, move |sample| {
                     let [i, j, k, w] = std::array::from_fn(|n| number(sample, n));
                     UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k))
-                });
+                })?;
             } else if let Some(name) = stem(&names[first..], &["_cos", "_sin"]) {
                 let angle = move |sample: &_, put: &mut dyn FnMut(f64)| put(number(sample, 1).atan2(number(sample, 0)));
                 self = self.with([(format!("{name}_angle"), "rad")], angle);
             }
         }
-        self
+        if self.iter().count() > before { Ok(self) } else { Err(ColumnError::NoRotation) }
     }
 
     /// The Euler angles of a rotation that follows from the state, body to observer, called as those of
     /// [`euler_angles`](Self::euler_angles).
-    #[must_use]
+    ///
+    /// # Errors
+    /// [`ColumnError::Sequence`].
     pub fn euler_angles_of(
         self,
         name: &str,
         sequence: EulerSequence,
         rotation: impl Fn(&Sample<S>) -> UnitQuaternion<f64>,
-    ) -> Self {
+    ) -> Result<Self, ColumnError> {
+        if !sequence.is_valid() {
+            return Err(ColumnError::Sequence(sequence.axes));
+        }
         let ends = match sequence {
             EulerSequence::ZYX => ["yaw", "pitch", "roll"],
             EulerSequence::ZXZ => ["precession", "nutation", "spin"],
             _ => ["angle_1", "angle_2", "angle_3"],
         };
-        self.with(ends.map(|end| (format!("{name}_{end}"), "rad")), |sample, put| {
+        Ok(self.with(ends.map(|end| (format!("{name}_{end}"), "rad")), |sample, put| {
             let angles = coordinates_of_rotation(RotationChart::Euler(sequence), &rotation(sample));
             angles.unwrap_or([f64::NAN; 3]).into_iter().for_each(put);
-        })
+        }))
     }
 }
 

@@ -15,7 +15,7 @@ use gauss_runtime::real::Real;
 /// use gauss_tables::Table;
 ///
 /// struct Shot { speed: f64, range: f64 }
-/// let shots = [10.0, 20.0].map(|speed: f64| Shot { speed, range: speed * speed / 9.81 }).to_vec();
+/// let shots: Vec<Shot> = [10.0, 20.0].map(|speed| Shot { speed, range: speed * speed / 9.81 }).into();
 /// let table = Table::of(shots).columns(["speed", "range"], |shot| [shot.speed, shot.range]);
 /// let table = table.units([("speed", "m/s"), ("range", "m")])?;
 /// assert!(table.to_string().starts_with("speed / (m/s),range / m\n10.0,"));
@@ -79,6 +79,10 @@ pub enum ColumnError {
     },
     /// Names that two columns have.
     Twice(Vec<String>),
+    /// Axes that no sequence of Euler angles has: others than 0, 1, 2, or neighbours that are equal.
+    Sequence([u8; 3]),
+    /// Euler angles of a configuration among whose names there is no rotation.
+    NoRotation,
 }
 
 impl fmt::Display for ColumnError {
@@ -90,6 +94,13 @@ impl fmt::Display for ColumnError {
                 write!(f, "columns are as long as the first one, which has {rows} numbers: {}", told.join(", "))
             }
             Self::Twice(names) => write!(f, "two columns are called `{}`", names.join("`, `")),
+            Self::Sequence([a, b, c]) => write!(
+                f,
+                "Euler angles are about axes 0, 1 or 2, neighbours about different ones, and not about {a}, {b}, {c}"
+            ),
+            Self::NoRotation => f.write_str(
+                "the configuration has no rotation or pose by name; `euler_angles_of` takes any rotation of a state",
+            ),
         }
     }
 }

@@ -100,8 +100,8 @@ fn rotations_have_angles() {
         ..Default::default()
     };
     let run = Simulation::new(&kernel).adaptive(1e-9, 1e-9).run(state.q(), state.z(), 0.0..1.0).expect("runs");
-    let table =
-        run.table().euler_angles(EulerSequence::ZYX).euler_angles_of("same", EulerSequence::ZXZ, |s| s.q.0.rotation);
+    let table = run.table().euler_angles(EulerSequence::ZYX).expect("there are rotations");
+    let table = table.euler_angles_of("same", EulerSequence::ZXZ, |s| s.q.0.rotation).expect("a sequence");
     let names = ["craft_yaw", "craft_pitch", "craft_roll", "dish_yaw", "dish_pitch", "dish_roll"];
     let of = |name: &str| table.get(name).expect("is there")[0];
     assert_eq!(table.names().skip(1).take(6).collect::<Vec<_>>(), names);
@@ -115,4 +115,21 @@ fn rotations_have_angles() {
         * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), c);
     assert!(back.angle_to(&state.craft.rotation) < 1e-14);
     assert!(table.si().iter().skip(1).all(|column| column.unit == Some("rad")));
+
+    let wrong = run.table().euler_angles(EulerSequence { axes: [2, 2, 7] }).expect_err("not a sequence");
+    assert_eq!(
+        wrong.to_string(),
+        "Euler angles are about axes 0, 1 or 2, neighbours about different ones, and not about 2, 2, 7"
+    );
+    // At the pole, within rounding, angles are not to be told apart: none are made up.
+    let pole = |s: &Sample<CraftKernel>| UnitQuaternion::from_euler_angles(0.0, std::f64::consts::FRAC_PI_2, s.t);
+    let table = run.table().euler_angles_of("pole", EulerSequence::ZYX, pole).expect("a sequence");
+    assert!(table.get("pole_pitch").expect("is there").iter().all(|angle| angle.is_nan()));
+}
+
+/// A system without rotations has no angles of them, and says so.
+#[test]
+fn no_rotation_no_angles() {
+    let table = Table::<Sample<Oscillator<Viscous>>>::new(Vec::new());
+    assert!(matches!(table.euler_angles(EulerSequence::ZYX), Err(ColumnError::NoRotation)));
 }
