@@ -57,7 +57,7 @@ fn the_covariance_goes_with_the_prediction() {
 /// With independent axes an update weighs prior and measurement by their variances.
 #[test]
 fn a_look_weighs_by_variances() {
-    let mut estimate = Estimate::first();
+    let (kernel, mut estimate) = (spacecraft().kernel().unwrap(), Estimate::first());
     let seen = nominal().0.retract(&Vector3::new(1e-3, -2e-3, 5e-4));
     estimate.look(&kernel, &seen).unwrap();
     let prior = FIRST.0 * FIRST.0;
