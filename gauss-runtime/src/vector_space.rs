@@ -119,7 +119,9 @@ pub(crate) fn add_carrying<T: Real, V: VectorSpace<T>>(x: &V, increment: &V, car
     (sum, rest)
 }
 
-/// A pair of vectors: the increments of a pair of configurations, first's components before second's.
+/// A pair of vectors: the increments of a pair of configurations, first's components before second's. Flat vectors
+/// become pairs and pairs flat vectors by `.into()`; states of kernels are moved by flat vectors without it:
+/// [`Increments`](crate::increments::Increments).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Product<A, B> {
     /// Part of the first factor.
