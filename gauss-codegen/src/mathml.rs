@@ -251,6 +251,7 @@ impl<'a> Reader<'a> {
                 let inside = self.row(End::Right);
                 format!("<mrow>{open}{inside}{}</mrow>", self.atom())
             }
+            "bigl" | "bigr" | "biggl" | "biggr" | "Biggl" | "Biggr" | "big" => self.atom(),
             "mathit" => format!("<mi style=\"font-style:italic\">{}</mi>", self.inner_words()),
             "operatorname" | "mathrm" => format!("<mi mathvariant=\"normal\">{}</mi>", self.raw()),
             "text" => format!("<mtext>{}</mtext>", self.raw()),

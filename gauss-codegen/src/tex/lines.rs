@@ -1,0 +1,132 @@
+//! Equations as `align*` environments, no line wider than a page of 16 cm.
+
+use super::breaks::{DEEPEST, Joint, Part, QUAD, parts};
+use super::read::read;
+use super::width::width;
+
+/// A page's text, in points: 16 cm.
+const PAGE: f64 = 455.2;
+/// Left sides that are wider stand in lines of their own.
+const LEFT: f64 = 110.0;
+/// `=` with its spaces.
+const EQUALS: f64 = 13.4;
+/// Lines of one `align*`: TeX sets it as a whole, and no box is higher than 5.7 m.
+const LINES: usize = 100;
+
+/// Headings, each with its equations `left = right`.
+pub fn environments(sections: &[(String, Vec<String>)]) -> String {
+    let mut lines = Vec::new();
+    let equations: Vec<(&str, Vec<Sides<'_>>)> = sections
+        .iter()
+        .map(|(title, equations)| (title.as_str(), equations.iter().map(|equation| Sides::of(equation)).collect()))
+        .collect();
+    let left = equations.iter().flat_map(|(_, equations)| equations).filter(|sides| sides.aligned);
+    let left = left.map(|sides| sides.width).fold(0.0, f64::max);
+    for (title, equations) in &equations {
+        lines.extend(titled(title, PAGE - left));
+        lines.extend(equations.iter().flat_map(|sides| sides.lines(PAGE - left)));
+    }
+    let lines: Vec<String> = lines.into_iter().map(|line| format!("{line} \\\\\n")).collect();
+    let environments =
+        lines.chunks(LINES).map(|lines| format!("\\begin{{align*}}\n{}\\end{{align*}}\n", lines.concat()));
+    environments.collect()
+}
+
+/// An equation.
+struct Sides<'a> {
+    left: &'a str,
+    right: &'a str,
+    /// Of the left side.
+    width: f64,
+    /// The left side stands before the others' signs of equality.
+    aligned: bool,
+}
+
+impl<'a> Sides<'a> {
+    fn of(equation: &'a str) -> Self {
+        let (left, right) = equation.split_once(" = ").unwrap_or(("", equation));
+        let width = width(&read(left));
+        Self { left, right, width, aligned: !left.is_empty() && width <= LEFT }
+    }
+
+    fn lines(&self, room: f64) -> Vec<String> {
+        if self.aligned {
+            // Continuations have one `\quad`, which is less than what is before the first part.
+            let parts = parts(&read(self.right), room - EQUALS);
+            return filled(&format!("{} &= ", self.left), EQUALS, &parts, room);
+        }
+        let mut all = Vec::new();
+        if !self.left.is_empty() {
+            all = parts(&read(self.left), room - QUAD);
+        }
+        let mut right = parts(&read(self.right), room - QUAD - EQUALS);
+        if let Some(first) = right.first_mut().filter(|_| !self.left.is_empty()) {
+            first.tex = format!("= {}", first.tex);
+            first.width += EQUALS;
+            first.begins_long = false;
+        }
+        all.extend(right);
+        filled("& ", 0.0, &all, room)
+    }
+}
+
+/// Parts in as few lines as they fit in.
+fn filled(begin: &str, begin_width: f64, parts: &[Part], room: f64) -> Vec<String> {
+    let mut lines = Vec::new();
+    let (mut line, mut width) = (begin.to_owned(), begin_width);
+    for (k, part) in parts.iter().enumerate() {
+        let (joint, space) = if k == 0 { ("", 0.0) } else { part.joint.within() };
+        let new = k > 0 && (width + space + part.width > room || part.begins_long && width > room / 3.0);
+        if new {
+            lines.push(std::mem::take(&mut line));
+            let quads = 1 + part.level.min(DEEPEST);
+            let (joint, space) = if part.joint == Joint::Sign { ("", 0.0) } else { part.joint.at_begin() };
+            line = format!("&{}{joint} {}", "\\quad".repeat(quads), part.tex.trim_start());
+            width = QUAD * quads as f64 + space + part.width;
+        } else {
+            line = format!("{line}{joint}{}", part.tex);
+            width += space + part.width;
+        }
+    }
+    lines.push(line);
+    lines.into_iter().map(|line| line.trim_end().to_owned()).collect()
+}
+
+/// A heading, in as many lines as it takes: words with formulas between dollars.
+fn titled(title: &str, room: f64) -> Vec<String> {
+    let of = |words: &str| {
+        let sizes = words.split('$').enumerate();
+        let sizes = sizes.map(|(k, piece)| {
+            let formula = if k % 2 == 0 { format!("\\text{{{piece}}}") } else { piece.to_owned() };
+            width(&read(&formula))
+        });
+        sizes.sum::<f64>()
+    };
+    let mut lines = vec![String::new()];
+    for word in words(title) {
+        let last = lines.last_mut().map(std::mem::take).unwrap_or_default();
+        let longer = if last.is_empty() { word.clone() } else { format!("{last} {word}") };
+        if last.is_empty() || of(&longer) <= room {
+            lines.pop();
+            lines.push(longer);
+        } else {
+            lines.pop();
+            lines.extend([last, word]);
+        }
+    }
+    lines.into_iter().map(|line| format!("&\\text{{{line}}}")).collect()
+}
+
+/// Words, with formulas that are not broken.
+fn words(title: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    let mut open = false;
+    for word in title.split(' ') {
+        match words.last_mut().filter(|_| open) {
+            Some(last) => *last = format!("{last} {word}"),
+            None => words.push(word.to_owned()),
+        }
+        open ^= word.matches('$').count() % 2 == 1;
+    }
+    words
+}
