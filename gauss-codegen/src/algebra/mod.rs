@@ -13,6 +13,7 @@ mod expressions;
 mod large;
 mod linear;
 mod map;
+mod naming;
 mod normal_form;
 mod numbers;
 mod orthogonal;
