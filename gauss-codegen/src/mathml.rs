@@ -11,7 +11,7 @@ pub fn mathml(latex: &str) -> String {
 /// Lines of equations, which stand in `align*` environments.
 pub fn lines(latex: &str) -> impl Iterator<Item = &str> {
     let equations = latex.lines().filter(|line| !matches!(*line, "\\begin{align*}" | "\\end{align*}"));
-    equations.map(|line| line.strip_suffix(" \\\\").unwrap_or(line))
+    equations.map(|line| line.strip_suffix(" \\\\[1ex]").or(line.strip_suffix(" \\\\")).unwrap_or(line))
 }
 
 /// A line `left = a + b` with `&` before the sign of equality, as HTML that breaks before signs of its outermost sum.

@@ -1,12 +1,12 @@
 //! Equations as `align*` environments, no line wider than a page of 16 cm.
 
 use super::breaks::{DEEPEST, Joint, Part, QUAD, parts};
-use super::read::read;
+use super::read::{Kind, read};
 use super::width::width;
 
 /// A page's text, in points: 16 cm.
 const PAGE: f64 = 455.2;
-/// Left sides that are wider stand in lines of their own.
+/// Left sides that are wider, or sums, do not stand before the others' signs of equality.
 const LEFT: f64 = 110.0;
 /// `=` with its spaces.
 const EQUALS: f64 = 13.4;
@@ -23,10 +23,14 @@ pub fn environments(sections: &[(String, Vec<String>)]) -> String {
     let left = equations.iter().flat_map(|(_, equations)| equations).filter(|sides| sides.aligned);
     let left = left.map(|sides| sides.width).fold(0.0, f64::max);
     for (title, equations) in &equations {
+        if let Some(last) = lines.last_mut() {
+            *last = format!("{last} \\\\[1ex]");
+        }
         lines.extend(titled(title, PAGE - left));
         lines.extend(equations.iter().flat_map(|sides| sides.lines(PAGE - left)));
     }
-    let lines: Vec<String> = lines.into_iter().map(|line| format!("{line} \\\\\n")).collect();
+    let ended = |line: String| if line.ends_with(']') && line.contains("\\\\[") { line } else { line + " \\\\" };
+    let lines: Vec<String> = lines.into_iter().map(|line| ended(line) + "\n").collect();
     let environments =
         lines.chunks(LINES).map(|lines| format!("\\begin{{align*}}\n{}\\end{{align*}}\n", lines.concat()));
     environments.collect()
@@ -45,8 +49,10 @@ struct Sides<'a> {
 impl<'a> Sides<'a> {
     fn of(equation: &'a str) -> Self {
         let (left, right) = equation.split_once(" = ").unwrap_or(("", equation));
-        let width = width(&read(left));
-        Self { left, right, width, aligned: !left.is_empty() && width <= LEFT }
+        let pieces = read(left);
+        let width = width(&pieces);
+        let is_sum = pieces.iter().any(|piece| matches!(piece.kind, Kind::Sign));
+        Self { left, right, width, aligned: !left.is_empty() && !is_sum && width <= LEFT }
     }
 
     fn lines(&self, room: f64) -> Vec<String> {
@@ -63,33 +69,65 @@ impl<'a> Sides<'a> {
         if let Some(first) = right.first_mut().filter(|_| !self.left.is_empty()) {
             first.tex = format!("= {}", first.tex);
             first.width += EQUALS;
-            first.begins_long = false;
+            first.begins_long = true;
+        }
+        let total: f64 = all.iter().chain(&right).map(|part| part.width + Joint::Sign.within().1).sum();
+        if total <= room {
+            all.iter_mut().chain(&mut right).for_each(|part| part.begins_long = false);
         }
         all.extend(right);
         filled("& ", 0.0, &all, room)
     }
 }
 
-/// Parts in as few lines as they fit in.
+/// Parts in as few lines as they fit in, which are as short as so many can be.
 fn filled(begin: &str, begin_width: f64, parts: &[Part], room: f64) -> Vec<String> {
-    let mut lines = Vec::new();
-    let (mut line, mut width) = (begin.to_owned(), begin_width);
-    for (k, part) in parts.iter().enumerate() {
-        let (joint, space) = if k == 0 { ("", 0.0) } else { part.joint.within() };
-        let new = k > 0 && (width + space + part.width > room || part.begins_long && width > room / 3.0);
-        if new {
-            lines.push(std::mem::take(&mut line));
-            let quads = 1 + part.level.min(DEEPEST);
-            let (joint, space) = if part.joint == Joint::Sign { ("", 0.0) } else { part.joint.at_begin() };
-            line = format!("&{}{joint} {}", "\\quad".repeat(quads), part.tex.trim_start());
-            width = QUAD * quads as f64 + space + part.width;
+    let within = |limit: f64| line_begins(begin_width, parts, limit, room);
+    let mut begins = within(room);
+    let (mut too_small, mut large) = (0.0, room);
+    for _ in 0..10 {
+        let middle = f64::midpoint(too_small, large);
+        let narrower = within(middle);
+        let widest = parts.iter().map(|part| indentation(part).1 + part.width).fold(begin_width, f64::max);
+        if narrower.len() <= begins.len() && widest <= middle {
+            (begins, large) = (narrower, middle);
         } else {
-            line = format!("{line}{joint}{}", part.tex);
+            too_small = middle;
+        }
+    }
+    let mut lines = vec![begin.to_owned()];
+    for (k, part) in parts.iter().enumerate() {
+        if begins.binary_search(&k).is_ok() {
+            lines.push(format!("{}{}", indentation(part).0, part.tex.trim_start()));
+        } else if let Some(line) = lines.last_mut() {
+            line.push_str(if k == 0 { "" } else { part.joint.within().0 });
+            line.push_str(&part.tex);
+        }
+    }
+    lines.into_iter().map(|line| line.trim_end().to_owned()).collect()
+}
+
+/// What a line has before a part that it begins with, and how wide that is.
+fn indentation(part: &Part) -> (String, f64) {
+    let quads = 1 + part.level.min(DEEPEST);
+    let (joint, space) = part.joint.at_begin();
+    (format!("&{}{joint}", "\\quad".repeat(quads)), QUAD * quads as f64 + space)
+}
+
+/// Which parts further lines begin with, if none is wider than a limit.
+fn line_begins(begin_width: f64, parts: &[Part], limit: f64, room: f64) -> Vec<usize> {
+    let mut begins = Vec::new();
+    let mut width = begin_width;
+    for (k, part) in parts.iter().enumerate() {
+        let space = if k == 0 { 0.0 } else { part.joint.within().1 };
+        if k > 0 && (width + space + part.width > limit || part.begins_long && width > room / 3.0) {
+            begins.push(k);
+            width = indentation(part).1 + part.width;
+        } else {
             width += space + part.width;
         }
     }
-    lines.push(line);
-    lines.into_iter().map(|line| line.trim_end().to_owned()).collect()
+    begins
 }
 
 /// A heading, in as many lines as it takes: words with formulas between dollars.

@@ -53,13 +53,14 @@ impl Name {
         }
     }
 
-    /// The derivative of a quasi-velocity: ḃ → b̈, ω → dω/dt.
+    /// The derivative of a quasi-velocity: ḃ → b̈, theta_dot → theta_ddot, ω → dω/dt.
     pub fn rate(&self) -> Self {
-        match (self.text.contains(DOT), self.latex.strip_prefix("\\dot{")) {
-            (true, Some(rest)) => {
-                Self { text: self.text.replace(DOT, &TWO_DOTS.to_string()), latex: format!("\\ddot{{{rest}") }
-            }
-            _ => self.time_derivative(),
+        let Some(latex) = self.latex.strip_prefix("\\dot{").map(|rest| format!("\\ddot{{{rest}")) else {
+            return self.time_derivative();
+        };
+        match self.text.strip_suffix("_dot") {
+            Some(word) => Self { text: format!("{word}_ddot"), latex },
+            None => Self { text: self.text.replace(DOT, &TWO_DOTS.to_string()), latex },
         }
     }
 
