@@ -15,10 +15,10 @@ const UPRIGHT: Alphabet = [
     76, 71, 73, 77, 69, 66, 79, 76, 37, 52, 78, 63, 92, 76, 78, 69, 78, 74, 56, 73, 76, 76, 103, 76, 76, 62,
 ];
 
-/// In words of `\mathit`: cmti10.
+/// In words of `\mathit`: cmti10, without the italic correction, which only the last letter has.
 const WORDS: Alphabet = [
-    60, 52, 52, 61, 54, 53, 55, 59, 42, 46, 58, 37, 90, 64, 57, 58, 55, 54, 50, 44, 61, 57, 78, 58, 58, 54, //
-    75, 81, 87, 86, 81, 80, 87, 91, 55, 67, 91, 63, 107, 91, 87, 79, 87, 78, 69, 86, 91, 93, 118, 91, 95, 77,
+    52, 46, 46, 52, 46, 31, 46, 52, 31, 31, 46, 26, 82, 57, 52, 52, 46, 43, 41, 34, 54, 46, 67, 47, 49, 41, //
+    75, 71, 72, 76, 68, 66, 78, 75, 39, 53, 77, 63, 90, 75, 77, 68, 77, 73, 57, 72, 75, 75, 100, 75, 75, 62,
 ];
 
 /// Letters by their commands.
@@ -68,7 +68,9 @@ const DIGIT: u8 = 51;
 /// Of `\_`.
 const UNDERSCORE: u8 = 36;
 /// Of a digit in `\mathit`.
-const ITALIC_DIGIT: u8 = 65;
+const ITALIC_DIGIT: u8 = 52;
+/// The largest italic correction of small letters, after a word.
+const CORRECTION: f64 = 1.5;
 
 fn letter(alphabet: &Alphabet, sign: char) -> Option<f64> {
     let place = match sign {
@@ -97,7 +99,7 @@ pub fn upright(words: &str) -> f64 {
 
 /// Of letters of `\mathit`.
 pub fn italic(words: &str) -> f64 {
-    of_words(words, &WORDS, ITALIC_DIGIT)
+    of_words(words, &WORDS, ITALIC_DIGIT) + CORRECTION
 }
 
 /// Letters, digits, `\_`, and Greek letters as commands, which a space ends.

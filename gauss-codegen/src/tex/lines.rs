@@ -1,6 +1,6 @@
 //! Equations as `align*` environments, no line wider than a page of 16 cm.
 
-use super::breaks::{DEEPEST, Joint, Part, QUAD, parts};
+use super::breaks::{DEEPEST, Joint, Part, Place, QUAD, parts};
 use super::read::{Kind, read};
 use super::width::width;
 
@@ -69,11 +69,11 @@ impl<'a> Sides<'a> {
         if let Some(first) = right.first_mut().filter(|_| !self.left.is_empty()) {
             first.tex = format!("= {}", first.tex);
             first.width += EQUALS;
-            first.begins_long = true;
+            first.place = Place::Begin;
         }
         let total: f64 = all.iter().chain(&right).map(|part| part.width + Joint::Sign.within().1).sum();
         if total <= room {
-            all.iter_mut().chain(&mut right).for_each(|part| part.begins_long = false);
+            all.iter_mut().chain(&mut right).for_each(|part| part.place = Place::Anywhere);
         }
         all.extend(right);
         filled("& ", 0.0, &all, room)
@@ -120,7 +120,12 @@ fn line_begins(begin_width: f64, parts: &[Part], limit: f64, room: f64) -> Vec<u
     let mut width = begin_width;
     for (k, part) in parts.iter().enumerate() {
         let space = if k == 0 { 0.0 } else { part.joint.within().1 };
-        if k > 0 && (width + space + part.width > limit || part.begins_long && width > room / 3.0) {
+        let begins = match part.place {
+            Place::Anywhere => false,
+            Place::NearBegin => width > room / 3.0,
+            Place::Begin => true,
+        };
+        if k > 0 && (begins || width + space + part.width > limit) {
             begins.push(k);
             width = indentation(part).1 + part.width;
         } else {
