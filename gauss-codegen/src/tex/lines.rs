@@ -120,12 +120,12 @@ fn line_begins(begin_width: f64, parts: &[Part], limit: f64, room: f64) -> Vec<u
     let mut width = begin_width;
     for (k, part) in parts.iter().enumerate() {
         let space = if k == 0 { 0.0 } else { part.joint.within().1 };
-        let begins = match part.place {
+        let must = match part.place {
             Place::Anywhere => false,
             Place::NearBegin => width > room / 3.0,
             Place::Begin => true,
         };
-        if k > 0 && (begins || width + space + part.width > limit) {
+        if k > 0 && (must || width + space + part.width > limit) {
             begins.push(k);
             width = indentation(part).1 + part.width;
         } else {
