@@ -65,6 +65,8 @@ const COMMANDS: [(&str, u8); 38] = [
 
 /// Of a digit, and of anything that is not in the tables.
 const DIGIT: u8 = 51;
+/// Of a space between words, and no less than of points and commas.
+const SPACE: f64 = 3.4;
 /// Of `\_`.
 const UNDERSCORE: u8 = 36;
 /// Of a digit in `\mathit`.
@@ -109,7 +111,8 @@ fn of_words(words: &str, alphabet: &Alphabet, other: u8) -> f64 {
     while let Some(sign) = rest.chars().next() {
         rest = &rest[sign.len_utf8()..];
         if sign != '\\' {
-            width += letter(alphabet, sign).unwrap_or(f64::from(other) / 10.0);
+            let narrow = " .,;:'".contains(sign).then_some(SPACE);
+            width += letter(alphabet, sign).or(narrow).unwrap_or(f64::from(other) / 10.0);
             continue;
         }
         let letters = rest.bytes().take_while(u8::is_ascii_alphabetic).count();

@@ -12,7 +12,10 @@ const MEASURED: [(&str, f64); 13] = [
     ("\\frac{k \\, x \\, \\mathit{stretch}}{\\sqrt{x^{2} + y^{2}}}", 46.5),
     ("\\left(2 \\, \\left(\\frac{I_{22,\\mathit{one}}}{2} + m_{2}\\right) + I_{1}\\right) \\, \\dot{a}", 123.8),
     ("\\operatorname{atan2}\\left(x, y\\right)", 49.3),
-    ("-m_{\\mathit{three}} \\, c_{3,\\mathit{three}} \\, l_{1} \\, \\dot{a} \\, \\sin a \\, \\cos\\left(a + b + c\\right)", 168.7),
+    (
+        "-m_{\\mathit{three}} \\, c_{3,\\mathit{three}} \\, l_{1} \\, \\dot{a} \\, \\sin a \\, \\cos\\left(a + b + c\\right)",
+        168.7,
+    ),
     ("6.25 \\cdot 10^{-12} \\, \\mathit{mass\\_of}", 87.6),
     ("\\left|\\Omega_{1}\\right|^{3} \\, \\exp\\left(-\\lambda \\, t\\right)", 68.7),
     ("f''\\left(x\\right) + \\hat{\\Gamma}_{2}", 49.2),

@@ -291,3 +291,11 @@ pub(in crate::mechanics) fn velocity_form<'g>(row: Expr<'g>, rates: &[Expr<'g>])
     let still = row.substitute(&at_rest(rates));
     Row::Equation((row - still).collected(LIMIT), (-still).collected(LIMIT))
 }
+
+/// The same of a row that is long, if entry by entry and on the right it is short.
+pub(in crate::mechanics) fn by_entries<'g>(row: Expr<'g>, rates: &[Expr<'g>], shown: &Shown<'g>) -> Option<Row<'g>> {
+    let entries: Option<Vec<Expr<'g>>> =
+        rates.iter().map(|&dz| Some(shown.readable(row.partial(dz))?.group_as_is() * dz)).collect();
+    let right = shown.readable(-row.substitute(&at_rest(rates)))?;
+    Some(Row::Equation(entries?.into_iter().sum(), right))
+}

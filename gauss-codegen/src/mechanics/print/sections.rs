@@ -1,9 +1,9 @@
 //! The equations of a system for people.
 
-use crate::algebra::Expr;
+use crate::algebra::{Expr, Map};
 
 use crate::mechanics::constraints::contact::Contact;
-use crate::mechanics::print::equations::{PrintedForces, Row, Section, velocity_form};
+use crate::mechanics::print::equations::{PrintedForces, Row, Section, by_entries, velocity_form};
 use crate::mechanics::print::names::Name;
 use crate::mechanics::print::shown::Shown;
 use crate::mechanics::scene::Coordinate;
@@ -64,16 +64,26 @@ impl<'g> System<'g> {
         );
         let inertia = self.tree().inertias(self.is_long())[0];
         let residual = self.residual(&self.along, inertia);
+        let rates = shown.rates(&self.scene.speed_rates);
+        let named: Map<u32, Expr<'g>> =
+            self.scene.speed_rates.iter().zip(&rates).map(|(dz, name)| (dz.key(), *name)).collect();
+        let row = |row: Expr<'g>| {
+            let row = row.substitute(&named);
+            match shown.readable(row) {
+                Some(whole) => Some(velocity_form(whole, &rates)),
+                None => by_entries(row, &rates, shown),
+            }
+        };
         // To multiply out what is long takes long, and shows that it is.
-        let short: Option<Vec<Expr<'g>>> =
-            if self.is_long() { None } else { residual.iter().map(|row| shown.readable(*row)).collect() };
+        let short: Option<Vec<Row<'g>>> =
+            if self.is_long() { None } else { residual.iter().map(|e| row(*e)).collect() };
         let rows = match short {
-            Some(rows) => rows.into_iter().map(|row| velocity_form(row, &self.scene.speed_rates)).collect(),
+            Some(rows) => rows,
             None => {
                 let terms: f64 = residual.iter().map(|row| row.terms_multiplied_out()).sum();
                 let terms = if terms < 1e6 { terms.to_string() } else { format!("{terms:.0e}") };
-                let shown = format!("left out: a row has more than {READABLE} terms; multiplied out all have {terms}");
-                vec![Row::Words(format!("{shown}, before any cancel"))]
+                let long = format!("left out: an entry of A or r has more than {READABLE} terms");
+                vec![Row::Words(format!("{long}; multiplied out all have {terms}, before any cancel"))]
             }
         };
         Section { title, rows }

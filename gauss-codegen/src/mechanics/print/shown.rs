@@ -76,6 +76,16 @@ impl<'g> Shown<'g> {
         tidy::readable(short).map(|_| short)
     }
 
+    /// Rates of speeds under the names that readers know.
+    pub fn rates(&self, rates: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let renamed = rates.iter().map(|rate| {
+            let [text, latex] = [Notation::Text, Notation::Latex].map(|notation| print(*rate, notation));
+            let name = Name::new(&text, &latex).printed_rate();
+            rate.graph().symbol(name.text, name.latex, false)
+        });
+        renamed.collect()
+    }
+
     /// What the names in some rows stand for, and the names in that.
     pub fn definitions(&self, rows: &[Expr<'g>]) -> Section<'g> {
         let mut used = vec![false; self.named.len()];
