@@ -39,6 +39,6 @@ pub use numbers::dual::Dual;
 pub use numbers::evaluate::{Evaluation, Number, Scalar, Tangents};
 pub use numbers::precise::Precise;
 pub use orthogonal::LeastSquares;
-pub use parts::Parts;
+pub use parts::{LONG, Parts};
 pub use print::{Notation, decimal, print, print_definition, print_parts, print_short, print_with};
 pub use rational::Rational;

@@ -116,7 +116,7 @@ fn of_words(words: &str, alphabet: &Alphabet, other: u8) -> f64 {
             continue;
         }
         let letters = rest.bytes().take_while(u8::is_ascii_alphabetic).count();
-        let (name, after) = rest.split_at(letters.max(rest.chars().next().map_or(0, char::len_utf8).min(1)));
+        let (name, after) = rest.split_at(letters.max(rest.chars().next().map_or(0, char::len_utf8)));
         width += if letters == 0 { f64::from(UNDERSCORE) / 10.0 } else { command(name) };
         rest = after.strip_prefix(' ').filter(|_| letters > 0).unwrap_or(after);
     }

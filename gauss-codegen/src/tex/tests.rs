@@ -108,7 +108,20 @@ fn whatever_is_long_is_broken_inside() {
 fn nothing_is_lost_of_what_cannot_be_broken() {
     let name = format!("\\mathit{{{}}}", "w".repeat(100));
     assert!(lines_of(&format!("p = {name} + {name}")).concat().matches(&name).count() == 2);
-    for broken in ["{x", "\\frac{1", "\\left(x", "x_", "\\", "\\text{a", "}", "x^^2", "\\mathit", "\\left"] {
+    for broken in [
+        "{x",
+        "\\mathit{\\é}",
+        "\\text{é\\",
+        "\\frac{1",
+        "\\left(x",
+        "x_",
+        "\\",
+        "\\text{a",
+        "}",
+        "x^^2",
+        "\\mathit",
+        "\\left",
+    ] {
         assert!(lines_of(&format!("p = {broken}")).concat().contains(broken), "{broken}");
         assert!(lines_of(&format!("p = {}{broken}", "a + ".repeat(100))).concat().contains(broken), "{broken}");
     }

@@ -45,7 +45,7 @@ impl<'g> Row<'g> {
     }
 
     /// What is printed of it, with the name of what it defines.
-    fn expressions(&self) -> Vec<(Option<[String; 2]>, Expr<'g>)> {
+    pub fn expressions(&self) -> Vec<(Option<[String; 2]>, Expr<'g>)> {
         match self {
             Row::Definition(Name { text, latex }, e) => vec![(Some([text.clone(), latex.clone()]), *e)],
             Row::Balance { bracket: e, .. } => vec![(None, *e)],

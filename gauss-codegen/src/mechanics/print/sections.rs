@@ -1,6 +1,6 @@
 //! The equations of a system for people.
 
-use crate::algebra::{Expr, Map};
+use crate::algebra::{Expr, LONG, Map};
 
 use crate::mechanics::constraints::contact::Contact;
 use crate::mechanics::print::equations::{PrintedForces, Row, Section, by_entries, velocity_form};
@@ -69,10 +69,12 @@ impl<'g> System<'g> {
             self.scene.speed_rates.iter().zip(&rates).map(|(dz, name)| (dz.key(), *name)).collect();
         let row = |row: Expr<'g>| {
             let row = row.substitute(&named);
-            match shown.readable(row) {
-                Some(whole) => Some(velocity_form(whole, &rates)),
-                None => by_entries(row, &rates, shown),
-            }
+            let row = match shown.readable(row) {
+                Some(whole) => velocity_form(whole, &rates),
+                None => by_entries(row, &rates, shown)?,
+            };
+            // What is longer would be printed in numbered parts.
+            row.expressions().iter().all(|(_, side)| side.leaves() <= LONG).then_some(row)
         };
         // To multiply out what is long takes long, and shows that it is.
         let short: Option<Vec<Row<'g>>> =
@@ -82,7 +84,7 @@ impl<'g> System<'g> {
             None => {
                 let terms: f64 = residual.iter().map(|row| row.terms_multiplied_out()).sum();
                 let terms = if terms < 1e6 { terms.to_string() } else { format!("{terms:.0e}") };
-                let long = format!("left out: an entry of A or r has more than {READABLE} terms");
+                let long = format!("left out: a row has more than {LONG} letters, or a part of it {READABLE} terms");
                 vec![Row::Words(format!("{long}; multiplied out all have {terms}, before any cancel"))]
             }
         };
