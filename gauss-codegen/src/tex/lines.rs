@@ -56,6 +56,11 @@ impl<'a> Sides<'a> {
     }
 
     fn lines(&self, room: f64) -> Vec<String> {
+        // Words in the place of an equation.
+        let words = self.right.strip_prefix("\\text{").and_then(|rest| rest.strip_suffix('}'));
+        if let Some(words) = words.filter(|words| self.left.is_empty() && !words.contains('}')) {
+            return titled(words, room);
+        }
         if self.aligned {
             // Continuations have one `\quad`, which is less than what is before the first part.
             let parts = parts(&read(self.right), room - EQUALS);
