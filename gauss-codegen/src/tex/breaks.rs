@@ -13,16 +13,8 @@ pub struct Part {
     pub joint: Joint,
     /// Brackets that are open where it begins.
     pub level: usize,
-    pub place: Place,
-}
-
-/// Where in a line a part may stand.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
-    Anywhere,
-    /// The first part of a term that is longer than a line: not behind much else.
-    NearBegin,
-    Begin,
+    /// It begins a line: the first part of a term that is longer than one.
+    pub begins: bool,
 }
 
 /// What stands between two parts in one line, and what a line begins with.
@@ -134,7 +126,7 @@ impl Breaker {
     fn push(&mut self, tex: &str, width: f64, (joint, level): (Joint, usize), around: &Around) {
         let tex = format!("{}{tex}{}", around.before, around.after);
         let width = around.width[0] + width + around.width[1];
-        self.parts.push(Part { tex, width, joint, level, place: Place::Anywhere });
+        self.parts.push(Part { tex, width, joint, level, begins: false });
     }
 
     fn sum(&mut self, row: &[Piece<'_>], level: usize, joint: Joint, around: &Around) {
@@ -157,7 +149,7 @@ impl Breaker {
                 self.push(&tex(term), width(term) + 4.6, (joint, level), &own);
             } else {
                 self.product(term, level, joint, &own);
-                self.parts[begin..].iter_mut().take(1).for_each(|part| part.place = Place::NearBegin);
+                self.parts[begin..].iter_mut().take(1).for_each(|part| part.begins = true);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Equations as `align*` environments, no line wider than a page of 16 cm.
 
-use super::breaks::{DEEPEST, Joint, Part, Place, QUAD, parts};
+use super::breaks::{DEEPEST, Joint, Part, QUAD, parts};
 use super::read::{Kind, read};
 use super::width::width;
 
@@ -74,11 +74,11 @@ impl<'a> Sides<'a> {
         if let Some(first) = right.first_mut().filter(|_| !self.left.is_empty()) {
             first.tex = format!("= {}", first.tex);
             first.width += EQUALS;
-            first.place = Place::Begin;
+            first.begins = true;
         }
         let total: f64 = all.iter().chain(&right).map(|part| part.width + Joint::Sign.within().1).sum();
         if total <= room {
-            all.iter_mut().chain(&mut right).for_each(|part| part.place = Place::Anywhere);
+            all.iter_mut().chain(&mut right).for_each(|part| part.begins = false);
         }
         all.extend(right);
         filled("& ", 0.0, &all, room)
@@ -87,7 +87,7 @@ impl<'a> Sides<'a> {
 
 /// Parts in as few lines as they fit in, which are as short as so many can be.
 fn filled(begin: &str, begin_width: f64, parts: &[Part], room: f64) -> Vec<String> {
-    let within = |limit: f64| line_begins(begin_width, parts, limit, room);
+    let within = |limit: f64| line_begins(begin_width, parts, limit);
     let mut begins = within(room);
     let (mut too_small, mut large) = (0.0, room);
     for _ in 0..10 {
@@ -120,17 +120,12 @@ fn indentation(part: &Part) -> (String, f64) {
 }
 
 /// Which parts further lines begin with, if none is wider than a limit.
-fn line_begins(begin_width: f64, parts: &[Part], limit: f64, room: f64) -> Vec<usize> {
+fn line_begins(begin_width: f64, parts: &[Part], limit: f64) -> Vec<usize> {
     let mut begins = Vec::new();
     let mut width = begin_width;
     for (k, part) in parts.iter().enumerate() {
         let space = if k == 0 { 0.0 } else { part.joint.within().1 };
-        let must = match part.place {
-            Place::Anywhere => false,
-            Place::NearBegin => width > room / 3.0,
-            Place::Begin => true,
-        };
-        if k > 0 && (must || width + space + part.width > limit) {
+        if k > 0 && (part.begins || width + space + part.width > limit) {
             begins.push(k);
             width = indentation(part).1 + part.width;
         } else {
