@@ -4,6 +4,8 @@
 
 #![deny(missing_docs)]
 
+mod kept;
+
 /// Derives the equations of motion of rigid bodies from the Gauss condition, and generates `Name::kernel()`, the
 /// `NameKernel` that implements `GaussSystem`, `Name::warnings()`, `NameState`: coordinates and speeds by name, and
 /// `NameIndex`: the places of their increments in flat vectors.
@@ -321,12 +323,14 @@
 /// kernel of such a struct gives no further errors.
 #[proc_macro_derive(GaussDynamics, attributes(gauss))]
 pub fn derive_gauss_dynamics(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
-    let input = match gauss_codegen::item(input.into()) {
-        Ok(input) => input,
-        Err(mistake) => return mistake.into_compile_error().into(),
-    };
-    let expand = if may_have_vectors() { gauss_codegen::expand } else { gauss_codegen::expand_without_vectors };
-    expand(&input).unwrap_or_else(|mistakes| gauss_codegen::fallback(&input, &mistakes)).into()
+    let (input, vectors) = (input.into(), may_have_vectors());
+    kept::or_derived(&input, &[vectors.into()], || {
+        let item = gauss_codegen::item(input.clone()).map_err(|mistake| mistake.into_compile_error())?;
+        let expand = if vectors { gauss_codegen::expand } else { gauss_codegen::expand_without_vectors };
+        expand(&item).map_err(|mistakes| gauss_codegen::fallback(&item, &mistakes))
+    })
+    .unwrap_or_else(|mistakes| mistakes)
+    .into()
 }
 
 /// Whether the code may be compiled for processors with vectors of products that are rounded once.
