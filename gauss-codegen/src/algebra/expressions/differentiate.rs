@@ -90,6 +90,16 @@ impl<'g> Expr<'g> {
                 let side = graph.call(Function::Signum, if function == BinaryFunction::Max { a - b } else { b - a });
                 ((x + y) + side * (x - y)).half()
             }
+            NodeView::Own(function, arguments) => {
+                let mut sum = graph.zero();
+                for (k, argument) in arguments.iter().enumerate() {
+                    let rate = argument.differentiate(rates, memo);
+                    if !rate.is_zero() {
+                        sum = sum + rate * graph.own(function.derivative(k), &arguments);
+                    }
+                }
+                sum
+            }
             NodeView::Group(inner) => inner.differentiate(rates, memo),
         };
         memo.insert(self.id, result);
@@ -108,7 +118,6 @@ impl<'g> Expr<'g> {
             Function::Abs => graph.call(Function::Signum, argument),
             Function::Signum => graph.zero(),
             Function::Tanh => (graph.one() - self * self).group(),
-            Function::Own(function) => graph.call(Function::Own(function.derivative()), argument),
         }
     }
 }
