@@ -70,7 +70,16 @@ pub fn tables(derived: &Derived<'_, '_>) -> TokenStream {
 /// The constant of a table. What is wrong with its numbers is shown where they are named.
 fn constant(name: &Ident, table: &Table, span: Span, private: &TokenStream) -> TokenStream {
     let Table { axes, values, joined } = table;
-    let at = span.resolved_at(Span::mixed_site());
+    // The path of what is called, too: a call begins there.
+    let there = |span: Span| {
+        let at = span.resolved_at(Span::mixed_site());
+        let path = private.clone().into_iter().map(|mut token| {
+            token.set_span(at);
+            token
+        });
+        (at, path.collect::<TokenStream>())
+    };
+    let (at, private) = there(span);
     let kind = match joined {
         Joined::Linear => quote!(Linear),
         Joined::Hermite => quote!(Hermite),
@@ -80,15 +89,15 @@ fn constant(name: &Ident, table: &Table, span: Span, private: &TokenStream) -> T
         return quote_spanned!(at=> const #name: #private::#kind<{ #values.len() }> = #private::#kind::through(&#values););
     }
     let (of, variables) = match axes.len() {
-        0 => (quote!(through), 1),
-        1 => (quote!(of_one), 1),
-        2 => (quote!(of_two), 2),
-        _ => (quote!(of_three), 3),
+        0 => (quote_spanned!(at=> through), 1),
+        1 => (quote_spanned!(at=> of_one), 1),
+        2 => (quote_spanned!(at=> of_two), 2),
+        _ => (quote_spanned!(at=> of_three), 3),
     };
     let mut lengths: Vec<TokenStream> = axes.iter().map(|Axis { path, .. }| quote!({ #path.len() })).collect();
     let checked: Vec<Ident> = (0..axes.len()).map(|k| format_ident!("{}_AXIS_{}", name, k)).collect();
     let constants = axes.iter().zip(&lengths).zip(&checked).map(|((Axis { path, span, .. }, length), checked)| {
-        let at = span.resolved_at(Span::mixed_site());
+        let (at, private) = there(*span);
         quote_spanned!(at=> const #checked: [f64; #length] = #private::axis(&#path);)
     });
     let constants: TokenStream = constants.collect();
