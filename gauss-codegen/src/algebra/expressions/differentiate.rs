@@ -91,14 +91,10 @@ impl<'g> Expr<'g> {
                 ((x + y) + side * (x - y)).half()
             }
             NodeView::Own(function, arguments) => {
-                let mut sum = graph.zero();
-                for (k, argument) in arguments.iter().enumerate() {
-                    let rate = argument.differentiate(rates, memo);
-                    if !rate.is_zero() {
-                        sum = sum + rate * graph.own(function.derivative(k), &arguments);
-                    }
-                }
-                sum
+                let rates: Vec<_> = arguments.iter().map(|argument| argument.differentiate(rates, memo)).collect();
+                let moving = rates.into_iter().enumerate().filter(|(_, rate)| !rate.is_zero());
+                let terms = moving.map(|(k, rate)| rate * graph.own(function.derivative(k), &arguments));
+                terms.reduce(|sum, term| sum + term).unwrap_or_else(|| graph.zero())
             }
             NodeView::Group(inner) => inner.differentiate(rates, memo),
         };

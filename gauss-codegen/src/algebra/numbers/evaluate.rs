@@ -307,14 +307,9 @@ impl<'a, 'b, N: Number> Tangents<'a, 'b, N> {
             }
             NodeView::Own(function, arguments) => {
                 let at: Vec<N> = arguments.iter().map(|e| self.values.value(*e)).collect();
-                let mut sum = zero;
-                for (k, e) in arguments.into_iter().enumerate() {
-                    let rate = self.visit(e);
-                    if rate != zero {
-                        sum = sum + N::stand_in(function.derivative(k), &at) * rate;
-                    }
-                }
-                sum
+                let rates = arguments.into_iter().map(|e| self.visit(e)).enumerate().filter(|(_, rate)| *rate != zero);
+                let terms = rates.map(|(k, rate)| N::stand_in(function.derivative(k), &at) * rate);
+                terms.reduce(|sum, term| sum + term).unwrap_or(zero)
             }
             NodeView::Group(e) | NodeView::Opaque(e) => self.visit(e),
         };
