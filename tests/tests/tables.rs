@@ -1,5 +1,5 @@
-//! Tables of two and three numbers in forces and potentials: the same motion by a table as by the formula that the table
-//! reproduces, with its derivatives, in every scalar.
+//! Tables of two and three numbers in forces and potentials: the same motion by a table as by the formula that the
+//! table reproduces, with its derivatives, in every scalar.
 
 use gauss_bounded::Bounded;
 use gauss_runtime::prelude::*;

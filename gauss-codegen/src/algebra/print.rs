@@ -256,8 +256,8 @@ impl<'a, 'g> Printer<'a, 'g> {
         }
     }
 
-    /// A function of the user's own, raised to a power that may be empty. A prime stands for each derivative by the only
-    /// variable; of several variables the orders by each follow the name, in LaTeX as f⁽¹′⁰⁾.
+    /// A function of the user's own, raised to a power that may be empty. A prime stands for each derivative by the
+    /// only variable; of several variables the orders by each follow the name, in LaTeX as f⁽¹′⁰⁾.
     fn own(&self, graph: &Graph, function: OwnFunction, arguments: &[Expr<'g>], power: &str) -> String {
         let name = graph.function_name(function);
         let arguments: Vec<String> = arguments.iter().map(|argument| self.sum(*argument)).collect();
