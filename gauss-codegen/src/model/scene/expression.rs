@@ -47,7 +47,7 @@ pub enum ExpressionKind {
     /// `sin(a)`, `a.sin()`, `dot(a, b)`: the number of arguments is right.
     Call(FunctionName, Vec<Expression>),
     /// `lift(a)`, `drag(a, m)`: a function that a clause declares.
-    Own(Ident, Vec<Expression>),
+    Own(Ident, Box<[Expression]>),
     /// `[a, b, c]`.
     Vector([Box<Expression>; 3]),
 }
@@ -185,7 +185,8 @@ impl Expression {
                 visit(left);
                 visit(right);
             }
-            ExpressionKind::Call(_, arguments) | ExpressionKind::Own(_, arguments) => arguments.iter().for_each(visit),
+            ExpressionKind::Call(_, arguments) => arguments.iter().for_each(visit),
+            ExpressionKind::Own(_, arguments) => arguments.iter().for_each(visit),
             ExpressionKind::Vector(components) => components.iter().for_each(|component| visit(component)),
         }
     }
@@ -205,9 +206,8 @@ impl Expression {
                 change(left);
                 change(right);
             }
-            ExpressionKind::Call(_, arguments) | ExpressionKind::Own(_, arguments) => {
-                arguments.iter_mut().for_each(change);
-            }
+            ExpressionKind::Call(_, arguments) => arguments.iter_mut().for_each(change),
+            ExpressionKind::Own(_, arguments) => arguments.iter_mut().for_each(change),
             ExpressionKind::Vector(components) => components.iter_mut().for_each(|component| change(component)),
         }
     }
