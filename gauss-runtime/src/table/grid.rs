@@ -316,10 +316,10 @@ impl<T: Real, const N: usize> Weights<T, N> {
                 if i == from { weight } else { T::select_lt(x, begin, zero, weight) }
             };
             let [before, after, slope_before, slope_after] = weights.map(chosen);
-            own.values[i] = own.values[i] + before;
-            own.values[i + 1] = own.values[i + 1] + after;
-            own.slopes[i] = own.slopes[i] + slope_before;
-            own.slopes[i + 1] = own.slopes[i + 1] + slope_after;
+            own.values[i] += before;
+            own.values[i + 1] += after;
+            own.slopes[i] += slope_before;
+            own.slopes[i + 1] += slope_after;
         }
         own
     }
