@@ -283,7 +283,8 @@ mod kept;
 /// | `damping = expr` | Rayleigh's dissipation function: its negative partial derivatives by z are generalised forces |
 /// | `point(name, body = other, at = […])` | as above |
 /// | `function(lift, derivative = lift_slope, second = …)`, `function(lift = aero::lift, derivative = …)` | a smooth function of one number, `lift(x)` in expressions, that is written in Rust: `fn(f64) -> f64`, of a generic scalar `fn<T: Real>(T) -> T`. The derivative is needed in potentials, constraints and `linearize`, where the second may be |
-/// | `table(lift, points = LIFT, kind = linear)` | the same through the points of `const LIFT: [[f64; 2]; N] = [[x, y], …]`, x increasing: joined by straight lines, which is the default and stands where `abs` may, or `kind = cubic` by the natural spline, which has two continuous derivatives. Beyond the ends both go on straight |
+/// | `table(lift, points = LIFT, kind = linear)` | the same through the points of `const LIFT: [[f64; 2]; N] = [[x, y], …]`, x increasing: joined by straight lines, which is the default and stands where `abs` may; `kind = hermite`: by cubics with the slopes of parabolas through three neighbours, one continuous derivative; `kind = cubic`: by the natural spline, two of them. Beyond the ends all go on straight |
+/// | `table(drag, axes = [ALPHA, MACH], values = DRAG, kind = linear)` | of one, two or three numbers, `drag(alpha, mach)`: `const ALPHA: [f64; N]` and `const MACH: [f64; M]` increase, `const DRAG: [[f64; M]; N]` has the value at `ALPHA[i]` and `MACH[j]` in `DRAG[i][j]`; of three `[[[f64; L]; M]; N]`. Joined by the same kinds along each axis, whatever their order; beyond the grid straight along each axis |
 ///
 /// What acts can have a name, which no expression uses.
 ///

@@ -33,7 +33,7 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
     let function = |clause: &UserFunction| {
         let name = clause.name.unraw().to_string();
         let index = graph.declare_function(name.clone());
-        (name, OwnFunction::new(index, clause.kind.continuous()))
+        (name, OwnFunction::new(index, clause.kind.variables().len() as u8, clause.kind.continuous()))
     };
     let functions: HashMap<String, OwnFunction> = model.item.functions.iter().map(function).collect();
     let pi = graph.symbol("π", "\\pi", true);

@@ -240,7 +240,7 @@ impl Place {
     pub fn allows(self, meaning: &Meaning) -> bool {
         match meaning {
             Meaning::Scalar | Meaning::Vector | Meaning::Definition(_) | Meaning::Unusable(_) => true,
-            Meaning::Pi | Meaning::Function { .. } => true,
+            Meaning::Pi | Meaning::Function(_) => true,
             Meaning::Time => !self.is_constant(),
             Meaning::Coordinate(_) => !self.is_constant() && !self.is_given(),
             Meaning::Speed(_) => self.of_velocities(),
