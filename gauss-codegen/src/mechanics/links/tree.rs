@@ -10,6 +10,7 @@ use crate::mechanics::links::inertia::{Inertia, acceleration_gradient, apply, fo
 use crate::mechanics::links::link::{Description, Link, Matter, Placement, impulse};
 use crate::mechanics::links::regroup::regroup;
 use crate::mechanics::loads::forces::{Force, Loads};
+use crate::mechanics::matter::modes::Deformation;
 use crate::mechanics::matter::moments::Moments;
 use crate::mechanics::matter::rotor::{Rotor, add_projected};
 
@@ -30,7 +31,7 @@ enum Observers<'a, 'g> {
 pub struct UnderWay<'g> {
     /// Forces of inertia of every link by itself, less the loads on it.
     pub wrenches: Pairs<'g>,
-    /// What rotors add.
+    /// What rotors and modes add.
     pub rows: Vec<Expr<'g>>,
     /// ζ.
     pub taken: Vec<Expr<'g>>,
@@ -51,6 +52,8 @@ pub struct Tree<'g> {
     floating: Vec<Option<Floating<'g>>>,
     /// Inertia of rates, added to that of the links.
     pub rotors: Vec<Rotor<'g>>,
+    /// What links have that deform.
+    pub deformations: Vec<Deformation<'g>>,
 }
 
 impl<'g> Tree<'g> {
@@ -81,8 +84,18 @@ impl<'g> Tree<'g> {
         rates: Map<u32, Expr<'g>>,
         gravity: Option<Triple<'g>>,
     ) -> Self {
-        let (links, placements, floating, rotors) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { graph, links, placements, planar, speeds, rates, gravity, floating, rotors }
+        Self {
+            graph,
+            links: Vec::new(),
+            placements: Vec::new(),
+            planar,
+            speeds,
+            rates,
+            gravity,
+            floating: Vec::new(),
+            rotors: Vec::new(),
+            deformations: Vec::new(),
+        }
     }
 
     /// The same links, each placed by what `change` makes of its placement, before they are settled.
@@ -95,6 +108,7 @@ impl<'g> Tree<'g> {
         let mut tree = Self::without_links(self.graph, self.planar, speeds, rates, self.gravity);
         self.placements.iter().for_each(|placement| tree.hang(change(placement)));
         tree.rotors.clone_from(&self.rotors);
+        tree.deformations.clone_from(&self.deformations);
         tree
     }
 
@@ -111,7 +125,11 @@ impl<'g> Tree<'g> {
 
     /// Gives to parents what moves with them as well; to be called once all links hang.
     pub fn settle(&mut self) {
-        self.floating = Floating::of(&self.links, self.speeds.len());
+        // Modes are not moved with an observer.
+        self.floating = match self.deformations.is_empty() {
+            true => Floating::of(&self.links, self.speeds.len()),
+            false => self.links.iter().map(|_| None).collect(),
+        };
         regroup(self.graph, &mut self.links);
         self.links.iter_mut().for_each(Link::settle);
     }
@@ -131,6 +149,7 @@ impl<'g> Tree<'g> {
     pub fn described(&self, descriptions: Vec<Description<'g>>) -> Self {
         let mut tree = Self::new(self.graph, Vec::new(), self.speeds.clone(), self.rates.clone(), self.gravity);
         tree.rotors.clone_from(&self.rotors);
+        tree.deformations.clone_from(&self.deformations);
         for (link, by) in self.links.iter().zip(descriptions) {
             let link = link.described(link.parent.map(|k| &tree.links[k]), by, &tree.speeds);
             tree.links.push(link);
@@ -166,6 +185,17 @@ impl<'g> Tree<'g> {
 
     fn speeds(&self) -> std::ops::Range<usize> {
         0..self.speeds.len()
+    }
+
+    /// Whether some matter besides that of links is moved by this speed.
+    pub fn is_geared(&self, speed: Expr<'g>) -> bool {
+        let moves = |deformation: &Deformation<'g>| deformation.row(speed).iter().any(|e| !e.is_zero());
+        self.rotors.iter().any(|rotor| !rotor.row(speed).is_zero()) || self.deformations.iter().any(moves)
+    }
+
+    /// Whether there is matter besides that of links.
+    pub fn has_formal_matter(&self) -> bool {
+        !self.rotors.is_empty() || !self.deformations.is_empty()
     }
 
     /// ∂q̇/∂z^α of a rotor.
@@ -240,7 +270,8 @@ impl<'g> Tree<'g> {
     /// p_α = ∂T/∂z^α.
     pub fn momentum(&self) -> Vec<Expr<'g>> {
         let momenta = self.projected(&self.gathered(self.momenta()));
-        add_projected(&self.rotors, &self.speeds, momenta, Rotor::momentum)
+        let momenta = add_projected(&self.rotors, &self.speeds, momenta, Rotor::momentum);
+        self.with_modes(momenta, Deformation::momenta)
     }
 
     /// A_αβ: the momentum that each partial velocity gives to all that it moves, paired with the partial velocities of
@@ -286,6 +317,7 @@ impl<'g> Tree<'g> {
                 matrix[row][column] = matrix[row][column] + rotor.inertia * rows[row] * rows[column];
             }
         }
+        self.deformations.iter().for_each(|deformation| deformation.add_to(&mut matrix, &self.speeds));
         for row in 0..n {
             for column in 0..row {
                 matrix[row][column] = matrix[column][row];
@@ -345,7 +377,7 @@ impl<'g> Tree<'g> {
     pub fn under_way(&self, inertia: Inertia, loads: &Loads<'g>, held: &[bool]) -> UnderWay<'g> {
         let (accelerations, taken) = self.floating_accelerations(loads, held);
         let wrenches = self.wrenches(&self.rates, inertia, loads, &accelerations);
-        let rows = self.with_rotors(vec![self.graph.zero(); self.speeds.len()], &self.rates);
+        let rows = self.with_formal(vec![self.graph.zero(); self.speeds.len()], &self.rates);
         UnderWay { wrenches, rows, taken }
     }
 
@@ -380,11 +412,26 @@ impl<'g> Tree<'g> {
         accelerations: &Pairs<'g>,
     ) -> Vec<Expr<'g>> {
         let wrenches = self.wrenches(along, inertia, loads, accelerations);
-        self.with_rotors(self.projected(&self.gathered(wrenches)), along)
+        self.with_formal(self.projected(&self.gathered(wrenches)), along)
     }
 
-    fn with_rotors(&self, rows: Vec<Expr<'g>>, along: &Map<u32, Expr<'g>>) -> Vec<Expr<'g>> {
-        add_projected(&self.rotors, &self.speeds, rows, |rotor| rotor.force(along))
+    /// With forces of inertia, less weights, of matter besides that of links.
+    pub fn with_formal(&self, rows: Vec<Expr<'g>>, along: &Map<u32, Expr<'g>>) -> Vec<Expr<'g>> {
+        let rows = add_projected(&self.rotors, &self.speeds, rows, |rotor| rotor.force(along));
+        self.with_modes(rows, |deformation| {
+            let weights = deformation.weights().into_iter();
+            deformation.inertia_forces(along).iter().zip(weights).map(|(force, weight)| *force - weight).collect()
+        })
+    }
+
+    /// Adds `Σ of(modes)·∂ν/∂z^α` to the rows.
+    fn with_modes(&self, mut rows: Vec<Expr<'g>>, of: impl Fn(&Deformation<'g>) -> Vec<Expr<'g>>) -> Vec<Expr<'g>> {
+        for deformation in &self.deformations {
+            let values = of(deformation);
+            let projected = self.speeds.iter().map(|&speed| deformation.projected(&values, speed));
+            rows.iter_mut().zip(projected).for_each(|(row, own)| *row = *row + own);
+        }
+        rows
     }
 
     /// Forces of inertia of every link by itself, less the loads on it.
@@ -544,6 +591,11 @@ impl<'g> Tree<'g> {
                 bracket[k] = bracket[k] + rotor.momentum() * rotor.row(speed).derivative(&self.rates);
             }
         }
+        for deformation in &self.deformations {
+            for (row, &speed) in bracket.iter_mut().zip(&self.speeds) {
+                *row = *row + deformation.bracket(speed, &self.rates);
+            }
+        }
         bracket
     }
 
@@ -552,7 +604,8 @@ impl<'g> Tree<'g> {
         if self.gravity.is_none() {
             return vec![self.graph.zero(); self.speeds.len()];
         }
-        self.projected(&self.gathered(self.weights_in(&vec![self.gravity; self.links.len()], Link::displaced)))
+        let links = self.weights_in(&vec![self.gravity; self.links.len()], Link::displaced);
+        self.with_modes(self.projected(&self.gathered(links)), Deformation::weights)
     }
 
     /// Resultant and torque about O, on each link, of a field that is uniform over it; what is displaced is lifted.
@@ -585,6 +638,7 @@ impl<'g> Tree<'g> {
         let terms =
             links.map(|(link, (q, gamma))| link.frame.dot(&q, &link.velocity) + dot(&gamma, &link.angular_velocity));
         let links = terms.fold(self.graph.zero(), |sum, e| sum + e);
-        self.rotors.iter().fold(links, |sum, rotor| sum + rotor.momentum() * rotor.rate)
+        let rotors = self.rotors.iter().fold(links, |sum, rotor| sum + rotor.momentum() * rotor.rate);
+        self.deformations.iter().fold(rotors, |sum, modes| sum + modes.twice_kinetic_energy())
     }
 }

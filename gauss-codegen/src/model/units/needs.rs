@@ -131,6 +131,10 @@ impl Checker<'_> {
         for (_, inertia) in &statements.armatures {
             self.value(inertia);
         }
+        // Coordinates of modes have a unit of their author's: kg^½ m, m, or none.
+        for entry in statements.modes.iter().flat_map(|read| read.clause.expressions()) {
+            self.value(entry);
+        }
         statements.attractions.iter().for_each(|clause| self.element(clause));
     }
 
