@@ -10,9 +10,9 @@
 //!
 //!     (dπ_u/dt + ω × π_u) · ∂u/∂z + (dπ_ω/dt + ω × π_ω + u × π_u) · ∂ω/∂z + Σ (dπ_k/dt − ½ νᵀ ∂G/∂η_k ν) ∂η̇_k/∂z.
 //!
-//! For points that move as above that is ∫a_P·w_α dm. With G constant it is the model of hybrid coordinates (P. W.
-//! Likins 1970): the modes do not change the inertia. The integrals are those of J. Wallrapp 1994, "Standardization of
-//! flexible body modeling in multibody system codes", and of equal meaning there.
+//! For points that move as above that is ∫a_P·w_α dm. With ∫φ dm, ∫x × φ dm and ∫φ·φ dm alone it is the model of hybrid
+//! coordinates (P. W. Likins 1970): the modes move the centre of mass, and do not change the inertia. The integrals are
+//! those of O. Wallrapp 1994, "Standardization of flexible body modeling in multibody system codes".
 
 use crate::algebra::{Expr, Graph, Map};
 
