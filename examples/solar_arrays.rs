@@ -49,7 +49,13 @@ const END: f64 = 60.0;
 /// θ̈ of a slew from rest to rest: full torque one way, then the other; or one turn of a sine.
 fn jumping(t: f64) -> f64 {
     let full = 4.0 * ANGLE / SLEW.powi(2);
-    if t < SLEW / 2.0 { full } else if t < SLEW { -full } else { 0.0 }
+    if t < SLEW / 2.0 {
+        full
+    } else if t < SLEW {
+        -full
+    } else {
+        0.0
+    }
 }
 
 fn smooth(t: f64) -> f64 {
@@ -103,8 +109,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     // A torque that begins as a sine leaves a swing of the ratio of the two frequencies, 1/18, when it begins and again
     // when it ends; one that jumps leaves as much as it bends.
     let [[_, jumped, _], [bent, left, _]] = judged;
-    if left < bent / 9.0 && left < jumped / 4.0 { Ok(()) } else { Err("the smooth slew leaves the arrays swinging".into()) }
-}
+    if left < bent / 9.0 && left < jumped / 4.0 {
+        Ok(())
+    } else {
+        Err("the smooth slew leaves the arrays swinging".into())
+    }
 }
 
 fn pictures(both: &[Vec<Seen>; 2]) -> Vec<Vec<Plot<'static>>> {

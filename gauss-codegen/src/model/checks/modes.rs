@@ -88,7 +88,7 @@ fn check_coordinates(
 /// Symmetry and definiteness of matrices that are numbers, and whether the modes fit the mass of the body.
 fn check_numbers(clause: &ModesClause, statements: &Statements, context: &mut Context) {
     let (n, place, earlier) = (clause.coordinates.len(), clause.place(), context.count());
-    if clause.find(Integral::Stiffness).is_none() {
+    if clause.find(Integral::Stiffness).is_none() && !statements.missed {
         let remedy = "give K, or ω² of modes of unit modal mass";
         context.error(clause.span, format!("{place}modes without `stiffness` are not held by anything; {remedy}"));
     }
@@ -101,11 +101,9 @@ fn check_numbers(clause: &ModesClause, statements: &Statements, context: &mut Co
         };
         if !is_definite(&matrix, strict) {
             let (word, wrong) =
-                (integral.word(), if strict { "positive definite" } else { "without a negative eigenvalue" });
-            context.error(
-                given.span,
-                format!("{place}the matrix `{word}` of modes is {wrong}; check its signs and units"),
-            );
+                (integral.word(), if strict { "is not positive definite" } else { "has a negative eigenvalue" });
+            context
+                .error(given.span, format!("{place}the matrix `{word}` of modes {wrong}; check its signs and units"));
         }
     }
     if context.count() == earlier
@@ -129,13 +127,13 @@ fn check_symmetry(given: &GivenIntegral, n: usize, place: &str, context: &mut Co
     let size = entries.len() / (n * n).max(1);
     let block = |k: usize, l: usize| &entries[(k * n + l) * size..(k * n + l + 1) * size];
     let largest = entries.iter().fold(0.0_f64, |most, entry| most.max(entry.abs()));
-    for (k, l) in (0..n).flat_map(|k| (0..k).map(move |l| (l, k))) {
+    for (k, l) in (0..n).flat_map(|l| (0..l).map(move |k| (k, l))) {
         let differs = block(k, l).iter().zip(block(l, k)).any(|(a, b)| (a - b).abs() > ROUNDED * largest);
         if differs {
             let word = given.integral.word();
             context.error(
                 given.span,
-                format!("{place}`{word}` is symmetric in its modes, and its entries [{l}][{k}] and [{k}][{l}] differ"),
+                format!("{place}`{word}` is symmetric in its modes, and its entries [{k}][{l}] and [{l}][{k}] differ"),
             );
             return;
         }

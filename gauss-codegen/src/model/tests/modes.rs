@@ -93,8 +93,8 @@ fn numbers_that_no_body_has() {
         "modes(panel, coordinates = [a, b], mass = [1, 0], damping = [1, -1], stiffness = [[1, 2], [2.001, 9]])",
         &[
             ("stiffness", "`stiffness` is symmetric in its modes, and its entries [0][1] and [1][0] differ"),
-            ("mass", "the matrix `mass` of modes is positive definite; check its signs and units"),
-            ("damping", "the matrix `damping` of modes is without a negative eigenvalue; check its signs and units"),
+            ("mass", "the matrix `mass` of modes is not positive definite; check its signs and units"),
+            ("damping", "the matrix `damping` of modes has a negative eigenvalue; check its signs and units"),
         ],
     );
     // The whole panel moves with the first mode: δ₀² ≤ m M. 2.001 of 2 is too much, 2 is all.
@@ -202,9 +202,7 @@ mod files {
         mistakes(
             r#"{"mass": 4, "inertia": [8, 8, 8], "modes": {"stiffness": [1, -1]}}"#,
             "",
-            &[
-                "panel.json: the matrix `stiffness` of modes is without a negative eigenvalue; check its signs and units",
-            ],
+            &["panel.json: the matrix `stiffness` of modes has a negative eigenvalue; check its signs and units"],
         );
     }
 
