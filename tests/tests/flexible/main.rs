@@ -6,4 +6,5 @@ mod common;
 
 mod beam;
 mod particles;
+mod refused;
 mod spin;

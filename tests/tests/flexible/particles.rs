@@ -4,6 +4,8 @@
 use gauss_runtime::prelude::*;
 
 use super::common::Bounded;
+use super::common::agreement::equal;
+use super::common::groups::{Random, random_configuration};
 use super::common::kernels::same;
 
 macro_rules! pair {
@@ -103,3 +105,154 @@ pair!(in_the_plane: ModalPlane ParticlesPlane, SVector::from([0.3, -0.4, 0.2]), 
     particle(parent = boom, mass = 4, position = [1, 0, 2 + 0.5 * a]),
     potential = 0.5 * k * a * a
 ]);
+
+/// The scene, with what is further wanted of the kernel.
+macro_rules! wanted {
+    ($modal:ident $beside:ident, [$($wanted:tt)+]) => {
+        #[derive(GaussDynamics)]
+        #[gauss($($wanted)+,
+            gravity = [1.5, -2, -9.81],
+            coordinates(base: Pose, theta, a, b),
+            body(hull, pose = base, mass = m, center_of_mass = [0.1, 0, 0.2], inertia = [5, 6, 7]),
+            body(panel, parent = hull, position = [0.5, 0.1, 0], rotation = rotation_z(theta),
+                mass = 8, center_of_mass = [1.125, -0.125, 1.125], inertia = [24, 0, -8, 30, 7, 20]),
+            modes(panel, coordinates = [a, b],
+                translation = [[2, 4, 4], [4, 2, 2]],
+                rotation = [[-9, -6, 2], [-1, 2, 3]],
+                mass = [[10.5, 3], [3, 7.5]],
+                stiffness = [4, k],
+                inertia = [[-2, 10, -4, -6, -8, -7], [-4, 14, 6, -3, -6, -5]],
+                gyroscopic = [[[0, 0, 0], [3, -1.5, 3]], [[-3, 1.5, -3], [0, 0, 0]]],
+                second_inertia = [[[18, 13, 11, 0, 0, -4], [4, 2, 6, -1, -4.5, -3]],
+                                  [[4, 2, 6, -1, -4.5, -3], [9, 9, 12, -2, -2, 2]]]))]
+        struct $modal<T> {
+            m: T,
+            k: T,
+        }
+
+        #[derive(GaussDynamics)]
+        #[gauss($($wanted)+,
+            gravity = [1.5, -2, -9.81],
+            coordinates(base: Pose, theta, a, b),
+            body(hull, pose = base, mass = m, center_of_mass = [0.1, 0, 0.2], inertia = [5, 6, 7]),
+            frame(panel, parent = hull, position = [0.5, 0.1, 0], rotation = rotation_z(theta)),
+            particle(parent = panel, mass = 1, position = [1, b, a]),
+            particle(parent = panel, mass = 2, position = [2 + 0.5 * a + b, 1, a + 0.5 * b]),
+            particle(parent = panel, mass = 1, position = [a, 1 - b, 1 - a + b]),
+            particle(parent = panel, mass = 4, position = [1 + 0.5 * b, -1 + a + 0.5 * b, 2 + 0.5 * a]),
+            potential = 2 * a * a + 0.5 * k * b * b)]
+        struct $beside<T> {
+            m: T,
+            k: T,
+        }
+    };
+}
+
+wanted!(ModalWhole ParticlesWhole, [
+    methods(centroidal, nonlinear_effects, gravity_torques), reactions(panel)
+]);
+wanted!(ModalDerived ParticlesDerived, [linearize]);
+
+type Place = (Isometry3<Bounded>, SVector<Bounded, 3>);
+
+fn states() -> impl Iterator<Item = (Place, SVector<Bounded, 9>)> {
+    let origin = (Isometry3::<f64>::identity(), SVector::from([0.4, 0.2, -0.3]));
+    let mut random = Random(11);
+    (0..6).map(move |_| {
+        let q: Place = random_configuration(&origin, &mut random);
+        (q, SVector::from_fn(|_, _| Bounded::from_f64(random.number())))
+    })
+}
+
+/// Sums over all matter, and what the hinge bears.
+#[test]
+fn the_whole_has_what_bends() {
+    let [m, k] = [20.0, 6.0].map(Bounded::from_f64);
+    let (modal, beside) = (ModalWhole { m, k }.kernel().unwrap(), ParticlesWhole { m, k }.kernel().unwrap());
+    let t = Bounded::zero();
+    for (q, z) in states() {
+        let both = |what: &str, ours: &[Bounded], theirs: &[Bounded]| equal(what, ours, theirs).unwrap();
+        let slice = |a: &Vector3<Bounded>| a.as_slice().to_vec();
+        both("centre", &slice(&modal.center_of_mass(t, &q)), &slice(&beside.center_of_mass(t, &q)));
+        let [ours, theirs] = [modal.centroidal_momentum(t, &q, &z), beside.centroidal_momentum(t, &q, &z)];
+        both("momentum", ours.as_slice(), theirs.as_slice());
+        let [ours, theirs] = [modal.centroidal_matrix(t, &q), beside.centroidal_matrix(t, &q)];
+        both("matrix", ours.as_slice(), theirs.as_slice());
+        let [ours, theirs] = [modal.centroidal_bias(t, &q, &z), beside.centroidal_bias(t, &q, &z)];
+        both("bias", ours.as_slice(), theirs.as_slice());
+        let [ours, theirs] = [modal.gravity_torques(t, &q), beside.gravity_torques(t, &q)];
+        both("weights", ours.as_slice(), theirs.as_slice());
+        let [ours, theirs] = [modal.nonlinear_effects(t, &q, &z, &()), beside.nonlinear_effects(t, &q, &z, &())];
+        both("effects", ours.as_slice(), theirs.as_slice());
+        let ours = modal.reaction(ModalWholeJoint::panel, t, &q, &z, &());
+        let theirs = beside.reaction(ParticlesWholeJoint::panel, t, &q, &z, &());
+        both("reaction", ours.as_slice(), theirs.as_slice());
+    }
+}
+
+#[test]
+fn derivatives_by_state_and_by_parameters() {
+    let [m, k] = [20.0, 6.0].map(Bounded::from_f64);
+    let (modal, beside) = (ModalDerived { m, k }.kernel().unwrap(), ParticlesDerived { m, k }.kernel().unwrap());
+    let t = Bounded::zero();
+    for (q, z) in states() {
+        let [ours, theirs] = [modal.linearize(t, &q, &z, &()), beside.linearize(t, &q, &z, &())];
+        equal("by state", ours.by_state.as_slice(), theirs.by_state.as_slice()).unwrap();
+    }
+}
+
+/// Central gravity to second order, where particles feel all of it: what is left out of forces is of the order of the square
+/// of size over distance, and falls so; of energies of its cube.
+#[test]
+fn a_distant_centre_pulls_at_what_bends() {
+    let left_out = [1e3, 1e4].map(|distance| {
+        let mu = 10.0 * distance * distance;
+        let (modal, beside) = (ModalOrbit { mu }.kernel().unwrap(), ParticlesOrbit { mu }.kernel().unwrap());
+        let turned = UnitQuaternion::from_scaled_axis(Vector3::new(0.3, -0.8, 0.5));
+        let place = Vector3::new(0.6, -0.8, 0.0) * distance;
+        let q = (Isometry3::from_parts(place.into(), turned), SVector::from([0.3, -0.2]));
+        let z = SVector::<f64, 8>::from([0.1, 0.2, -0.3, 0.4, -0.5, 0.6, 0.7, -0.8]);
+        let (ours, theirs) = (modal.acceleration(0.0, &q, &z, &()), beside.acceleration(0.0, &q, &z, &()));
+        assert!(theirs.norm() > 1.0);
+        let energies = [modal.potential_energy(0.0, &q), beside.potential_energy(0.0, &q)];
+        [(ours - theirs).norm() / theirs.norm(), (energies[0] / energies[1] - 1.0).abs()]
+    });
+    // The farthest particle is 2.5 from O.
+    let [[near, of_near], [far, of_far]] = left_out;
+    assert!(near < 10.0 * (2.5_f64 / 1e3).powi(2) && of_near < 10.0 * (2.5_f64 / 1e3).powi(3), "{near} {of_near}");
+    assert!(far < near / 90.0 && of_far < of_near / 900.0, "{far} {near}, {of_far} {of_near}");
+}
+
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(base: Pose, a, b),
+    central_gravity(mu = mu),
+    body(panel, pose = base, mass = 8, center_of_mass = [1.125, -0.125, 1.125], inertia = [24, 0, -8, 30, 7, 20]),
+    modes(panel, coordinates = [a, b],
+        translation = [[2, 4, 4], [4, 2, 2]],
+        rotation = [[-9, -6, 2], [-1, 2, 3]],
+        mass = [[10.5, 3], [3, 7.5]],
+        stiffness = [4, 6],
+        inertia = [[-2, 10, -4, -6, -8, -7], [-4, 14, 6, -3, -6, -5]],
+        gyroscopic = [[[0, 0, 0], [3, -1.5, 3]], [[-3, 1.5, -3], [0, 0, 0]]],
+        second_inertia = [[[18, 13, 11, 0, 0, -4], [4, 2, 6, -1, -4.5, -3]],
+                          [[4, 2, 6, -1, -4.5, -3], [9, 9, 12, -2, -2, 2]]]),
+)]
+struct ModalOrbit {
+    mu: f64,
+}
+
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(base: Pose, a, b),
+    central_gravity(mu = mu),
+    frame(panel, pose = base),
+    particle(parent = panel, mass = 1, position = [1, b, a]),
+    particle(parent = panel, mass = 2, position = [2 + 0.5 * a + b, 1, a + 0.5 * b]),
+    particle(parent = panel, mass = 1, position = [a, 1 - b, 1 - a + b]),
+    particle(parent = panel, mass = 4, position = [1 + 0.5 * b, -1 + a + 0.5 * b, 2 + 0.5 * a]),
+    potential = 2 * a * a + 3 * b * b,
+)]
+struct ParticlesOrbit {
+    mu: f64,
+}
