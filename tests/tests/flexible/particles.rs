@@ -151,7 +151,7 @@ macro_rules! wanted {
 wanted!(ModalWhole ParticlesWhole, [
     methods(centroidal, nonlinear_effects, gravity_torques), reactions(panel)
 ]);
-wanted!(ModalDerived ParticlesDerived, [linearize]);
+wanted!(ModalDerived ParticlesDerived, [linearize(parameters, inverse, hessian), regressor]);
 
 type Place = (Isometry3<Bounded>, SVector<Bounded, 3>);
 
@@ -190,14 +190,30 @@ fn the_whole_has_what_bends() {
     }
 }
 
+/// Derivatives by state and parameters, of accelerations and of inverse dynamics, first and second; and the parts of
+/// forces that are linear in inertial parameters, and those that are not.
 #[test]
-fn derivatives_by_state_and_by_parameters() {
+fn derivatives() {
     let [m, k] = [20.0, 6.0].map(Bounded::from_f64);
     let (modal, beside) = (ModalDerived { m, k }.kernel().unwrap(), ParticlesDerived { m, k }.kernel().unwrap());
     let t = Bounded::zero();
     for (q, z) in states() {
+        let both = |what: &str, ours: &[Bounded], theirs: &[Bounded]| equal(what, ours, theirs).unwrap();
         let [ours, theirs] = [modal.linearize(t, &q, &z, &()), beside.linearize(t, &q, &z, &())];
-        equal("by state", ours.by_state.as_slice(), theirs.by_state.as_slice()).unwrap();
+        both("by state", ours.by_state.as_slice(), theirs.by_state.as_slice());
+        let [ours, theirs] = [modal.by_parameters(t, &q, &z, &()), beside.by_parameters(t, &q, &z, &())];
+        both("by parameters", ours.as_slice(), theirs.as_slice());
+        let rates = z * Bounded::from_f64(0.7);
+        let ours = modal.linearize_inverse(t, &q, &z, &rates, &());
+        let theirs = beside.linearize_inverse(t, &q, &z, &rates, &());
+        both("inverse", ours.by_configuration.as_slice(), theirs.by_configuration.as_slice());
+        both("inverse", ours.by_speeds.as_slice(), theirs.by_speeds.as_slice());
+        let weights = SVector::<Bounded, 18>::from_fn(|i, _| rates[i % 9]);
+        let [ours, theirs] = [modal.hessian(t, &q, &z, &(), &weights), beside.hessian(t, &q, &z, &(), &weights)];
+        both("second", ours.by_state.as_slice(), theirs.by_state.as_slice());
+        let forces = modal.regressor(t, &q, &z, &rates) * modal.inertial_parameters()[0];
+        let residual = forces - modal.other_forces(t, &q, &z, &rates, &());
+        both("regressor", residual.as_slice(), modal.gauss_residual(t, &q, &z, &rates, &()).as_slice());
     }
 }
 
