@@ -106,6 +106,58 @@ pair!(in_the_plane: ModalPlane ParticlesPlane, SVector::from([0.3, -0.4, 0.2]), 
     potential = 0.5 * k * a * a
 ]);
 
+// The craft moves in a chart, and the panel is fixed to it.
+pair!(in_a_chart: ModalChart ParticlesChart, (Isometry3::<f64>::identity(), SVector::from([0.2, -0.3])), [
+    chart = hybrid, coordinates(a, b), mass = 20, center_of_mass = [0.1, 0, 0.2], inertia = [5, 6, 7]
+] [
+    body(panel, parent = body, position = [0.5, 0.1, 0],
+        mass = 8, center_of_mass = [1.125, -0.125, 1.125], inertia = [24, 0, -8, 30, 7, 20]),
+    modes(panel, coordinates = [a, b],
+        translation = [[2, 4, 4], [4, 2, 2]],
+        rotation = [[-9, -6, 2], [-1, 2, 3]],
+        mass = [[10.5, 3], [3, 7.5]],
+        stiffness = [4, k],
+        inertia = [[-2, 10, -4, -6, -8, -7], [-4, 14, 6, -3, -6, -5]],
+        gyroscopic = [[[0, 0, 0], [3, -1.5, 3]], [[-3, 1.5, -3], [0, 0, 0]]],
+        second_inertia = [[[18, 13, 11, 0, 0, -4], [4, 2, 6, -1, -4.5, -3]],
+                          [[4, 2, 6, -1, -4.5, -3], [9, 9, 12, -2, -2, 2]]])
+] [
+    frame(panel, parent = body, position = [0.5, 0.1, 0]),
+    particle(parent = panel, mass = 1, position = [1, b, a]),
+    particle(parent = panel, mass = 2, position = [2 + 0.5 * a + b, 1, a + 0.5 * b]),
+    particle(parent = panel, mass = 1, position = [a, 1 - b, 1 - a + b]),
+    particle(parent = panel, mass = 4, position = [1 + 0.5 * b, -1 + a + 0.5 * b, 2 + 0.5 * a]),
+    potential = 2 * a * a + 0.5 * k * b * b
+]);
+
+// A constraint that is solved for one of the speeds.
+pair!(with_a_constraint_that_is_solved: ModalSolved ParticlesSolved, SVector::from([0.4, 0.2, -0.3]), [
+    coordinates(theta, a, b),
+    speeds(v, p, r),
+    kinematics(theta = v + a * p, a = p * cos(theta) - 2 * r, b = r + 0.3 * v),
+    constraint(velocity = v - (1 + a * a) * p + 0.5 * r),
+    independent(p, r)
+] [
+    body(panel, position = [0.3, 0.1, 0], rotation = rotation_y(theta),
+        mass = 8, center_of_mass = [1.125, -0.125, 1.125], inertia = [24, 0, -8, 30, 7, 20]),
+    modes(panel, coordinates = [a, b],
+        translation = [[2, 4, 4], [4, 2, 2]],
+        rotation = [[-9, -6, 2], [-1, 2, 3]],
+        mass = [[10.5, 3], [3, 7.5]],
+        stiffness = [4, k],
+        inertia = [[-2, 10, -4, -6, -8, -7], [-4, 14, 6, -3, -6, -5]],
+        gyroscopic = [[[0, 0, 0], [3, -1.5, 3]], [[-3, 1.5, -3], [0, 0, 0]]],
+        second_inertia = [[[18, 13, 11, 0, 0, -4], [4, 2, 6, -1, -4.5, -3]],
+                          [[4, 2, 6, -1, -4.5, -3], [9, 9, 12, -2, -2, 2]]])
+] [
+    frame(panel, position = [0.3, 0.1, 0], rotation = rotation_y(theta)),
+    particle(parent = panel, mass = 1, position = [1, b, a]),
+    particle(parent = panel, mass = 2, position = [2 + 0.5 * a + b, 1, a + 0.5 * b]),
+    particle(parent = panel, mass = 1, position = [a, 1 - b, 1 - a + b]),
+    particle(parent = panel, mass = 4, position = [1 + 0.5 * b, -1 + a + 0.5 * b, 2 + 0.5 * a]),
+    potential = 2 * a * a + 0.5 * k * b * b
+]);
+
 /// The scene, with what is further wanted of the kernel.
 macro_rules! wanted {
     ($modal:ident $beside:ident, [$($wanted:tt)+]) => {
