@@ -108,7 +108,7 @@ impl<'g> Translator<'_, 'g> {
         let mut unequal = false;
         let mean = |(at, &entry): (usize, &Expr<'g>)| {
             let other = exchanged(at);
-            unequal |= entry != other && (entry.as_number().is_none() || other.as_number().is_none());
+            unequal |= entry != other && (self.known(entry).is_none() || self.known(other).is_none());
             if entry == other { entry } else { (entry + other).half() }
         };
         let symmetric = entries.iter().enumerate().map(mean).collect();
@@ -135,7 +135,7 @@ impl<'g> Translator<'_, 'g> {
             _ => None,
         };
         // Numbers are judged where they are written.
-        if let Some(kind) = law.filter(|_| entries.iter().any(|e| e.as_number().is_none())) {
+        if let Some(kind) = law.filter(|_| entries.iter().any(|e| self.known(*e).is_none())) {
             let label = format!("{}.{}", clause.body.unraw(), integral.word());
             self.notes.add().laws.push(Law { label, kind, values: entries.clone() });
         }
@@ -159,7 +159,7 @@ impl<'g> Translator<'_, 'g> {
             (0..3).for_each(|j| whole[3 + i][3 + j] = body.inertia[i][j]);
         }
         let values = whole.concat();
-        if values.iter().any(|e| e.as_number().is_none()) {
+        if values.iter().any(|e| self.known(*e).is_none()) {
             let label = clause.body.unraw().to_string();
             self.notes.add().laws.push(Law { label, kind: LawKind::Modes, values });
         }

@@ -12,7 +12,7 @@ use crate::mechanics::links::regroup::regroup;
 use crate::mechanics::loads::forces::{Force, Loads};
 use crate::mechanics::matter::modes::Deformation;
 use crate::mechanics::matter::moments::Moments;
-use crate::mechanics::matter::rotor::{Rotor, add_projected};
+use crate::mechanics::matter::rotor::Rotor;
 
 /// A linear and an angular part at the pole O of each link: momenta, forces or accelerations.
 pub type Pairs<'g> = Vec<(Vector<'g>, Triple<'g>)>;
@@ -187,22 +187,6 @@ impl<'g> Tree<'g> {
         0..self.speeds.len()
     }
 
-    /// Whether some matter besides that of links is moved by this speed.
-    pub fn is_geared(&self, speed: Expr<'g>) -> bool {
-        let moves = |deformation: &Deformation<'g>| deformation.row(speed).iter().any(|e| !e.is_zero());
-        self.rotors.iter().any(|rotor| !rotor.row(speed).is_zero()) || self.deformations.iter().any(moves)
-    }
-
-    /// Whether there is matter besides that of links.
-    pub fn has_formal_matter(&self) -> bool {
-        !self.rotors.is_empty() || !self.deformations.is_empty()
-    }
-
-    /// ∂q̇/∂z^α of a rotor.
-    pub fn row_of(&self, rotor: &Rotor<'g>, speed: usize) -> Expr<'g> {
-        rotor.row(self.speeds[speed])
-    }
-
     pub fn speed(&self, k: usize) -> Expr<'g> {
         self.speeds[k]
     }
@@ -270,8 +254,7 @@ impl<'g> Tree<'g> {
     /// p_α = ∂T/∂z^α.
     pub fn momentum(&self) -> Vec<Expr<'g>> {
         let momenta = self.projected(&self.gathered(self.momenta()));
-        let momenta = add_projected(&self.rotors, &self.speeds, momenta, Rotor::momentum);
-        self.with_modes(momenta, Deformation::momenta)
+        self.with_formal_momenta(momenta)
     }
 
     /// A_αβ: the momentum that each partial velocity gives to all that it moves, paired with the partial velocities of
@@ -311,13 +294,7 @@ impl<'g> Tree<'g> {
             }
         }
         self.add_carried_fluid(&mut matrix);
-        for rotor in &self.rotors {
-            let rows: Vec<Expr<'g>> = self.speeds.iter().map(|&z| rotor.row(z)).collect();
-            for (row, column) in (0..n).flat_map(|column| (0..=column).map(move |row| (row, column))) {
-                matrix[row][column] = matrix[row][column] + rotor.inertia * rows[row] * rows[column];
-            }
-        }
-        self.deformations.iter().for_each(|deformation| deformation.add_to(&mut matrix, &self.speeds));
+        self.add_formal(&mut matrix);
         for row in 0..n {
             for column in 0..row {
                 matrix[row][column] = matrix[column][row];
@@ -413,25 +390,6 @@ impl<'g> Tree<'g> {
     ) -> Vec<Expr<'g>> {
         let wrenches = self.wrenches(along, inertia, loads, accelerations);
         self.with_formal(self.projected(&self.gathered(wrenches)), along)
-    }
-
-    /// With forces of inertia, less weights, of matter besides that of links.
-    pub fn with_formal(&self, rows: Vec<Expr<'g>>, along: &Map<u32, Expr<'g>>) -> Vec<Expr<'g>> {
-        let rows = add_projected(&self.rotors, &self.speeds, rows, |rotor| rotor.force(along));
-        self.with_modes(rows, |deformation| {
-            let weights = deformation.weights().into_iter();
-            deformation.inertia_forces(along).iter().zip(weights).map(|(force, weight)| *force - weight).collect()
-        })
-    }
-
-    /// Adds `Σ of(modes)·∂ν/∂z^α` to the rows.
-    fn with_modes(&self, mut rows: Vec<Expr<'g>>, of: impl Fn(&Deformation<'g>) -> Vec<Expr<'g>>) -> Vec<Expr<'g>> {
-        for deformation in &self.deformations {
-            let values = of(deformation);
-            let projected = self.speeds.iter().map(|&speed| deformation.projected(&values, speed));
-            rows.iter_mut().zip(projected).for_each(|(row, own)| *row = *row + own);
-        }
-        rows
     }
 
     /// Forces of inertia of every link by itself, less the loads on it.
@@ -586,16 +544,7 @@ impl<'g> Tree<'g> {
                 bracket[k] = bracket[k] + frame.dot(q, &a) + dot(gamma, &o) + turned;
             }
         }
-        for rotor in &self.rotors {
-            for (k, &speed) in self.speeds.iter().enumerate() {
-                bracket[k] = bracket[k] + rotor.momentum() * rotor.row(speed).derivative(&self.rates);
-            }
-        }
-        for deformation in &self.deformations {
-            for (row, &speed) in bracket.iter_mut().zip(&self.speeds) {
-                *row = *row + deformation.bracket(speed, &self.rates);
-            }
-        }
+        self.add_formal_bracket(&mut bracket);
         bracket
     }
 
@@ -605,7 +554,7 @@ impl<'g> Tree<'g> {
             return vec![self.graph.zero(); self.speeds.len()];
         }
         let links = self.weights_in(&vec![self.gravity; self.links.len()], Link::displaced);
-        self.with_modes(self.projected(&self.gathered(links)), Deformation::weights)
+        self.with_formal_weights(self.projected(&self.gathered(links)))
     }
 
     /// Resultant and torque about O, on each link, of a field that is uniform over it; what is displaced is lifted.
@@ -638,7 +587,6 @@ impl<'g> Tree<'g> {
         let terms =
             links.map(|(link, (q, gamma))| link.frame.dot(&q, &link.velocity) + dot(&gamma, &link.angular_velocity));
         let links = terms.fold(self.graph.zero(), |sum, e| sum + e);
-        let rotors = self.rotors.iter().fold(links, |sum, rotor| sum + rotor.momentum() * rotor.rate);
-        self.deformations.iter().fold(rotors, |sum, modes| sum + modes.twice_kinetic_energy())
+        self.with_formal_energy(links)
     }
 }

@@ -128,12 +128,10 @@ impl Checker<'_> {
         if let Some((_, velocity)) = &statements.medium {
             self.optional(velocity, &Need::new("the velocity of the medium is", VELOCITY));
         }
-        for (_, inertia) in &statements.armatures {
-            self.value(inertia);
-        }
         // Coordinates of modes have a unit of their author's: kg^½ m, m, or none.
-        for entry in statements.modes.iter().flat_map(|read| read.clause.expressions()) {
-            self.value(entry);
+        let of_modes = statements.modes.iter().flat_map(|read| read.clause.expressions());
+        for free in statements.armatures.iter().map(|(_, inertia)| inertia).chain(of_modes) {
+            self.value(free);
         }
         statements.attractions.iter().for_each(|clause| self.element(clause));
     }
