@@ -14,8 +14,8 @@ use gauss_runtime::prelude::*;
 /// A sample: s, degrees, mm.
 type Seen = (f64, f64, f64);
 
-/// The hub is a box of 2 m; arrays of 6 m stand out along its e₁. Each bends out of its plane by two modes, and in it by
-/// one. Frames along them are for the eye: what they are displaced by is `seen` times too large.
+/// The hub is a box of 2 m; arrays of 6 m stand out along its e₁. Each bends out of its plane by two modes, and in it
+/// by one. Frames along them are for the eye: what they are displaced by is `seen` times too large.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(craft: Pose, l1, l2, l3, r1, r2, r3),

@@ -79,8 +79,8 @@ pub enum Rule {
         /// Column of the entry, from 0.
         col: usize,
     },
-    /// The stiffness matrix of a bushing, or of modes, has no negative eigenvalue. The value is its smallest eigenvalue,
-    /// in the units given.
+    /// The stiffness matrix of a bushing, or of modes, has no negative eigenvalue. The value is its smallest
+    /// eigenvalue, in the units given.
     SemidefiniteStiffness,
     /// Each mode of a body moves mass. The value is the modal mass that is not positive.
     PositiveModalMass,

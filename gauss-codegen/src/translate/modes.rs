@@ -1,4 +1,5 @@
-//! Bodies that deform: integrals of modes in symbols; their stiffness a potential, their damping a dissipation function.
+//! Bodies that deform: integrals of modes in symbols; their stiffness a potential, their damping a dissipation
+//! function.
 
 use proc_macro2::Span;
 

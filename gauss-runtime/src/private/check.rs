@@ -260,8 +260,8 @@ impl<T: Real> ParameterCheck<T> {
         self.symmetric_so_far(field, matrix, |row, col| Rule::SymmetricCoefficients { row, col });
     }
 
-    /// The kinetic energy of a body that deforms, in the order (u, ω, η̇): finite, with positive modal masses, and without
-    /// a negative eigenvalue, up to rounding.
+    /// The kinetic energy of a body that deforms, in the order (u, ω, η̇): finite, with positive modal masses, and
+    /// without a negative eigenvalue, up to rounding.
     pub fn modes<const N: usize>(&mut self, field: &'static str, matrix: &[[T; N]; N]) {
         for row in matrix {
             if !self.finite_so_far(field, row) {

@@ -157,8 +157,9 @@ struct Swinging {
 }
 
 /// Spin stiffens: frequencies of a uniform cantilever that turns about its root, in units of √(EI/ρAL⁴), at rates of
-/// spin in the same unit (A. D. Wright, C. E. Smith, R. W. Thresher, J. L. C. Wang 1982, "Vibration modes of centrifugally
-/// stiffened beams", table 1; `tests/references/beams.py spin` finds the same numbers, and more of their digits).
+/// spin in the same unit (A. D. Wright, C. E. Smith, R. W. Thresher, J. L. C. Wang 1982, "Vibration modes of
+/// centrifugally stiffened beams", table 1; `tests/references/beams.py spin` finds the same numbers, and more of their
+/// digits).
 const FLAPPING: [(f64, [f64; 2]); 4] = [
     (0.0, [3.516_015_268_500_15, 22.034_491_564_666_77]),
     (2.0, [4.137_319_573_025_36, 22.614_921_956_504_05]),
@@ -166,8 +167,8 @@ const FLAPPING: [(f64, [f64; 2]); 4] = [
     (6.0, [7.360_373_019_310_02, 26.809_081_678_497_93]),
 ];
 
-/// Rayleigh–Ritz is from above. What modes left out would take of λ is γ⁴B²/(2λ²λ₅²) of it, by perturbation, with λ₅ = 199.86
-/// and coefficients B of the tension of order one: 3e-4 at γ = 6, where it is largest.
+/// Rayleigh–Ritz is from above. What modes left out would take of λ is γ⁴B²/(2λ²λ₅²) of it, by perturbation, with λ₅ =
+/// 199.86 and coefficients B of the tension of order one: 3e-4 at γ = 6, where it is largest.
 #[test]
 fn spin_stiffens_a_beam_as_published() {
     let unit = (STIFFNESS / (DENSITY * LENGTH.powi(4))).sqrt();
@@ -182,8 +183,8 @@ fn spin_stiffens_a_beam_as_published() {
             assert!((-1e-9..3e-4).contains(&excess), "{rate}: {} {published} {excess:e}", square.sqrt() / unit);
         }
         // In the plane of the spin the same tension acts, and the centrifugal force along the deflection: ω² less. As
-        // the beam stretches, by (ωL)²ρA/EA of its length at most, which is 2e-4, the two are coupled; and there are three
-        // modes: the fourth, λ₄ = 120.9, takes 2.4e-3 of λ by the same measure.
+        // the beam stretches, by (ωL)²ρA/EA of its length at most, which is 2e-4, the two are coupled; and there are
+        // three modes: the fourth, λ₄ = 120.9, takes 2.4e-3 of λ by the same measure.
         let kernel = Swinging { w: rate * unit }.kernel().unwrap();
         let by_state = kernel.linearize(0.0, &rest, &rest, &()).by_state;
         let values = DMatrix::from_fn(8, 8, |i, k| by_state[(i, k)]).complex_eigenvalues();
@@ -209,10 +210,10 @@ struct Hybrid {
     k: f64,
 }
 
-/// The equations as they are written for spacecraft (P. W. Likins 1970; S. Di Gennaro 2003): dQ/dt = 0 of the momentum,
-/// dΓ/dt + u × Q = 0 of the angular momentum, with Q = mu + ω × δ₀η + δ₀η̇ and Γ = Jω + δ₀η × u + δ₁η̇, and
-/// η̈ + Cη̇ + Kη + δ₀ᵀa + δ₁ᵀω̇ = 0 with the acceleration a of O; derivatives are the observer's. The centre of mass moves with
-/// the modes, the inertia does not.
+/// The equations as they are written for spacecraft (P. W. Likins 1970; S. Di Gennaro 2003): dQ/dt = 0 of the
+/// momentum, dΓ/dt + u × Q = 0 of the angular momentum, with Q = mu + ω × δ₀η + δ₀η̇ and Γ = Jω + δ₀η × u + δ₁η̇, and
+/// η̈ + Cη̇ + Kη + δ₀ᵀa + δ₁ᵀω̇ = 0 with the acceleration a of O; derivatives are the observer's. The centre of mass
+/// moves with the modes, the inertia does not.
 #[test]
 fn participations_alone_are_the_model_of_hybrid_coordinates() {
     let (d0, d1, c, k) = (Vector3::new(1.0, -2.0, 0.5), Vector3::new(2.0, 0.3, -4.0), 0.4, 5.0);

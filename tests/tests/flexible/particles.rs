@@ -269,8 +269,8 @@ fn derivatives() {
     }
 }
 
-/// Central gravity to second order, where particles feel all of it: what is left out of forces is of the order of the square
-/// of size over distance, and falls so; of energies of its cube.
+/// Central gravity to second order, where particles feel all of it: what is left out of forces is of the order of the
+/// square of size over distance, and falls so; of energies of its cube.
 #[test]
 fn a_distant_centre_pulls_at_what_bends() {
     let left_out = [1e3, 1e4].map(|distance| {

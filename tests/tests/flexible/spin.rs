@@ -1,5 +1,5 @@
-//! The spin-up of a beam (T. R. Kane, R. R. Ryan, A. K. Banerjee 1987): L 10, ρA 1.2, EI 1.4e4, EA 2.8e7, from rest to 6
-//! in 15 s. What is stretched by spin is stiffened by it; a model that is linearised too early falls apart.
+//! The spin-up of a beam (T. R. Kane, R. R. Ryan, A. K. Banerjee 1987): L 10, ρA 1.2, EI 1.4e4, EA 2.8e7, from rest to
+//! 6 in 15 s. What is stretched by spin is stiffened by it; a model that is linearised too early falls apart.
 
 use gauss_runtime::prelude::*;
 
@@ -16,7 +16,8 @@ const STRETCH: f64 = RATE * RATE * DENSITY * LENGTH * LENGTH * LENGTH / (3.0 * A
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(s),
-    body(beam, rotation = rotation_z(w * t), mass = m, center_of_mass = [0.5 * l, 0, 0], inertia = [0, m * l * l / 3, m * l * l / 3]),
+    body(beam, rotation = rotation_z(w * t), mass = m, center_of_mass = [0.5 * l, 0, 0],
+        inertia = [0, m * l * l / 3, m * l * l / 3]),
     modes(beam, coordinates = [s], translation = [[0.625 * m, 0, 0]], mass = [17 * m / 35], stiffness = [1.2 * ea / l],
         inertia = [[0, 0.8 * m * l, 0.8 * m * l, 0, 0, 0]]),
 )]

@@ -1,5 +1,5 @@
-//! Matter besides that of links, which moves with speeds on its own: rotors, and what links have that deform. Its part of
-//! every sum.
+//! Matter besides that of links, which moves with speeds on its own: rotors, and what links have that deform. Its part
+//! of every sum.
 
 use crate::algebra::{Expr, Map};
 
