@@ -77,7 +77,7 @@ fn check_coordinates(
                 let table: Vec<(&str, ())> = names.iter().map(|name| (name.as_str(), ())).collect();
                 let remedy = match words::nearest(&word(name), &table) {
                     Some((near, ())) if word(name).chars().count() > 1 => format!("did you mean `{near}`?"),
-                    _ => format!("add it to `coordinates(…)`"),
+                    _ => "add it to `coordinates(…)`".to_owned(),
                 };
                 context.error(name.span(), format!("`{name}` is no coordinate; {remedy}"));
             }
