@@ -19,6 +19,7 @@ chapters! {
     Loads: "src/loads.md",
     States: "src/states.md",
     Reactions: "src/reactions.md",
+    Flexible: "src/flexible.md",
     Touching: "src/touching.md",
     Inputs: "src/inputs.md",
     Integrators: "src/integrators.md",

@@ -241,6 +241,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             });
         }
         tree.rotors = self.rotors(&tree)?;
+        tree.deformations = self.deformations(&tree)?;
         let elements = match (model.chart_of_all(), self.chart()) {
             (Some(_), Some(chart)) if self.let_go.is_empty() => self.elements_on(chart)?,
             _ => self.elements(&tree)?.into_iter().map(|(_, element)| element).collect(),
