@@ -214,7 +214,7 @@ impl<'a, 'g> Printer<'a, 'g> {
         }
     }
 
-    /// eⁿ for n > 1. Powers of functions stand between the name and the argument, sin² θ; even ones of roots are powers.
+    /// eⁿ for n > 1. Powers of functions stand between name and argument, sin² θ; even ones of roots are powers.
     fn power(&self, e: Expr<'g>, n: i32) -> String {
         if n % 2 == 0
             && let Some(inner) = self.radicand(e)

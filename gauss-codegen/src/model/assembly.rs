@@ -72,8 +72,8 @@ fn body_in_chart() -> BodyClause {
     }
 }
 
-/// Checks names and kinds in all expressions, and writes the definitions out; gives back the names that are not used, and
-/// what the names stand for.
+/// Checks names and kinds in all expressions, and writes the definitions out; gives back the names that are not used,
+/// and what the names stand for.
 fn check_expressions(
     statements: &mut Statements,
     reader: &Reader<'_>,

@@ -1,5 +1,5 @@
-//! Where a formula may be broken: before signs of a sum, between factors, inside brackets, which then have a fixed size;
-//! a long fraction becomes a product or a quotient in one line, a long root a power.
+//! Where a formula may be broken: before signs of a sum, between factors, inside brackets, which then have a fixed
+//! size; a long fraction becomes a product or a quotient in one line, a long root a power.
 
 use super::read::{Kind, Piece};
 use super::width::{bracket, fractions, width, width_of};

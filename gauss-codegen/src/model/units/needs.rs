@@ -132,7 +132,7 @@ impl Checker<'_> {
         statements.attractions.iter().for_each(|clause| self.element(clause));
     }
 
-    /// Armatures are in the unit of their coordinate, and integrals of modes in one of their author's: kg^½ m, m, or none.
+    /// Armatures are in the unit of their coordinate, integrals of modes in one of their author's: kg^½ m, m, none.
     fn of_any_unit(&mut self, statements: &Statements) {
         let of_modes = statements.modes.iter().flat_map(|read| read.clause.expressions());
         for free in statements.armatures.iter().map(|(_, inertia)| inertia).chain(of_modes) {
