@@ -1,7 +1,7 @@
 //! The equations of a scene for people: momenta, the Gauss condition, forces, and the solved-for form where it is
 //! short.
 
-use crate::algebra::{Expr, Map, Notation, Parts, Substitution, print_parts, print_short, print_with};
+use crate::algebra::{Expr, Map, Notation, Parts, Substitution, print_parts, print_short};
 use crate::mechanics::tidy::LIMIT;
 
 use crate::mechanics::arrangements::free_link::FreeLink;
