@@ -211,7 +211,8 @@ fn compute(py: Python<'_>, kernel: &dyn AnyKernel, id: Id, work: &Work, count: u
         return run(0..count);
     }
     py.detach(|| {
-        if count <= CHUNK {
+        // One thread alone need not be woken.
+        if count <= CHUNK || rayon::current_num_threads() == 1 {
             return run(0..count);
         }
         let first: Mutex<Option<OffGroup>> = Mutex::new(None);

@@ -38,13 +38,7 @@ impl<S: GaussSystem> GaussSystem for Stoppable<'_, S> {
     }
 
     #[inline(never)]
-    fn configuration_rates(
-        &self,
-        t: S::Scalar,
-        q: &S::Configuration,
-        z: &S::Speeds,
-        input: &S::Input,
-    ) -> Velocity<S> {
+    fn configuration_rates(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds, input: &S::Input) -> Velocity<S> {
         self.system.configuration_rates(t, q, z, input)
     }
 
