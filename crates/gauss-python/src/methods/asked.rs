@@ -113,6 +113,15 @@ impl<S: System> Table<S> {
         });
     }
 
+    /// Reactions of joints by their names.
+    pub fn reactions(&mut self)
+    where
+        S: Reactions,
+    {
+        self.joints = S::Joint::ALL.iter().map(|joint| joint.name()).collect();
+        vector_method!(self, Reaction, |s, at| s.reaction(at.frame(), at.t(), &at.q(), &at.z(), &at.input()));
+    }
+
     /// Rates of Jacobians.
     pub fn jacobian_rates(&mut self)
     where

@@ -88,6 +88,16 @@ pub struct Work {
     pub frame: usize,
 }
 
+impl Work {
+    /// Of no arrays.
+    pub const NONE: Self = Self {
+        t: Source::NONE,
+        arguments: [Source::NONE; 4],
+        results: [Target::NONE; MOST_RESULTS],
+        frame: 0,
+    };
+}
+
 /// The arguments of as many rows as there are lanes.
 pub struct At<'a, S> {
     work: &'a Work,
@@ -120,6 +130,11 @@ impl<'a, S: System> At<'a, S> {
     #[inline(always)]
     fn vector<V: VectorSpace<S::Scalar>>(&self, slot: Slot) -> V {
         let (mut vector, source) = (V::zero(), self.work.arguments[slot as usize]);
+        if source.stride() != V::DIM && source.stride() != 0 {
+            // Part of a longer row.
+            (0..V::DIM).for_each(|i| vector.set_component(i, Self::number(&source, self.row, i)));
+            return vector;
+        }
         if source.stride() == 0 {
             for i in 0..V::DIM {
                 // SAFETY: as of `number`.
@@ -292,13 +307,16 @@ pub struct Table<S> {
     pub multipliers: usize,
     /// The names of the frames.
     pub frames: Vec<&'static str>,
+    /// The names of the joints whose reactions are methods.
+    pub joints: Vec<&'static str>,
 }
 
 impl<S: System> Table<S> {
     /// Those that every kernel has.
     #[must_use]
     pub fn new() -> Self {
-        let mut table = Self { loops: std::array::from_fn(|_| None), multipliers: 0, frames: Vec::new() };
+        let mut table =
+            Self { loops: std::array::from_fn(|_| None), multipliers: 0, frames: Vec::new(), joints: Vec::new() };
         table.motion();
         table.energies();
         table
@@ -368,6 +386,7 @@ impl<S: System> Table<S> {
         vector_method!(self, MomentumRate, |s, at| s.momentum_rate(at.t(), &at.q(), &at.z(), &at.input()));
         vector_method!(self, Retract, |_, at| at.q().advance(&at.x()).components());
         vector_method!(self, Difference, |_, at| at.q().difference(&at.other()));
+        vector_method!(self, Tangent, |_, at| at.q().tangent(&at.x()));
     }
 
     fn energies(&mut self) {
@@ -393,7 +412,8 @@ mod tests {
     fn numbers_of_methods_are_places_in_the_list() {
         assert_eq!(SPECS[Id::Hessian as usize].name, "hessian");
         assert_eq!(SPECS[Id::CenterJacobian as usize].name, "center_jacobian");
-        assert_eq!(Id::CenterJacobian as usize + 1, COUNT);
+        assert_eq!(SPECS[Id::Tangent as usize].name, "tangent");
+        assert_eq!(Id::Tangent as usize + 1, COUNT);
         assert!(SPECS.iter().all(|spec| spec.results.len() <= MOST_RESULTS));
     }
 }
