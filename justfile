@@ -6,7 +6,7 @@ test:
 
 # The example that the README begins with.
 example:
-    cargo run --release -p gauss-charts --example kirchhoff_vs_newton_euler
+    cargo run --release -p gauss-first
 
 # Kernels in the integrators of other crates.
 adapters:

@@ -115,7 +115,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if residual > 1e-9 || (cost / expected - 1.0).abs() > 1e-4 || last.q.amax() > 1e-2 {
         return Err("the regulator does not do what it was designed for".into());
     }
-    let page = Playback::new("A pole balanced by its cart", &fall)?;
+    let page = Playback::new("A pole balanced by its cart", &fall)?.si();
     let page = stage::cart_and_pole(page, 0.6, 0.05, |s| law(s.t, &s.q, &s.z)[0]);
     write_page("cart_pole", &page.energy(&kernel))
 }

@@ -99,6 +99,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("after 250 steps: the same bits at all rates");
     // The edges of a uniform box with these moments.
     let page = Playback::new("A crate that was thrown", &exact)?
+        .si()
         .body("crate", |s| s.q, [Shape::cuboid([1.05_f64.sqrt(), 0.45_f64.sqrt(), 0.15_f64.sqrt()])])
         .follow("crate")
         .trace("crate", [0.0; 3])

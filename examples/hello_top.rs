@@ -38,6 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // The same as a page that plays, in `target/gauss`.
     let page = Playback::with_pictures("A heavy top", &path, 2000)?
+        .si()
         .body(
             "top",
             |s| Isometry3::from_parts(Translation3::identity(), s.q),

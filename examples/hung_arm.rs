@@ -140,7 +140,7 @@ fn page(arm: &HungArmKernel) -> Result<Playback<HungArmKernel>, Box<dyn Error>> 
     let path = Simulation::new(arm).input(law).fixed_step(H / 5.0).run(place, rate, 0.0..END)?;
     let link = |k: usize| if k == 0 { "base_link".to_owned() } else { format!("panda_joint{k}_link") };
     let links: Vec<String> = (0..=7).map(link).collect();
-    let page = Playback::new("An arm below a ceiling swings a load", &path)?.frames(arm);
+    let page = Playback::new("An arm below a ceiling swings a load", &path)?.si().frames(arm);
     let page = stage::chain(page, &links.iter().map(String::as_str).collect::<Vec<_>>(), 0.04)
         .rod("panda_joint7_link", "load", 0.015)
         .shape("load", Shape::ball(0.04));

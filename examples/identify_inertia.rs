@@ -205,6 +205,7 @@ fn report(truth: &Unknown, first: &Unknown, fit: &Fit<FITTED>) {
 /// The motion as a page that plays.
 fn write(body: &Kernel, path: Vec<Sample<Kernel>>) -> Result<(), Box<dyn Error>> {
     let page = Playback::of_samples("A satellite on an air bearing, shaken to tell its inertia", path)
+        .si()
         .body(
             "satellite",
             |s| Isometry3::from_parts(Translation3::identity(), s.q),

@@ -163,7 +163,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if at_limit < 3 || worst > 1e-9 || q.amax() > 1e-2 || z.amax() > 1e-2 {
         return Err("the pole is not balanced by best plans".into());
     }
-    let page = Playback::new("A pole balanced by plans, with at most 4 N", &run)?;
+    let page = Playback::new("A pole balanced by plans, with at most 4 N", &run)?.si();
     let push = |s: &Sample<CartPoleKernel>| run.input(s.t, &s.q, &s.z)[0];
     write_page("mpc_step", &stage::cart_and_pole(page, 0.6, 0.1, push).energy(&kernel))
 }

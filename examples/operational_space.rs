@@ -115,6 +115,7 @@ fn page<'k>(arm: &'k ArmKernel, path: &Trajectory<'k, ArmKernel>) -> Result<Play
     let goal = |s: &Sample<ArmKernel>| Isometry3::from(Translation3::from(wanted(s.t)[0]));
     let off = |s: &Sample<ArmKernel>| 1e3 * error(arm, s.t, &s.q, &s.z)[0].norm();
     let page = Playback::new("An arm draws a circle with its tool", path)?
+        .si()
         .frames(arm)
         .body("base", |_| Isometry3::identity(), [Shape::cylinder(0.09, 0.06)])
         .body("where the tool should be", goal, [Shape::ball(0.015)])

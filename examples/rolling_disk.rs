@@ -122,6 +122,7 @@ fn page(
         (place.translation.vector - up * RADIUS, heading * kernel.multipliers(s.t, &s.q, &s.z, &()))
     };
     Ok(Playback::with_pictures("A hoop that rolls", path, 1200)?
+        .si()
         .body("hoop", pose, [Shape::cylinder(RADIUS, 0.02)])
         .trace("hoop", [0.0; 3])
         .arrow("force of the floor", 0.5 / (MASS * GRAVITY), floor)

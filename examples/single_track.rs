@@ -124,7 +124,8 @@ fn page(understeers: &Car, oversteers: &Car) -> Result<Playback<CarKernel>, Box<
     };
     let paths = [follow(&kernels[0], understeers)?, follow(&kernels[1], oversteers)?];
     let names = ["soft in front", "stiff in front"];
-    let mut page = Playback::of_samples("Two cars steered for a moment, above the critical speed", paths[0].clone());
+    let mut page =
+        Playback::of_samples("Two cars steered for a moment, above the critical speed", paths[0].clone()).si();
     for (((name, kernel), path), car) in names.into_iter().zip(&kernels).zip(&paths).zip([understeers, oversteers]) {
         // Both are sampled at the same times.
         let of = |s: &Sample<CarKernel>| path[path.partition_point(|other| other.t < s.t).min(path.len() - 1)];

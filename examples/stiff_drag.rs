@@ -90,6 +90,7 @@ fn page(kernel: &CapsuleKernel) -> Result<Playback<CapsuleKernel>, IntegrationEr
         Simulation::new(kernel).control(control).run(Isometry3::identity(), Vector6::zeros(), 0.0..20.0 * SPAN)?;
     let eye = Vector3::new(0.0, 0.0, 0.3);
     let mut page = Playback::new("A capsule creeps through thick oil", &path)?
+        .si()
         .body("capsule", |s| s.q, [Shape::ellipsoid([0.15, 0.15, 0.3])])
         .body("eye", |s| s.q * Isometry3::from(Translation3::from(eye)), [])
         .body("hook", |_| Isometry3::translation(1.0, 2.0, 3.0), [Shape::ball(0.05).colour("#444444")])

@@ -151,6 +151,7 @@ fn page(kernel: &LegKernel, path: Vec<Sample<LegKernel>>) -> Playback<LegKernel>
     let ankle = [0.0, 0.0, -SHANK.length];
     let foot = Shape::cuboid([FOOT.length, 0.08, 0.05]).at(&Isometry3::translation(0.08, 0.0, -SHANK.length - 0.02));
     Playback::of_samples("A leg that swings by its weight alone", path)
+        .si()
         .frames(kernel)
         .from_the_side()
         .shape("thigh", Shape::ball(0.07))

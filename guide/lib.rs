@@ -34,6 +34,7 @@ chapters! {
     Results: "src/results.md",
     Python: "src/python.md",
     Tasks: "src/tasks.md",
+    FieldEstimation: "src/field_estimation.md",
     FromSympy: "src/from_sympy.md",
     FromPinocchioMujoco: "src/from_pinocchio_mujoco.md",
     FromMss: "src/from_mss.md",

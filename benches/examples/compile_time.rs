@@ -171,7 +171,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         if wanted.is_empty() { SHORT.contains(&name) } else { wanted.iter().any(|wanted| wanted == name) }
     };
     let chosen: Vec<&Structure> = STRUCTURES.iter().filter(is_wanted).collect();
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/compile_time");
+    let folder = gauss_files::output_folder().with_file_name("compile_time");
     write(&folder)?;
     for profile in PROFILES {
         for structure in &chosen {

@@ -1,7 +1,6 @@
 //! A run of the benchmarks, from its options to its tables.
 
 use std::error::Error;
-use std::path::Path;
 
 use crate::cases::Case;
 use crate::measure::{Way, times};
@@ -50,8 +49,7 @@ pub fn run(cases: Vec<Case>, file: &str) -> Result<(), Box<dyn Error>> {
     }
     let table = table(&rows);
     println!("{table}");
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/gauss");
-    gauss_files::write(folder.join(file), table)?;
+    gauss_files::write(gauss_files::output_folder().join(file), table)?;
     Ok(())
 }
 

@@ -74,39 +74,35 @@ impl Estimate {
     ///
     /// # Errors
     /// When the covariance has lost its digits.
-    pub fn look(&mut self, seen: &UnitQuaternion<f64>) -> Result<(), &'static str> {
+    pub fn look(&mut self, kernel: &SpacecraftKernel, seen: &UnitQuaternion<f64>) -> Result<(), &'static str> {
         let noise = Matrix3::from_diagonal(&Vector3::from(TRACKER.map(|deviation| deviation * deviation)));
         let p = self.covariance;
         let innovation = p.fixed_view::<3, 3>(0, 0) + noise;
         let inverse = innovation.try_inverse().ok_or("the covariance of the innovation is singular")?;
         let gain: SMatrix<f64, 6, 3> = p.fixed_columns::<3>(0) * inverse;
+        // ANCHOR: look
         let change = gain * self.state.0.difference(seen);
-        let sigma = change.fixed_rows::<3>(0).into_owned();
-        self.state = (self.state.0.retract(&sigma).renormalise(), self.state.1 + change.fixed_rows::<3>(3));
+        self.state = kernel.retract(&self.state.0, &self.state.1, &change);
+        // ANCHOR_END: look
         // Joseph's form, symmetric whatever the rounding.
         let mut rest = Matrix6::identity();
         let mut left = rest.fixed_columns_mut::<3>(0);
         left -= gain;
         let posterior = rest * p * rest.transpose() + gain * noise * gain.transpose();
         // What is left of the error is seen from the new estimate: exp(σ + ε) = exp(σ) ∘ exp(dexp ε).
-        let mut carried = Matrix6::identity();
-        let dexp = <UnitQuaternion<f64> as Configuration>::dexp(&sigma);
-        for k in 0..3 {
-            carried.fixed_view_mut::<3, 1>(0, k).copy_from(&dexp(&Vector3::ith(k, 1.0)));
-        }
+        let carried: Matrix6<f64> = kernel.dexp(&change);
         self.covariance = carried * posterior * carried.transpose();
         Ok(())
     }
 
     /// (σ, δω) from the estimate to the truth.
-    pub fn error(&self, (rotation, rate): &State) -> Vector6<f64> {
-        let (sigma, omega) = (self.state.0.difference(rotation), rate - self.state.1);
-        Vector6::new(sigma.x, sigma.y, sigma.z, omega.x, omega.y, omega.z)
+    pub fn error(&self, kernel: &SpacecraftKernel, (q, z): &State) -> Vector6<f64> {
+        kernel.difference((&self.state.0, &self.state.1), (q, z))
     }
 
     /// The normalised error eᵀP⁻¹e; six on average where the filter knows how wrong it is.
-    pub fn normalised_error(&self, truth: &State) -> f64 {
-        let error = self.error(truth);
+    pub fn normalised_error(&self, kernel: &SpacecraftKernel, truth: &State) -> f64 {
+        let error = self.error(kernel, truth);
         self.covariance.cholesky().map_or(f64::INFINITY, |factors| error.dot(&factors.solve(&error)))
     }
 }
@@ -145,9 +141,9 @@ pub fn follow(
     let mut estimate = Estimate::first();
     let moment = |estimate: &Estimate, step: usize, updated: bool| Moment {
         t: step as f64 * STEP,
-        error: estimate.error(&truth.state(step)),
+        error: estimate.error(kernel, &truth.state(step)),
         deviations: estimate.covariance.diagonal().map(f64::sqrt),
-        normalised: estimate.normalised_error(&truth.state(step)),
+        normalised: estimate.normalised_error(kernel, &truth.state(step)),
         updated,
     };
     let mut moments = vec![moment(&estimate, 0, false)];
@@ -157,7 +153,7 @@ pub fn follow(
             step += 1;
             moments.push(moment(estimate, step, false));
         })?;
-        estimate.look(seen)?;
+        estimate.look(kernel, seen)?;
         moments.push(moment(&estimate, step, true));
     }
     Ok(moments)

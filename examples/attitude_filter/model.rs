@@ -84,7 +84,9 @@ impl Truth {
 /// When the run does not reach the end.
 pub fn happens(kernel: &SpacecraftKernel, random: &mut Random) -> Result<Truth, IntegrationError> {
     let (q, z) = nominal();
-    let start = (q.retract(&vector(random, [FIRST.0; 3])), z + vector(random, [FIRST.1; 3]));
+    let deviation = |i| if i < 3 { FIRST.0 } else { FIRST.1 };
+    let off = Vector6::from_fn(|i, _| deviation(i) * random.normal());
+    let start = kernel.retract(&q, &z, &off);
     let (mut looks, mut steps) = (vec![], 0);
     let end = (LOOKS * STEPS) as f64 * STEP;
     // The tracker looks at the end of a step, then the torque of the next one begins.

@@ -104,6 +104,7 @@ pub fn page(kernel: &SpacecraftKernel, truth: &Truth, run: &[Moment]) -> Playbac
     let estimated = |s: &Sample<SpacecraftKernel>| s.q.retract(&-part(&at(s).error, 0));
     let log_arcseconds = |v: &Vector6<f64>, from: usize| (part(v, from).norm() / ARCSECOND).log10();
     Playback::of_samples("A filter follows a satellite", truth.samples.clone())
+        .si()
         .body(
             "satellite",
             |s| Isometry3::from_parts(Translation3::identity(), s.q),

@@ -112,6 +112,7 @@ pub fn page(
         (pose.translation.vector + down * front_radius, Vector3::new(forces[3], forces[4], forces[2]))
     };
     let mut page = Playback::new("A bicycle that nobody holds, pushed from the side", path)?
+        .si()
         .arrow("grip of the rear wheel", 5e-3, grip)
         .arrow("force of the floor on the front wheel", 1.5e-3, front)
         .up([0.0, 0.0, -1.0])

@@ -22,6 +22,7 @@ pub fn page(walker: &Walker, plan: &Plan<14, 4>, looked: &Looked) -> Playback<Ke
     let step = |s: &Sample<Kernel>| ((s.t / STEP).round() as usize).clamp(1, plan.inputs.len()) - 1;
     let trunk = Shape::cuboid([0.14, 0.22, 0.4]).at(&Isometry3::translation(0.0, 0.0, 0.2));
     let mut page = Playback::of_samples("A biped steps forward by a plan through contacts", samples)
+        .si()
         .frames(kernel)
         .shape("trunk", trunk)
         .from_the_side();

@@ -98,6 +98,7 @@ pub fn page(kernel: &BoatKernel, path: Vec<Sample<BoatKernel>>, stream: Vector3<
     let place = |s: &Sample<BoatKernel>| kernel.pose(s.t, &s.q).translation.vector;
     let velocity = |s: &Sample<BoatKernel>| s.q.rotation * s.z.fixed_rows::<2>(0);
     Playback::of_samples("A boat crosses a river, steering for the landing", path)
+        .si()
         .up([0.0, 0.0, -1.0])
         .from_above()
         .body(

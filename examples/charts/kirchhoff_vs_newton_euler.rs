@@ -1,10 +1,7 @@
 //! One vehicle, four charts: the equations, what they cost, and how well they agree.
 //!
 //! `cargo run --release --example kirchhoff_vs_newton_euler [-- FOLDER]` writes its files into `FOLDER`, by default
-//! `target/kirchhoff_vs_newton_euler`. With `--features png` the picture in pixels too.
-
-use std::env;
-use std::path::PathBuf;
+//! `target/gauss`. With `--features png` the picture in pixels too.
 
 use gauss_charts::measure::{Comparison, Fleet};
 use gauss_charts::{figure, report, timing};
@@ -15,7 +12,7 @@ const DURATION: f64 = 30.0;
 const BATCHES: usize = 2000;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let folder = env::args_os().nth(1).map_or_else(|| PathBuf::from("target/kirchhoff_vs_newton_euler"), PathBuf::from);
+    let folder = gauss_files::output_folder_or_argument();
 
     let fleet = Fleet::published()?;
     println!("{}", report::introduction(&fleet)?);

@@ -65,6 +65,7 @@ fn page(spin: f64) -> Result<(), Box<dyn std::error::Error>> {
     // A dark panel shows how it spins.
     let panel = Shape::cylinder(0.5 * radius, 0.02).at(&Isometry3::translation(0.95 * radius, 0.0, 0.0));
     let mut page = Playback::of_samples("A long pass in a crosswind, with sidespin", path)
+        .si()
         .body("ball", |s| kernel.pose(s.t, &s.q), [Shape::ball(radius), panel.colour("#444444")])
         .follow("ball")
         .trace("ball", [0.0; 3])

@@ -48,6 +48,7 @@ pub fn page(die: &Die, draw: &Draw) -> Result<Playback<DieKernel>, Box<dyn Error
     let samples = steps.iter().map(|step| step.state).collect();
     let table = Shape::cuboid([0.6, 0.4, 0.01]).at(&Isometry3::translation(0.0, 0.0, -0.005)).colour("#4d7a5a");
     let mut page = Playback::of_samples("A die that is dropped", samples)
+        .si()
         .body("die", |s| s.q, [Shape::cuboid([die.a; 3])])
         .body("table", |_| Isometry3::identity(), [table])
         .trace("die", [0.0; 3]);

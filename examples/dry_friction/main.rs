@@ -74,6 +74,7 @@ fn page(
     let rod = |length: f64| Shape::rod([0.0; 3], [0.0, 0.0, -length], 0.02);
     let samples: Result<Vec<_>, ContactError> = (0..=1200).map(|n| run.at(WATCHED * f64::from(n) / 1200.0)).collect();
     let mut page = Playback::of_samples("Dry friction, sticking and sliding by turns", samples?)
+        .si()
         .frames(kernel)
         .from_the_side()
         .shape("upper", rod(0.4))

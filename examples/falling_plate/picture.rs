@@ -89,6 +89,7 @@ fn fall(
 /// The plate that tumbles, as a page.
 pub fn page(kernel: &PlateKernel, path: &Trajectory<PlateKernel>) -> Result<Playback<PlateKernel>, Box<dyn Error>> {
     let page = Playback::new("A plate that tumbles", path)?
+        .si()
         .up([0.0, 1.0, 0.0])
         .body("plate", |s| kernel.pose(s.t, &s.q), [Shape::elliptic_cylinder([1.0, 1.0 / 14.0], 2.0)])
         .follow("plate")

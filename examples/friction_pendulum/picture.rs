@@ -80,6 +80,7 @@ pub fn page(kernel: &PendulumKernel, run: &Run<'_>, limit: f64) -> Result<Playba
     };
     let friction = |s: &Sample<PendulumKernel>| run.forces(s.t).map_or(f64::NAN, |forces| forces[0]);
     let mut page = Playback::of_samples("A pendulum with dry friction, a spiral spring and a buffer", samples?)
+        .si()
         .frames(kernel)
         .from_the_side()
         .shape("rod", Shape::rod([0.0; 3], end.into(), 0.012))

@@ -103,7 +103,7 @@ fn page(arm: &ArmKernel, law: &dyn Fn(f64, &Joints, &Joints) -> Joints) -> Resul
     let input = |t: f64, q: &Joints, z: &Joints| law(t, q, z);
     let path =
         Simulation::new(arm).input(input).fixed_step(H).run(place + beside(0.1).fixed_rows::<9>(0), rate, 0.0..END)?;
-    let mut page = Playback::new("An arm from its file follows a way", &path)?.frames(arm);
+    let mut page = Playback::new("An arm from its file follows a way", &path)?.si().frames(arm);
     let link = |k: usize| if k == 0 { "base_link".to_owned() } else { format!("panda_joint{k}_link") };
     let links: Vec<String> = (0..=7).map(link).collect();
     page = stage::chain(page, &links.iter().map(String::as_str).collect::<Vec<_>>(), 0.04);

@@ -12,7 +12,6 @@ mod picture;
 mod report;
 
 use std::env;
-use std::path::Path;
 
 use gauss_charts::drawing::png;
 use gauss_comparisons::suite;
@@ -38,7 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let passed = all.iter().filter(|measure| measure.verdict() == Verdict::Pass).count();
     println!("{passed} of {} targets reached in {} cases", all.len(), results.len());
 
-    let folder = Path::new("target/gauss");
+    let folder = gauss_files::output_folder();
     let svg = picture::draw(&results)?;
     for (name, contents) in [
         ("hard_cases.csv", report::csv(&results)?),

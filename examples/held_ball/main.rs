@@ -67,6 +67,7 @@ fn page(hand: &Hand, kernel: &HandKernel) -> Result<Playback<HandKernel>, Box<dy
     let picture = |s: &Sample<HandKernel>| times.partition_point(|t| *t < s.t).min(times.len() - 1);
     let palm = Shape::cylinder(0.085, 0.012).at(&Isometry3::translation(0.0, 0.0, hand.up + 0.012)).colour("#8d8a83");
     let mut page = Playback::of_samples("A hand holds a ball", samples)
+        .si()
         .frames(kernel)
         .shape("ball", Shape::ball(hand.r).colour("#e69f00"))
         .body("palm", |_| Isometry3::identity(), [palm]);

@@ -124,6 +124,7 @@ pub fn page(runner: &Runner, run: &Run) -> Result<Playback<FlightKernel>, Parame
     let end = path.last().map_or(0.0, |s| s.q[0]);
     let ground = Shape::cuboid([end + 2.0, 0.6, 0.02]).at(&Isometry3::translation(0.5 * end, 0.0, -0.03));
     Ok(Playback::of_samples("A runner on a springy leg", path)
+        .si()
         .body("hip", |s| at(hip(s)), [Shape::ball(0.12)])
         .body("foot", |s| at(foot(s)), [Shape::ball(0.04).colour("#444444")])
         .body("ground", |_| Isometry3::identity(), [ground.colour("#bbbbbb")])

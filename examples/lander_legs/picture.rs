@@ -83,6 +83,7 @@ pub fn page(runs: &[Run]) -> Result<Playback<LanderKernel>, Box<dyn Error>> {
     let hull = [Shape::cylinder(0.9, 0.9), Shape::ball(0.5).at(&Isometry3::translation(0.0, 0.0, 0.6))];
     let ground = Shape::cuboid([16.0, 16.0, 0.04]).at(&Isometry3::translation(0.0, 0.0, -0.02)).colour("#8d8a83");
     let mut page = Playback::of_samples("A lander that tips over", samples)
+        .si()
         .body("hull", |s: &Sample<LanderKernel>| s.q.0, hull)
         .body("ground", |_| Isometry3::identity(), [ground])
         .trace("hull", [0.0; 3])

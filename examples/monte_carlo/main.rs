@@ -19,7 +19,6 @@ use gauss_runtime::integrate::Fixed;
 use gauss_runtime::prelude::*;
 use indicatif::{ProgressBar, ProgressStyle};
 use num_dual::{Derivative, DualSVec64};
-use plotters::style::RGBColor;
 use wide::f64x8;
 
 use model::{DEVIATIONS, FLIGHT, MEAN, OvalKernel, STEP, kernel, place, start};
@@ -156,6 +155,7 @@ fn mean_throw() -> Result<Playback<OvalKernel<f64>>, Box<dyn Error>> {
     let path = Simulation::new(&kernel).adaptive(1e-9, 1e-9).run(q, z, 0.0..FLIGHT)?;
     let place = |s: &Sample<OvalKernel<f64>>| s.q.translation.vector;
     let mut page = Playback::new("The mean throw", &path)?
+        .si()
         .body("ball", |s| s.q, [Shape::ellipsoid([0.14, 0.095, 0.095])])
         .follow("ball")
         .trace("ball", [0.0; 3])
@@ -209,17 +209,13 @@ fn scatter(
         let deviation = if i == 0 { prediction[0] } else { prediction[2] }.sqrt();
         centre[i] - radii * deviation..centre[i] + radii * deviation
     };
-    let dot = 0.006 * prediction[0].max(prediction[2]).sqrt();
-    let cloud = ends
-        .iter()
-        .take(DRAWN)
-        .map(|&[x, y]| Line::new("", RGBColor(170, 200, 225), [(x - dot, y), (x + dot, y)]).wide(4));
-    let mut scatter: Vec<Line> = cloud.collect();
+    let mut curves = Vec::new();
     for radius in [1.0, 2.0] {
         let name = |name: &str| if radius == 1.0 { name.to_owned() } else { String::new() };
-        scatter.push(Line::new(name("covariance of the throws"), COLOURS[0], ellipse(mean, covariance, radius)));
-        scatter.push(Line::new(name("linearised"), COLOURS[1], ellipse(centre, prediction, radius)).dashed());
+        curves.push(Line::new(name("covariance of the throws"), COLOURS[0], ellipse(mean, covariance, radius)));
+        curves.push(Line::new(name("linearised"), COLOURS[1], ellipse(centre, prediction, radius)).dashed());
     }
     let (x, y) = (("along the throw, m", reach(0, 4.0)), ("aside, m", reach(1, 4.0)));
-    Plot::new("Where throws are after 1.6 s; one and two deviations", x, y, scatter)
+    Plot::new("Where throws are after 1.6 s; one and two deviations", x, y, curves)
+        .with_dots(ends.iter().take(DRAWN).map(|&[x, y]| (x, y)).collect())
 }

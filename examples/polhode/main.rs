@@ -117,6 +117,7 @@ fn page(
     let ellipsoid = moments.map(|moment| scale * (twice / moment).sqrt());
     let still = move |place: Vector3<f64>| Isometry3::translation(place.x, place.y, place.z);
     let mut page = Playback::with_pictures("Spun about its middle axis", path, 1200)?
+        .si()
         .body("body", |s| Isometry3::from_parts(Translation3::identity(), s.q), [Shape::cuboid(edges.into())])
         .body("energy in the body's axes", move |_| still(beside), [Shape::ellipsoid(ellipsoid.into())])
         .body("ω in the body's axes", move |s| still(beside + s.z * scale * 1.03), [Shape::ball(0.035)])

@@ -8,9 +8,7 @@
 mod leg;
 mod page;
 
-use std::env;
 use std::error::Error;
-use std::path::PathBuf;
 
 use leg::{Leg, Push, WANTED};
 
@@ -41,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("`rustup target add wasm32-unknown-unknown` installs what the page is missing.");
         Vec::new()
     };
-    let folder = env::args_os().nth(1).map_or_else(|| PathBuf::from("target/gauss"), PathBuf::from);
+    let folder = gauss_files::output_folder_or_argument();
     let (file, page) = (folder.join("pushed_leg.html"), page::html(&module));
     gauss_files::write(&file, &page)?;
     println!("written: {} ({} kB)", file.display(), page.len() / 1000);

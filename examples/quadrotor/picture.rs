@@ -118,6 +118,7 @@ pub fn page(
         |hub: &Vector3<f64>| Shape::cylinder(0.6 * a, 0.05 * a).at(&Isometry3::translation(hub.x, hub.y, 0.1 * a));
     let shapes = arms.into_iter().chain(hubs.iter().map(rotor)).chain([Shape::cuboid([0.7 * a, 0.7 * a, 0.3 * a])]);
     let mut page = Playback::new("A quadrotor in a gust", path)?
+        .si()
         .body("craft", |s| kernel.pose(s.t, &s.q), shapes)
         .follow("craft")
         .trace("craft", [0.0; 3]);

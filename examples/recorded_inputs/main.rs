@@ -27,7 +27,7 @@ const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/data/recorded_inputs.cs
 
 fn main() -> Result<(), Box<dyn Error>> {
     let file = env::args_os().nth(1).map_or_else(|| PathBuf::from(FILE), PathBuf::from);
-    let folder = env::args_os().nth(2).map_or_else(|| PathBuf::from("target/gauss"), PathBuf::from);
+    let folder = env::args_os().nth(2).map_or_else(gauss_files::output_folder, PathBuf::from);
     let recording = Recording::read(File::open(&file)?).map_err(|error| format!("{}, {error}", file.display()))?;
     let rows = recording.rows();
     let (from, to) = (rows[0].time, rows[rows.len() - 1].time);
@@ -85,6 +85,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn page(kernel: &CraftKernel, recording: &Recording, samples: Vec<Sample<CraftKernel>>) -> Playback<CraftKernel> {
     let pose = |s: &Sample<CraftKernel>| kernel.pose(s.t, &s.q);
     let mut page = Playback::of_samples("A vehicle driven by recorded inputs", samples)
+        .si()
         .up([0.0, 0.0, -1.0])
         .from_above()
         .body("REMUS 100", pose, torpedo())

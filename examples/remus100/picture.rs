@@ -109,6 +109,7 @@ pub fn page(kernel: &RemusKernel, flight: &Flight) -> Playback<RemusKernel> {
     let sample = |m: &Moment| Sample { t: m.t, q: m.pose, z: m.twist, p: kernel.momentum(m.t, &m.pose, &m.twist) };
     let velocity = |s: &Sample<RemusKernel>| (s.q.translation.vector, s.q.rotation * s.z.fixed_rows::<3>(0));
     let mut page = Playback::of_samples("The REMUS 100 turns", flight.moments.iter().map(sample).collect())
+        .si()
         .up([0.0, 0.0, -1.0])
         .body("REMUS 100", |s| s.q, torpedo())
         .follow("REMUS 100")

@@ -108,6 +108,7 @@ pub fn page(
     };
     let earth = 0.5 * 6371e3 / RADIUS;
     Ok(Playback::with_pictures("A CubeSat swings in the gradient of gravity; its orbit is drawn small", path, 1500)?
+        .si()
         .body("CubeSat", near, [Shape::cuboid([0.366, 0.2263, 0.1])])
         .body("the Earth, smaller still", |_| Isometry3::identity(), [Shape::ball(earth)])
         .trace("CubeSat", [0.0; 3])

@@ -174,6 +174,7 @@ fn page(slung: &Slung, kernel: &SlungKernel, pushed: f64, path: Vec<Sample<Slung
         -along * kernel.multipliers(s.t, &s.q, &s.z, &SVector::from([push_at(pushed, s.t)]))[0]
     };
     Playback::of_samples("A load on a rope, set down swinging", path)
+        .si()
         .from_the_side()
         .body("craft", move |s| at(s.q[0], s.q[1]), frame)
         .body("load", move |s| at(s.q[2], s.q[3]), [Shape::cuboid([0.7, 0.7, 0.7])])

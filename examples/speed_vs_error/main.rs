@@ -65,7 +65,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn order() -> Result<Order, Box<dyn Error>> {
-    let mut order = Order { quick: false, folder: PathBuf::from("target/gauss"), scenes: Vec::new() };
+    let mut order = Order { quick: false, folder: gauss_files::output_folder(), scenes: Vec::new() };
     let all = scenes()?;
     let mut words = env::args().skip(1);
     while let Some(word) = words.next() {

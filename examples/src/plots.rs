@@ -1,6 +1,5 @@
 //! Plots with plain axes: a title, a legend in a row of its own below it, curves, words among them.
 
-use std::env;
 use std::error::Error;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -64,6 +63,8 @@ pub struct Plot<'a> {
     pub marks: Vec<(f64, f64, String)>,
     /// Rectangles below all else.
     pub cells: Vec<Cell>,
+    /// Dots below the curves.
+    pub dots: Vec<(f64, f64)>,
 }
 
 /// A rectangle between two corners, and its colour.
@@ -80,6 +81,9 @@ const MARGIN: u32 = 34 * FINE;
 /// Where titles begin: above the axis.
 const LEFT: i32 = (LABELS.0 + MARGIN / 2) as i32;
 
+/// So pale that curves are seen over dots, and so dark that dots are seen.
+const DOTS: RGBColor = RGBColor(124, 172, 214);
+
 /// Pixels in units.
 const fn fine(pixels: i32) -> i32 {
     pixels * FINE as i32
@@ -92,7 +96,7 @@ fn writing(size: u32) -> TextStyle<'static> {
 impl<'a> Plot<'a> {
     /// Curves over axes with these names and ranges.
     pub fn new(title: &'a str, x: (&'a str, Range<f64>), y: (&'a str, Range<f64>), lines: Vec<Line>) -> Self {
-        Self { title, x, y, equal: false, lines, marks: Vec::new(), cells: Vec::new() }
+        Self { title, x, y, equal: false, lines, marks: Vec::new(), cells: Vec::new(), dots: Vec::new() }
     }
 
     /// The same with one scale for both axes.
@@ -111,6 +115,12 @@ impl<'a> Plot<'a> {
     #[must_use]
     pub fn with_cells(self, cells: Vec<Cell>) -> Self {
         Self { cells, ..self }
+    }
+
+    /// The same with many dots below the curves.
+    #[must_use]
+    pub fn with_dots(self, dots: Vec<(f64, f64)>) -> Self {
+        Self { dots, ..self }
     }
 
     /// Draws it into a place.
@@ -150,6 +160,8 @@ impl<'a> Plot<'a> {
             .y_label_formatter(&number)
             .draw()?;
         chart.draw_series(self.cells.iter().map(|&(corners, colour)| Rectangle::new(corners, colour.filled())))?;
+        let dot = |&place| Circle::new(place, fine(3), DOTS.filled());
+        chart.draw_series(self.dots.iter().filter(|dot| self.holds(dot)).map(dot))?;
         for line in &self.lines {
             let (style, points) = (line.colour.stroke_width(line.width * FINE), line.points.iter().copied());
             if line.dashed {
@@ -165,6 +177,11 @@ impl<'a> Plot<'a> {
             chart.draw_series([dot])?;
         }
         Ok(())
+    }
+
+    /// A dot that is half outside would lie over the axis.
+    fn holds(&self, &(x, y): &(f64, f64)) -> bool {
+        self.equal || self.x.1.contains(&x) && self.y.1.contains(&y)
     }
 
     /// Names of the lines in a row; whether there are any.
@@ -305,5 +322,5 @@ pub fn write_page_into<S: GaussSystem<Scalar = f64>>(
 }
 
 fn folder() -> PathBuf {
-    env::args_os().nth(1).map_or_else(|| PathBuf::from("target/gauss"), PathBuf::from)
+    gauss_files::output_folder_or_argument()
 }

@@ -72,7 +72,7 @@ fn touchdowns<'a>(runs: u64) -> Result<Study<'a>, Box<dyn Error>> {
 
 /// A small study, its map while it fills, and which parameter matters.
 fn first_look(runs: u64) -> Result<ExitCode, Box<dyn Error>> {
-    let folder = Path::new("target/gauss").join(format!("study_{runs}"));
+    let folder = gauss_files::output_folder().join(format!("study_{runs}"));
     let study = touchdowns(runs)?;
     let (clock, drawn) = (Instant::now(), Mutex::new(None::<Instant>));
     let end = study.run(&folder, |_| {
@@ -93,6 +93,6 @@ fn first_look(runs: u64) -> Result<ExitCode, Box<dyn Error>> {
         println!("  {name:<10} {:.4}", count as f64 / end.runs as f64);
     }
     map::draw(&study, &folder)?;
-    sensitivity::print(&Path::new("target/gauss").join(format!("sensitivity_{runs}")), runs)?;
+    sensitivity::print(&gauss_files::output_folder().join(format!("sensitivity_{runs}")), runs)?;
     Ok(ExitCode::SUCCESS)
 }

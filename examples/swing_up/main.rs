@@ -142,7 +142,7 @@ fn plots_of_way(way: &[Sample<CartPoleKernel>], plan: &Plan<4, 1>) -> [Plot<'sta
 /// The pole as it is swung up, and the push on the cart.
 fn page(kernel: &CartPoleKernel, plan: &Plan<4, 1>, way: &[Sample<CartPoleKernel>]) -> Playback<CartPoleKernel> {
     let push = |s: &Sample<CartPoleKernel>| plan.inputs[((s.t / H) as usize).min(STEPS - 1)][0];
-    let page = Playback::of_samples("A pole swung up by its cart", way.to_vec());
+    let page = Playback::of_samples("A pole swung up by its cart", way.to_vec()).si();
     stage::cart_and_pole(page, 0.5, 0.05, push).energy(kernel)
 }
 

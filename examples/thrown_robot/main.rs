@@ -31,6 +31,7 @@ fn page(
     path: &Trajectory<QuadrupedKernel>,
 ) -> Result<Playback<QuadrupedKernel>, IntegrationError> {
     let mut page = Playback::new("A quadruped from its file, thrown", path)?
+        .si()
         .frames(kernel)
         .shape("base_link", Shape::cuboid([0.55, 0.25, 0.18]));
     for leg in ["LF", "LH", "RF", "RH"] {

@@ -25,6 +25,7 @@ pub fn page(kernel: &Kernel, run: &Pushed, push: f64) -> Result<Playback<Kernel>
     // The step that ends at a time.
     let step = |s: &Sample<Kernel>| ((s.t / STEP).round() as usize).clamp(1, run.feet.len()) - 1;
     let mut page = Playback::of_samples("ANYmal is pushed and held on its gait", samples)
+        .si()
         .frames(kernel)
         .shape("base_link", Shape::cuboid([0.5, 0.24, 0.14]));
     for leg in ["LF", "LH", "RF", "RH"] {

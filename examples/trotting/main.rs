@@ -59,7 +59,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     moved_starts(&kernel, &torques, &places)?;
 
     let table = table(&torques)?;
-    let folder = std::env::args_os().nth(1).map_or_else(|| "target/gauss".into(), std::path::PathBuf::from);
+    let folder = gauss_files::output_folder_or_argument();
     gauss_files::write(folder.join("trotting.csv"), &table)?;
     println!("written: {}", folder.join("trotting.csv").display());
     write_page("trotting", &page::page(&kernel, &torques)?)

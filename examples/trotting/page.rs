@@ -34,6 +34,7 @@ pub fn page(kernel: &AnymalKernel, torques: &[Torques]) -> Result<Playback<Anyma
     let times: Vec<f64> = samples.iter().map(|sample| sample.t).collect();
     let picture = |s: &Sample<AnymalKernel>| times.partition_point(|t| *t < s.t).min(times.len() - 1);
     let mut page = Playback::of_samples("ANYmal trots by recorded torques", samples)
+        .si()
         .frames(kernel)
         .shape("base_link", Shape::cuboid([0.5, 0.24, 0.14]))
         .follow("base_link");

@@ -176,6 +176,7 @@ fn page(path: Vec<Sample<VehicleKernel>>, kernel: &VehicleKernel) -> Playback<Ve
     let fore = |s: &Sample<VehicleKernel>| turret(s) * Isometry3::new(Vector3::x() * LINK, Vector3::y() * s.q.1[1]);
     let link = || [Shape::rod([0.0; 3], [LINK, 0.0, 0.0], 0.03)];
     Playback::of_samples("A vehicle with an arm in a current", path)
+        .si()
         .up([0.0, 0.0, -1.0])
         .body("hull", |s| s.q.0, [Shape::cuboid([0.46, 0.34, 0.25])])
         .body("upper arm", turret, link())

@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::kernel::{Differentiation, Wanted};
 use crate::mechanics::{
     Claims, Constraints, Coordinate, Elimination, Formula, Formulas, Hessian, InertialParameter, InertialParameters,
-    InverseLinearization, Linearization, Method, Reactions, Regressor, System, SystemFault, check_reactions,
+    InverseLinearization, Linearization, Method, Reactions, Readings, Regressor, System, SystemFault, check_reactions,
     check_system_against_definition, needless_constraints, rotation_of_quaternion,
 };
 use crate::methods::DerivativeKind;
@@ -48,7 +48,7 @@ impl<'g> Formulation<'g> {
         let Reduced { given, mut system, elimination, reactions } = Reduced::of(translated)?;
         let (wanted_of, graph) = (&given.item.wanted, system.scene.graph);
         refuse_contacts(&given, &system)?;
-        let printed = printed(&mut system);
+        let printed = printed(&mut system, &given.readings, elimination.as_ref());
         refuse_exhausted(&given.item, graph)?;
         let mut formulas = system.formulas();
         refuse_exhausted(&given.item, graph)?;
@@ -208,10 +208,15 @@ pub type Printed = Vec<(String, Vec<String>)>;
 /// The equations as text and in LaTeX, before anything else is made of the system, and nothing is left of it: in which
 /// order the terms of a sum come depends on what was made before, and what is multiplied out on how much. So what is
 /// printed depends on the scene alone, and what is derived not on printing.
-fn printed(system: &mut System<'_>) -> [Printed; 2] {
+fn printed<'g>(
+    system: &mut System<'g>,
+    readings: &Readings<'g>,
+    elimination: Option<&Elimination<'g>>,
+) -> [Printed; 2] {
     system.forget();
     let printed = system.scene.graph.aside(|| {
-        let page = system.equations();
+        let replacement = elimination.map(|elimination| Substitution::new(elimination.replacement()));
+        let page = system.equations(readings, replacement.as_ref());
         [Notation::Text, Notation::Latex].map(|notation| page.print(notation))
     });
     system.forget();

@@ -21,6 +21,7 @@ pub mod program;
 pub mod scene;
 pub mod targets;
 mod terms;
+mod tex;
 mod translate;
 mod words;
 

@@ -11,19 +11,18 @@ pub fn mathml(latex: &str) -> String {
 /// Lines of equations, which stand in `align*` environments.
 pub fn lines(latex: &str) -> impl Iterator<Item = &str> {
     let equations = latex.lines().filter(|line| !matches!(*line, "\\begin{align*}" | "\\end{align*}"));
-    equations.map(|line| line.strip_suffix(" \\\\").unwrap_or(line))
+    equations.map(|line| line.strip_suffix(" \\\\[1ex]").or(line.strip_suffix(" \\\\")).unwrap_or(line))
 }
 
-/// A line `left = a + b` with `&` before the sign of equality, as HTML that breaks before signs of its outermost sum.
+/// A line `left = a + b` with `&` before the sign of equality, as HTML that breaks before signs of outermost sums.
 pub fn line(latex: &str) -> String {
     let (left, right) = latex.split_once('&').unwrap_or(("", latex));
-    let terms = terms(right);
-    let mut out = String::new();
-    for (k, term) in terms.iter().enumerate() {
-        let before = if k == 0 { left } else { "" };
-        out.push_str(&format!("<math>{}{}</math>\n", mathml(before), mathml(term)));
-    }
-    out
+    let (left, right) = (terms(left), terms(right));
+    // A sum on the left breaks before the sign of equality, too; anything else stays with it.
+    let (alone, with) = if left.len() > 1 { (&left[..], "") } else { (&left[..0], left[0]) };
+    let first = format!("<math>{}{}</math>\n", mathml(with), mathml(right[0]));
+    let set = |terms: &[&str]| terms.iter().map(|term| format!("<math>{}</math>\n", mathml(term))).collect::<String>();
+    format!("{}{first}{}", set(alone), set(&right[1..]))
 }
 
 /// Words with formulas between dollars, as HTML.
@@ -251,6 +250,7 @@ impl<'a> Reader<'a> {
                 let inside = self.row(End::Right);
                 format!("<mrow>{open}{inside}{}</mrow>", self.atom())
             }
+            "bigl" | "bigr" | "biggl" | "biggr" | "Biggl" | "Biggr" | "big" => self.atom(),
             "mathit" => format!("<mi style=\"font-style:italic\">{}</mi>", self.inner_words()),
             "operatorname" | "mathrm" => format!("<mi mathvariant=\"normal\">{}</mi>", self.raw()),
             "text" => format!("<mtext>{}</mtext>", self.raw()),
@@ -300,6 +300,7 @@ mod tests {
             [" = a", " + \\left(b - c\\right)", " - \\frac{d + e}{f}"]
         );
         assert_eq!(line("a &= b + c").matches("<math>").count(), 2);
+        assert_eq!(line("a + d &= b + c").matches("<math>").count(), 4);
     }
 
     #[test]

@@ -5,6 +5,8 @@
 mod common;
 #[path = "common/latex.rs"]
 mod latex;
+#[path = "common/tex.rs"]
+mod tex;
 
 use std::time::{Duration, Instant};
 
@@ -247,5 +249,146 @@ fn a_torque_between_two_links_is_printed_on_their_joint_alone() {
     assert_eq!(with_motor, ["  F_spin = motor"], "{printed}");
     for of_craft in ["u1", "u2", "u3", "w1", "w2", "w3"] {
         assert!(printed.contains(&format!("\n  F_{of_craft} = 0\n")), "{printed}");
+    }
+}
+
+/// A spring pendulum in the plane; with names for its mass and its stretch, and without.
+fn elastic(named: bool) -> Derivation {
+    let (define, mass, stretch) = match named {
+        true => {
+            ("define(total = m + n, stretch = sqrt(x * x + y * y) - l, double = 2 * stretch),", "total", "double / 2")
+        }
+        false => ("", "(m + n)", "(2 * (sqrt(x * x + y * y) - l)) / 2"),
+    };
+    let source = format!(
+        "#[gauss(coordinates(x, y), {define} particle(mass = {mass}, position = [x, y, 0]),
+            potential = k * powi({stretch}, 2) / 2)]
+        struct Elastic {{ m: f64, n: f64, l: f64, k: f64 }}"
+    );
+    Derivation::of_source(&source, "Elastic").expect("a valid scene")
+}
+
+/// What is named is printed by its name, and the names are explained first.
+#[test]
+fn names_of_definitions_are_kept() {
+    let named = elastic(true);
+    let sections = named.sections(Notation::Text);
+    let (title, definitions) = &sections[0];
+    assert_eq!(title, "definitions");
+    assert!(definitions.contains(&"total = m + n".to_owned()), "{definitions:?}");
+    let momenta = sections.iter().find(|(title, _)| title.starts_with("momenta")).expect("momenta");
+    assert_eq!(momenta.1, ["p_x = total*x\u{307}", "p_y = total*y\u{307}"]);
+    let forces = sections.iter().find(|(title, _)| title.starts_with("active forces")).expect("forces");
+    assert!(forces.1.iter().all(|row| row.contains("stretch") || row.contains("double")), "{forces:?}");
+    assert_ne!(elastic(false).equations(Notation::Text), named.equations(Notation::Text));
+}
+
+/// Names are for readers: kernels have the same operations in the same order.
+#[test]
+fn names_of_definitions_change_no_program() {
+    let [named, plain] = [true, false].map(elastic);
+    assert_eq!(format!("{:?}", named.programs()), format!("{:?}", plain.programs()));
+    assert_eq!(named.accuracy(), plain.accuracy());
+}
+
+/// A cart with a pendulum, as textbooks have it.
+#[test]
+fn systems_are_printed_in_velocity_form() {
+    let source = "#[gauss(coordinates(x, theta), particle(mass = m1, position = [x, 0, 0]),
+            particle(mass = m2, position = [x + l * sin(theta), 0, -l * cos(theta)]), spring(along = x, stiffness = k, length = 0))]
+        struct Cart { m1: f64, m2: f64, l: f64, k: f64, #[gauss(gravity)] g: f64 }";
+    let derivation = Derivation::of_source(source, "Cart").expect("a valid scene");
+    let sections = derivation.sections(Notation::Text);
+    let (_, rows) = sections.iter().find(|(title, _)| title == "velocity form A dz/dt = r").expect("a section");
+    assert_eq!(
+        *rows,
+        [
+            "m2*l*cos(theta)*theta_ddot + (m1 + m2)*x\u{308} = m2*l*theta_dot^2*sin(theta) - k*x",
+            "m2*l*cos(theta)*x\u{308} + m2*l^2*theta_ddot = -m2*l*g*sin(theta)",
+        ]
+    );
+    assert!(derivation.equations(Notation::Latex).contains("\\ddot{\\theta}"));
+    // What is too long to read says so.
+    let long = bicycle("independent(leaning, steering, rolling)");
+    let sections = long.sections(Notation::Text);
+    let (_, rows) = sections.iter().find(|(title, _)| title.starts_with("velocity form")).expect("a section");
+    assert!(rows.len() == 1 && rows[0].starts_with("left out: "), "{rows:?}");
+}
+
+/// A plane linkage of six bars with two loops: it was six times as wide as a page.
+const SIX_BARS: &str = "#[gauss(coordinates(a, b, c, d, e, f),
+        body(one, rotation = rotation_y(a)), body(two, parent = one, position = [l1, 0, 0], rotation = rotation_y(b)),
+        body(three, parent = two, position = [l2, 0, 0], rotation = rotation_y(c)),
+        body(four, position = [w, 0, 0], rotation = rotation_y(d)),
+        body(five, parent = four, position = [l4, 0, 0], rotation = rotation_y(e)),
+        body(six, position = [w, 0, h], rotation = rotation_y(f)),
+        point(p, body = three, at = [l3, 0, 0]), point(q, body = four, at = [l5, 0, h]),
+        point(r, body = five, at = [l6, 0, 0]), point(s, body = six, at = [l2, 0, l1]),
+        constraint(position = p.x - q.x), constraint(position = p.z - q.z),
+        constraint(position = r.x - s.x), constraint(position = r.z - s.z))]
+    struct SixBars {
+        #[gauss(body)] one: RigidBody<f64>, #[gauss(body)] two: RigidBody<f64>, #[gauss(body)] three: RigidBody<f64>,
+        #[gauss(body)] four: RigidBody<f64>, #[gauss(body)] five: RigidBody<f64>, #[gauss(body)] six: RigidBody<f64>,
+        l1: f64, l2: f64, l3: f64, l4: f64, l5: f64, l6: f64, w: f64, h: f64, #[gauss(gravity)] g: f64,
+    }";
+
+/// Set by TeX on 16 cm: no line is wider. The test `operations` does the same with all its scenes.
+#[test]
+fn no_line_leaves_the_page() {
+    let scenes = common::SCENES.iter().copied().chain([("SixBars", SIX_BARS)]);
+    let derived = scenes.map(|(name, source)| (name, Derivation::of_source(source, name).expect("a valid scene")));
+    let derived = derived.chain([("Bicycle", bicycle("")), ("Elastic", elastic(true))]);
+    let equations: Vec<(String, String)> =
+        derived.map(|(name, derivation)| (name.to_owned(), derivation.equations(Notation::Latex).to_owned())).collect();
+    for (name, latex) in &equations {
+        let complaints = latex::complaints(latex);
+        assert!(complaints.is_empty(), "{name}:\n{}", complaints.join("\n"));
+    }
+    if let Some(complaints) = tex::complaints("pages", &equations) {
+        assert!(complaints.is_empty(), "\n{complaints}");
+    }
+}
+
+/// An arm in a plane whose file says π/2 and π to four places, and 1.6, which is no quarter turn.
+#[cfg(feature = "urdf")]
+fn arm_of_file(turned: &str) -> Derivation {
+    let inertial = "<inertial><origin xyz=\"0.2 0 0\"/><mass value=\"2\"/>
+        <inertia ixx=\"0.01\" iyy=\"0.02\" izz=\"0.03\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
+    let joint = |name: &str, [parent, child]: [&str; 2], rpy: &str| {
+        format!(
+            "<joint name=\"{name}\" type=\"continuous\"><parent link=\"{parent}\"/><child link=\"{child}\"/>
+             <origin xyz=\"0.4 0 0\" rpy=\"{rpy}\"/><axis xyz=\"0 0 1\"/></joint>
+             <link name=\"{child}\">{inertial}</link>"
+        )
+    };
+    let text = format!(
+        "<robot name=\"arm\"><link name=\"ground\"/>{}{}</robot>",
+        joint("shoulder", ["ground", "upper"], "1.5708 0 0"),
+        joint("elbow", ["upper", "lower"], &format!("0 0 {turned}"))
+    );
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("arm_{turned}.urdf"));
+    std::fs::write(&path, text).expect("a folder that can be written");
+    let source = format!("#[gauss(urdf = {path:?}, gravity = 9.81)] struct Arm {{}}");
+    Derivation::of_source(&source, "Arm").expect("a valid scene")
+}
+
+/// Angles of a file that are quarter turns to their last digit are printed as such, and said to be; others are not.
+#[cfg(feature = "urdf")]
+#[test]
+fn quarter_turns_of_files_are_folded_in_print_alone() {
+    let folded = arm_of_file("-3.1416");
+    let sections = folded.sections(Notation::Text);
+    let (title, rows) = &sections[0];
+    assert!(title.starts_with("angles of the file"), "{title}");
+    assert_eq!(rows.len(), 2, "{rows:?}");
+    let equations: Vec<&String> = sections[1..].iter().flat_map(|(_, rows)| rows).collect();
+    assert!(equations.iter().all(|row| !row.contains("3.1416") && !row.contains("1.5708")), "{equations:?}");
+    // Kernels compute with the number of the file.
+    assert!(folded.rust().to_string().contains("1.5708"));
+    for (kept, printed) in [("1.6", "8/5"), ("1.571", "1.571"), ("1.5709", "1.5709"), ("0.7854", "0.7854")] {
+        let derivation = arm_of_file(kept);
+        let rows = derivation.sections(Notation::Text)[1..].iter().flat_map(|(_, rows)| rows);
+        let rows: Vec<&String> = rows.collect();
+        assert!(rows.iter().any(|row| row.contains(printed)), "{kept}: {rows:?}");
     }
 }

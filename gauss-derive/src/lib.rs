@@ -5,7 +5,8 @@
 #![deny(missing_docs)]
 
 /// Derives the equations of motion of rigid bodies from the Gauss condition, and generates `Name::kernel()`, the
-/// `NameKernel` that implements `GaussSystem`, `Name::warnings()`, and `NameState`: coordinates and speeds by name.
+/// `NameKernel` that implements `GaussSystem`, `Name::warnings()`, `NameState`: coordinates and speeds by name, and
+/// `NameIndex`: the places of their increments in flat vectors.
 /// Where the only matter is one body, however its coordinates and speeds are written, the kernel implements
 /// `RigidBodySystem`, and `convert` carries states to others.
 ///
@@ -263,7 +264,7 @@
 /// | `medium(velocity = […])` | the velocity of the medium, observer's axes, of `t`, fields and numbers: drags, added mass and `relative_velocity` feel it |
 /// | `input(thrust = "N", wind: Vector3 = "m/s", gust: Wrench)` | values that arrive at run time, with their units if these are to be checked; of a wrench force then torque, `gust.force` and `gust.torque` |
 /// | `states(thrust = (command - thrust) / lag, …)` | states of elements, each with its rate: a scalar of what forces may name, states among them, with kinks as in forces. They are scalars of the configuration behind all others, without speeds and without energy: kinetic and potential energy do not have them, constraints and impacts do not move them. In a chart the configuration is `(pose, states)` |
-/// | `define(u = body.relative_velocity, q = u.x * u.x)` | names for expressions: scalars, vectors or rotations. A definition can name those before it and stands for what it is, wherever that may stand |
+/// | `define(u = body.relative_velocity, q = u.x * u.x)` | names for expressions: scalars, vectors or rotations. A definition can name those before it and stands for what it is, wherever that may stand; printed equations keep the names |
 /// | `force(name, at = …, value = […])` | without a chart: a force at a point, both in observer's axes, the point from Ω |
 /// | `force(name, body = other, at = […], value = […], axes = body)` | a force at a point fixed in a body or a frame, at numbers and fields in its axes from O or at a `point` of that body by its name, by default at O; the value in `axes = body`, which is the default, or `axes = observer` |
 /// | `torque(name, body = other, value = […], axes = body, reaction = another)` | a torque, and the opposite one on another body or frame; axes as above |

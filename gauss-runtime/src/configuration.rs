@@ -43,7 +43,8 @@ pub trait Configuration: Copy + Debug {
     /// [`RungeKutta`](crate::integrate::RungeKutta) works.
     type Components: VectorSpace<Self::Scalar>;
 
-    /// `self ∘ exp(tangent)`.
+    /// `self ∘ exp(tangent)`. Of a pair the increment is a [`Product`], which a flat vector becomes by `.into()`; of a
+    /// whole state, speeds and all, [`Increments`](crate::increments::Increments) take flat vectors as they are.
     fn retract(&self, tangent: &Self::Tangent) -> Self;
 
     /// `self ∘ exp(tangent)`, held at norm 1: the end of a step. What holds the norm is added before the sum is

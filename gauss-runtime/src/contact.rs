@@ -34,6 +34,10 @@ use crate::system::GaussSystem;
 /// is friction of drilling; of dry friction and rolling resistance only the tangents. Units are those of the gaps and
 /// of slips: with lengths λ is a force, with angles a torque. Bilateral constraints of the scene hold in all of it: A⁻¹
 /// is then the inverse on the velocities that they admit.
+#[doc(alias = "contact")]
+#[doc(alias = "impact")]
+#[doc(alias = "collision")]
+#[doc(alias = "unilateral")]
 pub trait ContactSystem: GaussSystem {
     /// `SVector<Scalar, C>`, C contacts: one component for each.
     type Gaps: VectorSpace<Self::Scalar>;

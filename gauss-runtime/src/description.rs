@@ -31,7 +31,7 @@ pub trait DescribedSystem {
 pub struct Equations {
     /// Plain text, one equation a line.
     pub text: &'static str,
-    /// LaTeX, for display mode.
+    /// LaTeX: `align*` environments of amsmath, whose lines fit a page of 16 cm at 10 pt. Long ones go on below.
     pub latex: &'static str,
 }
 

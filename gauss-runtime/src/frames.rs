@@ -73,6 +73,8 @@ assert_eq!(ArmFrame::named("lower"), Some(ArmFrame::lower));
 ```
 "##
 )]
+#[doc(alias = "jacobian")]
+#[doc(alias = "forward kinematics")]
 pub trait FramedSystem: GaussSystem {
     /// The names of the frames: a variant for each, called as in the scene.
     type Frame: FrameName;

@@ -1,5 +1,52 @@
 //! Rigid-body dynamics at run time: the traits of kernels that `#[derive(GaussDynamics)]` generates, and their
 //! integrators.
+#![cfg_attr(
+    all(feature = "derive", feature = "std"),
+    doc = r##"
+```
+use gauss_runtime::prelude::*;
+
+/// A wheel on a free craft, in kg, m, s. Everything that moves is declared; the equations follow.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(craft: Pose, angle),
+    speeds(u: Vector3, w: Vector3, spin), // in the craft's axes: velocity, angular velocity; rate of the wheel
+    kinematics(craft = twist(u, w), angle = spin),
+    body(hull, pose = craft, mass = 10, inertia = 0.2),
+    body(wheel, parent = hull, rotation = rotation_z(angle), mass = 0.5, inertia = [across, across, along]),
+    input(motor = "N m"),
+    torque(drive, body = wheel, value = [0, 0, motor], reaction = hull),
+)]
+struct Craft { across: f64, along: f64 }
+
+# fn main() -> Result<(), Box<dyn std::error::Error>> {
+let kernel = Craft { across: 0.001, along: 0.002 }.kernel()?; // parameters are checked here
+println!("{}", CraftKernel::EQUATIONS);
+
+let start = CraftState { spin: 5.0, ..Default::default() }; // the rest at the origin, at rest
+let run = Simulation::new(&kernel)
+    .input(|_t: f64, q: &_, z: &_| SVector::from([-0.001 * CraftState::of(q, z).spin])) // brakes
+    .adaptive(1e-10, 1e-12)
+    .run(start.q(), start.z(), 0.0..10.0)?;
+let end = CraftState::of(&run.last().q, &run.last().z);
+// Along e₃ the wheel, 0.002 (ω₃ + spin), and the craft, 0.2 ω₃, keep what they had together.
+assert!((0.202 * end.w.z + 0.002 * end.spin - 0.01).abs() < 1e-12);
+# Ok(())
+# }
+```
+"##
+)]
+//!
+//! # Where to read on
+//!
+//! - The language, clause by clause: [`GaussDynamics`]. What runs: [`Simulation`](integrate::Simulation).
+//! - The guide, in the folder `guide/src` of the repository (`mdbook build guide` makes pages of it). It begins with
+//!   `first_body.md`; `frames.md` has frames and poles, `charts.md` the choice of speeds, `loads.md` what acts,
+//!   `touching.md` contact, `inputs.md` control, `integrators.md` the choice of a method, `derivatives.md` filters and
+//!   identification, `robots.md` robots from their files, `results.md` plots and tables, and `field_*.md` one field
+//!   each. `from_sympy.md`, `from_pinocchio_mujoco.md` and `from_mss.md` begin at other programs.
+//!
+//! # Modules
 //!
 //! | module | holds |
 //! |---|---|
@@ -15,6 +62,7 @@
 //! | [`linearize`] | [`LinearizedSystem`](linearize::LinearizedSystem): exact derivatives by state, time and input |
 //! | [`hessian`] | [`HessianSystem`](hessian::HessianSystem): second derivatives along given weights |
 //! | [`inverse`] | [`InverseLinearizedSystem`](inverse::InverseLinearizedSystem): derivatives of inverse dynamics |
+//! | [`increments`] | [`Increments`](increments::Increments): increments of a state as one flat vector, for filters |
 //! | [`configuration`] | groups as configurations, linear spaces of increments |
 //! | [`lie`] | exp, log, dexp⁻¹ on SO(3), SE(3), SE(2), accurate from angle 0 up to the pole of dexp⁻¹ at 2π |
 //! | [`chart`] | names of charts, rotation coordinates, exact conversion of states |
@@ -86,6 +134,7 @@ pub mod forces;
 pub mod frames;
 pub mod hessian;
 pub mod identification;
+pub mod increments;
 pub mod integrate;
 pub mod inverse;
 pub mod lie;

@@ -54,6 +54,10 @@ assert_eq!(linear.by_state[(0, 1)], 1.0);
 ```
 "##
 )]
+#[doc(alias = "jacobian")]
+#[doc(alias = "riccati")]
+#[doc(alias = "lqr")]
+#[doc(alias = "kalman")]
 pub trait LinearizedSystem: GaussSystem<Input: VectorSpace<<Self as GaussSystem>::Scalar>> {
     /// [`Linearization`] of this system's sizes.
     type Linearization: LinearModel<Self::Scalar>;

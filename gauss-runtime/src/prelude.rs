@@ -8,7 +8,7 @@ pub use gauss_derive::GaussDynamics;
 
 pub use crate::centroidal::{CentroidalSystem, GravityTorques};
 pub use crate::chart::Chart;
-pub use crate::configuration::{Configuration, VectorSpace};
+pub use crate::configuration::{Configuration, Product, VectorSpace};
 pub use crate::constraint::ConstrainedSystem;
 pub use crate::contact::ContactSystem;
 pub use crate::description::DescribedSystem;
@@ -17,6 +17,7 @@ pub use crate::forces::ForcedSystem;
 pub use crate::frames::{FrameName, FramedSystem, JacobianRates};
 pub use crate::hessian::HessianSystem;
 pub use crate::identification::{InertialRegressor, ParametricSystem};
+pub use crate::increments::Increments;
 #[cfg(feature = "alloc")]
 pub use crate::integrate::Trajectory;
 pub use crate::integrate::{

@@ -66,6 +66,9 @@ assert!((reaction - Vector6::new(0.0, 0.0, 2.0 * (9.81 + 0.5 * 9.0), 0.0, 0.0, 0
 ```
 "##
 )]
+#[doc(alias = "bearing")]
+#[doc(alias = "joint force")]
+#[doc(alias = "constraint force")]
 pub trait Reactions: GaussSystem {
     /// The names of the joints: a variant for each, called as in `reactions(…)`.
     type Joint: FrameName;

@@ -33,6 +33,22 @@ pub trait VectorSpace<T: Real>: Copy + Debug {
     /// When `i ≥ DIM`.
     fn set_component(&mut self, i: usize, value: T);
 
+    /// All components as one vector. Another length than [`DIM`](Self::DIM) does not compile.
+    #[inline(always)]
+    fn flat<const N: usize>(&self) -> SVector<T, N> {
+        const { holds(N, Self::DIM) };
+        SVector::from_fn(|i, _| self.component(i))
+    }
+
+    /// The vector with these components. Another length than [`DIM`](Self::DIM) does not compile.
+    #[inline(always)]
+    fn from_flat<const N: usize>(flat: &SVector<T, N>) -> Self {
+        const { holds(N, Self::DIM) };
+        let mut vector = Self::zero();
+        (0..N).for_each(|i| vector.set_component(i, flat[i]));
+        vector
+    }
+
     /// The largest magnitude among all components and lanes; NaN when there is a NaN.
     fn max_norm(&self) -> f64 {
         let mut largest = 0.0;
@@ -56,6 +72,10 @@ pub trait VectorSpace<T: Real>: Copy + Debug {
     fn is_finite(&self) -> bool {
         (0..Self::DIM).all(|i| self.component(i).is_finite())
     }
+}
+
+const fn holds(length: usize, components: usize) {
+    assert!(length == components, "a flat vector has as many components as the vector that it stands for");
 }
 
 impl<T: Real, const N: usize> VectorSpace<T> for SVector<T, N> {
@@ -99,13 +119,31 @@ pub(crate) fn add_carrying<T: Real, V: VectorSpace<T>>(x: &V, increment: &V, car
     (sum, rest)
 }
 
-/// A pair of vectors: the increments of a pair of configurations, first's components before second's.
+/// A pair of vectors: the increments of a pair of configurations, first's components before second's. Flat vectors
+/// become pairs and pairs flat vectors by `.into()`; states of kernels are moved by flat vectors without it:
+/// [`Increments`](crate::increments::Increments).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Product<A, B> {
     /// Part of the first factor.
     pub first: A,
     /// Part of the second factor.
     pub second: B,
+}
+
+/// `x.into()` where a pair is asked for and a flat vector is there; another length does not compile.
+impl<T: Real, A: VectorSpace<T>, B: VectorSpace<T>, const N: usize> From<SVector<T, N>> for Product<A, B> {
+    #[inline(always)]
+    fn from(flat: SVector<T, N>) -> Self {
+        Self::from_flat(&flat)
+    }
+}
+
+/// The components one after another; another length does not compile.
+impl<T: Real, A: VectorSpace<T>, B: VectorSpace<T>, const N: usize> From<Product<A, B>> for SVector<T, N> {
+    #[inline(always)]
+    fn from(pair: Product<A, B>) -> Self {
+        pair.flat()
+    }
 }
 
 impl<T: Real, A: VectorSpace<T>, B: VectorSpace<T>> VectorSpace<T> for Product<A, B> {

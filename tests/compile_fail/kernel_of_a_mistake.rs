@@ -20,6 +20,10 @@ fn at_rest() -> BodyState {
     BodyState::default()
 }
 
+fn velocity() -> std::ops::Range<usize> {
+    BodyIndex::u
+}
+
 fn degrees_of_freedom<K: GaussSystem>(_: &K) -> usize {
     K::DOF
 }

@@ -180,6 +180,43 @@ fn what_the_guide_includes_is_there() {
     assert!(included >= 10, "only {included} parts are included");
 }
 
+/// Words that people look for in the documentation lead to what has another name there.
+#[test]
+fn words_of_the_field_are_found() {
+    fn sources(folder: &Path, all: &mut String) {
+        for entry in fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display())) {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                sources(&path, all);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                all.push_str(&fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display())));
+            }
+        }
+    }
+    let mut all = String::new();
+    sources(&repository().join("gauss-runtime/src"), &mut all);
+    for word in ["hold", "contact", "csv", "bearing", "impact", "riccati", "euler angles", "jacobian"] {
+        assert!(all.contains(&format!("#[doc(alias = \"{word}\")]")), "nothing in gauss-runtime is found by `{word}`");
+    }
+}
+
+/// The README's first command runs the README's first program, but for what that does with its table.
+#[test]
+fn the_first_command_is_the_first_program() {
+    let read =
+        |file: &str| fs::read_to_string(repository().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let program = |text: &str| {
+        let from = text.find("/// A torpedo").expect("the struct");
+        let length = text[from..].find("println!(\"after 10 s").expect("the run");
+        // rustfmt breaks lines, and ends lists of several lines with a comma.
+        let words: String = text[from..from + length].split_whitespace().collect();
+        words.replace(",}", "}").replace(",)", ")").replace(",]", "]")
+    };
+    let readme = read("README.md");
+    assert!(readme.contains("cargo run --release -p gauss-first"));
+    assert_eq!(program(&readme), program(&read("examples/first/main.rs")));
+}
+
 #[test]
 fn the_readme_is_short() {
     let lines = fs::read_to_string(repository().join("README.md")).expect("README.md is there").lines().count();

@@ -179,7 +179,7 @@ fn benchmarks_shows_what_elements_cost() {
     keep("BENCHMARKS.md", "specialisation", &table());
 }
 
-/// The section of the README: what some of them add, in body axes and in Euler angles.
+/// The section of the guide: what some of them add, in body axes and in Euler angles.
 #[test]
 fn readme_shows_what_elements_add() {
     const SHOWN: [[&str; 3]; 5] = [
@@ -202,5 +202,5 @@ fn readme_shows_what_elements_add() {
         });
         writeln!(out, "| {shown} | {by} | {left} | {jet} |").expect("a string");
     }
-    keep("README.md", "acting", &out);
+    keep("guide/src/loads.md", "acting", &out);
 }

@@ -23,6 +23,9 @@ use crate::solver::Contacts;
 /// resistance has: its impulse is bounded by ρ times that of the normal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
+#[doc(alias = "impact")]
+#[doc(alias = "restitution")]
+#[doc(alias = "bounce")]
 pub enum Impact {
     /// All contacts at once: `ġ⁺ + e ġ⁻ ≥ 0` complementary to Λ_N, and Coulomb's law between Λ_T and the slip s⁺ after
     /// the impact: no restitution along tangents. With friction it can create energy (T. R. Kane 1984): such a run ends

@@ -8,6 +8,10 @@ use std::io;
 use std::io::Write;
 use std::path::Path;
 
+mod output;
+
+pub use output::{output_folder, output_folder_or_argument};
+
 /// Writes a file whole or not at all, and makes the folders above it where they are missing.
 ///
 /// The contents go into a temporary file of the same folder, which takes the place of `file` when all of it has reached

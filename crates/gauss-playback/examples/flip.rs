@@ -19,9 +19,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Thrown upwards: e₁ is the handle.
     let start = Vector6::new(0.0, 0.0, 9.0, 0.05, 14.0, 0.0);
     let path = Simulation::new(&racket).adaptive(1e-10, 1e-10).run(Isometry3::identity(), start, 0.0..1.8)?;
-    let file = std::env::args().nth(1).unwrap_or_else(|| "target/gauss/flip.html".to_owned());
+    let given = std::env::args_os().nth(1).map(std::path::PathBuf::from);
+    let file = given.unwrap_or_else(|| gauss_files::output_folder().join("flip.html"));
     let spatial = |s: &Sample<_>| racket.space_momentum(s.t, &s.q, &s.z);
     Playback::new("A racket thrown about its middle axis", &path)?
+        .si()
         .body(
             "racket",
             |s| racket.pose(s.t, &s.q),
@@ -42,6 +44,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .curve("angular velocity in the racket's axes / (rad/s)", "ω₃", |s| s.z[5])
         .energy(&racket)
         .write(&file)?;
-    println!("wrote {file}");
+    println!("written: {}", file.display());
     Ok(())
 }

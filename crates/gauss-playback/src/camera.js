@@ -8,6 +8,33 @@ const AXES = [
 const bodyColour = (k) => COLOURS[k % COLOURS.length];
 // So far that a ball of this radius fills the height.
 const distanceTo = (size) => 1.05 * size / Math.sin(0.3);
+// How far points are off the middle of the picture, in parts of half its width and half its height.
+const offMiddle = (stage, points) => {
+  const z = stage.back(), x = unit(cross(stage.world[2], z)), y = cross(z, x), slope = Math.tan(0.3);
+  const wide = stage.canvas.clientWidth / stage.canvas.clientHeight || 1;
+  return points.map((point) => sub(point, stage.target)).map((p) =>
+    [dot(p, x) / wide / slope, dot(p, y) / slope].map((side) => side / (stage.distance - dot(p, z))));
+};
+const filled = (stage, points) => {
+  const off = offMiddle(stage, points);
+  return [0, 1].map((k) => [Math.min(...off.map((o) => o[k])), Math.max(...off.map((o) => o[k]))]);
+};
+// Moves the eye along the picture and toward it, so that all points are in it and it is full. With p the side of a
+// point and d its depth, |p − a| ≤ slope (D − d) is D ∓ a / slope ≥ ±p / slope + d: the largest of each side decide.
+const fit = (stage, points, otherwise) => {
+  const z = stage.back(), x = unit(cross(stage.world[2], z)), y = cross(z, x);
+  const wide = stage.canvas.clientWidth / stage.canvas.clientHeight || 1, { target } = stage;
+  const sides = [[x, wide * Math.tan(0.3)], [y, Math.tan(0.3)]].map(([axis, slope]) => {
+    let [low, high] = [-Infinity, -Infinity];
+    for (const point of points) {
+      const p = sub(point, target), side = dot(p, axis) / slope, depth = dot(p, z);
+      [low, high] = [Math.max(low, depth - side), Math.max(high, depth + side)];
+    }
+    return { along: times(axis, slope * (high - low) / 2), distance: (high + low) / 2 };
+  });
+  stage.target = sides.reduce((sum, { along }) => add(sum, along), target);
+  stage.distance = 1.08 * Math.max(...sides.map(({ distance }) => distance)) || otherwise;
+};
 const styleNow = () => {
   const style = getComputedStyle(document.documentElement);
   return Object.fromEntries(["ink", "pale", "line", "ground"].map((k) => [k, style.getPropertyValue(`--${k}`).trim()]));

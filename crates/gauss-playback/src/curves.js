@@ -1,7 +1,7 @@
 // Curves over time, on plain canvases; a click goes to that time.
 
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#a07a2c", "#666666"];
-const MARGIN = { left: 84, right: 16, top: 24, bottom: 22 };
+const MARGIN = { left: 84, right: 16, top: 8, bottom: 22 };
 
 // Round numbers, about `count` of them, inside an interval.
 const ticks = (low, high, count) => {
@@ -15,13 +15,14 @@ const label = (value, digits) =>
   digits > 4 || Math.abs(value) >= 1e6 ? value.toExponential(2).replaceAll("-", "−") : value.toFixed(digits).replace("-", "−");
 
 class Curves {
-  constructor(panel, times, seek, least = 1) {
-    // `least`: half the axis of what is zero throughout.
-    Object.assign(this, { panel, times, seek, least });
+  constructor(panel, times, seek, { over = "t", least = 1 } = {}) {
+    // `over`: what stands at the axis of time; `least`: half the axis of what is zero throughout.
+    Object.assign(this, { panel, times, seek, over, least });
     const box = document.createElement("div");
     box.className = "panel";
-    this.canvas = box.appendChild(document.createElement("canvas"));
+    // Above the curves, in as many lines as it takes: on a narrow screen it would cover them.
     const legend = box.appendChild(document.createElement("div"));
+    this.canvas = box.appendChild(document.createElement("canvas"));
     legend.appendChild(document.createElement("b")).textContent = panel.title;
     panel.curves.forEach((curve, k) => {
       const key = legend.appendChild(document.createElement("span"));
@@ -61,7 +62,7 @@ class Curves {
     const y = (v) => MARGIN.top + (this.high - v) / (this.high - this.low) * (h - MARGIN.top - MARGIN.bottom);
     pen.font = "12px system-ui, sans-serif";
     pen.strokeStyle = style.line; pen.fillStyle = style.pale; pen.lineWidth = 1;
-    const rows = ticks(this.low, this.high, 5), columns = ticks(Math.min(times[0], times.at(-1)), Math.max(times[0], times.at(-1)), 8);
+    const rows = ticks(this.low, this.high, 5), columns = ticks(Math.min(times[0], times.at(-1)), Math.max(times[0], times.at(-1)), Math.min(8, Math.max(2, w / 75)));
     pen.beginPath();
     pen.textAlign = "right"; pen.textBaseline = "middle";
     for (const v of rows.all) {
@@ -69,7 +70,9 @@ class Curves {
       pen.fillText(label(v, rows.digits), MARGIN.left - 8, y(v));
     }
     pen.stroke();
-    pen.textAlign = "center"; pen.textBaseline = "top";
+    pen.textBaseline = "top";
+    pen.fillText(this.over, MARGIN.left - 16, h - MARGIN.bottom + 5);
+    pen.textAlign = "center";
     for (const time of columns.all) pen.fillText(label(time, columns.digits), x(time), h - MARGIN.bottom + 5);
     pen.lineWidth = 1.6; pen.lineJoin = "round";
     this.panel.curves.forEach((curve, k) => {

@@ -22,6 +22,7 @@
 //! let path = Simulation::new(&racket).adaptive(1e-9, 1e-9).run(Isometry3::identity(), spin, 0.0..3.0)?;
 //!
 //! let page = Playback::new("A racket that flips", &path)?
+//!     .si() // axes show s, m, J
 //!     .body("racket", |s| racket.pose(s.t, &s.q), [Shape::cuboid([0.2, 0.6, 0.03])])
 //!     .trace("racket", [0.0, 0.3, 0.0])
 //!     .energy(&racket)
@@ -39,7 +40,8 @@
 //! feature `contact` `Playback::of_contacts` is the playback of a run of `gauss-contact`, and `Playback::contacts`
 //! shows all of its contacts with their forces.
 //!
-//! All lengths are in the units of the scene; the axes are the observer's, and k₃ points up on the screen.
+//! All lengths are in the units of the scene, which the page shows if they are those of the SI ([`Playback::si`]); the
+//! axes are the observer's, and k₃ points up on the screen.
 
 #![warn(missing_docs)]
 

@@ -19,6 +19,8 @@ const PLAYER: &str = include_str!("player.js");
 pub struct Page {
     pub title: String,
     pub times: Vec<f64>,
+    /// Whether the scene is in units of the SI, and axes show them.
+    pub si: bool,
     /// Which way is up on the screen, observer's axes.
     pub up: [f64; 3],
     /// Where the camera is at first.
@@ -76,6 +78,8 @@ pub struct Contact {
 #[derive(Serialize)]
 pub struct Panel {
     pub title: String,
+    /// The unit of its axis in a scene in those of the SI, where the title has none.
+    pub unit: &'static str,
     pub curves: Vec<Curve>,
 }
 
@@ -95,6 +99,7 @@ impl Page {
         Self {
             title: title.to_owned(),
             times,
+            si: false,
             up: [0.0, 0.0, 1.0],
             view: "slant",
             follow: None,

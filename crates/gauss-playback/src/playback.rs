@@ -218,9 +218,20 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
         self
     }
 
+    /// Says that the scene is in units of the SI: the page then shows those of time, length and energy.
+    #[must_use]
+    pub fn si(mut self) -> Self {
+        self.page.si = true;
+        self
+    }
+
     /// A curve over time below the motion; curves of one `panel`, such as `"energy / J"`, share their axis.
     #[must_use]
-    pub fn curve(mut self, panel: &str, name: &str, value: impl Fn(&Sample<S>) -> f64) -> Self {
+    pub fn curve(self, panel: &str, name: &str, value: impl Fn(&Sample<S>) -> f64) -> Self {
+        self.curve_in((panel, ""), name, value)
+    }
+
+    fn curve_in(mut self, (panel, unit): (&str, &'static str), name: &str, value: impl Fn(&Sample<S>) -> f64) -> Self {
         let values: Vec<f64> = self.samples.iter().map(value).collect();
         if let Some(n) = values.iter().position(|value| !value.is_finite()) {
             self.mistakes.push(format!("the curve `{name}` is not finite at t = {}", self.samples[n].t));
@@ -228,17 +239,18 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
         let curve = Curve { name: name.to_owned(), values };
         match self.page.panels.iter_mut().find(|other| other.title == panel) {
             Some(panel) => panel.curves.push(curve),
-            None => self.page.panels.push(Panel { title: panel.to_owned(), curves: vec![curve] }),
+            None => self.page.panels.push(Panel { title: panel.to_owned(), unit, curves: vec![curve] }),
         }
         self
     }
 
-    /// Kinetic energy, potential energy and their sum, in the unit of energy of the scene.
+    /// Kinetic energy, potential energy and their sum, in the unit of energy of the scene: J after [`si`](Self::si).
     #[must_use]
     pub fn energy(self, kernel: &S) -> Self {
-        self.curve("energy", "kinetic", |s| kernel.kinetic_energy(s.t, &s.q, &s.z))
-            .curve("energy", "potential", |s| kernel.potential_energy(s.t, &s.q))
-            .curve("energy", "sum", |s| kernel.energy(s.t, &s.q, &s.z))
+        let panel = ("energy", "J");
+        self.curve_in(panel, "kinetic", |s| kernel.kinetic_energy(s.t, &s.q, &s.z))
+            .curve_in(panel, "potential", |s| kernel.potential_energy(s.t, &s.q))
+            .curve_in(panel, "sum", |s| kernel.energy(s.t, &s.q, &s.z))
     }
 
     /// The page.

@@ -5,6 +5,8 @@ const { times: clock, bodies, rods, traces, arrows, contacts } = data;
 const byId = (id) => document.getElementById(id);
 const [begin, end] = [clock[0], clock.at(-1)];
 const span = end - begin;
+// The unit, in scenes that say that they are in those of the SI.
+const inUnits = (name) => data.si ? name : "";
 
 // Between two pictures everything goes straight; quaternions by the shorter way.
 const place = (time) => {
@@ -50,13 +52,35 @@ const bounds = (() => {
   if (!Number.isFinite(low[0])) return { low: [-1, -1, -1], high: [1, 1, 1] };
   return { low, high };
 })();
-const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((c) => [0, 1, 2].map((k) => (c >> k & 1 ? bounds.high : bounds.low)[k]));
+const cornersOf = (low, high) => [0, 1, 2, 3, 4, 5, 6, 7].map((c) => [0, 1, 2].map((k) => (c >> k & 1 ? high : low)[k]));
+const corners = cornersOf(bounds.low, bounds.high);
+// What shall be in the picture: the corners of all shapes and the ends of arrows, in two hundred pictures or fewer.
+const outline = (() => {
+  const points = [], every = Math.max(1, Math.ceil(clock.length / 200));
+  for (let n = 0; n < clock.length; n += every) {
+    for (const body of bodies) {
+      const { at, axes } = poseAt(body, [n, n, 0]);
+      points.push(at);
+      for (const { pose, size } of body.shapes) {
+        const own = axesOf(pose.slice(3));
+        for (const corner of cornersOf(times(size, -1), size)) {
+          points.push(add(at, turned3(axes, add(pose.slice(0, 3), turned3(own, corner)))));
+        }
+      }
+    }
+    for (const { values } of [...arrows, ...contacts]) {
+      points.push(values[n].slice(0, 3), add(values[n].slice(0, 3), values[n].slice(3)));
+    }
+  }
+  return points.length ? points : corners;
+})();
 const middle = times(add(bounds.low, bounds.high), 0.5);
 const radius = Math.hypot(...sub(bounds.high, bounds.low)) / 2 || 1;
 
 let now = begin, playing = false, last = null;
 // Before the stage: they leave it the height that it has.
-const panels = data.panels.map((panel) => new Curves(panel, clock, (t) => seek(t)));
+const titled = (panel) => ({ ...panel, title: panel.unit ? panel.title + inUnits(` / ${panel.unit}`) : panel.title });
+const panels = data.panels.map((panel) => new Curves(titled(panel), clock, (t) => seek(t), { over: data.si ? "t / s" : "t" }));
 
 let stage = null;
 try { stage = new Stage(byId("stage"), data.up); } catch (error) {
@@ -69,14 +93,10 @@ const FROM = {
   slant: { azimuth: 0.6, elevation: 0.42 }, top: { azimuth: -Math.PI / 2, elevation: 1.55 },
   side: { azimuth: -Math.PI / 2, elevation: 0.1 },
 };
-// So near that all corners are still in the picture.
+// So near that everything is still in the picture, which it fills from side to side or from top to bottom.
 const seeAll = () => {
   Object.assign(stage, { target: middle, ...FROM[data.view] });
-  const z = stage.back(), x = unit(cross(stage.world[2], z)), y = cross(z, x);
-  const wide = stage.canvas.clientWidth / stage.canvas.clientHeight || 1;
-  const needed = corners.map((corner) => sub(corner, middle)).map((c) =>
-    dot(c, z) + Math.max(Math.abs(dot(c, y)), Math.abs(dot(c, x)) / wide) / Math.tan(0.3));
-  stage.distance = 1.1 * Math.max(...needed) || distanceTo(radius);
+  fit(stage, outline, distanceTo(radius));
 };
 // Everything, or near the body that the camera goes with; until the camera is moved by hand.
 let moved = false;
@@ -140,7 +160,7 @@ const draw = () => {
   if (stage) drawStage(where, style);
   panels.forEach((panel) => panel.draw(now, style));
   byId("slider").value = span ? (now - begin) / span : 0;
-  byId("clock").textContent = `t = ${now.toFixed(Math.max(0, 3 - Math.floor(Math.log10(Math.abs(span) || 1))))}`;
+  byId("clock").textContent = `t = ${now.toFixed(Math.max(0, 3 - Math.floor(Math.log10(Math.abs(span) || 1))))}${inUnits(" s")}`;
   byId("play").textContent = playing ? "❚❚" : "▶";
 };
 const seek = (t) => { now = t; requestAnimationFrame(draw); };
@@ -173,7 +193,7 @@ arrows.forEach((arrow, k) => key(legend, arrow.name, arrowColour(k)));
 const touched = new Set(contacts.flatMap(({ touches }) => touches));
 Object.keys(TOUCHES).filter((touch) => touched.has(touch)).forEach((touch) => key(legend, `contact ${touch}`, TOUCHES[touch]));
 if (stage) AXES.forEach(({ name, colour }) => key(legend, name, colour));
-if (stage) key(legend, `squares of ${Number(buffers.grid.side.toPrecision(3))}`, "var(--line)");
+if (stage) key(legend, `squares of ${Number(buffers.grid.side.toPrecision(3))}${inUnits(" m")}`, "var(--line)");
 
 byId("play").addEventListener("click", toggle);
 byId("slider").addEventListener("input", (event) => { playing = false; seek(begin + event.target.value * span); });
@@ -197,4 +217,5 @@ if (wanted) now = Math.min(Math.max(Number(wanted[1]), Math.min(begin, end)), Ma
 look();
 draw();
 document.body.dataset.bodies = JSON.stringify(bodies.map((body) => poseAt(body, place(now)).at));
+document.body.dataset.filled = JSON.stringify(stage ? filled(stage, outline) : null);
 document.body.dataset.ready = stage ? "yes" : "without WebGL";

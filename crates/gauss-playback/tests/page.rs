@@ -66,6 +66,24 @@ fn poses_are_those_of_the_kernel_and_nothing_comes_from_elsewhere() -> Result<()
     Ok(())
 }
 
+/// Units are the user's: a page has none that nobody has said.
+#[test]
+fn axes_have_the_units_of_a_scene_in_the_si() -> Result<(), Box<dyn std::error::Error>> {
+    let kernel = Pendulum {}.kernel()?;
+    let path = Simulation::new(&kernel).adaptive(1e-9, 1e-9).run(SVector::zeros(), SVector::zeros(), 0.0..0.1)?;
+    let page =
+        || Ok::<_, IntegrationError>(Playback::with_pictures("", &path, 3)?.curve("angle / rad", "a", |s| s.q[0]));
+    for (page, si) in
+        [(page()?.energy(&kernel), false), (page()?.si().energy(&kernel), true), (page()?.energy(&kernel).si(), true)]
+    {
+        let data = data(&page.html()?);
+        assert_eq!(data["si"], si);
+        let units: Vec<_> = data["panels"].as_array().expect("panels").iter().map(|panel| &panel["unit"]).collect();
+        assert_eq!(units, ["", "J"], "a title of the user's is left as it is");
+    }
+    Ok(())
+}
+
 /// Names of robots come from strangers: wherever they stand they are text, and nothing of the page is lost behind them.
 #[test]
 fn names_and_titles_are_text() -> Result<(), Box<dyn std::error::Error>> {

@@ -225,7 +225,8 @@ impl<'a> Study<'a> {
     /// # Errors
     /// [`StudyError::None`] and those of [`run`](Self::run).
     pub fn results(&self, folder: &Path) -> Result<Results, StudyError> {
-        Ok(Results { files: Folder::open(folder, &self.declaration)?.whole()? })
+        let numbers = self.declaration.numbers();
+        Ok(Results { files: Folder::open(folder, &self.declaration)?.whole()?, numbers })
     }
 
     pub(crate) fn declaration(&self) -> &Declaration {

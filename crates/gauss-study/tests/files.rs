@@ -79,6 +79,17 @@ fn what_is_read_is_what_was_written() -> Outcome {
     let (lengths, speeds) = (results.numbers("length")?, results.numbers("speed")?);
     let (crests, steep, words) = (results.numbers("crests")?, results.numbers("steep")?, results.words("word")?);
     let events = results.numbers("breaks_at")?;
+    // All columns of numbers, as tables take them: nulls are NaN, words are left out.
+    let columns = results.columns()?;
+    let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
+    assert!(names.contains(&"length") && names.contains(&"speed") && !names.contains(&"word"), "{names:?}");
+    for (name, values) in &columns {
+        let one = results.numbers(name)?;
+        let same =
+            |(value, one): (&f64, &Option<f64>)| one.map_or(value.is_nan(), |one| one.to_bits() == value.to_bits());
+        assert!(values.len() == one.len() && values.iter().zip(&one).all(same), "{name}");
+    }
+    assert!(results.units().all(|(name, unit)| names.contains(&name) && !unit.is_empty()));
     for run in [0, 1, 69, 70, 555, 999] {
         let (sample, row) = study.one(run);
         let n = run as usize;

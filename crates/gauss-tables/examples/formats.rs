@@ -2,10 +2,9 @@
 //! into `target/gauss`.
 
 use std::error::Error;
-use std::path::PathBuf;
 
 use gauss_runtime::prelude::*;
-use gauss_tables::{Export, Tabulate};
+use gauss_tables::Tabulate;
 
 /// A heavy top.
 #[derive(GaussDynamics)]
@@ -22,7 +21,7 @@ struct Top {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = std::env::args_os().nth(1).map_or_else(|| PathBuf::from("target/gauss"), PathBuf::from);
+    let folder = gauss_files::output_folder_or_argument();
     let (center, inertia) = (Vector3::new(0.0, 0.0, 0.1), Vector3::new(0.02, 0.02, 0.01));
     let kernel = Top { mass: 1.0, center, inertia, gravity: 9.81 }.kernel()?;
     let start = UnitQuaternion::from_euler_angles(0.5, 0.0, 0.0);

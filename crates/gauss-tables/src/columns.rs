@@ -26,13 +26,6 @@ pub fn arrow(batch: &RecordBatch) -> Result<Vec<u8>, TableError> {
     writer.into_inner().map_err(format)
 }
 
-#[cfg(feature = "parquet")]
-pub fn parquet(batch: &RecordBatch) -> Result<Vec<u8>, TableError> {
-    let mut writer = parquet::arrow::ArrowWriter::try_new(Vec::new(), batch.schema(), None).map_err(format)?;
-    writer.write(batch).map_err(format)?;
-    writer.into_inner().map_err(format)
-}
-
 fn format(error: impl std::error::Error + Send + Sync + 'static) -> TableError {
     TableError::Format(Box::new(error))
 }

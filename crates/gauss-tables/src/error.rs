@@ -20,6 +20,11 @@ pub enum TableError {
     NotSvg(PathBuf),
     /// There are fewer than two rows, or fewer than two columns.
     NothingToPlot,
+    /// The columns of a panel have several units, and a panel has one axis.
+    MixedUnits {
+        /// The columns with their units.
+        columns: Vec<String>,
+    },
     /// The picture cannot be laid out.
     Plot(String),
     /// The error of the writer of Arrow or Parquet.
@@ -34,6 +39,9 @@ impl fmt::Display for TableError {
                 write!(f, "pictures are SVG, so a file should be called `….svg`, not `{}`", file.display())
             }
             Self::NothingToPlot => f.write_str("a plot needs two rows and two columns"),
+            Self::MixedUnits { columns } => {
+                write!(f, "a panel has one axis, and these columns have several units: {}", columns.join(", "))
+            }
             Self::Plot(reason) => write!(f, "the plot cannot be laid out: {reason}"),
             Self::Format(error) => write!(f, "the table cannot be written: {error}"),
         }

@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use gauss_runtime::prelude::*;
-//! use gauss_tables::{Export, Tabulate};
+//! use gauss_tables::Tabulate;
 //!
 //! #[derive(GaussDynamics)]
 //! #[gauss(
@@ -34,10 +34,14 @@
 //!
 //! | method | feature | file | units |
 //! |---|---|---|---|
-//! | [`write_csv`](Export::write_csv) | | CSV, RFC 4180, UTF-8, all digits | in the heading, `angle / rad` |
+//! | [`write_csv`](Table::write_csv) | | CSV, RFC 4180, UTF-8, all digits | in the heading, `angle / rad` |
 //! | `plot`, `svg` | `plot` (default) | SVG, a panel for each unit | at the axes |
 //! | `write_arrow`, `record_batch` | `arrow` | Arrow IPC, also called Feather | metadata `unit` of the field |
-//! | `write_parquet` | `parquet` | Parquet, not compressed | as of Arrow, in the schema that Parquet keeps of it |
+//! | `write_parquet` | `parquet` | Parquet, not compressed | metadata of the file, `unit:angle` |
+//!
+//! [`euler_angles`](Table::euler_angles) has rotations as angles, [`select`](Table::select) chooses columns and
+//! [`panel`](Table::panel) which of them a plot has together. What is no run becomes a table by [`Table::of`] or
+//! [`Table::from_columns`].
 //!
 //! Columns of Arrow and Parquet are 64-bit floats without nulls under the bare names; what is not finite is a NaN or an
 //! infinity.
@@ -48,15 +52,18 @@
 mod columns;
 mod error;
 mod export;
+#[cfg(feature = "parquet")]
+mod parquet;
 #[cfg(feature = "plot")]
 mod picture;
+mod run;
 mod table;
 
-/// [`Tabulate`] is for runs and [`Export`] for tables alone, so that functions can be added to them.
+/// [`Tabulate`] is for runs alone, so that functions can be added to it.
 mod sealed {
     pub trait Sealed {}
 }
 
 pub use error::TableError;
-pub use export::Export;
-pub use table::{Column, Table, Tabulate, UnknownColumns};
+pub use run::{RunTable, Tabulate};
+pub use table::{Column, ColumnError, Table};

@@ -41,9 +41,10 @@ struct Panel<'a> {
     columns: Vec<Column<'a>>,
 }
 
-pub fn draw(columns: &[Column<'_>]) -> Result<String, TableError> {
+/// All columns over the first one: those of each panel, or a panel for each unit.
+pub fn draw(columns: &[Column<'_>], chosen: &[Vec<String>]) -> Result<String, TableError> {
     let Some((over, rest)) = columns.split_first() else { return Err(TableError::NothingToPlot) };
-    let panels = panels(rest);
+    let panels = if chosen.is_empty() { by_units(rest) } else { chosen_panels(columns, chosen)? };
     let Some(last) = panels.len().checked_sub(1) else { return Err(TableError::NothingToPlot) };
     if over.values.len() < 2 {
         return Err(TableError::NothingToPlot);
@@ -82,7 +83,19 @@ fn writing(colour: RGBColor) -> TextStyle<'static> {
     ("sans-serif", f64::from(TEXT * FINE)).into_font().color(&colour)
 }
 
-fn panels<'a>(columns: &[Column<'a>]) -> Vec<Panel<'a>> {
+fn chosen_panels<'a>(columns: &[Column<'a>], chosen: &[Vec<String>]) -> Result<Vec<Panel<'a>>, TableError> {
+    let panel = |names: &Vec<String>| {
+        let find = |name: &String| columns.iter().find(|column| column.name == name).copied();
+        let columns: Vec<Column<'a>> = names.iter().filter_map(find).collect();
+        if columns.iter().any(|column| column.unit != columns[0].unit) {
+            return Err(TableError::MixedUnits { columns: columns.iter().map(ToString::to_string).collect() });
+        }
+        Ok(Panel { columns })
+    };
+    chosen.iter().filter(|names| !names.is_empty()).map(panel).collect()
+}
+
+fn by_units<'a>(columns: &[Column<'a>]) -> Vec<Panel<'a>> {
     let mut panels: Vec<Panel<'a>> = Vec::new();
     for &column in columns {
         match panels.iter_mut().find(|panel| column.unit.is_some() && panel.columns[0].unit == column.unit) {

@@ -1,94 +1,41 @@
-//! Runs as tables: named columns of numbers over time, printed as CSV.
+//! Named columns of numbers with their units, printed as CSV.
 
 use std::fmt;
 
-use gauss_runtime::chart::Chart;
-use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::contact::ContactSystem;
-use gauss_runtime::description::DescribedSystem;
-use gauss_runtime::forces::ForcedSystem;
-use gauss_runtime::integrate::{IntegrationError, Sample, Trajectory};
 use gauss_runtime::real::Real;
-use gauss_runtime::system::GaussSystem;
 
-/// Tables of a run.
-pub trait Tabulate<S: GaussSystem>: crate::sealed::Sealed {
-    /// A table with a row for every sample, and the time as its first column.
-    ///
-    /// ```
-    /// use gauss_runtime::prelude::*;
-    /// use gauss_tables::Tabulate;
-    ///
-    /// #[derive(GaussDynamics)]
-    /// #[gauss(
-    ///     coordinates(angle),
-    ///     particle(mass = 1, position = [sin(angle), 0, -cos(angle)]),
-    ///     spring(bearing, along = angle, stiffness = 0, damping = 0.1),
-    /// )]
-    /// struct Pendulum {
-    ///     #[gauss(gravity)] g: f64,
-    /// }
-    ///
-    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// let kernel = Pendulum { g: 9.81 }.kernel()?;
-    /// let run = Simulation::new(&kernel).adaptive(1e-9, 1e-9).run(SVector::from([1.0]), SVector::from([0.0]), 0.0..10.0)?;
-    /// let table = run
-    ///     .table_at((0..=100).map(|n| 0.1 * f64::from(n)))?
-    ///     .columns(["angle", "rate"], |s| [s.q[0], s.z[0]])
-    ///     .energies(&kernel)
-    ///     .powers(&kernel, |_t, _q, _z| ());
-    /// # let folder = std::env::temp_dir();
-    /// # std::fs::write(folder.join("gauss_table_example.csv"), table.to_string())?;
-    /// # std::fs::remove_file(folder.join("gauss_table_example.csv"))?;
-    /// assert!(table.to_string().starts_with("t,angle,rate,kinetic energy,potential energy,energy,gravity power,"));
-    /// assert!(table.get("bearing power").is_some());
-    /// let energy = table.get("energy").expect("is there");
-    /// assert!(energy.len() == 101 && energy.windows(2).all(|pair| pair[1] <= pair[0] + 1e-9));
-    /// # Ok(())
-    /// # }
-    /// ```
-    #[must_use]
-    fn table(&self) -> Table<S>;
-
-    /// A table with a row for every given time, which is its first column.
-    ///
-    /// # Errors
-    /// The error of [`Trajectory::at`] for the first time whose state cannot be computed.
-    fn table_at(&self, times: impl IntoIterator<Item = S::Scalar>) -> Result<Table<S>, IntegrationError>;
-}
-
-impl<S: GaussSystem> crate::sealed::Sealed for Trajectory<'_, S> {}
-
-impl<S: GaussSystem> crate::sealed::Sealed for Table<S> {}
-
-impl<S: GaussSystem> Tabulate<S> for Trajectory<'_, S> {
-    fn table(&self) -> Table<S> {
-        Table::new(self.samples().to_vec())
-    }
-
-    fn table_at(&self, times: impl IntoIterator<Item = S::Scalar>) -> Result<Table<S>, IntegrationError> {
-        self.at_times(times).map(Table::new)
-    }
-}
-
-/// Named columns of numbers, a row for each of some states; of packs of numbers the first lane. As text it is CSV
-/// (RFC 4180, with the names in the first line, and every digit that tells a number from its neighbours).
+/// Named columns of numbers, a row for each of some things: states of a run ([`RunTable`](crate::RunTable)), records of
+/// yours ([`of`](Self::of)), or nothing but the numbers ([`from_columns`](Table::from_columns)). As text it is CSV (RFC
+/// 4180, with the names in the first line, and every digit that tells a number from its neighbours).
 ///
 /// Columns have units where these were [given](Self::units) or are those of the [SI](Self::si); the heading of CSV is
-/// then `angle / rad`. [`Export`](crate::Export) has other formats and plots.
-pub struct Table<S: GaussSystem> {
-    samples: Vec<Sample<S>>,
+/// then `angle / rad`. Other formats, and what a plot has in which panel, are methods as well.
+///
+/// ```
+/// use gauss_tables::Table;
+///
+/// struct Shot { speed: f64, range: f64 }
+/// let shots: Vec<Shot> = [10.0, 20.0].map(|speed| Shot { speed, range: speed * speed / 9.81 }).into();
+/// let table = Table::of(shots).columns(["speed", "range"], |shot| [shot.speed, shot.range]);
+/// let table = table.units([("speed", "m/s"), ("range", "m")])?;
+/// assert!(table.to_string().starts_with("speed / (m/s),range / m\n10.0,"));
+///
+/// let same = Table::from_columns([("speed", vec![10.0, 20.0]), ("range", vec![10.2, 40.8])])?;
+/// assert_eq!(same.select(["range"])?.get("range"), Some(&[10.2, 40.8][..]));
+/// # Ok::<(), gauss_tables::ColumnError>(())
+/// ```
+#[derive(Clone)]
+#[doc(alias = "csv")]
+#[doc(alias = "dataframe")]
+pub struct Table<Row = ()> {
+    rows: Vec<Row>,
+    length: usize,
     columns: Vec<Stored>,
+    /// Names of columns for each panel of a plot; none: a panel for each unit.
+    panels: Vec<Vec<String>>,
 }
 
-// Written by hand: deriving would ask the same of the system S, which is only named here.
-impl<S: GaussSystem> Clone for Table<S> {
-    fn clone(&self) -> Self {
-        Self { samples: self.samples.clone(), columns: self.columns.clone() }
-    }
-}
-
-impl<S: GaussSystem> fmt::Debug for Table<S> {
+impl<Row> fmt::Debug for Table<Row> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_list().entries(self.iter()).finish()
     }
@@ -117,18 +64,48 @@ impl fmt::Display for Column<'_> {
     }
 }
 
-/// Units for names that no column has: all of these.
+/// What is wrong with names or lengths of columns: all of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct UnknownColumns(pub Vec<String>);
+pub enum ColumnError {
+    /// Names that no column has.
+    Unknown(Vec<String>),
+    /// Columns, and how many numbers they have, of a table whose first column has another number of them.
+    Unequal {
+        /// How many numbers the first column has.
+        rows: usize,
+        /// The others, by name.
+        columns: Vec<(String, usize)>,
+    },
+    /// Names that two columns have.
+    Twice(Vec<String>),
+    /// Axes that no sequence of Euler angles has: others than 0, 1, 2, or neighbours that are equal.
+    Sequence([u8; 3]),
+    /// Euler angles of a configuration among whose names there is no rotation.
+    NoRotation,
+}
 
-impl fmt::Display for UnknownColumns {
+impl fmt::Display for ColumnError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the table has no column `{}`", self.0.join("`, `"))
+        match self {
+            Self::Unknown(names) => write!(f, "the table has no column `{}`", names.join("`, `")),
+            Self::Unequal { rows, columns } => {
+                let told: Vec<_> = columns.iter().map(|(name, length)| format!("`{name}` {length}")).collect();
+                write!(f, "columns are as long as the first one, which has {rows} numbers: {}", told.join(", "))
+            }
+            Self::Twice(names) => write!(f, "two columns are called `{}`", names.join("`, `")),
+            Self::Sequence([a, b, c]) => write!(
+                f,
+                "Euler angles are about axes 0, 1 or 2, neighbours about different ones, and not about {a}, {b}, {c}"
+            ),
+            Self::NoRotation => f.write_str(
+                "the configuration has no rotation or pose by name; `euler_angles_of` takes any rotation of a state",
+            ),
+        }
     }
 }
 
-impl std::error::Error for UnknownColumns {}
+impl std::error::Error for ColumnError {}
 
 #[derive(Clone, Debug)]
 struct Stored {
@@ -139,130 +116,65 @@ struct Stored {
     values: Vec<f64>,
 }
 
-impl<S: GaussSystem> Table<S> {
-    /// A table of states, with their times.
+impl Table {
+    /// Columns of numbers that are there already, all of one length: results of a study, of a filter, of a batch.
+    ///
+    /// # Errors
+    /// [`ColumnError::Unequal`], [`ColumnError::Twice`].
+    pub fn from_columns<N: Into<String>>(
+        columns: impl IntoIterator<Item = (N, Vec<f64>)>,
+    ) -> Result<Self, ColumnError> {
+        let stored = |(name, values): (N, _)| Stored { name: name.into(), unit: None, si: "", values };
+        let columns: Vec<Stored> = columns.into_iter().map(stored).collect();
+        let rows = columns.first().map_or(0, |column| column.values.len());
+        let others = columns.iter().filter(|column| column.values.len() != rows);
+        let unequal: Vec<_> = others.map(|column| (column.name.clone(), column.values.len())).collect();
+        if !unequal.is_empty() {
+            return Err(ColumnError::Unequal { rows, columns: unequal });
+        }
+        let is_second = |n: &usize| columns[..*n].iter().any(|earlier| earlier.name == columns[*n].name);
+        let twice: Vec<_> = (0..columns.len()).filter(is_second).map(|n| columns[n].name.clone()).collect();
+        if !twice.is_empty() {
+            return Err(ColumnError::Twice(twice));
+        }
+        Ok(Self { rows: vec![(); rows], length: rows, columns, panels: Vec::new() })
+    }
+}
+
+impl<Row> Table<Row> {
+    /// A table with a row for each of these, and no columns yet.
     #[must_use]
-    pub fn new(samples: Vec<Sample<S>>) -> Self {
-        Self { samples, columns: Vec::new() }.with([("t", "s")], |sample, put| put(sample.t))
+    pub fn of(rows: Vec<Row>) -> Self {
+        Self { length: rows.len(), rows, columns: Vec::new(), panels: Vec::new() }
     }
 
-    /// One more column: a function of the state.
+    /// One more column: a function of what its row is about. Of packs of numbers the first lane is taken.
     #[must_use]
-    pub fn column(self, name: &str, mut function: impl FnMut(&Sample<S>) -> S::Scalar) -> Self {
-        self.columns([name], |sample| [function(sample)])
+    pub fn column<T: Real>(self, name: &str, mut function: impl FnMut(&Row) -> T) -> Self {
+        self.columns([name], |row| [function(row)])
     }
 
     /// Several more columns.
     #[must_use]
-    pub fn columns<const N: usize>(
-        self,
-        names: [&str; N],
-        mut function: impl FnMut(&Sample<S>) -> [S::Scalar; N],
-    ) -> Self {
-        self.with(names.map(|name| (name, "")), |sample, put| function(sample).into_iter().for_each(put))
-    }
-
-    /// The numbers that the state consists of, under the names of coordinates and speeds. Of a rotation they are those
-    /// of its quaternion (`turn_i`, `turn_j`, `turn_k`, `turn_w`), of a pose also the place (`craft_x`, `craft_y`,
-    /// `craft_z`), in the plane `pose_cos`, `pose_sin`, `pose_x`, `pose_y`. A system that has [no
-    /// names](DescribedSystem::COORDINATE_NAMES), as one written by hand, has `q1`, `q2`, … and `z1`, `z2`, ….
-    #[must_use]
-    pub fn state(self) -> Self
-    where
-        S: DescribedSystem,
-    {
-        let of_q = <<S::Configuration as Configuration>::Components as VectorSpace<S::Scalar>>::DIM;
-        let named = |known: &'static [&'static str], letter: &'static str, count: usize| {
-            let name = move |i: usize| known.get(i).map_or_else(|| format!("{letter}{}", i + 1), |&name| name.into());
-            (0..count).map(name)
-        };
-        // Of quasi-velocities of bodies; what other speeds are is the scene's affair.
-        let of_body = matches!(S::CHART, Chart::LeftInvariant | Chart::RightInvariant | Chart::Hybrid);
-        let rate_unit = |i| if of_body { S::Configuration::rate_unit(i) } else { "" };
-        let coordinates = named(S::COORDINATE_NAMES, "q", of_q).zip((0..of_q).map(S::Configuration::component_unit));
-        let speeds = named(S::SPEED_NAMES, "z", S::Speeds::DIM).zip((0..S::Speeds::DIM).map(rate_unit));
-        self.with(coordinates.chain(speeds), |sample, put| {
-            let components = sample.q.components();
-            (0..of_q).for_each(|i| put(components.component(i)));
-            (0..S::Speeds::DIM).for_each(|i| put(sample.z.component(i)));
+    pub fn columns<T: Real, const N: usize>(self, names: [&str; N], mut function: impl FnMut(&Row) -> [T; N]) -> Self {
+        self.with(names.map(|name| (name, "")), |row, put| {
+            function(row).into_iter().for_each(|number| put(number.lane(0)));
         })
     }
 
-    /// The kinetic energy, the potential energy, and the two together.
-    #[must_use]
-    pub fn energies(self, system: &S) -> Self {
-        self.with(["kinetic energy", "potential energy", "energy"].map(|name| (name, "J")), |sample, put| {
-            let kinetic = system.kinetic_energy(sample.t, &sample.q, &sample.z);
-            let potential = system.potential_energy(sample.t, &sample.q);
-            [kinetic, potential, kinetic + potential].into_iter().for_each(put);
-        })
-    }
-
-    /// The power of every element, `NAME power`, under the input that the run had.
-    #[must_use]
-    pub fn powers(self, system: &S, input: impl Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Input) -> Self
-    where
-        S: ForcedSystem,
-    {
-        let names = S::ELEMENTS.iter().map(|element| (format!("{} power", element.name), "W"));
-        self.with(names, |Sample { t, q, z, .. }, put| {
-            let powers = system.powers(*t, q, z, &input(*t, q, z));
-            (0..S::ELEMENTS.len()).for_each(|i| put(powers.component(i)));
-        })
-    }
-
-    /// Gap, normal force, and of each tangent the slip and the friction of every contact: `NAME gap`, `NAME force`,
-    /// `NAME slip`, `NAME friction`, of two tangents `NAME slip 1`, and so on, with friction of drilling `NAME spin`,
-    /// `NAME drilling`; of dry friction and rolling resistance slips and friction alone. `forces` are all rows of
-    /// contact forces at a state, such as those that a run with contacts has at its time; where they are unknown their
-    /// columns are NaN.
-    #[must_use]
-    pub fn contacts(self, system: &S, forces: impl Fn(&Sample<S>) -> Option<S::ContactRows>) -> Self
-    where
-        S: ContactSystem,
-    {
-        let names = S::CONTACTS.iter().flat_map(|contact| {
-            let drills = contact.drills;
-            let drilling = ["spin", "drilling"].map(|what| format!("{} {what}", contact.name));
-            let of_tangent = move |k: usize| if contact.tangents > 1 { format!(" {}", k + 1) } else { String::new() };
-            let tangential = (0..contact.tangents).flat_map(move |k| {
-                ["slip", "friction"].map(|what| format!("{} {what}{}", contact.name, of_tangent(k)))
-            });
-            let normal = ["gap", "force"].map(|what| format!("{} {what}", contact.name));
-            let drilling = drilling.into_iter().filter(move |_| drills);
-            normal.into_iter().filter(|_| contact.has_gap()).chain(tangential).chain(drilling)
-        });
-        self.with(names.map(|name| (name, "")), |sample, put| {
-            let (gaps, rates) =
-                (system.gaps(sample.t, &sample.q), system.contact_rates(sample.t, &sample.q, &sample.z));
-            let forces = forces(sample);
-            let force = |row: usize| forces.as_ref().map_or(S::Scalar::from_f64(f64::NAN), |rows| rows.component(row));
-            for (i, contact) in S::CONTACTS.iter().enumerate() {
-                if contact.has_gap() {
-                    put(gaps.component(i));
-                    put(force(contact.normal));
-                }
-                for row in contact.friction_rows() {
-                    put(rates.component(row));
-                    put(force(row));
-                }
-            }
-        })
-    }
-
-    /// Columns of names with their units in the SI, to whose end each sample puts its numbers.
-    fn with<N: Into<String>>(
+    /// Columns of names with their units in the SI, to whose end each row puts its numbers.
+    pub(crate) fn with<N: Into<String>>(
         mut self,
         names: impl IntoIterator<Item = (N, &'static str)>,
-        mut row: impl FnMut(&Sample<S>, &mut dyn FnMut(S::Scalar)),
+        mut numbers: impl FnMut(&Row, &mut dyn FnMut(f64)),
     ) -> Self {
         let column = |(name, si): (N, _)| Stored { name: name.into(), unit: None, si, values: Vec::new() };
         let mut columns: Vec<Stored> = names.into_iter().map(column).collect();
-        for sample in &self.samples {
+        for row in &self.rows {
             let mut places = columns.iter_mut();
-            row(sample, &mut |number| {
+            numbers(row, &mut |number| {
                 if let Some(column) = places.next() {
-                    column.values.push(number.lane(0));
+                    column.values.push(number);
                 }
             });
         }
@@ -273,8 +185,8 @@ impl<S: GaussSystem> Table<S> {
     /// Says in which units columns are, by their names: what headings and axes show. Nothing is converted.
     ///
     /// # Errors
-    /// [`UnknownColumns`]: the names that no column has.
-    pub fn units<'a>(mut self, units: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<Self, UnknownColumns> {
+    /// [`ColumnError::Unknown`]: the names that no column has.
+    pub fn units<'a>(mut self, units: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<Self, ColumnError> {
         let mut unknown = Vec::new();
         for (name, unit) in units {
             match self.columns.iter_mut().find(|column| column.name == name) {
@@ -282,7 +194,7 @@ impl<S: GaussSystem> Table<S> {
                 None => unknown.push(name.into()),
             }
         }
-        if unknown.is_empty() { Ok(self) } else { Err(UnknownColumns(unknown)) }
+        if unknown.is_empty() { Ok(self) } else { Err(ColumnError::Unknown(unknown)) }
     }
 
     /// Says that the scene is in units of the SI: those of time, energies and powers, of poses and rotations, and of
@@ -298,10 +210,66 @@ impl<S: GaussSystem> Table<S> {
         self
     }
 
-    /// The states of its rows.
+    /// These columns in this order, and no others. A plot is over the first one.
+    ///
+    /// # Errors
+    /// [`ColumnError::Unknown`]: the names that no column has.
+    pub fn select<'a>(mut self, names: impl IntoIterator<Item = &'a str>) -> Result<Self, ColumnError> {
+        let names: Vec<&str> = names.into_iter().collect();
+        self.known(&names)?;
+        let find = |name: &&str| self.columns.iter().find(|column| column.name == *name).cloned();
+        self.columns = names.iter().filter_map(find).collect();
+        self.panels.iter_mut().for_each(|panel| panel.retain(|name| names.contains(&name.as_str())));
+        self.panels.retain(|panel| !panel.is_empty());
+        Ok(self)
+    }
+
+    /// These columns in one panel of a plot, below those of the panels before; a plot then has no other panels than such
+    /// ones. Columns of one panel have one unit.
+    ///
+    /// # Errors
+    /// [`ColumnError::Unknown`]: the names that no column has.
+    pub fn panel<'a>(mut self, names: impl IntoIterator<Item = &'a str>) -> Result<Self, ColumnError> {
+        let names: Vec<&str> = names.into_iter().collect();
+        self.known(&names)?;
+        self.panels.push(names.into_iter().map(str::to_owned).collect());
+        Ok(self)
+    }
+
+    fn known(&self, names: &[&str]) -> Result<(), ColumnError> {
+        let is_unknown = |name: &&&str| !self.columns.iter().any(|column| column.name == **name);
+        let unknown: Vec<String> = names.iter().filter(is_unknown).map(|name| (*name).to_owned()).collect();
+        if unknown.is_empty() { Ok(()) } else { Err(ColumnError::Unknown(unknown)) }
+    }
+
+    /// The panels of a plot, by names of columns; none: a panel for each unit.
+    #[cfg(feature = "plot")]
+    pub(crate) fn panels(&self) -> &[Vec<String>] {
+        &self.panels
+    }
+
+    /// What its rows are about.
     #[must_use]
-    pub fn samples(&self) -> &[Sample<S>] {
-        &self.samples
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// How many rows it has.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.length
+    }
+
+    /// Whether it has no rows.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.length == 0
+    }
+
+    /// The columns alone, for functions over every table.
+    #[must_use]
+    pub fn without_rows(self) -> Table {
+        Table { rows: vec![(); self.length], length: self.length, columns: self.columns, panels: self.panels }
     }
 
     /// The columns in order.
@@ -321,7 +289,7 @@ impl<S: GaussSystem> Table<S> {
     }
 }
 
-impl<S: GaussSystem> fmt::Display for Table<S> {
+impl<Row> fmt::Display for Table<Row> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (n, column) in self.iter().enumerate() {
             let (comma, heading) = (if n == 0 { "" } else { "," }, column.to_string());
@@ -332,7 +300,7 @@ impl<S: GaussSystem> fmt::Display for Table<S> {
             }
         }
         f.write_str("\n")?;
-        for row in 0..self.samples.len() {
+        for row in 0..self.length {
             for (n, column) in self.iter().enumerate() {
                 let comma = if n == 0 { "" } else { "," };
                 write!(f, "{comma}{:?}", column.values[row])?;

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::fs;
 
 use gauss_runtime::prelude::*;
-use gauss_tables::{Export, Table, TableError, Tabulate};
+use gauss_tables::{RunTable, Table, TableError, Tabulate};
 
 /// A top: a rotation, quasi-velocities and energies, so that units are known.
 #[derive(GaussDynamics)]
@@ -21,7 +21,7 @@ struct Top {
 }
 
 /// Numbers whose decimals are long, and some that are none.
-fn table() -> Result<Table<TopKernel>, Box<dyn Error>> {
+fn table() -> Result<RunTable<TopKernel>, Box<dyn Error>> {
     let (center, inertia) = (Vector3::new(0.0, 0.0, 0.1), Vector3::new(0.2, 0.2, 0.1));
     let kernel = Top { mass: 1.0, center, inertia, gravity: 9.81 }.kernel()?;
     let start = UnitQuaternion::from_euler_angles(0.5, 0.0, 0.0);
@@ -81,6 +81,18 @@ fn a_panel_for_each_unit() -> Result<(), Box<dyn Error>> {
     // Each with a stroke beside its name: the one that is alone has a name too long for the axis.
     assert_eq!(curves, 11 * 2);
     assert!(matches!(table.plot("top.png"), Err(TableError::NotSvg(_))));
+
+    // Panels that are asked for, and no others; those that need two axes are refused.
+    let chosen = table.clone().panel(["energy"])?.panel(["omega_z", "omega_x"])?.svg()?;
+    let curves = chosen.matches("stroke-width=\"16\"").count();
+    assert!(curves == 1 + 2 * 2 && !chosen.contains("rotation_i") && chosen.contains("\nenergy / J\n"), "{curves}");
+    let mixed = table.clone().panel(["energy", "omega_x"])?.svg().expect_err("two units");
+    assert_eq!(
+        mixed.to_string(),
+        "a panel has one axis, and these columns have several units: energy / J, omega_x / (rad/s)"
+    );
+    let few = table.clone().select(["t", "energy"])?.svg()?;
+    assert_eq!(few.matches("stroke-width=\"16\"").count(), 1);
     let few = Table::new(table.samples()[..1].to_vec()).column("angle", |s| s.z[0]);
     assert!(matches!(few.svg(), Err(TableError::NothingToPlot)));
     assert!(matches!(Table::new(table.samples().to_vec()).svg(), Err(TableError::NothingToPlot)));
@@ -89,7 +101,7 @@ fn a_panel_for_each_unit() -> Result<(), Box<dyn Error>> {
 
 /// What a record batch has: names, units, numbers bit by bit.
 #[cfg(feature = "arrow")]
-fn is_same(table: &Table<TopKernel>, batches: &[arrow_array::RecordBatch]) {
+fn is_same(table: &RunTable<TopKernel>, batches: &[arrow_array::RecordBatch]) {
     use arrow_array::cast::AsArray;
     use arrow_array::types::Float64Type;
     let [batch] = batches else { panic!("one batch") };
@@ -115,11 +127,28 @@ fn arrow_reads_back() -> Result<(), Box<dyn Error>> {
 #[cfg(feature = "parquet")]
 #[test]
 fn parquet_reads_back() -> Result<(), Box<dyn Error>> {
-    use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::RowAccessor;
     let (table, file) = (table()?, std::env::temp_dir().join(format!("gauss_tables_{}.parquet", std::process::id())));
     table.write_parquet(&file)?;
-    let reader = ParquetRecordBatchReaderBuilder::try_new(fs::File::open(&file)?)?.build()?;
-    is_same(&table, &reader.collect::<Result<Vec<_>, _>>()?);
+    let reader = SerializedFileReader::new(fs::File::open(&file)?)?;
+    let metadata = reader.metadata().file_metadata();
+    let names: Vec<_> = metadata.schema_descr().columns().iter().map(|column| column.name().to_owned()).collect();
+    assert_eq!(names, table.names().collect::<Vec<_>>());
+    let units = metadata.key_value_metadata().expect("there are units");
+    for column in table.iter() {
+        let unit = units.iter().find(|pair| pair.key == format!("unit:{}", column.name));
+        assert_eq!(unit.and_then(|pair| pair.value.as_deref()), column.unit, "{column}");
+    }
+    let mut rows = 0;
+    for (n, row) in reader.get_row_iter(None)?.enumerate() {
+        let row = row?;
+        for (k, column) in table.iter().enumerate() {
+            assert_eq!(row.get_double(k)?.to_bits(), column.values[n].to_bits(), "{column}");
+        }
+        rows += 1;
+    }
+    assert_eq!(rows, table.len());
     fs::remove_file(file)?;
     Ok(())
 }

@@ -122,6 +122,7 @@ pub fn page(kernel: &KirchhoffKernel, comparison: &Comparison) -> Playback<Kirch
     let place = |s: &Sample<KirchhoffKernel>| s.q.translation.vector;
     let momentum = |s: &Sample<KirchhoffKernel>| kernel.space_momentum(s.t, &s.q, &s.z);
     let mut page = Playback::of_samples("One vehicle, the motor off, in four charts", samples)
+        .si()
         .up([0.0, 0.0, -1.0])
         .body("REMUS 100", |s| kernel.pose(s.t, &s.q), torpedo())
         .follow("REMUS 100")

@@ -5,7 +5,7 @@ use crate::algebra::expressions::node::{Id, Node};
 use crate::algebra::map::Map;
 
 /// Leaves up to which an expression is printed as it is.
-const LONG: u64 = 200;
+pub const LONG: u64 = 200;
 /// Leaves from which on a part is worth a name.
 const WORTH: u64 = 4;
 /// Letters for the names; the first that no symbol has with an index.

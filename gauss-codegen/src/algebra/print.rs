@@ -69,6 +69,10 @@ pub fn decimal(value: Rational, notation: Notation) -> String {
     }
 }
 
+/// Fractions with larger denominators are written as decimals, where these end after six places: 129/400 is 0.3225.
+const LARGEST_DENOMINATOR: i64 = 12;
+const PLACES: i64 = 1_000_000;
+
 struct Printer<'a, 'g> {
     notation: Notation,
     parts: &'a Parts<'g>,
@@ -172,14 +176,22 @@ impl<'a, 'g> Printer<'a, 'g> {
             negative = false;
         }
         let single = factors.len() == 1 && coefficient.is_one();
+        // A sum that is all of a numerator or a denominator has no brackets there.
+        let count = |sign: i32| factors.iter().filter(|(_, n)| n.signum() == sign).count();
+        let [above_alone, below_alone] = [1, -1].map(|sign| self.latex() && count(sign) == 1);
+        let (units, parts) = (self.fraction(coefficient), count(-1));
+        let above_alone = above_alone && units.0 == "1" && (parts > 0 || units.1.is_some());
+        let below_alone = below_alone && units.1.is_none();
         for (factor, exponent) in factors {
+            let alone = if exponent > 0 { above_alone } else { below_alone };
             let power = match exponent.abs() {
-                1 => self.factor(factor, single && exponent == 1),
+                1 => self.factor(factor, alone || single && exponent == 1),
+                2 if alone && let Some(inner) = self.radicand(factor) => self.factor(inner, true),
                 n => self.power(factor, n),
             };
             if exponent > 0 { above.push(power) } else { below.push(power) }
         }
-        let (numerator, denominator) = self.fraction(coefficient);
+        let (numerator, denominator) = units;
         if numerator != "1" || above.is_empty() {
             above.insert(0, numerator);
         }
@@ -194,8 +206,21 @@ impl<'a, 'g> Printer<'a, 'g> {
         Term { negative, text }
     }
 
-    /// eⁿ for n > 1. Powers of functions stand between the name and the argument, sin² θ.
+    /// What an expression is the root of.
+    fn radicand(&self, e: Expr<'g>) -> Option<Expr<'g>> {
+        match visible(e).view() {
+            NodeView::Call(Function::Sqrt, inner) if self.name_of(e).is_none() => Some(inner),
+            _ => None,
+        }
+    }
+
+    /// eⁿ for n > 1. Powers of functions stand between the name and the argument, sin² θ; even ones of roots are powers.
     fn power(&self, e: Expr<'g>, n: i32) -> String {
+        if n % 2 == 0
+            && let Some(inner) = self.radicand(e)
+        {
+            return if n == 2 { self.factor(inner, false) } else { self.power(inner, n / 2) };
+        }
         if !self.latex() {
             return format!("{}^{n}", self.factor(e, false));
         }
@@ -299,6 +324,9 @@ impl<'a, 'g> Printer<'a, 'g> {
     /// Numerator and denominator, if that is not one; fractions that nobody would read as numbers in double precision.
     fn fraction(&self, value: Rational) -> (String, Option<String>) {
         let Some((numerator, denominator)) = value.parts() else { return (decimal(value, self.notation), None) };
+        if denominator > LARGEST_DENOMINATOR && PLACES % denominator == 0 {
+            return (decimal(value, self.notation), None);
+        }
         (numerator.to_string(), (denominator != 1).then(|| denominator.to_string()))
     }
 }

@@ -20,6 +20,7 @@ use crate::algebra::Notation;
 use crate::emit::{Derived, Equations, emit, figures};
 use crate::error::Result;
 use crate::expand::derive;
+use crate::formulation::Printed;
 use crate::mistakes::bug;
 use crate::model::struct_in;
 use crate::program::{Functions, Program};
@@ -36,6 +37,7 @@ pub struct Derivation {
     accuracy: Vec<(String, [f64; 2])>,
     remarks: Vec<String>,
     latex: String,
+    sections: [Printed; 2],
     rust: TokenStream,
 }
 
@@ -77,7 +79,8 @@ impl Derivation {
         let remarks = described.flat_map(|file| &file.remarks).map(|remark| remark.text.clone()).collect();
         let Equations { text, latex } = equations;
         let functions = Functions { name: ident.unraw().to_string(), equations: text, constants, methods: programs };
-        Ok(Self { functions, accuracy, remarks, latex, rust })
+        let sections = derived.printed.clone();
+        Ok(Self { functions, accuracy, remarks, latex, sections, rust })
     }
 
     /// The name of the struct.
@@ -118,11 +121,19 @@ impl Derivation {
         &self.remarks
     }
 
-    /// The equations of motion: a page of plain text, or one LaTeX environment.
+    /// The equations of motion: a page of plain text, or LaTeX whose lines fit 16 cm at 10 pt, in `align*` environments.
     pub fn equations(&self, notation: Notation) -> &str {
         match notation {
             Notation::Text => &self.functions.equations,
             Notation::Latex => &self.latex,
+        }
+    }
+
+    /// Headings, each with its equations, whole ones, each in one line.
+    pub fn sections(&self, notation: Notation) -> &[(String, Vec<String>)] {
+        match notation {
+            Notation::Text => &self.sections[0],
+            Notation::Latex => &self.sections[1],
         }
     }
 

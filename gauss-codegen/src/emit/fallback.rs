@@ -6,7 +6,7 @@
 //! would be told of `NameState { … }`: `NameState` is therefore what a trait gives of it, which is not even known to be
 //! an array.
 
-use proc_macro2::{TokenStream, TokenTree};
+use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use syn::{DeriveInput, Error};
 
@@ -32,16 +32,18 @@ pub fn fallback(input: &DeriveInput, mistakes: &Error) -> TokenStream {
             #vis type #inputs #declared = #name #declared;
         }
     });
-    let frames = names(input, &["frames"]).then(|| {
-        let frames = format_ident!("{}Frame", ident);
-        let of_f64 = scalar.map(|_| quote!(<::core::primitive::f64>));
+    let of_f64 = scalar.map(|_| quote!(<::core::primitive::f64>));
+    let words = |alias: Ident| {
         quote! {
             #[allow(non_camel_case_types, dead_code)]
-            #vis type #frames = #name #of_f64;
+            #vis type #alias = #name #of_f64;
         }
-    });
+    };
+    let frames = names(input, &["frames"]).then(|| words(format_ident!("{}Frame", ident)));
+    let index = words(format_ident!("{}Index", ident));
     quote! {
         #frames
+        #index
         #inputs
         #[allow(non_camel_case_types, dead_code)]
         #vis type #name #declared = [#element; #first];

@@ -49,7 +49,7 @@ use constructor::{kernel, of_file};
 use derivatives::{hessian, inverse, linearized, parametric, regressor};
 use equations::{constrained, contact, gauss_system, taylor};
 use quantities::{forced, framed, reactions, rigid_body, whole};
-use records::{input, state};
+use records::{index, input, state};
 use text::description;
 
 /// The whole output of the derive.
@@ -73,12 +73,14 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let [frames, framed] = framed::framed_system(derived);
     let [joints, reactions] = reactions::reactions(derived);
     let [state, conversions] = state::state(derived);
+    let index = index::index(derived);
     let [input, inputs] = input::input(derived);
     let of_file = of_file::of_file(derived);
     let python = python::scene(derived);
     quote! {
         #kernel
         #state
+        #index
         #input
         #frames
         #joints

@@ -137,9 +137,9 @@ fn generated_code_is_straight_and_safe() {
             {
                 assert!(!found.contains(&forbidden.to_owned()), "`{forbidden}` in {chart}");
             }
-            // `for` stands only in `impl … for`: all but those of the struct and of its state.
+            // `for` stands only in `impl … for`: all but those of the struct, its state and its places.
             let loops = found.iter().filter(|w| *w == "for").count();
-            assert_eq!(loops, found.iter().filter(|w| *w == "impl").count() - 2, "{chart}");
+            assert_eq!(loops, found.iter().filter(|w| *w == "impl").count() - 3, "{chart}");
         }
     }
 }
@@ -206,4 +206,30 @@ fn python_is_one_call_more() {
          speeds { \"a_dot\" 1 0 \"rate of `a`\" ; } inputs { \"motor\" 1 0 \"input, in N m\" ; } offers { frames } \
          steps { } }";
     assert_eq!(call.split_whitespace().collect::<Vec<_>>(), expected.split_whitespace().collect::<Vec<_>>());
+}
+
+/// The compiler prints the name of what a warning is about: that of the struct, and what the matter is.
+#[cfg(feature = "urdf")]
+#[test]
+fn warnings_of_a_file_name_the_struct() {
+    let file = std::env::temp_dir().join(format!("gauss_warnings_{}.urdf", std::process::id()));
+    let (base, inertial) = (
+        r#"<link name="base"/>"#,
+        r#"<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>"#,
+    );
+    let joint = r#"<parent link="base"/><child link="arm"/><axis xyz="0 1 0"/><dynamics friction="0.2"/>"#;
+    let robot = format!(
+        r#"<robot name="r">{base}<link name="arm">{inertial}</link><joint name="j" type="continuous">{joint}</joint></robot>"#
+    );
+    std::fs::write(&file, robot).expect("a folder for files of a moment");
+    let code = |clauses: &str| {
+        let source = format!("#[gauss(urdf = {:?}{clauses})] struct Arm;", file.display().to_string());
+        generate(&source).to_string()
+    };
+    let told = code("");
+    assert!(told.contains("impl Arm where"), "{told}");
+    assert!(told.contains("const NOT_IN_THE_EQUATIONS : () = () ;"), "{told}");
+    assert!(told.contains("Self :: NOT_IN_THE_EQUATIONS"), "{told}");
+    assert!(!code(", joint_friction = none").contains("NOT_IN_THE_EQUATIONS"));
+    std::fs::remove_file(file).expect("it is there");
 }

@@ -77,6 +77,7 @@ pub use loads::observed::Observed;
 pub use matter::body::{Body, BodyShape, ParameterSymbol, QuantityValues};
 pub use matter::rotor::Rotor;
 pub use print::names::Name;
+pub use print::shown::Readings;
 pub use reactions::{LetGo, Reactions};
 pub use scene::{Charted, Coordinate, SystemScene};
 pub use system::System;

@@ -5,7 +5,7 @@ use crate::algebra::{Expr, Polynomial};
 /// Terms up to which a quantity is multiplied out to see how long it is.
 pub const LIMIT: usize = 400;
 /// Terms up to which a row is worth reading.
-const READABLE: usize = 24;
+pub const READABLE: usize = 24;
 /// Terms up to which it is multiplied out for readers. What is longer on the way is hardly ever short in the end, and
 /// to find that out of the rows of an arm took a seventh of its derivation.
 const ON_THE_WAY: usize = 4 * READABLE;

@@ -41,7 +41,7 @@ pub fn model(input: &DeriveInput, clauses: Clauses, mut reader: Reader<'_>, cont
     motion::check_kinematics(&statements, uncertain, context);
     masses::check_roles(input, &statements, &reader, &owners, &scalar_name, uncertain, context);
     bodies::check(&statements, &reader, &wanted, &scalar_name, context);
-    let unused = check_expressions(&mut statements, &reader, &shapes, &scalar_name, uncertain, context);
+    let (unused, definitions) = check_expressions(&mut statements, &reader, &shapes, &scalar_name, uncertain, context);
     if in_chart.is_none() && statements.coordinates.is_none() && !uncertain {
         let span = statements.first.as_ref().map_or(input.ident.span(), Ident::span);
         context.error(span, "the system has no coordinates; add `coordinates(…)` with their names");
@@ -55,7 +55,8 @@ pub fn model(input: &DeriveInput, clauses: Clauses, mut reader: Reader<'_>, cont
         None => field_shapes::scalar_without_fields(input, &reader.fields, context)?,
     };
     let fields = fields(&reader, &shapes);
-    assembled(input, (runtime, wanted, scalar, in_chart), fields, statements)
+    let model = assembled(input, (runtime, wanted, scalar, in_chart), fields, statements)?;
+    Some(Model { definitions, ..model })
 }
 
 /// The body without a name, whose place is given by the chart.
@@ -71,7 +72,8 @@ fn body_in_chart() -> BodyClause {
     }
 }
 
-/// Checks names and kinds in all expressions, and writes the definitions out; gives back those that are not used.
+/// Checks names and kinds in all expressions, and writes the definitions out; gives back the names that are not used, and
+/// what the names stand for.
 fn check_expressions(
     statements: &mut Statements,
     reader: &Reader<'_>,
@@ -79,10 +81,10 @@ fn check_expressions(
     scalar: &str,
     uncertain: bool,
     context: &mut Context,
-) -> Vec<Ident> {
+) -> (Vec<Ident>, Vec<(Ident, Expression)>) {
     let earlier = context.count();
     if !definitions::check_sizes(statements, context) {
-        return Vec::new();
+        return Default::default();
     }
     statements.name_rates();
     let mut scope = declared::scope(statements, &reader.fields, shapes, scalar, uncertain);
@@ -110,10 +112,10 @@ fn check_expressions(
     if context.count() == earlier {
         needs::check(statements, &reader.fields, context);
     }
-    definitions::inline(statements);
+    let definitions = definitions::inline(statements);
     constraints::check(statements, &well, uncertain, context);
     contacts::check(statements, &in_contacts, context);
-    unused
+    (unused, definitions)
 }
 
 /// Everything that is written does something. Asked only where all else is well.
@@ -198,6 +200,7 @@ fn assembled(
         forces: statements.forces,
         armatures: statements.armatures,
         formal: statements.formal,
+        definitions: Vec::new(),
     })
 }
 

@@ -14,6 +14,7 @@
 //! - `parameters`: what the numbers of fields are called; `state`: what coordinates and speeds are called.
 //! - `let_go`: the scene once more, with joints let go, for their reactions; `freedom`: what they move by then.
 //! - `placements`: where bodies, frames and points are.
+//! - `readings`: names of expressions, for printed equations.
 
 mod blame;
 mod contacts;
@@ -28,6 +29,7 @@ mod mass_data;
 mod notes;
 mod parameters;
 mod placements;
+mod readings;
 mod shapes;
 mod state;
 mod symbols;

@@ -394,7 +394,7 @@ pub fn pi() -> Rational {
     number::exact(DIGITS).unwrap_or_else(Rational::zero)
 }
 
-fn name_of(ident: &Ident) -> Name {
+pub(super) fn name_of(ident: &Ident) -> Name {
     const GREEK: [&str; 22] = [
         "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu",
         "xi", "pi", "rho", "sigma", "tau", "phi", "chi", "psi", "omega",

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Span};
 
 use crate::algebra::{Expr, Rational, Substitution};
-use crate::mechanics::{LetGo, QuantityValues, SystemScene};
+use crate::mechanics::{LetGo, QuantityValues, Readings, SystemScene};
 use crate::terms::{Item, Role, Shape};
 use crate::words::Unraw;
 
@@ -30,6 +30,8 @@ pub struct Given<'g> {
     pub parameters: Vec<Parameter<'g>>,
     /// Literal numbers that symbols stand for.
     pub literals: Vec<(Rational, Expr<'g>)>,
+    /// What the author named, and what is read as something else in print.
+    pub readings: Readings<'g>,
     /// Numbers with which checks may not be sure, where they are written.
     pub extreme: Vec<(Span, Rational)>,
     /// Matrices of drag.

@@ -44,6 +44,7 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
     let scene = translator.scene()?;
     translator.refuse_mistakes()?;
     let let_go = translator.let_go()?;
+    let readings = translator.readings(&scene.tree);
     let independent = model.independent.as_ref().map(|names| Independent {
         kept: translator.indices_of_speeds(names),
         span: names.first().map_or(model.item.ident.span(), |first| first.ident.span()),
@@ -60,6 +61,7 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
             parameters: parameters(&model.item.fields, &declared.sources),
             sources: declared.sources,
             literals: noted.literals,
+            readings,
             extreme: noted.extreme,
             drags: noted.drags,
             laws: noted.laws,

@@ -107,10 +107,11 @@ const FUNCTIONS: [&str; 14] = [
 ];
 
 /// Letters, spaces and relations: they take nothing.
-const SYMBOLS: [&str; 36] = [
+const SYMBOLS: [&str; 43] = [
     "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu", "xi",
     "pi", "rho", "sigma", "tau", "phi", "chi", "psi", "omega", "varphi", "vartheta", "Gamma", "Omega", "cdot", ",",
-    "_", "partial", "Delta", "Sigma", "Lambda", "Phi", "Psi", "quad",
+    "_", "partial", "Delta", "Sigma", "Lambda", "Phi", "Psi", "quad", "big", "bigl", "bigr", "biggl", "biggr", "Biggl",
+    "Biggr",
 ];
 
 struct Reader<'a> {

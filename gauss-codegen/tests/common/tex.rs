@@ -1,4 +1,4 @@
-//! Equations set by TeX itself, where it is installed.
+//! Equations set by TeX itself, where it is installed, on pages whose text is 16 cm wide.
 
 use std::fs;
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ pub fn complaints(name: &str, equations: &[(String, String)]) -> Option<String> 
         return None;
     }
     let mut document = String::from(
-        "\\documentclass{article}\n\\usepackage{amsmath}\n\\usepackage[paperwidth=80cm,paperheight=60cm,margin=1cm]{geometry}\n\
+        "\\documentclass{article}\n\\usepackage{amsmath}\n\\usepackage[paperwidth=20cm,paperheight=60cm,textwidth=16cm]{geometry}\n\
          \\allowdisplaybreaks\n\\setlength{\\parindent}{0pt}\n\\begin{document}\n",
     );
     // The font of titles has letters of ASCII alone.
@@ -27,7 +27,8 @@ pub fn complaints(name: &str, equations: &[(String, String)]) -> Option<String> 
     let status = Command::new("pdflatex").args(arguments).current_dir(&folder).output().expect("TeX runs").status;
     let log = String::from_utf8_lossy(&fs::read(folder.join(format!("{name}.log"))).unwrap_or_default()).into_owned();
     let wrong: Vec<&str> = log.lines().filter(|line| line.contains(".tex:") || line.starts_with('!')).collect();
-    let lost = log.lines().filter(|line| line.starts_with("Missing character"));
+    // A line that is too wide leaves the page.
+    let lost = log.lines().filter(|line| line.starts_with("Missing character") || line.starts_with("Overfull"));
     let wrong: Vec<&str> = wrong.into_iter().chain(lost).take(20).collect();
     Some(if status.success() { wrong.join("\n") } else { format!("TeX stopped: {}", wrong.join("\n")) })
 }

@@ -55,6 +55,8 @@ impl fmt::Display for Chart {
 /// Coordinates of a rotation R, body to observer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
+#[doc(alias = "euler angles")]
+#[doc(alias = "roll pitch yaw")]
 pub enum RotationChart {
     /// Three angles about axes of the body, in sequence. Singular where the middle angle aligns the outer axes.
     Euler(EulerSequence),
@@ -82,6 +84,8 @@ impl fmt::Display for RotationChart {
 /// Neighbouring axes differ, so there are twelve sequences: six Tait–Bryan (three axes) and six proper Euler (first =
 /// last).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[doc(alias = "euler angles")]
+#[doc(alias = "roll pitch yaw")]
 pub struct EulerSequence {
     /// Axes in the order of the factors: 0 = x, 1 = y, 2 = z.
     pub axes: [u8; 3],

@@ -20,6 +20,8 @@ use crate::triple::{dot, quaternion, scaled, unit_quaternion};
 ///
 /// A sequence with axes that do not exist is read with 2 in their place: see [`EulerSequence::is_valid`].
 #[inline]
+#[doc(alias = "euler angles")]
+#[doc(alias = "roll pitch yaw")]
 pub fn rotation_from_coordinates<T: Real>(chart: RotationChart, coordinates: [T; 3]) -> UnitQuaternion<T> {
     let half = T::ratio(1, 2);
     match chart {
@@ -58,6 +60,8 @@ pub fn rotation_from_coordinates<T: Real>(chart: RotationChart, coordinates: [T;
 /// [`ChartError::Singular`] where rounding alone decides the coordinates, [`ChartError::InvalidSequence`], and
 /// [`ChartError::NonFinite`]. A pack of rotations fails when one lane does.
 #[inline]
+#[doc(alias = "euler angles")]
+#[doc(alias = "roll pitch yaw")]
 pub fn coordinates_of_rotation<T: Real>(
     chart: RotationChart,
     rotation: &UnitQuaternion<T>,

@@ -113,7 +113,7 @@ trait Rows {
     fn energies_are_as_many_as(&self, rows: usize) -> bool;
 }
 
-impl<K: GaussSystem> Rows for gauss_tables::Table<K> {
+impl<K: GaussSystem> Rows for gauss_tables::RunTable<K> {
     fn energies_are_as_many_as(&self, rows: usize) -> bool {
         self.get("t").is_some_and(|times| times.len() == rows)
     }

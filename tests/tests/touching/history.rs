@@ -2,7 +2,7 @@
 
 use gauss_contact::ContactRun;
 use gauss_runtime::prelude::*;
-use gauss_tables::Table;
+use gauss_tables::{RunTable, Table};
 
 use super::{BALL, Ball, BallKernel};
 
@@ -41,7 +41,7 @@ fn a_table_has_the_columns_of_its_contacts() {
     let (start, z) = (Isometry3::translation(0.0, 0.0, BALL.r), SVector::from([2.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
     let run = ContactRun::new(&kernel).adaptive(1e-10, 1e-10).run(start, z, 0.0..1.0).unwrap();
     let samples = run.at_times((0..=10).map(|n| 0.1 * f64::from(n).min(10.0))).unwrap();
-    let table: Table<BallKernel> = Table::new(samples).contacts(&kernel, |s| run.forces(s.t).ok());
+    let table: RunTable<BallKernel> = Table::new(samples).contacts(&kernel, |s| run.forces(s.t).ok());
     let names: Vec<&str> = table.names().collect();
     let (slips, frictions) = (["table slip 1", "table slip 2"], ["table friction 1", "table friction 2"]);
     assert_eq!(names, ["t", "table gap", "table force", slips[0], frictions[0], slips[1], frictions[1]]);

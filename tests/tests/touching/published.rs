@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use gauss_contact::{ContactRun, EventKind, Mode};
 use gauss_runtime::nalgebra::Unit;
 use gauss_runtime::prelude::*;
-use gauss_tables::Table;
+use gauss_tables::{RunTable, Table};
 
 /// The woodpecker toy of R. I. Leine, Ch. Glocker & D. H. van Campen, *Nonlinear dynamics of the woodpecker toy*, ASME
 /// DETC2001/VIB-21608 (2001): a sleeve with play on a pole, a bird on a spring. Angles are small: heights and gaps are
@@ -297,7 +297,7 @@ fn a_tippe_top_turns_over_and_stands_on_its_stem() {
     // The sense of its spin in space is kept, that about its axis is reversed.
     let end = run.last().unwrap();
     assert!(end.z[5] < -90.0 && (end.q.rotation * Vector3::new(end.z[3], end.z[4], end.z[5])).z > 90.0);
-    let table: Table<TippeTopKernel> = Table::new(run.at_times([0.5]).unwrap());
+    let table: RunTable<TippeTopKernel> = Table::new(run.at_times([0.5]).unwrap());
     let table = table.contacts(&kernel, |s| run.forces(s.t).ok());
     let names: Vec<&str> = table.names().filter(|name| name.starts_with("head")).collect();
     let friction = ["head friction 1", "head friction 2", "head drilling"];

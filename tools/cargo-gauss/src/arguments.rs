@@ -51,7 +51,7 @@ pub struct Show {
 pub enum Form {
     /// The equations, the operations of every method, and what they lose to rounding.
     Text,
-    /// The equations, a LaTeX environment for each struct.
+    /// The equations in LaTeX, whose lines fit 16 cm at 10 pt.
     Latex,
     /// A typeset page without network or scripts.
     Html,

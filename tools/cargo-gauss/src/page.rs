@@ -23,7 +23,8 @@ pub fn html(file: &str, all: &[Shown]) -> String {
 
 fn section(shown: &Shown) -> String {
     let derivation = &shown.derivation;
-    let lines: String = mathml::lines(derivation.equations(Notation::Latex)).map(line).collect();
+    let sections = derivation.sections(Notation::Latex).iter();
+    let lines: String = sections.map(|(title, equations)| heading(title) + &set(equations)).collect();
     let rows: String = derivation
         .functions()
         .programs()
@@ -49,10 +50,12 @@ fn section(shown: &Shown) -> String {
     )
 }
 
-/// A line of an aligned environment: a heading, or one side and the other.
-fn line(line: &str) -> String {
-    match line.strip_prefix("&\\text{").and_then(|rest| rest.strip_suffix('}')) {
-        Some(heading) => format!("<h2>{}</h2>\n", mathml::words(heading)),
-        None => format!("<p>{}</p>\n", mathml::line(line)),
-    }
+fn heading(title: &str) -> String {
+    format!("<h2>{}</h2>\n", mathml::words(title))
+}
+
+/// Equations, each in as many lines as the window takes.
+fn set(equations: &[String]) -> String {
+    let line = |equation: &String| format!("<p>{}</p>\n", mathml::line(&equation.replacen(" = ", " &= ", 1)));
+    equations.iter().map(line).collect()
 }

@@ -87,9 +87,9 @@ const open = (index) => {
   [clock, errors, trails] = [[], [], scene.traces.map(() => [])];
   const curves = scene.curves[1].map((name) => ({ name, values: [0] }));
   panels = [
-    new Curves({ title: scene.curves[0], curves }, clock, () => {}),
+    new Curves({ title: scene.curves[0], curves }, clock, () => {}, { over: "t / s" }),
     new Curves({ title: "error of the energy", curves: [{ name: "(T + U − work) / largest T, from the start", values: errors }] },
-      clock, () => {}, 1e-16),
+      clock, () => {}, { over: "t / s", least: 1e-16 }),
   ];
   scene.bodies.forEach((body, k) => key(byId("legend"), body.name, body.shapes[0].colour || bodyColour(k)));
   scene.arrows.forEach((name, k) => key(byId("legend"), name, bodyColour(scene.bodies.length + k)));
@@ -103,7 +103,9 @@ const look = () => {
   if (!stage) return;
   const { up, target, radius, angles } = scene.view;
   stage.world = axesAlong(up);
-  Object.assign(stage, { target, distance: distanceTo(radius), azimuth: angles[0], elevation: angles[1] });
+  // A ball of this radius fills the shorter side.
+  const wide = stage.canvas.clientWidth / stage.canvas.clientHeight || 1, distance = distanceTo(radius) / Math.min(1, wide);
+  Object.assign(stage, { target, distance, azimuth: angles[0], elevation: angles[1] });
   stage.free = false;
 };
 
@@ -133,7 +135,7 @@ const drawStage = (style) => {
 };
 
 const readouts = () => [
-  ["energies T, U", `${plain(now.kinetic)}, ${plain(now.potential)}`],
+  ["energies T, U", `${plain(now.kinetic)} J, ${plain(now.potential)} J`],
   ["error of the energy", now.error.toExponential(1).replaceAll("-", "−")],
   ["steps of the integrator", now.steps],
   ["operations of ż", scene.operations],
@@ -143,7 +145,7 @@ const draw = () => {
   const style = styleNow();
   if (stage) drawStage(style);
   panels.forEach((panel) => { panel.fit(); panel.draw(now.t, style); });
-  byId("clock").textContent = `t = ${now.t.toFixed(2)}`;
+  byId("clock").textContent = `t = ${now.t.toFixed(2)} s`;
   byId("play").textContent = playing ? "❚❚" : "▶";
   byId("readouts").replaceChildren(...readouts().flatMap(([name, value]) => {
     const [term, data] = ["dt", "dd"].map((tag) => document.createElement(tag));

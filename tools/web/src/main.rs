@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use gauss_web::{build, page};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let file = env::args_os().nth(1).map_or_else(|| PathBuf::from("target/gauss/gauss.html"), PathBuf::from);
+    let file = env::args_os().nth(1).map_or_else(|| gauss_files::output_folder().join("gauss.html"), PathBuf::from);
     let small = ["--release", "--config=profile.release.lto='fat'", "--config=profile.release.panic='abort'"];
     let page = page::html(&build::kernels(&small)?);
     gauss_files::write(&file, &page)?;

@@ -55,6 +55,14 @@ impl Declaration {
         Self { format: 1, name, version, seed, runs, part, plan, parameters: Vec::new(), columns: Vec::new() }
     }
 
+    /// Parameters and results that are numbers or flags, with their units.
+    pub(crate) fn numbers(&self) -> Vec<(String, String)> {
+        let parameters = self.parameters.iter().map(|parameter| (&parameter.name, &parameter.unit));
+        let results = self.columns.iter().filter(|column| column.kind != Kind::Text);
+        let all = parameters.chain(results.map(|column| (&column.name, &column.unit)));
+        all.map(|(name, unit)| (name.clone(), unit.clone())).collect()
+    }
+
     /// The version of the model, whatever names it. It is for you to change when runs give other numbers: results of
     /// another version are not resumed.
     pub fn version(mut self, version: &str) -> Self {

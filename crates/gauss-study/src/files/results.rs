@@ -16,6 +16,8 @@ use crate::error::StudyError;
 #[derive(Debug)]
 pub struct Results {
     pub(crate) files: Vec<PathBuf>,
+    /// The columns of numbers with their units, without those of the run itself.
+    pub(crate) numbers: Vec<(String, String)>,
 }
 
 impl Results {
@@ -34,6 +36,25 @@ impl Results {
             }
             _ => None,
         })
+    }
+
+    /// All parameters and all results that are numbers or flags, as [`numbers`](Self::numbers) has them, with NaN in
+    /// the place of nulls: what `Table::from_columns` of the crate `gauss-tables` takes.
+    ///
+    /// # Errors
+    /// Those of [`numbers`](Self::numbers).
+    pub fn columns(&self) -> Result<Vec<(String, Vec<f64>)>, StudyError> {
+        let column = |(name, _): &(String, String)| {
+            let values = self.numbers(name)?.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
+            Ok((name.clone(), values))
+        };
+        self.numbers.iter().map(column).collect()
+    }
+
+    /// The units of [`columns`](Self::columns), of those that have one: what `Table::units` takes.
+    pub fn units(&self) -> impl Iterator<Item = (&str, &str)> {
+        let units = self.numbers.iter().map(|(name, unit)| (name.as_str(), unit.as_str()));
+        units.filter(|(_, unit)| !unit.is_empty())
     }
 
     /// The words of a result, or of `cause`. Nulls stay.

@@ -70,6 +70,11 @@ impl<'g> Substitution<'g> {
         Self { replacement, rebuilt: RefCell::default() }
     }
 
+    /// With expressions in the places of parts that are no symbols, by their keys.
+    pub(in crate::algebra) fn of_parts(parts: Map<Id, Expr<'g>>) -> Self {
+        Self { replacement: Map::default(), rebuilt: RefCell::new(parts) }
+    }
+
     /// The expression with the symbols replaced. Groups stay groups.
     pub fn of(&self, e: Expr<'g>) -> Expr<'g> {
         let mut rebuilt = self.rebuilt.borrow_mut();

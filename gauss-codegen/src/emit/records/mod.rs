@@ -1,5 +1,6 @@
-//! States and inputs by name.
+//! States, their increments and inputs by name.
 
+pub mod index;
 pub mod input;
 pub mod record;
 pub mod state;

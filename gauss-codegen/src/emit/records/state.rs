@@ -30,11 +30,16 @@ pub fn parts(derived: &Derived<'_, '_>) -> [Vec<Part>; 2] {
     all
 }
 
-/// What every number of a state is called: those of the configuration, scalars behind all others, and the speeds.
-pub fn component_names(derived: &Derived<'_, '_>) -> [Vec<String>; 2] {
+/// In the order of their numbers: coordinates that are scalars stand behind all others.
+pub fn ordered_parts(derived: &Derived<'_, '_>) -> [Vec<Part>; 2] {
     let [mut coordinates, speeds] = parts(derived);
     coordinates.sort_by_key(|part| part.kind == PartKind::Scalar);
-    [coordinates, speeds].map(|parts| parts.iter().flat_map(Part::names).collect())
+    [coordinates, speeds]
+}
+
+/// What every number of a state is called: those of the configuration and the speeds.
+pub fn component_names(derived: &Derived<'_, '_>) -> [Vec<String>; 2] {
+    ordered_parts(derived).map(|parts| parts.iter().flat_map(Part::names).collect())
 }
 
 /// The type, and what it implements.

@@ -7,6 +7,7 @@ use crate::kernel::{Counts, Function};
 use crate::mathml;
 use crate::mechanics::Method;
 use crate::terms::{InChart, InputKind, Role};
+use crate::tex;
 use crate::words::Unraw;
 
 use crate::emit::chart::{chart_name, motion_name};
@@ -15,7 +16,7 @@ use crate::emit::records::input::input_name;
 use crate::emit::records::record::{Part, PartKind};
 use crate::emit::records::state::{parts, state_name};
 
-/// The equations as plain text and as one LaTeX environment.
+/// The equations as plain text and as LaTeX for a page.
 #[derive(Clone, Debug)]
 pub struct Equations {
     pub text: String,
@@ -25,7 +26,7 @@ pub struct Equations {
 impl Equations {
     pub fn of(derived: &Derived<'_, '_>) -> Self {
         let [text_lines, latex_lines] = derived.printed;
-        Equations { text: text(derived, text_lines), latex: latex(latex_lines) }
+        Equations { text: text(derived, text_lines), latex: tex::environments(latex_lines) }
     }
 }
 
@@ -52,35 +53,6 @@ fn text(derived: &Derived<'_, '_>, printed: &Printed) -> String {
         lines.iter().for_each(|line| out.push_str(&format!("  {line}\n")));
     }
     out
-}
-
-/// Lines of one `align*`: TeX sets it as a whole, and no box is higher than 5.7 m.
-const LINES_OF_TEX: usize = 100;
-
-/// Bytes of a right side of LaTeX before it goes on below, at a sign of its outermost sum: some hand's breadths on
-/// paper.
-const WIDTH_OF_TEX: usize = 1000;
-
-fn latex(printed: &Printed) -> String {
-    let mut lines = Vec::new();
-    for (title, equations) in printed {
-        lines.push(format!("&\\text{{{title}}} \\\\\n"));
-        for equation in equations {
-            let (left, right) = equation.split_once(" = ").unwrap_or(("", equation));
-            let mut line = format!("{left} &= ");
-            let mut width = 0;
-            for term in mathml::terms(right) {
-                if width > 0 && width + term.len() > WIDTH_OF_TEX {
-                    lines.push(format!("{line} \\\\\n"));
-                    (line, width) = (String::from("&\\quad"), 0);
-                }
-                line.push_str(term);
-                width += term.len();
-            }
-            lines.push(format!("{line} \\\\\n"));
-        }
-    }
-    lines.chunks(LINES_OF_TEX).map(|lines| format!("\\begin{{align*}}\n{}\\end{{align*}}\n", lines.concat())).collect()
 }
 
 /// What the letters of the equations stand for: (letter, field, what its author says of it).

@@ -1,9 +1,9 @@
 //! The file that a scene comes from: named, so that an edit compiles the struct anew; what of it does not act.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::{quote, quote_spanned};
 
-use crate::terms::{Described, Remark};
+use crate::terms::{Described, Generics, Item, Remark};
 
 use crate::emit::derived::Derived;
 
@@ -13,19 +13,31 @@ pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
     let Some(Described { paths, span, remarks, .. }) = &derived.item().described else {
         return TokenStream::new();
     };
-    // The compiler warns of what is deprecated, in the words of its note; macros have no other way to. Only at a
-    // token of the user's: what a macro brings along is not warned of.
-    let warning = |Remark { text, .. }: &Remark| {
-        quote_spanned!(*span=> const _: () = {
+    let ignored: Vec<&Remark> = remarks.iter().filter(|remark| remark.ignored).collect();
+    // The compiler warns of what is deprecated, in the words of its note and with its name; macros have no other way
+    // to. Only at a token of the user's: what a macro brings along is not warned of.
+    let warning = |(n, Remark { text, .. }): (usize, &&Remark)| {
+        let number = if ignored.len() > 1 { format!("_{}", n + 1) } else { String::new() };
+        let [name, told] = ["NOT_IN_THE_EQUATIONS", "TOLD"].map(|name| Ident::new(&format!("{name}{number}"), *span));
+        quote_spanned! {*span=>
             #[deprecated(note = #text)]
-            const IGNORED: () = ();
-            IGNORED
-        };)
+            const #name: () = ();
+            const #told: () = Self::#name;
+        }
     };
-    let warnings = remarks.iter().filter(|remark| remark.ignored).map(warning);
+    let warnings = ignored.iter().enumerate().map(warning);
+    let Item { ident, generics: Generics { declared, used, predicates }, .. } = derived.item();
+    let told = (!ignored.is_empty()).then(|| {
+        quote! {
+            #[allow(dead_code)]
+            impl #declared #ident #used where #predicates {
+                #(#warnings)*
+            }
+        }
+    });
     quote! {
         #(const _: &[::core::primitive::u8] = ::core::include_bytes!(#paths);)*
-        #(#warnings)*
+        #told
     }
 }
 

@@ -1,12 +1,15 @@
 //! The equations of a scene for people: momenta, the Gauss condition, forces, and the solved-for form where it is
 //! short.
 
-use crate::algebra::{Expr, Map, Notation, Parts, print_definition, print_parts, print_short, print_with};
-use crate::mechanics::tidy::{LIMIT, legible, readable};
+use crate::algebra::{
+    Expr, Map, Notation, Parts, Substitution, print_definition, print_parts, print_short, print_with,
+};
+use crate::mechanics::tidy::LIMIT;
 
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::loads::account::{Account, GRAVITY};
 use crate::mechanics::print::names::Name;
+use crate::mechanics::print::shown::{Readings, Shown};
 use crate::mechanics::system::System;
 
 /// One line.
@@ -17,6 +20,8 @@ pub enum Row<'g> {
     Balance { momentum: Name, bracket: Expr<'g>, force: Option<Name> },
     /// left = right.
     Equation(Expr<'g>, Expr<'g>),
+    /// Words in the place of equations.
+    Words(String),
 }
 
 impl<'g> Row<'g> {
@@ -34,15 +39,18 @@ impl<'g> Row<'g> {
                 format!("{} = {}", name(&momentum.time_derivative()), terms.join(" + "))
             }
             Row::Equation(left, right) => format!("{} = {}", print(left), print(right)),
+            Row::Words(words) if notation == Notation::Latex => format!("\\text{{{words}}}"),
+            Row::Words(words) => words.clone(),
         }
     }
 
     /// What is printed of it, with the name of what it defines.
-    fn expressions(&self) -> Vec<(Option<[String; 2]>, Expr<'g>)> {
+    pub fn expressions(&self) -> Vec<(Option<[String; 2]>, Expr<'g>)> {
         match self {
             Row::Definition(Name { text, latex }, e) => vec![(Some([text.clone(), latex.clone()]), *e)],
             Row::Balance { bracket: e, .. } => vec![(None, *e)],
             Row::Equation(left, right) => vec![(None, *left), (None, *right)],
+            Row::Words(_) => Vec::new(),
         }
     }
 }
@@ -83,12 +91,12 @@ pub(in crate::mechanics) struct PrintedForces<'g> {
 }
 
 impl<'g> PrintedForces<'g> {
-    pub fn new(whole: Vec<Expr<'g>>, accounts: &[Account<'g>], names: &[Name]) -> Self {
-        if accounts.len() < 2 || whole.iter().all(|e| readable(*e).is_some()) {
-            return Self { rows: whole.into_iter().map(legible).collect(), sections: Vec::new() };
+    pub fn new(whole: Vec<Expr<'g>>, accounts: &[Account<'g>], names: &[Name], shown: &Shown<'g>) -> Self {
+        if accounts.len() < 2 || whole.iter().all(|e| shown.readable(*e).is_some()) {
+            return Self { rows: whole.into_iter().map(|e| shown.legible(e)).collect(), sections: Vec::new() };
         }
         let row = |(k, whole): (usize, Expr<'g>)| {
-            let own = |account: &Account<'g>| match legible(account.forces[k]) {
+            let own = |account: &Account<'g>| match shown.legible(account.forces[k]) {
                 force if force.is_zero() || account.name == GRAVITY => force,
                 _ => {
                     let name = names[k].of(&element_name(account));
@@ -98,7 +106,7 @@ impl<'g> PrintedForces<'g> {
             accounts.iter().map(own).sum()
         };
         let elements = accounts.iter().filter(|account| account.name != GRAVITY);
-        let sections = elements.filter_map(|account| element_section(account, names)).collect();
+        let sections = elements.filter_map(|account| element_section(account, names, shown)).collect();
         Self { rows: whole.into_iter().enumerate().map(row).collect(), sections }
     }
 }
@@ -108,23 +116,29 @@ fn element_name(account: &Account<'_>) -> Name {
 }
 
 /// Nothing of an element that does nothing.
-fn element_section<'g>(account: &Account<'g>, names: &[Name]) -> Option<Section<'g>> {
+fn element_section<'g>(account: &Account<'g>, names: &[Name], shown: &Shown<'g>) -> Option<Section<'g>> {
     let title = Name::new(&format!("of {}", account.name), &format!("of {}", account.name.replace('_', "\\_")));
-    let there = account.forces.iter().zip(names).filter(|(force, _)| !legible(**force).is_zero());
+    let forces = account.forces.iter().map(|force| shown.legible(*force));
+    let there = forces.zip(names).filter(|(force, _)| !force.is_zero());
     let rows: Vec<Row<'g>> =
-        there.map(|(force, name)| Row::Definition(name.of(&element_name(account)), legible(*force))).collect();
+        there.map(|(force, name)| Row::Definition(name.of(&element_name(account)), force)).collect();
     (!rows.is_empty()).then_some(Section { title, rows })
 }
 
 impl<'g> System<'g> {
     /// The equations, section by section; sections with nothing to say are left out.
-    pub fn equations(&self) -> Page<'g> {
+    pub fn equations(&self, readings: &Readings<'g>, replacement: Option<&Substitution<'g>>) -> Page<'g> {
+        let shown = &Shown::new(readings, replacement);
         // One body in a chart has the letters of textbooks, everything else those of its author.
         let mut sections = match self.one_body().and_then(|one| one.posed).filter(|_| self.scene.chart().is_some()) {
-            Some(body) => Textbook { system: self, body }.sections(),
-            None => self.sections(),
+            Some(body) => Textbook { system: self, body, shown }.sections(),
+            None => self.sections(shown),
         };
-        sections.extend(self.contact_sections());
+        sections.extend(self.contact_sections(shown));
+        let rows = sections.iter().flat_map(|section| &section.rows);
+        let printed: Vec<Expr<'g>> = rows.flat_map(Row::expressions).map(|(_, e)| e).collect();
+        sections.insert(0, shown.definitions(&printed));
+        sections.insert(1, shown.quarter_turns(self.scene.graph));
         sections.retain(|section| !section.rows.is_empty());
         let rows = sections.iter().flat_map(|section| &section.rows);
         let parts = Parts::of(&rows.flat_map(Row::expressions).collect::<Vec<_>>());
@@ -136,13 +150,15 @@ impl<'g> System<'g> {
 struct Textbook<'a, 'g> {
     system: &'a System<'g>,
     body: &'a FreeLink<'g>,
+    shown: &'a Shown<'g>,
 }
 
 impl<'g> Textbook<'_, 'g> {
     fn sections(&self) -> Vec<Section<'g>> {
-        let Self { system, body } = self;
-        let forces = PrintedForces::new(body.generalised_forces(), &system.accounts(), &system.scene.force_names);
-        let terms: Vec<_> = body.printed_bracket().into_iter().map(legible).zip(forces.rows).collect();
+        let Self { system, body, shown } = self;
+        let names = &system.scene.force_names;
+        let forces = PrintedForces::new(body.generalised_forces(), &system.accounts(), names, shown);
+        let terms: Vec<_> = body.printed_bracket().into_iter().map(|e| shown.legible(e)).zip(forces.rows).collect();
         let mut sections = vec![Section {
             title: Name::new("velocity of O and angular velocity", "velocity of $O$ and angular velocity"),
             rows: self.velocity_rows(),
@@ -175,7 +191,7 @@ impl<'g> Textbook<'_, 'g> {
             for (name, components) in [(name.clone(), vector.body), (name.hat(), vector.space)] {
                 for (i, component) in components.into_iter().enumerate() {
                     if !component.is_zero() && !kinematics.speeds.contains(&component) {
-                        rows.push(Row::Definition(name.index(i), legible(component)));
+                        rows.push(Row::Definition(name.index(i), self.shown.legible(component)));
                     }
                 }
             }
@@ -187,11 +203,11 @@ impl<'g> Textbook<'_, 'g> {
     fn momentum_sections(&self) -> Vec<Section<'g>> {
         let title = Name::new("momenta p = ∂T/∂z", "momenta $p = \\partial T/\\partial z$");
         let names = self.system.scene.momentum_names.iter().cloned();
-        let momenta: Option<Vec<_>> = self.body.momentum().into_iter().map(readable).collect();
+        let momenta: Option<Vec<_>> = self.body.momentum().into_iter().map(|e| self.shown.readable(e)).collect();
         let chain = self.body.printed_momenta();
         let coordinates = self.body.in_coordinates;
         if let Some(momenta) = momenta {
-            let rows = names.zip(momenta).map(|(name, p)| Row::Definition(name, p.collect())).collect();
+            let rows = names.zip(momenta).map(|(name, p)| Row::Definition(name, p)).collect();
             let mut sections = vec![Section { title, rows }];
             // The balance of a jet chart is written with Γ, which is none of its momenta.
             let axes = self.body.kinematics.angular_axes();
@@ -202,7 +218,7 @@ impl<'g> Textbook<'_, 'g> {
                         "angular momentum about O in body axes",
                         "angular momentum about $O$ in body axes",
                     ),
-                    rows: gamma.map(|(name, e)| Row::Definition(name, legible(e))).collect(),
+                    rows: gamma.map(|(name, e)| Row::Definition(name, self.shown.legible(e))).collect(),
                 });
             }
             return sections;
@@ -210,7 +226,7 @@ impl<'g> Textbook<'_, 'g> {
         // In a chart where a link is trivial it says x = x.
         let rows = |link: Vec<(Name, Expr<'g>)>| -> Vec<Row<'g>> {
             link.into_iter()
-                .map(|(name, e)| (name, legible(e)))
+                .map(|(name, e)| (name, self.shown.legible(e)))
                 .filter(|(name, e)| print_short(*e, Notation::Text, 1).is_none_or(|text| text != name.text))
                 .map(|(name, e)| Row::Definition(name, e))
                 .collect()
@@ -254,20 +270,32 @@ impl<'g> Textbook<'_, 'g> {
 
     /// The rows, multiplied out where that is short.
     fn velocity_form_rows(&self) -> Vec<Row<'g>> {
-        let kinematics = &self.body.kinematics;
-        let zero = kinematics.frame.graph.zero();
-        let at_rest: Map<u32, Expr<'g>> = kinematics.speed_rates.iter().map(|dz| (dz.key(), zero)).collect();
-        let row = |row: Expr<'g>| match readable(row) {
-            Some(whole) => {
-                let whole = whole.collect();
-                let still = whole.substitute(&at_rest);
-                Row::Equation((whole - still).collected(LIMIT), (-still).collected(LIMIT))
-            }
+        let rates = &self.body.kinematics.speed_rates;
+        let row = |row: Expr<'g>| match self.shown.readable(row) {
+            Some(whole) => velocity_form(whole, rates),
             None => {
-                let inertia = kinematics.speed_rates.iter().map(|&dz| legible(row.partial(dz)).group_as_is() * dz);
-                Row::Equation(inertia.sum(), legible(-row.substitute(&at_rest)))
+                let inertia = rates.iter().map(|&dz| self.shown.legible(row.partial(dz)).group_as_is() * dz);
+                Row::Equation(inertia.sum(), self.shown.legible(-row.substitute(&at_rest(rates))))
             }
         };
         self.body.collected_residual().into_iter().map(row).collect()
     }
+}
+
+fn at_rest<'g>(rates: &[Expr<'g>]) -> Map<u32, Expr<'g>> {
+    rates.iter().map(|dz| (dz.key(), dz.graph().zero())).collect()
+}
+
+/// A row that vanishes, with its rates on the left.
+pub(in crate::mechanics) fn velocity_form<'g>(row: Expr<'g>, rates: &[Expr<'g>]) -> Row<'g> {
+    let still = row.substitute(&at_rest(rates));
+    Row::Equation((row - still).collected(LIMIT), (-still).collected(LIMIT))
+}
+
+/// The same of a row that is long, if entry by entry and on the right it is short.
+pub(in crate::mechanics) fn by_entries<'g>(row: Expr<'g>, rates: &[Expr<'g>], shown: &Shown<'g>) -> Option<Row<'g>> {
+    let entries: Option<Vec<Expr<'g>>> =
+        rates.iter().map(|&dz| Some(shown.readable(row.partial(dz))?.group_as_is() * dz)).collect();
+    let right = shown.readable(-row.substitute(&at_rest(rates)))?;
+    Some(Row::Equation(entries?.into_iter().sum(), right))
 }

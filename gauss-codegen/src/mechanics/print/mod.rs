@@ -3,3 +3,4 @@
 pub mod equations;
 pub mod names;
 pub mod sections;
+pub mod shown;

@@ -53,14 +53,22 @@ impl Name {
         }
     }
 
-    /// The derivative of a quasi-velocity: ḃ → b̈, ω → dω/dt.
+    /// The derivative of a quasi-velocity: ḃ → b̈, ω → dω/dt. States at which programs are tried depend on the text.
     pub fn rate(&self) -> Self {
-        match (self.text.contains(DOT), self.latex.strip_prefix("\\dot{")) {
-            (true, Some(rest)) => {
-                Self { text: self.text.replace(DOT, &TWO_DOTS.to_string()), latex: format!("\\ddot{{{rest}") }
-            }
-            _ => self.time_derivative(),
+        let Some(latex) = self.latex.strip_prefix("\\dot{").map(|rest| format!("\\ddot{{{rest}")) else {
+            return self.time_derivative();
+        };
+        match self.text.contains(DOT) {
+            true => Self { text: self.text.replace(DOT, &TWO_DOTS.to_string()), latex },
+            false => Self { latex, ..self.time_derivative() },
         }
+    }
+
+    /// As it is printed: dtheta_dot/dt → theta_ddot.
+    pub fn printed_rate(self) -> Self {
+        let word = self.text.strip_prefix('d').and_then(|rest| rest.strip_suffix("_dot/dt"));
+        let text = word.map(|word| format!("{word}_ddot"));
+        Self { text: text.unwrap_or(self.text), latex: self.latex }
     }
 
     /// Q → dQ/dt.

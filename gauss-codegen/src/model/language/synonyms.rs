@@ -53,6 +53,13 @@ const COUPLING: &str = "a viscous coupling of two bodies is `coupling(body = whe
 const ROLLING: &str = "rolling without slip is `constraint(velocity = …)`; a loop is `constraint(position = …)`";
 const CONTACT: &str = "a contact is `contact(name, gap = height, slip = v, friction = mu, restitution = e)`; one that gives \
                        way `stop(along = height, least = 0, stiffness = k, width = e)`";
+const UNILATERAL: &str = "a distance that may open and not become negative is `contact(name, gap = height)`; a coordinate \
+                          that stays between two values `range(x, from = a, to = b)`";
+const IMPACT: &str = "impacts follow from what touches and need no clause: `contact(name, gap = height, restitution = e)`, or \
+                      `range(x, from = a, to = b, restitution = e)`; their law is chosen at run time, `Impact::Newton` of \
+                      `gauss-contact`";
+const REACTION: &str = "what a joint bears is asked for by `reactions(arm)`, with the names of bodies; the other side of a moment is an \
+                        argument, `torque(body = arm, value = [0, 0, m], reaction = hull)`";
 const DRY_FRICTION: &str = "dry friction of a bound is `dry_friction(x, bound = f)` of a coordinate, or \
                             `dry_friction(name, slip = v, bound = f)`, v the velocity relative to what rubs";
 const RANGE: &str = "limits of a coordinate are `range(x, from = a, to = b)`; limits that give way \
@@ -152,8 +159,15 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("nonholonomic", ROLLING),
     ("holonomic", ROLLING),
     ("loop_closure", ROLLING),
-    ("unilateral", CONTACT),
-    ("impact", CONTACT),
+    ("unilateral", UNILATERAL),
+    ("unilateral_constraint", UNILATERAL),
+    ("complementarity", UNILATERAL),
+    ("impact", IMPACT),
+    ("impulse", IMPACT),
+    ("restitution", IMPACT),
+    ("reaction", REACTION),
+    ("joint_force", REACTION),
+    ("bearing", REACTION),
     ("collision", CONTACT),
     ("ground", CONTACT),
     ("floor", CONTACT),

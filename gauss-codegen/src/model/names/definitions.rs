@@ -1,6 +1,6 @@
 //! Definitions: expressions with names. Each is checked by itself and then once more wherever its name stands, since
-//! what it may contain depends on that. Afterwards its tree takes the place of its name, so that nothing behind the
-//! model knows of it.
+//! what it may contain depends on that. Afterwards its tree takes the place of its name: behind the model only
+//! printed equations know of it.
 
 use super::places::Place;
 use super::scope::Scope;
@@ -90,17 +90,20 @@ pub fn unused(statements: &Statements, all: &[&Expression]) -> Vec<Ident> {
     names.filter(|name| !named.contains(&word(name))).cloned().collect()
 }
 
-/// Puts definitions in the place of their names, everywhere.
-pub fn inline(statements: &mut Statements) {
+/// Puts definitions in the place of their names, everywhere; gives them back, written out, in order.
+pub fn inline(statements: &mut Statements) -> Vec<(Ident, Expression)> {
     let mut written_out: HashMap<String, Expression> = HashMap::new();
+    let mut named = Vec::new();
     for definition in std::mem::take(&mut statements.definitions) {
         let Some(mut expression) = definition.expression else { continue };
         replace(&mut expression, &written_out);
+        named.push((definition.name.clone(), expression.clone()));
         written_out.entry(word(&definition.name)).or_insert(expression);
     }
     if !written_out.is_empty() {
         statements.each_expression(&mut |expression| replace(expression, &written_out));
     }
+    named
 }
 
 fn replace(expression: &mut Expression, definitions: &HashMap<String, Expression>) {

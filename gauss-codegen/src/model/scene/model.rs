@@ -58,6 +58,8 @@ pub struct Model {
     pub armatures: Vec<(Ident, Expression)>,
     /// Bodies whose principal moments need not obey the triangle inequality; `None`: all of them.
     pub formal: Vec<Option<Ident>>,
+    /// What names of `define` stand for, each written out, in order: for printed equations alone.
+    pub definitions: Vec<(Ident, Expression)>,
 }
 
 impl Model {

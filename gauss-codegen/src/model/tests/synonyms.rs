@@ -34,6 +34,25 @@ fn what_would_have_moved_is_not_missing_as_well() {
     );
 }
 
+/// Each of these words has a clause of its own: one message for all three led to the wrong one.
+#[test]
+fn what_touches_and_what_joints_bear() {
+    let scene = |clause: &str| {
+        format!("#[gauss(coordinates(x), particle(mass = 1, position = [0, 0, x]), {clause})] struct Ball {{ e: f64 }}")
+    };
+    let wanted = [
+        ("unilateral(gap = x)", "`contact(name, gap = height)`; a coordinate that stays between"),
+        ("impact(gap = x, restitution = e)", "impacts follow from what touches and need no clause: `contact(name, gap"),
+        ("reaction(ball)", "what a joint bears is asked for by `reactions(arm)`"),
+    ];
+    for (clause, remedy) in wanted {
+        let Err(error) = read(&scene(clause)).map(drop) else { panic!("{clause} is no clause") };
+        let error = error.to_string();
+        let word = clause.split('(').next().expect("a word");
+        assert!(error.contains(&format!("unknown clause `{word}`")) && error.contains(remedy), "{clause}: {error}");
+    }
+}
+
 #[test]
 fn roles() {
     check(
@@ -132,6 +151,10 @@ fn remedies_are_read() {
         "stop(along = x, least = 0, stiffness = k, width = e)",
         "stop(along = x, least = a, most = b, stiffness = k, width = e)",
         "armature(x = a)",
+        "contact(floor, gap = x)",
+        "contact(floor, gap = x, restitution = e)",
+        "range(x, from = a, to = b)",
+        "range(x, from = a, to = b, restitution = e)",
         "frame(site, parent = hull, position = [1, 0, 0])",
     ] {
         if let Err(error) = read(&scene(clauses)) {
@@ -145,7 +168,8 @@ fn remedies_are_read() {
                   coupling(body = arm, other = hull, viscous = c), \
                   torsional_spring(body = arm, other = hull, stiffness = c), \
                   bushing(body = arm, other = hull, stiffness = [a, a, a, c, c, c], damping = [1, 1, 1, 1, 1, 1]), \
-                  input(motor), torque(body = arm, value = [0, 0, motor], reaction = hull), drive(angle = motor))] \
+                  input(motor), torque(body = arm, value = [0, 0, motor], reaction = hull), drive(angle = motor), \
+                  reactions(arm))] \
                   struct Scene { m: f64, a: f64, c: f64 }";
     if let Err(error) = read(joints) {
         panic!("{error}");

@@ -49,8 +49,8 @@ impl Scene for Scenery {
                     in the motors hold the load up. The arrow is the force of the constraint on the left tip.",
             view: View {
                 up: [0.0, 0.0, 1.0],
-                target: [0.0, 0.0, 0.13],
-                radius: 0.26,
+                target: [0.0, 0.0, 0.14],
+                radius: 0.19,
                 backdrop: Backdrop::Floor(-0.05),
                 angles: [-1.3, 0.15],
                 follow: None,

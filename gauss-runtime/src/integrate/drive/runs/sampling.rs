@@ -68,6 +68,9 @@ assert_eq!((push(0.005)?, push(0.01)?, push(0.059)?), (0.0, -8.0, -8.0));
 ```
 "##
     )]
+    #[doc(alias = "hold")]
+    #[doc(alias = "zero-order hold")]
+    #[doc(alias = "discrete controller")]
     pub fn sampled<G>(self, period: f64, controller: G) -> With<'k, S, F, I, Law<G>, C, O, E>
     where
         I: Samples<S>,

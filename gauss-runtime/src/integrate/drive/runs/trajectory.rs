@@ -39,6 +39,9 @@ copy_and_debug!(EventSample { number, sample });
 ///
 /// It owns the samples, and borrows the kernel and all that the input refers to.
 /// [`into_samples`](Self::into_samples) and tables (crate `gauss-tables`) stand alone.
+#[doc(alias = "csv")]
+#[doc(alias = "table")]
+#[doc(alias = "plot")]
 pub struct Trajectory<'k, S: GaussSystem> {
     samples: Vec<Sample<S>>,
     events: Vec<EventSample<S>>,
