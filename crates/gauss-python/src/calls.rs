@@ -51,10 +51,10 @@ impl Calls {
         }
     }
 
-    /// Says how far the run came.
+    /// Says how far the run came, and closes a bar.
     pub fn end(&self, py: Python<'_>, at: f64) {
         if let Some(progress) = &self.progress
-            && let Err(error) = progress.tell(py, at).and_then(|()| progress.close(py))
+            && let Err(error) = progress.tell(py, at).and(progress.close(py))
         {
             self.fail(error);
         }

@@ -164,9 +164,17 @@ pub fn states(name: &'static str, given: &Bound<'_, PyAny>, size: usize) -> PyRe
     }
 }
 
-/// The method by name, and its steps.
-pub fn control(method: Option<&str>, step: Option<f64>, (rtol, atol, largest): (f64, f64, f64)) -> PyResult<Control> {
+/// The method by name, and its steps: their one length, or tolerances and the longest one.
+pub fn control(
+    method: Option<&str>,
+    step: Option<f64>,
+    (rtol, atol, largest): (f64, f64, Option<f64>),
+) -> PyResult<Control> {
     let wrong = |why: &str| Err(PyValueError::new_err(why.to_owned()));
+    if step.is_some() && largest.is_some() {
+        return wrong("steps are of the length step, or at most of largest_step: give one of them");
+    }
+    let largest = largest.unwrap_or(f64::INFINITY);
     match (method.unwrap_or("dormand_prince"), step) {
         ("dormand_prince", None) => Ok(Control::Adaptive(rtol, atol, largest)),
         ("dormand_prince", Some(step)) => Ok(Control::Fixed(step)),
@@ -202,6 +210,9 @@ pub fn controller(
     delay: f64,
 ) -> PyResult<Option<GivenController>> {
     let (law, period) = match (law, period) {
+        (None, None) if delay != 0.0 => {
+            return Err(PyTypeError::new_err("delay is that of a controller, and there is none"));
+        }
         (None, None) => return Ok(None),
         (Some(law), Some(period)) => (law, period),
         (Some(_), None) => return Err(PyTypeError::new_err("a controller needs its period")),

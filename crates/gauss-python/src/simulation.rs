@@ -14,7 +14,7 @@ use crate::runs::Many;
 use crate::steps::{Control, Held, Input, Outcome, Request};
 
 /// One run as it was given.
-struct Given<'a> {
+struct Given {
     q: Vec<f64>,
     z: Vec<f64>,
     interval: (f64, f64),
@@ -25,13 +25,12 @@ struct Given<'a> {
     watched: Vec<((GivenEnd, gauss_runtime::prelude::Crossing), bool)>,
     times: Option<Vec<f64>>,
     limit: Option<u64>,
-    calls: &'a Calls,
 }
 
-impl Given<'_> {
+impl Given {
     /// Runs it.
-    fn run(&self, py: Python<'_>, kernel: &Kernel) -> PyResult<Outcome> {
-        let (kernel, calls) = (kernel.kernel(), self.calls);
+    fn run(&self, py: Python<'_>, kernel: &Kernel, calls: &Calls) -> PyResult<Outcome> {
+        let kernel = kernel.kernel();
         let size = kernel.scene().sizes().input;
         let of_function = |function: &Py<PyAny>, at: (f64, &[f64], &[f64])| {
             let read = |value: &Bound<'_, PyAny>| state("input", value, size);
@@ -107,17 +106,16 @@ impl Kernel {
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, Run>> {
         let (scene, sizes) = (self.scene(), self.scene().sizes());
-        let largest = largest_step.unwrap_or(f64::INFINITY);
-        let positive = [("rtol", rtol), ("atol", atol), ("step", step.unwrap_or(1.0)), ("largest_step", largest)];
+        let lengths = [("step", step.unwrap_or(1.0)), ("largest_step", largest_step.unwrap_or(1.0))];
+        let positive = [("rtol", rtol), ("atol", atol), lengths[0], lengths[1]];
         given::checked(interval, &positive)?;
         let (events, ends) = (given::ends(scene, events)?, given::ends(scene, until)?);
         let kinds = events.len();
-        let calls = Calls::new(Progress::of(progress, interval, "s")?);
         let given = Given {
             q: state("q", q, sizes.configuration)?,
             z: state("z", z, sizes.speeds)?,
             interval,
-            control: given::control(method, step, (rtol, atol, largest))?,
+            control: given::control(method, step, (rtol, atol, largest_step))?,
             input: given::input(scene, input, controller.is_some())?,
             controller: given::controller(scene, controller, period, delay)?,
             watched: events
@@ -127,14 +125,11 @@ impl Kernel {
                 .collect(),
             times: times.map(|times| given::times_within(times, interval)).transpose()?,
             limit: max_steps,
-            calls: &calls,
         };
-        let outcome = given.run(py, self);
-        drop(given);
-        let run = outcome.map(|outcome| Run::new(scene, outcome, kinds));
-        if let Ok(run) = &run {
-            calls.end(py, run.reached());
-        }
+        // Last of all, so that no bar is shown for a run that is refused.
+        let calls = Calls::new(Progress::of(progress, interval, "s")?);
+        let run = given.run(py, self, &calls).map(|outcome| Run::new(scene, outcome, kinds));
+        calls.end(py, run.as_ref().map_or(interval.0, Run::reached));
         if let Some(error) = calls.error(py) {
             return Err(error);
         }

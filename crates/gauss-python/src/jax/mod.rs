@@ -111,7 +111,10 @@ fn compute(frame: &Frame) -> Result<(), String> {
         work.results[k] = target;
     }
     call::rows(&*kernel, id, &work, count).map_err(|off| {
-        format!("row {} of q is no rotation: squares of its numbers add up to {:.6}, and not to 1", off.row, off.squares)
+        format!(
+            "row {} of q is no rotation: squares of its numbers add up to {:.6}, and not to 1",
+            off.row, off.squares
+        )
     })?;
     for (buffer, numbers) in wide {
         let first = buffer.data.cast::<f32>();

@@ -90,12 +90,8 @@ pub struct Work {
 
 impl Work {
     /// Of no arrays.
-    pub const NONE: Self = Self {
-        t: Source::NONE,
-        arguments: [Source::NONE; 4],
-        results: [Target::NONE; MOST_RESULTS],
-        frame: 0,
-    };
+    pub const NONE: Self =
+        Self { t: Source::NONE, arguments: [Source::NONE; 4], results: [Target::NONE; MOST_RESULTS], frame: 0 };
 }
 
 /// The arguments of as many rows as there are lanes.
