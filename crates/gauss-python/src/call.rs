@@ -230,15 +230,22 @@ fn singles<'py>(
     Ok(all)
 }
 
-/// All rows, while other threads of Python run where there are many.
+/// All rows, while other threads of Python run where there are many. All arrays of the method have these rows: `call`
+/// has compared their shapes.
 fn compute(py: Python<'_>, kernel: &dyn AnyKernel, id: Id, work: &Work, count: usize) -> Result<(), OffGroup> {
-    if count < DETACHED { rows(kernel, id, work, count) } else { py.detach(|| rows(kernel, id, work, count)) }
+    // SAFETY: as above.
+    #[allow(unsafe_code)]
+    let all = || unsafe { rows(kernel, id, work, count) };
+    if count < DETACHED { all() } else { py.detach(all) }
 }
 
-/// All rows, on all threads where there are many. Arrays have the rows and sizes: the caller has compared the shapes.
-pub fn rows(kernel: &dyn AnyKernel, id: Id, work: &Work, count: usize) -> Result<(), OffGroup> {
-    // SAFETY: of the caller, which is of this crate.
-    #[allow(unsafe_code)]
+/// All rows, on all threads where there are many.
+///
+/// # Safety
+/// All arrays that the method names have these rows, each of the sizes of the scene.
+#[allow(unsafe_code)]
+pub unsafe fn rows(kernel: &dyn AnyKernel, id: Id, work: &Work, count: usize) -> Result<(), OffGroup> {
+    // SAFETY: of this function.
     let run = |rows| unsafe { kernel.run(id, work, rows) };
     // One thread alone need not be woken.
     if count <= CHUNK || rayon::current_num_threads() == 1 {

@@ -1,5 +1,6 @@
 //! Classes of a module: one for each struct, with its documentation and keywords.
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCFunction, PyDict, PyList, PyTuple, PyType};
 
@@ -52,8 +53,12 @@ pub fn finish(module: &Bound<'_, PyModule>, scenes: Vec<&'static dyn AnyScene>) 
     let function = PyCFunction::new_closure(py, Some(c"stubs"), Some(c"The text of the stubs of this module."), stubs)?;
     module.add("stubs", function)?;
     let name = module.name()?.to_string();
-    let functions = move |given: &Bound<'_, PyTuple>, _: Option<&Bound<'_, PyDict>>| {
-        jax::functions(&name, &given.get_item(0)?).map(Bound::unbind)
+    let functions = move |given: &Bound<'_, PyTuple>, named: Option<&Bound<'_, PyDict>>| match (
+        given.len(),
+        named.is_none_or(PyDictMethods::is_empty),
+    ) {
+        (1, true) => jax::functions(&name, &given.get_item(0)?).map(Bound::unbind),
+        _ => Err(PyTypeError::new_err("jax(kernel) takes a kernel, and nothing else")),
     };
     let words = c"The methods of a kernel as functions of JAX: jit, vmap, jvp, grad.";
     module.add("jax", PyCFunction::new_closure(py, Some(c"jax"), Some(words), functions)?)

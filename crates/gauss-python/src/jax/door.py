@@ -3,6 +3,7 @@
 import collections
 
 import jax
+import jax.ffi
 import jax.numpy as jnp
 import numpy as np
 
@@ -50,10 +51,11 @@ class Method:
         for (name, _), array in zip(wanted, given):
             if array is None:
                 raise TypeError(f"{self.name} needs {name}")
-        dtype = jnp.promote_types(jnp.result_type(float, t, *given), jnp.float32)
+        given = [jnp.asarray(array) for array in (t, *given)]
+        dtype = jnp.promote_types(jnp.result_type(float, *given), jnp.float32)
         if not jnp.issubdtype(dtype, jnp.floating):
             raise TypeError(f"{self.name} takes real numbers, and not {dtype}")
-        t, *arrays = (jnp.asarray(array, dtype) for array in (t, *given))
+        t, *arrays = (array.astype(dtype) for array in given)
         for (name, size), array in zip(wanted, arrays):
             if array.shape[-1:] != (size,):
                 raise ValueError(f"{name} has shape {array.shape}; expected (..., {size})")
@@ -95,27 +97,40 @@ def make(kernel, target, capsule, number, specs, increment, flat):
     methods = {spec[0]: Method(target, number, spec) for spec in specs}
 
     def increments(t, q, change):
-        """What a change of the numbers of q is as an increment: linear in it, and written so."""
+        """What a change of the numbers of q is as an increment: linear in it, and written so for `grad`."""
         if flat:
             return change
-        size = q.shape[-1]
-        wide = jnp.broadcast_to(q[..., None, :], (*q.shape, size))
-        columns = methods["tangent"].call(0, jnp.broadcast_to(t[..., None], q.shape), wide, jnp.broadcast_to(jnp.eye(size, dtype=q.dtype), wide.shape))
-        return jnp.einsum("...ki,...k->...i", columns, change)
+        wide = (*q.shape, q.shape[-1])
+        units = jnp.broadcast_to(jnp.eye(q.shape[-1], dtype=q.dtype), wide)
+        rows = jnp.broadcast_to(t[..., None], q.shape), jnp.broadcast_to(q[..., None, :], wide), units
+        return jnp.einsum("...ki,...k->...i", methods["tangent"].call(0, *rows), change)
 
     def differentiable(method, rule):
-        function = jax.custom_jvp(lambda t, *arrays: method.call(0, t, *arrays))
-        function.defjvp(rule)
-        return lambda frame, t, *arrays: function(t, *arrays)
+        def function(frame):
+            called = jax.custom_jvp(lambda t, *arrays: method.call(frame, t, *arrays))
+            called.defjvp(rule or refused(method))
+            return called
 
-    def acceleration(primals, tangents):
+        functions = [function(frame) for frame in range(len(method.names or [""]))]
+        return lambda frame, t, *arrays: functions[frame](t, *arrays)
+
+    def refused(method):
+        def rule(primals, tangents):
+            needs = [f"{name} (clause {clause})" for name, (_, clause, _) in rules.items()]
+            raise TypeError(f"{method.name} has no derivatives in JAX here; there are those of {', '.join(needs)}")
+
+        return rule
+
+    def motion(primals, tangents):
+        """Velocity and acceleration, and their changes."""
         (t, q, z, *u), (dt, dq, dz, *du) = primals, tangents
         linear = methods["linearize"].call(0, *primals)
-        state = jnp.concatenate([increments(t, q, dq), dz], axis=-1)
-        change = product(linear.by_state, state) + linear.by_time * dt[..., None]
-        if u:
-            change = change + product(linear.by_input, du[0])
-        return linear.rate[..., increment:], change[..., increment:]
+        change = product(linear.by_state, jnp.concatenate([increments(t, q, dq), dz], axis=-1))
+        change = change + linear.by_time * dt[..., None]
+        return linear.rate, change + product(linear.by_input, du[0]) if u else change
+
+    def acceleration(primals, tangents):
+        return tuple(part[..., increment:] for part in motion(primals, tangents))
 
     def inverse_dynamics(primals, tangents):
         (t, q, z, a, *u), (dt, dq, dz, da, *du) = primals, tangents
@@ -126,10 +141,15 @@ def make(kernel, target, capsule, number, specs, increment, flat):
             change = change + product(linear.by_input, du[0])
         return linear.force, change
 
-    rules = {"acceleration": ("linearize", acceleration), "inverse_dynamics": ("linearize_inverse", inverse_dynamics)}
+    rules = {
+        "acceleration": ("linearize", "linearize", acceleration),
+        "inverse_dynamics": ("linearize_inverse", "linearize(inverse)", inverse_dynamics),
+    }
+    if flat:
+        rules["rates"] = ("linearize", "linearize", motion)
     functions = Functions(kernel)
     for name, method in methods.items():
-        needed, rule = rules.get(name, (None, None))
-        function = differentiable(method, rule) if needed in methods else method.call
+        needed, _, rule = rules.get(name, (None, None, None))
+        function = differentiable(method, rule if needed in methods else None)
         setattr(functions, name, plain(method, function, flat))
     return functions

@@ -5,7 +5,7 @@ mod abi;
 use std::ffi::c_void;
 use std::sync::{Arc, Mutex};
 
-use pyo3::exceptions::{PyRuntimeError, PyTypeError};
+use pyo3::exceptions::{PyImportError, PyRuntimeError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyCapsule, PyDict, PyList};
@@ -110,7 +110,10 @@ fn compute(frame: &Frame) -> Result<(), String> {
         let target = unsafe { Target::new(first, size) };
         work.results[k] = target;
     }
-    call::rows(&*kernel, id, &work, count).map_err(|off| {
+    // SAFETY: all arrays of the method have these rows: their sizes were compared.
+    #[allow(unsafe_code)]
+    let computed = unsafe { call::rows(&*kernel, id, &work, count) };
+    computed.map_err(|off| {
         format!(
             "row {} of q is no rotation: squares of its numbers add up to {:.6}, and not to 1",
             off.row, off.squares
@@ -136,15 +139,23 @@ pub fn functions<'py>(module: &str, kernel: &Bound<'py, PyAny>) -> PyResult<Boun
     let Ok(own) = kernel.cast::<Kernel>() else {
         return Err(PyTypeError::new_err("functions of JAX are those of a kernel"));
     };
-    let source = || PyModule::from_code(py, c_text(include_str!("door.py"))?.as_c_str(), c"gauss_jax.py", c"gauss_jax");
-    let door = DOOR.get_or_try_init(py, || source().map(Bound::unbind))?.bind(py);
-    // The address of a function, under the name that XLA looks for in no case: capsules are told by their module.
+    // Each extension has a handler, and so a module, of its own.
+    let target = format!("gauss_{}", module.replace('.', "_"));
+    let source = || {
+        let (file, name) = (c_text(&format!("{target}_jax.py"))?, c_text(&format!("{target}_jax"))?);
+        PyModule::from_code(py, &c_text(include_str!("door.py"))?, &file, &name).map(Bound::unbind)
+    };
+    let missing = |error: PyErr| {
+        let why = error.value(py).to_string();
+        PyImportError::new_err(format!("functions of JAX need the package jax, 0.5 or later (pip install jax): {why}"))
+    };
+    let door = DOOR.get_or_try_init(py, source).map_err(missing)?.bind(py);
     let address = handler as *const () as *mut c_void;
     let capsule = capsule(py, address)?;
     let shared = own.get().shared();
     let how = PyDict::new(py);
     how.set_item("kernel", kernel)?;
-    how.set_item("target", format!("gauss_{}", module.replace('.', "_")))?;
+    how.set_item("target", target)?;
     how.set_item("capsule", capsule)?;
     how.set_item("number", place(&shared)?)?;
     how.set_item("specs", specs(py, &*shared)?)?;
