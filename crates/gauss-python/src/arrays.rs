@@ -174,6 +174,11 @@ pub fn takes<'py>(name: &str, out: &Bound<'py, PyArrayDyn<f32>>, axes: &[usize])
     }
 }
 
+/// Whether arrays may share memory: the addresses that they occupy overlap.
+pub fn overlap(array: &Bound<'_, PyArrayDyn<f32>>, other: &Bound<'_, PyArrayDyn<f32>>) -> PyResult<bool> {
+    array.py().import("numpy")?.call_method1("may_share_memory", (array, other))?.extract()
+}
+
 /// Rounds numbers into an array of 32-bit floats.
 pub fn round<'py>(from: &Bound<'py, PyArrayDyn<f64>>, to: &Bound<'py, PyArrayDyn<f32>>) -> PyResult<()> {
     let how = PyDict::new(from.py());
@@ -189,10 +194,14 @@ pub fn given<'py>(
     inputs: &[(&'static str, (usize, usize))],
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let Ok(array) = out.cast::<PyArrayDyn<f64>>() else {
-        return Err(PyTypeError::new_err(format!(
-            "{name} must be an array of float64 or float32, found {}",
-            out.get_type().name()?
-        )));
+        let found = match out.getattr("dtype") {
+            Ok(dtype) => format!("one of {dtype}"),
+            Err(_) => out.get_type().name()?.to_string(),
+        };
+        return Err(PyTypeError::new_err(match single(out) {
+            Some(_) => format!("{name} is an array of float32; out has arrays of float64, or of float32, and not both"),
+            None => format!("{name} must be an array of float64 or float32, found {found}"),
+        }));
     };
     if !is_plain(array) {
         return Err(PyValueError::new_err(format!("{name} must be in C order")));

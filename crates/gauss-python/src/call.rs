@@ -222,10 +222,16 @@ fn singles<'py>(
         (count, Ok(tuple)) if tuple.len() == count => tuple.iter().map(|out| arrays::single(&out)).collect(),
         _ => None,
     };
-    for (k, array) in all.iter().flatten().enumerate() {
+    let arrays = all.as_deref().unwrap_or_default();
+    for (k, array) in arrays.iter().enumerate() {
         let own = spec.results[k].axes.iter().map(|axis| scene.sizes().get(*axis));
         let name = if spec.results.len() == 1 { "out" } else { spec.results[k].name };
         arrays::takes(name, array, &batch.axes.iter().copied().chain(own).collect::<Vec<_>>())?;
+        for (other, result) in arrays[..k].iter().zip(spec.results) {
+            if arrays::overlap(array, other)? {
+                return Err(PyValueError::new_err(format!("{name} shares memory with {}", result.name)));
+            }
+        }
     }
     Ok(all)
 }
