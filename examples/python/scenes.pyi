@@ -7,7 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
+Single = NDArray[np.float32]
 Direction = Literal["any", "rising", "falling"]
+Method = Literal["dormand_prince", "rosenbrock", "taylor", "collocation"]
 Function = Callable[[float, Array, Array], Any]
 Input = ArrayLike | tuple[ArrayLike, ArrayLike] | Function
 End = tuple[str, float] | tuple[str, float, Direction] | Function | tuple[Function, Direction]
@@ -35,6 +37,8 @@ class Run:
     @property
     def columns(self) -> list[str]: ...
     @property
+    def events(self) -> list[Events]: ...
+    @property
     def stopped_by(self) -> int | None: ...
     @property
     def interrupted(self) -> bool: ...
@@ -47,6 +51,12 @@ class Run:
     def __getitem__(self, name: str) -> Array: ...
     def __len__(self) -> int: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
+
+class Events(NamedTuple):
+    """Times and states of one event of a run."""
+    t: Array
+    q: Array
+    z: Array
 
 class Ends:
     """The ends of many runs, a row for each."""
@@ -67,6 +77,9 @@ class Ends:
     def __getitem__(self, name: str) -> Array: ...
     def __len__(self) -> int: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
+
+def jax(kernel: Kernel) -> Any:
+    """The methods of a kernel as functions of JAX: jit, vmap, jvp, grad."""
 
 def stubs() -> str:
     """The text of the stubs of this module."""
@@ -94,7 +107,13 @@ class Kernel:
     @property
     def frames(self) -> list[str]: ...
     @property
+    def joints(self) -> list[str]: ...
+    @property
     def dof(self) -> int: ...
+    @property
+    def dtype(self) -> np.dtype[np.void]: ...
+    def states(self, shape: int | tuple[int, ...] = (), **named: ArrayLike) -> NDArray[np.void]: ...
+    def views(self, states: NDArray[np.void]) -> tuple[Array, Array]: ...
     def state(self, **named: ArrayLike) -> tuple[Array, Array]: ...
     def simulate(
         self,
@@ -106,10 +125,16 @@ class Kernel:
         atol: float = 1e-9,
         step: float | None = None,
         largest_step: float | None = None,
+        method: Method | None = None,
         input: Input | None = None,
+        controller: Function | None = None,
+        period: float | None = None,
+        delay: float = 0.0,
         until: End | Sequence[End] | None = None,
+        events: End | Sequence[End] | None = None,
         times: ArrayLike | None = None,
         max_steps: int | None = None,
+        progress: Callable[[float], object] | bool | None = None,
     ) -> Run: ...
     def ensemble(
         self,
@@ -122,6 +147,7 @@ class Kernel:
         input: ArrayLike | tuple[ArrayLike, ArrayLike] | None = None,
         until: tuple[str, float] | tuple[str, float, Direction] | None = None,
         parameters: Mapping[str, ArrayLike] | None = None,
+        progress: Callable[[float], object] | bool | None = None,
     ) -> Ends: ...
 
 class Linearize(NamedTuple):
@@ -161,7 +187,7 @@ class Pendulum(Kernel):
       motor: input, in N m
     """
     def __init__(self, *, mass: float, length: float, g: float) -> None: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The rates of the speeds.
 
         q (..., 1), z (..., 1), input (..., 1) -> (..., 1)
@@ -169,7 +195,7 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
 
         q (..., 1), z (..., 1), acceleration (..., 1), input (..., 1) -> (..., 1)
@@ -177,7 +203,7 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Inverse dynamics at acceleration zero.
 
         q (..., 1), z (..., 1), input (..., 1) -> (..., 1)
@@ -185,19 +211,19 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Second derivatives of the kinetic energy by z.
 
         q (..., 1) -> (..., 1, 1)
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The velocity of the configuration, seen from the body.
 
         q (..., 1), z (..., 1) -> (..., 1)
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
 
         q (..., 1), z (..., 1), input (..., 1) -> (..., 2)
@@ -205,19 +231,19 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Derivatives of the kinetic energy by z.
 
         q (..., 1), z (..., 1) -> (..., 1)
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The speeds with these momenta.
 
         q (..., 1), p (..., 1) -> (..., 1)
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The rates of the momenta.
 
         q (..., 1), p (..., 1), input (..., 1) -> (..., 1)
@@ -225,43 +251,43 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The kinetic energy, that of a fluid included.
 
         q (..., 1), z (..., 1) -> (...)
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The potential energy.
 
         q (..., 1) -> (...)
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Kinetic and potential energy.
 
         q (..., 1), z (..., 1) -> (...)
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
 
         q (..., 1) -> (...)
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The configuration moved by an increment that is seen from the body.
 
         q (..., 1), increment (..., 1) -> (..., 1)
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The shortest increment from q to the other.
 
         q (..., 1), other (..., 1) -> (..., 1)
         """
         ...
-    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | None = None) -> Linearize:
+    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> Linearize:
         """Velocity and acceleration with their derivatives by (increment, z), time and input.
 
         q (..., 1), z (..., 1), input (..., 1) -> rate (..., 2), by_state (..., 2, 2), by_time (..., 2), by_input (..., 2, 1)
@@ -269,7 +295,7 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def linearize_inverse(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | None = None) -> LinearizeInverse:
+    def linearize_inverse(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> LinearizeInverse:
         """Inverse dynamics with its derivatives.
 
         q (..., 1), z (..., 1), acceleration (..., 1), input (..., 1) -> force (..., 1), by_configuration (..., 1, 1), by_speeds (..., 1, 1), by_acceleration (..., 1, 1), by_time (..., 1), by_input (..., 1, 1)
@@ -277,12 +303,18 @@ class Pendulum(Kernel):
         Inputs: motor (1,), input, in N m.
         """
         ...
-    def hessian(self, q: ArrayLike, z: ArrayLike, weights: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | None = None) -> Hessian:
+    def hessian(self, q: ArrayLike, z: ArrayLike, weights: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> Hessian:
         """Second derivatives of the weighted sum of velocity and acceleration.
 
         q (..., 1), z (..., 1), weights (..., 2), input (..., 1) -> by_state (..., 2, 2), by_input_and_state (..., 1, 2), by_input (..., 1, 1)
 
         Inputs: motor (1,), input, in N m.
+        """
+        ...
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The increment seen from the body that changes the numbers of q by so much, to first order.
+
+        q (..., 1), change (..., 1) -> (..., 1)
         """
         ...
 
@@ -304,94 +336,106 @@ class Torpedo(Kernel):
       omega (3 numbers): angular velocity, body axes
     """
     def __init__(self, *, mass: float, center: ArrayLike, inertia: ArrayLike, added: ArrayLike, lift: float) -> None: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The rates of the speeds.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
 
         q (..., 7), z (..., 6), acceleration (..., 6) -> (..., 6)
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Inverse dynamics at acceleration zero.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Second derivatives of the kinetic energy by z.
 
         q (..., 7) -> (..., 6, 6)
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The velocity of the configuration, seen from the body.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
 
         q (..., 7), z (..., 6) -> (..., 13)
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Derivatives of the kinetic energy by z.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The speeds with these momenta.
 
         q (..., 7), p (..., 6) -> (..., 6)
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The rates of the momenta.
 
         q (..., 7), p (..., 6) -> (..., 6)
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The kinetic energy, that of a fluid included.
 
         q (..., 7), z (..., 6) -> (...)
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The potential energy.
 
         q (..., 7) -> (...)
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Kinetic and potential energy.
 
         q (..., 7), z (..., 6) -> (...)
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
 
         q (..., 7) -> (...)
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The configuration moved by an increment that is seen from the body.
 
         q (..., 7), increment (..., 6) -> (..., 7)
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The shortest increment from q to the other.
 
         q (..., 7), other (..., 7) -> (..., 6)
+        """
+        ...
+    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> Linearize:
+        """Velocity and acceleration with their derivatives by (increment, z), time and input.
+
+        q (..., 7), z (..., 6) -> rate (..., 12), by_state (..., 12, 12), by_time (..., 12), by_input (..., 12, 0)
+        """
+        ...
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The increment seen from the body that changes the numbers of q by so much, to first order.
+
+        q (..., 7), change (..., 7) -> (..., 6)
         """
         ...
 
@@ -414,7 +458,7 @@ class Arm(Kernel):
       elbow: input, in N m
     """
     def __init__(self, *, g: float) -> None: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The rates of the speeds.
 
         q (..., 2), z (..., 2), input (..., 2) -> (..., 2)
@@ -422,7 +466,7 @@ class Arm(Kernel):
         Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
 
         q (..., 2), z (..., 2), acceleration (..., 2), input (..., 2) -> (..., 2)
@@ -430,7 +474,7 @@ class Arm(Kernel):
         Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Inverse dynamics at acceleration zero.
 
         q (..., 2), z (..., 2), input (..., 2) -> (..., 2)
@@ -438,19 +482,19 @@ class Arm(Kernel):
         Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Second derivatives of the kinetic energy by z.
 
         q (..., 2) -> (..., 2, 2)
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The velocity of the configuration, seen from the body.
 
         q (..., 2), z (..., 2) -> (..., 2)
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
 
         q (..., 2), z (..., 2), input (..., 2) -> (..., 4)
@@ -458,19 +502,19 @@ class Arm(Kernel):
         Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Derivatives of the kinetic energy by z.
 
         q (..., 2), z (..., 2) -> (..., 2)
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The speeds with these momenta.
 
         q (..., 2), p (..., 2) -> (..., 2)
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The rates of the momenta.
 
         q (..., 2), p (..., 2), input (..., 2) -> (..., 2)
@@ -478,100 +522,114 @@ class Arm(Kernel):
         Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The kinetic energy, that of a fluid included.
 
         q (..., 2), z (..., 2) -> (...)
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The potential energy.
 
         q (..., 2) -> (...)
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Kinetic and potential energy.
 
         q (..., 2), z (..., 2) -> (...)
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
 
         q (..., 2) -> (...)
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The configuration moved by an increment that is seen from the body.
 
         q (..., 2), increment (..., 2) -> (..., 2)
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The shortest increment from q to the other.
 
         q (..., 2), other (..., 2) -> (..., 2)
         """
         ...
-    def pose(self, frame: Literal["tool"], q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def pose(self, frame: Literal["tool"], q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Rotation and origin of a frame as a matrix of four rows, frame to observer.
 
         q (..., 2) -> (..., 4, 4)
         """
         ...
-    def twist(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def twist(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Velocity of a frame's origin, then angular velocity, in axes of the frame.
 
         q (..., 2), z (..., 2) -> (..., 6)
         """
         ...
-    def jacobian(self, frame: Literal["tool"], q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def jacobian(self, frame: Literal["tool"], q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Derivatives of a frame's twist by z, in axes of the frame.
 
         q (..., 2) -> (..., 6, 2)
         """
         ...
-    def bias(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def bias(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Acceleration of a frame's origin, then angular, at acceleration zero; its axes.
 
         q (..., 2), z (..., 2) -> (..., 6)
         """
         ...
-    def jacobian_rate(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def jacobian_rate(self, frame: Literal["tool"], q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The rate of a frame's Jacobian.
 
         q (..., 2), z (..., 2) -> (..., 6, 2)
         """
         ...
-    def gravity_torques(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def gravity_torques(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The generalised forces that balance weight and buoyancy.
 
         q (..., 2) -> (..., 2)
         """
         ...
-    def center_of_mass(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def center_of_mass(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The centre of mass, in observer's axes.
 
         q (..., 2) -> (..., 3)
         """
         ...
-    def centroidal_momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def centroidal_momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Momentum, then angular momentum about the centre of mass.
 
         q (..., 2), z (..., 2) -> (..., 6)
         """
         ...
-    def centroidal_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def centroidal_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Derivatives of the centroidal momentum by z.
 
         q (..., 2) -> (..., 6, 2)
         """
         ...
-    def center_jacobian(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def center_jacobian(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Derivatives of the centre's velocity.
 
         q (..., 2) -> (..., 3, 2)
+        """
+        ...
+    def reaction(self, joint: Literal["shoulder", "elbow"], q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Force, then torque about its origin, with which a joint holds what it carries, in axes of that.
+
+        q (..., 2), z (..., 2), input (..., 2) -> (..., 6)
+
+        Inputs: shoulder (1,), input, in N m; elbow (1,), input, in N m.
+        """
+        ...
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The increment seen from the body that changes the numbers of q by so much, to first order.
+
+        q (..., 2), change (..., 2) -> (..., 2)
         """
         ...
 
@@ -594,100 +652,106 @@ class Wire(Kernel):
       turn_omega (3 numbers): angular velocity of `turn`, in its own axes
     """
     def __init__(self, *, block: Mapping[str, Any], radius: float, g: ArrayLike) -> None: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The rates of the speeds.
 
         q (..., 6), z (..., 5) -> (..., 5)
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
 
         q (..., 6), z (..., 5), acceleration (..., 5) -> (..., 5)
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Inverse dynamics at acceleration zero.
 
         q (..., 6), z (..., 5) -> (..., 5)
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Second derivatives of the kinetic energy by z.
 
         q (..., 6) -> (..., 5, 5)
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The velocity of the configuration, seen from the body.
 
         q (..., 6), z (..., 5) -> (..., 5)
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
 
         q (..., 6), z (..., 5) -> (..., 11)
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Derivatives of the kinetic energy by z.
 
         q (..., 6), z (..., 5) -> (..., 5)
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The speeds with these momenta.
 
         q (..., 6), p (..., 5) -> (..., 5)
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The rates of the momenta.
 
         q (..., 6), p (..., 5) -> (..., 5)
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The kinetic energy, that of a fluid included.
 
         q (..., 6), z (..., 5) -> (...)
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The potential energy.
 
         q (..., 6) -> (...)
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Kinetic and potential energy.
 
         q (..., 6), z (..., 5) -> (...)
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
 
         q (..., 6) -> (...)
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The configuration moved by an increment that is seen from the body.
 
         q (..., 6), increment (..., 5) -> (..., 6)
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The shortest increment from q to the other.
 
         q (..., 6), other (..., 6) -> (..., 5)
         """
         ...
-    def multipliers(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def multipliers(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Lagrange multipliers.
 
         q (..., 6), z (..., 5) -> (..., 1)
+        """
+        ...
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The increment seen from the body that changes the numbers of q by so much, to first order.
+
+        q (..., 6), change (..., 6) -> (..., 5)
         """
         ...
 
@@ -718,93 +782,99 @@ class Lander(Kernel):
       omega (3 numbers): angular velocity, body axes
     """
     def __init__(self, *, mass: float, inertia: ArrayLike, drag_area: float, air: float, riser: float, density: float, wind_x: float, wind_y: float, layer: float, g: float) -> None: ...
-    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The rates of the speeds.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
 
         q (..., 7), z (..., 6), acceleration (..., 6) -> (..., 6)
         """
         ...
-    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Inverse dynamics at acceleration zero.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Second derivatives of the kinetic energy by z.
 
         q (..., 7) -> (..., 6, 6)
         """
         ...
-    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The velocity of the configuration, seen from the body.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Rates of the numbers of q, then those of z, for any solver.
 
         q (..., 7), z (..., 6) -> (..., 13)
         """
         ...
-    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Derivatives of the kinetic energy by z.
 
         q (..., 7), z (..., 6) -> (..., 6)
         """
         ...
-    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The speeds with these momenta.
 
         q (..., 7), p (..., 6) -> (..., 6)
         """
         ...
-    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The rates of the momenta.
 
         q (..., 7), p (..., 6) -> (..., 6)
         """
         ...
-    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The kinetic energy, that of a fluid included.
 
         q (..., 7), z (..., 6) -> (...)
         """
         ...
-    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The potential energy.
 
         q (..., 7) -> (...)
         """
         ...
-    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """Kinetic and potential energy.
 
         q (..., 7), z (..., 6) -> (...)
         """
         ...
-    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The distance from a singularity of the coordinates: 0 there, 1 at best.
 
         q (..., 7) -> (...)
         """
         ...
-    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The configuration moved by an increment that is seen from the body.
 
         q (..., 7), increment (..., 6) -> (..., 7)
         """
         ...
-    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | None = None) -> Array:
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
         """The shortest increment from q to the other.
 
         q (..., 7), other (..., 7) -> (..., 6)
+        """
+        ...
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The increment seen from the body that changes the numbers of q by so much, to first order.
+
+        q (..., 7), change (..., 7) -> (..., 6)
         """
         ...

@@ -8,9 +8,12 @@ use pyo3::types::PyDict;
 
 use crate::memory::{Source, Target};
 
-/// An array of 64-bit floats in C order, alive as long as its rows are read.
+/// An array of 64-bit floats, alive as long as its rows are read: each row is in one piece, and all are equally far
+/// apart.
 pub struct Rows<'py> {
     array: Bound<'py, PyArrayDyn<f64>>,
+    /// From one row to the next, in numbers, where they do not follow each other; else nothing.
+    apart: Option<usize>,
 }
 
 /// The leading axes of a call.
@@ -24,6 +27,28 @@ pub struct Batch<'a> {
 
 fn is_plain(array: &Bound<'_, PyArrayDyn<f64>>) -> bool {
     array.is_c_contiguous() && array.is_aligned()
+}
+
+/// How far rows are apart, in numbers, where they are parts of longer rows that follow each other, as fields of
+/// structured arrays are; nothing where the array is no such.
+fn apart(array: &Bound<'_, PyArrayDyn<f64>>) -> Option<usize> {
+    const SIZE: isize = size_of::<f64>() as isize;
+    let (shape, strides) = (array.shape(), array.strides());
+    let (&size, axes) = shape.split_last()?;
+    let (&within, steps) = strides.split_last()?;
+    let own = *steps.last()?;
+    if !array.is_aligned() || (size > 1 && within != SIZE) || own % SIZE != 0 || own < size as isize * SIZE {
+        return None;
+    }
+    // Axis by axis from the last one.
+    let mut next = own;
+    for (&count, &step) in axes.iter().zip(steps).rev() {
+        if count != 1 && step != next {
+            return None;
+        }
+        next *= count as isize;
+    }
+    usize::try_from(own / SIZE).ok()
 }
 
 /// `numpy.asarray(x).astype(float, order="C", casting="same_kind", copy=False)`: complex numbers and texts are refused.
@@ -51,8 +76,20 @@ impl<'py> Rows<'py> {
     /// Reads an argument.
     pub fn of(name: &'static str, value: &Bound<'py, PyAny>) -> PyResult<Self> {
         match value.cast::<PyArrayDyn<f64>>() {
-            Ok(array) if is_plain(array) => Ok(Self { array: array.clone() }),
-            _ => Ok(Self { array: converted(name, value)? }),
+            Ok(array) if is_plain(array) => Ok(Self { array: array.clone(), apart: None }),
+            Ok(array) => match apart(array) {
+                Some(apart) => Ok(Self { array: array.clone(), apart: Some(apart) }),
+                None => Ok(Self { array: converted(name, value)?, apart: None }),
+            },
+            Err(_) => Ok(Self { array: converted(name, value)?, apart: None }),
+        }
+    }
+
+    /// Numbers, one for each state: in one piece.
+    pub fn numbers(name: &'static str, value: &Bound<'py, PyAny>) -> PyResult<Self> {
+        match value.cast::<PyArrayDyn<f64>>() {
+            Ok(array) if is_plain(array) => Ok(Self { array: array.clone(), apart: None }),
+            _ => Ok(Self { array: converted(name, value)?, apart: None }),
         }
     }
 
@@ -72,9 +109,10 @@ impl<'py> Rows<'py> {
         self.array.shape()
     }
 
-    /// Its rows: `stride` numbers from one to the next, 0 where one row is for all.
-    pub fn source(&self, stride: usize) -> Source {
-        // SAFETY: the array is alive, in C order, and has the rows: its shape was compared.
+    /// Its rows of `size` numbers; 0 where one row is for all.
+    pub fn source(&self, size: usize) -> Source {
+        let stride = if size == 0 { 0 } else { self.apart.unwrap_or(size) };
+        // SAFETY: the array is alive, and has the rows, so far apart: its shape was compared.
         #[allow(unsafe_code)]
         unsafe {
             Source::new(self.array.data(), stride)
@@ -83,7 +121,14 @@ impl<'py> Rows<'py> {
 
     /// The addresses that it occupies.
     pub fn extent(&self) -> (usize, usize) {
-        extent(&self.array)
+        let (first, last) = extent(&self.array);
+        match (self.apart, self.array.shape().split_last()) {
+            (Some(apart), Some((&size, axes))) if self.array.len() > 0 => {
+                let rows: usize = axes.iter().product();
+                (first, first + ((rows - 1) * apart + size) * size_of::<f64>())
+            }
+            _ => (first, last),
+        }
     }
 }
 
@@ -109,6 +154,38 @@ pub fn new<'py>(py: Python<'py>, axes: &[usize]) -> Bound<'py, PyArrayDyn<f64>> 
     }
 }
 
+/// An array of 32-bit floats that `out` is.
+pub fn single<'py>(out: &Bound<'py, PyAny>) -> Option<Bound<'py, PyArrayDyn<f32>>> {
+    out.cast::<PyArrayDyn<f32>>().ok().cloned()
+}
+
+/// Checks that an array of 32-bit floats can take results: its shape, and that it may be written.
+pub fn takes<'py>(name: &str, out: &Bound<'py, PyArrayDyn<f32>>, axes: &[usize]) -> PyResult<()> {
+    if out.shape() != axes {
+        let (shape, axes) = (shown(out.shape()), shown(axes));
+        return Err(PyValueError::new_err(format!("{name} has shape {shape}; expected {axes}")));
+    }
+    // SAFETY: the object is an array.
+    #[allow(unsafe_code)]
+    let flags = unsafe { (*out.as_array_ptr()).fields.flags };
+    match flags & numpy::npyffi::NPY_ARRAY_WRITEABLE {
+        0 => Err(PyValueError::new_err(format!("{name} is read-only"))),
+        _ => Ok(()),
+    }
+}
+
+/// Whether arrays may share memory: the addresses that they occupy overlap.
+pub fn overlap(array: &Bound<'_, PyArrayDyn<f32>>, other: &Bound<'_, PyArrayDyn<f32>>) -> PyResult<bool> {
+    array.py().import("numpy")?.call_method1("may_share_memory", (array, other))?.extract()
+}
+
+/// Rounds numbers into an array of 32-bit floats.
+pub fn round<'py>(from: &Bound<'py, PyArrayDyn<f64>>, to: &Bound<'py, PyArrayDyn<f32>>) -> PyResult<()> {
+    let how = PyDict::new(from.py());
+    how.set_item("casting", "same_kind")?;
+    from.py().import("numpy")?.call_method("copyto", (to, from), Some(&how)).map(|_| ())
+}
+
 /// The array that `out` is, if it can take these results as they are.
 pub fn given<'py>(
     name: &str,
@@ -117,10 +194,14 @@ pub fn given<'py>(
     inputs: &[(&'static str, (usize, usize))],
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let Ok(array) = out.cast::<PyArrayDyn<f64>>() else {
-        return Err(PyTypeError::new_err(format!(
-            "{name} must be an array of float64, found {}",
-            out.get_type().name()?
-        )));
+        let found = match out.getattr("dtype") {
+            Ok(dtype) => format!("one of {dtype}"),
+            Err(_) => out.get_type().name()?.to_string(),
+        };
+        return Err(PyTypeError::new_err(match single(out) {
+            Some(_) => format!("{name} is an array of float32; out has arrays of float64, or of float32, and not both"),
+            None => format!("{name} must be an array of float64 or float32, found {found}"),
+        }));
     };
     if !is_plain(array) {
         return Err(PyValueError::new_err(format!("{name} must be in C order")));

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::arrays::{self, Batch, Rows, shown};
 use crate::kernels::{AnyKernel, AnyScene, OffGroup};
-use crate::memory::{Source, Target};
+use crate::memory::Source;
 use crate::methods::{Id, SPECS, Spec, Work};
 
 /// From so many rows on other threads of Python may run meanwhile: letting them costs as much as some rows.
@@ -86,7 +86,9 @@ pub fn call<'py>(
     if let Some((_, times)) = &times {
         work.t = times.source(usize::from(!times.axes().is_empty()));
     }
-    let results = results(py, scene, spec, batch, given.out, (&rows, &times))?;
+    let rounded = given.out.map(|out| singles(scene, spec, batch, out)).transpose()?.flatten();
+    let own = given.out.filter(|_| rounded.is_none());
+    let results = results(py, scene, spec, batch, own, (&rows, &times))?;
     for (k, (result, array)) in spec.results.iter().zip(&results).enumerate() {
         let stride = result.axes.iter().map(|axis| scene.sizes().get(*axis)).product();
         work.results[k] = arrays::target(array, stride);
@@ -98,6 +100,9 @@ pub fn call<'py>(
         work.t = source;
     }
     compute(py, kernel, id, &work, count).map_err(|off| off_group(spec, &off, batch))?;
+    for (result, single) in results.iter().zip(rounded.into_iter().flatten()) {
+        arrays::round(result, &single)?;
+    }
     match (given.out, &results[..]) {
         (Some(out), _) => Ok(out.clone()),
         (None, [one]) => Ok(one.clone().into_any()),
@@ -107,7 +112,7 @@ pub fn call<'py>(
 
 impl<'py> Reading<'py> {
     fn new(frame: usize) -> Self {
-        let work = Work { t: Source::NONE, arguments: [Source::NONE; 4], results: [Target::NONE; 6], frame };
+        let work = Work { frame, ..Work::NONE };
         Self { rows: [const { None }; 5], work, zero: 0.0 }
     }
 
@@ -117,7 +122,7 @@ impl<'py> Reading<'py> {
             None => {}
             Some(t) => match t.extract::<f64>() {
                 Ok(t) => self.zero = t,
-                Err(_) => self.rows[TIME] = Some(("t", Rows::of("t", t)?)),
+                Err(_) => self.rows[TIME] = Some(("t", Rows::numbers("t", t)?)),
             },
         }
         Ok(())
@@ -202,29 +207,66 @@ fn results<'py>(
     Ok(all)
 }
 
-/// All rows, on all threads where there are many.
+type Singles<'py> = Vec<Bound<'py, PyArrayDyn<f32>>>;
+
+/// The arrays of `out` where all of them are of 32-bit floats: results are computed in 64 bits, and rounded into them
+/// when all are known, so that they may share memory with arguments.
+fn singles<'py>(
+    scene: &dyn AnyScene,
+    spec: &Spec,
+    batch: Batch<'_>,
+    out: &Bound<'py, PyAny>,
+) -> PyResult<Option<Singles<'py>>> {
+    let all: Option<Singles<'py>> = match (spec.results.len(), out.cast::<PyTuple>()) {
+        (1, _) => arrays::single(out).map(|array| vec![array]),
+        (count, Ok(tuple)) if tuple.len() == count => tuple.iter().map(|out| arrays::single(&out)).collect(),
+        _ => None,
+    };
+    let arrays = all.as_deref().unwrap_or_default();
+    for (k, array) in arrays.iter().enumerate() {
+        let own = spec.results[k].axes.iter().map(|axis| scene.sizes().get(*axis));
+        let name = if spec.results.len() == 1 { "out" } else { spec.results[k].name };
+        arrays::takes(name, array, &batch.axes.iter().copied().chain(own).collect::<Vec<_>>())?;
+        for (other, result) in arrays[..k].iter().zip(spec.results) {
+            if arrays::overlap(array, other)? {
+                return Err(PyValueError::new_err(format!("{name} shares memory with {}", result.name)));
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// All rows, while other threads of Python run where there are many. All arrays of the method have these rows: `call`
+/// has compared their shapes.
 fn compute(py: Python<'_>, kernel: &dyn AnyKernel, id: Id, work: &Work, count: usize) -> Result<(), OffGroup> {
-    // SAFETY: arrays have the rows and sizes: `call` compared the shapes.
+    // SAFETY: as above.
     #[allow(unsafe_code)]
+    let all = || unsafe { rows(kernel, id, work, count) };
+    if count < DETACHED { all() } else { py.detach(all) }
+}
+
+/// All rows, on all threads where there are many.
+///
+/// # Safety
+/// All arrays that the method names have these rows, each of the sizes of the scene.
+#[allow(unsafe_code)]
+pub unsafe fn rows(kernel: &dyn AnyKernel, id: Id, work: &Work, count: usize) -> Result<(), OffGroup> {
+    // SAFETY: of this function.
     let run = |rows| unsafe { kernel.run(id, work, rows) };
-    if count < DETACHED {
+    // One thread alone need not be woken.
+    if count <= CHUNK || rayon::current_num_threads() == 1 {
         return run(0..count);
     }
-    py.detach(|| {
-        if count <= CHUNK {
-            return run(0..count);
+    let first: Mutex<Option<OffGroup>> = Mutex::new(None);
+    (0..count.div_ceil(CHUNK)).into_par_iter().for_each(|chunk| {
+        if let Err(off) = run(chunk * CHUNK..((chunk + 1) * CHUNK).min(count))
+            && let Ok(mut first) = first.lock()
+            && first.is_none_or(|other| off.row < other.row)
+        {
+            *first = Some(off);
         }
-        let first: Mutex<Option<OffGroup>> = Mutex::new(None);
-        (0..count.div_ceil(CHUNK)).into_par_iter().for_each(|chunk| {
-            if let Err(off) = run(chunk * CHUNK..((chunk + 1) * CHUNK).min(count))
-                && let Ok(mut first) = first.lock()
-                && first.is_none_or(|other| off.row < other.row)
-            {
-                *first = Some(off);
-            }
-        });
-        first.into_inner().ok().flatten().map_or(Ok(()), Err)
-    })
+    });
+    first.into_inner().ok().flatten().map_or(Ok(()), Err)
 }
 
 /// The message for a rotation that is none, with its place as Python indexes it.

@@ -1,5 +1,7 @@
 //! The class of all kernels; each struct gets a subclass of its name ([`make`](crate::make)).
 
+use std::sync::Arc;
+
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -37,7 +39,7 @@ fn scene_of(class: &Bound<'_, PyType>) -> PyResult<&'static dyn AnyScene> {
 /// A kernel: parameters checked, constants computed once. It never changes, so that threads may share it.
 #[pyclass(subclass, frozen, module = "gauss_python")]
 pub struct Kernel {
-    kernel: Box<dyn AnyKernel>,
+    kernel: Arc<dyn AnyKernel>,
 }
 
 impl Kernel {
@@ -46,22 +48,36 @@ impl Kernel {
         &*self.kernel
     }
 
-    fn scene(&self) -> &'static dyn AnyScene {
+    /// The kernel, to be kept.
+    pub fn shared(&self) -> Arc<dyn AnyKernel> {
+        Arc::clone(&self.kernel)
+    }
+
+    /// Its scene.
+    pub fn scene(&self) -> &'static dyn AnyScene {
         self.kernel.scene()
     }
 
     /// The number of a frame.
     pub fn frame(&self, name: &str) -> PyResult<usize> {
-        let frames = self.scene().frames();
-        if frames.is_empty() {
-            let scene = self.scene().description().name;
+        self.number(name, self.scene().frames(), ("frame", "frames"))
+    }
+
+    /// The number of a joint whose reaction is a method.
+    pub fn joint(&self, name: &str) -> PyResult<usize> {
+        self.number(name, self.scene().joints(), ("joint", "reactions"))
+    }
+
+    fn number(&self, name: &str, all: &[&str], (what, clause): (&str, &str)) -> PyResult<usize> {
+        let scene = self.scene().description().name;
+        if all.is_empty() {
             return Err(PyTypeError::new_err(format!(
-                "{scene} has no frames: its struct does not say `#[gauss(frames(…))]`"
+                "{scene} has no {what}s: its struct does not say `#[gauss({clause}(…))]`"
             )));
         }
-        frames.iter().position(|frame| *frame == name).ok_or_else(|| {
-            let (scene, frames) = (self.scene().description().name, frames.join(", "));
-            PyKeyError::new_err(format!("{scene} has no frame {name}; those of `frames(…)`: {frames}"))
+        all.iter().position(|other| *other == name).ok_or_else(|| {
+            let all = all.join(", ");
+            PyKeyError::new_err(format!("{scene} has no {what} {name}; those of `{clause}(…)`: {all}"))
         })
     }
 }
@@ -73,7 +89,7 @@ impl Kernel {
     #[pyo3(signature = (**parameters))]
     fn new(class: &Bound<'_, PyType>, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let scene = scene_of(class)?;
-        Ok(Self { kernel: parameters::kernel(class.py(), scene, parameters)? })
+        Ok(Self { kernel: parameters::kernel(class.py(), scene, parameters)?.into() })
     }
 
     /// The parameters by name.
@@ -146,6 +162,12 @@ impl Kernel {
         self.scene().frames().to_vec()
     }
 
+    /// The names of the joints whose reactions are methods.
+    #[getter]
+    fn joints(&self) -> Vec<&'static str> {
+        self.scene().joints().to_vec()
+    }
+
     /// How many speeds there are.
     #[getter]
     fn dof(&self) -> usize {
@@ -204,7 +226,7 @@ impl Kernel {
 }
 
 /// Puts the numbers of one name into a state.
-fn place(scene: &dyn AnyScene, name: &str, values: &[f64], [q, z]: &mut [Vec<f64>; 2]) -> PyResult<()> {
+pub fn place(scene: &dyn AnyScene, name: &str, values: &[f64], [q, z]: &mut [Vec<f64>; 2]) -> PyResult<()> {
     let description = scene.description();
     let mut speeds = 0;
     let of_speeds = description.speeds.iter().map(|part| {

@@ -12,8 +12,9 @@ use gauss_runtime::simd::Packed;
 use crate::description::Description;
 use crate::memory::Source;
 use crate::methods::{Id, SPECS, Sizes, Slot, Table, Work};
-use crate::runs::{self, Many, ManyEnds, Outcome, Request};
+use crate::runs::{self, Many, ManyEnds};
 use crate::scene::{ScalarOf, Scene};
+use crate::steps::{self, Methods, Outcome, Request};
 
 /// A scene, its type forgotten.
 pub trait AnyScene: Send + Sync {
@@ -31,6 +32,8 @@ pub trait AnyScene: Send + Sync {
     fn sizes(&self) -> Sizes;
     /// Frames.
     fn frames(&self) -> &[&'static str];
+    /// Joints whose reactions are methods.
+    fn joints(&self) -> &[&'static str];
     /// Whether kernels have the method.
     fn has(&self, id: Id) -> bool;
     /// The numbers of q and z at rest in the origin.
@@ -83,6 +86,7 @@ pub struct OffGroup {
 pub struct Registered<S: Scene> {
     single: Table<S::Single>,
     packed: Table<S::Packed>,
+    steps: Methods<S::Single>,
     sizes: Sizes,
     blocks: Vec<(usize, usize)>,
 }
@@ -91,10 +95,10 @@ impl<S: Scene> Registered<S> {
     /// With all methods that the struct asked for.
     #[must_use]
     pub fn new() -> Self {
-        let (mut single, mut packed) = (Table::new(), Table::new());
-        S::offer(&mut single, &mut packed);
+        let (mut single, mut packed, mut steps) = (Table::new(), Table::new(), Methods::new());
+        S::offer(&mut single, &mut packed, &mut steps);
         let sizes = Sizes::of::<S::Single>(single.multipliers);
-        Self { single, packed, sizes, blocks: S::DESCRIPTION.unit_blocks().collect() }
+        Self { single, packed, steps, sizes, blocks: S::DESCRIPTION.unit_blocks().collect() }
     }
 }
 
@@ -133,13 +137,17 @@ impl<S: Scene> AnyScene for Registered<S> {
         &self.single.frames
     }
 
+    fn joints(&self) -> &[&'static str] {
+        &self.single.joints
+    }
+
     fn has(&self, id: Id) -> bool {
         self.single.has(id)
     }
 
     fn at_rest(&self) -> [Vec<f64>; 2] {
         let (q, z) = S::at_rest();
-        [runs::numbers_of(&q), runs::components(&z)]
+        [steps::numbers_of(&q), steps::components(&z)]
     }
 
     fn kernel(&'static self, numbers: Vec<f64>) -> Result<Box<dyn AnyKernel>, ParameterError> {
@@ -209,7 +217,7 @@ impl<S: Scene> AnyKernel for Instance<S> {
     }
 
     fn simulate(&self, request: &Request<'_>) -> Result<Outcome, String> {
-        runs::simulate(&self.single, request)
+        self.scene.steps.simulate(&self.single, request)
     }
 
     fn ensemble(&self, many: &Many<'_>) -> Result<ManyEnds, String> {

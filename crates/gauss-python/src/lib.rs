@@ -32,18 +32,23 @@
 //! has what classes offer.
 //!
 //! Rooms, each knows those before it: `description`, `parameter` (what is known of a struct, its fields), `memory`
-//! (the only access to arrays by address), `methods` (methods of a kernel over rows), `scene` (a struct as Python sees
-//! it), `runs` (numbers in, columns out), `kernels` (its kernels, their types forgotten), and what Python sees:
-//! `arrays`, `columns`, `call`, `parameters`, `class` with `of_kernels` and `simulation`, `run`, `stubs`, `make`.
+//! (the only access to arrays by address), `methods` (methods of a kernel over rows), `steps` (one run: numbers in,
+//! columns out), `scene` (a struct as Python sees it), `runs` (many), `kernels` (its kernels, their types forgotten),
+//! and what Python sees: `arrays`, `columns`, `call`, `parameters`, `class` with `of_kernels`, `states` and
+//! `simulation`, which knows `calls` (functions of Python in a run) and `given` (what a run is given), `run`, `stubs`,
+//! `jax` (the door to XLA), `make`.
 
 #![deny(missing_docs, unsafe_code)]
 
 mod arrays;
 mod call;
+mod calls;
 mod class;
 mod columns;
 mod description;
 mod documentation;
+mod given;
+mod jax;
 mod kernels;
 mod make;
 mod memory;
@@ -55,6 +60,8 @@ mod run;
 mod runs;
 mod scene;
 mod simulation;
+mod states;
+mod steps;
 mod stubs;
 
 pub use description::{Description, Field, Part, Shape};
@@ -68,6 +75,8 @@ pub use parameter::{FromNumbers, Numbers, Parameter};
 #[doc(hidden)]
 pub use pyo3;
 pub use scene::{ConfigurationOf, Pack, ScalarOf, Scene, SpeedsOf};
+#[doc(hidden)]
+pub use steps::Methods;
 
 /// A module of Python with a class for each struct; its name is that of the library in `Cargo.toml`. Structs that are
 /// generic in their scalar are written with `f64`: their batches are computed in lanes all the same.

@@ -1,11 +1,13 @@
 //! Classes of a module: one for each struct, with its documentation and keywords.
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCFunction, PyDict, PyList, PyTuple, PyType};
 
 use crate::class::{Kernel, SceneHandle};
 use crate::description::Description;
 use crate::documentation::documentation;
+use crate::jax;
 use crate::kernels::{AnyScene, Registered};
 use crate::parameters::ParameterError;
 use crate::run::{Ends, IntegrationError, Run};
@@ -44,12 +46,22 @@ pub fn add<S: Scene>(module: &Bound<'_, PyModule>) -> PyResult<&'static dyn AnyS
 /// Adds `stubs()`, the text of the module's `.pyi`, and `__all__`.
 pub fn finish(module: &Bound<'_, PyModule>, scenes: Vec<&'static dyn AnyScene>) -> PyResult<()> {
     let py = module.py();
-    let names = ["Kernel", "Run", "Ends", "ParameterError", "IntegrationError", "stubs"];
+    let names = ["Kernel", "Run", "Ends", "ParameterError", "IntegrationError", "jax", "stubs"];
     let all = names.into_iter().chain(scenes.iter().map(|scene| scene.description().name));
     module.add("__all__", PyList::new(py, all)?)?;
     let stubs = move |_: &Bound<'_, PyTuple>, _: Option<&Bound<'_, PyDict>>| stubs::text(&scenes);
     let function = PyCFunction::new_closure(py, Some(c"stubs"), Some(c"The text of the stubs of this module."), stubs)?;
-    module.add("stubs", function)
+    module.add("stubs", function)?;
+    let name = module.name()?.to_string();
+    let functions = move |given: &Bound<'_, PyTuple>, named: Option<&Bound<'_, PyDict>>| match (
+        given.len(),
+        named.is_none_or(PyDictMethods::is_empty),
+    ) {
+        (1, true) => jax::functions(&name, &given.get_item(0)?).map(Bound::unbind),
+        _ => Err(PyTypeError::new_err("jax(kernel) takes a kernel, and nothing else")),
+    };
+    let words = c"The methods of a kernel as functions of JAX: jit, vmap, jvp, grad.";
+    module.add("jax", PyCFunction::new_closure(py, Some(c"jax"), Some(words), functions)?)
 }
 
 /// Keywords only, as `inspect.signature` and editors show them.

@@ -35,6 +35,18 @@ impl Source {
         Self { first, stride }
     }
 
+    /// From one row to the next, in numbers.
+    #[inline(always)]
+    pub fn stride(&self) -> usize {
+        self.stride
+    }
+
+    /// The same rows where their stride is this one, as a constant: several rows are then read at once.
+    #[inline(always)]
+    pub fn known(self, stride: usize) -> Self {
+        Self { stride, ..self }
+    }
+
     /// Number `i` of a row.
     ///
     /// # Safety
@@ -53,6 +65,18 @@ impl Target {
     /// Numbers at all rows that will be written outlive it, and nobody else writes them.
     pub unsafe fn new(first: *mut f64, stride: usize) -> Self {
         Self { first, stride }
+    }
+
+    /// From one row to the next, in numbers.
+    #[inline(always)]
+    pub fn stride(&self) -> usize {
+        self.stride
+    }
+
+    /// As [`Source::known`].
+    #[inline(always)]
+    pub fn known(self, stride: usize) -> Self {
+        Self { stride, ..self }
     }
 
     /// Writes number `i` of a row.

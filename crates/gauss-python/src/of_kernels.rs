@@ -27,7 +27,7 @@ macro_rules! methods {
                 t: Option<&Any<'py>>,
                 out: Option<&Any<'py>>,
             ) -> Result<'py> {
-                let frames: &[usize] = &[$(self.frame($frame)?)?];
+                let frames: &[usize] = &[$(self.$frame($frame)?)?];
                 let frame = frames.first().copied().unwrap_or(0);
                 call(py, self.kernel(), Id::$id, &Given { arguments: [$($slot),*], t, frame, out })
             }
@@ -65,4 +65,6 @@ methods! {
     centroidal_momentum CentroidalMomentum (q, z) [Some(q), Some(z), None, None];
     centroidal_matrix CentroidalMatrix (q) [Some(q), None, None, None];
     center_jacobian CenterJacobian (q) [Some(q), None, None, None];
+    reaction Reaction ([joint] q, z; input) [Some(q), Some(z), None, input];
+    tangent Tangent (q, change) [Some(q), None, Some(change), None];
 }

@@ -1,12 +1,14 @@
 //! Runs in Python: what became of one, and of many.
 
-use numpy::PyArray2;
+use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
-use pyo3::types::PyCapsule;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyCapsule, PyList};
 
 use crate::columns::Columns;
 use crate::kernels::AnyScene;
-use crate::runs::{ManyEnds, Outcome};
+use crate::runs::ManyEnds;
+use crate::steps::Outcome;
 
 pyo3::create_exception!(
     gauss_python,
@@ -21,16 +23,40 @@ pub struct Run {
     columns: Columns,
     coordinates: usize,
     speeds: usize,
+    /// How many events were looked for.
+    kinds: usize,
     outcome: Outcome,
 }
 
 impl Run {
-    /// The run of a scene.
-    pub fn new(scene: &dyn AnyScene, mut outcome: Outcome) -> Self {
+    /// The run of a scene in which so many events were looked for.
+    pub fn new(scene: &dyn AnyScene, mut outcome: Outcome, kinds: usize) -> Self {
         let (sizes, numbers) = (scene.sizes(), std::mem::take(&mut outcome.columns));
         let names = names(scene, &["kinetic_energy", "potential_energy"]);
         let columns = Columns::new(names, numbers, outcome.rows);
-        Self { columns, coordinates: sizes.configuration, speeds: sizes.speeds, outcome }
+        Self { columns, coordinates: sizes.configuration, speeds: sizes.speeds, kinds, outcome }
+    }
+
+    /// When it ended.
+    pub fn reached(&self) -> f64 {
+        self.outcome.reached
+    }
+
+    /// The times and states of one event.
+    fn event<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyAny>> {
+        static CLASS: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+        let class = CLASS.get_or_try_init(py, || {
+            let class = py.import("collections")?.call_method1("namedtuple", ("Events", ["t", "q", "z"]))?;
+            Ok::<_, PyErr>(class.unbind())
+        })?;
+        let rows: Vec<&[f64]> =
+            self.outcome.events.iter().filter(|event| event.number == number).map(|event| &event.row[..]).collect();
+        let part = |from: usize, count: usize| {
+            let numbers = rows.iter().flat_map(|row| &row[from..from + count]).copied().collect();
+            PyArray1::from_vec(py, numbers).call_method1("reshape", ((rows.len(), count),))
+        };
+        let t = part(0, 1)?.call_method0("ravel")?;
+        class.bind(py).call1((t, part(1, self.coordinates)?, part(1 + self.coordinates, self.speeds)?))
     }
 
     /// Why it did not reach its end.
@@ -84,6 +110,13 @@ impl Run {
     #[getter]
     fn columns(&self) -> Vec<String> {
         self.columns.names().to_vec()
+    }
+
+    /// Times and states of `events`, one after the other as they were asked for: tuples t, q, z of arrays.
+    #[getter]
+    fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let events: PyResult<Vec<_>> = (0..self.kinds).map(|number| self.event(py, number)).collect();
+        PyList::new(py, events?)
     }
 
     /// The number of the end in `until` that it came to; none where it went on to its time.

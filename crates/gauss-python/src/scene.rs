@@ -6,6 +6,7 @@ use gauss_runtime::simd::Packed;
 
 use crate::description::Description;
 use crate::methods::{System, Table};
+use crate::steps::Methods;
 
 /// The lanes in which batches are computed, where a struct is generic in its scalar.
 pub type Pack = Lanes<f64, 8>;
@@ -50,8 +51,8 @@ pub trait Scene: Sized + 'static {
     /// The state at rest in the origin.
     fn at_rest() -> (<Self::Single as GaussSystem>::Configuration, <Self::Single as GaussSystem>::Speeds);
 
-    /// The methods that were asked for.
-    fn offer(single: &mut Table<Self::Single>, packed: &mut Table<Self::Packed>);
+    /// The methods that were asked for, and those of integration.
+    fn offer(single: &mut Table<Self::Single>, packed: &mut Table<Self::Packed>, steps: &mut Methods<Self::Single>);
 }
 
 /// What the derive calls for a struct with `#[gauss(python)]`: the struct in words, and its kernels.
@@ -66,6 +67,7 @@ macro_rules! scene {
         speeds { $($speed:tt)* }
         inputs { $($input:tt)* }
         offers { $($offer:ident)* }
+        steps { $($step:ident)* }
     ) => {
         const _: () = {
             $crate::__from_numbers! { $name [$($scalar)?] $($field [$ty])* }
@@ -115,8 +117,13 @@ macro_rules! scene {
                     (state.q(), state.z())
                 }
 
-                fn offer(single: &mut $crate::Table<Self::Single>, packed: &mut $crate::Table<Self::Packed>) {
-                    let _ = (&single, &packed);
+                fn offer(
+                    single: &mut $crate::Table<Self::Single>,
+                    packed: &mut $crate::Table<Self::Packed>,
+                    steps: &mut $crate::Methods<Self::Single>,
+                ) {
+                    let _ = (&single, &packed, &steps);
+                    $(steps.$step();)*
                     $(
                         single.$offer();
                         packed.$offer();

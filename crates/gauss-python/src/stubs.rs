@@ -44,8 +44,10 @@ fn class(scene: &dyn AnyScene) -> String {
 
 fn method(scene: &dyn AnyScene, spec: &Spec) -> String {
     let frame = spec.frame.then(|| {
-        let names: Vec<String> = scene.frames().iter().map(|name| format!("{name:?}")).collect();
-        format!("frame: Literal[{}]", names.join(", "))
+        // Of joints there is one method.
+        let (word, names) = if spec.name == "reaction" { ("joint", scene.joints()) } else { ("frame", scene.frames()) };
+        let names: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
+        format!("{word}: Literal[{}]", names.join(", "))
     });
     let argument = |argument: &Argument| match scene.sizes().get(argument.size) {
         0 => format!("{}: ArrayLike | None = None", argument.name),
@@ -53,8 +55,8 @@ fn method(scene: &dyn AnyScene, spec: &Spec) -> String {
     };
     let arguments: Vec<String> = frame.into_iter().chain(spec.arguments.iter().map(argument)).collect();
     let (result, out) = match spec.results {
-        [_] => ("Array".to_owned(), "Array".to_owned()),
-        _ => (spec.class_name(), "tuple[Array, ...]".to_owned()),
+        [_] => ("Array".to_owned(), "Array | Single".to_owned()),
+        _ => (spec.class_name(), "tuple[Array, ...] | tuple[Single, ...]".to_owned()),
     };
     let head = format!("    def {}(self, {}, *, t: ArrayLike = 0.0,", spec.name, arguments.join(", "));
     format!("{head} out: {out} | None = None) -> {result}:\n{}        ...\n", docstring(&shapes(scene, spec), 8))

@@ -28,6 +28,8 @@ pub struct Pendulum<T> {
 #[derive(GaussDynamics)]
 #[gauss(
     python,
+    taylor,
+    linearize,
     chart = left_invariant,
     define(v = body.relative_velocity, w = body.body_angular_velocity),
     force(fins, at = [-0.8, 0, 0], value = [0, -lift * v.x * (v.y - 0.8 * w.z), -lift * v.x * (v.z + 0.8 * w.y)]),
@@ -51,7 +53,13 @@ pub struct Torpedo<T> {
 
 /// An arm of two joints, read from its file.
 #[derive(GaussDynamics)]
-#[gauss(python, urdf = "arm.urdf", frames(tool), methods(centroidal, gravity_torques, jacobian_rates))]
+#[gauss(
+    python,
+    urdf = "arm.urdf",
+    frames(tool),
+    reactions(shoulder, elbow),
+    methods(centroidal, gravity_torques, jacobian_rates)
+)]
 pub struct Arm<T> {
     /// Acceleration of free fall.
     #[gauss(gravity, unit = "m/s^2")]

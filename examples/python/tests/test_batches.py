@@ -83,6 +83,47 @@ def test_results_are_written_where_they_are_wanted(pendulum, random):
     assert all(np.array_equal(a, b) for a, b in zip(linear, given))
 
 
+def test_results_in_single_precision(pendulum, random):
+    q, z, u = (random.standard_normal((700, 1)).astype(np.float32) for _ in range(3))
+    exact = pendulum.acceleration(q, z, u)
+    assert exact.dtype == np.float64
+    out = np.full((700, 1), np.nan, dtype=np.float32)
+    assert pendulum.acceleration(q, z, u, out=out) is out
+    # Computed in 64 bits, and rounded once.
+    assert np.array_equal(out, exact.astype(np.float32))
+    # Any order and strides; an argument may be written over.
+    wide = np.zeros((700, 3), dtype=np.float32)
+    pendulum.acceleration(q, z, u, out=wide[:, 1:2])
+    assert np.array_equal(wide[:, 1:2], out) and not wide[:, [0, 2]].any()
+    assert pendulum.acceleration(q, z, u, out=z) is z and np.array_equal(z, out)
+    linear = pendulum.linearize(q, z, u)
+    given = tuple(np.empty(array.shape, dtype=np.float32) for array in linear)
+    assert pendulum.linearize(q, z, u, out=given) is given
+    assert all(np.array_equal(a, b.astype(np.float32)) for a, b in zip(given, linear))
+    # Too large for 32 bits, as NumPy rounds.
+    with np.errstate(over="ignore"):
+        pendulum.kinetic_energy([0.0], [1e30], out=(large := np.zeros((), dtype=np.float32)))
+    assert large == np.inf
+
+
+def test_mistakes_in_single_precision(pendulum):
+    q, z, u = np.zeros((6, 1)), np.zeros((6, 1)), np.zeros((6, 1))
+    with pytest.raises(ValueError, match=r"out has shape \(5, 1\); expected \(6, 1\)"):
+        pendulum.acceleration(q, z, u, out=np.zeros((5, 1), dtype=np.float32))
+    frozen = np.zeros((6, 1), dtype=np.float32)
+    frozen.flags.writeable = False
+    with pytest.raises(ValueError, match="read-only"):
+        pendulum.acceleration(q, z, u, out=frozen)
+    single, *others = (np.zeros(array.shape, dtype=np.float32) for array in pendulum.linearize(q, z, u))
+    with pytest.raises(ValueError, match="by_time has shape"):
+        pendulum.linearize(q, z, u, out=(single, others[0], others[1][:2], others[2]))
+    # All in one type, or none.
+    with pytest.raises(TypeError, match="by_state is an array of float32; out has arrays of float64, or of float32"):
+        pendulum.linearize(q, z, u, out=(single.astype(float), *others))
+    with pytest.raises(ValueError, match="by_time shares memory with rate"):
+        pendulum.linearize(q, z, u, out=(single, others[0], single, others[2]))
+
+
 def test_mistakes_in_arrays(pendulum, torpedo):
     q, z, u = np.zeros((6, 1)), np.zeros((6, 1)), np.zeros((6, 1))
     with pytest.raises(ValueError, match=r"q has shape \(6, 2\); expected \(\.\.\., 1\)"):
@@ -96,14 +137,16 @@ def test_mistakes_in_arrays(pendulum, torpedo):
     for out, why in [(np.zeros((5, 1)), "has shape"), (np.zeros((6, 2))[:, :1], "C order"), (q, "shares memory with q")]:
         with pytest.raises(ValueError, match=why):
             pendulum.acceleration(q, z, u, out=out)
-    with pytest.raises(TypeError, match="float64"):
-        pendulum.acceleration(q, z, u, out=np.zeros((6, 1), dtype=np.float32))
+    with pytest.raises(TypeError, match="out must be an array of float64 or float32, found one of int64"):
+        pendulum.acceleration(q, z, u, out=np.zeros((6, 1), dtype=np.int64))
     frozen = np.zeros((6, 1))
     frozen.flags.writeable = False
     with pytest.raises(ValueError, match="read-only"):
         pendulum.acceleration(q, z, u, out=frozen)
     with pytest.raises(TypeError, match="has no frames: its struct does not say"):
         pendulum.pose("tool", q)
+    with pytest.raises(TypeError, match=r"has no joints: its struct does not say `#\[gauss\(reactions"):
+        pendulum.reaction("hinge", q, z, u)
     with pytest.raises(TypeError, match=r"has no multipliers: its struct does not say `#\[gauss\(constraint"):
         pendulum.multipliers(q, z, u)
     with pytest.raises(ValueError, match=r"q\[2, 1, 0:4\] is no rotation: squares of its numbers add up to 4"):
@@ -146,6 +189,36 @@ def test_frames(arm, random):
     assert arm.center_of_mass(q).shape == (40, 3) and arm.centroidal_matrix(q).shape == (40, 6, 2)
     with pytest.raises(KeyError, match="no frame hand"):
         arm.pose("hand", q)
+
+
+def test_reactions(arm, random):
+    q, z = states(arm, random, (40,))
+    u = random.standard_normal((40, 2))
+    rate = arm.acceleration(q, z, u)
+    # Angles of the links from the vertical, with their rates.
+    angles, omega, alpha = (np.stack([x[:, 0], x.sum(axis=1)], axis=1) for x in (q, z, rate))
+    sine, cosine = np.sin(angles), np.cos(angles)
+
+    def force(mass, upper, lower):
+        """What carries a mass whose centre is so far along the links, in the observer's axes x and z."""
+        along = np.array([upper, lower])
+        x = (along * (alpha * cosine - omega**2 * sine)).sum(axis=1)
+        up = (along * (-alpha * sine - omega**2 * cosine)).sum(axis=1)
+        return mass * np.stack([x, up + 9.81], axis=1)
+
+    lower = force(1.0, 0.4, 0.15)
+    for k, (joint, expected) in enumerate([("shoulder", force(2.0, 0.2, 0.0) + lower), ("elbow", lower)]):
+        found = arm.reaction(joint, q, z, u)
+        # In axes of the link that the joint carries.
+        c, s = cosine[:, k], sine[:, k]
+        seen = np.stack([c * found[:, 0] + s * found[:, 2], c * found[:, 2] - s * found[:, 0]], axis=1)
+        # Dozens of roundings of accelerations times lengths and masses below 3, and of the weight.
+        bound = 100 * EPS * 3 * (9.81 + abs(rate).max() + (omega**2).max())
+        assert abs(seen - expected).max() <= bound
+        # About the hinge the motor, and nothing beside the plane.
+        assert abs(found[:, 4] - u[:, k]).max() <= bound and abs(found[:, [1, 3, 5]]).max() <= bound
+    with pytest.raises(KeyError, match=r"no joint wrist; those of `reactions\(…\)`: shoulder, elbow"):
+        arm.reaction("wrist", q, z, u)
 
 
 def test_constraints(wire):

@@ -25,7 +25,7 @@ pub fn scene(derived: &Derived<'_, '_>) -> TokenStream {
     let [coordinates, speeds] = state::parts(derived).map(|parts| parts.iter().map(part).collect::<Vec<_>>());
     let inputs = input::parts(derived);
     let inputs = inputs.iter().map(part);
-    let offers = offers(derived);
+    let (offers, steps) = (offers(derived), steps(derived));
     // Where the crate is missing, the clause is to blame.
     let path = quote_spanned!(clause.span()=> ::gauss_python::scene!);
     quote! {
@@ -37,6 +37,7 @@ pub fn scene(derived: &Derived<'_, '_>) -> TokenStream {
             speeds { #(#speeds)* }
             inputs { #(#inputs)* }
             offers { #(#offers)* }
+            steps { #(#steps)* }
         }
     }
 }
@@ -76,5 +77,13 @@ fn offers(derived: &Derived<'_, '_>) -> Vec<proc_macro2::Ident> {
     });
     words.extend(of_methods);
     words.extend((!derived.subject.constraints.is_empty()).then_some("constraints"));
+    words.extend((!wanted.reactions.is_empty()).then_some("reactions"));
     words.into_iter().map(|word| format_ident!("{}", word)).collect()
+}
+
+/// The methods of integration that the kernel has besides those of every kernel, a word for each.
+fn steps(derived: &Derived<'_, '_>) -> Vec<proc_macro2::Ident> {
+    let has_jacobian = derived.kernel.derivatives.iter().any(|other| matches!(other.kind, DerivativeKind::ByState));
+    let words = [(derived.item().wanted.taylor.is_some(), "taylor"), (has_jacobian, "rosenbrock")];
+    words.into_iter().filter(|(has, _)| *has).map(|(_, word)| format_ident!("{}", word)).collect()
 }

@@ -203,7 +203,8 @@ fn python_is_one_call_more() {
     let call = with.strip_prefix(&without).expect("the same code first");
     let expected = ":: gauss_python :: scene ! { scene Swing [T] \"Swings.\" ; kernel SwingKernel ; state SwingState ; \
          fields { m [T] \"m\" \"kg\" \"\" ; } coordinates { \"a\" 1 0 \"coordinate\" ; } \
-         speeds { \"a_dot\" 1 0 \"rate of `a`\" ; } inputs { \"motor\" 1 0 \"input, in N m\" ; } offers { frames } }";
+         speeds { \"a_dot\" 1 0 \"rate of `a`\" ; } inputs { \"motor\" 1 0 \"input, in N m\" ; } offers { frames } \
+         steps { } }";
     assert_eq!(call.split_whitespace().collect::<Vec<_>>(), expected.split_whitespace().collect::<Vec<_>>());
 }
 

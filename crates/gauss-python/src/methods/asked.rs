@@ -7,7 +7,7 @@ use gauss_runtime::linearize::LinearModel;
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
-use super::table::{System, Table, Writer};
+use super::table::{System, Table, Writer, vector_method};
 use super::words::Id;
 
 /// Second derivatives whose sizes are known.
@@ -105,12 +105,21 @@ impl<S: System> Table<S> {
                 (i, j) => rotation[(i, j)],
             });
         });
-        self.add(Id::Twist, |s, at, out| out.vector(&s.twist_of(at.frame(), at.t(), &at.q(), &at.z())));
-        self.add(Id::Bias, |s, at, out| out.vector(&s.bias_of(at.frame(), at.t(), &at.q(), &at.z())));
+        vector_method!(self, Twist, |s, at| s.twist_of(at.frame(), at.t(), &at.q(), &at.z()));
+        vector_method!(self, Bias, |s, at| s.bias_of(at.frame(), at.t(), &at.q(), &at.z()));
         self.add(Id::Jacobian, |s, at, out| {
             let jacobian = s.jacobian_of(at.frame(), at.t(), &at.q());
             out.matrix([6, S::DOF], |i, j| jacobian[(i, j)]);
         });
+    }
+
+    /// Reactions of joints by their names.
+    pub fn reactions(&mut self)
+    where
+        S: Reactions,
+    {
+        self.joints = S::Joint::ALL.iter().map(|joint| joint.name()).collect();
+        vector_method!(self, Reaction, |s, at| s.reaction(at.frame(), at.t(), &at.q(), &at.z(), &at.input()));
     }
 
     /// Rates of Jacobians.
@@ -130,9 +139,7 @@ impl<S: System> Table<S> {
         S: ConstrainedSystem,
     {
         self.multipliers = <S::Multipliers as VectorSpace<S::Scalar>>::DIM;
-        self.add(Id::Multipliers, |s, at, out| {
-            out.vector(&s.multipliers(at.t(), &at.q(), &at.z(), &at.input()));
-        });
+        vector_method!(self, Multipliers, |s, at| s.multipliers(at.t(), &at.q(), &at.z(), &at.input()));
     }
 
     /// What holds the weight.
@@ -140,7 +147,7 @@ impl<S: System> Table<S> {
     where
         S: GravityTorques,
     {
-        self.add(Id::GravityTorques, |s, at, out| out.vector(&s.gravity_torques(at.t(), &at.q())));
+        vector_method!(self, GravityTorques, |s, at| s.gravity_torques(at.t(), &at.q()));
     }
 
     /// The system as a whole.
@@ -148,10 +155,8 @@ impl<S: System> Table<S> {
     where
         S: CentroidalSystem,
     {
-        self.add(Id::CenterOfMass, |s, at, out| out.vector(&s.center_of_mass(at.t(), &at.q())));
-        self.add(Id::CentroidalMomentum, |s, at, out| {
-            out.vector(&s.centroidal_momentum(at.t(), &at.q(), &at.z()));
-        });
+        vector_method!(self, CenterOfMass, |s, at| s.center_of_mass(at.t(), &at.q()));
+        vector_method!(self, CentroidalMomentum, |s, at| s.centroidal_momentum(at.t(), &at.q(), &at.z()));
         self.add(Id::CentroidalMatrix, |s, at, out| {
             let matrix = s.centroidal_matrix(at.t(), &at.q());
             out.matrix([6, S::DOF], |i, j| matrix[(i, j)]);

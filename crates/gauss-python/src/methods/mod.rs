@@ -1,6 +1,7 @@
 //! Methods of kernels over rows of arrays: what each is called, what it reads and gives, and how it is computed.
 
 mod asked;
+mod called;
 mod table;
 mod words;
 

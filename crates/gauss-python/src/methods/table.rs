@@ -5,6 +5,7 @@ use std::ops::Range;
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
+use super::called;
 use super::words::{COUNT, Id, Size, Slot};
 use crate::memory::{Source, Target};
 
@@ -87,6 +88,12 @@ pub struct Work {
     pub frame: usize,
 }
 
+impl Work {
+    /// Of no arrays.
+    pub const NONE: Self =
+        Self { t: Source::NONE, arguments: [Source::NONE; 4], results: [Target::NONE; MOST_RESULTS], frame: 0 };
+}
+
 /// The arguments of as many rows as there are lanes.
 pub struct At<'a, S> {
     work: &'a Work,
@@ -94,15 +101,22 @@ pub struct At<'a, S> {
     system: std::marker::PhantomData<S>,
 }
 
-impl<S: System> At<'_, S> {
+impl<'a, S: System> At<'a, S> {
+    /// The arguments from this row on.
+    #[inline(always)]
+    pub(super) fn new(work: &'a Work, row: usize) -> Self {
+        Self { work, row, system: std::marker::PhantomData }
+    }
+
     /// One number of every lane.
     #[inline(always)]
     fn number(source: &Source, row: usize, i: usize) -> S::Scalar {
         // SAFETY: a `Work` has rows for all lanes, and the sizes of its arrays are those of this system: `Table::run`.
         #![allow(unsafe_code)]
         unsafe {
-            let mut value = S::Scalar::repeat(&source.get(row, i));
-            for lane in 1..S::Scalar::WIDTH {
+            // All lanes alike: compilers make one vector of them, and several pieces of all but a first one.
+            let mut value = S::Scalar::zero();
+            for lane in 0..S::Scalar::WIDTH {
                 value.replace(lane, &source.get(row + lane, i));
             }
             value
@@ -111,9 +125,41 @@ impl<S: System> At<'_, S> {
 
     #[inline(always)]
     fn vector<V: VectorSpace<S::Scalar>>(&self, slot: Slot) -> V {
-        let (mut vector, source) = (V::zero(), &self.work.arguments[slot as usize]);
+        let (mut vector, source) = (V::zero(), self.work.arguments[slot as usize]);
+        if source.stride() != V::DIM && source.stride() != 0 {
+            // Part of a longer row.
+            (0..V::DIM).for_each(|i| vector.set_component(i, Self::number(&source, self.row, i)));
+            return vector;
+        }
+        if source.stride() == 0 {
+            for i in 0..V::DIM {
+                // SAFETY: as of `number`.
+                #[allow(unsafe_code)]
+                let number = unsafe { source.get(0, i) };
+                vector.set_component(i, S::Scalar::repeat(&number));
+            }
+            return vector;
+        }
+        // With a stride that is a constant here, rows are read as vectors, and lanes are made of these.
+        let (rows, width) = (source.known(V::DIM), S::Scalar::WIDTH);
+        if V::DIM > SHORT {
+            (0..V::DIM).for_each(|i| vector.set_component(i, Self::number(&rows, self.row, i)));
+            return vector;
+        }
+        let mut flat = [S::Scalar::zero(); SHORT];
+        for k in 0..V::DIM * width {
+            // SAFETY: as of `number`: these are all numbers of the rows, one after the other.
+            #[allow(unsafe_code)]
+            let number = unsafe { rows.get(self.row, k) };
+            flat[k / width].replace(k % width, &number);
+        }
         for i in 0..V::DIM {
-            vector.set_component(i, Self::number(source, self.row, i));
+            let mut lanes = S::Scalar::zero();
+            for lane in 0..width {
+                let k = lane * V::DIM + i;
+                lanes.replace(lane, &flat[k / width].extract(k % width));
+            }
+            vector.set_component(i, lanes);
         }
         vector
     }
@@ -214,6 +260,40 @@ impl Writer<'_> {
     }
 }
 
+/// Rows of so many numbers are turned into lanes, and back, without loops.
+const SHORT: usize = 8;
+
+/// Writes a vector in lanes into as many rows.
+#[inline(always)]
+pub(super) fn write_vector<T: Real + Packed<Single = f64>, V: VectorSpace<T>>(target: &Target, row: usize, vector: &V) {
+    let rows = target.known(V::DIM);
+    for k in 0..V::DIM * T::WIDTH {
+        let (lane, i) = (k / V::DIM, k % V::DIM);
+        // SAFETY: results have rows for all lanes, each with the numbers of this vector: the `Spec` of the method.
+        #[allow(unsafe_code)]
+        unsafe {
+            rows.set(row, k, vector.component(i).extract(lane));
+        }
+    }
+}
+
+/// Adds a method whose result is one vector. A macro, since a closure would be a function of its own, and vectors of
+/// lanes would go through memory on their way to the loop.
+macro_rules! vector_method {
+    ($table:ident, $id:ident, |$system:pat_param, $at:pat_param| $vector:expr) => {
+        $table.put(
+            $crate::methods::Id::$id,
+            Box::new(|system, work, rows| {
+                for row in rows.step_by(S::Scalar::WIDTH) {
+                    let ($system, $at) = (system, &$crate::methods::table::At::<S>::new(work, row));
+                    $crate::methods::table::write_vector(&work.results[0], row, &$vector);
+                }
+            }),
+        )
+    };
+}
+pub(super) use vector_method;
+
 type Loop<S> = Box<dyn Fn(&S, &Work, Range<usize>) + Send + Sync>;
 
 /// The methods that a kernel has.
@@ -223,26 +303,34 @@ pub struct Table<S> {
     pub multipliers: usize,
     /// The names of the frames.
     pub frames: Vec<&'static str>,
+    /// The names of the joints whose reactions are methods.
+    pub joints: Vec<&'static str>,
 }
 
 impl<S: System> Table<S> {
     /// Those that every kernel has.
     #[must_use]
     pub fn new() -> Self {
-        let mut table = Self { loops: std::array::from_fn(|_| None), multipliers: 0, frames: Vec::new() };
+        let mut table =
+            Self { loops: std::array::from_fn(|_| None), multipliers: 0, frames: Vec::new(), joints: Vec::new() };
         table.motion();
         table.energies();
         table
     }
 
+    /// A method by its loop.
+    pub(super) fn put(&mut self, id: Id, run: Loop<S>) {
+        self.loops[id as usize] = Some(run);
+    }
+
     /// A method by what it does for as many rows as there are lanes.
     pub(super) fn add(&mut self, id: Id, one: impl Fn(&S, &At<'_, S>, &mut Writer<'_>) + Copy + Send + Sync + 'static) {
-        self.loops[id as usize] = Some(Box::new(move |system, work, rows| {
+        let run = move |system: &S, work: &Work, rows: Range<usize>| {
             for row in rows.step_by(S::Scalar::WIDTH) {
-                let at = At { work, row, system: std::marker::PhantomData };
-                one(system, &at, &mut Writer { targets: &work.results, result: 0, place: 0, row });
+                one(system, &At::new(work, row), &mut Writer { targets: &work.results, result: 0, place: 0, row });
             }
-        }));
+        };
+        self.put(id, Box::new(run));
     }
 
     /// Whether there is such a method.
@@ -269,29 +357,32 @@ impl<S: System> Table<S> {
     }
 
     fn motion(&mut self) {
-        self.add(Id::Acceleration, |s, at, out| out.vector(&s.acceleration(at.t(), &at.q(), &at.z(), &at.input())));
-        self.add(Id::InverseDynamics, |s, at, out| {
-            out.vector(&s.inverse_dynamics(at.t(), &at.q(), &at.z(), &at.x(), &at.input()));
-        });
-        self.add(Id::NonlinearEffects, |s, at, out| {
-            out.vector(&s.nonlinear_effects(at.t(), &at.q(), &at.z(), &at.input()));
-        });
+        vector_method!(self, Acceleration, |s, at| s.acceleration(at.t(), &at.q(), &at.z(), &at.input()));
+        vector_method!(self, InverseDynamics, |s, at| s.inverse_dynamics(
+            at.t(),
+            &at.q(),
+            &at.z(),
+            &at.x(),
+            &at.input()
+        ));
+        vector_method!(self, NonlinearEffects, |s, at| s.nonlinear_effects(at.t(), &at.q(), &at.z(), &at.input()));
         self.add(Id::MassMatrix, |s, at, out| {
             let matrix = s.mass_matrix(at.t(), &at.q());
             out.matrix([S::DOF; 2], |i, j| matrix[(i, j)]);
         });
-        self.add(Id::Kinematics, |s, at, out| out.vector(&s.kinematics(at.t(), &at.q(), &at.z())));
+        vector_method!(self, Kinematics, |s, at| s.kinematics(at.t(), &at.q(), &at.z()));
         self.add(Id::Rates, |s, at, out| {
             let (t, q, z) = (at.t(), at.q(), at.z());
             let input = at.input();
             out.vector(&q.component_rates(&s.configuration_rates(t, &q, &z, &input)));
-            out.vector(&s.acceleration(t, &q, &z, &input));
+            out.vector(&called::acceleration(s, t, &q, &z, &input));
         });
-        self.add(Id::Momentum, |s, at, out| out.vector(&s.momentum(at.t(), &at.q(), &at.z())));
-        self.add(Id::Velocity, |s, at, out| out.vector(&s.velocity(at.t(), &at.q(), &at.z())));
-        self.add(Id::MomentumRate, |s, at, out| out.vector(&s.momentum_rate(at.t(), &at.q(), &at.z(), &at.input())));
-        self.add(Id::Retract, |_, at, out| out.vector(&at.q().advance(&at.x()).components()));
-        self.add(Id::Difference, |_, at, out| out.vector(&at.q().difference(&at.other())));
+        vector_method!(self, Momentum, |s, at| s.momentum(at.t(), &at.q(), &at.z()));
+        vector_method!(self, Velocity, |s, at| s.velocity(at.t(), &at.q(), &at.z()));
+        vector_method!(self, MomentumRate, |s, at| s.momentum_rate(at.t(), &at.q(), &at.z(), &at.input()));
+        vector_method!(self, Retract, |_, at| at.q().advance(&at.x()).components());
+        vector_method!(self, Difference, |_, at| at.q().difference(&at.other()));
+        vector_method!(self, Tangent, |_, at| at.q().tangent(&at.x()));
     }
 
     fn energies(&mut self) {
@@ -317,7 +408,8 @@ mod tests {
     fn numbers_of_methods_are_places_in_the_list() {
         assert_eq!(SPECS[Id::Hessian as usize].name, "hessian");
         assert_eq!(SPECS[Id::CenterJacobian as usize].name, "center_jacobian");
-        assert_eq!(Id::CenterJacobian as usize + 1, COUNT);
+        assert_eq!(SPECS[Id::Tangent as usize].name, "tangent");
+        assert_eq!(Id::Tangent as usize + 1, COUNT);
         assert!(SPECS.iter().all(|spec| spec.results.len() <= MOST_RESULTS));
     }
 }

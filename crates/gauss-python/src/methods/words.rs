@@ -33,6 +33,8 @@ pub enum Id {
     CentroidalMomentum,
     CentroidalMatrix,
     CenterJacobian,
+    Reaction,
+    Tangent,
 }
 
 impl Id {
@@ -67,6 +69,8 @@ impl Id {
         Self::CentroidalMomentum,
         Self::CentroidalMatrix,
         Self::CenterJacobian,
+        Self::Reaction,
+        Self::Tangent,
     ];
 }
 
@@ -150,6 +154,7 @@ const P: Argument = Argument { name: "p", slot: Slot::Z, size: Size::Speeds };
 const U: Argument = Argument { name: "input", slot: Slot::U, size: Size::Input };
 const RATES: Argument = Argument { name: "acceleration", slot: Slot::X, size: Size::Speeds };
 const SIGMA: Argument = Argument { name: "increment", slot: Slot::X, size: Size::Increment };
+const CHANGE: Argument = Argument { name: "change", slot: Slot::X, size: Size::Configuration };
 const OTHER: Argument = Argument { name: "other", slot: Slot::X, size: Size::Configuration };
 const WEIGHTS: Argument = Argument { name: "weights", slot: Slot::X, size: Size::State };
 
@@ -192,7 +197,7 @@ impl Spec {
 }
 
 /// All methods, in the order of [`Id`].
-pub const SPECS: [Spec; 29] = [
+pub const SPECS: [Spec; 31] = [
     spec("acceleration", &[Q, Z, U], SPEEDS, "The rates of the speeds."),
     spec(
         "inverse_dynamics",
@@ -282,4 +287,20 @@ pub const SPECS: [Spec; 29] = [
     spec("centroidal_matrix", &[Q], JACOBIAN, "Derivatives of the centroidal momentum by z.").by("methods(centroidal)"),
     spec("center_jacobian", &[Q], &[one(&[Size::Exactly(3), Size::Speeds])], "Derivatives of the centre's velocity.")
         .by("methods(centroidal)"),
+    Spec {
+        frame: true,
+        ..spec(
+            "reaction",
+            &[Q, Z, U],
+            TWIST,
+            "Force, then torque about its origin, with which a joint holds what it carries, in axes of that.",
+        )
+        .by("reactions(…)")
+    },
+    spec(
+        "tangent",
+        &[Q, CHANGE],
+        &[one(&[Size::Increment])],
+        "The increment seen from the body that changes the numbers of q by so much, to first order.",
+    ),
 ];

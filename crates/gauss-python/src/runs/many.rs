@@ -7,10 +7,8 @@ use gauss_runtime::integrate::VelocityForm;
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
-use super::request::{Input, Until, Watched};
-use super::stoppable::Stoppable;
-use super::{components, configuration, numbers_of, vector};
 use crate::scene::{ScalarOf, Scene};
+use crate::steps::{Input, Stoppable, Until, Watched, components, configuration, numbers_of, vector};
 
 /// Many runs over one interval.
 pub struct Many<'a> {
@@ -101,7 +99,7 @@ where
     let source = |t: S::Scalar, _: &S::Configuration, _: &S::Speeds| many.input.at(t, lanes::<S::Scalar>);
     let size = <<S::Configuration as Configuration>::Components as VectorSpace<S::Scalar>>::DIM;
     let (crossing, place, value) = match many.until {
-        Some(Until { watched: Watched::Number(place, value), crossing }) => (crossing, Some(place), value),
+        Some(Until { watched: Watched::Number(place, value), crossing, .. }) => (crossing, Some(place), value),
         _ => (Crossing::Any, None, 0.0),
     };
     let watched = move |_: S::Scalar, q: &S::Configuration, z: &S::Speeds| match place {

@@ -6,8 +6,8 @@ use gauss_batch::{Batch, States};
 use gauss_runtime::prelude::*;
 
 use super::many::Many;
-use super::{configuration, vector};
 use crate::scene::Scene;
+use crate::steps::{configuration, vector};
 
 /// The least time of some rounds for accelerations of all states, written over earlier ones by one thread.
 ///

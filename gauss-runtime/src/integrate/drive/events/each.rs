@@ -1,4 +1,4 @@
-//! A list of functions whose zeros end a run.
+//! A list of functions whose zeros are events of a run, or end it.
 
 use alloc::vec::Vec;
 
@@ -10,7 +10,8 @@ use crate::sealed::Sealed;
 use crate::system::GaussSystem;
 
 /// A list of functions of one type after other events: see
-/// [`Simulation::until_each`](crate::integrate::Simulation::until_each).
+/// [`Simulation::until_each`](crate::integrate::Simulation::until_each) and
+/// [`Simulation::event_each`](crate::integrate::Simulation::event_each).
 #[derive(Clone, Debug)]
 pub struct Each<E, G> {
     others: E,
@@ -18,9 +19,9 @@ pub struct Each<E, G> {
 }
 
 impl<E, G> Each<E, G> {
-    /// All of a list after other events; each of them ends the run.
-    pub(in crate::integrate) fn after(others: E, crossing: Crossing, functions: Vec<G>) -> Self {
-        let marked = |function| (function, Mark::new(crossing, true, false));
+    /// All of a list after other events; whether each of them ends the run.
+    pub(in crate::integrate) fn after(others: E, crossing: Crossing, terminal: bool, functions: Vec<G>) -> Self {
+        let marked = |function| (function, Mark::new(crossing, terminal, false));
         Self { others, functions: functions.into_iter().map(marked).collect() }
     }
 }

@@ -229,6 +229,21 @@ fn steps_that_the_time_does_not_tell_apart_are_refused() {
 }
 
 #[test]
+fn a_list_of_functions_has_the_events_of_that_many_calls() {
+    let (q0, z0) = origin();
+    let above = |level: f64| move |_: f64, q: &One, _: &One| q[0] - level;
+    let simulation = || Simulation::new(&SPRING).input(undriven);
+    let listed = simulation().event_each(Crossing::Any, [0.2, 0.5].map(above).to_vec());
+    let called = simulation().event(Crossing::Any, above(0.2)).event(Crossing::Any, above(0.5));
+    let listed = listed.fixed_step(0.5).run(q0, z0, 0.0..3.0).expect("runs");
+    let called = called.fixed_step(0.5).run(q0, z0, 0.0..3.0).expect("runs");
+    assert_eq!((listed.stopped_by(), listed.last().t), (None, 3.0));
+    let [listed, called] =
+        [listed, called].map(|run| run.events().iter().map(|e| (e.number, e.sample.t)).collect::<Vec<_>>());
+    assert!(listed.len() >= 3 && listed == called);
+}
+
+#[test]
 fn a_list_of_functions_ends_a_run_as_that_many_calls_do() {
     let (q0, z0) = origin();
     let above = |level: f64| move |_: f64, q: &One, _: &One| q[0] - level;

@@ -338,8 +338,26 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
         P: Problem<System = S>,
         G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
     {
+        self.each(crossing, true, functions)
+    }
+
+    /// Finds the zeros of a list of functions: as that many calls of `event`, where their number is known when the
+    /// program runs only. They are numbered as by [`until_each`](Self::until_each).
+    #[cfg(feature = "alloc")]
+    pub fn event_each<S, G>(self, crossing: Crossing, functions: Vec<G>) -> Simulation<P, C, O, Each<E, G>>
+    where
+        S: GaussSystem,
+        P: Problem<System = S>,
+        G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
+    {
+        self.each(crossing, false, functions)
+    }
+
+    #[cfg(feature = "alloc")]
+    fn each<G>(self, crossing: Crossing, terminal: bool, functions: Vec<G>) -> Simulation<P, C, O, Each<E, G>> {
         let Self { problem, control, observer, events, every, limit } = self;
-        Simulation { problem, control, observer, events: Each::after(events, crossing, functions), every, limit }
+        let events = Each::after(events, crossing, terminal, functions);
+        Simulation { problem, control, observer, events, every, limit }
     }
 
     /// What is integrated: the kernel, the form of its equations, the input.

@@ -110,3 +110,26 @@ impl<S: GaussSystem> GaussSystem for Stoppable<'_, S> {
         self.system.project(t, q, z)
     }
 }
+
+impl<S: LinearizedSystem> LinearizedSystem for Stoppable<'_, S> {
+    type Linearization = S::Linearization;
+
+    const STATE_PATTERN: &'static [&'static [bool]] = S::STATE_PATTERN;
+    const INPUT_PATTERN: &'static [&'static [bool]] = S::INPUT_PATTERN;
+
+    #[inline(never)]
+    fn linearize(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds, input: &S::Input) -> S::Linearization {
+        self.system.linearize(t, q, z, input)
+    }
+}
+
+impl<S: TaylorSystem> TaylorSystem for Stoppable<'_, S> {
+    type Series = S::Series;
+
+    const GROUPS: &'static [usize] = S::GROUPS;
+
+    #[inline(never)]
+    fn expand(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds, order: usize, series: &mut S::Series) {
+        self.system.expand(t, q, &self.or_none(*z), order, series);
+    }
+}

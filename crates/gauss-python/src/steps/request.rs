@@ -4,13 +4,19 @@ use std::sync::atomic::AtomicBool;
 
 use gauss_runtime::prelude::{Crossing, Real, VectorSpace};
 
-/// The choice of steps, by the method of Dormand and Prince of order 8.
+/// The method and its choice of steps. Three numbers are the relative and the absolute tolerance, and the longest step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Control {
-    /// As long as tolerances allow, and no longer than the last number.
+    /// Dormand and Prince of order 8, as long as tolerances allow.
     Adaptive(f64, f64, f64),
-    /// Of one length.
+    /// The same, of one length.
     Fixed(f64),
+    /// Collocation at the points of Gauss, implicit, of order 6, of one length.
+    Implicit(f64),
+    /// Rosenbrock's method of order 4, linearly implicit, as long as tolerances allow.
+    Stiff(f64, f64, f64),
+    /// Power series, as long as tolerances allow.
+    Taylor(f64, f64, f64),
 }
 
 /// Points of the input over time, straight between them and constant beyond.
@@ -76,12 +82,24 @@ pub enum Watched<'a> {
     Function(Function<'a, f64>),
 }
 
-/// An end of a run before its time.
+/// An event of a run, or its end before its time.
 pub struct Until<'a> {
     /// What passes through zero.
     pub watched: Watched<'a>,
     /// In which direction.
     pub crossing: Crossing,
+    /// Whether the run ends there.
+    pub ends: bool,
+}
+
+/// A controller that samples: its input is held from one instant to the next.
+pub struct Held<'a> {
+    /// From one instant to the next.
+    pub period: f64,
+    /// From an instant until the input acts.
+    pub delay: f64,
+    /// The input from the state at an instant.
+    pub law: Function<'a, Vec<f64>>,
 }
 
 /// One run.
@@ -96,7 +114,9 @@ pub struct Request<'a> {
     pub control: Control,
     /// The input.
     pub input: Input<'a>,
-    /// Where it ends.
+    /// What is added to it.
+    pub controller: Option<Held<'a>>,
+    /// Where something happens, or it ends.
     pub until: Vec<Until<'a>>,
     /// The times at which states are wanted; those of the steps where there are none.
     pub times: Option<&'a [f64]>,
@@ -104,8 +124,8 @@ pub struct Request<'a> {
     pub limit: Option<u64>,
     /// Set from outside, or by a function that failed, the run ends with what there is.
     pub stop: &'a AtomicBool,
-    /// Called after every step.
-    pub look: &'a (dyn Fn() + Sync),
+    /// Called with the time after every step.
+    pub look: &'a (dyn Fn(f64) + Sync),
 }
 
 #[cfg(test)]
