@@ -6,8 +6,8 @@
 //!
 //! Code is taken from there only if all that it depends on is the same: every token of the struct, this macro (the
 //! files of its library, by size and time), the flags that it reads, the package, and the content of every file that
-//! the code names to the compiler, such as the file of a robot. Its tokens then have the places that they would have: an
-//! error of the compiler points to the same token of the struct. Structs with mistakes are not kept.
+//! the code names to the compiler, such as the file of a robot. Its tokens then have the places that they would have:
+//! an error of the compiler points to the same token of the struct. Structs with mistakes are not kept.
 
 mod store;
 mod tokens;

@@ -243,8 +243,8 @@ impl<const N: usize, const M: usize, const L: usize, const K: usize> Grid<N, M, 
     }
 
     /// The derivative of these orders, by each variable, at x; orders of zero are the value. Of straight lines there
-    /// are first derivatives by each variable, of cubics three; further ones are zero. Where a derivative jumps, at a point
-    /// of an axis, it is that of the cell behind. Variables that the table does not have are left out.
+    /// are first derivatives by each variable, of cubics three; further ones are zero. Where a derivative jumps, at a
+    /// point of an axis, it is that of the cell behind. Variables that the table does not have are left out.
     #[inline]
     pub fn at<const D: usize, T: Real>(&self, orders: [u8; D], x: [T; D]) -> T {
         const { assert!(1 <= D && D <= 3, "a table has one, two or three variables") }

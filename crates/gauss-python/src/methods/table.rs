@@ -6,27 +6,9 @@ use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
 use super::called;
+use super::system::System;
 use super::words::{COUNT, Id, Size, Slot};
 use crate::memory::{Source, Target};
-
-/// A kernel in any number of lanes.
-pub trait System:
-    GaussSystem<Scalar: Packed<Single = f64>, Input: VectorSpace<<Self as GaussSystem>::Scalar>>
-    + DescribedSystem
-    + Send
-    + Sync
-    + 'static
-{
-}
-
-impl<S> System for S where
-    S: GaussSystem<Scalar: Packed<Single = f64>, Input: VectorSpace<<S as GaussSystem>::Scalar>>
-        + DescribedSystem
-        + Send
-        + Sync
-        + 'static
-{
-}
 
 /// How many numbers the vectors of a system have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
