@@ -144,6 +144,7 @@ fn another_study_is_refused_with_what_differs() -> Outcome {
     let refused = |declaration: Declaration, words: &[&str]| -> Outcome {
         let error = waves(declaration)?.run(folder.path(), quiet).expect_err("another one").to_string();
         assert!(words.iter().all(|word| error.contains(word)), "{words:?}: {error}");
+        assert!(error.ends_with("choose another folder"), "{error}");
         Ok(())
     };
     refused(declaration(6).version("2"), &["seed: 5 there, 6 here", "version: \"1\" there, \"2\" here"])?;

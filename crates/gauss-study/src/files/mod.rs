@@ -8,6 +8,7 @@ mod schema;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 pub use part::PartState;
 pub use results::Results;
@@ -20,6 +21,9 @@ use crate::row::Row;
 /// The file of the declaration, and of all results in one.
 const DECLARATION: &str = "study.json";
 const MERGED: &str = "study.parquet";
+
+/// Whoever writes a part or the merged file writes all the time: what rests for so long is of nobody.
+const ABANDONED: Duration = Duration::from_secs(3600);
 
 /// The folder of a study.
 #[derive(Debug)]
@@ -85,7 +89,7 @@ impl<'a> Folder<'a> {
     }
 
     /// Puts all parts into one file, whose bytes do not depend on who made the parts; returns its path. What killed
-    /// workers left is removed.
+    /// workers left an hour ago is removed.
     pub fn merge(&self) -> Result<PathBuf, StudyError> {
         let mut missing = 0;
         for part in 0..self.declaration.parts() {
@@ -107,11 +111,18 @@ impl<'a> Folder<'a> {
         Ok(file)
     }
 
-    /// Removes unfinished files of workers that were killed: where all parts are whole no one writes any more.
+    /// Removes unfinished files of workers that were killed. A file that was written to a short while ago may be of one
+    /// that is at work: another merge, or a worker that makes a part which somebody else has made meanwhile.
     fn tidy(&self) -> Result<(), StudyError> {
         for entry in fs::read_dir(self.path).map_err(StudyError::io(self.path))? {
             let entry = entry.map_err(StudyError::io(self.path))?;
-            if entry.file_name().to_string_lossy().starts_with(gauss_files::UNFINISHED) {
+            if !entry.file_name().to_string_lossy().starts_with(gauss_files::UNFINISHED) {
+                continue;
+            }
+            // What is gone meanwhile was not left.
+            let written = entry.metadata().and_then(|about| about.modified()).ok();
+            let still = written.and_then(|written| written.elapsed().ok());
+            if still.is_some_and(|still| still > ABANDONED) {
                 fs::remove_file(entry.path()).map_err(StudyError::io(entry.path()))?;
             }
         }
