@@ -180,7 +180,9 @@ impl Breaker {
             let short: Vec<String> = factors[begin..end].iter().map(|factor| tex(factor)).collect();
             let short_width: f64 = factors[begin..end].iter().map(|factor| width(factor) + 3.4).sum();
             let next_is_long = end < count && width(factors[end]) > self.room(level) / 2.0;
-            if end == count || (end > begin && !next_is_long) {
+            // What stands before a bracket must leave room for what is in it.
+            let leaves_room = ends_of(&around, begin == 0, false).width[0] + short_width < self.room(level) / 2.0;
+            if end == count || (end > begin && !(next_is_long && leaves_room)) {
                 self.push(&short.join(" \\, "), short_width, (joint, level), &own);
                 begin = end;
             } else {
