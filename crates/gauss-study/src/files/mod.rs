@@ -102,6 +102,9 @@ impl<'a> Folder<'a> {
         if missing > 0 {
             return Err(StudyError::Missing { parts: missing, of: self.declaration.parts() });
         }
+        for part in 0..self.declaration.parts() {
+            self.decoded(part)?;
+        }
         let file = self.path.join(MERGED);
         gauss_files::write_with(&file, |out| {
             merge::merge(self.declaration, (0..self.declaration.parts()).map(|part| self.part(part)), out)
@@ -109,6 +112,13 @@ impl<'a> Folder<'a> {
         .map_err(StudyError::io(&file))?;
         self.tidy()?;
         Ok(file)
+    }
+
+    /// Reads all pages of a part: its end may be whole where its middle is not.
+    fn decoded(&self, part: u64) -> Result<(), StudyError> {
+        let file = self.part(part);
+        let opened = fs::File::open(&file).map_err(StudyError::io(&file))?;
+        results::decode(opened).map_err(|error| StudyError::Damaged { file, reason: error.to_string() })
     }
 
     /// Removes unfinished files of workers that were killed. A file that was written to a short while ago may be of one
