@@ -7,9 +7,9 @@
 //!
 //! The Gauss condition (3.4) of this matter, with `π = Gν = ∂T/∂ν`: a rigid virtual motion pairs with the rate of the
 //! impulse as that of a fluid does, a mode with Lagrange's derivative,
-//!
-//!     (dπ_u/dt + ω × π_u) · ∂u/∂z + (dπ_ω/dt + ω × π_ω + u × π_u) · ∂ω/∂z + Σ (dπ_k/dt − ½ νᵀ ∂G/∂η_k ν) ∂η̇_k/∂z.
-//!
+//! ```text
+//! (dπ_u/dt + ω × π_u) · ∂u/∂z + (dπ_ω/dt + ω × π_ω + u × π_u) · ∂ω/∂z + Σ (dπ_k/dt − ½ νᵀ ∂G/∂η_k ν) ∂η̇_k/∂z.
+//! ```
 //! For points that move as above that is ∫a_P·w_α dm. With ∫φ dm, ∫x × φ dm and ∫φ·φ dm alone it is the model of hybrid
 //! coordinates (P. W. Likins 1970): the modes move the centre of mass, and do not change the inertia. The integrals are
 //! those of O. Wallrapp 1994, "Standardization of flexible body modeling in multibody system codes".
