@@ -184,10 +184,11 @@ impl<'a, 'g> Printer<'a, 'g> {
         let below_alone = below_alone && units.1.is_none();
         for (factor, exponent) in factors {
             let alone = if exponent > 0 { above_alone } else { below_alone };
-            let power = match exponent.abs() {
-                1 => self.factor(factor, alone || single && exponent == 1),
-                2 if alone && let Some(inner) = self.radicand(factor) => self.factor(inner, true),
-                n => self.power(factor, n),
+            let radicand = (alone && exponent.abs() == 2).then(|| self.radicand(factor)).flatten();
+            let power = match (exponent.abs(), radicand) {
+                (1, _) => self.factor(factor, alone || single && exponent == 1),
+                (_, Some(inner)) => self.factor(inner, true),
+                (n, None) => self.power(factor, n),
             };
             if exponent > 0 { above.push(power) } else { below.push(power) }
         }
