@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use proc_macro2::{Ident, Span};
 
-use crate::algebra::{Function, Graph, Notation, Number, Precise, Scalar as _, decimal};
+use crate::algebra::{Graph, Notation, Number, Precise, Scalar as _, decimal};
 use crate::error::{Error, Mistakes, Result};
 use crate::kernel::Kernel;
 use crate::mechanics::{
@@ -12,7 +12,7 @@ use crate::mechanics::{
 };
 use crate::methods::DerivativeKind;
 use crate::program::{Instruction, Operand};
-use crate::terms::{FunctionKind, Item, Scalar, UserFunction};
+use crate::terms::{FunctionKind, Item, Joined, Scalar, Table, UserFunction};
 use crate::translate::{ConstraintPlace, Given, Independent, Named};
 
 /// Operations up to which code is generated unless the user says otherwise: some seconds of the compiler's time.
@@ -83,7 +83,7 @@ pub fn refuse_unknown_derivatives(functions: &[UserFunction], kernel: &Kernel<'_
     for (index, clause) in functions.iter().enumerate() {
         let orders =
             kernel.written().flat_map(|program| &program.instructions).filter_map(|instruction| match instruction {
-                Instruction::Call(Function::Own(own), _) if usize::from(own.index) == index => Some(own.order),
+                Instruction::Own(own, _) if usize::from(own.index) == index => Some(own.order()),
                 _ => None,
             });
         let (needed, known) = (orders.max().unwrap_or(0), clause.kind.derivatives());
@@ -95,7 +95,7 @@ pub fn refuse_unknown_derivatives(functions: &[UserFunction], kernel: &Kernel<'_
         let ordinal = ["value", "first", "second", "third"].get(usize::from(needed)).unwrap_or(&"fourth");
         let remedy = match (&clause.kind, word) {
             (FunctionKind::Rust(_), Some(word)) => format!("add `{word} = …` to `function({name}, …)`"),
-            (FunctionKind::Linear(_), _) => "write `kind = cubic`".to_owned(),
+            (FunctionKind::Table(Table { joined: Joined::Linear, .. }), _) => "write `kind = cubic`".to_owned(),
             _ => "write a force in the place of a potential, or a law that is differentiated less often".to_owned(),
         };
         mistakes.push(name.span(), format!("the equations need the {ordinal} derivative of `{name}`; {remedy}"));

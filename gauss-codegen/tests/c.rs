@@ -124,3 +124,15 @@ fn functions_to_be_provided() {
     let lists: Vec<&[f64]> = arguments.iter().map(Vec::as_slice).collect();
     assert!(energy.run(&lists).expect("its arguments")[0].is_nan());
 }
+
+/// A table of several numbers is a function of as many; the orders of a derivative follow its name.
+#[test]
+fn tables_to_be_provided() {
+    let source = "#[gauss(coordinates(x, y), particle(mass = m, position = [x, y, 0]), potential = well(x, y), \
+                  table(well, axes = [X, Y], values = WELL, kind = cubic))] struct Wing { m: f64 }";
+    let code = targets::c::source(Derivation::of_source(source, "Wing").expect("a scene").functions());
+    for declared in ["double well(double x, double y);", "double well_0_1(double x, double y);"] {
+        assert!(code.contains(declared), "{code}");
+    }
+    assert!(code.contains("= well_1_0(q[0], q[1]);"), "{code}");
+}

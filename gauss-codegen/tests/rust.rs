@@ -104,3 +104,13 @@ fn functions_to_be_provided() {
     let code = pretty(targets::rust::source(Derivation::of_source(source, "Wing").expect("a scene").functions()));
     assert!(code.contains("use super::{lift_curve, lift_curve_1};"), "{code}");
 }
+
+/// A table of several numbers is a function of as many.
+#[test]
+fn tables_to_be_provided() {
+    let source = "#[gauss(coordinates(x, y), particle(mass = m, position = [x, y, 0]), potential = well(x, y), \
+                  table(well, axes = [X, Y], values = WELL, kind = cubic))] struct Wing { m: f64 }";
+    let code = pretty(targets::rust::source(Derivation::of_source(source, "Wing").expect("a scene").functions()));
+    assert!(code.contains("use super::{well, well_0_1, well_1_0};"), "{code}");
+    assert!(code.contains("well_1_0(q[0], q[1])"), "{code}");
+}

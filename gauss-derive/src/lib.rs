@@ -4,6 +4,8 @@
 
 #![deny(missing_docs)]
 
+mod kept;
+
 /// Derives the equations of motion of rigid bodies from the Gauss condition, and generates `Name::kernel()`, the
 /// `NameKernel` that implements `GaussSystem`, `Name::warnings()`, `NameState`: coordinates and speeds by name, and
 /// `NameIndex`: the places of their increments in flat vectors.
@@ -156,6 +158,7 @@
 /// | `contact(name, point = a.position, radius = r, other = b.position, other_radius = s)` | two spheres; with `other_end = c` a sphere and a capsule from `other` to there, points of one body. With friction tangents turn with the line of centers: the first is normal to `along = […]` and to that line, which must not have this direction |
 /// | `range(x, from = a, to = b, restitution = e)` | stops of a coordinate, or of `along = expr`, without friction: contacts `x_from` and `x_to`; either limit may be left out, both may depend on `t` and coordinates |
 /// | `armature(elbow = a, wrist = 2 * a)` | inertia of the rates of coordinates, ½ a q̇² in T: rotors behind gears, of which a coordinate feels the inertia times the square of the ratio; of a `Rotation` ½ a ω², of a `Pose` ½ a (v² + ω²). It has no weight, and counts in no centre of mass and no momentum of the whole |
+/// | `modes(panel, coordinates = [a, b], file = "panel.json")` | a body that bends: scalar coordinates η multiply modes that are clamped to its axes at O. The file (feature `modes`), or arguments in its place, gives integrals of the modes: `translation` ∫φ dm and `rotation` ∫x × φ dm, a row of three for each mode; `mass`, `stiffness`, `damping`, matrices or their diagonals, of which `mass` is by default the unit matrix; of higher order `inertia`, `shortening`, `gyroscopic`, `second_inertia`, which the guide has in a table. The file may have the mass data of the body: `mass`, `center_of_mass`, `inertia` about O |
 /// | `independent(v, w.x)` | the speeds that stay, or components of them, when the constraints are solved for the others at compile time. Those of a chart are called `u`, `xi` or `b_dot`, each of all its components, and `omega`; of jet charts `b1_dot`, `psi_dot` and so on |
 /// | `waive(triangle_inequality)` | see above |
 /// | `limit = 50000` | the most operations that the generated code may have, also of one body |
@@ -281,7 +284,8 @@
 /// | `damping = expr` | Rayleigh's dissipation function: its negative partial derivatives by z are generalised forces |
 /// | `point(name, body = other, at = […])` | as above |
 /// | `function(lift, derivative = lift_slope, second = …)`, `function(lift = aero::lift, derivative = …)` | a smooth function of one number, `lift(x)` in expressions, that is written in Rust: `fn(f64) -> f64`, of a generic scalar `fn<T: Real>(T) -> T`. The derivative is needed in potentials, constraints and `linearize`, where the second may be |
-/// | `table(lift, points = LIFT, kind = linear)` | the same through the points of `const LIFT: [[f64; 2]; N] = [[x, y], …]`, x increasing: joined by straight lines, which is the default and stands where `abs` may, or `kind = cubic` by the natural spline, which has two continuous derivatives. Beyond the ends both go on straight |
+/// | `table(lift, points = LIFT, kind = linear)` | the same through the points of `const LIFT: [[f64; 2]; N] = [[x, y], …]`, x increasing: joined by straight lines, which is the default and stands where `abs` may; `kind = hermite`: by cubics with the slopes of parabolas through three neighbours, one continuous derivative; `kind = cubic`: by the natural spline, two of them. Beyond the ends all go on straight |
+/// | `table(drag, axes = [ALPHA, MACH], values = DRAG, kind = linear)` | of one, two or three numbers, `drag(alpha, mach)`: `const ALPHA: [f64; N]` and `const MACH: [f64; M]` increase, `const DRAG: [[f64; M]; N]` has the value at `ALPHA[i]` and `MACH[j]` in `DRAG[i][j]`; of three `[[[f64; L]; M]; N]`. Joined by the same kinds along each axis, whatever their order; beyond the grid straight along each axis |
 ///
 /// What acts can have a name, which no expression uses.
 ///
@@ -321,12 +325,14 @@
 /// kernel of such a struct gives no further errors.
 #[proc_macro_derive(GaussDynamics, attributes(gauss))]
 pub fn derive_gauss_dynamics(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
-    let input = match gauss_codegen::item(input.into()) {
-        Ok(input) => input,
-        Err(mistake) => return mistake.into_compile_error().into(),
-    };
-    let expand = if may_have_vectors() { gauss_codegen::expand } else { gauss_codegen::expand_without_vectors };
-    expand(&input).unwrap_or_else(|mistakes| gauss_codegen::fallback(&input, &mistakes)).into()
+    let (input, vectors) = (input.into(), may_have_vectors());
+    kept::or_derived(&input, &[vectors.into()], || {
+        let item = gauss_codegen::item(input.clone()).map_err(|mistake| mistake.into_compile_error())?;
+        let expand = if vectors { gauss_codegen::expand } else { gauss_codegen::expand_without_vectors };
+        expand(&item).map_err(|mistakes| gauss_codegen::fallback(&item, &mistakes))
+    })
+    .unwrap_or_else(|mistakes| mistakes)
+    .into()
 }
 
 /// Whether the code may be compiled for processors with vectors of products that are rounded once.

@@ -71,17 +71,22 @@ pub enum Rule {
         /// Column of the entry, from 0.
         col: usize,
     },
-    /// The stiffness and the damping of a bushing are symmetric. The value is the difference of entries (row, col) and
-    /// (col, row).
+    /// The stiffness and the damping of a bushing, or of modes, are symmetric. The value is the difference of entries
+    /// (row, col) and (col, row).
     SymmetricCoefficients {
-        /// Row of the entry, from 0, displacements first.
+        /// Row of the entry, from 0; of a bushing displacements first.
         row: usize,
         /// Column of the entry, from 0.
         col: usize,
     },
-    /// The stiffness matrix of a bushing has no negative eigenvalue. The value is its smallest eigenvalue, in the units
-    /// given.
+    /// The stiffness matrix of a bushing, or of modes, has no negative eigenvalue. The value is its smallest
+    /// eigenvalue, in the units given.
     SemidefiniteStiffness,
+    /// Each mode of a body moves mass. The value is the modal mass that is not positive.
+    PositiveModalMass,
+    /// The kinetic energy of a body that deforms is negative for no motion: its modes take no more of the mass than it
+    /// has. The value is the smallest eigenvalue of mass, first moment, inertia, participations and modal masses.
+    SemidefiniteModes,
     /// The kinetic energy of body and fluid is positive for every motion. The value is the smallest eigenvalue of the
     /// mass matrix scaled to a unit diagonal, or the diagonal entry that is not positive.
     PositiveDefiniteKineticMatrix,
@@ -208,6 +213,15 @@ impl fmt::Display for Violation {
                 "`{field}` has the eigenvalue {value}: a stiffness matrix has none below 0, and pulls back along every \
                  direction; check its signs, or write what pushes away as a `potential`"
             ),
+            Rule::PositiveModalMass => {
+                write!(f, "the modes of `{field}` have the modal mass {value}: each moves mass; give ∫φ² dm")
+            }
+            Rule::SemidefiniteModes => write!(
+                f,
+                "the modes of `{field}` take more of the mass than the body has (eigenvalue {value} of mass, inertia, \
+                 participations and modal masses together); check units and the pole O, and that modal masses and \
+                 participations are of the same normalisation"
+            ),
             Rule::PositiveDefiniteKineticMatrix => write!(
                 f,
                 "`{field}` makes the kinetic energy of body and fluid indefinite (smallest scaled eigenvalue {value}): it \
@@ -297,8 +311,8 @@ pub enum Finding {
     /// The damping of a spring or a stop, or a Rayleigh dissipation function, delivers energy. The value is the
     /// coefficient, or the value of the function at the state where it was found to be negative.
     DampingFeedsEnergy,
-    /// The damping of a bushing delivers energy. The value is the smallest eigenvalue of its matrix, in the units
-    /// given.
+    /// The damping of a bushing, or of modes, delivers energy. The value is the smallest eigenvalue of its matrix, in
+    /// the units given.
     BushingFeedsEnergy,
     /// A gravity of one number is negative: bodies fall upward. The value is that number.
     GravityUpward,

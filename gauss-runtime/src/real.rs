@@ -252,6 +252,12 @@ pub trait Real:
     fn all_lt(a: Self, b: Self) -> bool {
         (0..Self::LANES).all(|i| a.lane(i) < b.lane(i))
     }
+
+    /// The same, for all that a and b may stand for: of numbers with error bounds, within the bounds.
+    #[inline(always)]
+    fn all_surely_lt(a: Self, b: Self) -> bool {
+        Self::all_lt(a, b)
+    }
 }
 
 /// The largest of the derivatives that a number of one lane carries, rounded up to a power of two: 0 of a plain number,

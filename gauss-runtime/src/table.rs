@@ -1,4 +1,5 @@
-//! Functions of one number given by points: what `table(…)` of a scene becomes.
+//! Functions given by their values at points: what `table(…)` of a scene becomes. Of one number they are [`Linear`] and
+//! [`Cubic`], of two and three, on a grid, [`Grid`].
 //!
 //! Between the points a [`Linear`] table is a straight line from each to the next, a [`Cubic`] one the natural cubic
 //! spline, which has two continuous derivatives. Beyond the first and the last point both go on straight. The points
@@ -8,7 +9,13 @@
 //! A piece is found by one comparison for each point, without branches, so that lanes, dual numbers and numbers with
 //! error bounds find their own.
 
+mod grid;
+mod spline;
+
+pub use grid::{Grid, Joined, axis};
+
 use crate::real::Real;
+use spline::curvatures;
 
 /// Straight lines through N points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -154,29 +161,6 @@ const fn check<const N: usize>(points: &[[f64; 2]; N]) {
         assert!(i == 0 || points[i - 1][0] < points[i][0], "the first numbers of the points of a table increase");
         i += 1;
     }
-}
-
-/// Second derivatives of the natural spline at its points: zero at the ends; the tridiagonal system for the others is
-/// diagonally dominant, and eliminated as it stands (de Boor, A Practical Guide to Splines, IV).
-const fn curvatures<const N: usize>(points: &[[f64; 2]; N]) -> [f64; N] {
-    // Row i: h₋ m₋ + 2 (h₋ + h₊) m + h₊ m₊ = 6 (s₊ − s₋), where h are widths and s slopes of secants.
-    let (mut upper, mut right) = ([0.0; N], [0.0; N]);
-    let mut i = 1;
-    while i + 1 < N {
-        let (before, after) = (points[i][0] - points[i - 1][0], points[i + 1][0] - points[i][0]);
-        let slopes = [(points[i][1] - points[i - 1][1]) / before, (points[i + 1][1] - points[i][1]) / after];
-        let pivot = 2.0 * (before + after) - before * upper[i - 1];
-        upper[i] = after / pivot;
-        right[i] = (6.0 * (slopes[1] - slopes[0]) - before * right[i - 1]) / pivot;
-        i += 1;
-    }
-    let mut curvature = [0.0; N];
-    let mut i = N - 1;
-    while i > 1 {
-        i -= 1;
-        curvature[i] = right[i] - upper[i] * curvature[i + 1];
-    }
-    curvature
 }
 
 #[cfg(test)]

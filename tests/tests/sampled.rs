@@ -410,7 +410,7 @@ fn tables_tell_what_was_held() {
     let kernel = Cart { m: 1.0 }.kernel().expect("a cart");
     let run = Simulation::new(&kernel).sampled(0.5, |t, _q, _z| One::new(t)).delayed(0.25).fixed_step(0.25);
     let run = run.run(One::zeros(), One::zeros(), 0.0..2.0).expect("runs");
-    let table = run.table().columns(["push"], |s| run.input(s.t, &s.q, &s.z).into());
+    let table = run.table().column("push", |s| run.input(s.t, &s.q, &s.z)[0]);
     let expected = [0.0, 0.0, 0.0, 0.5, 0.5, 1.0, 1.0, 1.5, 1.5];
     assert_eq!(table.get("push").expect("is there"), expected);
 }

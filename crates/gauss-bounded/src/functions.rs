@@ -314,4 +314,9 @@ impl<T: Float> Real for Bounded<T> {
         let wide = Self::finish(chosen.value, covering, T::zero());
         if wide.bound > chosen.bound { wide } else { chosen }
     }
+
+    #[inline(always)]
+    fn all_surely_lt(a: Self, b: Self) -> bool {
+        a.value < b.value && a.is_decided(b)
+    }
 }

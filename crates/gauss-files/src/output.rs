@@ -10,7 +10,7 @@ const MARK: &str = "CACHEDIR.TAG";
 /// The folder `gauss` in Cargo's target directory, for what examples write.
 ///
 /// It is in the directory that the running program was built in, wherever `CARGO_TARGET_DIR`, `--target-dir` or a
-/// configuration of Cargo has put that; of a program that was copied elsewhere, in `CARGO_TARGET_DIR`, else in `target`.
+/// configuration of Cargo has put that; of a program that was copied elsewhere, in `CARGO_TARGET_DIR` or `target`.
 /// Below the current folder the path is relative.
 #[must_use]
 pub fn output_folder() -> PathBuf {

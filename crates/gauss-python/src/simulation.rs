@@ -138,8 +138,8 @@ impl Kernel {
 
     /// Carries many states, in lanes and on all threads, each with steps of its own: q and z are rows, or one for all;
     /// `parameters` has an array with a number for each run. `input` is an array or a pair (times, values); `until` is
-    /// (name, value) or (name, value, direction). Runs that fail are told of in `errors`. `progress` is a function of the
-    /// number of runs that have ended, or True for a bar of tqdm.
+    /// (name, value) or (name, value, direction). Runs that fail are told of in `errors`. `progress` is a function of
+    /// the number of runs that have ended, or True for a bar of tqdm.
     #[pyo3(signature = (q, z, interval, *, rtol=1e-9, atol=1e-9, input=None, until=None, parameters=None,
         progress=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords")]

@@ -85,7 +85,7 @@ impl fmt::Display for StudyError {
             Self::Io { file, source } => write!(f, "`{}`: {source}", file.display()),
             Self::Other { folder, differences } => {
                 write!(f, "`{}` holds another study; ", folder.display())?;
-                write!(f, "{}; write into another folder, or remove that one", differences.join("; "))
+                write!(f, "{}; choose another folder", differences.join("; "))
             }
             Self::None(folder) => write!(f, "`{}` holds no study", folder.display()),
             Self::Unreadable { file, reason } => write!(f, "`{}` cannot be read: {reason}", file.display()),

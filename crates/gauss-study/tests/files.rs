@@ -137,6 +137,48 @@ fn what_is_there_is_not_made_again() -> Outcome {
 }
 
 #[test]
+fn a_part_whose_middle_is_lost_is_not_merged() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let study = waves(declaration(5))?;
+    study.run(folder.path(), quiet)?;
+    let part = folder.path().join("part-00000003.parquet");
+    let bytes = fs::read(&part)?;
+    // The end is as it was; of the pages before it a block was lost.
+    let mut torn = bytes.clone();
+    torn[4..bytes.len() / 4].fill(0);
+    fs::write(&part, torn)?;
+    let merged = study.merge(folder.path());
+    assert!(matches!(&merged, Err(StudyError::Damaged { file, .. }) if *file == part), "{merged:?}");
+    // Without the part the study makes it once more.
+    fs::remove_file(&part)?;
+    study.run(folder.path(), quiet)?;
+    assert_eq!(fs::read(part)?, bytes);
+    study.merge(folder.path())?;
+    Ok(())
+}
+
+/// Of what is written to `/dev/full` nothing has room.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told_of_and_the_study_goes_on_afterwards() -> Outcome {
+    let (folder, whole) = (tempfile::tempdir()?, tempfile::tempdir()?);
+    let study = waves(declaration(5))?;
+    study.run(whole.path(), quiet)?;
+    study.run_shard(folder.path(), Shard::new(1, 2).ok_or("of two")?, quiet)?;
+    let there = study.status(folder.path())?.runs;
+    let part = folder.path().join("part-00000003.parquet");
+    std::os::unix::fs::symlink("/dev/full", &part)?;
+    let full = study.run(folder.path(), quiet);
+    let named = |file: &std::path::Path, kind| file == part && kind == std::io::ErrorKind::StorageFull;
+    assert!(matches!(&full, Err(StudyError::Io { file, source }) if named(file, source.kind())), "{full:?}");
+    assert!(study.status(folder.path())?.runs >= there, "what there is stays");
+    fs::remove_file(&part)?;
+    study.run(folder.path(), quiet)?;
+    assert_eq!(contents(folder.path())?, contents(whole.path())?);
+    Ok(())
+}
+
+#[test]
 fn another_study_is_refused_with_what_differs() -> Outcome {
     let folder = tempfile::tempdir()?;
     waves(declaration(5))?.run(folder.path(), quiet)?;
@@ -144,6 +186,7 @@ fn another_study_is_refused_with_what_differs() -> Outcome {
     let refused = |declaration: Declaration, words: &[&str]| -> Outcome {
         let error = waves(declaration)?.run(folder.path(), quiet).expect_err("another one").to_string();
         assert!(words.iter().all(|word| error.contains(word)), "{words:?}: {error}");
+        assert!(error.ends_with("choose another folder"), "{error}");
         Ok(())
     };
     refused(declaration(6).version("2"), &["seed: 5 there, 6 here", "version: \"1\" there, \"2\" here"])?;

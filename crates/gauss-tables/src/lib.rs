@@ -65,5 +65,6 @@ mod sealed {
 }
 
 pub use error::TableError;
+pub use gauss_runtime::chart::EulerSequence;
 pub use run::{RunTable, Tabulate};
 pub use table::{Column, ColumnError, Table};

@@ -177,13 +177,13 @@ impl<S: GaussSystem> Table<Sample<S>> {
         })
     }
 
-    /// The Euler angles of every rotation of the configuration, in radians: of a rotation or pose `craft` in the order of
-    /// the sequence `craft_yaw`, `craft_pitch`, `craft_roll` ([`EulerSequence::ZYX`]), `craft_precession`,
+    /// The Euler angles of every rotation of the configuration, in radians: of a rotation or pose `craft` in the order
+    /// of the sequence `craft_yaw`, `craft_pitch`, `craft_roll` ([`EulerSequence::ZYX`]), `craft_precession`,
     /// `craft_nutation`, `craft_spin` ([`EulerSequence::ZXZ`]), of others `craft_angle_1`, …; of a pose in the plane
     /// `craft_angle`. They jump by a turn at ±π; where the sequence is singular they are NaN, a gap in a plot.
     ///
-    /// Rotations are found by the [names](DescribedSystem::COORDINATE_NAMES) of a scene; others, such as those of frames,
-    /// are tabulated by [`euler_angles_of`](Self::euler_angles_of).
+    /// Rotations are found by the [names](DescribedSystem::COORDINATE_NAMES) of a scene; others, such as those of
+    /// frames, are tabulated by [`euler_angles_of`](Self::euler_angles_of).
     ///
     /// # Errors
     /// [`ColumnError::Sequence`], [`ColumnError::NoRotation`].

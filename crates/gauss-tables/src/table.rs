@@ -224,8 +224,8 @@ impl<Row> Table<Row> {
         Ok(self)
     }
 
-    /// These columns in one panel of a plot, below those of the panels before; a plot then has no other panels than such
-    /// ones. Columns of one panel have one unit.
+    /// These columns in one panel of a plot, below those of the panels before; a plot then has no other panels than
+    /// such ones. Columns of one panel have one unit.
     ///
     /// # Errors
     /// [`ColumnError::Unknown`]: the names that no column has.

@@ -3,6 +3,7 @@ when a third is done; the results must be the serial ones, bit for bit.
 
     pip install . scipy distributed ray
     python study/engines.py --runs 1000000 --kill serial dask ray
+    python study/engines.py --workers 1 2 -- dask ray             # what another worker brings
 """
 
 import argparse
@@ -119,22 +120,25 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--runs", type=int, default=20_000)
     parser.add_argument("--chunk", type=int, default=2000, help="runs of one task")
-    parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--workers", type=int, nargs="+", default=[2], metavar="N", help="once with each number of them")
     parser.add_argument("--kill", action="store_true", help="one worker, when a third is done")
     given = parser.parse_args()
     if unknown := set(given.engines) - set(ENGINES):
         parser.error(f"there are {', '.join(ENGINES)}, not {', '.join(unknown)}")
     first = None
-    for name in given.engines:
+    asked = [(name, n) for name in given.engines for n in ([1] if name == "serial" else given.workers)]
+    for name, workers in asked:
         begin = time.perf_counter()
-        rows, killed = ENGINES[name](given.seed, given.runs, given.chunk, given.workers, given.kill)
+        rows, killed = ENGINES[name](given.seed, given.runs, given.chunk, workers, given.kill)
         seconds = time.perf_counter() - begin
         kept = hashlib.sha256(rows.tobytes()).hexdigest()[:16]
+        by = "" if name == "serial" else f" by {workers}"
         lost = f", worker {killed} was killed" if killed else ""
-        print(f"{name}: {len(rows)} runs in {seconds:.1f} s{lost}; bits {kept}, {np.isnan(rows[:, 0]).sum()} failed")
+        failed = np.isnan(rows[:, 0]).sum()
+        print(f"{name}{by}: {len(rows)} runs in {seconds:.1f} s{lost}; bits {kept}, {failed} failed", flush=True)
         first = rows if first is None else first
         if rows.tobytes() != first.tobytes():
-            sys.exit(f"{name} has other results than {given.engines[0]}")
+            sys.exit(f"{name}{by} has other results than the first")
 
 
 if __name__ == "__main__":

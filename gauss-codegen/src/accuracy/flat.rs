@@ -1,7 +1,9 @@
 //! Programs and what they read as one list of steps, with a first-order analysis of its rounding in one pass: macros
 //! run unoptimised, where a step of [`Code::evaluate_with`] takes hundreds of instructions of the machine.
 
-use crate::algebra::{BinaryFunction, Doubled, Dual, Expr, Function, Map, NodeView, Number, Rational, Scalar};
+use crate::algebra::{
+    BinaryFunction, Doubled, Dual, Expr, Function, Map, NodeView, Number, OwnFunction, Rational, Scalar,
+};
 use crate::program::{Code, Instruction, Operand};
 
 use super::random::Random;
@@ -22,6 +24,7 @@ enum Kind {
     SineCosine,
     Call(Function),
     Binary(BinaryFunction),
+    Own(OwnFunction),
 }
 
 #[derive(Clone, Copy)]
@@ -133,6 +136,7 @@ impl Flat {
                 Instruction::SineCosine(a) => (Kind::SineCosine, [at(a), 0, 0]),
                 Instruction::Call(function, a) => (Kind::Call(function), [at(a), 0, 0]),
                 Instruction::Binary(function, a, b) => (Kind::Binary(function), [at(a), at(b), 0]),
+                Instruction::Own(function, arguments) => (Kind::Own(function), arguments.map(at)),
             };
             let slot = self.step(kind, from);
             results.push(slot);
@@ -181,6 +185,10 @@ impl Flat {
             NodeView::Binary(function, a, b) => {
                 let [a, b] = [a, b].map(|e| self.visit(e));
                 self.step(Kind::Binary(function), [a, b, 0])
+            }
+            NodeView::Own(function, arguments) => {
+                let arguments: Vec<Slot> = arguments.into_iter().map(|e| self.visit(e)).collect();
+                self.step(Kind::Own(function), OwnFunction::filled(&arguments))
             }
             NodeView::Group(inner) | NodeView::Opaque(inner) => self.visit(inner),
         };
@@ -341,7 +349,7 @@ impl Trace {
                     Traced::of(sine, rounded(sine, step.to), (cosine, a), (0.0, a))
                 }
                 Kind::Call(function) => {
-                    let Dual { value, rate } = Dual { value: a.value, rate: 1.0 }.call_any(function);
+                    let Dual { value, rate } = Dual { value: a.value, rate: 1.0 }.call(function);
                     let error = match function {
                         Function::Abs | Function::Signum => 0.0,
                         // Of x² it is the number that was squared.
@@ -357,6 +365,18 @@ impl Trace {
                     let (Dual { value, rate: da }, Dual { rate: db, .. }) = (of(1.0, 0.0), of(0.0, 1.0));
                     let exact = matches!(function, BinaryFunction::Min | BinaryFunction::Max);
                     Traced::of(value, if exact { 0.0 } else { rounded(value, step.to) }, (da, a), (db, b))
+                }
+                Kind::Own(function) => {
+                    let arguments = step.from.map(|slot| slots[slot as usize]);
+                    let arguments = function.of(&arguments);
+                    let at: Vec<f64> = arguments.iter().map(|a| a.value).collect();
+                    let value = f64::stand_in(function, &at);
+                    let mut result = Traced { value, error: rounded(value, step.to), ..Traced::default() };
+                    for (k, &argument) in arguments.iter().enumerate() {
+                        let slope = f64::stand_in(function.derivative(k), &at);
+                        result = Traced::of(value, 0.0, (1.0, result), (slope, argument));
+                    }
+                    result
                 }
             };
             slots[step.to as usize] = result;
@@ -385,8 +405,9 @@ impl Flat {
                     slots[step.to as usize + 1] = cosine;
                     sine
                 }
-                Kind::Call(function) => a.call_any(function),
+                Kind::Call(function) => a.call(function),
                 Kind::Binary(function) => a.call_with(function, b),
+                Kind::Own(function) => N::stand_in(function, function.of(&[a, b, c])),
             };
         }
         slots

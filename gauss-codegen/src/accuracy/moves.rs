@@ -439,5 +439,6 @@ fn symbols_of(e: Expr<'_>, places: &Map<u32, usize>, done: &mut Map<u32, ()>, fo
         NodeView::Product(factors) => factors.iter().for_each(|(factor, _)| visit(*factor)),
         NodeView::Call(_, inner) | NodeView::Group(inner) | NodeView::Opaque(inner) => visit(inner),
         NodeView::Binary(_, a, b) => [a, b].into_iter().for_each(visit),
+        NodeView::Own(_, arguments) => arguments.into_iter().for_each(visit),
     }
 }

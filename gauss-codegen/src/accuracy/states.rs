@@ -391,6 +391,7 @@ impl<'g> Seen<'g> {
                 self.visit(inner);
             }
             NodeView::Binary(_, a, b) => [a, b].into_iter().for_each(|e| self.visit(e)),
+            NodeView::Own(_, arguments) => arguments.into_iter().for_each(|e| self.visit(e)),
             NodeView::Group(inner) | NodeView::Opaque(inner) => self.visit(inner),
         }
     }

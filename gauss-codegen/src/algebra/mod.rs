@@ -25,7 +25,7 @@ mod tests;
 
 pub use dependent::{Dependent, solve_dependent};
 pub use expressions::differentiate::Along;
-pub use expressions::function::{BinaryFunction, Function, OwnFunction};
+pub use expressions::function::{BinaryFunction, Function, MOST_VARIABLES, OwnFunction};
 pub use expressions::graph::{Expr, Graph, NodeView};
 pub use expressions::substitute::Substitution;
 pub use linear::{Factored, FactoredColumns, Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};

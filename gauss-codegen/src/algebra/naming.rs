@@ -102,7 +102,7 @@ impl<'g> Expr<'g> {
         let mut terms: Map<Id, f64> = Map::default();
         for id in graph.reached(&[self.id], parts) {
             let count = match graph.node(id) {
-                Node::Number(_) | Node::Symbol(_) | Node::Call(..) | Node::Binary(..) => 1.0,
+                Node::Number(_) | Node::Symbol(_) | Node::Call(..) | Node::Binary(..) | Node::Own(..) => 1.0,
                 Node::Sum(of) => of.iter().map(|(_, id)| terms[id]).sum(),
                 Node::Product(of) => of.iter().map(|(id, n)| if *n > 0 { terms[id].powi(*n) } else { 1.0 }).product(),
                 Node::Group(inner) | Node::Opaque(inner) => terms[&inner],

@@ -96,7 +96,7 @@ fn leaves_of_all(graph: &Graph, nodes: &[Id]) -> Map<Id, u64> {
 
 fn leaves_from(graph: &Graph, id: Id, known: &Map<Id, u64>) -> u64 {
     let own = match graph.node(id) {
-        Node::Number(_) | Node::Symbol(_) | Node::Call(..) | Node::Binary(..) => 1,
+        Node::Number(_) | Node::Symbol(_) | Node::Call(..) | Node::Binary(..) | Node::Own(..) => 1,
         Node::Sum(terms) => terms.iter().filter(|(c, _)| !c.abs().is_one()).count() as u64,
         _ => 0,
     };

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::algebra::expressions::function::{BinaryFunction, Function};
-use crate::algebra::expressions::graph::{Expr, NodeView};
+use crate::algebra::expressions::function::{BinaryFunction, Function, OwnFunction};
+use crate::algebra::expressions::graph::{Expr, Graph, NodeView};
 use crate::algebra::parts::{Parts, leaves_of};
 use crate::algebra::rational::Rational;
 
@@ -140,7 +140,7 @@ impl<'a, 'g> Printer<'a, 'g> {
             }
             NodeView::Product(factors) => vec![self.term(Rational::one(), factors)],
             // Its name, if it has one, is what it is printed for.
-            NodeView::Call(..) | NodeView::Binary(..) => {
+            NodeView::Call(..) | NodeView::Binary(..) | NodeView::Own(..) => {
                 vec![Term { negative: false, text: self.unnamed_factor(e, true) }]
             }
             _ => vec![self.term(Rational::one(), vec![(e, 1)])],
@@ -214,7 +214,7 @@ impl<'a, 'g> Printer<'a, 'g> {
         }
     }
 
-    /// eⁿ for n > 1. Powers of functions stand between the name and the argument, sin² θ; even ones of roots are powers.
+    /// eⁿ for n > 1. Powers of functions stand between name and argument, sin² θ; even ones of roots are powers.
     fn power(&self, e: Expr<'g>, n: i32) -> String {
         if n % 2 == 0
             && let Some(inner) = self.radicand(e)
@@ -230,6 +230,7 @@ impl<'a, 'g> Printer<'a, 'g> {
         match visible(e).view() {
             NodeView::Call(function, argument) => self.call(function, argument, &format!("^{{{n}}}")),
             NodeView::Binary(..) => format!("\\left({}\\right)^{{{n}}}", self.factor(e, false)),
+            NodeView::Own(function, arguments) => self.own(e.graph(), function, &arguments, &format!("^{{{n}}}")),
             NodeView::Symbol(symbol) => e.graph().with_symbol(symbol, |s| {
                 // Sine and cosine of an angle can be symbols.
                 let turn = ["\\cos", "\\sin"].iter().find_map(|name| Some((name, s.latex.strip_prefix(name)?)));
@@ -245,12 +246,6 @@ impl<'a, 'g> Printer<'a, 'g> {
         match function {
             Function::Sqrt => format!("\\sqrt{{{inner}}}{power}"),
             Function::Abs => format!("\\left|{inner}\\right|{power}"),
-            Function::Own(function) => {
-                let name = argument.graph().function_name(function);
-                let (name, primes) = (name.trim_end_matches('\''), usize::from(function.order));
-                let name = name.replace('_', "\\_");
-                format!("\\operatorname{{{name}}}{}{power}\\left({inner}\\right)", "'".repeat(primes))
-            }
             function => {
                 let name = if function == Function::Signum { "operatorname{sgn}" } else { function.name() };
                 match argument.view() {
@@ -259,6 +254,27 @@ impl<'a, 'g> Printer<'a, 'g> {
                 }
             }
         }
+    }
+
+    /// A function of the user's own, raised to a power that may be empty. A prime stands for each derivative by the
+    /// only variable; of several variables the orders by each follow the name, in LaTeX as f⁽¹′⁰⁾.
+    fn own(&self, graph: &Graph, function: OwnFunction, arguments: &[Expr<'g>], power: &str) -> String {
+        let name = graph.function_name(function);
+        let arguments: Vec<String> = arguments.iter().map(|argument| self.sum(*argument)).collect();
+        let arguments = arguments.join(", ");
+        let (suffix, several) = (function.suffix(), function.variables > 1);
+        let primes = if several { String::new() } else { "'".repeat(function.order().into()) };
+        if !self.latex() {
+            return format!("{name}{}({arguments})", if several { suffix } else { primes });
+        }
+        let name = format!("\\operatorname{{{}}}", name.replace('_', "\\_"));
+        let arguments = format!("\\left({arguments}\\right)");
+        if !several || suffix.is_empty() {
+            return format!("{name}{primes}{power}{arguments}");
+        }
+        let orders = suffix.trim_start_matches('_').replace('_', ", ");
+        let value = format!("{name}^{{({orders})}}{arguments}");
+        if power.is_empty() { value } else { format!("\\left({value}\\right){power}") }
     }
 
     fn factor(&self, e: Expr<'g>, alone: bool) -> String {
@@ -274,9 +290,6 @@ impl<'a, 'g> Printer<'a, 'g> {
                 e.graph().with_symbol(symbol, |s| if self.latex() { s.latex.clone() } else { s.text.clone() })
             }
             NodeView::Call(function, argument) if self.latex() => self.call(function, argument, ""),
-            NodeView::Call(Function::Own(function), argument) => {
-                format!("{}({})", e.graph().function_name(function), self.sum(argument))
-            }
             NodeView::Call(function, argument) => format!("{}({})", function.name(), self.sum(argument)),
             NodeView::Binary(BinaryFunction::Powf, base, exponent) if self.latex() => {
                 let base = match visible(base).view() {
@@ -303,6 +316,7 @@ impl<'a, 'g> Printer<'a, 'g> {
                 let (open, close) = if self.latex() { ("\\left(", "\\right)") } else { ("(", ")") };
                 format!("{name}{open}{}, {}{close}", self.sum(a), self.sum(b))
             }
+            NodeView::Own(function, arguments) => self.own(e.graph(), function, &arguments, ""),
             NodeView::Number(value) => self.number(&value),
             NodeView::Group(inner) | NodeView::Opaque(inner) if !matches!(inner.view(), NodeView::Sum(_)) => {
                 self.factor(inner, alone)

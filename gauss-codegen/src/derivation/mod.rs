@@ -121,7 +121,7 @@ impl Derivation {
         &self.remarks
     }
 
-    /// The equations of motion: a page of plain text, or LaTeX whose lines fit 16 cm at 10 pt, in `align*` environments.
+    /// The equations of motion: a page of plain text, or LaTeX whose lines fit 16 cm at 10 pt, in `align*`.
     pub fn equations(&self, notation: Notation) -> &str {
         match notation {
             Notation::Text => &self.functions.equations,

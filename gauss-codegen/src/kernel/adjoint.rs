@@ -121,6 +121,12 @@ impl<'g> Sweep<'_, 'g> {
                     self.add(operand, slope, by);
                 }
             }
+            Operation::Own(function, arguments) => {
+                for (k, &argument) in function.of(&arguments).iter().enumerate() {
+                    let by = self.pass.own_slope(function, &arguments, k);
+                    self.add(argument, slope, plain(by));
+                }
+            }
         }
     }
 

@@ -65,6 +65,10 @@ impl<'g> Factoring<'g> {
                 graph.call(function, argument)
             }
             NodeView::Binary(function, a, b) => self.visit(a).binary(function, self.visit(b)),
+            NodeView::Own(function, arguments) => {
+                let arguments: Vec<_> = arguments.into_iter().map(|argument| self.visit(argument)).collect();
+                graph.own(function, &arguments)
+            }
             NodeView::Group(inner) | NodeView::Opaque(inner) => self.visit(inner).group_as_is(),
             NodeView::Product(factors) => {
                 let mut visited = Vec::with_capacity(factors.len());

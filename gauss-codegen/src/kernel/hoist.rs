@@ -87,6 +87,10 @@ impl<'a, 'g> Hoister<'a, 'g> {
                 self.graph.call(function, argument)
             }
             NodeView::Binary(function, a, b) => self.visit(a).binary(function, self.visit(b)),
+            NodeView::Own(function, arguments) => {
+                let arguments: Vec<_> = arguments.into_iter().map(|argument| self.visit(argument)).collect();
+                self.graph.own(function, &arguments)
+            }
             NodeView::Group(inner) => self.visit(inner).group_as_is(),
             NodeView::Product(_) => self.term(Rational::one(), e),
             NodeView::Sum(terms) => {

@@ -1,6 +1,8 @@
 //! Sums and products of many terms as a network of nodes, with the parts that several of them contain split off.
 
-use crate::algebra::{BinaryFunction, Expr, Function, Key, Map, NodeView, Rational, joined};
+use crate::algebra::{
+    BinaryFunction, Expr, Function, Key, MOST_VARIABLES, Map, NodeView, OwnFunction, Rational, joined,
+};
 use crate::program::Pass;
 
 /// Parts of one sum or product that are paired with one another: the number of pairs goes with its square.
@@ -29,6 +31,7 @@ pub enum Node<'g> {
     Reciprocal(Place),
     Call(Function, Place),
     Binary(BinaryFunction, Place, Place),
+    Own(OwnFunction, [Place; MOST_VARIABLES]),
 }
 
 impl Key for Node<'_> {
@@ -53,6 +56,9 @@ impl Key for Node<'_> {
             Node::Reciprocal(a) => joined(5, *a as u64),
             Node::Call(function, a) => joined(7 + function.word(), *a as u64),
             Node::Binary(function, a, b) => joined(joined(6, *a as u64), (*function as u64) << 32 ^ *b as u64),
+            Node::Own(function, places) => {
+                places.iter().fold(joined(20, function.word()), |word, place| joined(word, *place as u64))
+            }
         }
     }
 }
@@ -66,6 +72,7 @@ impl Node<'_> {
             Node::Product(factors) => factors.clone(),
             Node::Reciprocal(a) | Node::Call(_, a) => vec![*a],
             Node::Binary(_, a, b) => vec![*a, *b],
+            Node::Own(function, places) => function.of(places).to_vec(),
         }
     }
 }
@@ -157,6 +164,14 @@ impl<'g> Network<'g> {
                     self.scaled(c, place)
                 });
                 (one, self.place(Node::Binary(function, a, b)))
+            }
+            NodeView::Own(function, arguments) => {
+                let scaled = |e: &Expr<'g>| {
+                    let (c, place) = self.visit(*e);
+                    self.scaled(c, place)
+                };
+                let arguments: Vec<Place> = arguments.iter().map(scaled).collect();
+                (one, self.place(Node::Own(function, OwnFunction::filled(&arguments))))
             }
             NodeView::Sum(terms) => {
                 let mut parts = Vec::with_capacity(terms.len());
@@ -326,6 +341,7 @@ impl<'g> Network<'g> {
                     }
                     Node::Reciprocal(a) | Node::Call(_, a) => follow(a),
                     Node::Binary(_, a, b) => [a, b].into_iter().for_each(&mut follow),
+                    Node::Own(_, places) => places.iter_mut().for_each(&mut follow),
                 }
             }
             self.outputs.iter_mut().for_each(|o| follow(&mut o.1));

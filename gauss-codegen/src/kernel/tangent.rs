@@ -4,7 +4,7 @@
 //! costs two or three times. Products with 0 and 1 are never written, equal instructions are written once, and what no
 //! output needs is left out: outputs that cannot change along a direction are the number 0.
 
-use crate::algebra::{BinaryFunction, Expr, Function, Map, Rational};
+use crate::algebra::{BinaryFunction, Expr, Function, MOST_VARIABLES, Map, OwnFunction, Rational};
 
 use super::write::{Operand, Operation, Program};
 
@@ -368,7 +368,28 @@ impl<'a, 'g> Pass<'a, 'g> {
             Operation::Binary(function @ (BinaryFunction::Min | BinaryFunction::Max), a, b) => {
                 self.selected(function, [a, b], tangents)
             }
+            Operation::Own(function, arguments) => {
+                let mut sum = None;
+                for (k, &argument) in function.of(&arguments).iter().enumerate() {
+                    if let Some(rate) = self.rate(argument, tangents) {
+                        let slope = self.own_slope(function, &arguments, k);
+                        sum = self.writer.times_plus(Some(rate), slope, sum);
+                    }
+                }
+                sum
+            }
         }
+    }
+
+    /// The derivative of a function of the user's own by its argument number `by`, at operands of the program.
+    pub(super) fn own_slope(
+        &mut self,
+        function: OwnFunction,
+        arguments: &[Operand<'g>; MOST_VARIABLES],
+        by: usize,
+    ) -> Operand<'g> {
+        let arguments = arguments.map(|argument| self.here(argument));
+        self.writer.push(Operation::Own(function.derivative(by), arguments))
     }
 
     /// The derivatives of two operands; `None` where both are 0.
@@ -449,7 +470,6 @@ impl<'a, 'g> Pass<'a, 'g> {
                 let one = Operand::Number(Rational::one());
                 self.writer.push(Operation::MultiplySubtract(own, own, one))
             }
-            Function::Own(function) => self.writer.push(Operation::Call(Function::Own(function.derivative()), a)),
             Function::Sin | Function::Cos => unreachable!("sines and cosines come in pairs"),
         })
     }

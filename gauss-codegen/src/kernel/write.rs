@@ -40,7 +40,7 @@ impl<'g> Program<'g> {
     /// Runs the program in double precision, with values of symbols by their keys.
     pub fn run<N: Number>(&self, symbols: &Map<u32, N>) -> Vec<N> {
         let input = |symbol: Expr<'_>| symbols.get(&symbol.key()).copied().unwrap_or(N::number(f64::NAN));
-        self.evaluate_with(input, Number::call_any)
+        self.evaluate_with(input, Number::stand_in)
     }
 }
 
@@ -131,6 +131,10 @@ impl<'g> Writer<'g> {
             Node::Binary(function, a, b) => {
                 let (a, b) = (self.operand(a), self.operand(b));
                 self.push(Instruction::Binary(function, a, b))
+            }
+            Node::Own(function, places) => {
+                let arguments = places.map(|place| self.operand(place));
+                self.push(Instruction::Own(function, arguments))
             }
             Node::Sum(terms) => self.sum(&terms),
         };

@@ -129,6 +129,7 @@ impl<'g> SystemScene<'g> {
         let speeds = kept.iter().map(|&k| self.speeds[k]).collect();
         let mut tree = self.tree.changed(speeds, rates.clone(), |placement| placement.map_velocities(value));
         tree.rotors.iter_mut().for_each(|rotor| rotor.rate = value(rotor.rate));
+        tree.deformations.iter_mut().for_each(|deformation| deformation.map_rates(value));
         let elements = self.elements.iter().map(|element| element.map(value)).collect();
         tree.settle();
         let contacts = self.contacts.iter().map(|contact| contact.in_speeds(replacement)).collect();

@@ -303,7 +303,7 @@ impl<'g> System<'g> {
     /// besides, which is no acceleration of the observer.
     fn held(&self) -> Vec<bool> {
         let held = |speed: usize| self.constraints.jacobian.iter().any(|row| !row[speed].is_zero());
-        let geared = |speed: usize| self.scene.tree.rotors.iter().any(|r| !r.row(self.scene.speeds[speed]).is_zero());
+        let geared = |speed: usize| self.scene.tree.is_geared(self.scene.speeds[speed]);
         (0..self.scene.speeds.len()).map(|speed| held(speed) || geared(speed)).collect()
     }
 
@@ -412,7 +412,7 @@ impl<'g> System<'g> {
             link.parent.is_none() && rows.into_iter().any(|(a, o)| !is_zero(o) && far(a))
         };
         let relative = !self.scene.tree.links.iter().any(about_far_pole);
-        if !several || !relative || !self.scene.tree.rotors.is_empty() {
+        if !several || !relative || self.scene.tree.has_formal_matter() {
             return None;
         }
         Elements::new(tree, self.scene.tree.planar_axis())

@@ -1,6 +1,6 @@
 //! The clauses and fields of a scene put together: every name known, every kind right, nothing missing.
 
-use crate::model::checks::{bodies, coefficients, constraints, contacts, field_shapes, forces, masses, motion};
+use crate::model::checks::{bodies, coefficients, constraints, contacts, field_shapes, forces, masses, modes, motion};
 use crate::model::language::context::Context;
 use crate::model::language::declarations::StateClause;
 use crate::model::language::fields::{ReadField, Reader, documentation};
@@ -72,8 +72,8 @@ fn body_in_chart() -> BodyClause {
     }
 }
 
-/// Checks names and kinds in all expressions, and writes the definitions out; gives back the names that are not used, and
-/// what the names stand for.
+/// Checks names and kinds in all expressions, and writes the definitions out; gives back the names that are not used,
+/// and what the names stand for.
 fn check_expressions(
     statements: &mut Statements,
     reader: &Reader<'_>,
@@ -103,6 +103,7 @@ fn check_expressions(
         .chain(statements.bodies.iter_mut().map(|body| &mut body.role_clauses));
     all.for_each(|clauses| masses::check(clauses, alone, &reader.fields, &scope, context));
     forces::check(statements, context);
+    modes::check(statements, context);
     coefficients::check(statements, &reader.fields, &scope, scalar, context);
     let well = constraints::check_kinds(statements, &scope, context);
     let in_contacts = contacts::check_kinds(statements, &scope, context);
@@ -180,6 +181,7 @@ fn assembled(
             functions: statements.functions,
             limit: statements.limit.and_then(|(_, limit)| limit),
             described: None,
+            tracked: Vec::new(),
         },
         in_chart,
         coordinates,
@@ -199,6 +201,7 @@ fn assembled(
         attractions: statements.attractions,
         forces: statements.forces,
         armatures: statements.armatures,
+        modes: statements.modes.into_iter().map(|read| read.clause).collect(),
         formal: statements.formal,
         definitions: Vec::new(),
     })

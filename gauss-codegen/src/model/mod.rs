@@ -13,11 +13,14 @@
 //! | `units` | dimensions of expressions, and which are needed where |
 //! | `checks` | rules among fields, mass data, coordinates and speeds, bodies, constraints and forces |
 //! | `robots` | files that describe robots → clauses |
+//! | `modes` | files of modes → what their clauses give |
 //! | `assembly` | clauses and fields put together: every check in order, then the model |
 
 mod assembly;
 mod checks;
 mod language;
+#[cfg(feature = "modes")]
+mod modes;
 mod names;
 mod parse;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
@@ -38,3 +41,4 @@ pub use scene::elements::{ElementKind, Takes, argument};
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 pub use scene::forces::{ForceAxes, ForceClause};
 pub use scene::model::Model;
+pub use scene::modes::{Integral, ModesClause};

@@ -6,6 +6,8 @@ use crate::model::language::fields::Reader;
 use crate::model::language::robots::Format;
 use crate::model::language::struct_clauses::Clauses;
 use crate::model::language::{fields, nesting, struct_clauses};
+#[cfg(feature = "modes")]
+use crate::model::modes;
 use crate::model::names::inputs;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 use crate::model::robots;
@@ -41,10 +43,12 @@ pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
     let model = named_fields(input, without, &mut context).and_then(|named| {
         let reader = fields::read(named, &input.generics, clauses.own, &mut context);
         let described = robot_of_file(&mut clauses, &reader, &mut context);
+        let tracked = modes_of_files(&mut clauses, &mut context);
         inputs::name(&mut clauses.statements, &reader.fields, &mut context);
         let mut model = assembly::model(input, clauses, reader, &mut context)?;
         check_python(&model.item, &input.generics, &mut context);
         model.item.described = described;
+        model.item.tracked = tracked;
         Some(model)
     });
     context.finish(model)
@@ -72,6 +76,21 @@ fn robot_of_file(clauses: &mut Clauses, reader: &Reader<'_>, context: &mut Conte
     {
         let _ = (reader, wanted);
         None
+    }
+}
+
+/// Puts what files say of modes into their clauses; gives back where they are.
+fn modes_of_files(clauses: &mut Clauses, context: &mut Context) -> Vec<String> {
+    #[cfg(feature = "modes")]
+    return modes::compose(&mut clauses.statements, context);
+    #[cfg(not(feature = "modes"))]
+    {
+        for file in clauses.statements.modes.iter().filter_map(|read| read.file.as_ref()) {
+            let remedy = "such files are read with the feature `modes` of gauss-runtime; add it in Cargo.toml";
+            context.error(file.span, format!("{}: {remedy}", file.path));
+        }
+        clauses.statements.missed |= clauses.statements.modes.iter().any(|read| read.file.is_some());
+        Vec::new()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::algebra::{BinaryFunction, Function, Key, OwnFunction, Set};
+use crate::algebra::{BinaryFunction, Function, Key, Set};
 
 use super::code::Code;
 use super::instruction::{Instruction, Operand};
@@ -94,7 +94,7 @@ impl<S: Copy> Instruction<S> {
             Instruction::SineCosine(_) => 40,
             Instruction::Call(Function::Abs | Function::Signum, _)
             | Instruction::Binary(BinaryFunction::Min | BinaryFunction::Max, ..) => 4,
-            Instruction::Call(..) | Instruction::Binary(..) => 60,
+            Instruction::Call(..) | Instruction::Binary(..) | Instruction::Own(..) => 60,
             _ => 4,
         }
     }
@@ -127,7 +127,7 @@ impl<S: Copy + Key> Code<S> {
                 // A comparison costs what an addition costs.
                 Instruction::Call(Function::Abs | Function::Signum, _)
                 | Instruction::Binary(BinaryFunction::Min | BinaryFunction::Max, ..) => counts.additions += 1,
-                Instruction::Call(..) | Instruction::Binary(..) => counts.transcendentals += 1,
+                Instruction::Call(..) | Instruction::Binary(..) | Instruction::Own(..) => counts.transcendentals += 1,
             }
         }
         counts
@@ -151,9 +151,11 @@ impl<S: Copy + Key> Code<S> {
     pub fn smoothness(&self) -> Smoothness {
         let of = |instruction: &Instruction<S>| match instruction {
             Instruction::Call(Function::Signum, _) => Smoothness::Jumps,
-            Instruction::Call(Function::Own(OwnFunction { order, continuous: Some(continuous), .. }), _) => {
-                if order > continuous { Smoothness::Jumps } else { Smoothness::Kinks }
-            }
+            Instruction::Own(function, _) => match function.continuous {
+                Some(continuous) if function.order() > continuous => Smoothness::Jumps,
+                Some(_) => Smoothness::Kinks,
+                None => Smoothness::Smooth,
+            },
             Instruction::Call(Function::Abs, _)
             | Instruction::Binary(BinaryFunction::Min | BinaryFunction::Max, ..) => Smoothness::Kinks,
             _ => Smoothness::Smooth,

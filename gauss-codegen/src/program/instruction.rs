@@ -1,6 +1,6 @@
 //! One step of a program, and what it works on.
 
-use crate::algebra::{BinaryFunction, Function, Key, Rational, joined};
+use crate::algebra::{BinaryFunction, Function, Key, MOST_VARIABLES, OwnFunction, Rational, joined};
 
 use super::input::Input;
 
@@ -45,6 +45,8 @@ pub enum Instruction<S = Input> {
     Call(Function, Operand<S>),
     /// A function of two arguments.
     Binary(BinaryFunction, Operand<S>, Operand<S>),
+    /// A function of the user's own; what it has fewer arguments than there is room for is filled up with the last one.
+    Own(OwnFunction, [Operand<S>; MOST_VARIABLES]),
 }
 
 impl<S: Key> Key for Operand<S> {
@@ -73,6 +75,7 @@ impl<S: Key> Key for Instruction<S> {
             Instruction::SineCosine(a) => joined(8, a.word()),
             Instruction::Call(function, a) => joined(joined(9, function.word()), a.word()),
             Instruction::Binary(function, a, b) => joined(two(10, a, b), *function as u64),
+            Instruction::Own(function, [a, b, c]) => joined(joined(two(11, a, b), c.word()), function.word()),
         }
     }
 }
@@ -125,6 +128,7 @@ impl<S: Copy> Instruction<S> {
             Instruction::SineCosine(a) => Instruction::SineCosine(f(a)),
             Instruction::Call(function, a) => Instruction::Call(function, f(a)),
             Instruction::Binary(function, a, b) => Instruction::Binary(function, f(a), f(b)),
+            Instruction::Own(function, arguments) => Instruction::Own(function, arguments.map(f)),
         }
     }
 
@@ -160,6 +164,9 @@ impl<S: Copy> Instruction<S> {
                 1,
             ) => Some(*b),
             (Instruction::MultiplyAdd(.., c) | Instruction::MultiplySubtract(.., c), 2) => Some(*c),
+            (Instruction::Own(function, arguments), place) if place < function.variables => {
+                Some(arguments[place as usize])
+            }
             _ => None,
         }
     }

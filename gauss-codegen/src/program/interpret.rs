@@ -1,6 +1,6 @@
 //! The interpreter: a program run on any numbers.
 
-use crate::algebra::{Function, Scalar};
+use crate::algebra::{OwnFunction, Scalar};
 
 use super::code::Code;
 use super::instruction::{Instruction, Operand};
@@ -14,19 +14,19 @@ enum Computed<T> {
 
 impl<S: Copy> Code<S> {
     /// Carries out the instructions; `input` gives the value of every input. Products are rounded before anything is
-    /// added to them.
+    /// added to them. Functions of the user's own are NaN.
     ///
     /// # Panics
     /// Of code that [`Code::verify`] refuses.
     pub fn evaluate<T: Scalar>(&self, input: impl Fn(S) -> T) -> Vec<T> {
-        self.evaluate_with(input, Scalar::call)
+        self.evaluate_with(input, |_, _| T::number(f64::NAN))
     }
 
-    /// The same; `call` gives the values of functions of one argument, those of the user's own too.
+    /// The same; `own` gives the values of functions of the user's own.
     ///
     /// # Panics
     /// Of code that [`Code::verify`] refuses.
-    pub fn evaluate_with<T: Scalar>(&self, input: impl Fn(S) -> T, call: impl Fn(T, Function) -> T) -> Vec<T> {
+    pub fn evaluate_with<T: Scalar>(&self, input: impl Fn(S) -> T, own: impl Fn(OwnFunction, &[T]) -> T) -> Vec<T> {
         let mut results: Vec<Computed<T>> = Vec::with_capacity(self.instructions.len());
         let get = |operand: Operand<S>, results: &[Computed<T>]| match operand {
             Operand::Input(symbol) => input(symbol),
@@ -53,8 +53,11 @@ impl<S: Copy> Code<S> {
                     results.push(Computed::Pair(sine, cosine));
                     continue;
                 }
-                Instruction::Call(function, a) => call(at(a), function),
+                Instruction::Call(function, a) => at(a).call(function),
                 Instruction::Binary(function, a, b) => at(a).call_with(function, at(b)),
+                Instruction::Own(function, arguments) => {
+                    own(function, &function.of(&arguments).iter().map(|&a| at(a)).collect::<Vec<T>>())
+                }
             };
             results.push(Computed::One(value));
         }

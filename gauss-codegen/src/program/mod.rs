@@ -33,7 +33,7 @@
 //! it is made.
 //!
 //! # How to write a target
-//! A target is a function from [`Functions`] to text. It declares arguments, writes each of the ten instructions and
+//! A target is a function from [`Functions`] to text. It declares arguments, writes each of the eleven instructions and
 //! five operands, and hands results back; [`targets::c`](crate::targets::c) is the shortest example.
 
 mod angles;
@@ -54,7 +54,7 @@ mod series;
 mod signs;
 mod verify;
 
-pub use crate::algebra::{BinaryFunction, Function, OwnFunction, Rational, Scalar};
+pub use crate::algebra::{BinaryFunction, Function, MOST_VARIABLES, OwnFunction, Rational, Scalar};
 pub use code::Code;
 pub use cost::{Cost, Counts, Smoothness};
 pub use function::{Program, WrongArguments};

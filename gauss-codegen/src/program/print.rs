@@ -5,7 +5,6 @@ use std::fmt;
 use super::function::Program;
 use super::input::{Argument, Input};
 use super::instruction::{Instruction, Operand};
-use crate::algebra::Function;
 
 /// ```text
 /// acceleration(k: constants, z: speeds)
@@ -52,12 +51,14 @@ impl Program {
             Instruction::Divide(a, b) => format!("{} / {}", of(a), of(b)),
             Instruction::Negate(a) => format!("-{}", of(a)),
             Instruction::SineCosine(a) => format!("sin_cos({})", of(a)),
-            Instruction::Call(Function::Own(own), a) => {
-                let name = self.functions.get(usize::from(own.index)).map_or("own", String::as_str);
-                format!("{name}{}({})", "'".repeat(usize::from(own.order)), of(a))
-            }
             Instruction::Call(function, a) => format!("{}({})", function.name(), of(a)),
             Instruction::Binary(function, a, b) => format!("{}({}, {})", function.name(), of(a), of(b)),
+            Instruction::Own(own, arguments) => {
+                let name = self.functions.get(usize::from(own.index)).map_or("own", String::as_str);
+                let arguments: Vec<String> = own.of(arguments).iter().map(of).collect();
+                let derivative = if own.variables == 1 { "'".repeat(own.order().into()) } else { own.suffix() };
+                format!("{name}{derivative}({})", arguments.join(", "))
+            }
         }
     }
 

@@ -75,7 +75,7 @@ impl<S: Copy> Code<S> {
                     PRODUCT
                 }
                 Instruction::Divide(_, b) if b.moves(&moving, &constant) => PRODUCT,
-                Instruction::Call(..) => PRODUCT,
+                Instruction::Call(..) | Instruction::Own(..) => PRODUCT,
                 Instruction::SineCosine(_) => 2 * PRODUCT,
                 Instruction::Binary(..) => 4 * PRODUCT,
                 _ => 1,
@@ -88,7 +88,7 @@ impl<S: Copy> Code<S> {
     pub fn function_without_series(&self) -> Option<&'static str> {
         self.instructions.iter().find_map(|instruction| match instruction {
             Instruction::Call(function @ (Function::Abs | Function::Signum), _) => Some(function.name()),
-            Instruction::Call(Function::Own(_), _) => Some("a function of your own"),
+            Instruction::Own(..) => Some("a function of your own"),
             Instruction::Binary(function @ (BinaryFunction::Min | BinaryFunction::Max), ..) => Some(function.name()),
             _ => None,
         })

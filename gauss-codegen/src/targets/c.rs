@@ -133,7 +133,6 @@ fn statement(program: &Program, k: usize, instruction: &Instruction, operands: &
             let written = read.map(|(name, part)| format!("{} = {name}({})", of(&part), of(a)));
             return format!("    const double {};\n", written.collect::<Vec<_>>().join(", "));
         }
-        Instruction::Call(Function::Own(function), a) => format!("{}({})", own_name(program, *function), of(a)),
         Instruction::Call(function, a) => format!("{}({})", name(*function), of(a)),
         Instruction::Binary(function, a, b) => {
             let name = match function {
@@ -144,6 +143,10 @@ fn statement(program: &Program, k: usize, instruction: &Instruction, operands: &
             };
             format!("{name}({}, {})", of(a), of(b))
         }
+        Instruction::Own(function, arguments) => {
+            let arguments: Vec<String> = function.of(arguments).iter().map(of).collect();
+            format!("{}({})", own_name(program, *function), arguments.join(", "))
+        }
     };
     format!("    const double v{k} = {value};\n")
 }
@@ -153,29 +156,32 @@ fn name(function: Function) -> &'static str {
         Function::Ln => "log",
         Function::Abs => "fabs",
         Function::Signum => "gauss_signum",
-        Function::Sin | Function::Cos | Function::Exp | Function::Sqrt | Function::Tanh | Function::Own(_) => {
-            function.name()
-        }
+        Function::Sin | Function::Cos | Function::Exp | Function::Sqrt | Function::Tanh => function.name(),
     }
 }
 
-/// A function of the user's own, which whoever links the code provides: `lift`, its derivatives `lift_1`, `lift_2`.
+/// A function of the user's own, which whoever links the code provides: `lift`, its derivatives `lift_1`, `lift_2`; of
+/// several variables with the order by each, `drag_1_0`.
 fn own_name(program: &Program, function: OwnFunction) -> String {
     let name = snake(program.functions.get(usize::from(function.index)).map_or("own", String::as_str));
-    if function.order == 0 { name } else { format!("{name}_{}", function.order) }
+    name + &function.suffix()
 }
 
 /// Declarations of the functions of the user's own that programs call.
 fn own_functions<'a>(programs: impl Iterator<Item = &'a Program>) -> String {
     let called = programs.flat_map(|program| {
         let own = |instruction: &Instruction| match instruction {
-            Instruction::Call(Function::Own(function), _) => Some(own_name(program, *function)),
+            Instruction::Own(function, _) => Some((own_name(program, *function), function.variables)),
             _ => None,
         };
         program.code.instructions.iter().filter_map(own)
     });
-    let names: BTreeSet<String> = called.collect();
-    names.into_iter().map(|name| format!("double {name}(double x);\n")).collect()
+    let names: BTreeSet<(String, u8)> = called.collect();
+    let declared = |(name, variables): (String, u8)| {
+        let arguments = ["double x", "double y", "double z"][..usize::from(variables)].join(", ");
+        format!("double {name}({arguments});\n")
+    };
+    names.into_iter().map(declared).collect()
 }
 
 fn operand(program: &Program, operand: &Operand) -> String {

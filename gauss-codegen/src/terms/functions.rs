@@ -1,45 +1,89 @@
-//! Functions of one number that the user gives.
+//! Functions of numbers that the user gives.
 
 use proc_macro2::{Ident, Span, TokenStream};
 
-/// `function(lift, derivative = …)` or `table(lift, points = …)`: a function of one number.
+/// `function(lift, derivative = …)` or `table(lift, …)`: a function of one number, or a table of up to three.
 #[derive(Clone)]
 pub struct UserFunction {
     /// Its name in expressions.
     pub name: Ident,
     /// What it is.
     pub kind: FunctionKind,
-    /// Where the function or its points are named.
+    /// Where the function, or the points or values of the table, are named.
     pub span: Span,
 }
 
-/// A function of one number that the user gives.
+/// A function that the user gives.
 #[derive(Clone)]
 pub enum FunctionKind {
-    /// Paths of functions of the user's own: itself, its derivative, and so on.
+    /// Paths of functions of the user's own, of one number: itself, its derivative, and so on.
     Rust(Vec<TokenStream>),
-    /// The path of a constant array of points [x, y], joined by straight lines.
-    Linear(TokenStream),
-    /// The same, joined by the natural cubic spline.
-    Cubic(TokenStream),
+    /// Values at points.
+    Table(Table),
+}
+
+/// A function given by its values at points.
+#[derive(Clone)]
+pub struct Table {
+    /// The grid on which the values are given; none: `values` are points [x, y].
+    pub axes: Vec<Axis>,
+    /// The path of a constant array, of as many dimensions as there are axes.
+    pub values: TokenStream,
+    /// What is between the points.
+    pub joined: Joined,
+}
+
+/// The numbers of one variable at which a table has values.
+#[derive(Clone)]
+pub struct Axis {
+    /// The path of a constant array of numbers that increase.
+    pub path: TokenStream,
+    /// What the variable is called in messages: the last word of the path, in small letters.
+    pub variable: String,
+    /// Where it is named.
+    pub span: Span,
+}
+
+/// How the points of a table are joined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Joined {
+    /// By straight lines.
+    Linear,
+    /// By cubics with the slopes of parabolas through three neighbours.
+    Hermite,
+    /// By the natural cubic spline.
+    Cubic,
 }
 
 impl FunctionKind {
-    /// How often it can be differentiated: of a table, until nothing is left.
+    /// How often it can be differentiated by each variable: of a table, until nothing is left.
     pub fn derivatives(&self) -> u8 {
         match self {
             FunctionKind::Rust(paths) => paths.len().saturating_sub(1) as u8,
-            FunctionKind::Linear(_) => 1,
-            FunctionKind::Cubic(_) => 3,
+            FunctionKind::Table(Table { joined: Joined::Linear, .. }) => 1,
+            FunctionKind::Table(_) => 3,
         }
     }
 
-    /// How many derivatives are continuous; `None`: it is smooth.
+    /// How many derivatives by each variable are continuous; `None`: it is smooth.
     pub fn continuous(&self) -> Option<u8> {
         match self {
             FunctionKind::Rust(_) => None,
-            FunctionKind::Linear(_) => Some(0),
-            FunctionKind::Cubic(_) => Some(2),
+            FunctionKind::Table(table) => Some(match table.joined {
+                Joined::Linear => 0,
+                Joined::Hermite => 1,
+                Joined::Cubic => 2,
+            }),
+        }
+    }
+
+    /// What it is a function of, in words for messages.
+    pub fn variables(&self) -> Vec<String> {
+        match self {
+            FunctionKind::Table(Table { axes, .. }) if !axes.is_empty() => {
+                axes.iter().map(|axis| axis.variable.clone()).collect()
+            }
+            _ => vec!["x".to_owned()],
         }
     }
 }

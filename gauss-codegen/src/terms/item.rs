@@ -35,6 +35,8 @@ pub struct Item {
     pub limit: Option<usize>,
     /// The file that describes the robot, whose clauses come before those of the struct.
     pub described: Option<Described>,
+    /// Other files that the scene is made of: the generated code names them, so that an edit compiles the struct anew.
+    pub tracked: Vec<String>,
 }
 
 impl Item {

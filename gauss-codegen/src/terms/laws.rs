@@ -17,10 +17,12 @@ pub enum LawKind {
     Length,
     /// The mass of a particle.
     MassInSum,
-    /// Of a bushing, row by row.
+    /// Of a bushing or of modes, row by row.
     StiffnessMatrix,
-    /// Of a bushing, row by row.
+    /// Of a bushing or of modes, row by row.
     DampingMatrix,
+    /// Mass, first moment, inertia, participations and modal masses of a body that deforms: a matrix, row by row.
+    Modes,
     /// A whole dissipation function, of the state too.
     Dissipation,
     /// A gravitational parameter.

@@ -16,7 +16,7 @@ pub mod wanted;
 
 pub use charts::{Chart, InChart, Motion, RotationChart};
 pub use described::{BodyOfFile, Described, Remark, StateOfFile, ValueOfState};
-pub use functions::{FunctionKind, UserFunction};
+pub use functions::{Axis, FunctionKind, Joined, Table, UserFunction};
 pub use inputs::{InputKind, InputName};
 pub use item::{Field, Generics, Item, Scalar};
 pub use laws::LawKind;

@@ -1,5 +1,5 @@
-//! Where a formula may be broken: before signs of a sum, between factors, inside brackets, which then have a fixed size;
-//! a long fraction becomes a product or a quotient in one line, a long root a power.
+//! Where a formula may be broken: before signs of a sum, between factors, inside brackets, which then have a fixed
+//! size; a long fraction becomes a product or a quotient in one line, a long root a power.
 
 use super::read::{Kind, Piece};
 use super::width::{bracket, fractions, width, width_of};
@@ -180,7 +180,9 @@ impl Breaker {
             let short: Vec<String> = factors[begin..end].iter().map(|factor| tex(factor)).collect();
             let short_width: f64 = factors[begin..end].iter().map(|factor| width(factor) + 3.4).sum();
             let next_is_long = end < count && width(factors[end]) > self.room(level) / 2.0;
-            if end == count || (end > begin && !next_is_long) {
+            // What stands before a bracket must leave room for what is in it.
+            let leaves_room = ends_of(&around, begin == 0, false).width[0] + short_width < self.room(level) / 2.0;
+            if end == count || (end > begin && !(next_is_long && leaves_room)) {
                 self.push(&short.join(" \\, "), short_width, (joint, level), &own);
                 begin = end;
             } else {

@@ -71,8 +71,8 @@ const SPACE: f64 = 3.4;
 const UNDERSCORE: u8 = 36;
 /// Of a digit in `\mathit`.
 const ITALIC_DIGIT: u8 = 52;
-/// The largest italic correction of small letters, after a word.
-const CORRECTION: f64 = 1.5;
+/// The largest italic correction, after a word and before `\_`.
+const CORRECTION: f64 = 1.7;
 
 fn letter(alphabet: &Alphabet, sign: char) -> Option<f64> {
     let place = match sign {
@@ -101,7 +101,7 @@ pub fn upright(words: &str) -> f64 {
 
 /// Of letters of `\mathit`.
 pub fn italic(words: &str) -> f64 {
-    of_words(words, &WORDS, ITALIC_DIGIT) + CORRECTION
+    of_words(words, &WORDS, ITALIC_DIGIT) + CORRECTION * (1 + words.matches("\\_").count()) as f64
 }
 
 /// Letters, digits, `\_`, and Greek letters as commands, which a space ends.

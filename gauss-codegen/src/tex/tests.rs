@@ -5,7 +5,7 @@ use super::read::read;
 use super::width::width;
 
 /// `\wd` of boxes in display style, from pdfTeX with Computer Modern at 10 pt.
-const MEASURED: [(&str, f64); 13] = [
+const MEASURED: [(&str, f64); 16] = [
     ("m \\, l^{2} \\, \\ddot{\\theta}", 24.8),
     ("\\left(I_{1} - I_{2}\\right) \\, \\dot{\\varphi} \\, \\sin^{2} \\vartheta", 75.3),
     ("\\frac{d}{dt} p_{\\mathit{shoulder}}", 47.5),
@@ -22,6 +22,15 @@ const MEASURED: [(&str, f64); 13] = [
     ("\\frac{\\frac{a}{b} + c}{1 + \\frac{x}{m}}", 29.1),
     ("x^{n_{1}} + \\left(1 + x^{2}\\right)^{n}", 69.3),
     ("\\text{left out of what TeX sets}", 109.6),
+    (
+        "b_{1} \\, \\left(m \\, \\left(\\hat{\\omega}_{1} \\, \\left(\\hat{\\xi}_{2} + b_{1} \\, \\hat{\\omega}_{3}\\right)\\right) - R_{31} \\, f\\right)",
+        152.3,
+    ),
+    ("\\dot{\\mathit{RH\\_HFE}} \\, \\cos \\mathit{RH\\_HFE} \\, s_{74} - \\sin \\mathit{RH\\_HFE} \\, s_{180}", 203.9),
+    (
+        "\\dot{b} \\, \\sin a \\, \\sin b \\, \\cos \\theta + \\dot{\\theta} \\, \\sin a \\, \\cos b \\, \\sin \\theta",
+        156.5,
+    ),
 ];
 
 /// Never too small, and not a tenth too large: brackets that grow are as large as they may become.

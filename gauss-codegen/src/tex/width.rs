@@ -12,12 +12,18 @@ const MEDIUM: f64 = 2.3;
 const THICK: f64 = 2.8;
 /// Of + and −, and of =.
 const SIGN: f64 = 7.8;
-/// `\scriptspace`.
-const AFTER_SCRIPTS: f64 = 0.5;
+/// `\scriptspace`, and the rounding of widths of indices.
+const AFTER_SCRIPTS: f64 = 0.8;
+/// What the italic correction of a letter is outside of its accent.
+const BESIDE_ACCENT: f64 = 0.6;
+/// What tenths of points lose of words.
+const ROUNDED: f64 = 0.3;
 /// `\nulldelimiterspace` on both sides of a fraction.
 const BESIDE_FRACTION: f64 = 2.4;
 /// Brackets around what has no fraction, fractions, fractions of fractions.
 const BRACKETS: [f64; 3] = [4.6, 7.4, 9.1];
+/// Brackets around letters with accents.
+const AROUND_ACCENTS: f64 = 6.0;
 /// A radical sign.
 const RADICAL: f64 = 10.0;
 
@@ -49,7 +55,18 @@ pub fn width_of(piece: &Piece<'_>) -> f64 {
 
 /// Of brackets around a formula, one of two.
 pub fn bracket(inside: &[Piece<'_>]) -> f64 {
-    BRACKETS[fractions(inside).min(2)]
+    match fractions(inside) {
+        0 if accented(inside) => AROUND_ACCENTS,
+        deep => BRACKETS[deep.min(2)],
+    }
+}
+
+fn accented(row: &[Piece<'_>]) -> bool {
+    row.iter().any(|piece| match &piece.kind {
+        Kind::Accent(_) => true,
+        Kind::Row(inside) | Kind::Root(inside) | Kind::Bracket { inside, .. } => accented(inside),
+        _ => false,
+    })
 }
 
 /// How many fractions stand within one another.
@@ -69,6 +86,11 @@ fn row_width(row: &[Piece<'_>], style: usize) -> f64 {
     let mut before = Class::None;
     for piece in row {
         let mut class = class_of(piece);
+        // A space that is written adds to that between its neighbours.
+        if class == Class::Space {
+            total += piece_width(piece, style);
+            continue;
+        }
         // A sign with nothing before it is that of a number.
         if class == Class::Sign && !matches!(before, Class::Ordinary | Class::Inner) {
             class = Class::Ordinary;
@@ -113,9 +135,10 @@ fn piece_width(piece: &Piece<'_>, style: usize) -> f64 {
         Kind::Sign | Kind::Equals => scale * SIGN,
         Kind::Times | Kind::Comma => scale * THICK,
         Kind::Thin => scale * THIN,
-        Kind::Function(name) | Kind::Name(name) | Kind::Words(name) => scale * upright(name),
+        Kind::Function(name) | Kind::Name(name) | Kind::Words(name) => scale * (upright(name) + ROUNDED),
         Kind::Italic(name) => scale * italic(name),
-        Kind::Row(inside) | Kind::Accent(inside) => row_width(inside, style),
+        Kind::Row(inside) => row_width(inside, style),
+        Kind::Accent(inside) => row_width(inside, style) + BESIDE_ACCENT,
         Kind::Root(inside) => scale * RADICAL + row_width(inside, style),
         Kind::Bracket { inside, .. } => 2.0 * scale * bracket(inside) + row_width(inside, style),
         Kind::Fraction(parts) => {

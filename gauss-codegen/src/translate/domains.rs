@@ -179,7 +179,7 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// The value of what literals alone determine.
-    fn known(&self, value: Expr<'g>) -> Option<Precise> {
+    pub(super) fn known(&self, value: Expr<'g>) -> Option<Precise> {
         value_of_literals(value, &self.notes.read().literals)
     }
 }

@@ -72,6 +72,7 @@ impl<'g> Translator<'_, 'g> {
                 elements.push((span, Element::new(name, field.action(tree))));
             }
         }
+        elements.extend(self.elements_of_modes(tree)?);
         let entrained = self.medium(tree)?;
         if !entrained.is_empty() {
             let span = model.medium.as_ref().map_or(model.item.ident.span(), |velocity| velocity.span);
@@ -504,7 +505,7 @@ impl<'g> Translator<'_, 'g> {
         self.model.medium.as_ref().map(|e| self.vector(e, tree)).transpose()
     }
 
-    fn link(&self, name: &Ident) -> Result<usize> {
+    pub(super) fn link(&self, name: &Ident) -> Result<usize> {
         self.links.get(&name.unraw().to_string()).copied().ok_or_else(|| bug(name.span()))
     }
 
@@ -551,12 +552,12 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// ψ of a scalar coordinate.
-    fn coordinate(&self, name: &Ident) -> Result<(usize, CoordinateKind)> {
+    pub(super) fn coordinate(&self, name: &Ident) -> Result<(usize, CoordinateKind)> {
         let index = self.model.coordinates.iter().position(|q| q.ident == *name).ok_or_else(|| bug(name.span()))?;
         Ok((index, self.model.coordinates[index].kind))
     }
 
-    fn rate_of_coordinate(&self, name: &Ident) -> Result<Expr<'g>> {
+    pub(super) fn rate_of_coordinate(&self, name: &Ident) -> Result<Expr<'g>> {
         let (index, _) = self.coordinate(name)?;
         Ok(self.declared.rate_of(self.declared.before + index, &self.kinematics)[0])
     }

@@ -26,6 +26,7 @@ mod kinematics;
 mod laws;
 mod let_go;
 mod mass_data;
+mod modes;
 mod notes;
 mod parameters;
 mod placements;

@@ -8,8 +8,8 @@ use super::symbols::name_of;
 use super::translator::Translator;
 use super::value::Value;
 
-/// Decimal places from which on a number of a file that is a multiple of π/2 to its last place is taken for it in print:
-/// of four, one angle in ten thousand is there by chance.
+/// Decimal places from which on a number of a file that is a multiple of π/2 to its last place is taken for it in
+/// print: of four, one angle in ten thousand is there by chance.
 const PLACES: u32 = 4;
 
 impl<'g> Translator<'_, 'g> {

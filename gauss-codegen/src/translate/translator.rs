@@ -33,7 +33,7 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
     let function = |clause: &UserFunction| {
         let name = clause.name.unraw().to_string();
         let index = graph.declare_function(name.clone());
-        (name, OwnFunction::new(index, clause.kind.continuous()))
+        (name, OwnFunction::new(index, clause.kind.variables().len() as u8, clause.kind.continuous()))
     };
     let functions: HashMap<String, OwnFunction> = model.item.functions.iter().map(function).collect();
     let pi = graph.symbol("π", "\\pi", true);
@@ -241,6 +241,7 @@ impl<'a, 'g> Translator<'a, 'g> {
             });
         }
         tree.rotors = self.rotors(&tree)?;
+        tree.deformations = self.deformations(&tree)?;
         let elements = match (model.chart_of_all(), self.chart()) {
             (Some(_), Some(chart)) if self.let_go.is_empty() => self.elements_on(chart)?,
             _ => self.elements(&tree)?.into_iter().map(|(_, element)| element).collect(),

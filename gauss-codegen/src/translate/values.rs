@@ -85,9 +85,10 @@ impl<'g> Translator<'_, 'g> {
             ExpressionKind::Vector([a, b, c]) => {
                 Value::Vector([self.scalar(a, tree)?, self.scalar(b, tree)?, self.scalar(c, tree)?])
             }
-            ExpressionKind::Own(name, argument) => {
+            ExpressionKind::Own(name, arguments) => {
                 let function = self.functions.get(&name.unraw().to_string()).ok_or_else(|| bug(e.span))?;
-                Value::Scalar(self.graph.call(Function::Own(*function), self.scalar(argument, tree)?))
+                let arguments = arguments.iter().map(|argument| self.scalar(argument, tree));
+                Value::Scalar(self.graph.own(*function, &arguments.collect::<Result<Vec<_>>>()?))
             }
             ExpressionKind::Call(function, arguments) => match self.call(*function, arguments, e.span, tree)? {
                 Value::Scalar(value) => Value::Scalar(self.in_range(value, e)),

@@ -243,8 +243,9 @@ impl<T: Real> ParameterCheck<T> {
         self.symmetric_so_far(field, matrix, |row, col| Rule::SymmetricAddedMass { row, col });
     }
 
-    /// The stiffness matrix of a bushing: finite, symmetric, and without a negative eigenvalue, up to rounding.
-    pub fn stiffness_matrix(&mut self, field: &'static str, matrix: &[[T; 6]; 6]) {
+    /// The stiffness matrix of a bushing or of modes: finite, symmetric, and without a negative eigenvalue, up to
+    /// rounding.
+    pub fn stiffness_matrix<const N: usize>(&mut self, field: &'static str, matrix: &[[T; N]; N]) {
         self.damping_matrix(field, matrix);
         if !self.has_violation(field) {
             self.each_lane(field, |lane| {
@@ -254,9 +255,26 @@ impl<T: Real> ParameterCheck<T> {
         }
     }
 
-    /// The damping matrix of a bushing: finite and symmetric up to rounding.
-    pub fn damping_matrix(&mut self, field: &'static str, matrix: &[[T; 6]; 6]) {
+    /// The damping matrix of a bushing or of modes: finite and symmetric up to rounding.
+    pub fn damping_matrix<const N: usize>(&mut self, field: &'static str, matrix: &[[T; N]; N]) {
         self.symmetric_so_far(field, matrix, |row, col| Rule::SymmetricCoefficients { row, col });
+    }
+
+    /// The kinetic energy of a body that deforms, in the order (u, ω, η̇): finite, with positive modal masses, and
+    /// without a negative eigenvalue, up to rounding.
+    pub fn modes<const N: usize>(&mut self, field: &'static str, matrix: &[[T; N]; N]) {
+        for row in matrix {
+            if !self.finite_so_far(field, row) {
+                return;
+            }
+        }
+        self.each_lane(field, |lane| {
+            let matrix = in_lane(matrix, lane);
+            let massless = (6..N).map(|k| matrix[k][k]).find(|mass| *mass <= 0.0);
+            let massless = massless.map(|mass| (mass, Rule::PositiveModalMass));
+            let negative = || negative_eigenvalue(&matrix, Self::UNIT).map(|value| (value, Rule::SemidefiniteModes));
+            massless.or_else(negative)
+        });
     }
 
     /// The mass matrix A of body and fluid: positive definite, and invertible in the precision of the scalar.

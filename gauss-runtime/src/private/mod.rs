@@ -41,7 +41,7 @@ pub use crate::reactions::{ContactReactions, Reactions};
 pub use crate::real::Real;
 pub use crate::series::{Series, TaylorSystem};
 pub use crate::system::{Evaluated, GaussSystem, RigidBodySystem, Smoothness};
-pub use crate::table::{Cubic, Linear};
+pub use crate::table::{Cubic, Grid, Joined, Linear, axis};
 pub use check::ParameterCheck;
 pub use columns::{Bundle, columns, each_column, filled, multiple, only_column, put, subtract_multiple, zeros};
 pub use contacts::{contact_columns, impulse_terms_of_halves};

@@ -41,8 +41,8 @@ impl<T: Real> WarningCheck<T> {
         self.negative(field, &[coefficient], Finding::DampingFeedsEnergy);
     }
 
-    /// The damping matrix of a bushing, symmetric: no eigenvalue is negative.
-    pub fn damping_matrix(&mut self, field: &'static str, matrix: &[[T; 6]; 6]) {
+    /// The damping matrix of a bushing or of modes, symmetric: no eigenvalue is negative.
+    pub fn damping_matrix<const N: usize>(&mut self, field: &'static str, matrix: &[[T; N]; N]) {
         self.eigenvalue(field, matrix, Finding::BushingFeedsEnergy);
     }
 
@@ -78,7 +78,7 @@ impl<T: Real> WarningCheck<T> {
     }
 
     /// The smallest eigenvalue of the symmetric part, in the first lane where it is negative.
-    fn eigenvalue(&mut self, field: &'static str, matrix: &[[T; 6]; 6], finding: Finding) {
+    fn eigenvalue<const N: usize>(&mut self, field: &'static str, matrix: &[[T; N]; N], finding: Finding) {
         let found =
             (0..T::LANES).find_map(|lane| negative_eigenvalue(&in_lane(matrix, lane), ParameterCheck::<T>::UNIT));
         if let Some(value) = found {

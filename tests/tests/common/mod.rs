@@ -5,6 +5,7 @@
 //! | `dual` | a scalar that carries its derivative |
 //! | `body` | a derived kernel of any chart and scalar; its flow in dual numbers |
 //! | `groups` | configurations of several factors, random ones |
+//! | `kernels` | two kernels of one system in every method |
 //! | `parameters` | random bodies |
 //! | `states` | random poses and twists |
 //! | `scenes` | macros that stamp derived structs |
@@ -17,6 +18,7 @@ pub mod agreement;
 pub mod body;
 pub mod dual;
 pub mod groups;
+pub mod kernels;
 pub mod parameters;
 #[macro_use]
 pub mod scenes;

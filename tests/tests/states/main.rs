@@ -4,7 +4,7 @@ mod saved;
 
 use gauss_runtime::integrate::Crossing;
 use gauss_runtime::prelude::*;
-use gauss_tables::{Table, Tabulate};
+use gauss_tables::{RunTable, Table, Tabulate};
 
 /// Scalars before, between and after elements of groups, which come first in the configuration.
 #[derive(GaussDynamics)]
@@ -132,7 +132,7 @@ fn charts() {
 #[test]
 fn units_of_charts() {
     fn units<S: GaussSystem<Scalar = f64> + DescribedSystem>(q: S::Configuration, z: S::Speeds) -> String {
-        let table = Table::<S>::new(vec![Sample { t: 0.0, q, z, p: z }]).state().si();
+        let table = RunTable::<S>::new(vec![Sample { t: 0.0, q, z, p: z }]).state().si();
         table.iter().map(|column| column.unit.unwrap_or("?")).collect::<Vec<_>>().join(" ")
     }
     let free = FreeState::default();

@@ -119,6 +119,12 @@ fn compute(frame: &Frame) -> Result<(), String> {
             off.row, off.squares
         )
     })?;
+    round(wide);
+    Ok(())
+}
+
+/// Writes what was computed in 64 bits to buffers of 32.
+fn round(wide: Vec<(&Buffer, Vec<f64>)>) {
     for (buffer, numbers) in wide {
         let first = buffer.data.cast::<f32>();
         for (k, number) in numbers.into_iter().enumerate() {
@@ -129,7 +135,6 @@ fn compute(frame: &Frame) -> Result<(), String> {
             }
         }
     }
-    Ok(())
 }
 
 /// The methods of a kernel as functions of JAX.

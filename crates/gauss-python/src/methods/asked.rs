@@ -8,7 +8,8 @@ use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
 use super::called;
-use super::table::{System, Table, Writer, vector_method};
+use super::system::System;
+use super::table::{Table, Writer, vector_method};
 use super::words::Id;
 
 /// Second derivatives whose sizes are known.

@@ -1,7 +1,7 @@
 //! A kernel as a function that is called. In a module of its own compilers have one caller of the kernel in the loop of
 //! accelerations, and put it there, where it saves a quarter of the time.
 
-use crate::methods::System;
+use super::system::System;
 
 /// The rates of the speeds.
 #[inline(never)]

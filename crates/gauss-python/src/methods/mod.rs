@@ -2,8 +2,10 @@
 
 mod asked;
 mod called;
+mod system;
 mod table;
 mod words;
 
-pub use table::{Sizes, System, Table, Work};
+pub use system::System;
+pub use table::{Sizes, Table, Work};
 pub use words::{Argument, Id, SPECS, Size, Slot, Spec};

@@ -6,27 +6,9 @@ use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
 use super::called;
+use super::system::System;
 use super::words::{COUNT, Id, Size, Slot};
 use crate::memory::{Source, Target};
-
-/// A kernel in any number of lanes.
-pub trait System:
-    GaussSystem<Scalar: Packed<Single = f64>, Input: VectorSpace<<Self as GaussSystem>::Scalar>>
-    + DescribedSystem
-    + Send
-    + Sync
-    + 'static
-{
-}
-
-impl<S> System for S where
-    S: GaussSystem<Scalar: Packed<Single = f64>, Input: VectorSpace<<S as GaussSystem>::Scalar>>
-        + DescribedSystem
-        + Send
-        + Sync
-        + 'static
-{
-}
 
 /// How many numbers the vectors of a system have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -143,8 +125,8 @@ impl<'a, S: System> At<'a, S> {
     #[inline(always)]
     fn vector<V: VectorSpace<S::Scalar>>(&self, slot: Slot) -> V {
         let (mut vector, source) = (V::zero(), self.work.arguments[slot as usize]);
-        // With a stride that is a constant here, rows are read as vectors, and lanes are made of these. One way for all:
-        // where there are two, vectors meet in memory behind them, and a batch takes three times as long.
+        // With a stride that is a constant here, rows are read as vectors, and lanes are made of these. One way for
+        // all: where there are two, vectors meet in memory behind them.
         let (rows, width) = (source.known(V::DIM), S::Scalar::WIDTH);
         if V::DIM > SHORT {
             (0..V::DIM).for_each(|i| vector.set_component(i, Self::number(&rows, self.row, i)));

@@ -8,6 +8,7 @@ mod schema;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 pub use part::PartState;
 pub use results::Results;
@@ -20,6 +21,9 @@ use crate::row::Row;
 /// The file of the declaration, and of all results in one.
 const DECLARATION: &str = "study.json";
 const MERGED: &str = "study.parquet";
+
+/// Whoever writes a part or the merged file writes all the time: what rests for so long is of nobody.
+const ABANDONED: Duration = Duration::from_secs(3600);
 
 /// The folder of a study.
 #[derive(Debug)]
@@ -85,7 +89,7 @@ impl<'a> Folder<'a> {
     }
 
     /// Puts all parts into one file, whose bytes do not depend on who made the parts; returns its path. What killed
-    /// workers left is removed.
+    /// workers left an hour ago is removed.
     pub fn merge(&self) -> Result<PathBuf, StudyError> {
         let mut missing = 0;
         for part in 0..self.declaration.parts() {
@@ -98,6 +102,9 @@ impl<'a> Folder<'a> {
         if missing > 0 {
             return Err(StudyError::Missing { parts: missing, of: self.declaration.parts() });
         }
+        for part in 0..self.declaration.parts() {
+            self.decoded(part)?;
+        }
         let file = self.path.join(MERGED);
         gauss_files::write_with(&file, |out| {
             merge::merge(self.declaration, (0..self.declaration.parts()).map(|part| self.part(part)), out)
@@ -107,11 +114,25 @@ impl<'a> Folder<'a> {
         Ok(file)
     }
 
-    /// Removes unfinished files of workers that were killed: where all parts are whole no one writes any more.
+    /// Reads all pages of a part: its end may be whole where its middle is not.
+    fn decoded(&self, part: u64) -> Result<(), StudyError> {
+        let file = self.part(part);
+        let opened = fs::File::open(&file).map_err(StudyError::io(&file))?;
+        results::decode(opened).map_err(|error| StudyError::Damaged { file, reason: error.to_string() })
+    }
+
+    /// Removes unfinished files of workers that were killed. A file that was written to a short while ago may be of one
+    /// that is at work: another merge, or a worker that makes a part which somebody else has made meanwhile.
     fn tidy(&self) -> Result<(), StudyError> {
         for entry in fs::read_dir(self.path).map_err(StudyError::io(self.path))? {
             let entry = entry.map_err(StudyError::io(self.path))?;
-            if entry.file_name().to_string_lossy().starts_with(gauss_files::UNFINISHED) {
+            if !entry.file_name().to_string_lossy().starts_with(gauss_files::UNFINISHED) {
+                continue;
+            }
+            // What is gone meanwhile was not left.
+            let written = entry.metadata().and_then(|about| about.modified()).ok();
+            let still = written.and_then(|written| written.elapsed().ok());
+            if still.is_some_and(|still| still > ABANDONED) {
                 fs::remove_file(entry.path()).map_err(StudyError::io(entry.path()))?;
             }
         }

@@ -95,6 +95,25 @@ impl Results {
     }
 }
 
+/// Decodes all columns of a file, and keeps nothing.
+pub fn decode(file: File) -> Result<(), ParquetError> {
+    let reader = SerializedFileReader::new(file)?;
+    for group in 0..reader.num_row_groups() {
+        let group = reader.get_row_group(group)?;
+        let rows = group.metadata().num_rows() as usize;
+        for place in 0..group.num_columns() {
+            match group.get_column_reader(place)? {
+                ColumnReader::DoubleColumnReader(mut reader) => values::<DoubleType, _>(&mut reader, rows, drop)?,
+                ColumnReader::Int64ColumnReader(mut reader) => values::<Int64Type, _>(&mut reader, rows, drop)?,
+                ColumnReader::BoolColumnReader(mut reader) => values::<BoolType, _>(&mut reader, rows, drop)?,
+                ColumnReader::ByteArrayColumnReader(mut reader) => values::<ByteArrayType, _>(&mut reader, rows, drop)?,
+                _ => return Err(ParquetError::General(format!("column {place} is of no type that studies have"))),
+            };
+        }
+    }
+    Ok(())
+}
+
 type Reader<T> = parquet::column::reader::ColumnReaderImpl<T>;
 
 fn values<T: DataType, U>(

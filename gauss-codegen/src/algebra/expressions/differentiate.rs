@@ -90,6 +90,12 @@ impl<'g> Expr<'g> {
                 let side = graph.call(Function::Signum, if function == BinaryFunction::Max { a - b } else { b - a });
                 ((x + y) + side * (x - y)).half()
             }
+            NodeView::Own(function, arguments) => {
+                let rates: Vec<_> = arguments.iter().map(|argument| argument.differentiate(rates, memo)).collect();
+                let moving = rates.into_iter().enumerate().filter(|(_, rate)| !rate.is_zero());
+                let terms = moving.map(|(k, rate)| rate * graph.own(function.derivative(k), &arguments));
+                terms.reduce(|sum, term| sum + term).unwrap_or_else(|| graph.zero())
+            }
             NodeView::Group(inner) => inner.differentiate(rates, memo),
         };
         memo.insert(self.id, result);
@@ -108,7 +114,6 @@ impl<'g> Expr<'g> {
             Function::Abs => graph.call(Function::Signum, argument),
             Function::Signum => graph.zero(),
             Function::Tanh => (graph.one() - self * self).group(),
-            Function::Own(function) => graph.call(Function::Own(function.derivative()), argument),
         }
     }
 }

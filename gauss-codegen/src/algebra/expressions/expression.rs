@@ -24,6 +24,7 @@ impl<'g> Expr<'g> {
             Node::Product(factors) => NodeView::Product(factors.iter().map(|&(id, n)| (at(id), n)).collect()),
             Node::Call(function, id) => NodeView::Call(function, at(id)),
             Node::Binary(function, a, b) => NodeView::Binary(function, at(a), at(b)),
+            Node::Own(function, ids) => NodeView::Own(function, function.of(&ids).iter().copied().map(at).collect()),
             Node::Group(id) => NodeView::Group(at(id)),
             Node::Opaque(id) => NodeView::Opaque(at(id)),
         }

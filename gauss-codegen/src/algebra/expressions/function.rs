@@ -20,39 +20,71 @@ pub enum Function {
     Signum,
     /// Hyperbolic tangent.
     Tanh,
-    /// A function of the user's own, or one of its derivatives: only its name is known when code is written.
-    Own(OwnFunction),
 }
 
-/// A function that the user gives, or a derivative of it.
+/// Of how many numbers a function of the user's own may be.
+pub const MOST_VARIABLES: usize = 3;
+
+/// A function that the user gives, of one number or several, or a derivative of it: only its name is known when code is
+/// written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct OwnFunction {
     /// Which of them: an index into a list of names.
     pub index: u16,
-    /// How often it is differentiated.
-    pub order: u8,
-    /// How many of its derivatives are continuous, of a table; `None`: it is smooth.
+    /// Of how many numbers it is, at least one.
+    pub variables: u8,
+    /// How often it is differentiated by each of them.
+    pub orders: [u8; MOST_VARIABLES],
+    /// How many derivatives by each variable are continuous, of a table; `None`: it is smooth.
     pub continuous: Option<u8>,
 }
 
 impl OwnFunction {
-    /// The function itself.
-    pub const fn new(index: u16, continuous: Option<u8>) -> Self {
-        Self { index, order: 0, continuous }
+    /// The function itself, of one number up to [`MOST_VARIABLES`].
+    pub const fn new(index: u16, variables: u8, continuous: Option<u8>) -> Self {
+        Self { index, variables, orders: [0; MOST_VARIABLES], continuous }
     }
 
-    /// Its derivative.
+    /// Its derivative by one of its variables.
     #[must_use]
-    pub const fn derivative(self) -> Self {
-        Self { order: self.order + 1, ..self }
+    pub const fn derivative(mut self, by: usize) -> Self {
+        self.orders[by] += 1;
+        self
     }
 
-    /// Another smooth function in its place, for checks of identities that hold for every function: the angle by which
-    /// the sine of its argument is shifted, and the number of times that sine is differentiated.
-    pub(crate) fn stand_in(self) -> (f64, u8) {
-        (0.3 + 0.7 * f64::from(self.index), self.order % 4)
+    /// How often it is differentiated by the variable by which it is most often.
+    pub const fn order(self) -> u8 {
+        let [mut most, second, third] = self.orders;
+        if second > most {
+            most = second;
+        }
+        if third > most { third } else { most }
+    }
+
+    /// What follows its name where it is a function of its own: nothing of the function itself, the order of a
+    /// derivative by the only variable, the orders by each of several: `_2`, `_1_0`.
+    pub(crate) fn suffix(self) -> String {
+        let orders = self.of(&self.orders);
+        let orders = if self.order() == 0 { &[] } else { orders };
+        orders.iter().map(|order| format!("_{order}")).collect()
+    }
+
+    /// Those of its arguments that are not mere filling.
+    pub(crate) fn of<T>(self, arguments: &[T; MOST_VARIABLES]) -> &[T] {
+        &arguments[..usize::from(self.variables)]
+    }
+
+    /// A list of arguments, filled up with the last one.
+    pub(crate) fn filled<T: Copy>(arguments: &[T]) -> [T; MOST_VARIABLES] {
+        std::array::from_fn(|k| arguments[k.min(arguments.len() - 1)])
+    }
+
+    /// A number for each, for hashing.
+    pub(crate) const fn word(self) -> u64 {
+        let [first, second, third] = self.orders;
+        (self.index as u64) << 24 | (second as u64) << 16 | (third as u64) << 8 | first as u64
     }
 }
 
@@ -82,7 +114,6 @@ impl Function {
             Function::Abs => "abs",
             Function::Signum => "signum",
             Function::Tanh => "tanh",
-            Function::Own(_) => "own",
         }
     }
 }
@@ -99,7 +130,6 @@ impl Function {
             Function::Abs => 5,
             Function::Signum => 6,
             Function::Tanh => 7,
-            Function::Own(own) => 8 + ((own.index as u64) << 8 | own.order as u64),
         }
     }
 }

@@ -35,6 +35,7 @@ pub enum NodeView<'g> {
     Product(Vec<(Expr<'g>, i32)>),
     Call(Function, Expr<'g>),
     Binary(BinaryFunction, Expr<'g>, Expr<'g>),
+    Own(OwnFunction, Vec<Expr<'g>>),
     Group(Expr<'g>),
     Opaque(Expr<'g>),
 }
@@ -108,10 +109,15 @@ impl Graph {
         (functions.len() - 1) as u16
     }
 
-    /// The name of a function of the user's own, with a prime for each derivative.
+    /// The name of a function of the user's own.
     pub fn function_name(&self, function: OwnFunction) -> String {
-        let name = self.functions.borrow().get(usize::from(function.index)).cloned().unwrap_or_default();
-        name + &"'".repeat(usize::from(function.order))
+        self.functions.borrow().get(usize::from(function.index)).cloned().unwrap_or_default()
+    }
+
+    /// A function of the user's own, of as many arguments as it takes.
+    pub fn own<'g>(&'g self, function: OwnFunction, arguments: &[Expr<'g>]) -> Expr<'g> {
+        let ids: Vec<Id> = arguments.iter().map(|argument| argument.id).collect();
+        self.intern(Node::Own(function, OwnFunction::filled(&ids)))
     }
 
     /// Keys of all symbols made so far.
@@ -214,6 +220,7 @@ impl Graph {
             Node::Product(factors) => factors.iter().fold(leaf, |all, &(id, _)| with(all, id)),
             Node::Call(_, id) | Node::Group(id) | Node::Opaque(id) => part(*id),
             Node::Binary(_, a, b) => with(part(*a), *b),
+            Node::Own(_, ids) => ids.iter().fold(leaf, |all, &id| with(all, id)),
         };
         Traits { depth: parts.depth + 1, ..parts }
     }
@@ -442,7 +449,7 @@ impl Graph {
                 }
                 Function::Cos | Function::Exp => return self.one(),
                 // Not a number: it is left to whoever evaluates it.
-                Function::Ln | Function::Own(_) => {}
+                Function::Ln => {}
             }
         }
         if argument == self.one() {

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::algebra::expressions::function::{BinaryFunction, Function};
+use crate::algebra::expressions::function::{BinaryFunction, Function, MOST_VARIABLES, OwnFunction};
 use crate::algebra::map::{Key, joined};
 use crate::algebra::rational::Rational;
 
@@ -19,6 +19,8 @@ pub(in crate::algebra) enum Node {
     Product(Rc<[(Id, i32)]>),
     Call(Function, Id),
     Binary(BinaryFunction, Id, Id),
+    /// A function of the user's own, with arguments that are filled up with the last one.
+    Own(OwnFunction, [Id; MOST_VARIABLES]),
     /// A sum that is to be computed once under a name: transparent for mathematics, a barrier for flattening.
     Group(Id),
     /// A constant that is to be computed once and never looked into again, not even by the normal form.
@@ -57,6 +59,9 @@ impl Key for Node {
             }
             Node::Call(function, id) => (4 + function.word()) << 32 | u64::from(*id),
             Node::Binary(function, a, b) => (64 + *function as u64) << 48 | u64::from(*a) << 24 ^ u64::from(*b),
+            Node::Own(function, ids) => {
+                ids.iter().fold(joined(130, function.word()), |word, id| joined(word, u64::from(*id)))
+            }
             Node::Group(id) => 128 << 32 | u64::from(*id),
             Node::Opaque(id) => 129 << 32 | u64::from(*id),
         }
@@ -72,6 +77,7 @@ impl Node {
             Node::Product(factors) => factors.iter().map(|&(id, _)| id).collect(),
             Node::Call(_, id) | Node::Group(id) | Node::Opaque(id) => vec![*id],
             Node::Binary(_, a, b) => vec![*a, *b],
+            Node::Own(function, ids) => function.of(ids).to_vec(),
         }
     }
 }

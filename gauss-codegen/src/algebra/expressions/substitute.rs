@@ -50,6 +50,10 @@ impl<'g> Expr<'g> {
             }
             Node::Call(function, argument) => graph.call(function, at(argument).rebuild(memo, leaf)),
             Node::Binary(function, a, b) => at(a).rebuild(memo, leaf).binary(function, at(b).rebuild(memo, leaf)),
+            Node::Own(function, ids) => {
+                let arguments: Vec<_> = function.of(&ids).iter().map(|&id| at(id).rebuild(memo, leaf)).collect();
+                graph.own(function, &arguments)
+            }
             Node::Group(inner) => at(inner).rebuild(memo, leaf).group(),
             Node::Opaque(inner) => at(inner).rebuild(memo, leaf).opaque(),
         };

@@ -98,6 +98,10 @@ impl<'g> Differences<'g> {
             }
             NodeView::Call(function, argument) => graph.call(function, self.visit(argument)),
             NodeView::Binary(function, a, b) => self.visit(a).binary(function, self.visit(b)),
+            NodeView::Own(function, arguments) => {
+                let arguments: Vec<_> = arguments.into_iter().map(|argument| self.visit(argument)).collect();
+                graph.own(function, &arguments)
+            }
             NodeView::Group(inner) => self.visit(inner).group(),
         }
     }

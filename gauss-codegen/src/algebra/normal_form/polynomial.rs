@@ -176,7 +176,7 @@ fn is_written_sum(e: Expr<'_>, exponent: i32) -> bool {
     let several = !moving.is_empty() && fixed.len() + moving.len() > 1;
     let kept = |e: &Expr<'_>| match e.view() {
         NodeView::Symbol(_) | NodeView::Call(Function::Sin | Function::Cos, _) => true,
-        NodeView::Call(..) => exponent > 1,
+        NodeView::Call(..) | NodeView::Own(..) => exponent > 1,
         _ => false,
     };
     let multiple = |e: Expr<'_>| match e.view() {
@@ -231,6 +231,13 @@ impl<'g> Expander<'g> {
                 let [a, b] = [a, b].map(|id| self.graph.expr(id));
                 let (a, b) = (self.visit(a)?.to_expr(), self.visit(b)?.to_expr());
                 Polynomial::atom(a.binary(function, b), 1)
+            }
+            Node::Own(function, ids) => {
+                let mut arguments = Vec::new();
+                for &id in function.of(&ids) {
+                    arguments.push(self.visit(self.graph.expr(id))?.to_expr());
+                }
+                Polynomial::atom(self.graph.own(function, &arguments), 1)
             }
         };
         Some(Rc::new(polynomial))

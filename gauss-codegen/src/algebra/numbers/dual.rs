@@ -115,8 +115,4 @@ impl<N: Number> Number for Dual<N> {
     fn powi(self, exponent: i32) -> Self {
         self.chain(self.value.powi(exponent), || N::number(exponent.into()) * self.value.powi(exponent - 1))
     }
-
-    fn call_any(self, function: Function) -> Self {
-        self.chain(self.value.call_any(function), || function.slope(self.value))
-    }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::algebra::expressions::function::{BinaryFunction, Function};
+use crate::algebra::expressions::function::{BinaryFunction, Function, MOST_VARIABLES, OwnFunction};
 use crate::algebra::expressions::graph::{Expr, NodeView};
 use crate::algebra::expressions::node::{Id, Node};
 use crate::algebra::map::Map;
@@ -22,7 +22,7 @@ pub trait Scalar:
     /// Sine and cosine of an angle in radians.
     fn sine_cosine(self) -> (Self, Self);
 
-    /// A function of one argument; NaN, or what stands for it, outside its domain, and of functions of the user's own.
+    /// A function of one argument; NaN, or what stands for it, outside its domain.
     fn call(self, function: Function) -> Self;
 
     /// A function of two arguments, of which this is the first.
@@ -56,7 +56,6 @@ macro_rules! primitive {
                     Function::Signum if self == 0.0 => 0.0,
                     Function::Signum => self.signum(),
                     Function::Tanh => self.tanh(),
-                    Function::Own(_) => $scalar::NAN,
                 }
             }
 
@@ -101,20 +100,29 @@ pub trait Number: Scalar + Copy + PartialOrd {
         if exponent < 0 { one / power } else { power }
     }
 
-    /// A function, where those of the user's own, of which nothing is known, are stood in for by shifted sines: what
-    /// holds of any function holds of these.
-    fn call_any(self, function: Function) -> Self {
-        let Function::Own(own) = function else { return self.call(function) };
-        let (shift, order) = own.stand_in();
-        let (sine, cosine) = (self + Self::number(shift)).sine_cosine();
-        match order {
+    /// A function of the user's own, of which nothing is known: a sine of its arguments, shifted and of other
+    /// frequencies for each, stands in for it. What holds of any function holds of these.
+    fn stand_in(function: OwnFunction, arguments: &[Self]) -> Self {
+        let mut angle = Self::number(0.3 + 0.7 * f64::from(function.index));
+        let (mut order, mut factor) = (0, 1.0);
+        for ((&x, frequency), &times) in arguments.iter().zip(FREQUENCIES).zip(&function.orders) {
+            angle = if frequency == 1.0 { x + angle } else { angle + Self::number(frequency) * x };
+            order += times;
+            factor *= f64::powi(frequency, times.into());
+        }
+        let (sine, cosine) = angle.sine_cosine();
+        let value = match order % 4 {
             0 => sine,
             1 => cosine,
             2 => -sine,
             _ => -cosine,
-        }
+        };
+        if factor == 1.0 { value } else { Self::number(factor) * value }
     }
 }
+
+/// How fast the stand-in of a function of the user's own changes with each of its arguments.
+const FREQUENCIES: [f64; MOST_VARIABLES] = [1.0, 0.6, 1.7];
 
 impl Number for f64 {
     const NEGLIGIBLE: f64 = 1e-12;
@@ -148,7 +156,6 @@ impl Function {
                 let value = x.call(Function::Tanh);
                 one - value * value
             }
-            Function::Own(function) => x.call_any(Function::Own(function.derivative())),
         }
     }
 }
@@ -209,9 +216,16 @@ impl<'a, N: Number> Evaluation<'a, N> {
                 }
                 product
             }
-            Node::Call(function, id) if self.stand_ins => self.visit(nodes, *id).call_any(*function),
             Node::Call(function, id) => self.visit(nodes, *id).call(*function),
             Node::Binary(function, a, b) => self.visit(nodes, *a).call_with(*function, self.visit(nodes, *b)),
+            Node::Own(_, ids) if !self.stand_ins => {
+                ids.iter().for_each(|id| _ = self.visit(nodes, *id));
+                N::number(f64::NAN)
+            }
+            Node::Own(function, ids) => {
+                let arguments = ids.map(|id| self.visit(nodes, id));
+                N::stand_in(*function, function.of(&arguments))
+            }
             Node::Group(id) | Node::Opaque(id) => self.visit(nodes, *id),
         };
         self.values.insert(id, value);
@@ -290,6 +304,12 @@ impl<'a, 'b, N: Number> Tangents<'a, 'b, N> {
             NodeView::Binary(function, a, b) => {
                 let first = self.values.value(a).call_with(function, self.values.value(b)) == self.values.value(a);
                 if first { self.visit(a) } else { self.visit(b) }
+            }
+            NodeView::Own(function, arguments) => {
+                let at: Vec<N> = arguments.iter().map(|e| self.values.value(*e)).collect();
+                let rates = arguments.into_iter().map(|e| self.visit(e)).enumerate().filter(|(_, rate)| *rate != zero);
+                let terms = rates.map(|(k, rate)| N::stand_in(function.derivative(k), &at) * rate);
+                terms.reduce(|sum, term| sum + term).unwrap_or(zero)
             }
             NodeView::Group(e) | NodeView::Opaque(e) => self.visit(e),
         };

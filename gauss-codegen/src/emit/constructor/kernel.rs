@@ -1,14 +1,15 @@
 //! The kernel struct, and `kernel()` of the user's struct, which makes it.
 
-use proc_macro2::{Span, TokenStream};
-use quote::{quote, quote_spanned};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote, quote_spanned};
 
+use crate::algebra::MOST_VARIABLES;
 use crate::emit::constructor::laws::warnings;
 use crate::emit::constructor::parameters::kernel_body;
 use crate::emit::derived::{Derived, KernelGenerics};
 use crate::emit::dialect::program::table_name;
 use crate::emit::text::documentation::{Documentation, Equations, rustdoc};
-use crate::terms::{FunctionKind, Generics, Item, UserFunction};
+use crate::terms::{Axis, FunctionKind, Generics, Item, Joined, Table, UserFunction};
 
 /// The struct: the constants that `kernel()` computes.
 pub fn kernel_struct(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
@@ -59,19 +60,59 @@ pub fn constructor(derived: &Derived<'_, '_>) -> TokenStream {
 
 /// Constants that hold the tables.
 pub fn tables(derived: &Derived<'_, '_>) -> TokenStream {
-    let private = derived.private();
-    let table = |(index, clause): (usize, &UserFunction)| {
-        let (points, kind) = match &clause.kind {
-            FunctionKind::Rust(_) => return None,
-            FunctionKind::Linear(points) => (points, quote!(Linear)),
-            FunctionKind::Cubic(points) => (points, quote!(Cubic)),
-        };
-        let name = table_name(index as u16);
-        // What is wrong with the points is shown where they are named.
-        let at = clause.span.resolved_at(Span::mixed_site());
-        Some(quote_spanned!(at=> const #name: #private::#kind<{ #points.len() }> = #private::#kind::through(&#points);))
+    let table = |(index, clause): (usize, &UserFunction)| match &clause.kind {
+        FunctionKind::Rust(_) => None,
+        FunctionKind::Table(table) => Some(constant(&table_name(index as u16), table, clause.span, &derived.private())),
     };
     derived.item().functions.iter().enumerate().filter_map(table).collect()
+}
+
+/// The constant of a table. What is wrong with its numbers is shown where they are named.
+fn constant(name: &Ident, table: &Table, span: Span, private: &TokenStream) -> TokenStream {
+    let Table { axes, values, joined } = table;
+    // The path of what is called, too: a call begins there.
+    let there = |span: Span| {
+        let at = span.resolved_at(Span::mixed_site());
+        let path = private.clone().into_iter().map(|mut token| {
+            token.set_span(at);
+            token
+        });
+        (at, path.collect::<TokenStream>())
+    };
+    let (at, private) = there(span);
+    let kind = match joined {
+        Joined::Linear => quote!(Linear),
+        Joined::Hermite => quote!(Hermite),
+        Joined::Cubic => quote!(Cubic),
+    };
+    if axes.is_empty() && *joined != Joined::Hermite {
+        return quote_spanned!(at=> const #name: #private::#kind<{ #values.len() }> = #private::#kind::through(&#values););
+    }
+    let (of, variables) = match axes.len() {
+        0 => (quote_spanned!(at=> through), 1),
+        1 => (quote_spanned!(at=> of_one), 1),
+        2 => (quote_spanned!(at=> of_two), 2),
+        _ => (quote_spanned!(at=> of_three), 3),
+    };
+    let mut lengths: Vec<TokenStream> = axes.iter().map(|Axis { path, .. }| quote!({ #path.len() })).collect();
+    let checked: Vec<Ident> = (0..axes.len()).map(|k| format_ident!("{}_AXIS_{}", name, k)).collect();
+    let constants = axes.iter().zip(&lengths).zip(&checked).map(|((Axis { path, span, .. }, length), checked)| {
+        let (at, private) = there(*span);
+        quote_spanned!(at=> const #checked: [f64; #length] = #private::axis(&#path);)
+    });
+    let constants: TokenStream = constants.collect();
+    if axes.is_empty() {
+        lengths.push(quote!({ #values.len() }));
+    }
+    let ones = (lengths.len()..MOST_VARIABLES).map(|_| quote!(1));
+    // At each point the value and its slopes along the axes, one after the other.
+    let numbers = Literal::usize_unsuffixed(if *joined == Joined::Linear { 1 } else { 1 << variables });
+    quote_spanned! {at=>
+        #constants
+        #[allow(long_running_const_eval)]
+        const #name: #private::Grid<#(#lengths,)* #(#ones,)* #numbers> =
+            #private::Grid::#of(#(&#checked,)* &#values, #private::Joined::#kind);
+    }
 }
 
 /// What the scalar must be, where it is a type parameter.

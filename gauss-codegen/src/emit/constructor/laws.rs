@@ -44,6 +44,7 @@ fn written(
             LawKind::MassInSum => quote!(mass_in_sum),
             LawKind::StiffnessMatrix => quote!(stiffness_matrix),
             LawKind::DampingMatrix => quote!(damping_matrix),
+            LawKind::Modes => quote!(modes),
             LawKind::Damping | LawKind::Attraction => quote!(finite),
             LawKind::Dissipation => return None,
         };
@@ -61,7 +62,7 @@ fn written(
                 quote!({ #compute __check.#check(#label, #(#values)*); })
             }
             LawKind::Limits => quote!({ #compute __check.#check(#label, [#(#values),*]); }),
-            LawKind::StiffnessMatrix | LawKind::DampingMatrix => {
+            LawKind::StiffnessMatrix | LawKind::DampingMatrix | LawKind::Modes => {
                 let rows = rows_of(&values);
                 quote!({ #compute __check.#check(#label, #rows); })
             }
@@ -71,9 +72,9 @@ fn written(
     derived.subject.given.laws.iter().filter(|law| of_kind(law.kind)).filter_map(check).collect()
 }
 
-/// A matrix of six columns.
+/// A square matrix.
 fn rows_of(entries: &[TokenStream]) -> TokenStream {
-    let rows = entries.chunks(6).map(|row| quote!([#(#row),*]));
+    let rows = entries.chunks(entries.len().isqrt().max(1)).map(|row| quote!([#(#row),*]));
     quote!(&[#(#rows),*])
 }
 
@@ -129,6 +130,7 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
             | LawKind::NonNegative
             | LawKind::Length
             | LawKind::StiffnessMatrix
+            | LawKind::Modes
             | LawKind::Friction
             | LawKind::Restitution
             | LawKind::Direction

@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use crate::algebra::{Expr, Map, OwnFunction, Rational};
 use crate::kernel::Program;
 use crate::targets::rust::{self, Dialect, Kept};
-use crate::terms::{FunctionKind, Scalar, UserFunction};
+use crate::terms::{FunctionKind, Joined, Scalar, Table, UserFunction};
 
 /// How numbers are written for a scalar type.
 pub struct ScalarTokens<'a> {
@@ -104,9 +104,8 @@ impl<'g> Dialect<Expr<'g>> for KernelDialect<'_> {
         Some(quote!(#real::sines_and_cosines))
     }
 
-    /// By its path, or as a method of a table.
-    fn own_function(&self, own: OwnFunction) -> TokenStream {
-        own_function(self.scalar, own)
+    fn own_function(&self, own: OwnFunction, arguments: &[TokenStream]) -> TokenStream {
+        own_function(self.scalar, own, arguments)
     }
 
     fn apart(&self) -> Option<TokenStream> {
@@ -124,15 +123,22 @@ pub fn statements<'g>(
 }
 
 /// How a function of the user's own, or a derivative of it, is called: by its path, or as a method of a table.
-fn own_function(scalar: &ScalarTokens<'_>, own: OwnFunction) -> TokenStream {
-    let order = usize::from(own.order);
+fn own_function(scalar: &ScalarTokens<'_>, own: OwnFunction, arguments: &[TokenStream]) -> TokenStream {
+    let (table, order) = (table_name(own.index), usize::from(own.order()));
     match &scalar.functions[usize::from(own.index)].kind {
         // That the derivative is there was checked.
-        FunctionKind::Rust(paths) => paths.get(order).map_or_else(TokenStream::new, |path| quote!(#path)),
-        FunctionKind::Linear(_) | FunctionKind::Cubic(_) => {
-            let (table, method) = (table_name(own.index), ["value", "slope", "second", "third"].get(order));
+        FunctionKind::Rust(paths) => {
+            let path = paths.get(order);
+            quote!(#path(#(#arguments),*))
+        }
+        FunctionKind::Table(Table { axes, joined, .. }) if axes.is_empty() && *joined != Joined::Hermite => {
+            let method = ["value", "slope", "second", "third"].get(order);
             let method = Ident::new(method.copied().unwrap_or("third"), Span::call_site());
-            quote!(#table.#method)
+            quote!(#table.#method(#(#arguments),*))
+        }
+        FunctionKind::Table(_) => {
+            let orders = own.of(&own.orders);
+            quote!(#table.at([#(#orders),*], [#(#arguments),*]))
         }
     }
 }

@@ -215,7 +215,7 @@ impl<'a, 'g> Order<'a, 'g> {
                 let down = self.lane(quote!(#w * __order), ak.clone());
                 quote!((#p * #fma(__over, #up, #ak * #v0) - __over * #down) * #reciprocal)
             }
-            Operation::Binary(..) => {
+            Operation::Binary(..) | Operation::Own(..) => {
                 let message = "bug in gauss-derive: a function without a power series";
                 quote!(::core::compile_error!(#message))
             }

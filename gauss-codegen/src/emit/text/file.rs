@@ -10,8 +10,9 @@ use crate::emit::derived::Derived;
 /// Beside what is derived, where it is compiled: the file as a constant that nobody reads, and a warning for
 /// everything that acts in it and not in the equations.
 pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
+    let tracked = &derived.item().tracked;
     let Some(Described { paths, span, remarks, .. }) = &derived.item().described else {
-        return TokenStream::new();
+        return quote!(#(const _: &[::core::primitive::u8] = ::core::include_bytes!(#tracked);)*);
     };
     let ignored: Vec<&Remark> = remarks.iter().filter(|remark| remark.ignored).collect();
     // The compiler warns of what is deprecated, in the words of its note and with its name; macros have no other way
@@ -37,6 +38,7 @@ pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
     });
     quote! {
         #(const _: &[::core::primitive::u8] = ::core::include_bytes!(#paths);)*
+        #(const _: &[::core::primitive::u8] = ::core::include_bytes!(#tracked);)*
         #told
     }
 }

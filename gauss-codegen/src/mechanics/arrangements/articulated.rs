@@ -66,6 +66,10 @@ impl<'a, 'g> Articulated<'a, 'g> {
     pub fn eliminated(tree: &'a Tree<'g>) -> Option<Self> {
         let dry = |link: &Link<'g>| link.body().is_none_or(|body| body.added_mass.is_none());
         let joints = joint_speeds(tree).filter(|_| tree.links.iter().all(dry))?;
+        // Modes couple what they move with all the way to the root.
+        if !tree.deformations.is_empty() {
+            return None;
+        }
         let armatures = armatures(tree, &joints)?;
         let mut inertias: Vec<ArticulatedInertia<'g>> =
             tree.links.iter().map(|link| ArticulatedInertia::of(&link.moments)).collect();

@@ -109,6 +109,9 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
         for (row, fluid) in rows.iter_mut().zip(self.fluid(&flow)) {
             *row = *row + fluid;
         }
+        for (row, modes) in rows.iter_mut().zip(self.modes(&flow)) {
+            *row = *row + modes;
+        }
         rows
     }
 
@@ -210,6 +213,51 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
                     (rate[i] + turned[i]) * partial[i] + (rate[3 + i] + moved[i] + lifted[i]) * partial[3 + i]
                 };
                 *row = *row + sum((0..3).map(of));
+            }
+        }
+        rows
+    }
+}
+
+/// Matter that deforms.
+impl<'g, N: Number> Witness<'_, 'g, N> {
+    /// What (3.4) has of a body that deforms beyond the rigid one, from `T = ½ νᵀGν`: zero without modes. The twist is
+    /// that of the positions, and a field of gravity acts with the acceleration of O.
+    fn modes(&self, flow: &Map<u32, N>) -> Vec<N> {
+        let scene = &self.system.scene;
+        let mut rows = vec![N::number(0.0); scene.speeds.len()];
+        for modes in &scene.tree.deformations {
+            let link = &scene.tree.links[modes.link];
+            let dot = |a: usize, b: &[Expr<'g>; 3]| (0..3).map(|i| link.rotation[i][a] * b[i]).sum::<Expr<'g>>();
+            let [v, e1, e2, e3] = &self.velocities[modes.link];
+            let mut rates = vec![dot(0, v), dot(1, v), dot(2, v), dot(2, e2), dot(0, e3), dot(1, e1)];
+            rates.extend(modes.coordinates.iter().map(|eta| eta.derivative(&scene.rates)));
+            let n = rates.len();
+            let momentum = |i: usize| modes.matrix[i].iter().zip(&rates).map(|(g, rate)| *g * *rate).sum::<Expr<'g>>();
+            let momenta: Vec<Expr<'g>> = (0..n).map(momentum).collect();
+            let (nu, p, partials) = (self.values(&rates), self.values(&momenta), self.partials(&rates));
+            let mut forces = self.along(flow, &momenta);
+            let (u, w, q, gamma) = (&nu[..3], &nu[3..6], &p[..3], &p[3..6]);
+            let [turned, moved, lifted] = [cross(w, q), cross(w, gamma), cross(u, q)];
+            for i in 0..3 {
+                forces[i] = forces[i] + turned[i];
+                forces[3 + i] = forces[3 + i] + moved[i] + lifted[i];
+            }
+            let entries = modes.matrix.concat();
+            for (k, eta) in modes.coordinates.iter().enumerate() {
+                let change = self.along(&Map::from_iter([(eta.key(), N::number(1.0))]), &entries);
+                let square = sum((0..n * n).map(|at| change[at] * nu[at / n] * nu[at % n]));
+                forces[6 + k] = forces[6 + k] - N::number(0.5) * square;
+            }
+            if let Some(gravity) = scene.tree.gravity {
+                let g = self.values(&[0, 1, 2].map(|a| dot(a, &gravity)));
+                let matrix = self.values(&entries);
+                for (i, force) in forces.iter_mut().enumerate() {
+                    *force = *force - sum((0..3).map(|j| matrix[n * i + j] * g[j]));
+                }
+            }
+            for (row, partial) in rows.iter_mut().zip(partials) {
+                *row = *row + sum(forces.iter().zip(&partial).map(|(force, partial)| *force * *partial));
             }
         }
         rows

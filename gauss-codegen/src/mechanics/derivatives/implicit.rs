@@ -6,7 +6,6 @@ use crate::mechanics::arrangements::articulated::{Articulated, JointFactors};
 use crate::mechanics::derivatives::rigid::{Motion, Rates, Solved};
 use crate::mechanics::derivatives::second::Weighted;
 use crate::mechanics::links::inertia::Inertia;
-use crate::mechanics::matter::rotor::add_projected;
 use crate::mechanics::system::{DENSE, System};
 use crate::mechanics::tidy::sums;
 
@@ -118,11 +117,11 @@ impl<'g> System<'g> {
         ways.filter_map(way).collect()
     }
 
-    /// The terms of ∂C/∂ż other than the inertia of links: rotors and loads.
+    /// The terms of ∂C/∂ż other than the inertia of links: rotors, modes and loads.
     pub(super) fn beside(&self) -> Vec<Expr<'g>> {
         let (tree, speeds, zero) = (&self.scene.tree, &self.scene.speeds, self.scene.graph.zero());
-        let rotors = add_projected(&tree.rotors, speeds, vec![zero; speeds.len()], |rotor| rotor.force(&self.along));
-        rotors.iter().zip(self.acting()).map(|(rotor, force)| *rotor - force).collect()
+        let formal = tree.with_formal(vec![zero; speeds.len()], &self.along);
+        formal.iter().zip(self.acting()).map(|(row, force)| *row - force).collect()
     }
 
     /// `weights · ∂C/∂ż` at any ż, twice differentiated: along the first direction of each pair and then along the
@@ -176,16 +175,18 @@ impl<'g> System<'g> {
         tree.inertias(self.is_long()).iter().filter_map(way).collect()
     }
 
-    /// Rotors add a constant multiple of ż to the residual, and nothing to what is taken at once where links float.
+    /// Matter besides that of links adds a constant multiple of ż to the residual, and nothing to what is taken at once
+    /// where links float.
     pub(super) fn rotors_are_plain(&self) -> bool {
         let (tree, speeds) = (&self.scene.tree, &self.scene.speeds);
-        tree.rotors.iter().all(|rotor| {
-            let rows: Vec<Expr<'g>> = speeds.iter().map(|&z| rotor.row(z)).collect();
-            let floats = (0..rows.len()).any(|k| !rows[k].is_zero() && tree.takes(k));
-            !floats
-                && rows.iter().all(|row| row.as_number().is_some())
-                && rotor.rate.derivative(&self.scene.rates).is_zero()
-        })
+        tree.deformations.is_empty()
+            && tree.rotors.iter().all(|rotor| {
+                let rows: Vec<Expr<'g>> = speeds.iter().map(|&z| rotor.row(z)).collect();
+                let floats = (0..rows.len()).any(|k| !rows[k].is_zero() && tree.takes(k));
+                !floats
+                    && rows.iter().all(|row| row.as_number().is_some())
+                    && rotor.rate.derivative(&self.scene.rates).is_zero()
+            })
     }
 
     /// ż, and the motion with it.

@@ -1,5 +1,5 @@
 //! Sums over all matter that are seen from its centre of mass G: where G is, momenta about it, and their rates.
-//! Components are the observer's. The fluid around bodies is no part of them.
+//! Components are the observer's. The fluid around bodies is no part of them, what deforms is.
 
 use crate::algebra::Expr;
 
@@ -7,6 +7,7 @@ use crate::mechanics::kinematics::turn::outward;
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, is_zero, scale, subtract};
 use crate::mechanics::links::link::{Link, Matter};
 use crate::mechanics::links::tree::{Pairs, Tree};
+use crate::mechanics::matter::modes::Deformation;
 use crate::mechanics::matter::moments::Moments;
 
 /// All mass, and ∫x̂ dm.
@@ -33,6 +34,10 @@ impl<'g> Tree<'g> {
             Matter::Body(body) => (body.mass, body.first_moment()),
         };
         let mut gathered: Vec<(Expr<'g>, Triple<'g>)> = self.links.iter().map(own).collect();
+        for modes in &self.deformations {
+            let first = &mut gathered[modes.link].1;
+            *first = add(first, &modes.first_moment()).map(Expr::group);
+        }
         let mut whole = Whole { mass: zero, first: [zero; 3] };
         for k in (0..self.links.len()).rev() {
             let (link, (mass, first)) = (&self.links[k], gathered[k]);
@@ -58,7 +63,8 @@ impl<'g> Tree<'g> {
             let (q, gamma) = linear_and_angular(link, &link.moments, &link.velocity, &link.angular_velocity);
             (link.frame.body_vector(q), gamma)
         };
-        self.about_center(self.links.iter().map(momentum).collect(), center)
+        let links = self.links.iter().map(momentum).collect();
+        self.about_center(self.with_pairs(links, Deformation::momenta), center)
     }
 
     /// ∂(Q, Γ_G)/∂z row by row: what each speed gives to all that it moves, which hangs together like one body.
@@ -77,6 +83,14 @@ impl<'g> Tree<'g> {
             if let Some(parent) = link.parent {
                 let moments = together[k].turned(&link.joint.turns).shifted(&link.joint.offset);
                 together[parent] = together[parent].plus(&moments).map(Expr::group);
+            }
+        }
+        for modes in &self.deformations {
+            let link = &self.links[modes.link];
+            for (speed, column) in columns.iter_mut().enumerate() {
+                let (q, gamma) = pair_of(link, &modes.momenta_of(&modes.row(self.speed(speed))));
+                let (q, gamma) = self.seen_from(link, (&q, &gamma), center);
+                *column = (add(&column.0, &q), add(&column.1, &gamma));
             }
         }
         let linear = (0..3).flat_map(|i| columns.iter().map(move |(q, _)| q[i]));
@@ -98,7 +112,21 @@ impl<'g> Tree<'g> {
             let force = add(&scale(moments.mass, &a), &turning);
             (frame.body_vector(force.map(Expr::group)), torque.map(Expr::group))
         };
-        self.about_center(self.links.iter().zip(&accelerations).map(rate).collect(), center)
+        let links = self.links.iter().zip(&accelerations).map(rate).collect();
+        let of_modes = |modes: &Deformation<'g>| modes.inertia_forces(self.rates());
+        self.about_center(self.with_pairs(links, of_modes), center)
+    }
+
+    /// Adds the parts of `of(modes)` that pair with u and ω to those of their links.
+    fn with_pairs(&self, mut pairs: Pairs<'g>, of: impl Fn(&Deformation<'g>) -> Vec<Expr<'g>>) -> Pairs<'g> {
+        for modes in &self.deformations {
+            let link = &self.links[modes.link];
+            let (q, gamma) = pair_of(link, &of(modes));
+            let pair = &mut pairs[modes.link];
+            pair.0 = pair.0.plus(&link.frame.body_vector(q)).map(Expr::group);
+            pair.1 = add(&pair.1, &gamma).map(Expr::group);
+        }
+        pairs
     }
 
     /// The sum of a linear and an angular part at the poles of the links, about G.
@@ -128,6 +156,12 @@ impl<'g> Tree<'g> {
         }
         (q, add(&gamma, &cross(&lever, &q)).map(Expr::group))
     }
+}
+
+/// What pairs with u and ω, in working axes.
+fn pair_of<'g>(link: &Link<'g>, values: &[Expr<'g>]) -> (Triple<'g>, Triple<'g>) {
+    let turned = |at: usize| link.in_working_axes(&[values[at], values[at + 1], values[at + 2]], Axes::Body);
+    (turned(0), turned(3))
 }
 
 /// (Q, Γ_O) in working axes, of moments that move with v_O and ω.

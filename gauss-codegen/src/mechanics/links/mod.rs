@@ -2,6 +2,7 @@
 
 pub mod centroidal;
 pub mod floating;
+pub mod formal;
 pub mod frames;
 pub mod inertia;
 pub mod link;

@@ -10,8 +10,9 @@ use crate::mechanics::links::inertia::{Inertia, acceleration_gradient, apply, fo
 use crate::mechanics::links::link::{Description, Link, Matter, Placement, impulse};
 use crate::mechanics::links::regroup::regroup;
 use crate::mechanics::loads::forces::{Force, Loads};
+use crate::mechanics::matter::modes::Deformation;
 use crate::mechanics::matter::moments::Moments;
-use crate::mechanics::matter::rotor::{Rotor, add_projected};
+use crate::mechanics::matter::rotor::Rotor;
 
 /// A linear and an angular part at the pole O of each link: momenta, forces or accelerations.
 pub type Pairs<'g> = Vec<(Vector<'g>, Triple<'g>)>;
@@ -30,7 +31,7 @@ enum Observers<'a, 'g> {
 pub struct UnderWay<'g> {
     /// Forces of inertia of every link by itself, less the loads on it.
     pub wrenches: Pairs<'g>,
-    /// What rotors add.
+    /// What rotors and modes add.
     pub rows: Vec<Expr<'g>>,
     /// ζ.
     pub taken: Vec<Expr<'g>>,
@@ -51,6 +52,8 @@ pub struct Tree<'g> {
     floating: Vec<Option<Floating<'g>>>,
     /// Inertia of rates, added to that of the links.
     pub rotors: Vec<Rotor<'g>>,
+    /// What links have that deform.
+    pub deformations: Vec<Deformation<'g>>,
 }
 
 impl<'g> Tree<'g> {
@@ -81,8 +84,18 @@ impl<'g> Tree<'g> {
         rates: Map<u32, Expr<'g>>,
         gravity: Option<Triple<'g>>,
     ) -> Self {
-        let (links, placements, floating, rotors) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { graph, links, placements, planar, speeds, rates, gravity, floating, rotors }
+        Self {
+            graph,
+            links: Vec::new(),
+            placements: Vec::new(),
+            planar,
+            speeds,
+            rates,
+            gravity,
+            floating: Vec::new(),
+            rotors: Vec::new(),
+            deformations: Vec::new(),
+        }
     }
 
     /// The same links, each placed by what `change` makes of its placement, before they are settled.
@@ -95,6 +108,7 @@ impl<'g> Tree<'g> {
         let mut tree = Self::without_links(self.graph, self.planar, speeds, rates, self.gravity);
         self.placements.iter().for_each(|placement| tree.hang(change(placement)));
         tree.rotors.clone_from(&self.rotors);
+        tree.deformations.clone_from(&self.deformations);
         tree
     }
 
@@ -111,7 +125,11 @@ impl<'g> Tree<'g> {
 
     /// Gives to parents what moves with them as well; to be called once all links hang.
     pub fn settle(&mut self) {
-        self.floating = Floating::of(&self.links, self.speeds.len());
+        // Modes are not moved with an observer.
+        self.floating = match self.deformations.is_empty() {
+            true => Floating::of(&self.links, self.speeds.len()),
+            false => self.links.iter().map(|_| None).collect(),
+        };
         regroup(self.graph, &mut self.links);
         self.links.iter_mut().for_each(Link::settle);
     }
@@ -131,6 +149,7 @@ impl<'g> Tree<'g> {
     pub fn described(&self, descriptions: Vec<Description<'g>>) -> Self {
         let mut tree = Self::new(self.graph, Vec::new(), self.speeds.clone(), self.rates.clone(), self.gravity);
         tree.rotors.clone_from(&self.rotors);
+        tree.deformations.clone_from(&self.deformations);
         for (link, by) in self.links.iter().zip(descriptions) {
             let link = link.described(link.parent.map(|k| &tree.links[k]), by, &tree.speeds);
             tree.links.push(link);
@@ -166,11 +185,6 @@ impl<'g> Tree<'g> {
 
     fn speeds(&self) -> std::ops::Range<usize> {
         0..self.speeds.len()
-    }
-
-    /// ∂q̇/∂z^α of a rotor.
-    pub fn row_of(&self, rotor: &Rotor<'g>, speed: usize) -> Expr<'g> {
-        rotor.row(self.speeds[speed])
     }
 
     pub fn speed(&self, k: usize) -> Expr<'g> {
@@ -240,7 +254,7 @@ impl<'g> Tree<'g> {
     /// p_α = ∂T/∂z^α.
     pub fn momentum(&self) -> Vec<Expr<'g>> {
         let momenta = self.projected(&self.gathered(self.momenta()));
-        add_projected(&self.rotors, &self.speeds, momenta, Rotor::momentum)
+        self.with_formal_momenta(momenta)
     }
 
     /// A_αβ: the momentum that each partial velocity gives to all that it moves, paired with the partial velocities of
@@ -280,12 +294,7 @@ impl<'g> Tree<'g> {
             }
         }
         self.add_carried_fluid(&mut matrix);
-        for rotor in &self.rotors {
-            let rows: Vec<Expr<'g>> = self.speeds.iter().map(|&z| rotor.row(z)).collect();
-            for (row, column) in (0..n).flat_map(|column| (0..=column).map(move |row| (row, column))) {
-                matrix[row][column] = matrix[row][column] + rotor.inertia * rows[row] * rows[column];
-            }
-        }
+        self.add_formal(&mut matrix);
         for row in 0..n {
             for column in 0..row {
                 matrix[row][column] = matrix[column][row];
@@ -345,7 +354,7 @@ impl<'g> Tree<'g> {
     pub fn under_way(&self, inertia: Inertia, loads: &Loads<'g>, held: &[bool]) -> UnderWay<'g> {
         let (accelerations, taken) = self.floating_accelerations(loads, held);
         let wrenches = self.wrenches(&self.rates, inertia, loads, &accelerations);
-        let rows = self.with_rotors(vec![self.graph.zero(); self.speeds.len()], &self.rates);
+        let rows = self.with_formal(vec![self.graph.zero(); self.speeds.len()], &self.rates);
         UnderWay { wrenches, rows, taken }
     }
 
@@ -380,11 +389,7 @@ impl<'g> Tree<'g> {
         accelerations: &Pairs<'g>,
     ) -> Vec<Expr<'g>> {
         let wrenches = self.wrenches(along, inertia, loads, accelerations);
-        self.with_rotors(self.projected(&self.gathered(wrenches)), along)
-    }
-
-    fn with_rotors(&self, rows: Vec<Expr<'g>>, along: &Map<u32, Expr<'g>>) -> Vec<Expr<'g>> {
-        add_projected(&self.rotors, &self.speeds, rows, |rotor| rotor.force(along))
+        self.with_formal(self.projected(&self.gathered(wrenches)), along)
     }
 
     /// Forces of inertia of every link by itself, less the loads on it.
@@ -539,11 +544,7 @@ impl<'g> Tree<'g> {
                 bracket[k] = bracket[k] + frame.dot(q, &a) + dot(gamma, &o) + turned;
             }
         }
-        for rotor in &self.rotors {
-            for (k, &speed) in self.speeds.iter().enumerate() {
-                bracket[k] = bracket[k] + rotor.momentum() * rotor.row(speed).derivative(&self.rates);
-            }
-        }
+        self.add_formal_bracket(&mut bracket);
         bracket
     }
 
@@ -552,7 +553,8 @@ impl<'g> Tree<'g> {
         if self.gravity.is_none() {
             return vec![self.graph.zero(); self.speeds.len()];
         }
-        self.projected(&self.gathered(self.weights_in(&vec![self.gravity; self.links.len()], Link::displaced)))
+        let links = self.weights_in(&vec![self.gravity; self.links.len()], Link::displaced);
+        self.with_formal_weights(self.projected(&self.gathered(links)))
     }
 
     /// Resultant and torque about O, on each link, of a field that is uniform over it; what is displaced is lifted.
@@ -585,6 +587,6 @@ impl<'g> Tree<'g> {
         let terms =
             links.map(|(link, (q, gamma))| link.frame.dot(&q, &link.velocity) + dot(&gamma, &link.angular_velocity));
         let links = terms.fold(self.graph.zero(), |sum, e| sum + e);
-        self.rotors.iter().fold(links, |sum, rotor| sum + rotor.momentum() * rotor.rate)
+        self.with_formal_energy(links)
     }
 }

@@ -30,7 +30,7 @@ impl<'g> Tree<'g> {
                 None => energy = energy - dot(&gravity, &add(&turned, &scale(mass, &link.position))),
             }
         }
-        energy
+        self.deformations.iter().fold(energy, |sum, modes| sum + modes.potential_energy())
     }
 }
 

@@ -7,6 +7,7 @@ use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, dot, is_zer
 use crate::mechanics::links::link::{Link, Matter};
 use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::{Action, Field, Force, Loads};
+use crate::mechanics::matter::modes::Deformation;
 use crate::mechanics::matter::moments::Moments;
 
 /// The field of a centre: φ = −μ/|ρ|, ρ from the centre.
@@ -97,20 +98,41 @@ impl<'g> CentralField<'g> {
             let own = (0..tree.links.len()).filter(|&k| tree.root_of(k) == root && heavy(&&tree.links[k]));
             loads.forces.extend(own.flat_map(|k| self.tide(tree, pole, k)));
         }
+        // What deforms has no mass, so that its share is small, and by its derivatives as exact as any.
+        let of_modes = self.energy_of_modes(tree);
+        let potential = potential + of_modes;
         if gathered.is_empty() {
             return Action::Potential(potential);
         }
         let apart = tree.links.iter().enumerate().filter(|(k, _)| !gathered.contains(&tree.root_of(*k)));
-        let rest = sum(&mut apart.map(|(_, link)| link).filter(heavy));
+        let rest = sum(&mut apart.map(|(_, link)| link).filter(heavy)) + of_modes;
         Action::Field(Field { potential, rest, loads })
     }
 
+    /// Of what modes add to the moments of links.
+    fn energy_of_modes(&self, tree: &Tree<'g>) -> Expr<'g> {
+        let of = |modes: &Deformation<'g>| {
+            let inertia = modes.inertia();
+            let half_trace = (inertia[0][0] + inertia[1][1] + inertia[2][2]).half();
+            let second = |i: usize, j: usize| if i == j { half_trace - inertia[i][j] } else { -inertia[i][j] };
+            let second = std::array::from_fn(|i| std::array::from_fn(|j| second(i, j)));
+            let moments = Moments { mass: tree.graph.zero(), first: modes.first_moment(), second };
+            let link = &tree.links[modes.link];
+            self.energy_at(link, &moments, &link.axes().to_body(&self.arm(link)).map(Expr::group))
+        };
+        tree.deformations.iter().map(of).fold(tree.graph.zero(), |sum, energy| sum + energy)
+    }
+
     fn energy(&self, link: &Link<'g>) -> Expr<'g> {
-        let expansion = Expansion::new(self.mu, &link.moments);
-        let arm = self.arm_in_body(link);
+        self.energy_at(link, &link.moments, &self.arm_in_body(link))
+    }
+
+    /// Of moments about O of a link; `arm` in the axes of the moments.
+    fn energy_at(&self, link: &Link<'g>, moments: &Moments<'g>, arm: &Triple<'g>) -> Expr<'g> {
+        let expansion = Expansion::new(self.mu, moments);
         let energy: Expr<'g> = expansion.energies.into_iter().sum();
         // The distance does not change while the body turns.
-        energy.substitute(&expansion.at(&arm, inverse_length(&self.arm(link))))
+        energy.substitute(&expansion.at(arm, inverse_length(&self.arm(link))))
     }
 
     /// γ = −∇φ.

@@ -1,5 +1,6 @@
 //! Matter as symbols, and integrals over it by moments.
 
 pub mod body;
+pub mod modes;
 pub mod moments;
 pub mod rotor;

@@ -1,65 +1,15 @@
 //! The equations of a scene for people: momenta, the Gauss condition, forces, and the solved-for form where it is
 //! short.
 
-use crate::algebra::{
-    Expr, Map, Notation, Parts, Substitution, print_definition, print_parts, print_short, print_with,
-};
+use crate::algebra::{Expr, Map, Notation, Parts, Substitution, print_parts, print_short};
 use crate::mechanics::tidy::LIMIT;
 
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::loads::account::{Account, GRAVITY};
 use crate::mechanics::print::names::Name;
+use crate::mechanics::print::rows::{Row, Section};
 use crate::mechanics::print::shown::{Readings, Shown};
 use crate::mechanics::system::System;
-
-/// One line.
-pub enum Row<'g> {
-    /// name = value.
-    Definition(Name, Expr<'g>),
-    /// d(momentum)/dt = bracket + force; the force is left out where it vanishes beside a bracket.
-    Balance { momentum: Name, bracket: Expr<'g>, force: Option<Name> },
-    /// left = right.
-    Equation(Expr<'g>, Expr<'g>),
-    /// Words in the place of equations.
-    Words(String),
-}
-
-impl<'g> Row<'g> {
-    fn print(&self, notation: Notation, parts: &Parts<'g>) -> String {
-        let name = |name: &Name| name.print(notation).to_owned();
-        let print = |e: &Expr<'g>| print_with(*e, notation, parts);
-        match self {
-            Row::Definition(left, right) => format!("{} = {}", name(left), print_definition(*right, notation, parts)),
-            Row::Balance { momentum, bracket, force } => {
-                let mut terms = Vec::new();
-                if !bracket.is_zero() {
-                    terms.push(print(bracket));
-                }
-                terms.extend(force.as_ref().map(name));
-                format!("{} = {}", name(&momentum.time_derivative()), terms.join(" + "))
-            }
-            Row::Equation(left, right) => format!("{} = {}", print(left), print(right)),
-            Row::Words(words) if notation == Notation::Latex => format!("\\text{{{words}}}"),
-            Row::Words(words) => words.clone(),
-        }
-    }
-
-    /// What is printed of it, with the name of what it defines.
-    pub fn expressions(&self) -> Vec<(Option<[String; 2]>, Expr<'g>)> {
-        match self {
-            Row::Definition(Name { text, latex }, e) => vec![(Some([text.clone(), latex.clone()]), *e)],
-            Row::Balance { bracket: e, .. } => vec![(None, *e)],
-            Row::Equation(left, right) => vec![(None, *left), (None, *right)],
-            Row::Words(_) => Vec::new(),
-        }
-    }
-}
-
-/// A heading and its rows.
-pub struct Section<'g> {
-    pub title: Name,
-    pub rows: Vec<Row<'g>>,
-}
 
 /// All sections, with names for what long rows have in common.
 pub struct Page<'g> {

@@ -2,5 +2,6 @@
 
 pub mod equations;
 pub mod names;
+pub mod rows;
 pub mod sections;
 pub mod shown;

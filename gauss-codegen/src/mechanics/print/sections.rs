@@ -3,8 +3,9 @@
 use crate::algebra::{Expr, LONG, Map};
 
 use crate::mechanics::constraints::contact::Contact;
-use crate::mechanics::print::equations::{PrintedForces, Row, Section, by_entries, velocity_form};
+use crate::mechanics::print::equations::{PrintedForces, by_entries, velocity_form};
 use crate::mechanics::print::names::Name;
+use crate::mechanics::print::rows::{Row, Section};
 use crate::mechanics::print::shown::Shown;
 use crate::mechanics::scene::Coordinate;
 use crate::mechanics::system::System;

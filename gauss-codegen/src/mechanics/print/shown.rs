@@ -3,8 +3,8 @@
 use std::cell::RefCell;
 
 use crate::algebra::{Expr, Graph, Notation, Rational, Substitution, print};
-use crate::mechanics::print::equations::{Row, Section};
 use crate::mechanics::print::names::Name;
+use crate::mechanics::print::rows::{Row, Section};
 use crate::mechanics::tidy;
 
 /// What is called something else in print than in kernels.

@@ -86,6 +86,8 @@ fn check_fields(statements: &Statements, reader: &Reader<'_>, scalar: &str, cont
             // Its role is wrong, which is noted.
             Some(_) if reader.meant.contains(&Role::Body) => {}
             Some(field) => refuse_no_body(name, field, scalar, context),
+            // A file that could not be read may have them.
+            None if statements.missed => {}
             None => meant.extend(refuse_no_field(name, &table, scalar, context)),
         }
     }

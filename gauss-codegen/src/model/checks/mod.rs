@@ -7,4 +7,5 @@ pub mod contacts;
 pub mod field_shapes;
 pub mod forces;
 pub mod masses;
+pub mod modes;
 pub mod motion;

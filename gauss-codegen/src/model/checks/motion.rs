@@ -8,6 +8,7 @@ use crate::model::names::naming::is_reserved;
 use crate::model::names::places::Place;
 use crate::model::scene::clauses::{Coordinate, CoordinateKind, Speed, SpeedKind};
 use crate::model::scene::expression::Expression;
+use proc_macro2::Ident;
 use std::collections::HashSet;
 use syn::ext::IdentExt;
 
@@ -163,8 +164,9 @@ pub fn check_dependence(statements: &Statements, all: &[(Place, &Expression)], c
             let named = named(&|place: Place| {
                 matches!(place, Place::Position | Place::Rotation | Place::Particle { .. } | Place::Constraint(_))
             });
-            for Coordinate { ident, .. } in coordinates.names.iter().filter(|name| !named.contains(&word(&name.ident)))
-            {
+            let modal: HashSet<String> = statements.modal_coordinates().map(word).collect();
+            let idle = |ident: &Ident| !named.contains(&word(ident)) && !modal.contains(&word(ident));
+            for Coordinate { ident, .. } in coordinates.names.iter().filter(|name| idle(&name.ident)) {
                 context.error(
                     ident.span(),
                     format!(

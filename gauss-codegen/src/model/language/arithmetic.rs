@@ -415,10 +415,11 @@ fn apply(
     context: &mut Context,
 ) -> Option<Expression> {
     let written: Vec<&Expr> = receiver.into_iter().chain(arguments).collect();
-    if let ([argument], false) = (written.as_slice(), FUNCTIONS.iter().any(|(word, _)| name == word)) {
-        // Whether some clause declares it is known with the other names.
-        let argument = Box::new(convert(argument, context)?);
-        return Some(Expression { kind: ExpressionKind::Own(name.clone(), argument), span: name.span() });
+    if !written.is_empty() && !FUNCTIONS.iter().any(|(word, _)| name == word) {
+        // Whether some clause declares it, and of how many numbers, is known with the other names.
+        let arguments: Vec<_> = written.iter().map(|argument| convert(argument, context)).collect();
+        let arguments = arguments.into_iter().collect::<Option<_>>()?;
+        return Some(Expression { kind: ExpressionKind::Own(name.clone(), arguments), span: name.span() });
     }
     let function = words::resolve("function", name, FUNCTIONS, context).ok();
     // What stands after the base of a power is an exponent, which has rules of its own.

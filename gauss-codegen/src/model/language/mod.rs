@@ -12,6 +12,7 @@ pub mod fields;
 pub mod functions;
 pub mod ground;
 pub mod kind;
+pub mod modes;
 pub mod nesting;
 pub mod own_functions;
 pub mod placements;

@@ -5,6 +5,7 @@ use super::arguments::{self, brackets, equals, value};
 use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
 use super::declarations::{self, Definition, Kinematics, Names, StateClause};
+use super::modes::{self, ReadModes};
 use super::words::{self, Table, same};
 use super::{actions, contacts, own_functions, placements, role_clauses};
 use crate::model::scene::clauses::{
@@ -50,6 +51,8 @@ pub struct Statements {
     pub forces: Vec<ForceClause>,
     /// So many of these, the first, are those of a robot's file.
     pub forces_of_file: usize,
+    /// Bodies that deform.
+    pub modes: Vec<ReadModes>,
     /// Coordinates with the inertia of their rates.
     pub armatures: Vec<(Ident, Expression)>,
     pub definitions: Vec<Definition>,
@@ -90,6 +93,7 @@ pub enum Statement {
     Element(&'static Row),
     Limit,
     Armature,
+    Modes,
     Define,
     Medium,
     CentralGravity,
@@ -117,8 +121,9 @@ const DECLARED: [(&str, Statement); 16] = [
     ("input", Statement::Input),
     ("states", Statement::States),
 ];
-const OTHERS: [(&str, Statement); 8] = [
+const OTHERS: [(&str, Statement); 9] = [
     ("armature", Statement::Armature),
+    ("modes", Statement::Modes),
     ("medium", Statement::Medium),
     (ATTRACTION.word, Statement::CentralGravity),
     ("define", Statement::Define),
@@ -225,6 +230,7 @@ impl Statements {
             Statement::Element(row) => self.read_element(row, clause, context),
             Statement::Redundant => self.read_redundant(clause, context),
             Statement::Armature => self.read_armature(clause, context),
+            Statement::Modes => self.read_modes(clause, context),
             Statement::Potential => {
                 let value = value(clause, "k * x * x / 2", context);
                 self.potential = self.potential.take().or(Some((clause.name.clone(), value)));
@@ -377,6 +383,17 @@ impl Statements {
             return;
         }
         self.armatures.extend(actions::read_armature(clause, context));
+    }
+
+    fn read_modes(&mut self, clause: &Clause, context: &mut Context) {
+        let read = modes::read(clause, context);
+        self.note_read(read.is_some(), Statement::Modes);
+        self.modes.extend(read);
+    }
+
+    /// The coordinates of modes.
+    pub fn modal_coordinates(&self) -> impl Iterator<Item = &Ident> {
+        self.modes.iter().flat_map(|read| &read.clause.coordinates)
     }
 
     /// `redundant`, a word alone.

@@ -68,6 +68,8 @@ const GEAR: &str = "a gear is one coordinate for both: `rotation = rotation_z(n 
                     it is `armature(angle = a)`";
 const ROTOR: &str = "a wheel is a body that a coordinate turns: `coordinates(angle), body(wheel, parent = hull, \
                      rotation = rotation_z(angle), mass = m, inertia = [a, a, c])`";
+const MODES: &str = "a body that bends has modes: `body(panel, parent = hull), modes(panel, coordinates = [a, b], \
+                     file = \"panel.json\")`";
 const ENERGY: &str = "the kinetic energy follows from bodies and particles; a potential is `potential = …`";
 const INTEGRATOR: &str = "the integrator is chosen at run time: `Simulation::new(&kernel).adaptive(1e-9, 1e-12)`";
 const PARAMETER: &str = "the fields of the struct are its parameters, by their names";
@@ -184,6 +186,11 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("rotor", ROTOR),
     ("wheel", ROTOR),
     ("flywheel", ROTOR),
+    ("flexible", MODES),
+    ("flex", MODES),
+    ("appendage", MODES),
+    ("modal", MODES),
+    ("beam", MODES),
     ("kinetic_energy", ENERGY),
     ("lagrangian", ENERGY),
     ("energy", ENERGY),

@@ -1,6 +1,6 @@
 //! What a scene declares, for expressions to name.
 
-use super::scope::{Meaning, Scope};
+use super::scope::{Declared, Meaning, Scope};
 use crate::model::language::fields::ReadField;
 use crate::model::language::shapes::TypeKind;
 use crate::model::language::statements::{Statement, Statements};
@@ -63,7 +63,8 @@ pub fn scope(
         scope.add(name, Meaning::Frame);
     }
     for function in &statements.functions {
-        scope.add(&function.name, Meaning::Function { kink: function.kind.continuous() == Some(0) });
+        let declared = Declared { kink: function.kind.continuous() == Some(0), variables: function.kind.variables() };
+        scope.add(&function.name, Meaning::Function(declared));
     }
     for point in &statements.points {
         scope.add(&point.name, Meaning::Point);

@@ -39,6 +39,9 @@ pub fn all(statements: &Statements) -> Vec<(Place, &Expression)> {
     all.extend(statements.attractions.iter().flat_map(|clause| clause.placed(statements.in_chart)));
     let armature = Place::Constant { word: "inertia", of: Holder::Armature };
     all.extend(statements.armatures.iter().map(|(_, inertia)| (armature, inertia)));
+    let integral = Place::Constant { word: "integral", of: Holder::Modes };
+    let of_modes = statements.modes.iter().flat_map(|read| read.clause.expressions());
+    all.extend(of_modes.map(|entry| (integral, entry)));
     for clause in &statements.forces {
         let on = clause.body();
         // The name of a point of the same body stands for its place in the body.
@@ -84,6 +87,8 @@ impl Statements {
         }
         self.attractions.iter_mut().for_each(|clause| clause.each_expression(change));
         self.armatures.iter_mut().for_each(|(_, inertia)| change(inertia));
+        let integrals = self.modes.iter_mut().flat_map(|read| &mut read.clause.integrals);
+        integrals.flat_map(|given| &mut given.entries).for_each(&mut *change);
         self.forces.iter_mut().for_each(|clause| clause.each_expression(change));
     }
 

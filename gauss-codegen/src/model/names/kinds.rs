@@ -83,7 +83,7 @@ impl Checker<'_> {
                         .into(),
                 )
             }
-            ExpressionKind::Own(name, argument) => self.own(name, argument, expression.span),
+            ExpressionKind::Own(name, arguments) => self.own(name, arguments, expression.span),
             ExpressionKind::Call(FunctionName::Powf, arguments) => {
                 self.arguments(FunctionName::Powf, arguments);
                 self.exponent(arguments.get(1)?)
@@ -110,21 +110,38 @@ impl Checker<'_> {
     }
 
     /// A function that a clause declares.
-    fn own(&mut self, name: &Ident, argument: &Expression, span: Span) -> Option<Kind> {
-        if let Some(kind) = self.kind(argument) {
-            self.expect(kind, Kind::Scalar, argument.span, &format!("`{name}` takes"));
-        }
-        let jump = || format!("the derivative of the table `{name}` jumps");
-        match self.scope.find_function(name) {
-            Ok(true) if self.differentiated => {
-                self.note(span, format!("{}, and `rate` takes derivatives; write `kind = cubic`", jump()))
+    fn own(&mut self, name: &Ident, arguments: &[Expression], span: Span) -> Option<Kind> {
+        for argument in arguments {
+            if let Some(kind) = self.kind(argument) {
+                self.expect(kind, Kind::Scalar, argument.span, &format!("`{name}` takes"));
             }
-            Ok(true) => match self.place.refuses_kinks() {
-                Some(why) => self.note(span, format!("{}, and {why}; write `kind = cubic`", jump())),
-                None => Some(Kind::Scalar),
-            },
-            Ok(false) => Some(Kind::Scalar),
-            Err(message) => self.note(span, message?),
+        }
+        let declared = match self.scope.find_function(name) {
+            Ok(declared) => declared.clone(),
+            Err(message) => return self.note(span, message?),
+        };
+        if declared.variables.len() != arguments.len() {
+            let takes = match declared.variables.len() {
+                1 => "one argument",
+                2 => "two arguments",
+                _ => "three arguments",
+            };
+            let (variables, found) = (declared.variables.join(", "), arguments.len());
+            return self.note(span, format!("`{name}` takes {takes}, found {found}; write `{name}({variables})`"));
+        }
+        if !declared.kink {
+            return Some(Kind::Scalar);
+        }
+        let why = if self.differentiated {
+            Some("`rate` takes derivatives".to_owned())
+        } else {
+            self.place.refuses_kinks().map(|why| why.to_string())
+        };
+        match why {
+            Some(why) => {
+                self.note(span, format!("the derivative of the table `{name}` jumps, and {why}; write `kind = cubic`"))
+            }
+            None => Some(Kind::Scalar),
         }
     }
 
@@ -231,7 +248,10 @@ impl Checker<'_> {
             }
             Meaning::Speed(SpeedKind::Scalar) | Meaning::State | Meaning::Input(InputKind::Scalar) => Some(Kind::Scalar),
             Meaning::Speed(SpeedKind::Vector) | Meaning::Input(InputKind::Vector) => Some(Kind::Vector),
-            Meaning::Function { .. } => self.note(name.span(), format!("`{name}` is a function; write `{name}(x)`")),
+            Meaning::Function(declared) => {
+                let call = declared.variables.join(", ");
+                self.note(name.span(), format!("`{name}` is a function; write `{name}({call})`"))
+            }
             Meaning::Input(InputKind::Wrench) => self.note(
                 name.span(),
                 format!("`{name}` is a wrench, which is two vectors; write `{name}.force` or `{name}.torque`"),

@@ -14,6 +14,7 @@ use proc_macro2::Ident;
 pub enum Holder {
     Element(&'static Row),
     Armature,
+    Modes,
     AddedMass,
     Inertia,
     Contact,
@@ -25,6 +26,7 @@ impl Holder {
         match self {
             Holder::Element(row) => words::a(row.noun),
             Holder::Armature => "an armature".into(),
+            Holder::Modes => "modes".into(),
             Holder::AddedMass => "an added mass".into(),
             Holder::Inertia => "an inertia".into(),
             Holder::Contact => "a contact".into(),
@@ -35,7 +37,7 @@ impl Holder {
     fn constant(self) -> String {
         match self {
             Holder::Element(_) | Holder::Contact => format!("a constant of {}", self.noun()),
-            Holder::Armature | Holder::AddedMass | Holder::Inertia => self.noun(),
+            Holder::Armature | Holder::Modes | Holder::AddedMass | Holder::Inertia => self.noun(),
         }
     }
 }
@@ -240,7 +242,7 @@ impl Place {
     pub fn allows(self, meaning: &Meaning) -> bool {
         match meaning {
             Meaning::Scalar | Meaning::Vector | Meaning::Definition(_) | Meaning::Unusable(_) => true,
-            Meaning::Pi | Meaning::Function { .. } => true,
+            Meaning::Pi | Meaning::Function(_) => true,
             Meaning::Time => !self.is_constant(),
             Meaning::Coordinate(_) => !self.is_constant() && !self.is_given(),
             Meaning::Speed(_) => self.of_velocities(),

@@ -33,14 +33,21 @@ pub enum Meaning {
     Frame,
     /// A point of a body.
     Point,
-    /// A function of one number; its derivative jumps.
-    Function {
-        kink: bool,
-    },
+    /// A function that a clause declares.
+    Function(Declared),
     /// π.
     Pi,
     /// A field that expressions cannot use; the message says why.
     Unusable(String),
+}
+
+/// A function that a clause declares.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Declared {
+    /// What it is a function of, in words for messages.
+    pub variables: Vec<String>,
+    /// Its derivative jumps.
+    pub kink: bool,
 }
 
 /// The names that expressions may use.
@@ -147,20 +154,20 @@ impl Scope {
     ///
     /// # Errors
     /// What to say of one that is not declared; `None` where that is said elsewhere.
-    pub fn find_function(&self, name: &Ident) -> Result<bool, Option<String>> {
+    pub fn find_function(&self, name: &Ident) -> Result<&Declared, Option<String>> {
         let word = name.unraw().to_string();
         let declared = self.meanings(&word).find_map(|meaning| match meaning {
-            Meaning::Function { kink } => Some(*kink),
+            Meaning::Function(declared) => Some(declared),
             _ => None,
         });
-        if let Some(kink) = declared {
-            return Ok(kink);
+        if let Some(declared) = declared {
+            return Ok(declared);
         }
         if !self.complete {
             return Err(None);
         }
         let own = self.names.iter().filter_map(|(known, meaning)| match meaning {
-            Meaning::Function { .. } => Some((known.as_str(), ())),
+            Meaning::Function(_) => Some((known.as_str(), ())),
             _ => None,
         });
         let table: Vec<(&str, ())> = own.chain(FUNCTIONS.iter().map(|(word, _)| (*word, ()))).collect();
@@ -234,7 +241,7 @@ impl Meaning {
             Meaning::Body => "the body ",
             Meaning::Frame => "the frame ",
             Meaning::Point => "the point ",
-            Meaning::Function { .. } => "the function ",
+            Meaning::Function(_) => "the function ",
         }
     }
 
@@ -261,7 +268,7 @@ impl Meaning {
     /// What it is, for messages.
     pub fn described(&self) -> &'static str {
         match self {
-            Meaning::Function { .. } => "a function",
+            Meaning::Function(_) => "a function",
             Meaning::Time | Meaning::Pi | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => "a scalar",
             Meaning::Speed(SpeedKind::Scalar) | Meaning::State | Meaning::Input(InputKind::Scalar) => "a scalar",
             Meaning::Vector | Meaning::Speed(SpeedKind::Vector) | Meaning::Input(InputKind::Vector) => "a vector",

@@ -46,8 +46,8 @@ pub enum ExpressionKind {
     Power(Box<Expression>, i32),
     /// `sin(a)`, `a.sin()`, `dot(a, b)`: the number of arguments is right.
     Call(FunctionName, Vec<Expression>),
-    /// `lift(a)`: a function that a clause declares.
-    Own(Ident, Box<Expression>),
+    /// `lift(a)`, `drag(a, m)`: a function that a clause declares.
+    Own(Ident, Box<[Expression]>),
     /// `[a, b, c]`.
     Vector([Box<Expression>; 3]),
 }
@@ -180,13 +180,13 @@ impl Expression {
             ExpressionKind::Component(inner, _)
             | ExpressionKind::Property(inner, _)
             | ExpressionKind::Negate(inner)
-            | ExpressionKind::Own(_, inner)
             | ExpressionKind::Power(inner, _) => visit(inner),
             ExpressionKind::Binary(_, left, right) => {
                 visit(left);
                 visit(right);
             }
             ExpressionKind::Call(_, arguments) => arguments.iter().for_each(visit),
+            ExpressionKind::Own(_, arguments) => arguments.iter().for_each(visit),
             ExpressionKind::Vector(components) => components.iter().for_each(|component| visit(component)),
         }
     }
@@ -201,13 +201,13 @@ impl Expression {
             ExpressionKind::Component(inner, _)
             | ExpressionKind::Property(inner, _)
             | ExpressionKind::Negate(inner)
-            | ExpressionKind::Own(_, inner)
             | ExpressionKind::Power(inner, _) => change(inner),
             ExpressionKind::Binary(_, left, right) => {
                 change(left);
                 change(right);
             }
             ExpressionKind::Call(_, arguments) => arguments.iter_mut().for_each(change),
+            ExpressionKind::Own(_, arguments) => arguments.iter_mut().for_each(change),
             ExpressionKind::Vector(components) => components.iter_mut().for_each(|component| change(component)),
         }
     }

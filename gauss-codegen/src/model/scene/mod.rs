@@ -6,3 +6,4 @@ pub mod elements;
 pub mod expression;
 pub mod forces;
 pub mod model;
+pub mod modes;

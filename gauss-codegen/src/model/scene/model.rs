@@ -8,6 +8,7 @@ use super::clauses::{
 use super::contacts::ContactClause;
 use super::expression::Expression;
 use super::forces::ForceClause;
+use super::modes::ModesClause;
 use crate::terms::{InChart, Item};
 use syn::Ident;
 use syn::ext::IdentExt;
@@ -56,6 +57,8 @@ pub struct Model {
     pub forces: Vec<ForceClause>,
     /// Inertia of the rates of scalar coordinates: a scalar of fields and numbers for each.
     pub armatures: Vec<(Ident, Expression)>,
+    /// Bodies that deform.
+    pub modes: Vec<ModesClause>,
     /// Bodies whose principal moments need not obey the triangle inequality; `None`: all of them.
     pub formal: Vec<Option<Ident>>,
     /// What names of `define` stand for, each written out, in order: for printed equations alone.

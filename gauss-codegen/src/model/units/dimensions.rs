@@ -204,8 +204,8 @@ impl Checker<'_> {
             ExpressionKind::Call(FunctionName::Powf, arguments) => self.power(arguments),
             ExpressionKind::Call(function, arguments) => self.call(*function, arguments, span),
             // What units it takes and gives is the user's affair.
-            ExpressionKind::Own(_, argument) => {
-                self.value(argument);
+            ExpressionKind::Own(_, arguments) => {
+                arguments.iter().for_each(|argument| _ = self.value(argument));
                 Dimensions::UNKNOWN
             }
             ExpressionKind::Vector(components) => {

@@ -128,10 +128,16 @@ impl Checker<'_> {
         if let Some((_, velocity)) = &statements.medium {
             self.optional(velocity, &Need::new("the velocity of the medium is", VELOCITY));
         }
-        for (_, inertia) in &statements.armatures {
-            self.value(inertia);
-        }
+        self.of_any_unit(statements);
         statements.attractions.iter().for_each(|clause| self.element(clause));
+    }
+
+    /// Armatures are in the unit of their coordinate, integrals of modes in one of their author's: kg^½ m, m, none.
+    fn of_any_unit(&mut self, statements: &Statements) {
+        let of_modes = statements.modes.iter().flat_map(|read| read.clause.expressions());
+        for free in statements.armatures.iter().map(|(_, inertia)| inertia).chain(of_modes) {
+            self.value(free);
+        }
     }
 
     /// Slips are in the unit of the rate of their gap, limits in that of what they limit; coefficients have none.

@@ -88,7 +88,7 @@ fn alone<S>(instruction: &Instruction<S>) -> u32 {
         Instruction::Negate(_) => 0,
         Instruction::Divide(..) => 16 * 4,
         Instruction::SineCosine(_) => 16 * 10,
-        Instruction::Call(..) | Instruction::Binary(..) => 16 * 4,
+        Instruction::Call(..) | Instruction::Binary(..) | Instruction::Own(..) => 16 * 4,
         _ => 16,
     }
 }

@@ -31,8 +31,8 @@ pub(crate) trait Dialect<S> {
     fn sines_and_cosines(&self) -> Option<TokenStream> {
         None
     }
-    /// A function of the user's own, or a derivative of it.
-    fn own_function(&self, own: OwnFunction) -> TokenStream;
+    /// The value of a function of the user's own, or of a derivative of it.
+    fn own_function(&self, own: OwnFunction, arguments: &[TokenStream]) -> TokenStream;
     /// What calls a closure as a function of its own, which the compiler keeps apart; nothing: programs stay whole.
     fn apart(&self) -> Option<TokenStream>;
 }
@@ -237,9 +237,9 @@ fn statement<S: Copy>(
             let a = write(a);
             quote!(-#a)
         }
-        Instruction::Call(Function::Own(own), a) => {
-            let (a, function) = (write(a), dialect.own_function(*own));
-            quote!(#function(#a))
+        Instruction::Own(own, arguments) => {
+            let arguments: Vec<TokenStream> = own.of(arguments).iter().map(write).collect();
+            dialect.own_function(*own, &arguments)
         }
         Instruction::Call(function, a) => {
             let (real, a, function) = (dialect.functions(), write(a), function_name(*function));
@@ -392,7 +392,6 @@ fn function_name(function: Function) -> Ident {
         Function::Abs => "abs",
         Function::Signum => "signum",
         Function::Tanh => "tanh",
-        Function::Own(_) => unreachable!("functions of the user's own have paths"),
     };
     Ident::new(name, Span::call_site())
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::algebra::{Function, OwnFunction, Rational};
+use crate::algebra::{OwnFunction, Rational};
 use crate::program::{Argument, ArgumentKind, Functions, Input, Instruction, Program, Results};
 
 use super::super::{header, is_handed_over, only_scalar, snake};
@@ -126,7 +126,7 @@ fn written(result: &Results, outputs: &mut impl Iterator<Item = TokenStream>) ->
 fn own_functions<'a>(programs: impl Iterator<Item = &'a Program>) -> Vec<Ident> {
     let called = programs.flat_map(|program| {
         let own = |instruction: &Instruction| match instruction {
-            Instruction::Call(Function::Own(function), _) => Some(own_name(program, *function)),
+            Instruction::Own(function, _) => Some(own_name(program, *function)),
             _ => None,
         };
         program.code.instructions.iter().filter_map(own)
@@ -136,7 +136,7 @@ fn own_functions<'a>(programs: impl Iterator<Item = &'a Program>) -> Vec<Ident> 
 
 fn own_name(program: &Program, function: OwnFunction) -> Ident {
     let name = snake(program.functions.get(usize::from(function.index)).map_or("own", String::as_str));
-    if function.order == 0 { ident(&name) } else { format_ident!("{}_{}", name, function.order) }
+    ident(&(name + &function.suffix()))
 }
 
 fn ident(name: &str) -> Ident {
@@ -177,9 +177,9 @@ impl Dialect<Input> for Plain<'_> {
         quote!(arithmetic)
     }
 
-    fn own_function(&self, own: OwnFunction) -> TokenStream {
+    fn own_function(&self, own: OwnFunction, arguments: &[TokenStream]) -> TokenStream {
         let name = own_name(self.program, own);
-        quote!(#name)
+        quote!(#name(#(#arguments),*))
     }
 
     fn apart(&self) -> Option<TokenStream> {

@@ -133,7 +133,7 @@ fn own_kinematics<'g>(scene: &SystemScene<'g>, k: usize) -> Option<(Vec<usize>, 
     // What moves a frame moves the matter that hangs on it.
     let with_ancestors = |other: usize| std::iter::successors(Some(other), |&at| links[at].parent);
     let mut moving = (0..links.len()).filter(heavy).flat_map(with_ancestors);
-    let geared = |&z: &usize| scene.tree.rotors.iter().any(|rotor| !rotor.row(scene.speeds[z]).is_zero());
+    let geared = |&z: &usize| scene.tree.is_geared(scene.speeds[z]);
     let others_too = moving.any(|at| block.iter().any(|&z| links[at].is_moved_by(z)));
     if block.is_empty() || block.iter().any(geared) || others_too {
         return None;

@@ -166,6 +166,61 @@ fn names() {
     );
 }
 
+/// Tables on grids: what they are given by, and how many numbers they take.
+#[test]
+fn tables_on_grids() {
+    let with = |clauses: &str, potential: &str| particle(&format!("{clauses}, potential = {potential}"), "");
+    system(&with(
+        "table(one, axes = [aero::X], values = V, kind = hermite), table(two, axes = [X, Y], values = W, kind = cubic), \
+         table(three, axes = [X, Y, Z], values = a::U, kind = hermite)",
+        "one(x) + two(x, y) + y.two(x) + three(x, y, x * y)",
+    ));
+    check(
+        &with("table(drag, axes = [aero::ALPHA, MACH], values = DRAG, kind = cubic)", "drag(x) + drag(x, y, x) + drag"),
+        &[
+            ("drag", "`drag` takes two arguments, found 1; write `drag(alpha, mach)`"),
+            ("drag", "`drag` takes two arguments, found 3; write `drag(alpha, mach)`"),
+            ("drag", "`drag` is a function; write `drag(alpha, mach)`"),
+        ],
+    );
+    check(
+        &with("table(flat, axes = [X, Y], values = V)", "flat(x, y)"),
+        &[(
+            "flat",
+            "the derivative of the table `flat` jumps, and a potential is differentiated; write `kind = cubic`",
+        )],
+    );
+    let axes =
+        "`axes` are constant arrays of numbers that increase; write `axes = [X, Y]` and `const X: [f64; N] = …;`";
+    check(
+        &particle(
+            "table(a, points = P, axes = [X]), table(b, axes = [X, Y]), table(c, values = V), \
+             table(d, axes = X, values = V), table(e, axes = [X, 2], values = V), table(f, axes = [], values = V), \
+             table(g, axes = [X, Y, Z, W], values = V), table(h, axes = (X, Y), values = V), \
+             table(i, axes = [X], values = |x| x)",
+            "",
+        ),
+        &[
+            (
+                "points",
+                "a table is given by `points = …`, or by `axes = […]` and `values = …` on their grid; remove one of them",
+            ),
+            ("axes", "a table with axes needs its values; add `values = VALUES`"),
+            ("values", "values of a table need the axes of their grid; add `axes = [X, Y]`"),
+            ("X", axes),
+            ("2", axes),
+            ("[", "a table has one, two or three axes, found 0"),
+            ("W", "a table has one, two or three axes, found 4"),
+            ("(", axes),
+            (
+                "|",
+                "`values` is the path of a constant array of values on the grid, found `|`; closures have no name: write \
+                 a `fn`",
+            ),
+        ],
+    );
+}
+
 /// Functions of the user's own, tables, and their places.
 #[test]
 fn own_functions() {
@@ -197,14 +252,15 @@ fn own_functions() {
             ("second", "derivatives are given in order; add `derivative = …`"),
             (
                 "table",
-                "a table needs its points; add `points = POINTS` and `const POINTS: [[f64; 2]; 2] = [[x, y], …];`",
+                "a table needs its points; add `points = POINTS` and `const POINTS: [[f64; 2]; 2] = [[x, y], …];`, or \
+                 `axes = [X, Y]` and `values = VALUES`",
             ),
             (
                 "|",
                 "`points` is the path of a constant array of points `[[x, y], …]`, found `|`; closures have no name: write \
                  a `fn`",
             ),
-            ("round", "unknown kind of table `round`; expected `linear` or `cubic`"),
+            ("round", "unknown kind of table `round`; expected `linear`, `hermite` or `cubic`"),
             ("sin", "`sin` is a function of expressions and cannot name a function; rename it"),
         ],
     );

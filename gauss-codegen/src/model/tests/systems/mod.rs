@@ -52,7 +52,10 @@ fn check_potential(value: &str, expected: &[Mistake<'_>]) {
 pub(super) fn show(expression: &Expression) -> String {
     match &expression.kind {
         ExpressionKind::Horizontal(_, k) => format!("place {k}"),
-        ExpressionKind::Own(name, argument) => format!("({name} {})", show(argument)),
+        ExpressionKind::Own(name, arguments) => {
+            let arguments: Vec<String> = arguments.iter().map(show).collect();
+            format!("({name} {})", arguments.join(" "))
+        }
         ExpressionKind::Number { value } => format!("{value:?}"),
         ExpressionKind::Name(name) | ExpressionKind::Input(name) => name.to_string(),
         ExpressionKind::Component(base, index) => format!("{}[{index}]", show(base)),

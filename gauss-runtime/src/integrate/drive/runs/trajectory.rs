@@ -198,7 +198,7 @@ impl<'k, S: GaussSystem> Trajectory<'k, S> {
 
     /// The input that acted at a time of the run in a state: that of [`Simulation::input`], or what controllers that
     /// [sample](crate::integrate::Simulation::sampled) held, at an instant where that changes the one from there on.
-    /// For tables and curves: `run.table().columns(["push"], |s| run.input(s.t, &s.q, &s.z).into())`.
+    /// For tables and curves: `run.table().column("push", |s| run.input(s.t, &s.q, &s.z)[0])`.
     ///
     /// [`Simulation::input`]: crate::integrate::Simulation::input
     pub fn input(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Input {

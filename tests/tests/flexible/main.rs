@@ -1,0 +1,10 @@
+//! Bodies that deform by modes: against particles that move as the modes say, against beams whose modes are known in
+//! closed form, and in steady and starting spin.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod beam;
+mod particles;
+mod refused;
+mod spin;
