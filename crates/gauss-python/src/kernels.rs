@@ -184,6 +184,67 @@ impl<S: Scene> Instance<S> {
     }
 }
 
+/// So many rows are gathered at a time: whole lanes, which stay in the nearest cache.
+const GATHERED: usize = 128;
+
+#[allow(unsafe_code)]
+impl<S: Scene> Instance<S> {
+    /// Computes rows; those that do not follow each other in memory, or are one for all, are gathered before.
+    ///
+    /// # Safety
+    /// As of `AnyKernel::run`.
+    unsafe fn gather(&self, id: Id, work: &Work, rows: Range<usize>) {
+        let arguments = SPECS[id as usize].arguments.iter();
+        let sizes = arguments.map(|argument| (argument.slot as usize, self.scene.sizes.get(argument.size)));
+        let apart = sizes.filter(|&(slot, size)| size > 0 && work.arguments[slot].stride() != size);
+        if rows.len() == 1 {
+            // SAFETY: of this function; a row alone has none behind it.
+            unsafe {
+                let mut one = work.beginning(rows.start);
+                apart.for_each(|(slot, size)| one.arguments[slot] = one.arguments[slot].known(size));
+                return self.compute(id, &one, 0..1);
+            }
+        }
+        let length = rows.len().min(GATHERED);
+        let mut gathered: Vec<_> = apart.map(|(slot, size)| (slot, size, vec![0.0; length * size])).collect();
+        if gathered.is_empty() {
+            // SAFETY: of this function.
+            return unsafe { self.compute(id, work, rows) };
+        }
+        for start in rows.clone().step_by(GATHERED) {
+            let end = rows.end.min(start + GATHERED);
+            // SAFETY: of this function; the numbers outlive the call that reads them.
+            unsafe {
+                let mut part = work.beginning(start);
+                for (slot, size, numbers) in &mut gathered {
+                    let source = &mut part.arguments[*slot];
+                    // One row for all is there already.
+                    if source.stride() > 0 || start == rows.start {
+                        source.copy(0..end - start, *size, numbers);
+                    }
+                    *source = Source::new(numbers.as_ptr(), *size);
+                }
+                self.compute(id, &part, 0..end - start);
+            }
+        }
+    }
+
+    /// Computes rows that follow each other in memory: whole lanes, then what is left one by one.
+    ///
+    /// # Safety
+    /// As of `AnyKernel::run`.
+    unsafe fn compute(&self, id: Id, work: &Work, rows: Range<usize>) {
+        let (mut next, end) = (rows.start, rows.end);
+        // SAFETY: of this function.
+        unsafe {
+            if rows.len() >= <ScalarOf<S::Packed> as Packed>::WIDTH {
+                next = self.scene.packed.run(&self.packed, id, work, next..end);
+            }
+            self.scene.single.run(&self.single, id, work, next..end);
+        }
+    }
+}
+
 impl<S: Scene> AnyKernel for Instance<S> {
     fn scene(&self) -> &'static dyn AnyScene {
         self.scene
@@ -199,7 +260,6 @@ impl<S: Scene> AnyKernel for Instance<S> {
 
     #[allow(unsafe_code)]
     unsafe fn run(&self, id: Id, work: &Work, rows: Range<usize>) -> Result<(), OffGroup> {
-        let (mut next, end) = (rows.start, rows.end);
         let spec = &SPECS[id as usize];
         for argument in spec.arguments {
             if argument.slot == Slot::Q || argument.name == "other" {
@@ -207,12 +267,7 @@ impl<S: Scene> AnyKernel for Instance<S> {
             }
         }
         // SAFETY: of this function.
-        unsafe {
-            if rows.len() >= <ScalarOf<S::Packed> as Packed>::WIDTH {
-                next = self.scene.packed.run(&self.packed, id, work, next..end);
-            }
-            self.scene.single.run(&self.single, id, work, next..end);
-        }
+        unsafe { self.gather(id, work, rows) };
         Ok(())
     }
 

@@ -47,6 +47,24 @@ impl Source {
         Self { stride, ..self }
     }
 
+    /// The rows from one on.
+    ///
+    /// # Safety
+    /// The row exists; any does of [`NONE`](Self::NONE).
+    pub unsafe fn beginning(self, row: usize) -> Self {
+        Self { first: unsafe { self.first.add(row * self.stride) }, ..self }
+    }
+
+    /// Copies so many numbers of each row, one row behind the other.
+    ///
+    /// # Safety
+    /// The rows exist, and have so many numbers.
+    pub unsafe fn copy(&self, rows: std::ops::Range<usize>, size: usize, to: &mut [f64]) {
+        for (row, to) in rows.zip(to.chunks_exact_mut(size)) {
+            to.iter_mut().enumerate().for_each(|(i, number)| *number = unsafe { self.get(row, i) });
+        }
+    }
+
     /// Number `i` of a row.
     ///
     /// # Safety
@@ -77,6 +95,14 @@ impl Target {
     #[inline(always)]
     pub fn known(self, stride: usize) -> Self {
         Self { stride, ..self }
+    }
+
+    /// As of [`Source`].
+    ///
+    /// # Safety
+    /// As there.
+    pub unsafe fn beginning(self, row: usize) -> Self {
+        Self { first: unsafe { self.first.add(row * self.stride) }, ..self }
     }
 
     /// Writes number `i` of a row.

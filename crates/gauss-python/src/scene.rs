@@ -1,15 +1,16 @@
 //! A struct as Python sees it.
 
 use gauss_runtime::error::{ParameterError, ParameterWarnings};
-use gauss_runtime::prelude::{Configuration, GaussSystem, Lanes, VectorSpace};
+use gauss_runtime::prelude::{Configuration, GaussSystem, VectorSpace};
 use gauss_runtime::simd::Packed;
 
 use crate::description::Description;
 use crate::methods::{System, Table};
 use crate::steps::Methods;
 
-/// The lanes in which batches are computed, where a struct is generic in its scalar.
-pub type Pack = Lanes<f64, 8>;
+/// The lanes in which batches are computed, where a struct is generic in its scalar: a vector that lies in one line of
+/// the cache, as `Lanes<f64, 8>` need not do.
+pub type Pack = wide::f64x8;
 
 /// The scalar of a system.
 pub type ScalarOf<S> = <S as GaussSystem>::Scalar;

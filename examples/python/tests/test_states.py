@@ -49,6 +49,22 @@ def test_views_have_the_bits_of_copies(torpedo, random, shape):
     assert np.array_equal(out, torpedo.acceleration(q.copy(), z.copy()))
 
 
+@pytest.mark.parametrize("count", [1, 2, 7, 8, 9, 127, 128, 129, 512, 513, 1025])
+def test_rows_are_gathered_whatever_their_number(torpedo, pendulum, random, count):
+    states = filled(torpedo, random, (count,))
+    q, z = torpedo.views(states)
+    expected = torpedo.acceleration(q.copy(), z.copy())
+    assert np.array_equal(torpedo.acceleration(q, z), expected)
+    # One row for all, of each argument in turn, beside rows that lie apart.
+    whole = np.repeat(q[:1].copy(), count, axis=0)
+    assert np.array_equal(torpedo.acceleration(q[0], z), torpedo.acceleration(whole, z.copy()))
+    whole = np.repeat(z[:1].copy(), count, axis=0)
+    assert np.array_equal(torpedo.acceleration(q, z[0]), torpedo.acceleration(q.copy(), whole))
+    times, u = random.standard_normal(count), random.standard_normal((count, 1))
+    found = pendulum.acceleration([0.5], [0.1], u, t=times)
+    assert np.array_equal(found, pendulum.acceleration(np.full((count, 1), 0.5), np.full((count, 1), 0.1), u, t=times))
+
+
 def test_parts_of_structured_arrays(torpedo, pendulum, random):
     states = filled(torpedo, random, (20, 3))
     for part in (states[::2], states[:, 1], states[3:5], states[::-1], states.T, states[:0]):

@@ -7,6 +7,7 @@ use gauss_runtime::linearize::LinearModel;
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
+use super::called;
 use super::system::System;
 use super::table::{Table, Writer, vector_method};
 use super::words::Id;
@@ -120,7 +121,11 @@ impl<S: System> Table<S> {
         S: Reactions,
     {
         self.joints = S::Joint::ALL.iter().map(|joint| joint.name()).collect();
-        vector_method!(self, Reaction, |s, at| s.reaction(at.frame(), at.t(), &at.q(), &at.z(), &at.input()));
+        vector_method!(self, Reaction, |s, at| {
+            // As `reaction`, but for the function that is called: see there.
+            let (t, q, z, input) = (at.t(), at.q(), at.z(), at.input());
+            s.reactions_at(t, &q, &z, &called::acceleration(s, t, &q, &z, &input), &input)[at.frame()]
+        });
     }
 
     /// Rates of Jacobians.

@@ -74,6 +74,23 @@ impl Work {
     /// Of no arrays.
     pub const NONE: Self =
         Self { t: Source::NONE, arguments: [Source::NONE; 4], results: [Target::NONE; MOST_RESULTS], frame: 0 };
+
+    /// The same arrays from a row on.
+    ///
+    /// # Safety
+    /// All arrays have the row.
+    #[allow(unsafe_code)]
+    pub unsafe fn beginning(&self, row: usize) -> Self {
+        // SAFETY: of this function.
+        unsafe {
+            Self {
+                t: self.t.beginning(row),
+                arguments: self.arguments.map(|source| source.beginning(row)),
+                results: self.results.map(|target| target.beginning(row)),
+                frame: self.frame,
+            }
+        }
+    }
 }
 
 /// The arguments of as many rows as there are lanes.
@@ -93,7 +110,7 @@ impl<'a, S: System> At<'a, S> {
     /// One number of every lane.
     #[inline(always)]
     fn number(source: &Source, row: usize, i: usize) -> S::Scalar {
-        // SAFETY: a `Work` has rows for all lanes, and the sizes of its arrays are those of this system: `Table::run`.
+        // SAFETY: a `Work` has rows for all lanes, and its arrays have the sizes of this system: `Table::run`.
         #![allow(unsafe_code)]
         unsafe {
             // All lanes alike: compilers make one vector of them, and several pieces of all but a first one.
@@ -108,21 +125,8 @@ impl<'a, S: System> At<'a, S> {
     #[inline(always)]
     fn vector<V: VectorSpace<S::Scalar>>(&self, slot: Slot) -> V {
         let (mut vector, source) = (V::zero(), self.work.arguments[slot as usize]);
-        if source.stride() != V::DIM && source.stride() != 0 {
-            // Part of a longer row.
-            (0..V::DIM).for_each(|i| vector.set_component(i, Self::number(&source, self.row, i)));
-            return vector;
-        }
-        if source.stride() == 0 {
-            for i in 0..V::DIM {
-                // SAFETY: as of `number`.
-                #[allow(unsafe_code)]
-                let number = unsafe { source.get(0, i) };
-                vector.set_component(i, S::Scalar::repeat(&number));
-            }
-            return vector;
-        }
-        // With a stride that is a constant here, rows are read as vectors, and lanes are made of these.
+        // With a stride that is a constant here, rows are read as vectors, and lanes are made of these. One way for
+        // all: where there are two, vectors meet in memory behind them.
         let (rows, width) = (source.known(V::DIM), S::Scalar::WIDTH);
         if V::DIM > SHORT {
             (0..V::DIM).for_each(|i| vector.set_component(i, Self::number(&rows, self.row, i)));
@@ -325,7 +329,7 @@ impl<S: System> Table<S> {
     ///
     /// # Safety
     /// All arrays that the [`Spec`](super::Spec) of the method names have these rows, each with as many numbers as the
-    /// sizes of the system say.
+    /// sizes of the system say, one row behind the other.
     #[allow(unsafe_code)]
     pub unsafe fn run(&self, system: &S, id: Id, work: &Work, rows: Range<usize>) -> usize {
         let whole = rows.len() / S::Scalar::WIDTH * S::Scalar::WIDTH;
