@@ -4,8 +4,10 @@ use std::env;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// Cargo writes a file of this name into every target directory.
+/// Cargo writes a file of this name into every target directory that it makes, but into none that was there before.
 const MARK: &str = "CACHEDIR.TAG";
+/// Cargo keeps what it knows of a profile's crates in the folder of the profile, one below the target directory.
+const KNOWN: &str = ".fingerprint";
 
 /// The folder `gauss` in Cargo's target directory, for what examples write.
 ///
@@ -26,7 +28,9 @@ pub fn output_folder_or_argument() -> PathBuf {
 }
 
 fn target(program: &Path, variable: Option<OsString>) -> PathBuf {
-    let marked = program.ancestors().skip(1).find(|folder| folder.join(MARK).is_file());
+    let folders = || program.ancestors().skip(1);
+    let of_profile = folders().find(|folder| folder.join(KNOWN).is_dir()).and_then(Path::parent);
+    let marked = of_profile.or_else(|| folders().find(|folder| folder.join(MARK).is_file()));
     let named = || variable.filter(|name| !name.is_empty()).map_or_else(|| PathBuf::from("target"), PathBuf::from);
     marked.map_or_else(named, Path::to_owned)
 }
@@ -49,6 +53,17 @@ mod tests {
         std::fs::write(root.path().join("elsewhere/CACHEDIR.TAG"), "Signature: 8a477f597d28d172789f06886806bc55")
             .unwrap();
         assert_eq!(target(&program, variable()), root.path().join("elsewhere"));
+    }
+
+    /// Somebody else has made the directory, within one that is marked.
+    #[test]
+    fn a_directory_without_the_mark_is_known_by_its_profile() {
+        let root = tempfile::tempdir().unwrap();
+        std::fs::create_dir_all(root.path().join("mine/debug/.fingerprint")).unwrap();
+        std::fs::write(root.path().join("CACHEDIR.TAG"), "").unwrap();
+        for program in ["mine/debug/gauss-first", "mine/debug/examples/hello_top", "mine/debug/deps/gauss_files-1"] {
+            assert_eq!(target(&root.path().join(program), None), root.path().join("mine"), "{program}");
+        }
     }
 
     /// This test is itself a program that Cargo has built.
