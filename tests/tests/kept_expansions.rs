@@ -26,11 +26,15 @@ impl Package {
         fs::write(self.folder.join("lib.rs"), source).expect("a source");
         let libraries = std::env::current_exe().expect("this test").parent().expect("its folder").to_owned();
         let named = |path: &Path| path.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
+        let time = |path: &Path| fs::metadata(path).and_then(|about| about.modified()).expect("a time");
+        // The latest before this test: what is compiled beside tests may be half of a file.
+        let this = time(&std::env::current_exe().expect("this test"));
         let runtime = fs::read_dir(&libraries)
             .expect("libraries")
             .map(|entry| entry.expect("a library").path())
             .filter(|path| named(path).starts_with("libgauss_runtime-") && named(path).ends_with(".rlib"))
-            .max_by_key(|path| fs::metadata(path).and_then(|about| about.modified()).expect("a time"))
+            .filter(|path| time(path) <= this)
+            .max_by_key(|path| time(path))
             .expect("the runtime");
         let mut rustc = Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()));
         rustc.current_dir(&self.folder).env("CARGO_MANIFEST_DIR", &self.folder);

@@ -12,7 +12,7 @@
 mod store;
 mod tokens;
 
-use std::time::{Duration, Instant};
+use std::time::{Duration, SystemTime};
 
 use proc_macro2::TokenStream;
 
@@ -38,13 +38,13 @@ pub fn or_derived<E>(
     if let Some(code) = store.find(&key).and_then(|bytes| read(&bytes, &places)) {
         return Ok(code);
     }
-    let begin = Instant::now();
+    let begin = SystemTime::now();
     let code = derive()?;
-    if begin.elapsed() >= WORTH_KEEPING
+    if begin.elapsed().is_ok_and(|elapsed| elapsed >= WORTH_KEEPING)
         && let Some(bytes) = written(code.clone(), &places)
     {
         // What cannot be written is derived again the next time.
-        let _ = store.keep(&key, &bytes, &tokens::files(code.clone()));
+        let _ = store.keep(&key, &bytes, &tokens::files(code.clone()), begin);
     }
     Ok(code)
 }

@@ -5,12 +5,15 @@ use std::fs::{self, File};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 
 use super::tokens::{Bytes, Output};
 
 /// Beyond this, what was not used for the longest time is removed.
 const MOST_BYTES: u64 = 256 << 20;
+
+/// How much earlier than it was a change of a file may seem: file systems look at the clock some hundred times a second.
+const CLOCK: Duration = Duration::from_millis(10);
 
 /// A folder of expansions, each a file that is named by a hash of what it depends on and says all of it.
 pub struct Store {
@@ -58,17 +61,21 @@ impl Store {
         rest.0.is_empty().then_some(bytes)
     }
 
-    /// Keeps bytes under a key, as long as `files` stay what they are.
+    /// Keeps bytes under a key, as long as `files` stay what they were when they were read, at `begin` or later.
     ///
     /// # Errors
-    /// What reading and writing say.
-    pub fn keep(&self, key: &[u8], bytes: &[u8], files: &[String]) -> io::Result<()> {
+    /// What reading and writing say; nothing is kept. [`io::ErrorKind::Interrupted`] where a file was written to since
+    /// `begin`: what was read of it may be older than what it has now.
+    pub fn keep(&self, key: &[u8], bytes: &[u8], files: &[String], begin: SystemTime) -> io::Result<()> {
         let mut rest = Output::default();
         rest.bytes(&self.build);
         rest.bytes(key);
         rest.number(files.len() as u64);
         for file in files {
             rest.bytes(file.as_bytes());
+            if fs::metadata(file)?.modified()? + CLOCK >= begin {
+                return Err(io::ErrorKind::Interrupted.into());
+            }
             rest.bytes(&about(Path::new(file))?);
         }
         rest.bytes(bytes);
@@ -162,6 +169,11 @@ fn libraries(arguments: &[String]) -> Vec<PathBuf> {
 mod tests {
     use super::*;
 
+    /// When a derivation would begin that reads files as they are now.
+    fn soon() -> SystemTime {
+        SystemTime::now() + Duration::from_secs(1)
+    }
+
     fn store(name: &str) -> Store {
         let folder = env::temp_dir().join(format!("gauss-derive-{name}-{}", std::process::id()));
         let _ = fs::remove_dir_all(&folder);
@@ -176,7 +188,7 @@ mod tests {
         let file = store.folder.with_extension("urdf");
         fs::write(&file, "a robot").unwrap();
         let files = [file.to_str().unwrap().to_owned()];
-        store.keep(b"key", b"code", &files).unwrap();
+        store.keep(b"key", b"code", &files, soon()).unwrap();
         assert_eq!(store.find(b"key").as_deref(), Some(&b"code"[..]));
         assert_eq!(store.find(b"other"), None);
 
@@ -184,9 +196,15 @@ mod tests {
         assert_eq!(store.find(b"key"), None);
         fs::remove_file(&file).unwrap();
         assert_eq!(store.find(b"key"), None);
-        assert!(store.keep(b"key", b"code", &files).is_err());
+        assert!(store.keep(b"key", b"code", &files, soon()).is_err());
 
-        store.keep(b"key", b"code", &[]).unwrap();
+        // Written to while the code was derived: of which content is it?
+        let begin = SystemTime::now();
+        fs::write(&file, "a boat").unwrap();
+        assert!(store.keep(b"key", b"code", &files, begin).is_err());
+        assert_eq!(store.find(b"key"), None);
+
+        store.keep(b"key", b"code", &[], soon()).unwrap();
         store.build = b"another build".to_vec();
         assert_eq!(store.find(b"key"), None);
         fs::remove_dir_all(store.folder).unwrap();
@@ -195,7 +213,7 @@ mod tests {
     #[test]
     fn bytes_that_are_not_whole_are_not_read() {
         let store = store("whole");
-        store.keep(b"key", b"some code", &[]).unwrap();
+        store.keep(b"key", b"some code", &[], soon()).unwrap();
         let path = store.path(b"key");
         let whole = fs::read(&path).unwrap();
         for length in 0..whole.len() {
@@ -215,9 +233,9 @@ mod tests {
     fn what_was_not_used_for_longest_goes_first() {
         let store = store("room");
         for (key, age) in [(b"a", 3), (b"b", 1), (b"c", 2)] {
-            store.keep(key, b"code", &[]).unwrap();
+            store.keep(key, b"code", &[], soon()).unwrap();
             let file = File::options().append(true).open(store.path(key)).unwrap();
-            file.set_modified(SystemTime::now() - std::time::Duration::from_secs(age)).unwrap();
+            file.set_modified(SystemTime::now() - Duration::from_secs(age)).unwrap();
         }
         // As if the next one were as large as all that is allowed but for one file.
         let one = fs::metadata(store.path(b"a")).unwrap().len();
