@@ -12,7 +12,8 @@ use super::tokens::{Bytes, Output};
 /// Beyond this, what was not used for the longest time is removed.
 const MOST_BYTES: u64 = 256 << 20;
 
-/// How much earlier than it was a change of a file may seem: file systems look at the clock some hundred times a second.
+/// How much earlier than it was a change of a file may seem: file systems look at the clock a few hundred times a
+/// second.
 const CLOCK: Duration = Duration::from_millis(10);
 
 /// A folder of expansions, each a file that is named by a hash of what it depends on and says all of it.
