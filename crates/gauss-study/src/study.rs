@@ -136,7 +136,7 @@ impl<'a> Study<'a> {
         let folder = Folder::make(folder, &self.declaration)?;
         let (mut now, mut open) = (Progress::default(), Vec::new());
         for part in (shard.number - 1..self.declaration.parts()).step_by(shard.of as usize) {
-            let there = self.count(&folder, part, &mut now)?;
+            let there = self.count(part, folder.checked(part)?, &mut now);
             if !there {
                 open.push(part);
             }
@@ -161,20 +161,20 @@ impl<'a> Study<'a> {
     }
 
     /// Adds a part to what is counted; whether it is there.
-    fn count(&self, folder: &Folder<'_>, part: u64, progress: &mut Progress) -> Result<bool, StudyError> {
+    fn count(&self, part: u64, state: PartState, progress: &mut Progress) -> bool {
         let runs = self.declaration.runs_of(part);
         let count = runs.end - runs.start;
         progress.of += count;
-        match folder.state(part)? {
+        match state {
             PartState::Whole { failed } => {
                 progress.runs += count;
                 progress.failed += failed;
-                return Ok(true);
+                return true;
             }
             PartState::Damaged(_) => progress.damaged += 1,
             PartState::Missing => {}
         }
-        Ok(false)
+        false
     }
 
     /// Makes and writes a part; how many of its runs failed.
@@ -207,7 +207,7 @@ impl<'a> Study<'a> {
         let folder = Folder::open(folder, &self.declaration)?;
         let mut progress = Progress::default();
         for part in 0..self.declaration.parts() {
-            self.count(&folder, part, &mut progress)?;
+            self.count(part, folder.state(part)?, &mut progress);
         }
         Ok(progress)
     }

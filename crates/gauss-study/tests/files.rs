@@ -137,22 +137,34 @@ fn what_is_there_is_not_made_again() -> Outcome {
 }
 
 #[test]
-fn a_part_whose_middle_is_lost_is_not_merged() -> Outcome {
+fn a_part_that_a_disk_changed_is_not_merged_and_is_made_anew() -> Outcome {
     let folder = tempfile::tempdir()?;
     let study = waves(declaration(5))?;
     study.run(folder.path(), quiet)?;
     let part = folder.path().join("part-00000003.parquet");
     let bytes = fs::read(&part)?;
+    let mut flipped = Vec::new();
+    // Numbers, the end that says where they are, and the declaration in it.
+    for place in (0..bytes.len()).step_by(bytes.len() / 97) {
+        let mut changed = bytes.clone();
+        changed[place] ^= 1 << (place % 8);
+        flipped.push(changed);
+    }
     // The end is as it was; of the pages before it a block was lost.
     let mut torn = bytes.clone();
     torn[4..bytes.len() / 4].fill(0);
-    fs::write(&part, torn)?;
-    let merged = study.merge(folder.path());
-    assert!(matches!(&merged, Err(StudyError::Damaged { file, .. }) if *file == part), "{merged:?}");
-    // Without the part the study makes it once more.
-    fs::remove_file(&part)?;
-    study.run(folder.path(), quiet)?;
-    assert_eq!(fs::read(part)?, bytes);
+    for changed in flipped.into_iter().chain([torn]) {
+        fs::write(&part, changed)?;
+        let merged = study.merge(folder.path());
+        assert!(matches!(&merged, Err(StudyError::Damaged { file, .. }) if *file == part), "{merged:?}");
+        // Whoever reads results reads none of a part that is not sound.
+        let read = study.results(folder.path())?.numbers("speed");
+        let left_out = |read: &Vec<_>| read.len() as u64 == RUNS - 70;
+        assert!(matches!(&read, Err(StudyError::Damaged { .. })) || read.as_ref().is_ok_and(left_out), "{read:?}");
+        let end = study.run(folder.path(), quiet)?;
+        assert_eq!((end.runs, end.damaged), (RUNS, 1));
+        assert_eq!(fs::read(&part)?, bytes);
+    }
     study.merge(folder.path())?;
     Ok(())
 }

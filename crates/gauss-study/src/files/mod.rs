@@ -1,5 +1,6 @@
 //! A study's folder: its declaration and its parts.
 
+mod checksum;
 mod merge;
 mod part;
 mod results;
@@ -9,6 +10,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+
+use bytes::Bytes;
 
 pub use part::PartState;
 pub use results::Results;
@@ -80,6 +83,19 @@ impl<'a> Folder<'a> {
         }
     }
 
+    /// The same, of which all was read and held to its checksum.
+    pub fn checked(&self, part: u64) -> Result<PartState, StudyError> {
+        let state = self.state(part)?;
+        match state {
+            PartState::Whole { .. } => match sound(&self.part(part)) {
+                Ok(_) => Ok(state),
+                Err(StudyError::Damaged { reason, .. }) => Ok(PartState::Damaged(reason)),
+                Err(error) => Err(error),
+            },
+            other => Ok(other),
+        }
+    }
+
     /// Writes a part, whole or not at all.
     pub fn write(&self, part: u64, samples: &[Draw], rows: &[Row]) -> Result<(), StudyError> {
         let file = self.part(part);
@@ -102,23 +118,13 @@ impl<'a> Folder<'a> {
         if missing > 0 {
             return Err(StudyError::Missing { parts: missing, of: self.declaration.parts() });
         }
-        for part in 0..self.declaration.parts() {
-            self.decoded(part)?;
-        }
         let file = self.path.join(MERGED);
         gauss_files::write_with(&file, |out| {
             merge::merge(self.declaration, (0..self.declaration.parts()).map(|part| self.part(part)), out)
         })
-        .map_err(StudyError::io(&file))?;
+        .map_err(|error| error.downcast().unwrap_or_else(StudyError::io(&file)))?;
         self.tidy()?;
         Ok(file)
-    }
-
-    /// Reads all pages of a part: its end may be whole where its middle is not.
-    fn decoded(&self, part: u64) -> Result<(), StudyError> {
-        let file = self.part(part);
-        let opened = fs::File::open(&file).map_err(StudyError::io(&file))?;
-        results::decode(opened).map_err(|error| StudyError::Damaged { file, reason: error.to_string() })
     }
 
     /// Removes unfinished files of workers that were killed. A file that was written to a short while ago may be of one
@@ -148,4 +154,14 @@ impl<'a> Folder<'a> {
         });
         parts.collect()
     }
+}
+
+/// The bytes of a part, if they are those that were written.
+fn sound(file: &Path) -> Result<Bytes, StudyError> {
+    let bytes = fs::read(file).map_err(StudyError::io(file))?;
+    if checksum::holds(&bytes) {
+        return Ok(Bytes::from(bytes));
+    }
+    let reason = "its checksum is of other bytes: `run` makes it anew".to_owned();
+    Err(StudyError::Damaged { file: file.to_owned(), reason })
 }

@@ -1,12 +1,12 @@
 //! One part: some runs as a file of Parquet.
 
-use std::fs::File;
-
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
-use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
+use parquet::file::metadata::{KeyValue, ParquetMetaData, ParquetMetaDataReader};
+use parquet::file::reader::ChunkReader;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 
+use super::checksum;
 use super::schema::{KEY, properties, schema};
 use crate::declaration::Declaration;
 use crate::draw::Draw;
@@ -24,9 +24,10 @@ pub enum PartState {
     Damaged(String),
 }
 
-/// The file of these runs.
+/// The file of these runs, with its checksum.
 pub fn bytes(declaration: &Declaration, samples: &[Draw], rows: &[Row]) -> Result<Vec<u8>, ParquetError> {
     let mut writer = SerializedFileWriter::new(Vec::new(), schema(declaration)?, properties(declaration))?;
+    writer.append_key_value_metadata(KeyValue::new(checksum::KEY.to_owned(), checksum::OPEN.to_owned()));
     let mut group = writer.next_row_group()?;
     // The bits of numbers above 2⁶³ stay; the schema says that they are unsigned.
     let whole = |of: fn(&Draw) -> u64| samples.iter().map(|sample| of(sample) as i64).collect::<Vec<_>>();
@@ -48,7 +49,9 @@ pub fn bytes(declaration: &Declaration, samples: &[Draw], rows: &[Row]) -> Resul
     let causes = rows.iter().map(|row| row.cause.as_deref().map(ByteArray::from));
     optional::<ByteArrayType>(&mut group, causes)?;
     group.close()?;
-    writer.into_inner()
+    let mut bytes = writer.into_inner()?;
+    checksum::close(&mut bytes);
+    Ok(bytes)
 }
 
 fn as_number(value: &Value) -> Option<f64> {
@@ -88,12 +91,15 @@ fn put<T: DataType>(group: &mut Group<'_>, values: &[T::T], levels: Option<&[i16
     column.close()
 }
 
-/// Whether a file is a part of this study with so many runs.
-pub fn state(file: &File, declaration: &Declaration, runs: u64) -> PartState {
+/// Whether a file is a part of this study with so many runs: its end is read.
+pub fn state(file: &impl ChunkReader, declaration: &Declaration, runs: u64) -> PartState {
     match ParquetMetaDataReader::new().parse_and_finish(file) {
         Err(error) => PartState::Damaged(format!("is not whole: {error}")),
-        Ok(metadata) if kept(&metadata) != Some(declaration.to_json().as_str()) => {
+        Ok(metadata) if value(&metadata, KEY) != Some(declaration.to_json().as_str()) => {
             PartState::Damaged("is of another study".to_owned())
+        }
+        Ok(metadata) if value(&metadata, checksum::KEY).is_none() => {
+            PartState::Damaged("has no checksum: an earlier version wrote it".to_owned())
         }
         Ok(metadata) if metadata.file_metadata().num_rows() != runs as i64 => {
             PartState::Damaged(format!("has {} runs, not {runs}", metadata.file_metadata().num_rows()))
@@ -102,10 +108,10 @@ pub fn state(file: &File, declaration: &Declaration, runs: u64) -> PartState {
     }
 }
 
-/// The declaration that a file holds.
-fn kept(metadata: &ParquetMetaData) -> Option<&str> {
+/// What a file holds under a word.
+fn value<'a>(metadata: &'a ParquetMetaData, key: &str) -> Option<&'a str> {
     let pairs = metadata.file_metadata().key_value_metadata()?;
-    pairs.iter().find(|pair| pair.key == KEY)?.value.as_deref()
+    pairs.iter().find(|pair| pair.key == key)?.value.as_deref()
 }
 
 /// How many runs have no cause of failure, by the statistics of the last column.

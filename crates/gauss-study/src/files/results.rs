@@ -1,6 +1,5 @@
 //! Results as they are read back, a column at a time.
 
-use std::fs::File;
 use std::path::PathBuf;
 
 use parquet::column::reader::ColumnReader;
@@ -79,8 +78,7 @@ impl Results {
         let mut all = Vec::new();
         for file in &self.files {
             let damaged = |error: ParquetError| StudyError::Damaged { file: file.clone(), reason: error.to_string() };
-            let opened = File::open(file).map_err(StudyError::io(file))?;
-            let reader = SerializedFileReader::new(opened).map_err(damaged)?;
+            let reader = SerializedFileReader::new(super::sound(file)?).map_err(damaged)?;
             let schema = reader.metadata().file_metadata().schema_descr();
             let none = || StudyError::NoColumn(column.to_owned());
             let place = schema.columns().iter().position(|field| field.name() == column).ok_or_else(none)?;
@@ -93,25 +91,6 @@ impl Results {
         }
         Ok(all)
     }
-}
-
-/// Decodes all columns of a file, and keeps nothing.
-pub fn decode(file: File) -> Result<(), ParquetError> {
-    let reader = SerializedFileReader::new(file)?;
-    for group in 0..reader.num_row_groups() {
-        let group = reader.get_row_group(group)?;
-        let rows = group.metadata().num_rows() as usize;
-        for place in 0..group.num_columns() {
-            match group.get_column_reader(place)? {
-                ColumnReader::DoubleColumnReader(mut reader) => values::<DoubleType, _>(&mut reader, rows, drop)?,
-                ColumnReader::Int64ColumnReader(mut reader) => values::<Int64Type, _>(&mut reader, rows, drop)?,
-                ColumnReader::BoolColumnReader(mut reader) => values::<BoolType, _>(&mut reader, rows, drop)?,
-                ColumnReader::ByteArrayColumnReader(mut reader) => values::<ByteArrayType, _>(&mut reader, rows, drop)?,
-                _ => return Err(ParquetError::General(format!("column {place} is of no type that studies have"))),
-            };
-        }
-    }
-    Ok(())
 }
 
 type Reader<T> = parquet::column::reader::ColumnReaderImpl<T>;
