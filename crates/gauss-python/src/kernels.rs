@@ -10,6 +10,7 @@ use gauss_runtime::prelude::DescribedSystem;
 use gauss_runtime::simd::Packed;
 
 use crate::description::Description;
+use crate::lanes::{self, Lanes};
 use crate::memory::Source;
 use crate::methods::{Id, SPECS, Sizes, Slot, Table, Work};
 use crate::runs::{self, Many, ManyEnds};
@@ -184,35 +185,89 @@ impl<S: Scene> Instance<S> {
     }
 }
 
-/// So many rows are gathered at a time: whole lanes, which stay in the nearest cache.
-const GATHERED: usize = 128;
+/// So many numbers in lanes stay in the nearest cache, with what a kernel needs besides.
+const NEAR: usize = 2048;
+/// The most packs of lanes, or rows, that are gathered at a time.
+const MOST_PACKS: usize = 16;
+const MOST_ROWS: usize = 128;
 
 #[allow(unsafe_code)]
 impl<S: Scene> Instance<S> {
-    /// Computes rows; those that do not follow each other in memory, or are one for all, are gathered before.
+    /// Computes rows: as many as fill lanes, where the struct has them, then what is left one by one.
     ///
     /// # Safety
     /// As of `AnyKernel::run`.
-    unsafe fn gather(&self, id: Id, work: &Work, rows: Range<usize>) {
+    unsafe fn compute(&self, id: Id, work: &Work, rows: Range<usize>) {
+        let mut next = rows.start;
+        // SAFETY: of this function.
+        unsafe {
+            if <ScalarOf<S::Packed> as Packed>::WIDTH == lanes::WIDTH && rows.len() >= lanes::WIDTH {
+                let packs = rows.len() / lanes::WIDTH;
+                self.in_lanes(id, &work.beginning(next), packs);
+                next += packs * lanes::WIDTH;
+            }
+            if next < rows.end {
+                self.one_by_one(id, work, next..rows.end);
+            }
+        }
+    }
+
+    /// Computes the first rows in lanes, as many as fill these packs.
+    ///
+    /// # Safety
+    /// As of `AnyKernel::run`.
+    unsafe fn in_lanes(&self, id: Id, work: &Work, packs: usize) {
+        let arguments = SPECS[id as usize].arguments.iter();
+        let arguments = arguments.map(|argument| (argument.slot as usize, self.scene.sizes.get(argument.size)));
+        let arguments: Vec<_> = arguments.filter(|&(_, size)| size > 0).collect();
+        let numbers = arguments.iter().map(|(_, size)| size).sum::<usize>() * lanes::WIDTH;
+        let block = (NEAR / numbers.max(1)).clamp(1, MOST_PACKS).min(packs);
+        let mut times = Lanes::new(block, 1);
+        let mut taken: Vec<_> = arguments.iter().map(|&(slot, size)| (slot, Lanes::new(block, size))).collect();
+        for start in (0..packs).step_by(block) {
+            let count = block.min(packs - start);
+            // SAFETY: of this function. What is one for all is there after the first block, which is the longest.
+            unsafe {
+                let part = work.beginning(start * lanes::WIDTH);
+                let mut vectors = part;
+                let sources = taken.iter_mut().map(|(slot, lanes)| (lanes, part.arguments[*slot]));
+                for (lanes, source) in sources.chain([(&mut times, part.t)]) {
+                    if start == 0 || source.stride() > 0 {
+                        lanes.take(count, source);
+                    }
+                }
+                taken.iter().for_each(|(slot, lanes)| vectors.arguments[*slot] = lanes.source());
+                vectors.t = times.source();
+                self.scene.packed.run(&self.packed, id, &vectors, 0..count);
+            }
+        }
+    }
+
+    /// Computes rows by the kernel of one state; rows that do not follow each other in memory, or are one for all, are
+    /// gathered before.
+    ///
+    /// # Safety
+    /// As of `AnyKernel::run`.
+    unsafe fn one_by_one(&self, id: Id, work: &Work, rows: Range<usize>) {
         let arguments = SPECS[id as usize].arguments.iter();
         let sizes = arguments.map(|argument| (argument.slot as usize, self.scene.sizes.get(argument.size)));
         let apart = sizes.filter(|&(slot, size)| size > 0 && work.arguments[slot].stride() != size);
+        let single = |work: &Work, rows| unsafe { self.scene.single.run(&self.single, id, work, rows) };
         if rows.len() == 1 {
             // SAFETY: of this function; a row alone has none behind it.
             unsafe {
                 let mut one = work.beginning(rows.start);
-                apart.for_each(|(slot, size)| one.arguments[slot] = one.arguments[slot].known(size));
-                return self.compute(id, &one, 0..1);
+                apart.for_each(|(slot, size)| one.arguments[slot] = one.arguments[slot].at_distance(size));
+                return single(&one, 0..1);
             }
         }
-        let length = rows.len().min(GATHERED);
+        let length = rows.len().min(MOST_ROWS);
         let mut gathered: Vec<_> = apart.map(|(slot, size)| (slot, size, vec![0.0; length * size])).collect();
         if gathered.is_empty() {
-            // SAFETY: of this function.
-            return unsafe { self.compute(id, work, rows) };
+            return single(work, rows);
         }
-        for start in rows.clone().step_by(GATHERED) {
-            let end = rows.end.min(start + GATHERED);
+        for start in rows.clone().step_by(MOST_ROWS) {
+            let end = rows.end.min(start + MOST_ROWS);
             // SAFETY: of this function; the numbers outlive the call that reads them.
             unsafe {
                 let mut part = work.beginning(start);
@@ -224,23 +279,8 @@ impl<S: Scene> Instance<S> {
                     }
                     *source = Source::new(numbers.as_ptr(), *size);
                 }
-                self.compute(id, &part, 0..end - start);
+                single(&part, 0..end - start);
             }
-        }
-    }
-
-    /// Computes rows that follow each other in memory: whole lanes, then what is left one by one.
-    ///
-    /// # Safety
-    /// As of `AnyKernel::run`.
-    unsafe fn compute(&self, id: Id, work: &Work, rows: Range<usize>) {
-        let (mut next, end) = (rows.start, rows.end);
-        // SAFETY: of this function.
-        unsafe {
-            if rows.len() >= <ScalarOf<S::Packed> as Packed>::WIDTH {
-                next = self.scene.packed.run(&self.packed, id, work, next..end);
-            }
-            self.scene.single.run(&self.single, id, work, next..end);
         }
     }
 }
@@ -267,7 +307,7 @@ impl<S: Scene> AnyKernel for Instance<S> {
             }
         }
         // SAFETY: of this function.
-        unsafe { self.gather(id, work, rows) };
+        unsafe { self.compute(id, work, rows) };
         Ok(())
     }
 

@@ -50,6 +50,7 @@ mod documentation;
 mod given;
 mod jax;
 mod kernels;
+mod lanes;
 mod make;
 mod memory;
 mod methods;

@@ -41,9 +41,9 @@ impl Source {
         self.stride
     }
 
-    /// The same rows where their stride is this one, as a constant: several rows are then read at once.
+    /// The same rows at this distance from each other, which one row alone does not have.
     #[inline(always)]
-    pub fn known(self, stride: usize) -> Self {
+    pub fn at_distance(self, stride: usize) -> Self {
         Self { stride, ..self }
     }
 
@@ -73,6 +73,15 @@ impl Source {
     pub unsafe fn get(&self, row: usize, i: usize) -> f64 {
         unsafe { self.first.add(row * self.stride + i).read() }
     }
+
+    /// Vector `i` of a row of vectors, which lanes are. Of a scalar that is one number, rows are those of arrays.
+    ///
+    /// # Safety
+    /// The vector exists and is of this type.
+    #[inline(always)]
+    pub unsafe fn vector<T: Copy>(&self, row: usize, i: usize) -> T {
+        unsafe { self.first.cast::<T>().add(row * self.stride + i).read() }
+    }
 }
 
 impl Target {
@@ -89,12 +98,6 @@ impl Target {
     #[inline(always)]
     pub fn stride(&self) -> usize {
         self.stride
-    }
-
-    /// As [`Source::known`].
-    #[inline(always)]
-    pub fn known(self, stride: usize) -> Self {
-        Self { stride, ..self }
     }
 
     /// As of [`Source`].

@@ -9,7 +9,7 @@ use gauss_runtime::simd::Packed;
 
 use super::called;
 use super::system::System;
-use super::table::{Table, Writer, vector_method};
+use super::table::{Table, Writer};
 use super::words::Id;
 
 /// Second derivatives whose sizes are known.
@@ -107,8 +107,8 @@ impl<S: System> Table<S> {
                 (i, j) => rotation[(i, j)],
             });
         });
-        vector_method!(self, Twist, |s, at| s.twist_of(at.frame(), at.t(), &at.q(), &at.z()));
-        vector_method!(self, Bias, |s, at| s.bias_of(at.frame(), at.t(), &at.q(), &at.z()));
+        self.add(Id::Twist, |s, at, out| out.vector(&s.twist_of(at.frame(), at.t(), &at.q(), &at.z())));
+        self.add(Id::Bias, |s, at, out| out.vector(&s.bias_of(at.frame(), at.t(), &at.q(), &at.z())));
         self.add(Id::Jacobian, |s, at, out| {
             let jacobian = s.jacobian_of(at.frame(), at.t(), &at.q());
             out.matrix([6, S::DOF], |i, j| jacobian[(i, j)]);
@@ -121,10 +121,11 @@ impl<S: System> Table<S> {
         S: Reactions,
     {
         self.joints = S::Joint::ALL.iter().map(|joint| joint.name()).collect();
-        vector_method!(self, Reaction, |s, at| {
+        self.add(Id::Reaction, |s, at, out| {
             // As `reaction`, but for the function that is called: see there.
             let (t, q, z, input) = (at.t(), at.q(), at.z(), at.input());
-            s.reactions_at(t, &q, &z, &called::acceleration(s, t, &q, &z, &input), &input)[at.frame()]
+            let all = s.reactions_at(t, &q, &z, &called::acceleration(s, t, &q, &z, &input), &input);
+            out.vector(&all[at.frame()]);
         });
     }
 
@@ -145,7 +146,7 @@ impl<S: System> Table<S> {
         S: ConstrainedSystem,
     {
         self.multipliers = <S::Multipliers as VectorSpace<S::Scalar>>::DIM;
-        vector_method!(self, Multipliers, |s, at| s.multipliers(at.t(), &at.q(), &at.z(), &at.input()));
+        self.add(Id::Multipliers, |s, at, out| out.vector(&s.multipliers(at.t(), &at.q(), &at.z(), &at.input())));
     }
 
     /// What holds the weight.
@@ -153,7 +154,7 @@ impl<S: System> Table<S> {
     where
         S: GravityTorques,
     {
-        vector_method!(self, GravityTorques, |s, at| s.gravity_torques(at.t(), &at.q()));
+        self.add(Id::GravityTorques, |s, at, out| out.vector(&s.gravity_torques(at.t(), &at.q())));
     }
 
     /// The system as a whole.
@@ -161,8 +162,8 @@ impl<S: System> Table<S> {
     where
         S: CentroidalSystem,
     {
-        vector_method!(self, CenterOfMass, |s, at| s.center_of_mass(at.t(), &at.q()));
-        vector_method!(self, CentroidalMomentum, |s, at| s.centroidal_momentum(at.t(), &at.q(), &at.z()));
+        self.add(Id::CenterOfMass, |s, at, out| out.vector(&s.center_of_mass(at.t(), &at.q())));
+        self.add(Id::CentroidalMomentum, |s, at, out| out.vector(&s.centroidal_momentum(at.t(), &at.q(), &at.z())));
         self.add(Id::CentroidalMatrix, |s, at, out| {
             let matrix = s.centroidal_matrix(at.t(), &at.q());
             out.matrix([6, S::DOF], |i, j| matrix[(i, j)]);

@@ -93,7 +93,7 @@ impl Work {
     }
 }
 
-/// The arguments of as many rows as there are lanes.
+/// The arguments of as many states as the scalar has lanes: of one row of vectors.
 pub struct At<'a, S> {
     work: &'a Work,
     row: usize,
@@ -101,51 +101,20 @@ pub struct At<'a, S> {
 }
 
 impl<'a, S: System> At<'a, S> {
-    /// The arguments from this row on.
+    /// The arguments in this row.
     #[inline(always)]
     pub(super) fn new(work: &'a Work, row: usize) -> Self {
         Self { work, row, system: std::marker::PhantomData }
     }
 
-    /// One number of every lane.
-    #[inline(always)]
-    fn number(source: &Source, row: usize, i: usize) -> S::Scalar {
-        // SAFETY: a `Work` has rows for all lanes, and its arrays have the sizes of this system: `Table::run`.
-        #![allow(unsafe_code)]
-        unsafe {
-            // All lanes alike: compilers make one vector of them, and several pieces of all but a first one.
-            let mut value = S::Scalar::zero();
-            for lane in 0..S::Scalar::WIDTH {
-                value.replace(lane, &source.get(row + lane, i));
-            }
-            value
-        }
-    }
-
     #[inline(always)]
     fn vector<V: VectorSpace<S::Scalar>>(&self, slot: Slot) -> V {
-        let (mut vector, source) = (V::zero(), self.work.arguments[slot as usize]);
-        // With a stride that is a constant here, rows are read as vectors, and lanes are made of these. One way for
-        // all: where there are two, vectors meet in memory behind them.
-        let (rows, width) = (source.known(V::DIM), S::Scalar::WIDTH);
-        if V::DIM > SHORT {
-            (0..V::DIM).for_each(|i| vector.set_component(i, Self::number(&rows, self.row, i)));
-            return vector;
-        }
-        let mut flat = [S::Scalar::zero(); SHORT];
-        for k in 0..V::DIM * width {
-            // SAFETY: as of `number`: these are all numbers of the rows, one after the other.
-            #[allow(unsafe_code)]
-            let number = unsafe { rows.get(self.row, k) };
-            flat[k / width].replace(k % width, &number);
-        }
+        // The size is a constant here.
+        let (mut vector, rows) = (V::zero(), self.work.arguments[slot as usize].at_distance(V::DIM));
         for i in 0..V::DIM {
-            let mut lanes = S::Scalar::zero();
-            for lane in 0..width {
-                let k = lane * V::DIM + i;
-                lanes.replace(lane, &flat[k / width].extract(k % width));
-            }
-            vector.set_component(i, lanes);
+            // SAFETY: arrays have the rows and the sizes of this system: `Table::run`.
+            #[allow(unsafe_code)]
+            vector.set_component(i, unsafe { rows.vector(self.row, i) });
         }
         vector
     }
@@ -153,7 +122,11 @@ impl<'a, S: System> At<'a, S> {
     /// Time.
     #[inline(always)]
     pub fn t(&self) -> S::Scalar {
-        Self::number(&self.work.t, self.row, 0)
+        // SAFETY: as of `vector`.
+        #[allow(unsafe_code)]
+        unsafe {
+            self.work.t.vector(self.row, 0)
+        }
     }
 
     /// The configuration.
@@ -210,7 +183,7 @@ impl Writer<'_> {
             // tests compare with what is left.
             #[allow(unsafe_code)]
             unsafe {
-                self.targets[self.result].set(self.row + lane, self.place, value.extract(lane));
+                self.targets[self.result].set(self.row * T::WIDTH + lane, self.place, value.extract(lane));
             }
         }
         self.place += 1;
@@ -246,40 +219,6 @@ impl Writer<'_> {
     }
 }
 
-/// Rows of so many numbers are turned into lanes, and back, without loops.
-const SHORT: usize = 8;
-
-/// Writes a vector in lanes into as many rows.
-#[inline(always)]
-pub(super) fn write_vector<T: Real + Packed<Single = f64>, V: VectorSpace<T>>(target: &Target, row: usize, vector: &V) {
-    let rows = target.known(V::DIM);
-    for k in 0..V::DIM * T::WIDTH {
-        let (lane, i) = (k / V::DIM, k % V::DIM);
-        // SAFETY: results have rows for all lanes, each with the numbers of this vector: the `Spec` of the method.
-        #[allow(unsafe_code)]
-        unsafe {
-            rows.set(row, k, vector.component(i).extract(lane));
-        }
-    }
-}
-
-/// Adds a method whose result is one vector. A macro, since a closure would be a function of its own, and vectors of
-/// lanes would go through memory on their way to the loop.
-macro_rules! vector_method {
-    ($table:ident, $id:ident, |$system:pat_param, $at:pat_param| $vector:expr) => {
-        $table.put(
-            $crate::methods::Id::$id,
-            Box::new(|system, work, rows| {
-                for row in rows.step_by(S::Scalar::WIDTH) {
-                    let ($system, $at) = (system, &$crate::methods::table::At::<S>::new(work, row));
-                    $crate::methods::table::write_vector(&work.results[0], row, &$vector);
-                }
-            }),
-        )
-    };
-}
-pub(super) use vector_method;
-
 type Loop<S> = Box<dyn Fn(&S, &Work, Range<usize>) + Send + Sync>;
 
 /// The methods that a kernel has.
@@ -304,19 +243,14 @@ impl<S: System> Table<S> {
         table
     }
 
-    /// A method by its loop.
-    pub(super) fn put(&mut self, id: Id, run: Loop<S>) {
-        self.loops[id as usize] = Some(run);
-    }
-
-    /// A method by what it does for as many rows as there are lanes.
+    /// A method by what it does for a row of vectors.
     pub(super) fn add(&mut self, id: Id, one: impl Fn(&S, &At<'_, S>, &mut Writer<'_>) + Copy + Send + Sync + 'static) {
         let run = move |system: &S, work: &Work, rows: Range<usize>| {
-            for row in rows.step_by(S::Scalar::WIDTH) {
+            for row in rows {
                 one(system, &At::new(work, row), &mut Writer { targets: &work.results, result: 0, place: 0, row });
             }
         };
-        self.put(id, Box::new(run));
+        self.loops[id as usize] = Some(Box::new(run));
     }
 
     /// Whether there is such a method.
@@ -325,50 +259,44 @@ impl<S: System> Table<S> {
         self.loops[id as usize].is_some()
     }
 
-    /// Computes rows, as many as fill whole lanes; gives the number of the first row that is left.
+    /// Computes rows of vectors, which are numbers where a scalar is one.
     ///
     /// # Safety
-    /// All arrays that the [`Spec`](super::Spec) of the method names have these rows, each with as many numbers as the
-    /// sizes of the system say, one row behind the other.
+    /// All arguments that the [`Spec`](super::Spec) of the method names have these rows, each with as many vectors as the
+    /// sizes of the system say, one row behind the other; one time may be there for all. Results have a row of numbers
+    /// for each lane of them.
     #[allow(unsafe_code)]
-    pub unsafe fn run(&self, system: &S, id: Id, work: &Work, rows: Range<usize>) -> usize {
-        let whole = rows.len() / S::Scalar::WIDTH * S::Scalar::WIDTH;
-        let end = rows.start + whole;
-        if let Some(run) = &self.loops[id as usize]
-            && whole > 0
-        {
-            run(system, work, rows.start..end);
+    pub unsafe fn run(&self, system: &S, id: Id, work: &Work, rows: Range<usize>) {
+        if let Some(run) = &self.loops[id as usize] {
+            run(system, work, rows);
         }
-        end
     }
 
     fn motion(&mut self) {
-        vector_method!(self, Acceleration, |s, at| s.acceleration(at.t(), &at.q(), &at.z(), &at.input()));
-        vector_method!(self, InverseDynamics, |s, at| s.inverse_dynamics(
-            at.t(),
-            &at.q(),
-            &at.z(),
-            &at.x(),
-            &at.input()
-        ));
-        vector_method!(self, NonlinearEffects, |s, at| s.nonlinear_effects(at.t(), &at.q(), &at.z(), &at.input()));
+        self.add(Id::Acceleration, |s, at, out| out.vector(&s.acceleration(at.t(), &at.q(), &at.z(), &at.input())));
+        self.add(Id::InverseDynamics, |s, at, out| {
+            out.vector(&s.inverse_dynamics(at.t(), &at.q(), &at.z(), &at.x(), &at.input()));
+        });
+        self.add(Id::NonlinearEffects, |s, at, out| {
+            out.vector(&s.nonlinear_effects(at.t(), &at.q(), &at.z(), &at.input()))
+        });
         self.add(Id::MassMatrix, |s, at, out| {
             let matrix = s.mass_matrix(at.t(), &at.q());
             out.matrix([S::DOF; 2], |i, j| matrix[(i, j)]);
         });
-        vector_method!(self, Kinematics, |s, at| s.kinematics(at.t(), &at.q(), &at.z()));
+        self.add(Id::Kinematics, |s, at, out| out.vector(&s.kinematics(at.t(), &at.q(), &at.z())));
         self.add(Id::Rates, |s, at, out| {
             let (t, q, z) = (at.t(), at.q(), at.z());
             let input = at.input();
             out.vector(&q.component_rates(&s.configuration_rates(t, &q, &z, &input)));
             out.vector(&called::acceleration(s, t, &q, &z, &input));
         });
-        vector_method!(self, Momentum, |s, at| s.momentum(at.t(), &at.q(), &at.z()));
-        vector_method!(self, Velocity, |s, at| s.velocity(at.t(), &at.q(), &at.z()));
-        vector_method!(self, MomentumRate, |s, at| s.momentum_rate(at.t(), &at.q(), &at.z(), &at.input()));
-        vector_method!(self, Retract, |_, at| at.q().advance(&at.x()).components());
-        vector_method!(self, Difference, |_, at| at.q().difference(&at.other()));
-        vector_method!(self, Tangent, |_, at| at.q().tangent(&at.x()));
+        self.add(Id::Momentum, |s, at, out| out.vector(&s.momentum(at.t(), &at.q(), &at.z())));
+        self.add(Id::Velocity, |s, at, out| out.vector(&s.velocity(at.t(), &at.q(), &at.z())));
+        self.add(Id::MomentumRate, |s, at, out| out.vector(&s.momentum_rate(at.t(), &at.q(), &at.z(), &at.input())));
+        self.add(Id::Retract, |_, at, out| out.vector(&at.q().advance(&at.x()).components()));
+        self.add(Id::Difference, |_, at, out| out.vector(&at.q().difference(&at.other())));
+        self.add(Id::Tangent, |_, at, out| out.vector(&at.q().tangent(&at.x())));
     }
 
     fn energies(&mut self) {
