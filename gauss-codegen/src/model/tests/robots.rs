@@ -440,7 +440,14 @@ fn mistakes_of_clauses() {
             ", base(rotation = 1.0)",
             "expected a rotation, found a scalar; write `rotation_z(theta)`, or a product of such turns",
         ),
-        (", reactions(elbw)", "no body or frame is called `elbw`; expected `base` or `arm`"),
+        (", reactions(elbw)", "no body, frame or joint is called `elbw`; did you mean the joint `elbow`?"),
+        (
+            ", reactions(wrist)",
+            "no body, frame or joint is called `wrist`; expected a link (`base` or `arm`) or the joint that carries it \
+             (`elbow`)",
+        ),
+        // What takes no joint does not list any.
+        (", frames(wrist)", "no body or frame is called `wrist`; expected `base` or `arm`"),
         (", coordinates(elbow)", "the coordinate `elbow` is declared twice; remove one of the two"),
         (
             ", drive(elbw = 1.0)",
@@ -481,6 +488,24 @@ fn reactions() {
     let text = robot(&(joint("elbow", "revolute", "base", "arm", "") + &link("arm") + &other));
     let unclear = "`arm` is a link of the file and the joint that carries `hand`; name that link";
     assert_eq!(mistakes(&text, ", reactions(arm)", ""), [unclear]);
+}
+
+/// All names that the message tells are taken: of joints without an identifier those of their coordinates.
+#[test]
+fn names_of_reactions() {
+    let named = joint("left-knee", "revolute", "base", "arm", "") + &link("arm");
+    let planar = joint("sled", "planar", "arm", "hand", "") + &link("hand");
+    let fixed = joint("weld", "fixed", "hand", "tool", "") + &link("tool");
+    let text = robot(&(named + &planar + &fixed));
+    let list = "no body, frame or joint is called `ankle`; expected a link (`base`, `arm`, `hand` or `tool`) or the joint \
+                that carries it (`left_knee`, `sled` or `weld`)";
+    assert_eq!(mistakes(&text, ", reactions(ankle)", ""), [list]);
+    let read = model(&text, ", reactions(left_knee, sled, weld)", "");
+    let links: Vec<_> = read.item.wanted.reactions.iter().map(|joint| joint.link.to_string()).collect();
+    assert_eq!(links, ["arm", "hand", "tool"]);
+    // A link that only the struct has is taken, and a joint near to it is not suggested for it.
+    let own = ", body(ankle, parent = hand, position = [0, 0, 1], mass = 1, inertia = 1), reactions(ankle)";
+    assert_eq!(model(&text, own, "").item.wanted.reactions.len(), 1);
 }
 
 /// Prefixes that nothing declares, as Drake has them, and what stands before the root.
