@@ -1,10 +1,10 @@
 //! What the compiler says of a method that a clause of the scene brings, where the clause is not written.
 //!
-//! Of a method that no type has the compiler says that some trait could be implemented, which is not what a user should
-//! do. It shows a message of ours only where a trait has the method for types with a bound, and the bound alone does not
-//! hold. So each family of methods is here once more, by names alone, with a bound that no type meets: these methods are
-//! never called and stand in nobody's way. The prelude brings the traits along without their names. Receivers that are
-//! references are told the bound only, whose name is therefore that of the clause.
+//! Of a method that no type has the compiler says that some trait could be implemented, which is not what a user
+//! should do. It shows a message of ours only where a trait has the method for types with a bound, and the bound alone
+//! does not hold. So each family of methods is here once more, by names alone, with a bound that no type meets: these
+//! methods are never called and stand in nobody's way. The prelude brings the traits along without their names. Of
+//! receivers that are references the compiler tells the bound only, whose name is therefore that of the clause.
 
 use crate::system::GaussSystem;
 

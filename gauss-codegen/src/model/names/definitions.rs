@@ -28,8 +28,8 @@ pub fn check(definitions: &[Definition], scope: &mut Scope, context: &mut Contex
     }
 }
 
-/// Refuses definitions that name one another in a circle, of which no order is one: each circle once, at the name in its
-/// first definition that leads around. A definition that names itself is told when it is read.
+/// Refuses definitions that name one another in a circle, so that no order of them helps: each circle once, at the name
+/// in its first definition that leads around. A definition that names itself is told when it is read.
 fn refuse_circles(definitions: &[Definition], scope: &mut Scope, context: &mut Context) {
     let named: Vec<Vec<(usize, Ident)>> =
         definitions.iter().map(|definition| named_definitions(definition, scope)).collect();
@@ -39,8 +39,8 @@ fn refuse_circles(definitions: &[Definition], scope: &mut Scope, context: &mut C
             continue;
         }
         let Some(circle) = shortest_circle(start, &named) else { continue };
+        let [_, next, ..] = circle[..] else { continue };
         told.extend(circle.iter().copied());
-        let next = circle[1];
         let names: Vec<String> = circle.iter().map(|&k| format!("`{}`", definitions[k].name)).collect();
         let message = match names.as_slice() {
             [a, b] => format!("the definitions {a} and {b} name each other, so that neither has a value"),

@@ -430,6 +430,11 @@ fn mistakes_of_clauses() {
         (", joint_friction = dry(0.1)", "`dry` takes nothing in brackets; write `joint_friction = dry`"),
         (", joint_friction = dyr", "unknown `joint_friction` `dyr`; did you mean `dry`?"),
         (
+            ", joint_friction = lugre(1e5)",
+            "unknown `joint_friction` `lugre`; friction with a state, as LuGre's and Dahl's, is written as \
+             `states(bristle = …)` and `drive(x = …)`; LuGre's is the example of the guide's chapter `Elements with states`",
+        ),
+        (
             ", limits = stop(stiffness = 1.0)",
             "stops at limits need `width`; write `limits = stop(stiffness = 1e4, width = 0.01)`",
         ),

@@ -89,8 +89,8 @@ fn methods_for_clauses() {
     );
 }
 
-/// The methods by which a run is put together, as they stand in the runtime: each is a clause, or a word that is told what
-/// it is.
+/// The methods by which a run is put together, as they stand in the runtime: each is a clause, or a word that is told
+/// what it is.
 #[test]
 fn all_methods_of_runs() {
     const RUNS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../gauss-runtime/src/integrate/drive/runs");
