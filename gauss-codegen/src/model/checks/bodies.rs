@@ -219,9 +219,11 @@ fn refuse_reference(reference: &Reference<'_>, statements: &Statements, context:
     let joints = if joint { joints } else { Vec::new() };
     let table: Vec<(&str, ())> = names.iter().map(|name| (name.as_str(), ())).collect();
     let both: Vec<(&str, bool)> = table.iter().map(|(name, ())| (*name, false)).chain(joints.iter().copied()).collect();
-    let remedy = match words::nearest(&written.unraw().to_string(), &both) {
-        Some((near, true)) => format!("did you mean the joint `{near}`?"),
-        Some((near, false)) => format!("did you mean `{near}`?"),
+    // Joints are numbered more often than not.
+    let near = words::all_nearest(&written.unraw().to_string(), &both);
+    let remedy = match near.first() {
+        Some(_) if near.iter().all(|(_, joint)| *joint) => format!("did you mean the joint {}?", words::list(&near)),
+        Some((first, _)) => format!("did you mean `{first}`?"),
         None if statements.has_unnamed_body() && table.len() == 1 => format!("the only body is `{UNNAMED}`"),
         None if !joints.is_empty() => {
             format!("expected a link ({}) or the joint that carries it ({})", words::list(&table), words::list(&joints))

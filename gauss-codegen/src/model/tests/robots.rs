@@ -508,6 +508,10 @@ fn names_of_reactions() {
     let read = model(&text, ", reactions(left_knee, sled, weld)", "");
     let links: Vec<_> = read.item.wanted.reactions.iter().map(|joint| joint.link.to_string()).collect();
     assert_eq!(links, ["arm", "hand", "tool"]);
+    let numbered = joint("joint1", "revolute", "base", "arm", "") + &link("arm");
+    let numbered = robot(&(numbered + &joint("joint2", "revolute", "arm", "hand", "") + &link("hand")));
+    let nearest = "no body, frame or joint is called `joint9`; did you mean the joint `joint1` or `joint2`?";
+    assert_eq!(mistakes(&numbered, ", reactions(joint9)", ""), [nearest]);
     // A link that only the struct has is taken, and a joint near to it is not suggested for it.
     let own = ", body(ankle, parent = hand, position = [0, 0, 1], mass = 1, inertia = 1), reactions(ankle)";
     assert_eq!(model(&text, own, "").item.wanted.reactions.len(), 1);
