@@ -54,6 +54,11 @@ assert_eq!(balls.momentum_about(&Vector3::zeros(), 0.0, &q, &z)[5], 3.0);
 ```
 "##
 )]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no sums over all bodies, because its struct does not ask for them",
+    label = "the clause `methods(centroidal)` brings them",
+    note = "add `methods(centroidal)` to the `#[gauss(…)]` of the struct"
+)]
 pub trait CentroidalSystem: GaussSystem {
     /// `SMatrix<Scalar, 6, DOF>`.
     type CentroidalMatrix: Copy + Debug + Index<(usize, usize), Output = Self::Scalar>;
@@ -108,6 +113,11 @@ pub trait CentroidalSystem: GaussSystem {
 }
 
 /// A system that gives the generalised forces that balance its weight: `methods(gravity_torques)`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no torques of gravity, because its struct does not ask for them",
+    label = "the clause `methods(gravity_torques)` brings them",
+    note = "add `methods(gravity_torques)` to the `#[gauss(…)]` of the struct"
+)]
 pub trait GravityTorques: GaussSystem {
     /// The generalised forces g(q) that balance weight and buoyancy: minus those of weight and buoyancy, zero without
     /// the role `gravity`. Springs, other potentials and `central_gravity` are not in them:

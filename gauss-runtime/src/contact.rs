@@ -38,6 +38,11 @@ use crate::system::GaussSystem;
 #[doc(alias = "impact")]
 #[doc(alias = "collision")]
 #[doc(alias = "unilateral")]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no contacts",
+    label = "the clauses `contact(…)`, `range(…)` and `dry_friction(…)` bring them",
+    note = "stops and friction that give way are forces, not contacts"
+)]
 pub trait ContactSystem: GaussSystem {
     /// `SVector<Scalar, C>`, C contacts: one component for each.
     type Gaps: VectorSpace<Self::Scalar>;

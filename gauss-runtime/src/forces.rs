@@ -17,6 +17,10 @@ use crate::system::GaussSystem;
 /// An element is one clause of the scene that makes a force: gravity, a spring, drag on a body, a motor. Units are
 /// those of the user's parameters: powers in energy per time; component α of a generalised force in power per unit of
 /// z_α.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no forces, because nothing acts in its scene",
+    label = "clauses such as `force(…)`, `spring(…)` and `gravity = …` bring them"
+)]
 pub trait ForcedSystem: GaussSystem {
     /// `SVector<Scalar, E>` with `E = ELEMENTS.len()`: one component for each element.
     type Powers: VectorSpace<Self::Scalar>;

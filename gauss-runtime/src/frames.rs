@@ -75,6 +75,11 @@ assert_eq!(ArmFrame::named("lower"), Some(ArmFrame::lower));
 )]
 #[doc(alias = "jacobian")]
 #[doc(alias = "forward kinematics")]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no frames, because its struct does not ask for them",
+    label = "the clause `frames(…)` brings them",
+    note = "add `frames(…)`, with names of bodies and frames, to the `#[gauss(…)]` of the struct"
+)]
 pub trait FramedSystem: GaussSystem {
     /// The names of the frames: a variant for each, called as in the scene.
     type Frame: FrameName;
@@ -128,6 +133,11 @@ pub trait FramedSystem: GaussSystem {
 /// `getFrameJacobianTimeVariation`, `LOCAL_WORLD_ALIGNED`). The rate of the components in the turning axes of the frame
 /// (`LOCAL` there) is J̇ less ω × both parts of each column of J. Where `J̇ z` is all that is wanted, `bias_of` costs a
 /// fraction.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no rates of Jacobians, because its struct does not ask for them",
+    label = "the clause `methods(jacobian_rates)` brings them",
+    note = "add `methods(jacobian_rates)` beside `frames(…)` to the `#[gauss(…)]` of the struct"
+)]
 pub trait JacobianRates: FramedSystem {
     /// J̇, a column for each speed: rows as [`twist_of`](FramedSystem::twist_of).
     fn jacobian_rate_of(

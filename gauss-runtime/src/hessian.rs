@@ -55,6 +55,11 @@ assert_eq!(second.by_input_and_state[(0, 0)], 0.0);
 ```
 "##
 )]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no second derivatives, because its struct does not ask for them",
+    label = "the clause `linearize(hessian)` brings them",
+    note = "add `linearize(hessian)` to the `#[gauss(…)]` of the struct"
+)]
 pub trait HessianSystem: LinearizedSystem {
     /// [`Hessian`] of this system's sizes.
     type Hessian: Copy + Debug;

@@ -46,6 +46,11 @@ assert!(!PendulumKernel::PARAMETER_PATTERN[1][0]);
 ```
 "##
 )]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no derivatives by its parameters, because its struct does not ask for them",
+    label = "the clause `linearize(parameters)` brings them",
+    note = "add `linearize(parameters)` to the `#[gauss(…)]` of the struct"
+)]
 pub trait ParametricSystem: LinearizedSystem {
     /// `SMatrix<Scalar, D, P>`: a row for each component of (V, ż), as in
     /// [`Linearization`](crate::linearize::Linearization), a column for each parameter.
@@ -121,6 +126,11 @@ assert!((forces - top.other_forces(0.0, &q, &z, &rate, &()) - residual).amax() <
 # }
 ```
 "##
+)]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no regressor, because its struct does not ask for it",
+    label = "the clause `regressor` brings it",
+    note = "add `regressor` to the `#[gauss(…)]` of the struct"
 )]
 pub trait InertialRegressor: GaussSystem {
     /// `SMatrix<Scalar, DOF, P>`.

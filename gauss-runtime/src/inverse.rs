@@ -51,6 +51,11 @@ assert!((inverse.by_acceleration[(0, 0)] - 2.0 * 0.25).abs() < 1e-15);
 ```
 "##
 )]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no derivatives of inverse dynamics, because its struct does not ask for them",
+    label = "the clause `linearize(inverse)` brings them",
+    note = "add `linearize(inverse)` to the `#[gauss(…)]` of the struct"
+)]
 pub trait InverseLinearizedSystem: GaussSystem<Input: VectorSpace<<Self as GaussSystem>::Scalar>> {
     /// [`InverseLinearization`] of this system's sizes.
     type InverseLinearization: Copy + Debug;

@@ -160,6 +160,7 @@ mod sealed;
 mod trigonometry;
 mod triple;
 mod vector_space;
+mod without_clause;
 
 /// The vectors, poses and matrices of this crate, in the version that it uses.
 pub use nalgebra;

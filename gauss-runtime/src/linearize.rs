@@ -58,6 +58,11 @@ assert_eq!(linear.by_state[(0, 1)], 1.0);
 #[doc(alias = "riccati")]
 #[doc(alias = "lqr")]
 #[doc(alias = "kalman")]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no derivatives, because its struct does not ask for them",
+    label = "the clause `linearize` brings them",
+    note = "add `linearize` to the `#[gauss(…)]` of the struct"
+)]
 pub trait LinearizedSystem: GaussSystem<Input: VectorSpace<<Self as GaussSystem>::Scalar>> {
     /// [`Linearization`] of this system's sizes.
     type Linearization: LinearModel<Self::Scalar>;

@@ -32,6 +32,14 @@ pub use crate::real::Real;
 pub use crate::series::TaylorSystem;
 pub use crate::simd::Lanes;
 pub use crate::system::{AboutCenterOfMass, GaussSystem, RigidBody, RigidBodySystem, Smoothness};
+#[doc(hidden)]
+pub use crate::without_clause::{
+    OfClauseConstraint as _, OfClauseContact as _, OfClauseForce as _, OfClauseFrames as _, OfClauseLinearize as _,
+    OfClauseLinearizeHessian as _, OfClauseLinearizeInverse as _, OfClauseLinearizeParameters as _,
+    OfClauseMethodsCentroidal as _, OfClauseMethodsGravityTorques as _, OfClauseMethodsJacobianRates as _,
+    OfClauseReactions as _, OfClauseReactionsBesideContacts as _, OfClauseRegressor as _, OfClauseTaylor as _,
+    OfOneBody as _,
+};
 pub use nalgebra::{
     Isometry2, Isometry3, Matrix3, Matrix6, Quaternion, SMatrix, SVector, Translation3, UnitComplex, UnitQuaternion,
     Vector2, Vector3, Vector6,

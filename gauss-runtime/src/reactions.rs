@@ -69,6 +69,11 @@ assert!((reaction - Vector6::new(0.0, 0.0, 2.0 * (9.81 + 0.5 * 9.0), 0.0, 0.0, 0
 #[doc(alias = "bearing")]
 #[doc(alias = "joint force")]
 #[doc(alias = "constraint force")]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no reactions of joints, because its struct does not ask for them",
+    label = "the clause `reactions(…)` brings them",
+    note = "add `reactions(…)`, with names of bodies that joints carry, to the `#[gauss(…)]` of the struct"
+)]
 pub trait Reactions: GaussSystem {
     /// The names of the joints: a variant for each, called as in `reactions(…)`.
     type Joint: FrameName;
@@ -116,6 +121,11 @@ pub trait Reactions: GaussSystem {
 }
 
 /// Reactions under contact forces: of systems with contacts and without constraints.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no reactions under contact forces",
+    label = "the clause `reactions(…)` brings them, where there are contacts and no constraints",
+    note = "without contacts the method is `reaction`; under constraints `reactions_at` takes the accelerations"
+)]
 pub trait ContactReactions: Reactions + ContactSystem {
     /// [`ByFrame`](crate::frames::ByFrame) of all joints: `SMatrix<Scalar, 6, ROWS>` each.
     type ContactReactions: Copy + Debug;

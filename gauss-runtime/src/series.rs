@@ -18,6 +18,11 @@ pub const MAX_ORDER: usize = 30;
 /// A system whose motion can be written as a power series in time: `#[gauss(taylor)]`.
 ///
 /// The variables are the components of the configuration ([`Configuration::Components`]) and then z.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no power series, because its struct does not ask for them",
+    label = "the clause `taylor` brings them",
+    note = "add `taylor` to the `#[gauss(…)]` of the struct"
+)]
 pub trait TaylorSystem: GaussSystem<Input = ()> {
     /// The coefficients of all variables.
     type Series: PowerSeries<Self::Scalar>;

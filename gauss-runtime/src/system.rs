@@ -374,6 +374,7 @@ impl<T> RigidBody<T, AboutCenterOfMass<T>> {
 /// Frames: F = {Ω, k₁ k₂ k₃} of the observer, F′ = {O, e₁ e₂ e₃} of the body.
 #[diagnostic::on_unimplemented(
     message = "the kernel `{Self}` is not of one rigid body alone",
+    label = "kernels of one body have this",
     note = "of systems: `monitor` in place of `monitor_body`, `frames(…)` for poses and twists, `methods(centroidal)` for momenta"
 )]
 pub trait RigidBodySystem: GaussSystem {

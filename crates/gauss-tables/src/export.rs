@@ -17,7 +17,8 @@ impl<Row> Table<Row> {
     }
 
     /// Plots all columns over the first one, a panel for each unit, into a file of SVG; columns without a unit have a
-    /// panel each. [`select`](Self::select) chooses columns, [`panel`](Self::panel) what stands together.
+    /// panel each. [`select`](Self::select) chooses columns, [`panel`](Self::panel) what stands together, and
+    /// [`points`](Self::points) what is not joined.
     ///
     /// # Errors
     /// [`TableError::MixedUnits`] of a panel with two units,

@@ -39,9 +39,9 @@
 //! | `write_arrow`, `record_batch` | `arrow` | Arrow IPC, also called Feather | metadata `unit` of the field |
 //! | `write_parquet` | `parquet` | Parquet, not compressed | metadata of the file, `unit:angle` |
 //!
-//! [`euler_angles`](Table::euler_angles) has rotations as angles, [`select`](Table::select) chooses columns and
-//! [`panel`](Table::panel) which of them a plot has together. What is no run becomes a table by [`Table::of`] or
-//! [`Table::from_columns`].
+//! [`euler_angles`](Table::euler_angles) has rotations as angles, [`select`](Table::select) chooses columns,
+//! [`panel`](Table::panel) which of them a plot has together, and [`points`](Table::points) which are points without
+//! lines. What is no run becomes a table by [`Table::of`] or [`Table::from_columns`].
 //!
 //! Columns of Arrow and Parquet are 64-bit floats without nulls under the bare names; what is not finite is a NaN or an
 //! infinity.

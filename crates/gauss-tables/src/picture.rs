@@ -1,9 +1,12 @@
-//! Columns as curves: panels below one another over a common axis, one for each unit.
+//! Columns as curves and points: panels below one another over a common axis, one for each unit.
 
 mod axis;
 mod points;
 
+use std::ops::Range;
+
 use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 use crate::error::TableError;
@@ -16,10 +19,17 @@ const FINE: u32 = 8;
 /// Pixels.
 const WIDTH: u32 = 960;
 const LOWEST: u32 = 190;
+/// Clouds of points are looked at in both directions.
+const LOWEST_CLOUD: u32 = 300;
 const LABELS: (u32, u32) = (84, 26);
 const NAME: u32 = 24;
 const MARGIN: u32 = 14;
 const TEXT: u32 = 15;
+/// Radii of points in units of the drawing: of few, of more than these, and beside names.
+const RADII: [u32; 3] = [2 * FINE, FINE, 3 * FINE];
+const FEW: usize = 5000;
+/// Part of the range of an axis that is left free at each end, so that points and curves are whole.
+const FREE: f64 = 0.04;
 /// The number of letters that fit next to the lowest panel.
 const LETTERS: usize = 20;
 
@@ -49,6 +59,9 @@ pub fn draw(columns: &[Column<'_>], chosen: &[Vec<String>]) -> Result<String, Ta
     if over.values.len() < 2 {
         return Err(TableError::NothingToPlot);
     }
+    // Curves begin and end at the edges; points are whole there.
+    let points = panels.iter().flat_map(|panel| &panel.columns).any(|column| column.points);
+    let x = Axis::of(over.values, if points { FREE / 2.0 } else { 0.0 });
     // Names stand on the right, and all panels are as wide as one another.
     let longest = panels.iter().flat_map(Panel::names).map(|name| name.chars().count() as u32).max();
     let right = longest.map_or(2 * MARGIN, |count| (46 + 8 * count).min(WIDTH / 3));
@@ -61,7 +74,7 @@ pub fn draw(columns: &[Column<'_>], chosen: &[Vec<String>]) -> Result<String, Ta
         for (n, (panel, height)) in panels.iter().zip(heights).enumerate() {
             let name = if n == last { NAME } else { 0 };
             let (here, below) = place.split_vertically(fine(height + name));
-            panel.draw(&here, over, right, n == last).map_err(reason)?;
+            panel.draw(&here, (over, &x), right, n == last).map_err(reason)?;
             place = below;
         }
         place.present().map_err(reason)?;
@@ -123,7 +136,8 @@ impl Panel<'_> {
     }
 
     fn height(&self) -> u32 {
-        LOWEST.max(2 * MARGIN + LABELS.1 + (TEXT + 6) * self.names().count() as u32)
+        let lowest = if self.columns.iter().any(|column| column.points) { LOWEST_CLOUD } else { LOWEST };
+        lowest.max(2 * MARGIN + LABELS.1 + (TEXT + 6) * self.names().count() as u32)
     }
 
     /// What stands at the axis.
@@ -134,12 +148,11 @@ impl Panel<'_> {
     fn draw(
         &self,
         area: &Area<'_>,
-        over: &Column<'_>,
+        (over, x): (&Column<'_>, &Axis),
         right: u32,
         named: bool,
     ) -> Result<(), Box<dyn std::error::Error>> {
-        let x = Axis::of(over.values, 0.0);
-        let y = Axis::of(self.columns.iter().flat_map(|column| column.values), 0.04);
+        let y = Axis::of(self.columns.iter().flat_map(|column| column.values), FREE);
         let height = self.height() - MARGIN - LABELS.1;
         let mut chart = ChartBuilder::on(area)
             .margin_top(fine(MARGIN))
@@ -163,14 +176,7 @@ impl Panel<'_> {
         }
         mesh.x_label_formatter(&|value| x.label(*value)).y_label_formatter(&|value| y.label(*value)).draw()?;
         for (n, column) in self.columns.iter().enumerate() {
-            let style = COLOURS[n % COLOURS.len()].stroke_width(2 * FINE);
-            for line in points::lines(over.values, column.values, (x.range(), y.range())) {
-                if n < COLOURS.len() {
-                    chart.draw_series(LineSeries::new(line, style))?;
-                } else {
-                    chart.draw_series(DashedLineSeries::new(line, fine(8), fine(5), style))?;
-                }
-            }
+            draw_column(&mut chart, n, (over.values, column), (x.range(), y.range()))?;
         }
         self.legend(area, right)?;
         Ok(())
@@ -178,15 +184,55 @@ impl Panel<'_> {
 
     fn legend(&self, area: &Area<'_>, right: u32) -> Result<(), Box<dyn std::error::Error>> {
         let left = WIDTH - right + 10;
-        for (n, name) in self.names().enumerate() {
+        for (n, (name, column)) in self.names().zip(&self.columns).enumerate() {
             let (top, colour) = (MARGIN + (TEXT + 6) * n as u32, COLOURS[n % COLOURS.len()]);
+            let at = |along: u32| (fine(left + along), fine(top + TEXT / 2));
             let strokes = if n < COLOURS.len() { &[(0, 18)][..] } else { &[(0, 7), (11, 18)] };
-            for (from, to) in strokes {
-                let ends = [from, to].map(|along| (fine(left + along), fine(top + TEXT / 2)));
-                area.draw(&PathElement::new(ends.to_vec(), colour.stroke_width(2 * FINE)))?;
+            if column.points {
+                area.draw(&Circle::new(at(9), RADII[2], point_style(n, 1.0)))?;
+            } else {
+                for (from, to) in strokes {
+                    let ends = vec![at(*from), at(*to)];
+                    area.draw(&PathElement::new(ends, colour.stroke_width(2 * FINE)))?;
+                }
             }
             area.draw(&Text::new(name.to_owned(), (fine(left + 24), fine(top)), writing(INK)))?;
         }
         Ok(())
     }
+}
+
+/// A chart of numbers.
+type Chart<'a, 's> = ChartContext<'a, SVGBackend<'s>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// The column with a number within its panel, over the first one, as a curve or as points.
+fn draw_column(
+    chart: &mut Chart<'_, '_>,
+    n: usize,
+    (x, column): (&[f64], &Column<'_>),
+    ranges: (Range<f64>, Range<f64>),
+) -> Result<(), Box<dyn std::error::Error>> {
+    if column.points {
+        // Points in one pixel are one.
+        let (width, height) = chart.plotting_area().dim_in_pixel();
+        let cloud = points::cloud(x, column.values, ranges, (width / FINE, height / FINE));
+        let radius = RADII[usize::from(cloud.len() > FEW)];
+        chart.draw_series(cloud.into_iter().map(|place| Circle::new(place, radius, point_style(n, 0.65))))?;
+        return Ok(());
+    }
+    let style = COLOURS[n % COLOURS.len()].stroke_width(2 * FINE);
+    for line in points::lines(x, column.values, ranges) {
+        if n < COLOURS.len() {
+            chart.draw_series(LineSeries::new(line, style))?;
+        } else {
+            chart.draw_series(DashedLineSeries::new(line, fine(8), fine(5), style))?;
+        }
+    }
+    Ok(())
+}
+
+/// Discs that cover only a part of what is below them; where colours come again, circles.
+fn point_style(n: usize, covers: f64) -> ShapeStyle {
+    let colour = COLOURS[n % COLOURS.len()];
+    if n < COLOURS.len() { colour.mix(covers).filled() } else { colour.stroke_width(FINE) }
 }

@@ -51,6 +51,8 @@ pub struct Column<'a> {
     pub unit: Option<&'a str>,
     /// A number for each row.
     pub values: &'a [f64],
+    /// Whether a plot shows it as [points](Table::points) without lines.
+    pub points: bool,
 }
 
 impl fmt::Display for Column<'_> {
@@ -114,6 +116,14 @@ struct Stored {
     /// The unit in the SI, where the kind of column determines it; else empty.
     si: &'static str,
     values: Vec<f64>,
+    /// A plot does not join its numbers.
+    points: bool,
+}
+
+impl Stored {
+    fn new(name: String, si: &'static str, values: Vec<f64>) -> Self {
+        Self { name, unit: None, si, values, points: false }
+    }
 }
 
 impl Table {
@@ -124,7 +134,7 @@ impl Table {
     pub fn from_columns<N: Into<String>>(
         columns: impl IntoIterator<Item = (N, Vec<f64>)>,
     ) -> Result<Self, ColumnError> {
-        let stored = |(name, values): (N, _)| Stored { name: name.into(), unit: None, si: "", values };
+        let stored = |(name, values): (N, _)| Stored::new(name.into(), "", values);
         let columns: Vec<Stored> = columns.into_iter().map(stored).collect();
         let rows = columns.first().map_or(0, |column| column.values.len());
         let others = columns.iter().filter(|column| column.values.len() != rows);
@@ -168,7 +178,7 @@ impl<Row> Table<Row> {
         names: impl IntoIterator<Item = (N, &'static str)>,
         mut numbers: impl FnMut(&Row, &mut dyn FnMut(f64)),
     ) -> Self {
-        let column = |(name, si): (N, _)| Stored { name: name.into(), unit: None, si, values: Vec::new() };
+        let column = |(name, si): (N, _)| Stored::new(name.into(), si, Vec::new());
         let mut columns: Vec<Stored> = names.into_iter().map(column).collect();
         for row in &self.rows {
             let mut places = columns.iter_mut();
@@ -236,6 +246,37 @@ impl<Row> Table<Row> {
         Ok(self)
     }
 
+    /// These columns as points without lines in a plot, where the order of rows means nothing: results of a
+    /// [study](https://docs.rs/gauss-study) over a random parameter, measurements, crossings of a section. The other
+    /// columns stay lines, also those in the same panel. Files of other kinds are as they were.
+    ///
+    /// Of points in one pixel one is drawn, and of more than 5000 each is smaller.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// use gauss_tables::Table;
+    ///
+    /// let angles: Vec<f64> = (0..500).map(|n| 0.3 + 0.9 * f64::from(n * 367 % 500) / 500.0).collect();
+    /// let ranges = angles.iter().map(|angle| (2.0 * angle).sin() * 40.8).collect();
+    /// let table = Table::from_columns([("angle", angles), ("range", ranges)])?.units([("angle", "rad"), ("range", "m")])?;
+    /// let cloud = table.points(["range"])?;
+    /// # #[cfg(feature = "plot")]
+    /// assert_eq!(cloud.svg()?.matches("<circle").count(), 500);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// [`ColumnError::Unknown`]: the names that no column has.
+    #[doc(alias = "scatter")]
+    pub fn points<'a>(mut self, names: impl IntoIterator<Item = &'a str>) -> Result<Self, ColumnError> {
+        let names: Vec<&str> = names.into_iter().collect();
+        self.known(&names)?;
+        let named = self.columns.iter_mut().filter(|column| names.contains(&column.name.as_str()));
+        named.for_each(|column| column.points = true);
+        Ok(self)
+    }
+
     fn known(&self, names: &[&str]) -> Result<(), ColumnError> {
         let is_unknown = |name: &&&str| !self.columns.iter().any(|column| column.name == **name);
         let unknown: Vec<String> = names.iter().filter(is_unknown).map(|name| (*name).to_owned()).collect();
@@ -274,7 +315,12 @@ impl<Row> Table<Row> {
 
     /// The columns in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Column<'_>> + Clone {
-        self.columns.iter().map(|Stored { name, unit, values, .. }| Column { name, unit: unit.as_deref(), values })
+        self.columns.iter().map(|Stored { name, unit, values, points, .. }| Column {
+            name,
+            unit: unit.as_deref(),
+            values,
+            points: *points,
+        })
     }
 
     /// The names of the columns.

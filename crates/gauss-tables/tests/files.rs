@@ -99,6 +99,31 @@ fn a_panel_for_each_unit() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// Points are discs in the place of a line, in the plot and beside the name; nothing else changes.
+#[cfg(feature = "plot")]
+#[test]
+fn points_without_lines() -> Result<(), Box<dyn Error>> {
+    // Rows in no order of x, at places of their own, and one that cannot be drawn.
+    let x: Vec<f64> = (0..300).map(|n| f64::from(n * 131 % 300)).collect();
+    let mut y: Vec<f64> = x.iter().map(|x| (0.05 * x).sin()).collect();
+    y[7] = f64::NAN;
+    let model = x.iter().map(|x| 0.001 * x).collect();
+    let table =
+        Table::from_columns([("x", x), ("seen", y), ("model", model)])?.units([("seen", "m"), ("model", "m")])?;
+    let counts = |svg: &str| (svg.matches("<circle").count(), svg.matches("stroke-width=\"16\"").count());
+    // Curves with a stroke beside their names; one of them in two pieces around what cannot be drawn.
+    assert_eq!(counts(&table.svg()?), (0, 3 + 2));
+    let cloud = table.clone().points(["seen"])?;
+    assert_eq!(counts(&cloud.svg()?), (299 + 1, 2));
+    assert!(cloud.svg()?.contains("\nseen\n"));
+    // The choice stays with the column, whatever is done to the table; files have no trace of it.
+    assert_eq!(counts(&cloud.clone().select(["model", "seen"])?.svg()?).0, 299);
+    assert_eq!(counts(&cloud.clone().panel(["model"])?.svg()?).0, 0);
+    assert_eq!(cloud.to_string(), table.to_string());
+    assert_eq!(table.points(["sen", "x"]).expect_err("no such column").to_string(), "the table has no column `sen`");
+    Ok(())
+}
+
 /// What a record batch has: names, units, numbers bit by bit.
 #[cfg(feature = "arrow")]
 fn is_same(table: &RunTable<TopKernel>, batches: &[arrow_array::RecordBatch]) {

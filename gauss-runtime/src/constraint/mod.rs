@@ -21,6 +21,11 @@ use crate::system::GaussSystem;
 /// Both kinds of constraint share one numbering, that of [`Multipliers`](Self::Multipliers). Units of a residual are
 /// those of its φ (per unit of time for dφ/dt), units of λ are such that λ·φ is an energy for a position constraint,
 /// and a power for a velocity constraint.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no multipliers: its coordinates and speeds satisfy all constraints by themselves",
+    label = "the clause `constraint(…)` brings them, without `independent(…)`",
+    note = "what a joint bears is told by the clause `reactions(…)`"
+)]
 pub trait ConstrainedSystem: GaussSystem {
     /// `SVector<Scalar, K>`: one component for each scalar constraint, in the order written.
     type Multipliers: VectorSpace<Self::Scalar>;

@@ -24,6 +24,7 @@ use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::step::checks::check_chart;
 use crate::real::Real;
 use crate::series::{MAX_ORDER, PowerSeries, TaylorSystem, state_of};
+use crate::system::GaussSystem;
 
 /// Steps of Taylor's method, as long as the tolerances allow.
 ///
@@ -289,7 +290,8 @@ impl Taylor {
     }
 }
 
-impl<'k, S: TaylorSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C, O, E> {
+// What a run needs is asked where it runs: there the message can name the clause that is missing.
+impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C, O, E> {
     /// Taylor's method with steps and orders as the tolerances ask: the cheapest way to a trajectory of a smooth
     /// system, from tolerances of about 1e-6 on, and further than other methods can go.
     ///

@@ -152,52 +152,96 @@ fn check_references(statements: &Statements, wanted: &Wanted, context: &mut Cont
     if statements.missed_any(&[Statement::Body, Statement::Frame]) {
         return;
     }
-    // Each with the body that it cannot be, and the argument that can be left out.
-    let mut references: Vec<(&Ident, Option<&Ident>, Option<&str>)> = Vec::new();
+    let known = places(&statements.bodies);
+    for reference in references(statements, wanted) {
+        if !known.contains_key(&word(reference.written)) {
+            refuse_reference(&reference, statements, context);
+        }
+    }
+}
+
+/// A name that a body or frame should have.
+struct Reference<'a> {
+    written: &'a Ident,
+    /// The body that it cannot be.
+    other: Option<&'a Ident>,
+    /// The argument that can be left out.
+    optional: Option<&'static str>,
+    /// A joint of a robot's file is meant as well.
+    joint: bool,
+}
+
+impl<'a> Reference<'a> {
+    fn to(written: &'a Ident) -> Self {
+        Self { written, other: None, optional: None, joint: false }
+    }
+}
+
+fn references<'a>(statements: &'a Statements, wanted: &'a Wanted) -> Vec<Reference<'a>> {
+    let mut references = Vec::new();
     for body in &statements.bodies {
-        references.extend(body.parent.as_ref().map(|parent| (parent, body.name.as_ref(), Some("parent"))));
+        let parent = body.parent.as_ref().map(Reference::to);
+        let other = body.name.as_ref();
+        references.extend(parent.map(|parent| Reference { other, optional: Some("parent"), ..parent }));
     }
     for particle in &statements.particles {
-        references.extend(particle.parent.as_ref().map(|parent| (parent, None, Some("parent"))));
+        let parent = particle.parent.as_ref().map(Reference::to);
+        references.extend(parent.map(|parent| Reference { optional: Some("parent"), ..parent }));
     }
-    references.extend(statements.points.iter().map(|point| (&point.body, None, None)));
-    references.extend(statements.formal.iter().flatten().map(|body| (body, None, None)));
-    references.extend(wanted.frames.iter().map(|frame| (frame, None, None)));
-    references.extend(wanted.reactions.iter().map(|joint| (&joint.link, None, None)));
+    references.extend(statements.points.iter().map(|point| Reference::to(&point.body)));
+    references.extend(statements.formal.iter().flatten().map(Reference::to));
+    references.extend(wanted.frames.iter().map(Reference::to));
+    references.extend(wanted.reactions.iter().map(|joint| Reference { joint: true, ..Reference::to(&joint.link) }));
     for clause in &statements.forces {
         let body = clause.body();
-        references.extend(body.map(|body| (body, None, None)));
+        references.extend(body.map(Reference::to));
         let left_out = |argument: &Argument| argument.required.is_none().then_some(argument.word);
-        references.extend(clause.other().map(|(other, argument)| (other, body, left_out(argument))));
+        let second = clause.other();
+        references.extend(second.map(|(written, argument)| Reference {
+            other: body,
+            optional: left_out(argument),
+            ..Reference::to(written)
+        }));
     }
-    let known = places(&statements.bodies);
-    for (written, other, optional) in references {
-        if known.contains_key(&word(written)) {
-            continue;
+    references
+}
+
+/// Notes that no body, frame or joint is called so, with the nearest name, or all of them.
+fn refuse_reference(reference: &Reference<'_>, statements: &Statements, context: &mut Context) {
+    let &Reference { written, other, optional, joint } = reference;
+    let names: Vec<String> = statements
+        .bodies
+        .iter()
+        .map(BodyClause::word)
+        .filter(|name| other.is_none_or(|other| *name != word(other)))
+        .collect();
+    let joints: Vec<(&str, bool)> = statements.joints_of_file.iter().map(|name| (name.as_str(), true)).collect();
+    let joints = if joint { joints } else { Vec::new() };
+    let table: Vec<(&str, ())> = names.iter().map(|name| (name.as_str(), ())).collect();
+    let both: Vec<(&str, bool)> = table.iter().map(|(name, ())| (*name, false)).chain(joints.iter().copied()).collect();
+    // Joints are numbered more often than not.
+    let near = words::all_nearest(&written.unraw().to_string(), &both);
+    let remedy = match near.first() {
+        Some(_) if near.iter().all(|(_, joint)| *joint) => format!("did you mean the joint {}?", words::list(&near)),
+        Some((first, _)) => format!("did you mean `{first}`?"),
+        None if statements.has_unnamed_body() && table.len() == 1 => format!("the only body is `{UNNAMED}`"),
+        None if !joints.is_empty() => {
+            format!("expected a link ({}) or the joint that carries it ({})", words::list(&table), words::list(&joints))
         }
-        let names: Vec<String> = statements
-            .bodies
-            .iter()
-            .map(BodyClause::word)
-            .filter(|name| other.is_none_or(|other| *name != word(other)))
-            .collect();
-        let table: Vec<(&str, ())> = names.iter().map(|name| (name.as_str(), ())).collect();
-        let remedy = match words::nearest(&written.unraw().to_string(), &table) {
-            Some((near, ())) => format!("did you mean `{near}`?"),
-            None if statements.has_unnamed_body() && table.len() == 1 => format!("the only body is `{UNNAMED}`"),
-            None if !table.is_empty() => format!("expected {}", words::list(&table)),
-            None => match optional {
-                Some(argument) => format!("there is no other: leave `{argument}` out"),
-                None => format!("add `body({written}, …)` or `frame({written}, …)`"),
-            },
-        };
-        let problem = if statements.points.iter().any(|point| same(&point.name, written)) {
-            format!("`{written}` is a point, not a body or frame")
-        } else {
-            format!("no body or frame is called `{written}`")
-        };
-        context.error(written.span(), format!("{problem}; {remedy}"));
-    }
+        None if !table.is_empty() => format!("expected {}", words::list(&table)),
+        None => match optional {
+            Some(argument) => format!("there is no other: leave `{argument}` out"),
+            None => format!("add `body({written}, …)` or `frame({written}, …)`"),
+        },
+    };
+    let problem = if statements.points.iter().any(|point| same(&point.name, written)) {
+        format!("`{written}` is a point, not a body or frame")
+    } else if joints.is_empty() {
+        format!("no body or frame is called `{written}`")
+    } else {
+        format!("no body, frame or joint is called `{written}`")
+    };
+    context.error(written.span(), format!("{problem}; {remedy}"));
 }
 
 /// No body is, by whatever way, its own parent.

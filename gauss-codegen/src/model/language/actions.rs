@@ -126,6 +126,8 @@ impl Written {
                 read.arguments.push(argument);
             } else {
                 read.misspelt.extend(arguments::meant(&word, &table));
+                // Whoever asks for another law is not told what this one lacks.
+                read.complete &= arguments::law(&word, &table).is_none();
             }
         }
         Some(read)

@@ -96,6 +96,10 @@ pub fn known<T: Copy>(
         context.error(argument.name.span(), format!("unknown {noun} `{word}`; write `{name}`{note}"));
         return false;
     }
+    if let Some(remedy) = law(&word, table) {
+        context.error(argument.name.span(), format!("unknown {noun} `{word}`; {remedy}"));
+        return false;
+    }
     if words::resolve(&noun, &argument.name, table, context).is_err() {
         return false;
     }
@@ -104,6 +108,12 @@ pub fn known<T: Copy>(
     }
     given.push(word);
     true
+}
+
+/// What is written in the place of an argument that is none, but a law of friction.
+pub fn law<T: Copy>(word: &str, table: &Table<T>) -> Option<&'static str> {
+    let is_one = table.iter().any(|(name, _)| *name == word);
+    synonyms::instead(word, synonyms::LAWS).filter(|_| !is_one)
 }
 
 /// The argument that an unknown word stands for, so that it is not missing as well.

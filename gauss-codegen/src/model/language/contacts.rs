@@ -292,7 +292,9 @@ impl Written {
             } else if known(&argument, noun, table, &mut given, context) {
                 read.arguments.push(argument);
             } else {
-                read.misspelt.extend(arguments::meant(&word(&argument.name), table));
+                let word = word(&argument.name);
+                read.misspelt.extend(arguments::meant(&word, table));
+                read.complete &= arguments::law(&word, table).is_none();
             }
         }
         if !named {

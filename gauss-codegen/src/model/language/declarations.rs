@@ -97,7 +97,8 @@ pub fn read_independent(clause: &Clause, context: &mut Context) -> Names<SpeedPa
     read_names(clause, &language, |ident, component, _| SpeedPart { ident, component }, context)
 }
 
-const METHODS: &Table<WantedMethod> = &[
+/// Words of `methods(…)`.
+pub const METHODS: &Table<WantedMethod> = &[
     ("centroidal", WantedMethod::Centroidal),
     ("nonlinear_effects", WantedMethod::NonlinearEffects),
     ("gravity_torques", WantedMethod::GravityTorques),

@@ -295,6 +295,10 @@ fn read_law(
     context: &mut Context,
 ) -> Option<(Ident, Option<Group>)> {
     let word = clause.bare_word(table, context)?;
+    if let Some(remedy) = arguments::law(&words::word(&word.ident), table) {
+        context.error(word.ident.span(), format!("unknown `{}` `{}`; {remedy}", clause.name, word.ident));
+        return None;
+    }
     let takes = words::resolve(&format!("`{}`", clause.name), &word.ident, table, context).ok()?;
     match (takes, word.arguments) {
         (false, None) => Some((word.ident, None)),

@@ -51,6 +51,8 @@ pub struct Statements {
     pub forces: Vec<ForceClause>,
     /// So many of these, the first, are those of a robot's file.
     pub forces_of_file: usize,
+    /// Names of joints of a robot's file, by which their reactions are asked for, too.
+    pub joints_of_file: Vec<String>,
     /// Bodies that deform.
     pub modes: Vec<ReadModes>,
     /// Coordinates with the inertia of their rates.

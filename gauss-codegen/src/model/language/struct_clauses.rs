@@ -8,7 +8,7 @@
 use super::arguments::UNIT;
 use super::attributes::{self, Clause, Content, Owner, Word};
 use super::context::Context;
-use super::declarations;
+use super::declarations::{self, METHODS};
 use super::robots::{self, FILES, RobotClauses};
 use super::role_clauses;
 use super::role_words::ROLES;
@@ -248,7 +248,10 @@ fn refuse(clause: &Clause, word: &str, beside_file: bool, context: &mut Context)
         format!("`{word}` is a motion; write `motion = {word}`")
     } else if ROTATIONS.iter().any(|(name, _)| *name == word) {
         format!("`{word}` is a rotation chart; write `chart = jet({word})`")
-    } else if let Some(remedy) = synonyms::instead(word, synonyms::FOR_CLAUSES) {
+    } else if METHODS.iter().any(|(name, _)| *name == word) {
+        format!("`{word}` is a method of the kernel; write `methods({word})`")
+    } else if let Some(remedy) = [synonyms::FOR_CLAUSES, synonyms::LAWS].iter().find_map(|t| synonyms::instead(word, t))
+    {
         format!("unknown clause `{word}`; {remedy}")
     } else if let Some(name) = words::nearest(word, CLAUSES).map(|(name, _)| name).or(robots::near(word, beside_file)) {
         format!("unknown clause `{word}`; did you mean `{name}`?")

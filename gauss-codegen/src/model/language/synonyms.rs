@@ -18,6 +18,8 @@ pub fn argument<T: Copy>(word: &str, table: &Table<T>) -> Option<(&'static str, 
 }
 
 const STATES: &str = "the configuration is declared by `coordinates(x, pose: Pose)`";
+const STATE: &str = "the configuration is declared by `coordinates(x, pose: Pose)`, and what an element remembers, with its \
+                     rate, by `states(x = …)`";
 const RATES: &str = "speeds of one's own are `speeds(v), kinematics(x = v)`; without them the rates are taken";
 const LINK: &str = "a rigid body is `body(arm, parent = other, position = […], rotation = …)`";
 const HINGE: &str = "a hinge is a body that a coordinate turns: `coordinates(angle), \
@@ -71,7 +73,35 @@ const ROTOR: &str = "a wheel is a body that a coordinate turns: `coordinates(ang
 const MODES: &str = "a body that bends has modes: `body(panel, parent = hull), modes(panel, coordinates = [a, b], \
                      file = \"panel.json\")`";
 const ENERGY: &str = "the kinetic energy follows from bodies and particles; a potential is `potential = …`";
-const INTEGRATOR: &str = "the integrator is chosen at run time: `Simulation::new(&kernel).adaptive(1e-9, 1e-12)`";
+const INTEGRATOR: &str = "the integrator and its steps are chosen at run time: `Simulation::new(&kernel).adaptive(1e-9, 1e-12)`, or \
+                          `.fixed_step(1e-3)`";
+const RUN: &str = "where a run starts and how long it takes is told to it: `Simulation::new(&kernel).adaptive(1e-9, \
+                   1e-12).run(q, z, 0.0..10.0)`, with q and z of `NameState { x: 0.1, ..Default::default() }`";
+const LAW: &str = "a control law is given to the run: `input(u)` here, and `Simulation::new(&kernel).input(|t, q, z| …)`, or \
+                   `.sampled(period, |t, q, z| …)` where it samples or remembers";
+const DELAY: &str = "a delay is one of the run, behind a controller that samples: `Simulation::new(&kernel).sampled(period, \
+                     law).delayed(time)`; a lag of first order is `states(late = (command - late) / lag)`";
+const LAG: &str = "what lags or remembers has states with rates: `states(late = (command - late) / lag)`";
+const EVENT: &str = "events are those of the run: `Simulation::new(&kernel).event(Crossing::Falling, |t, q, z| …)`, `.until(…)` \
+                     where the run ends, `.then(|state| …)` behind either where the state jumps";
+const NOISE: &str = "random numbers are drawn by the run: `input(noise)` here, and a `Stream` of `gauss-study` in the closure \
+                     of `.sampled(period, |t, q, z| …)`";
+const STUDY: &str =
+    "the fields of the struct are its parameters, and a `Declaration` of `gauss-study` draws them for many runs";
+const OUTPUT: &str = "what comes out is asked of the run: `.observe(|sample| …)`, or `run.table().column(\"x\", |s| …)` of \
+                      `gauss-tables`; a place in a body is `frame(name, parent = other, position = […])`";
+const FORM: &str = "the equations are in the speeds and in the momenta; the run chooses: `.momentum_form()`";
+const NO_CONTACTS: &str = "contacts are left out by the run: `Simulation::new(&kernel).without_contacts()`";
+const FURTHER: &str =
+    "second derivatives and those of inverse dynamics are words of `linearize`: `linearize(hessian, inverse)`";
+const SENSITIVITY: &str = "derivatives by parameters are `linearize(parameters)`, those of a whole run are taken by \
+                           `gauss-sensitivity`";
+/// Friction that is not a function of the speed.
+const BRISTLES: &str = "friction with a state, as LuGre's and Dahl's, is written as `states(bristle = …)` and \
+                        `drive(x = …)`; LuGre's is the example of the guide's chapter `Elements with states`";
+const STRIBECK: &str = "friction that falls with the speed is a law of your own, as `drive(x = -f * exp(-abs(v) / \
+                        slow) * tanh(v / width))`; LuGre's, with a state, is the example of the guide's chapter \
+                        `Elements with states`";
 const PARAMETER: &str = "the fields of the struct are its parameters, by their names";
 const DAMPED: &str = "a robot's joints are damped as in its file; others by `friction(along = angle, viscous = c)`";
 const DERIVATIVES: &str = "derivatives of the equations are `linearize`; Jacobians of bodies and frames `frames(…)`";
@@ -81,7 +111,7 @@ const REFERENCE: &str = "the observer needs no clause; a frame with a known moti
 
 /// In the place of a clause of the struct.
 pub const FOR_CLAUSES: &Table<&'static str> = &[
-    ("state", STATES),
+    ("state", STATE),
     ("dof", STATES),
     ("degrees_of_freedom", STATES),
     ("generalized_coordinates", STATES),
@@ -197,6 +227,93 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("integrator", INTEGRATOR),
     ("solver", INTEGRATOR),
     ("timestep", INTEGRATOR),
+    ("adaptive", INTEGRATOR),
+    ("fixed_step", INTEGRATOR),
+    ("step", INTEGRATOR),
+    ("steps", INTEGRATOR),
+    ("step_size", INTEGRATOR),
+    ("dt", INTEGRATOR),
+    ("tolerance", INTEGRATOR),
+    ("tolerances", INTEGRATOR),
+    ("first_step", INTEGRATOR),
+    ("largest_step", INTEGRATOR),
+    ("max_steps", INTEGRATOR),
+    ("runge_kutta", INTEGRATOR),
+    ("run", RUN),
+    ("run_to_end", RUN),
+    ("attempt", RUN),
+    ("simulate", RUN),
+    ("simulation", RUN),
+    ("start", RUN),
+    ("initial", RUN),
+    ("initial_state", RUN),
+    ("initial_conditions", RUN),
+    ("duration", RUN),
+    ("end_time", RUN),
+    ("controller", LAW),
+    ("feedback", LAW),
+    ("control_law", LAW),
+    ("pid", LAW),
+    ("regulator", LAW),
+    ("sample", LAW),
+    ("sampled", LAW),
+    ("sampled_by", LAW),
+    ("sampling", LAW),
+    ("sample_time", LAW),
+    ("input_from", LAW),
+    ("initially", LAW),
+    ("hold", LAW),
+    ("delay", DELAY),
+    ("delayed", DELAY),
+    ("delayed_samples", DELAY),
+    ("time_delay", DELAY),
+    ("dead_time", DELAY),
+    ("latency", DELAY),
+    ("lag", LAG),
+    ("filter", LAG),
+    ("low_pass", LAG),
+    ("integral", LAG),
+    ("memory", LAG),
+    ("event", EVENT),
+    ("events", EVENT),
+    ("event_each", EVENT),
+    ("until", EVENT),
+    ("until_each", EVENT),
+    ("then", EVENT),
+    ("then_through", EVENT),
+    ("jump", EVENT),
+    ("switch", EVENT),
+    ("trigger", EVENT),
+    ("stop_when", EVENT),
+    ("zero_crossing", EVENT),
+    ("noise", NOISE),
+    ("white_noise", NOISE),
+    ("disturbance", NOISE),
+    ("random", NOISE),
+    ("distribution", STUDY),
+    ("uncertainty", STUDY),
+    ("monte_carlo", STUDY),
+    ("sweep", STUDY),
+    ("observe", OUTPUT),
+    ("observe_by", OUTPUT),
+    ("every", OUTPUT),
+    ("output", OUTPUT),
+    ("outputs", OUTPUT),
+    ("sensor", OUTPUT),
+    ("measurement", OUTPUT),
+    ("log", OUTPUT),
+    ("record", OUTPUT),
+    ("plot", OUTPUT),
+    ("csv", OUTPUT),
+    ("momentum_form", FORM),
+    ("form", FORM),
+    ("without_contacts", NO_CONTACTS),
+    ("hessian", FURTHER),
+    ("inverse", FURTHER),
+    ("inverse_dynamics", FURTHER),
+    ("sensitivity", SENSITIVITY),
+    ("sensitivities", SENSITIVITY),
+    ("gradient", SENSITIVITY),
     ("parameter", PARAMETER),
     ("parameters", PARAMETER),
     ("constant", PARAMETER),
@@ -207,6 +324,18 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("units", UNITS),
     ("world", REFERENCE),
     ("observer", REFERENCE),
+];
+
+/// Laws of friction that neither a clause nor an argument of one has: in the place of both.
+pub const LAWS: &Table<&'static str> = &[
+    ("lugre", BRISTLES),
+    ("dahl", BRISTLES),
+    ("bristle", BRISTLES),
+    ("bristles", BRISTLES),
+    ("presliding", BRISTLES),
+    ("maxwell_slip", BRISTLES),
+    ("bouc_wen", BRISTLES),
+    ("stribeck", STRIBECK),
 ];
 
 /// In the place of the role of a field: what is meant, if it is a role.

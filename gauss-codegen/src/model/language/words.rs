@@ -30,17 +30,20 @@ pub fn resolve<T: Copy>(noun: &str, ident: &Ident, table: &Table<T>, context: &m
 /// The entry whose name is nearest to `word`, if any is near enough: at most a third of the letters wrong, one letter
 /// always allowed; case and underscores count for nothing. Of equally near names the first wins.
 pub fn nearest<'a, T: Copy>(word: &str, table: &[(&'a str, T)]) -> Option<(&'a str, T)> {
+    all_nearest(word, table).into_iter().next()
+}
+
+/// All entries whose names are as near to `word` as the [`nearest`], in their order: numbered names often are.
+pub fn all_nearest<'a, T: Copy>(word: &str, table: &[(&'a str, T)]) -> Vec<(&'a str, T)> {
     let plain = |name: &str| name.replace('_', "").to_lowercase();
     if let Some(&entry) = table.iter().find(|(name, _)| plain(name) == plain(word)) {
-        return Some(entry);
+        return vec![entry];
     }
     let limit = (word.chars().count() / 3).max(1);
-    table
-        .iter()
-        .map(|&entry| (damerau_levenshtein(&word.to_lowercase(), &entry.0.to_lowercase()), entry))
-        .filter(|&(distance, _)| distance <= limit)
-        .min_by_key(|&(distance, _)| distance)
-        .map(|(_, entry)| entry)
+    let distances = || table.iter().map(|&(name, _)| damerau_levenshtein(&word.to_lowercase(), &name.to_lowercase()));
+    let least = distances().min().filter(|&distance| distance <= limit);
+    let near = table.iter().zip(distances()).filter(|&(_, distance)| Some(distance) == least);
+    near.map(|(&entry, _)| entry).collect()
 }
 
 /// `a speed`, `an input`.
@@ -87,7 +90,7 @@ pub fn same(a: &Ident, b: &Ident) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{damerau_levenshtein, list, nearest};
+    use super::{all_nearest, damerau_levenshtein, list, nearest};
 
     #[test]
     fn distances_let_neighbours_change_places() {
@@ -109,6 +112,10 @@ mod tests {
         assert_eq!(nearest("pos", &[("Pose", 1)]), Some(("Pose", 1)));
         assert_eq!(nearest("weight", &table), None);
         assert_eq!(nearest("moss_", &table), None);
+        let numbered = [("base", 0), ("joint1", 1), ("joint2", 2), ("joint_10", 3)];
+        assert_eq!(all_nearest("joint9", &numbered), [("joint1", 1), ("joint2", 2)]);
+        assert_eq!(all_nearest("JOINT10", &numbered), [("joint_10", 3)]);
+        assert_eq!(all_nearest("hand", &numbered), []);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! printed equations know of it.
 
 use super::places::Place;
-use super::scope::Scope;
+use super::scope::{Meaning, Scope};
 use super::{expressions, kinds};
 use crate::model::language::context::Context;
 use crate::model::language::declarations::Definition;
@@ -20,11 +20,81 @@ const LIMIT: usize = 100_000;
 
 /// Checks every definition by itself, in order, and tells the scope what each stands for.
 pub fn check(definitions: &[Definition], scope: &mut Scope, context: &mut Context) {
+    refuse_circles(definitions, scope, context);
     for Definition { expression, .. } in definitions {
         let expression = expression.as_ref();
         let well = expression.and_then(|e| kinds::check(e, Place::Definition, scope, context).and(Some(e)));
         scope.define(well.cloned());
     }
+}
+
+/// Refuses definitions that name one another in a circle, so that no order of them helps: each circle once, at the name
+/// in its first definition that leads around. A definition that names itself is told when it is read.
+fn refuse_circles(definitions: &[Definition], scope: &mut Scope, context: &mut Context) {
+    let named: Vec<Vec<(usize, Ident)>> =
+        definitions.iter().map(|definition| named_definitions(definition, scope)).collect();
+    let mut told = HashSet::new();
+    for start in 0..definitions.len() {
+        if told.contains(&start) {
+            continue;
+        }
+        let Some(circle) = shortest_circle(start, &named) else { continue };
+        let [_, next, ..] = circle[..] else { continue };
+        told.extend(circle.iter().copied());
+        let names: Vec<String> = circle.iter().map(|&k| format!("`{}`", definitions[k].name)).collect();
+        let message = match names.as_slice() {
+            [a, b] => format!("the definitions {a} and {b} name each other, so that neither has a value"),
+            [rest @ .., last] => {
+                format!(
+                    "the definitions {} and {last} name one another in a circle, so that none has a value",
+                    rest.join(", ")
+                )
+            }
+            [] => continue,
+        };
+        let at =
+            named[start].iter().find(|(k, _)| *k == next).map_or(definitions[start].name.span(), |(_, at)| at.span());
+        let remedy = format!("write one of them without the other{}", if names.len() == 2 { "" } else { "s" });
+        context.error(at, format!("{message}; {remedy}"));
+    }
+    scope.note_circular(told);
+}
+
+/// The other definitions that one names, each where it is named first.
+fn named_definitions(definition: &Definition, scope: &Scope) -> Vec<(usize, Ident)> {
+    let mut named: Vec<(usize, Ident)> = Vec::new();
+    let Some(expression) = &definition.expression else { return named };
+    expression.walk(&mut |part| {
+        if let ExpressionKind::Name(name) = &part.kind
+            && let Ok(&Meaning::Definition(index)) = scope.find(name, |_| true)
+            && !named.iter().any(|(known, _)| *known == index)
+        {
+            named.push((index, name.clone()));
+        }
+    });
+    named
+}
+
+/// The fewest definitions that lead from one back to it, in the order in which they name each other; at least two.
+fn shortest_circle(start: usize, named: &[Vec<(usize, Ident)>]) -> Option<Vec<usize>> {
+    let mut before: Vec<Option<usize>> = vec![None; named.len()];
+    let mut reached = vec![start];
+    let mut k = 0;
+    while let Some(&from) = reached.get(k) {
+        k += 1;
+        for &(to, _) in &named[from] {
+            if to == start && from != start {
+                let mut circle: Vec<usize> = std::iter::successors(Some(from), |&k| before[k]).collect();
+                circle.reverse();
+                return Some(circle);
+            }
+            if to != start && before[to].is_none() {
+                before[to] = Some(from);
+                reached.push(to);
+            }
+        }
+    }
+    None
 }
 
 /// Refuses what would be too long or too deep with definitions written out; whether nothing is.

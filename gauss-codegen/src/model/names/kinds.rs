@@ -271,8 +271,9 @@ impl Checker<'_> {
         let scope = self.scope;
         match scope.definition(index) {
             Ok(expression) => {
+                let expression = expression?;
                 let outside = self.within.replace(index);
-                let kind = self.kind(expression?);
+                let kind = self.kind(expression);
                 self.within = outside;
                 kind
             }

@@ -8,7 +8,7 @@ use crate::terms::InputKind;
 use proc_macro2::Ident;
 use std::cell::RefCell;
 use std::cmp::Ordering;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use syn::ext::IdentExt;
 
 /// What a name stands for.
@@ -59,6 +59,8 @@ pub struct Scope {
     complete: bool,
     /// What the definitions stand for, as far as they are known to be well by themselves.
     definitions: Vec<Option<Expression>>,
+    /// Definitions that stand in a circle, which is noted.
+    circular: HashSet<usize>,
     /// Mistakes that uses found in definitions: what several uses forbid is said once.
     reported: RefCell<Vec<(usize, String)>>,
 }
@@ -70,6 +72,7 @@ impl Scope {
             places: HashMap::new(),
             complete,
             definitions: Vec::new(),
+            circular: HashSet::new(),
             reported: RefCell::default(),
         };
         scope.add_word(TIME.into(), Meaning::Time);
@@ -82,12 +85,23 @@ impl Scope {
         self.definitions.push(expression);
     }
 
+    /// Takes note of definitions that stand in a circle: that they name each other is not said once more.
+    pub fn note_circular(&mut self, definitions: HashSet<usize>) {
+        self.circular = definitions;
+    }
+
     /// What a definition stands for; `None` if something is wrong with it.
     ///
     /// # Errors
     /// It comes after the one that is being read, or is this one.
     pub fn definition(&self, index: usize) -> Result<Option<&Expression>, Ordering> {
-        self.definitions.get(index).map(Option::as_ref).ok_or(index.cmp(&self.definitions.len()))
+        let read = self.definitions.len();
+        let around = index > read && self.circular.contains(&index) && self.circular.contains(&read);
+        match self.definitions.get(index) {
+            Some(definition) => Ok(definition.as_ref()),
+            None if around => Ok(None),
+            None => Err(index.cmp(&read)),
+        }
     }
 
     /// Whether this is new to be said of the definition.

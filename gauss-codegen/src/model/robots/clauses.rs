@@ -48,6 +48,7 @@ pub fn compose(
         let structure = Structure::new(&description).map_err(faults)?;
         let mut robot = Robot::new(file, clauses, reader, &description, &structure);
         robot.cut(reactions, context);
+        statements.joints_of_file = robot.names_of_joints();
         robot.refuse_mount(file, context);
         let idle = robot.without_inertia();
         let moves = statements.coordinates.is_some() || statements.in_chart;
@@ -164,6 +165,18 @@ impl<'a> Robot<'a> {
             let owner = self.structure.owner_of[found];
             self.cut[owner] |= owner != found || !self.moves(found);
         }
+    }
+
+    /// What joints that carry links are called in `reactions(…)`: as in the file, where that is an identifier, else as
+    /// their coordinates.
+    fn names_of_joints(&self) -> Vec<String> {
+        let carrying = self.structure.joint_of.iter().flatten();
+        let called = |&joint: &usize| {
+            let own = self.description.joints[joint].name.clone();
+            let coordinates = self.coordinates[joint].iter().map(|q| q.ident.unraw().to_string());
+            if syn::parse_str::<Ident>(&own).is_ok() { vec![own] } else { coordinates.collect() }
+        };
+        carrying.flat_map(called).collect()
     }
 
     /// Whether a link moves at all.

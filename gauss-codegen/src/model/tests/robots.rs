@@ -430,6 +430,11 @@ fn mistakes_of_clauses() {
         (", joint_friction = dry(0.1)", "`dry` takes nothing in brackets; write `joint_friction = dry`"),
         (", joint_friction = dyr", "unknown `joint_friction` `dyr`; did you mean `dry`?"),
         (
+            ", joint_friction = lugre(1e5)",
+            "unknown `joint_friction` `lugre`; friction with a state, as LuGre's and Dahl's, is written as \
+             `states(bristle = …)` and `drive(x = …)`; LuGre's is the example of the guide's chapter `Elements with states`",
+        ),
+        (
             ", limits = stop(stiffness = 1.0)",
             "stops at limits need `width`; write `limits = stop(stiffness = 1e4, width = 0.01)`",
         ),
@@ -440,7 +445,14 @@ fn mistakes_of_clauses() {
             ", base(rotation = 1.0)",
             "expected a rotation, found a scalar; write `rotation_z(theta)`, or a product of such turns",
         ),
-        (", reactions(elbw)", "no body or frame is called `elbw`; expected `base` or `arm`"),
+        (", reactions(elbw)", "no body, frame or joint is called `elbw`; did you mean the joint `elbow`?"),
+        (
+            ", reactions(wrist)",
+            "no body, frame or joint is called `wrist`; expected a link (`base` or `arm`) or the joint that carries it \
+             (`elbow`)",
+        ),
+        // What takes no joint does not list any.
+        (", frames(wrist)", "no body or frame is called `wrist`; expected `base` or `arm`"),
         (", coordinates(elbow)", "the coordinate `elbow` is declared twice; remove one of the two"),
         (
             ", drive(elbw = 1.0)",
@@ -481,6 +493,28 @@ fn reactions() {
     let text = robot(&(joint("elbow", "revolute", "base", "arm", "") + &link("arm") + &other));
     let unclear = "`arm` is a link of the file and the joint that carries `hand`; name that link";
     assert_eq!(mistakes(&text, ", reactions(arm)", ""), [unclear]);
+}
+
+/// All names that the message tells are taken: of joints without an identifier those of their coordinates.
+#[test]
+fn names_of_reactions() {
+    let named = joint("left-knee", "revolute", "base", "arm", "") + &link("arm");
+    let planar = joint("sled", "planar", "arm", "hand", "") + &link("hand");
+    let fixed = joint("weld", "fixed", "hand", "tool", "") + &link("tool");
+    let text = robot(&(named + &planar + &fixed));
+    let list = "no body, frame or joint is called `ankle`; expected a link (`base`, `arm`, `hand` or `tool`) or the joint \
+                that carries it (`left_knee`, `sled` or `weld`)";
+    assert_eq!(mistakes(&text, ", reactions(ankle)", ""), [list]);
+    let read = model(&text, ", reactions(left_knee, sled, weld)", "");
+    let links: Vec<_> = read.item.wanted.reactions.iter().map(|joint| joint.link.to_string()).collect();
+    assert_eq!(links, ["arm", "hand", "tool"]);
+    let numbered = joint("joint1", "revolute", "base", "arm", "") + &link("arm");
+    let numbered = robot(&(numbered + &joint("joint2", "revolute", "arm", "hand", "") + &link("hand")));
+    let nearest = "no body, frame or joint is called `joint9`; did you mean the joint `joint1` or `joint2`?";
+    assert_eq!(mistakes(&numbered, ", reactions(joint9)", ""), [nearest]);
+    // A link that only the struct has is taken, and a joint near to it is not suggested for it.
+    let own = ", body(ankle, parent = hand, position = [0, 0, 1], mass = 1, inertia = 1), reactions(ankle)";
+    assert_eq!(model(&text, own, "").item.wanted.reactions.len(), 1);
 }
 
 /// Prefixes that nothing declares, as Drake has them, and what stands before the root.

@@ -4,7 +4,7 @@ use super::{check, check_body, read, with};
 use crate::model::language::role_words::ROLES;
 use crate::model::language::statements::STATEMENTS;
 use crate::model::language::struct_clauses::CLAUSES;
-use crate::model::language::synonyms::{FOR_ARGUMENTS, FOR_CLAUSES, FOR_ROLES};
+use crate::model::language::synonyms::{FOR_ARGUMENTS, FOR_CLAUSES, FOR_ROLES, LAWS};
 
 #[test]
 fn clauses_beside_a_chart() {
@@ -51,6 +51,92 @@ fn what_touches_and_what_joints_bear() {
         let word = clause.split('(').next().expect("a word");
         assert!(error.contains(&format!("unknown clause `{word}`")) && error.contains(remedy), "{clause}: {error}");
     }
+}
+
+/// What is a method of a run, or of a kernel, is told so, and nothing else of the scene is missing.
+#[test]
+fn methods_for_clauses() {
+    let run = "Simulation::new(&kernel)";
+    let delay = format!("`{run}.sampled(period, law).delayed(time)`; a lag of first order is `states(late = (");
+    let wanted = [
+        ("delay(0.01)", delay.as_str()),
+        ("sampled(0.01)", "a control law is given to the run: `input(u)` here, and `Simulation::new(&kernel).input(|t"),
+        ("adaptive(1e-9, 1e-9)", "the integrator and its steps are chosen at run time: `Simulation::new(&kernel)"),
+        (
+            "event(x = 0)",
+            "events are those of the run: `Simulation::new(&kernel).event(Crossing::Falling, |t, q, z| …)`",
+        ),
+        ("until(x = 0)", "`.until(…)` where the run ends"),
+        ("noise(gyro = 0.1)", "a `Stream` of `gauss-study`"),
+        ("initial(x = 0)", "is told to it: `Simulation::new(&kernel).adaptive(1e-9, 1e-12).run(q, z, 0.0..10.0)`"),
+        ("observe(x)", "what comes out is asked of the run: `.observe(|sample| …)`"),
+        ("hessian", "words of `linearize`: `linearize(hessian, inverse)`"),
+        ("lugre(x, s0 = 3)", "is written as `states(bristle = …)` and `drive(x = …)`"),
+    ];
+    for (clause, remedy) in wanted {
+        let scene = format!("#[gauss(coordinates(x), {clause})] struct Ball {{ e: f64 }}");
+        let Err(error) = read(&scene).map(drop) else { panic!("{clause} is no clause") };
+        let error = error.to_string();
+        let word = clause.split('(').next().expect("a word");
+        assert!(
+            error.starts_with(&format!("unknown clause `{word}`; ")) && error.contains(remedy),
+            "{clause}: {error}"
+        );
+    }
+    check_body(
+        "#[gauss(chart = hybrid, gravity_torques)]",
+        &[("gravity_torques", "`gravity_torques` is a method of the kernel; write `methods(gravity_torques)`")],
+    );
+}
+
+/// The methods by which a run is put together, as they stand in the runtime: each is a clause, or a word that is told
+/// what it is.
+#[test]
+fn all_methods_of_runs() {
+    const RUNS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../gauss-runtime/src/integrate/drive/runs");
+    // Those that nobody takes for a clause of a scene: constructors, and what is asked of a simulation.
+    let others = ["new", "of", "problem", "boxed", "control"];
+    let mut found = Vec::new();
+    for file in ["simulation.rs", "sampling.rs"] {
+        let text = std::fs::read_to_string(format!("{RUNS}/{file}")).expect("the runtime");
+        let methods = text.lines().filter_map(|line| line.strip_prefix("    pub fn "));
+        found.extend(methods.filter_map(|rest| rest.split(['(', '<']).next()).map(str::to_owned));
+    }
+    assert!(found.len() > 25, "{found:?}");
+    for word in found.iter().filter(|word| !others.contains(&word.as_str())) {
+        let is = |table: &[&str]| table.contains(&word.as_str());
+        let clauses: Vec<_> = STATEMENTS.iter().map(|(name, _)| *name).collect();
+        let told: Vec<_> = FOR_CLAUSES.iter().map(|(name, _)| *name).collect();
+        assert!(is(&clauses) || is(&told), "{word}");
+    }
+}
+
+/// Laws of friction that have a state: as arguments of what has none, and nothing else is missing there.
+#[test]
+fn laws_with_states() {
+    const PLACED: &str = "particle(mass = 1, position = [x, 0, 0])";
+    let scene = |clause: &str| format!("#[gauss(coordinates(x), {PLACED}, {clause})] struct Scene {{ k: f64 }}");
+    let states = "friction with a state, as LuGre's and Dahl's, is written as `states(bristle = …)` and `drive(x = …)`; LuGre's is \
+                  the example of the guide's chapter `Elements with states`";
+    for (clause, word) in [
+        ("friction(f, lugre = 3)", "lugre"),
+        ("friction(f, along = x, dahl = 3)", "dahl"),
+        ("friction(f, along = x, viscous = 1, Bristles = 3)", "Bristles"),
+        ("dry_friction(x, lugre = 3)", "lugre"),
+    ] {
+        let owner = clause.split('(').next().expect("a word");
+        let message = format!("unknown argument of `{owner}`: `{word}`; {states}");
+        check(&scene(clause), &[(word, message.as_str())]);
+    }
+    check(
+        &scene("friction(f, along = x, stribeck = 3)"),
+        &[(
+            "stribeck",
+            "unknown argument of `friction`: `stribeck`; friction that falls with the speed is a law of your own, as \
+             `drive(x = -f * exp(-abs(v) / slow) * tanh(v / width))`; LuGre's, with a state, is the example of the guide's \
+             chapter `Elements with states`",
+        )],
+    );
 }
 
 #[test]
@@ -114,7 +200,7 @@ fn arguments() {
 /// No word of the language has a synonym's message, and each message is about one word.
 #[test]
 fn words_are_new_and_stand_once() {
-    let clauses: Vec<_> = FOR_CLAUSES.iter().map(|(word, _)| *word).collect();
+    let clauses: Vec<_> = FOR_CLAUSES.iter().chain(LAWS).map(|(word, _)| *word).collect();
     let roles: Vec<_> = FOR_ROLES.iter().map(|(word, _)| *word).collect();
     for word in &clauses {
         assert!(!CLAUSES.iter().any(|(name, _)| name == word), "{word}");
@@ -156,6 +242,11 @@ fn remedies_are_read() {
         "range(x, from = a, to = b)",
         "range(x, from = a, to = b, restitution = e)",
         "frame(site, parent = hull, position = [1, 0, 0])",
+        "input(command), states(late = (command - late) / k), drive(x = late)",
+        "define(v = rate(x)), states(bristle = v), drive(x = -bristle)",
+        "define(v = rate(x)), drive(x = -a * exp(-abs(v) / b) * tanh(v / e))",
+        "linearize(hessian, inverse)",
+        "linearize(parameters)",
     ] {
         if let Err(error) = read(&scene(clauses)) {
             panic!("{clauses}: {error}");

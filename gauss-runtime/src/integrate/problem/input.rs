@@ -8,7 +8,8 @@ use crate::system::GaussSystem;
 /// Where the values of the input come from during a run: a closure
 /// ([`Simulation::input`](crate::integrate::Simulation::input)), or a type of your own
 /// ([`Simulation::input_from`](crate::integrate::Simulation::input_from)). It is called at every stage of every step,
-/// also of steps that are rejected: its value should depend on the arguments only, and smoothly.
+/// also of steps that are rejected: its value should depend on the arguments only, and smoothly. What changes something
+/// when it is called, as an integral does, is a [`Controller`](crate::integrate::Controller).
 ///
 #[cfg_attr(
     feature = "derive",

@@ -143,6 +143,68 @@ fn definitions_of_themselves() {
     }
 }
 
+/// Each circle once, with all its names and at the token that leads around; what is wrong besides is found as well.
+#[test]
+fn circles() {
+    mistakes(
+        "define(a = x + b, b = 2 * a), potential = a",
+        &[(
+            "b",
+            "the definitions `a` and `b` name each other, so that neither has a value; write one of them without the other",
+        )],
+    );
+    mistakes(
+        "define(a = k * b.y, b = [x, c, sin(u)]), define(c = dot(d, d), d = [a, a, 0]), potential = d.x",
+        &[
+            (
+                "b",
+                "the definitions `a`, `b`, `c` and `d` name one another in a circle, so that none has a value; write one of \
+                 them without the others",
+            ),
+            (
+                "u",
+                "unknown name `u`; declare it by `input(u)` if it arrives at run time, or write a coordinate (`x` or \
+                 `theta`), a speed (`v` or `w`), a definition (`a`, `b`, `c` or `d`), a field (`l` or `k`), a body (`cart` \
+                 or `rod`) or `t`",
+            ),
+        ],
+    );
+    // Two circles; a name within a circle that also names itself; one that leads into a circle and is in none.
+    mistakes(
+        "define(into = a, a = b, b = a + a, c = d + c, d = c), potential = into + c",
+        &[
+            (
+                "b",
+                "the definitions `a` and `b` name each other, so that neither has a value; write one of them without the \
+                 other",
+            ),
+            (
+                "d",
+                "the definitions `c` and `d` name each other, so that neither has a value; write one of them without the \
+                 other",
+            ),
+            ("a", "`a` is defined later; move its definition up"),
+            ("c", "`c` is defined by itself; define it without `c`"),
+        ],
+    );
+    // Two circles through one name: once that of each name that was in none before.
+    mistakes(
+        "define(a = b + c, b = a, c = a), potential = a",
+        &[
+            (
+                "b",
+                "the definitions `a` and `b` name each other, so that neither has a value; write one of them without the \
+                 other",
+            ),
+            (
+                "a",
+                "the definitions `c` and `a` name each other, so that neither has a value; write one of them without the \
+                 other",
+            ),
+        ],
+    );
+}
+
 #[test]
 fn kinds_and_names() {
     mistakes(

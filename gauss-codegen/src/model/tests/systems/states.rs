@@ -55,7 +55,11 @@ fn rates() {
     mistakes("states(loop = 1)", &[("loop", "`loop` is a keyword and cannot name a state")]);
     mistakes(
         "state(amps = 1)",
-        &[("state", "unknown clause `state`; the configuration is declared by `coordinates(x, pose: Pose)`")],
+        &[(
+            "state",
+            "unknown clause `state`; the configuration is declared by `coordinates(x, pose: Pose)`, and what an element \
+             remembers, with its rate, by `states(x = …)`",
+        )],
     );
 }
 

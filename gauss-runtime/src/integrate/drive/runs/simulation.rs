@@ -116,11 +116,19 @@ impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C
         })
     }
 
-    /// The input as a function of time and state. It is called at every stage of every step: it should depend on its
-    /// arguments only, and smoothly.
+    /// The input as a function of time and state. It is called at every stage of every step, also of steps that are
+    /// rejected: it should depend on its arguments only, and smoothly.
+    ///
+    /// A closure that changes something, as one that adds up an integral, draws noise or keeps what it saw last, is
+    /// refused by the compiler: "cannot assign to `integral`, as it is a captured variable in a `Fn` closure". Its sum
+    /// would have a term for every stage and every step that was tried, and depend on the method. What samples belongs
+    /// into [`sampled`](Self::sampled), whose closure may change what it likes; an integral without sampling is a state
+    /// of the scene, `states(integral = x - goal)`.
+    #[doc(alias = "FnMut")]
+    #[doc(alias = "control law")]
     pub fn input<G>(self, input: G) -> Simulation<SystemProblem<'k, S, F, Feedback<G>>, C, O, E>
     where
-        G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Input,
+        G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Input, // one that changes something: `.sampled(…)`
     {
         self.input_from(Feedback(input))
     }
