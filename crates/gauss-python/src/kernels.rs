@@ -219,25 +219,25 @@ impl<S: Scene> Instance<S> {
     unsafe fn in_lanes(&self, id: Id, work: &Work, packs: usize) {
         let arguments = SPECS[id as usize].arguments.iter();
         let arguments = arguments.map(|argument| (argument.slot as usize, self.scene.sizes.get(argument.size)));
-        let arguments: Vec<_> = arguments.filter(|&(_, size)| size > 0).collect();
-        let numbers = arguments.iter().map(|(_, size)| size).sum::<usize>() * lanes::WIDTH;
-        let block = (NEAR / numbers.max(1)).clamp(1, MOST_PACKS).min(packs);
-        let mut times = Lanes::new(block, 1);
-        let mut taken: Vec<_> = arguments.iter().map(|&(slot, size)| (slot, Lanes::new(block, size))).collect();
+        let apart = |&(slot, size): &(usize, usize)| size > 0 && !Lanes::are(work.arguments[slot], size);
+        let apart: Vec<_> = arguments.filter(apart).collect();
+        let numbers = apart.iter().map(|(_, size)| size).sum::<usize>() * lanes::WIDTH;
+        // Where all is read as it is there is one block.
+        let block = NEAR.checked_div(numbers).map_or(packs, |block| block.clamp(1, MOST_PACKS).min(packs));
+        let mut taken: Vec<_> = apart.iter().map(|&(slot, size)| (slot, Lanes::new(block, size))).collect();
         for start in (0..packs).step_by(block) {
             let count = block.min(packs - start);
             // SAFETY: of this function. What is one for all is there after the first block, which is the longest.
             unsafe {
                 let part = work.beginning(start * lanes::WIDTH);
                 let mut vectors = part;
-                let sources = taken.iter_mut().map(|(slot, lanes)| (lanes, part.arguments[*slot]));
-                for (lanes, source) in sources.chain([(&mut times, part.t)]) {
+                for (slot, lanes) in &mut taken {
+                    let source = part.arguments[*slot];
                     if start == 0 || source.stride() > 0 {
                         lanes.take(count, source);
                     }
+                    vectors.arguments[*slot] = lanes.source();
                 }
-                taken.iter().for_each(|(slot, lanes)| vectors.arguments[*slot] = lanes.source());
-                vectors.t = times.source();
                 self.scene.packed.run(&self.packed, id, &vectors, 0..count);
             }
         }

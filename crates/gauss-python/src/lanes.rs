@@ -1,7 +1,8 @@
 //! Rows of arrays as lanes: number `i` of eight rows becomes one vector.
 //!
 //! Many rows at a time go to a place of their own, and kernels read vectors there. Where a kernel gathers its vectors from
-//! rows itself, compilers load single numbers, and a kernel of a robot waits for them half of the time.
+//! rows itself, compilers load single numbers, and a kernel of a robot waits for them half of the time. Of rows of one
+//! or two numbers they make shuffles: these are read as they are.
 
 #![allow(unsafe_code)]
 
@@ -13,7 +14,11 @@ use crate::scene::Pack;
 /// How many lanes there are.
 pub const WIDTH: usize = <Pack as Packed>::WIDTH;
 
-/// Numbers in lanes: number `i` of pack `p` is vector `p · size + i`.
+/// Up to so many numbers of a row kernels make lanes of themselves.
+pub const SHORT: usize = 2;
+
+/// Numbers as kernels read them. Of rows that are longer than [`SHORT`] number `i` of pack `p` is vector `p · size + i`;
+/// others are rows, one behind the other.
 pub struct Lanes {
     vectors: Vec<Pack>,
     size: usize,
@@ -26,6 +31,12 @@ impl Lanes {
         Self { vectors: vec![Pack::ZERO; packs * size], size }
     }
 
+    /// Whether kernels read these rows as they are.
+    #[must_use]
+    pub fn are(rows: Source, size: usize) -> bool {
+        size <= SHORT && rows.stride() == size
+    }
+
     /// Takes over the first rows, as many as fill these packs.
     ///
     /// Up to eight columns are gone through at once, whose number is then a constant, as is the way from row to row where
@@ -35,6 +46,14 @@ impl Lanes {
     /// The rows exist, and there is a place for them.
     pub unsafe fn take(&mut self, packs: usize, rows: Source) {
         let size = self.size;
+        if size <= SHORT {
+            let to = self.vectors.as_mut_ptr().cast::<f64>();
+            for (row, i) in (0..packs * WIDTH).flat_map(|row| (0..size).map(move |i| (row, i))) {
+                // SAFETY: of this function.
+                unsafe { to.add(row * size + i).write(rows.get(row, i)) };
+            }
+            return;
+        }
         for first in (0..size).step_by(8) {
             let columns = Columns { rows, lanes: self.vectors.as_mut_ptr().cast(), packs, size, first };
             // SAFETY: of this function.
@@ -53,10 +72,10 @@ impl Lanes {
         }
     }
 
-    /// As rows of vectors, for kernels.
+    /// As kernels read them.
     ///
     /// # Safety
-    /// They are read as [`Pack`]s while this is there and is not changed.
+    /// They are read while this is there and is not changed.
     #[must_use]
     pub unsafe fn source(&self) -> Source {
         // SAFETY: of this function.
@@ -94,25 +113,9 @@ impl Columns {
             let write = |i, k, number| unsafe {
                 lanes.add((pack * size + first + i) * WIDTH + k).write(number);
             };
-            if N.is_power_of_two() {
-                // All are read before any is written: compilers do not know that these are different places, and make
-                // shuffles of vectors only then. With other numbers of columns they make worse of it.
-                let mut numbers = [[0.0; WIDTH]; N];
-                for (i, numbers) in numbers.iter_mut().enumerate() {
-                    for (k, number) in numbers.iter_mut().enumerate() {
-                        *number = read(i, k);
-                    }
-                }
-                for (i, numbers) in numbers.iter().enumerate() {
-                    for (k, &number) in numbers.iter().enumerate() {
-                        write(i, k, number);
-                    }
-                }
-            } else {
-                for i in 0..N {
-                    for k in 0..WIDTH {
-                        write(i, k, read(i, k));
-                    }
+            for i in 0..N {
+                for k in 0..WIDTH {
+                    write(i, k, read(i, k));
                 }
             }
         }
@@ -133,7 +136,11 @@ mod tests {
                 unsafe { lanes.take(packs, Source::new(rows.as_ptr(), stride)) };
                 for row in 0..packs * WIDTH {
                     for i in 0..size {
-                        let number = lanes.vectors[row / WIDTH * size + i].extract(row % WIDTH);
+                        let (vector, lane) = match size {
+                            ..=SHORT => ((row * size + i) / WIDTH, (row * size + i) % WIDTH),
+                            _ => (row / WIDTH * size + i, row % WIDTH),
+                        };
+                        let number = lanes.vectors[vector].extract(lane);
                         assert_eq!(number, rows[row * stride + i], "size {size}, stride {stride}, row {row}");
                     }
                 }

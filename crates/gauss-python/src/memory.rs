@@ -101,6 +101,12 @@ impl Target {
     }
 
     /// As of [`Source`].
+    #[inline(always)]
+    pub fn at_distance(self, stride: usize) -> Self {
+        Self { stride, ..self }
+    }
+
+    /// As of [`Source`].
     ///
     /// # Safety
     /// As there.

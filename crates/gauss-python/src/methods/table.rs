@@ -8,6 +8,7 @@ use gauss_runtime::simd::Packed;
 use super::called;
 use super::system::System;
 use super::words::{COUNT, Id, Size, Slot};
+use crate::lanes::SHORT;
 use crate::memory::{Source, Target};
 
 /// How many numbers the vectors of a system have.
@@ -111,10 +112,28 @@ impl<'a, S: System> At<'a, S> {
     fn vector<V: VectorSpace<S::Scalar>>(&self, slot: Slot) -> V {
         // The size is a constant here.
         let (mut vector, rows) = (V::zero(), self.work.arguments[slot as usize].at_distance(V::DIM));
-        for i in 0..V::DIM {
-            // SAFETY: arrays have the rows and the sizes of this system: `Table::run`.
+        let width = S::Scalar::WIDTH;
+        // SAFETY: arrays have the rows and the sizes of this system: `Table::run`.
+        #[allow(unsafe_code)]
+        if V::DIM > SHORT {
+            (0..V::DIM).for_each(|i| vector.set_component(i, unsafe { rows.vector(self.row, i) }));
+            return vector;
+        }
+        // All numbers of as many rows as there are lanes, then the lanes of them: compilers make shuffles of it.
+        let mut flat = [S::Scalar::zero(); SHORT];
+        for k in 0..V::DIM * width {
+            // SAFETY: as above.
             #[allow(unsafe_code)]
-            vector.set_component(i, unsafe { rows.vector(self.row, i) });
+            let number = unsafe { rows.get(self.row * width, k) };
+            flat[k / width].replace(k % width, &number);
+        }
+        for i in 0..V::DIM {
+            let mut lanes = S::Scalar::zero();
+            for lane in 0..width {
+                let k = lane * V::DIM + i;
+                lanes.replace(lane, &flat[k / width].extract(k % width));
+            }
+            vector.set_component(i, lanes);
         }
         vector
     }
@@ -122,11 +141,13 @@ impl<'a, S: System> At<'a, S> {
     /// Time.
     #[inline(always)]
     pub fn t(&self) -> S::Scalar {
-        // SAFETY: as of `vector`.
-        #[allow(unsafe_code)]
-        unsafe {
-            self.work.t.vector(self.row, 0)
+        let mut t = S::Scalar::zero();
+        for lane in 0..S::Scalar::WIDTH {
+            // SAFETY: there is a time for each row, or one for all.
+            #[allow(unsafe_code)]
+            t.replace(lane, &unsafe { self.work.t.get(self.row * S::Scalar::WIDTH + lane, 0) });
         }
+        t
     }
 
     /// The configuration.
@@ -192,6 +213,21 @@ impl Writer<'_> {
     /// The next numbers.
     #[inline(always)]
     pub fn vector<T: Real + Packed<Single = f64>, V: VectorSpace<T>>(&mut self, vector: &V) {
+        let target = self.targets[self.result];
+        if V::DIM <= SHORT && target.stride() == V::DIM {
+            // One number behind the other, which compilers make shuffles of.
+            let target = target.at_distance(V::DIM);
+            for k in 0..V::DIM * T::WIDTH {
+                let number = vector.component(k % V::DIM).extract(k / V::DIM);
+                // SAFETY: as of `number`.
+                #[allow(unsafe_code)]
+                unsafe {
+                    target.set(self.row * T::WIDTH, k, number);
+                }
+            }
+            self.place += V::DIM;
+            return;
+        }
         for i in 0..V::DIM {
             self.number(vector.component(i));
         }
@@ -262,8 +298,8 @@ impl<S: System> Table<S> {
     /// Computes rows of vectors, which are numbers where a scalar is one.
     ///
     /// # Safety
-    /// All arguments that the [`Spec`](super::Spec) of the method names have these rows, each with as many vectors as the
-    /// sizes of the system say, one row behind the other; one time may be there for all. Results have a row of numbers
+    /// All arguments that the [`Spec`](super::Spec) of the method names have these rows, as [`Lanes`](crate::lanes::Lanes)
+    /// has them, each with as many vectors as the sizes of the system say, one row behind the other; one time may be there for all. Results have a row of numbers
     /// for each lane of them.
     #[allow(unsafe_code)]
     pub unsafe fn run(&self, system: &S, id: Id, work: &Work, rows: Range<usize>) {
