@@ -58,7 +58,8 @@ pub fn model(input: &DeriveInput, clauses: Clauses, mut reader: Reader<'_>, cont
     let fields = fields(&reader, &shapes);
     let model = assembled(input, (runtime, wanted, scalar, in_chart), fields, statements)?;
     let (mut bodies, coordinates) = (model.bodies, model.coordinates);
-    let limbs = Limbs::found(&mut bodies, &coordinates);
+    // Of what is wrong nothing is asked.
+    let limbs = if context.is_clean() { Limbs::found(&mut bodies, &coordinates) } else { Limbs::default() };
     Some(Model { bodies, coordinates, limbs, definitions, ..model })
 }
 

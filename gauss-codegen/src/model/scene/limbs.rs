@@ -1,5 +1,5 @@
-//! Limbs of a tree that are alike: bodies that hang on one another by the same expressions, but for numbers and for what
-//! coordinates are called. They are found by their clauses, not by their names.
+//! Limbs of a tree that are alike: bodies that hang on one another by the same expressions, but for numbers and for
+//! what coordinates are called. They are found by their clauses, not by their names.
 //!
 //! Mirrored limbs differ in the signs of numbers, and what is computed of them would differ in where it adds and where
 //! it subtracts. So a number that is not the same in all of them is a constant of its own in each ([`Twin`]).
@@ -110,22 +110,24 @@ impl Tree<'_> {
         name.and_then(|name| self.children.get(&name.to_string())).map_or(&[], Vec::as_slice)
     }
 
-    /// Limbs that hang on a body, or farther out. Those of a limb are within those that it is alike with.
-    fn limbs_below(&self, body: usize, all: &mut Vec<Found>) {
-        let mut left: Vec<usize> = self.children(body).to_vec();
-        while !left.is_empty() {
-            let first = left.remove(0);
-            let others: Vec<usize> =
-                left.iter().copied().filter(|&other| self.coordinates_of(&[first, other]).is_some()).collect();
-            let mut limbs = vec![first];
-            limbs.extend(others.iter().take(TOGETHER - 1));
-            let found = self.found(limbs.clone());
-            if found.coordinates.len() < JOINTS {
-                self.limbs_below(first, all);
-                continue;
+    /// Limbs that hang on a body, or farther out. What hangs on limbs that are alike is part of them.
+    fn limbs_below(&self, root: usize, all: &mut Vec<Found>) {
+        let mut open = vec![root];
+        while let Some(body) = open.pop() {
+            let mut left: Vec<usize> = self.children(body).to_vec();
+            while let Some(&first) = left.first() {
+                let is_alike = |other: &usize| self.coordinates_of(&[first, *other]).is_some();
+                let others = left[1..].iter().copied().filter(is_alike).take(TOGETHER - 1);
+                let limbs: Vec<usize> = std::iter::once(first).chain(others).collect();
+                let found = self.found(limbs.clone());
+                if found.coordinates.len() < JOINTS {
+                    open.push(first);
+                    left.remove(0);
+                } else {
+                    left.retain(|other| !limbs.contains(other));
+                    all.push(found);
+                }
             }
-            left.retain(|other| !limbs.contains(other));
-            all.push(found);
         }
     }
 
@@ -148,7 +150,9 @@ impl Tree<'_> {
                 }
             }
             open.extend(taken);
-            found.coordinates.extend(coordinates);
+            // Joints may follow one another.
+            let new = coordinates.into_iter().filter(|names| !found.coordinates.contains(names)).collect::<Vec<_>>();
+            found.coordinates.extend(new);
             found.bodies.push(alike);
         }
         found

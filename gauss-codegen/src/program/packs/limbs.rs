@@ -1,9 +1,9 @@
 //! Packs of long code: what is alike in limbs that are alike.
 //!
 //! Inputs say which limb they belong to, and to what they are alike in the other limbs. An instruction belongs to the
-//! limb that its operands belong to; those of several limbs belong to none. Two instructions are alike where they do the
-//! same with operands that are alike, or that are the same and belong to no limb. So lanes are known, and packs need not
-//! be searched for: one pass finds them, as many as there are instructions in a limb.
+//! limb that its operands belong to; those of several limbs belong to none. Two instructions are alike where they do
+//! the same with operands that are alike, or that are the same and belong to no limb. So lanes are known, and packs
+//! need not be searched for: one pass finds them, as many as there are instructions in a limb.
 
 use std::collections::HashMap;
 
