@@ -26,8 +26,9 @@ pub fn twins<'g>(model: &Model, declared: &Declared<'g>) -> Vec<(Expr<'g>, Twin)
             let of_speeds = all.iter().zip(2..).filter_map(|(all, kind)| Some((*all.get(first)?, slot(*twin, kind))));
             twins.extend(of_speeds);
         }
-        let called = |(word, _): &&(String, usize)| *word == name.unraw().to_string();
-        let input = inputs.iter().find(called).and_then(|(_, place)| declared.inputs.get(*place));
+        let word = name.unraw().to_string();
+        let input =
+            inputs.iter().find(|(called, _)| *called == word).and_then(|(_, place)| declared.inputs.get(*place));
         twins.extend(input.map(|&symbol| (symbol, slot(*twin, 5))));
     }
     twins
