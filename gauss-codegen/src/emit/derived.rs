@@ -16,6 +16,7 @@ use crate::terms::{Item, Scalar};
 use crate::words::Unraw;
 
 use crate::emit::dialect::arguments::{Argument, arguments_of, declare, declared, variable};
+use crate::emit::dialect::limbs::Limbs;
 use crate::emit::dialect::packs::{Packs, Sources, are_wanted};
 use crate::emit::dialect::program::{ScalarTokens, statements};
 use crate::emit::subject::Subject;
@@ -43,6 +44,8 @@ pub struct Derived<'a, 'g> {
     pub inertial_parameters: &'a [InertialParameter<'g>],
     /// Methods that are written with vectors, once these have been looked for.
     packs: OnceCell<Packs<'g>>,
+    /// What symbols are to limbs that are alike.
+    limbs: OnceCell<Limbs>,
     /// Asked for by every method: see `private`, `arguments`.
     private: TokenStream,
     arguments: OnceCell<Vec<Argument<'g>>>,
@@ -89,6 +92,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             printed: &formulation.printed,
             inertial_parameters: &formulation.inertial_parameters,
             packs: OnceCell::new(),
+            limbs: OnceCell::new(),
             private: {
                 let (runtime, module) = (&given.item.runtime, Ident::new(PRIVATE, Span::call_site()));
                 quote!(#runtime::#module)
@@ -277,6 +281,10 @@ impl<'a, 'g> Derived<'a, 'g> {
     fn computed_by(&self, method: Method) -> Option<(TokenStream, Vec<TokenStream>)> {
         let (program, arguments, scalar) = (self.program(method)?, self.arguments(), self.scalar());
         let (mut written, names) = self.named(program, arguments);
+        if let Some((instructions, outputs)) = self.in_limbs(program, &names) {
+            written.extend(instructions);
+            return Some((written, outputs));
+        }
         let single = statements(program, &names, &scalar);
         let sources = Sources { kernel: self.kernel, arguments, names: &names };
         let in_both_forms =
@@ -290,9 +298,21 @@ impl<'a, 'g> Derived<'a, 'g> {
     /// Arguments taken apart and the instructions of a program; its outputs.
     pub fn computed(&self, program: &Program<'g>) -> (TokenStream, Vec<TokenStream>) {
         let (mut written, names) = self.named(program, self.arguments());
-        let (instructions, outputs) = statements(program, &names, &self.scalar());
+        let (instructions, outputs) =
+            self.in_limbs(program, &names).unwrap_or_else(|| statements(program, &names, &self.scalar()));
         written.extend(instructions);
         (written, outputs)
+    }
+
+    /// The same with vectors, a lane for each of the limbs that are alike; nothing where there are none.
+    fn in_limbs(
+        &self,
+        program: &Program<'g>,
+        names: &Map<u32, TokenStream>,
+    ) -> Option<(TokenStream, Vec<TokenStream>)> {
+        self.packs().filter(|_| matches!(self.scalar().scalar, Scalar::F64))?;
+        let limbs = self.limbs.get_or_init(|| Limbs::of(&self.subject.given.twins, self.kernel));
+        limbs.statements(program, names, (&self.private(), &self.scalar()))
     }
 
     /// Arguments taken apart as far as a program reads them, and how its symbols are then written.

@@ -130,7 +130,8 @@ fn most_frequent<'g>(terms: &[Term<'g>]) -> Option<(Expr<'g>, i32)> {
             count.or_insert_with((f.key(), n.signum()), || (0, f)).0 += 1;
         }
     }
-    let best = count.iter().filter(|(_, (n, _))| *n >= 2).max_by_key(|((key, sign), (n, _))| (*n, *sign, *key));
+    let best =
+        count.iter().filter(|(_, (n, _))| *n >= 2).max_by_key(|((key, sign), (n, e))| (*n, *sign, e.rank(), *key));
     best.map(|(&(_, sign), &(_, shared))| (shared, sign))
 }
 

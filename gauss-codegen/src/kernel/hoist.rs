@@ -144,7 +144,10 @@ impl<'a, 'g> Hoister<'a, 'g> {
             return normal;
         }
         let negative = match normal.view() {
-            NodeView::Sum(terms) => terms[0].0.is_negative(),
+            // In constants that are alike the terms that are: the first of them where nothing is alike.
+            NodeView::Sum(terms) => {
+                terms.iter().min_by_key(|(_, e)| e.rank()).is_some_and(|(first, _)| first.is_negative())
+            }
             _ => false,
         };
         let (key, definition) = if negative { (-normal, -e) } else { (normal, e) };
@@ -153,6 +156,9 @@ impl<'a, 'g> Hoister<'a, 'g> {
             None => {
                 let name = format!("k{}", self.constants.len());
                 let symbol = self.graph.symbol(name.clone(), name, false);
+                if self.graph.has_alike() {
+                    self.graph.declare_alike(symbol, u64::from(definition.rank()) << 32);
+                }
                 self.constants.push((symbol, definition));
                 self.known.insert(key.key(), symbol);
                 symbol

@@ -1,5 +1,7 @@
 //! Sums and products of many terms as a network of nodes, with the parts that several of them contain split off.
 
+use std::collections::HashMap;
+
 use crate::algebra::{
     BinaryFunction, Expr, Function, Key, MOST_VARIABLES, Map, NodeView, OwnFunction, Rational, joined,
 };
@@ -80,6 +82,10 @@ impl Node<'_> {
 /// The nodes of one function, each once; children may follow their parents.
 pub struct Network<'g> {
     pub nodes: Vec<Node<'g>>,
+    /// The first node that each is alike to: orders go by these, then by places.
+    ranks: Vec<Place>,
+    /// Those, by what they are made of; nothing where no symbols are alike.
+    first: Option<HashMap<u64, Place>>,
     /// (coefficient, node) of every output.
     pub outputs: Vec<(Rational, Place)>,
     index: Map<Node<'g>, Place>,
@@ -88,7 +94,14 @@ pub struct Network<'g> {
 
 impl<'g> Network<'g> {
     pub fn new(outputs: &[Expr<'g>]) -> Self {
-        let mut network = Self { nodes: Vec::new(), outputs: Vec::new(), index: Map::default(), memo: Map::default() };
+        let mut network = Self {
+            nodes: Vec::new(),
+            ranks: Vec::new(),
+            first: outputs.first().filter(|e| e.graph().has_alike()).map(|_| HashMap::new()),
+            outputs: Vec::new(),
+            index: Map::default(),
+            memo: Map::default(),
+        };
         for &e in outputs {
             for part in e.stages(|key| network.memo.contains_key(&key)) {
                 network.visit(part);
@@ -134,12 +147,20 @@ impl<'g> Network<'g> {
     }
 
     fn place(&mut self, node: Node<'g>) -> Place {
-        let nodes = &mut self.nodes;
+        let (nodes, ranks, first) = (&mut self.nodes, &mut self.ranks, &mut self.first);
         let new = |node: &Node<'g>| {
+            let place = nodes.len();
+            let rank = first.as_mut().map_or(place, |first| *first.entry(likeness(node, ranks)).or_insert(place));
+            ranks.push(rank);
             nodes.push(node.clone());
-            nodes.len() - 1
+            place
         };
         *self.index.or_insert_of(node, new)
+    }
+
+    /// What is alike has the same place in an order.
+    fn rank(&self, place: Place) -> (Place, Place) {
+        (self.ranks[place], place)
     }
 
     /// The node of an expression up to a number, which sums and products around it take over.
@@ -208,7 +229,7 @@ impl<'g> Network<'g> {
         if let [(c, place)] = terms[..] {
             return (c, place);
         }
-        terms.sort_by_key(|t| t.1);
+        terms.sort_by_key(|t| self.rank(t.1));
         let negative = terms[0].0.is_negative();
         if negative {
             terms.iter_mut().for_each(|t| t.0 = -t.0);
@@ -219,7 +240,7 @@ impl<'g> Network<'g> {
 
     fn product(&mut self, mut factors: Vec<Place>) -> Place {
         factors.retain(|&p| self.nodes[p] != Node::Number(Rational::one()));
-        factors.sort_unstable();
+        factors.sort_unstable_by_key(|&place| self.rank(place));
         match factors[..] {
             [] => self.place(Node::Number(Rational::one())),
             [only] => only,
@@ -255,7 +276,9 @@ impl<'g> Network<'g> {
                 }
             }
             let mut frequent: Vec<_> = holders.into_iter().filter(|(_, places)| places.len() >= 2).collect();
-            frequent.sort_by_key(|(pair, places)| (usize::MAX - places.len(), *pair));
+            frequent.sort_by_key(|((a, b, ratio), places)| {
+                (usize::MAX - places.len(), self.ranks[*a], self.ranks[*b], (*a, *b, *ratio))
+            });
             let mut progress = false;
             for ((a, b, ratio), places) in frequent {
                 // Earlier pairs of this round may have taken the parts away.
@@ -275,7 +298,7 @@ impl<'g> Network<'g> {
                             continue;
                         }
                         rest.push((c, pair));
-                        rest.sort_by_key(|part| part.1);
+                        rest.sort_by_key(|part| self.rank(part.1));
                         self.nodes[place] = kind.node(rest);
                         progress = true;
                     }
@@ -328,16 +351,18 @@ impl<'g> Network<'g> {
                 changed |= lead[*place] != *place;
                 *place = lead[*place];
             };
+            let ranks = &self.ranks;
+            let rank = |place: Place| (ranks[place], place);
             for node in &mut self.nodes {
                 match node {
                     Node::Number(_) | Node::Leaf(_) => {}
                     Node::Sum(terms) => {
                         terms.iter_mut().for_each(|t| follow(&mut t.1));
-                        terms.sort_by_key(|t| t.1);
+                        terms.sort_by_key(|t| rank(t.1));
                     }
                     Node::Product(factors) => {
                         factors.iter_mut().for_each(&mut follow);
-                        factors.sort_unstable();
+                        factors.sort_unstable_by_key(|&place| rank(place));
                     }
                     Node::Reciprocal(a) | Node::Call(_, a) => follow(a),
                     Node::Binary(_, a, b) => [a, b].into_iter().for_each(&mut follow),
@@ -361,6 +386,23 @@ impl<'g> Network<'g> {
         for (k, node) in self.nodes.iter().enumerate() {
             self.index.or_insert_with(node.clone(), || k);
         }
+    }
+}
+
+/// The same word for nodes that are alike.
+fn likeness(node: &Node<'_>, ranks: &[Place]) -> u64 {
+    let parts = |kind: u64, parts: &[Place]| parts.iter().fold(kind, |word, &place| joined(word, ranks[place] as u64));
+    match node {
+        Node::Leaf(e) => joined(0, u64::from(e.rank())),
+        Node::Number(value) => joined(1, value.word()),
+        Node::Sum(terms) => {
+            terms.iter().fold(2, |word, (c, place)| joined(joined(word, c.word()), ranks[*place] as u64))
+        }
+        Node::Product(factors) => parts(3, factors),
+        Node::Reciprocal(a) => parts(4, &[*a]),
+        Node::Call(function, a) => parts(5 + function.word(), &[*a]),
+        Node::Binary(function, a, b) => parts(20 + *function as u64, &[*a, *b]),
+        Node::Own(function, places) => parts(joined(30, function.word()), places),
     }
 }
 

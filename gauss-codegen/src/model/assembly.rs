@@ -13,6 +13,7 @@ use crate::model::names::places::Place;
 use crate::model::names::{declared, definitions, kinds, naming};
 use crate::model::scene::clauses::{BodyClause, State};
 use crate::model::scene::expression::Expression;
+use crate::model::scene::limbs::Limbs;
 use crate::model::scene::model::Model;
 use crate::model::units::needs;
 use crate::terms::{Field, Generics, InChart, Item, Role, Scalar, Shape, Wanted};
@@ -56,7 +57,10 @@ pub fn model(input: &DeriveInput, clauses: Clauses, mut reader: Reader<'_>, cont
     };
     let fields = fields(&reader, &shapes);
     let model = assembled(input, (runtime, wanted, scalar, in_chart), fields, statements)?;
-    Some(Model { definitions, ..model })
+    let (mut bodies, coordinates) = (model.bodies, model.coordinates);
+    // Of what is wrong nothing is asked.
+    let limbs = if context.is_clean() { Limbs::found(&mut bodies, &coordinates) } else { Limbs::default() };
+    Some(Model { bodies, coordinates, limbs, definitions, ..model })
 }
 
 /// The body without a name, whose place is given by the chart.
@@ -203,6 +207,7 @@ fn assembled(
         armatures: statements.armatures,
         modes: statements.modes.into_iter().map(|read| read.clause).collect(),
         formal: statements.formal,
+        limbs: Limbs::default(),
         definitions: Vec::new(),
     })
 }

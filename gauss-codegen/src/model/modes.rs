@@ -158,7 +158,8 @@ impl Reader {
             self.mistake(format_args!("`{path}` is a number or a list of numbers"));
             return None;
         };
-        let own = Expression { kind: ExpressionKind::Number { value: shortest(number.abs()) }, span: self.span };
+        let own =
+            Expression { kind: ExpressionKind::Number { value: shortest(number.abs()), twin: None }, span: self.span };
         let negative = |own| Expression { kind: ExpressionKind::Negate(Box::new(own)), span: self.span };
         Some(if number < 0.0 { negative(own) } else { own })
     }

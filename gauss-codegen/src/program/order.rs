@@ -11,6 +11,7 @@ use std::collections::BinaryHeap;
 use std::ops::RangeInclusive;
 
 use super::code::Code;
+use super::instruction::Instruction;
 
 /// Results that wait at once, above which what frees others comes first: between the registers that processors have,
 /// sixteen and thirty-two.
@@ -29,6 +30,12 @@ impl<S: Copy> Code<S> {
         let order = Scheduler::of(&self).order();
         self.in_order(&order).verified()
     }
+}
+
+/// An order of steps, of which it is known what each reads, each once, all of them before it, and how many cycles each
+/// takes.
+pub(super) fn order_of(reads: Vec<Vec<usize>>, cycles: Vec<u32>) -> Vec<usize> {
+    Scheduler::new(reads, cycles).order()
 }
 
 /// A program that is ordered, instruction by instruction.
@@ -58,17 +65,22 @@ struct Scheduler {
 
 impl Scheduler {
     fn of<S: Copy>(code: &Code<S>) -> Self {
-        let count = code.instructions.len();
-        let mut reads: Vec<Vec<usize>> = Vec::with_capacity(count);
-        let mut readers = vec![Vec::new(); count];
-        for (k, instruction) in code.instructions.iter().enumerate() {
+        let read = |instruction: &Instruction<S>| {
             let mut read: Vec<usize> = instruction.operands().filter_map(|operand| operand.instruction()).collect();
             read.sort_unstable();
             read.dedup();
+            read
+        };
+        let cycles = code.instructions.iter().map(|instruction| instruction.cycles());
+        Self::new(code.instructions.iter().map(read).collect(), cycles.collect())
+    }
+
+    fn new(reads: Vec<Vec<usize>>, cycles: Vec<u32>) -> Self {
+        let count = reads.len();
+        let mut readers = vec![Vec::new(); count];
+        for (k, read) in reads.iter().enumerate() {
             read.iter().for_each(|&operand| readers[operand].push(k));
-            reads.push(read);
         }
-        let cycles: Vec<u32> = code.instructions.iter().map(|instruction| instruction.cycles()).collect();
         let mut height = cycles.clone();
         for k in (0..count).rev() {
             height[k] += readers[k].iter().map(|&reader: &usize| height[reader]).max().unwrap_or(0);
@@ -189,7 +201,7 @@ impl Scheduler {
 #[cfg(test)]
 mod tests {
     use super::super::input::Input;
-    use super::super::instruction::{Instruction, Operand};
+    use super::super::instruction::Operand;
     use super::*;
 
     /// Sums of products: chains one after the other, each of which waits for itself alone.

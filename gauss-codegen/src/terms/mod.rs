@@ -2,7 +2,7 @@
 //!
 //! `charts` of one body, `roles` of fields with the shapes of their values, `laws` that constants obey, `functions` and
 //! `inputs` of the user's own, the `item` with its fields and its scalar, what is `wanted` of a kernel, files that a
-//! scene is `described` in, and decimal fractions (`number`).
+//! scene is `described` in, numbers of limbs that are alike (`twins`), and decimal fractions (`number`).
 
 pub mod charts;
 pub mod described;
@@ -12,6 +12,7 @@ pub mod item;
 pub mod laws;
 pub mod number;
 pub mod roles;
+pub mod twins;
 pub mod wanted;
 
 pub use charts::{Chart, InChart, Motion, RotationChart};
@@ -21,4 +22,5 @@ pub use inputs::{InputKind, InputName};
 pub use item::{Field, Generics, Item, Scalar};
 pub use laws::LawKind;
 pub use roles::{Role, Shape};
+pub use twins::Twin;
 pub use wanted::{Wanted, WantedJoint, WantedMethod};

@@ -22,14 +22,17 @@ impl<'g> Translator<'_, 'g> {
         }
         let mut declared = self.declared.clone();
         let_go.iter().for_each(|by| by.declare(&mut declared));
-        // What is noted has been noted before, of literal numbers more than once would be other symbols.
-        let notes = Notes::new(self.notes.read().literals.clone());
+        // What is noted has been noted before.
+        let notes = Notes::with_literals_of(self.notes);
         let fresh = Translator::new(graph, self.model, &declared, self.functions, self.pi, &notes);
         let mut translator = Translator { let_go, ..fresh };
         let scene = translator.scene()?;
         translator.refuse_mistakes()?;
         let home = translator.home();
-        self.notes.add().literals = notes.into_inner().literals;
+        let noted = notes.into_inner();
+        let mut own = self.notes.add();
+        (own.literals, own.twins) = (noted.literals, noted.twins);
+        drop(own);
         Ok(Some(LetGo { scene, home }))
     }
 

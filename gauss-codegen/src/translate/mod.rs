@@ -13,6 +13,7 @@
 //! - `laws`, `drag`: constants of loads, for checks and warnings.
 //! - `parameters`: what the numbers of fields are called; `state`: what coordinates and speeds are called.
 //! - `let_go`: the scene once more, with joints let go, for their reactions; `freedom`: what they move by then.
+//! - `limbs`: which symbols of limbs that are alike correspond to one another.
 //! - `placements`: where bodies, frames and points are.
 //! - `readings`: names of expressions, for printed equations.
 
@@ -25,6 +26,7 @@ mod freedom;
 mod kinematics;
 mod laws;
 mod let_go;
+mod limbs;
 mod mass_data;
 mod modes;
 mod notes;

@@ -5,6 +5,7 @@ use std::cell::{Ref, RefCell, RefMut};
 use proc_macro2::Span;
 
 use crate::algebra::{Expr, Rational};
+use crate::terms::Twin;
 
 use super::drag::DragMatrix;
 use super::laws::Law;
@@ -16,6 +17,8 @@ pub struct Notes<'g>(RefCell<Noted<'g>>);
 pub struct Noted<'g> {
     /// Literal numbers that are constants of their own.
     pub literals: Vec<(Rational, Expr<'g>)>,
+    /// Of these those of limbs that are alike.
+    pub twins: Vec<(Expr<'g>, Twin)>,
     /// Numbers with which checks may not be sure, where they are written.
     pub extreme: Vec<(Span, Rational)>,
     /// Expressions without a value.
@@ -29,6 +32,12 @@ pub struct Noted<'g> {
 impl<'g> Notes<'g> {
     pub fn new(literals: Vec<(Rational, Expr<'g>)>) -> Self {
         Self(RefCell::new(Noted { literals, ..Noted::default() }))
+    }
+
+    /// With the literal numbers of others: noted more than once they would be other symbols.
+    pub fn with_literals_of(other: &Self) -> Self {
+        let Noted { literals, twins, .. } = &*other.read();
+        Self(RefCell::new(Noted { literals: literals.clone(), twins: twins.clone(), ..Noted::default() }))
     }
 
     pub fn read(&self) -> Ref<'_, Noted<'g>> {

@@ -18,7 +18,7 @@ impl<'g> Translator<'_, 'g> {
         let mut names = Vec::new();
         for (ident, expression) in &self.model.definitions {
             // What is noted has been noted where the name stands.
-            let notes = Notes::new(self.notes.read().literals.clone());
+            let notes = Notes::with_literals_of(self.notes);
             let quiet = Translator { notes: &notes, ..self.clone() };
             let name = name_of(ident);
             let found = self.graph.existing(|| match quiet.value(expression, tree).map(Value::observed) {

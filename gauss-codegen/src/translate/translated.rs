@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Span};
 
 use crate::algebra::{Expr, Rational, Substitution};
 use crate::mechanics::{LetGo, QuantityValues, Readings, SystemScene};
-use crate::terms::{Item, Role, Shape};
+use crate::terms::{Item, Role, Shape, Twin};
 use crate::words::Unraw;
 
 use super::drag::DragMatrix;
@@ -30,6 +30,8 @@ pub struct Given<'g> {
     pub parameters: Vec<Parameter<'g>>,
     /// Literal numbers that symbols stand for.
     pub literals: Vec<(Rational, Expr<'g>)>,
+    /// Symbols of limbs that are alike.
+    pub twins: Vec<(Expr<'g>, Twin)>,
     /// What the author named, and what is read as something else in print.
     pub readings: Readings<'g>,
     /// Numbers with which checks may not be sure, where they are written.

@@ -17,6 +17,7 @@ use crate::words::Unraw;
 
 use super::freedom::LetGoBy;
 use super::laws::Law;
+use super::limbs::twins;
 use super::notes::Notes;
 use super::parameters::parameters;
 use super::state::quantities;
@@ -35,6 +36,8 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
         let index = graph.declare_function(name.clone());
         (name, OwnFunction::new(index, clause.kind.variables().len() as u8, clause.kind.continuous()))
     };
+    let alike = twins(model, &declared);
+    alike.iter().for_each(|(symbol, twin)| graph.declare_alike(*symbol, twin.slot as u64));
     let functions: HashMap<String, OwnFunction> = model.item.functions.iter().map(function).collect();
     let pi = graph.symbol("π", "\\pi", true);
     let notes = Notes::new(vec![(symbols::pi(), pi)]);
@@ -54,6 +57,7 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
     let frames = frames.filter_map(|name| translator.links.get(&name.unraw().to_string()).copied()).collect();
     let mass_data = assigned.of_bodies(model, &translator.links_of_clauses);
     let noted = notes.into_inner();
+    let twins = alike.into_iter().chain(noted.twins).collect();
     Ok(Translated {
         scene,
         let_go,
@@ -61,6 +65,7 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
             parameters: parameters(&model.item.fields, &declared.sources),
             sources: declared.sources,
             literals: noted.literals,
+            twins,
             readings,
             extreme: noted.extreme,
             drags: noted.drags,

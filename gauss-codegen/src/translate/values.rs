@@ -6,8 +6,10 @@ use crate::algebra::{BinaryFunction, Expr, Function, Notation, Rational, decimal
 use crate::error::Result;
 use crate::mechanics::{Axes, Tree, Turn, dot, subtract};
 use crate::model::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
+use crate::terms::Twin;
 use crate::words::Unraw;
 
+use super::limbs;
 use super::translator::{Translator, bug};
 use super::value::{Local, Piece, Value};
 
@@ -23,7 +25,7 @@ fn quarter_turns(angle: &Expression) -> Option<usize> {
         return usize::try_from(turns.rem_euclid(4)).ok();
     }
     let angle = match &angle.kind {
-        ExpressionKind::Number { value } => value.to_f64(),
+        ExpressionKind::Number { value, .. } => value.to_f64(),
         ExpressionKind::Negate(inner) => return quarter_turns(inner).map(|quarters| (4 - quarters) % 4),
         _ => return None,
     };
@@ -56,9 +58,9 @@ impl<'g> Translator<'_, 'g> {
     /// The value of an expression; links that it names are those of the tree.
     pub(super) fn value(&self, e: &Expression, tree: &Tree<'g>) -> Result<Value<'g>> {
         Ok(match &e.kind {
-            ExpressionKind::Number { value } => {
+            ExpressionKind::Number { value, twin } => {
                 self.note_extreme(*value, e.span);
-                Value::Scalar(self.number(*value))
+                Value::Scalar(twin.map_or_else(|| self.number(*value), |twin| self.twin(*value, twin)))
             }
             ExpressionKind::Name(name) => {
                 self.names.get(&name.unraw().to_string()).cloned().ok_or_else(|| bug(e.span))?
@@ -114,14 +116,38 @@ impl<'g> Translator<'_, 'g> {
         if value.parts().is_some_and(|(numerator, denominator)| numerator.abs().max(denominator) <= EXACT) {
             return self.graph.number(value);
         }
-        let mut notes = self.notes.add();
-        if let Some((_, symbol)) = notes.literals.iter().find(|(known, _)| *known == value) {
+        let noted = self.notes.read();
+        let is_twin = |symbol: &Expr<'g>| noted.twins.iter().any(|(twin, _)| twin == symbol);
+        if let Some((_, symbol)) = noted.literals.iter().find(|(known, symbol)| *known == value && !is_twin(symbol)) {
             return *symbol;
         }
-        let [text, latex] = [Notation::Text, Notation::Latex].map(|notation| decimal(value, notation));
-        let symbol = self.graph.symbol(text, latex, true);
+        drop(noted);
+        let symbol = self.literal(value);
+        self.notes.add().literals.push((value, symbol));
+        symbol
+    }
+
+    /// A number that differs among limbs that are alike: a constant of its own, so that these are computed alike.
+    fn twin(&self, value: Rational, twin: Twin) -> Expr<'g> {
+        let twin = limbs::slot(twin, 0);
+        if let Some((symbol, _)) = self.notes.read().twins.iter().find(|(_, known)| *known == twin) {
+            return *symbol;
+        }
+        let symbol = self.literal(value);
+        self.graph.declare_alike(symbol, twin.slot as u64);
+        let mut notes = self.notes.add();
+        notes.twins.push((symbol, twin));
         notes.literals.push((value, symbol));
         symbol
+    }
+
+    fn literal(&self, value: Rational) -> Expr<'g> {
+        // Of twins, some are negative.
+        let written = |notation| match decimal(value, notation) {
+            negative if value.is_negative() => format!("({negative})"),
+            other => other,
+        };
+        self.graph.symbol(written(Notation::Text), written(Notation::Latex), true)
     }
 
     /// x^p: products where p is a small whole number, a root beside them for a half.

@@ -9,6 +9,7 @@ mod columns;
 mod contacts;
 mod containers;
 mod eigenvalues;
+pub mod limbs;
 mod one_body;
 // Vectors pay where they have fused products; elsewhere programs are done number by number.
 #[cfg(all(feature = "wide", target_feature = "avx", target_feature = "fma"))]

@@ -1,6 +1,7 @@
 //! The expression graph: every distinct expression exists once, so equality is equality of indices and sharing is free.
 
 use std::cell::{Cell, Ref, RefCell};
+use std::collections::HashMap;
 use std::rc::Rc;
 
 use crate::algebra::expressions::budget::Budget;
@@ -47,6 +48,8 @@ struct Traits {
     constant: bool,
     /// The longest way down to a symbol or a number.
     depth: u32,
+    /// See `alike`.
+    rank: Id,
 }
 
 /// The arena of all expressions of one derivation.
@@ -60,6 +63,9 @@ pub struct Graph {
     /// Names of functions of the user's own.
     functions: RefCell<Vec<String>>,
     undefined: Cell<bool>,
+    /// Some symbols are alike.
+    pub(super) some_are_alike: Cell<bool>,
+    pub(super) ranks: RefCell<HashMap<u64, Id>>,
 }
 
 /// An expression: a node of a graph. Copies are free and equality is structural.
@@ -71,8 +77,9 @@ pub struct Expr<'g> {
 
 impl Graph {
     pub fn new() -> Self {
-        let (nodes, traits, index, symbols, functions, undefined) = Default::default();
-        let graph = Self { nodes, traits, budget: Budget::default(), index, symbols, functions, undefined };
+        let (nodes, traits, index, symbols, functions, undefined, some_are_alike, ranks) = Default::default();
+        let budget = Budget::default();
+        let graph = Self { nodes, traits, budget, index, symbols, functions, undefined, some_are_alike, ranks };
         // They are asked for so often that looking them up would take time: see `zero` and `one`.
         graph.intern(Node::Number(Rational::zero()));
         graph.intern(Node::Number(Rational::one()));
@@ -198,6 +205,7 @@ impl Graph {
         let gone = self.nodes.borrow_mut().split_off(nodes);
         self.index.borrow_mut().truncate(gone.iter().rev().map(Node::word));
         self.traits.borrow_mut().truncate(nodes);
+        self.ranks.borrow_mut().retain(|_, first| (*first as usize) < nodes);
         self.symbols.borrow_mut().truncate(symbols);
         self.functions.borrow_mut().truncate(functions);
         self.budget.restore(&budget);
@@ -211,18 +219,28 @@ impl Graph {
         let with = |all: Traits, id: Id| Traits {
             constant: all.constant && part(id).constant,
             depth: all.depth.max(part(id).depth),
+            ..all
         };
-        let leaf = Traits { constant: true, depth: 0 };
+        let rank = self.rank_of(node, known.len() as Id, |id| part(id).rank);
+        let leaf = Traits { constant: true, depth: 0, rank };
         let parts = match node {
             Node::Number(_) => return leaf,
-            Node::Symbol(symbol) => return Traits { constant: self.with_symbol(*symbol, |s| s.constant), depth: 0 },
+            Node::Symbol(symbol) => return Traits { constant: self.with_symbol(*symbol, |s| s.constant), ..leaf },
             Node::Sum(terms) => terms.iter().fold(leaf, |all, &(_, id)| with(all, id)),
             Node::Product(factors) => factors.iter().fold(leaf, |all, &(id, _)| with(all, id)),
             Node::Call(_, id) | Node::Group(id) | Node::Opaque(id) => part(*id),
             Node::Binary(_, a, b) => with(part(*a), *b),
             Node::Own(_, ids) => ids.iter().fold(leaf, |all, &id| with(all, id)),
         };
-        Traits { depth: parts.depth + 1, ..parts }
+        Traits { depth: parts.depth + 1, rank, ..parts }
+    }
+
+    pub(super) fn rank(&self, id: Id) -> Id {
+        self.traits.borrow()[id as usize].rank
+    }
+
+    pub(super) fn set_rank(&self, id: Id, rank: Id) {
+        self.traits.borrow_mut()[id as usize].rank = rank;
     }
 
     /// The longest way from a node down to a symbol or a number.

@@ -1,5 +1,6 @@
 //! Expressions as nodes of one graph: how they are made, rewritten and differentiated.
 
+pub mod alike;
 pub mod budget;
 pub mod differentiate;
 pub mod expression;

@@ -229,7 +229,7 @@ fn literal_number(literal: &Lit, context: &mut Context) -> Option<ExpressionKind
         return None;
     }
     match number::exact(digits) {
-        Some(value) => Some(ExpressionKind::Number { value }),
+        Some(value) => Some(ExpressionKind::Number { value, twin: None }),
         None => {
             context.error(
                 literal.span(),

@@ -187,7 +187,7 @@ pub fn shaped(nested: Nested, integral: Integral, n: usize) -> Result<Vec<Expres
 /// A square matrix with these on its diagonal.
 fn on_diagonal(nested: Nested, n: usize) -> Vec<Expression> {
     let Nested::List(rows, span) = nested else { return Vec::new() };
-    let zero = Expression { kind: ExpressionKind::Number { value: Rational::zero() }, span };
+    let zero = Expression { kind: ExpressionKind::Number { value: Rational::zero(), twin: None }, span };
     let mut entries = vec![zero; n * n];
     for (k, row) in rows.into_iter().enumerate() {
         if let Nested::Scalar(e) = row {

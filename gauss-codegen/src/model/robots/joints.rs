@@ -23,7 +23,7 @@ impl Writer {
 
     /// A number as it would be written: the shortest decimal fraction that is read as it.
     pub fn number(self, value: f64) -> Expression {
-        let number = self.expression(ExpressionKind::Number { value: shortest(value.abs()) });
+        let number = self.expression(ExpressionKind::Number { value: shortest(value.abs()), twin: None });
         if value < 0.0 { self.negative(number) } else { number }
     }
 

@@ -9,6 +9,7 @@ use syn::Ident;
 use syn::ext::IdentExt;
 
 use crate::algebra::Rational;
+use crate::terms::Twin;
 
 /// A value that the equations depend on, as the user wrote it.
 #[derive(Clone, Debug)]
@@ -24,8 +25,10 @@ pub struct Expression {
 pub enum ExpressionKind {
     /// A literal, exactly.
     Number {
-        /// Not negative.
+        /// Not negative but of a twin.
         value: Rational,
+        /// It differs among limbs that are alike: a constant of its own, whatever its value.
+        twin: Option<Twin>,
     },
     /// A coordinate, a speed, an input, a field that is a scalar or a vector, a point, or `t`.
     Name(Ident),
@@ -153,9 +156,9 @@ impl Expression {
     /// The components of a vector that is written in numbers.
     pub fn literal_components(&self) -> Option<[f64; 3]> {
         let number = |e: &Self| match &e.kind {
-            ExpressionKind::Number { value } => Some(value.to_f64()),
+            ExpressionKind::Number { value, .. } => Some(value.to_f64()),
             ExpressionKind::Negate(inner) => match &inner.kind {
-                ExpressionKind::Number { value } => Some(-value.to_f64()),
+                ExpressionKind::Number { value, .. } => Some(-value.to_f64()),
                 _ => None,
             },
             _ => None,
@@ -241,7 +244,7 @@ impl Expression {
     /// A literal with its sign, to the nearest double.
     pub fn literal(&self) -> Option<f64> {
         match &self.kind {
-            ExpressionKind::Number { value } => Some(value.to_f64()),
+            ExpressionKind::Number { value, .. } => Some(value.to_f64()),
             ExpressionKind::Negate(inner) => inner.literal().map(|value| -value),
             _ => None,
         }
@@ -269,7 +272,7 @@ impl Expression {
     /// A literal with its sign, exactly.
     pub fn number(&self) -> Option<Rational> {
         match &self.kind {
-            ExpressionKind::Number { value } => Some(*value),
+            ExpressionKind::Number { value, .. } => Some(*value),
             ExpressionKind::Negate(inner) => inner.number().map(|value| -value),
             _ => None,
         }
@@ -277,7 +280,7 @@ impl Expression {
 
     pub fn is_zero(&self) -> bool {
         match &self.kind {
-            ExpressionKind::Number { value } => value.is_zero(),
+            ExpressionKind::Number { value, .. } => value.is_zero(),
             ExpressionKind::Negate(inner) => inner.is_zero(),
             _ => false,
         }

@@ -5,5 +5,6 @@ pub mod contacts;
 pub mod elements;
 pub mod expression;
 pub mod forces;
+pub mod limbs;
 pub mod model;
 pub mod modes;

@@ -8,6 +8,7 @@ use super::clauses::{
 use super::contacts::ContactClause;
 use super::expression::Expression;
 use super::forces::ForceClause;
+use super::limbs::Limbs;
 use super::modes::ModesClause;
 use crate::terms::{InChart, Item};
 use syn::Ident;
@@ -61,6 +62,8 @@ pub struct Model {
     pub modes: Vec<ModesClause>,
     /// Bodies whose principal moments need not obey the triangle inequality; `None`: all of them.
     pub formal: Vec<Option<Ident>>,
+    /// Limbs that are alike.
+    pub limbs: Limbs,
     /// What names of `define` stand for, each written out, in order: for printed equations alone.
     pub definitions: Vec<(Ident, Expression)>,
 }

@@ -10,11 +10,13 @@
 //! | `graph` | code as a table of small numbers, which is quick to search |
 //! | `partition` | code of which some is packed: how a pack is added, in which order all is then done |
 //! | `cost` | what that costs |
+//! | `limbs` | long code: packs of what is alike in limbs that are alike |
 //! | `search` | which packs are made |
 
 mod cost;
 mod graph;
 mod kinds;
+mod limbs;
 mod partition;
 mod search;
 
@@ -24,6 +26,7 @@ use super::code::Code;
 use super::instruction::Operand;
 use graph::Graph;
 pub(crate) use kinds::{LANES, Operation, Place, Step};
+pub(crate) use limbs::Leaf;
 
 /// Instructions of code that is packed. A shorter one is all beginning and end; longer ones, chains of many joints,
 /// have few sums in them that are alike term by term.
@@ -111,4 +114,4 @@ impl<S: Copy + PartialEq> Packed<S> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

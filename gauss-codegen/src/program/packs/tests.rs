@@ -78,3 +78,66 @@ fn angles_stay_together() {
     let packed = code.packed(place, &[(0, 2)]).expect("packs");
     assert_eq!(packed.steps[0], Step::Angles(0, 2));
 }
+
+/// Sums Σ kᵢ sin qᵢ of two limbs with constants of their own, and what both give to a base.
+pub(crate) fn limbs(terms: usize, swapped: bool) -> Code {
+    let mut code = Code::nothing();
+    let mut sums = Vec::new();
+    for limb in 0..2 {
+        code.instructions.push(Instruction::SineCosine(input(1, limb)));
+        let sine = Operand::Sine(code.instructions.len() - 1);
+        code.instructions.push(Instruction::Multiply(sine, input(0, limb * terms)));
+        for k in 1..terms {
+            let last = Operand::Value(code.instructions.len() - 1);
+            let constant = input(0, limb * terms + k);
+            let factors = if swapped && limb == 1 { (last, constant) } else { (constant, last) };
+            code.instructions.push(Instruction::MultiplyAdd(factors.0, factors.1, last));
+        }
+        sums.push(Operand::Value(code.instructions.len() - 1));
+    }
+    code.instructions.push(Instruction::Add(sums[0], sums[1]));
+    code.outputs = vec![Operand::Value(code.instructions.len() - 1), sums[0], sums[1]];
+    code
+}
+
+/// What an input is to two limbs with so many constants.
+pub(crate) fn of_limb(terms: usize) -> impl Fn(Input) -> Option<Leaf> {
+    move |input| {
+        let Input::Component { argument, component } = input else { return None };
+        let (class, limb) = if argument == 0 { (component % terms, component / terms) } else { (terms, component) };
+        Some(Leaf { class: class as u64, limb, lane: limb, lanes: 2 })
+    }
+}
+
+#[test]
+fn what_is_alike_in_two_limbs_is_done_at_once() {
+    for swapped in [false, true] {
+        let code = limbs(40, swapped);
+        let packed = code.with_limbs_together(of_limb(40), &[]).expect("packs");
+        assert_eq!(packed.packs.len(), 40);
+        assert!(packed.computes(&code));
+        // Two angles and the sum of both are left.
+        assert_eq!(packed.steps.len(), 43);
+        for pack in &packed.packs {
+            assert_eq!(pack.lanes.len(), 2);
+            // Constants stand beside constants, whichever factor they are.
+            let of_lane = |operand: &Operand| matches!(operand, Operand::Input(_));
+            assert!(pack.operands.iter().all(|vector| of_lane(&vector[0]) == of_lane(&vector[1])), "{pack:?}");
+        }
+    }
+}
+
+#[test]
+fn limbs_that_differ_are_left_as_they_are() {
+    let terms = 40;
+    // The constants of the second limb come in another order.
+    let other = |input| match input {
+        Input::Component { argument: 0, component } if component >= terms => {
+            let leaf = of_limb(terms)(input)?;
+            Some(Leaf { class: (terms - 1) as u64 - leaf.class, ..leaf })
+        }
+        _ => of_limb(terms)(input),
+    };
+    assert_eq!(limbs(terms, false).with_limbs_together(other, &[]), None);
+    assert_eq!(limbs(terms, false).with_limbs_together(|_| None, &[]), None);
+}

@@ -9,6 +9,7 @@ use quote::{ToTokens, quote};
 use crate::algebra::{BinaryFunction, Function, OwnFunction, Rational};
 use crate::program::{Code, Instruction, Operand};
 
+pub(crate) mod limbs;
 pub(crate) mod packed;
 mod plain;
 
@@ -177,6 +178,19 @@ fn in_this_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>, kept: Kept)
         written.push(Some(statement(k, &code.instructions[k], read[k], dialect)));
     }
     (in_functions(code, kept, written, dialect), code.outputs.iter().map(|output| operand(output, dialect)).collect())
+}
+
+/// Sines and cosines that are computed together: of each row the first instruction, and how many there are.
+pub(crate) fn rows_of_angles<S: Copy>(code: &Code<S>) -> Vec<(usize, usize)> {
+    let (mut rows, mut k) = (Vec::new(), 0);
+    while k < code.instructions.len() {
+        let length = row_of_angles(code, k).len();
+        if length > 1 {
+            rows.push((k, length));
+        }
+        k += length.max(1);
+    }
+    rows
 }
 
 /// The angles of the sines and cosines in a row from instruction `first` on, none of which waits for another: at most

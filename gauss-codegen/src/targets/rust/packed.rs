@@ -3,7 +3,9 @@
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{Dialect, Kept, angles_together, in_order, operand, pairs_read, row_of_angles, statement, value};
+use super::{
+    Dialect, Kept, angles_together, in_order, operand, pairs_read, row_of_angles, rows_of_angles, statement, value,
+};
 use crate::program::{Code, Instruction, LANES, Operand, Operation, Pack, Packed, Place, Step};
 
 /// How vectors are written.
@@ -33,15 +35,7 @@ pub(crate) fn packed<S: Copy + PartialEq>(
     place: impl Fn(S) -> Place,
 ) -> Option<(Code<S>, Packed<S>)> {
     let code = in_order(code, dialect);
-    let (mut rows, mut k) = (Vec::new(), 0);
-    while k < code.instructions.len() {
-        let length = row_of_angles(&code, k).len();
-        if length > 1 {
-            rows.push((k, length));
-        }
-        k += length.max(1);
-    }
-    let packed = code.packed(place, &rows)?;
+    let packed = code.packed(place, &rows_of_angles(&code))?;
     Some((code, packed))
 }
 
@@ -74,7 +68,7 @@ pub(crate) fn statements<S: Copy + PartialEq>(
     (packed.steps.iter().map(step).collect(), outputs)
 }
 
-fn function(operation: Operation) -> Ident {
+pub(super) fn function(operation: Operation) -> Ident {
     let name = match operation {
         Operation::Add => "sum",
         Operation::Subtract => "difference",

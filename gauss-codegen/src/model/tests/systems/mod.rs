@@ -56,7 +56,7 @@ pub(super) fn show(expression: &Expression) -> String {
             let arguments: Vec<String> = arguments.iter().map(show).collect();
             format!("({name} {})", arguments.join(" "))
         }
-        ExpressionKind::Number { value } => format!("{value:?}"),
+        ExpressionKind::Number { value, .. } => format!("{value:?}"),
         ExpressionKind::Name(name) | ExpressionKind::Input(name) => name.to_string(),
         ExpressionKind::Component(base, index) => format!("{}[{index}]", show(base)),
         ExpressionKind::Property(base, property) => format!("{}.{property:?}", show(base)),
