@@ -272,6 +272,46 @@ fn several_rates_and_a_gust_add_up() {
     assert_eq!((seen[0], seen[1], seen[6]), ((0.0, 'g'), (0.0, 'l'), (0.5, 'g')));
 }
 
+/// 30 · 0.005 is not 3 · 0.05: whoever was added first samples first all the same, and no step of a rounding lies between.
+#[test]
+fn instants_that_coincide_on_paper_are_one() -> Result<(), Box<dyn std::error::Error>> {
+    let kernel = Cart { m: 2.0 }.kernel()?;
+    for start in [0.0, 0.1, -7.3, 86_400.0] {
+        for slow_first in [true, false] {
+            let (calls, goal, seen) = (RefCell::new(String::new()), Cell::new(0), Cell::new(Vec::new()));
+            let slow = |_t: f64, _q: &One, _z: &One| {
+                calls.borrow_mut().push('s');
+                goal.set(goal.get() + 1);
+                One::zero()
+            };
+            let fast = |t: f64, _q: &One, _z: &One| {
+                calls.borrow_mut().push('f');
+                let mut times = seen.take();
+                times.push((t, goal.get()));
+                seen.set(times);
+                One::zero()
+            };
+            let (q, z, span) = (One::zero(), One::zero(), start..start + 3.0);
+            let run = Simulation::new(&kernel);
+            let end = if slow_first {
+                run.sampled(0.05, slow).sampled(0.005, fast).adaptive(1e-6, 1e-6).run_to_end(q, z, span)?
+            } else {
+                run.sampled(0.005, fast).sampled(0.05, slow).adaptive(1e-6, 1e-6).run_to_end(q, z, span)?
+            };
+            assert_eq!(end.t, start + 3.0);
+            let period = if slow_first { "sffffffffff" } else { "fsfffffffff" };
+            assert_eq!(*calls.borrow(), period.repeat(60), "from {start}");
+            let seen = seen.take();
+            assert!(seen.windows(2).all(|pair| pair[1].0 - pair[0].0 > 0.0049), "from {start}");
+            for (n, (_, goal)) in seen.iter().enumerate() {
+                let before = usize::from(!slow_first && n % 10 == 0);
+                assert_eq!(*goal, n / 10 + 1 - before, "sample {n} from {start}");
+            }
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn events_and_samples_in_one_run() {
     let kernel = Cart { m: 1.0 }.kernel().expect("a cart");

@@ -1,15 +1,18 @@
 //! Rows of arrays as lanes: number `i` of eight rows becomes one vector.
 //!
-//! Many rows at a time go to a place of their own, and kernels read vectors there. Where a kernel gathers its vectors from
-//! rows itself, compilers load single numbers, and a kernel of a robot waits for them half of the time. Of rows of one
-//! or two numbers they make shuffles: these are read as they are.
+//! Many rows at a time go to a place of their own, and kernels read vectors there. Where a kernel gathers its vectors
+//! from rows itself, compilers load single numbers, and a kernel of a robot waits for them half of the time. Of rows of
+//! one or two numbers they make shuffles: these are read as they are.
 
 #![allow(unsafe_code)]
 
 use gauss_runtime::simd::Packed;
 
 use crate::memory::Source;
-use crate::scene::Pack;
+
+/// The lanes in which batches are computed, where a struct is generic in its scalar: a vector that lies in one line of
+/// the cache, as `Lanes<f64, 8>` need not do.
+pub type Pack = wide::f64x8;
 
 /// How many lanes there are.
 pub const WIDTH: usize = <Pack as Packed>::WIDTH;
@@ -17,8 +20,8 @@ pub const WIDTH: usize = <Pack as Packed>::WIDTH;
 /// Up to so many numbers of a row kernels make lanes of themselves.
 pub const SHORT: usize = 2;
 
-/// Numbers as kernels read them. Of rows that are longer than [`SHORT`] number `i` of pack `p` is vector `p · size + i`;
-/// others are rows, one behind the other.
+/// Numbers as kernels read them. Of rows that are longer than [`SHORT`] number `i` of pack `p` is vector
+/// `p · size + i`; others are rows, one behind the other.
 pub struct Lanes {
     vectors: Vec<Pack>,
     size: usize,
@@ -39,8 +42,8 @@ impl Lanes {
 
     /// Takes over the first rows, as many as fill these packs.
     ///
-    /// Up to eight columns are gone through at once, whose number is then a constant, as is the way from row to row where
-    /// they are all.
+    /// Up to eight columns are gone through at once, whose number is then a constant, as is the way from row to row
+    /// where they are all.
     ///
     /// # Safety
     /// The rows exist, and there is a place for them.

@@ -69,13 +69,14 @@ pub use description::{Description, Field, Part, Shape};
 pub use gauss_runtime::error::{ParameterError, ParameterWarnings};
 pub use gauss_runtime::real::Real;
 #[doc(hidden)]
+pub use lanes::Pack;
 pub use make::{add, begin, finish};
 #[doc(hidden)]
 pub use methods::Table;
 pub use parameter::{FromNumbers, Numbers, Parameter};
 #[doc(hidden)]
 pub use pyo3;
-pub use scene::{ConfigurationOf, Pack, ScalarOf, Scene, SpeedsOf};
+pub use scene::{ConfigurationOf, ScalarOf, Scene, SpeedsOf};
 #[doc(hidden)]
 pub use steps::Methods;
 

@@ -8,10 +8,6 @@ use crate::description::Description;
 use crate::methods::{System, Table};
 use crate::steps::Methods;
 
-/// The lanes in which batches are computed, where a struct is generic in its scalar: a vector that lies in one line of
-/// the cache, as `Lanes<f64, 8>` need not do.
-pub type Pack = wide::f64x8;
-
 /// The scalar of a system.
 pub type ScalarOf<S> = <S as GaussSystem>::Scalar;
 

@@ -3,6 +3,13 @@
 //! The sum is taken with zeros in its own place, as in the headers of networks, so that it may stand among what it
 //! covers.
 
+use std::fs;
+use std::path::Path;
+
+use bytes::Bytes;
+
+use crate::error::StudyError;
+
 /// Under which word a file holds its checksum.
 pub const KEY: &str = "gauss_checksum";
 
@@ -19,8 +26,18 @@ pub fn close(bytes: &mut [u8]) {
     bytes[place..place + DIGITS].copy_from_slice(digits.as_bytes());
 }
 
+/// The bytes of a file, if they are those that were written.
+pub fn read(file: &Path) -> Result<Bytes, StudyError> {
+    let bytes = fs::read(file).map_err(StudyError::io(file))?;
+    if holds(&bytes) {
+        return Ok(Bytes::from(bytes));
+    }
+    let reason = "its checksum is of other bytes: `run` makes it anew".to_owned();
+    Err(StudyError::Damaged { file: file.to_owned(), reason })
+}
+
 /// Whether a file is as it was written.
-pub fn holds(bytes: &[u8]) -> bool {
+fn holds(bytes: &[u8]) -> bool {
     let Some(place) = place(bytes) else { return false };
     let (before, rest) = bytes.split_at(place);
     let (digits, behind) = rest.split_at(DIGITS);

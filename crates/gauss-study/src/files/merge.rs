@@ -10,6 +10,7 @@ use parquet::errors::ParquetError;
 use parquet::file::metadata::ParquetMetaDataReader;
 use parquet::file::writer::SerializedFileWriter;
 
+use super::checksum;
 use super::schema::{properties, schema};
 use crate::declaration::Declaration;
 
@@ -18,7 +19,7 @@ pub fn merge(declaration: &Declaration, parts: impl Iterator<Item = PathBuf>, ou
     let named = |file: &PathBuf, error: ParquetError| io::Error::other(format!("{}: {error}", file.display()));
     let mut writer = SerializedFileWriter::new(out, schema(declaration)?, properties(declaration))?;
     for file in parts {
-        append(&mut writer, &super::sound(&file).map_err(io::Error::other)?).map_err(|error| named(&file, error))?;
+        append(&mut writer, &checksum::read(&file).map_err(io::Error::other)?).map_err(|error| named(&file, error))?;
     }
     writer.close()?;
     Ok(())

@@ -11,8 +11,6 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use bytes::Bytes;
-
 pub use part::PartState;
 pub use results::Results;
 
@@ -87,7 +85,7 @@ impl<'a> Folder<'a> {
     pub fn checked(&self, part: u64) -> Result<PartState, StudyError> {
         let state = self.state(part)?;
         match state {
-            PartState::Whole { .. } => match sound(&self.part(part)) {
+            PartState::Whole { .. } => match checksum::read(&self.part(part)) {
                 Ok(_) => Ok(state),
                 Err(StudyError::Damaged { reason, .. }) => Ok(PartState::Damaged(reason)),
                 Err(error) => Err(error),
@@ -154,14 +152,4 @@ impl<'a> Folder<'a> {
         });
         parts.collect()
     }
-}
-
-/// The bytes of a part, if they are those that were written.
-fn sound(file: &Path) -> Result<Bytes, StudyError> {
-    let bytes = fs::read(file).map_err(StudyError::io(file))?;
-    if checksum::holds(&bytes) {
-        return Ok(Bytes::from(bytes));
-    }
-    let reason = "its checksum is of other bytes: `run` makes it anew".to_owned();
-    Err(StudyError::Damaged { file: file.to_owned(), reason })
 }

@@ -7,6 +7,7 @@ use parquet::data_type::{BoolType, ByteArrayType, DataType, DoubleType, Int64Typ
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
+use super::checksum;
 use crate::error::StudyError;
 
 /// The results that there are of a study, in the order of their runs: [`Study::results`](crate::Study::results).
@@ -78,7 +79,7 @@ impl Results {
         let mut all = Vec::new();
         for file in &self.files {
             let damaged = |error: ParquetError| StudyError::Damaged { file: file.clone(), reason: error.to_string() };
-            let reader = SerializedFileReader::new(super::sound(file)?).map_err(damaged)?;
+            let reader = SerializedFileReader::new(checksum::read(file)?).map_err(damaged)?;
             let schema = reader.metadata().file_metadata().schema_descr();
             let none = || StudyError::NoColumn(column.to_owned());
             let place = schema.columns().iter().position(|field| field.name() == column).ok_or_else(none)?;

@@ -65,6 +65,11 @@ impl<S: GaussSystem<Input: VectorSpace<S::Scalar>>, C> Task<S, C> {
         S::Scalar::from_f64(count as f64).fma(S::Scalar::from_f64(self.period), self.start)
     }
 
+    /// Whether it is this instant: instants of several periods that coincide on paper are apart by roundings.
+    fn is_now(&self, instant: S::Scalar, t: f64) -> bool {
+        instant.lane(0) - t <= 8.0 * S::Scalar::EPSILON * t.abs().max(self.start.lane(0).abs())
+    }
+
     /// When the input of a sample acts; nothing where that is at once. What is a whole number of periods but for a few
     /// roundings ends at an instant.
     fn acts(&self, count: u64) -> Option<S::Scalar> {
@@ -120,12 +125,12 @@ where
     fn tick(&mut self, now: &Sample<S>) -> Result<(), SamplingMistake> {
         let t = now.t.lane(0);
         while let Some(&(at, input)) = self.pending.front()
-            && at.lane(0) <= t
+            && self.is_now(at, t)
         {
             self.now = input;
             self.pending.pop_front();
         }
-        if self.time(self.count).lane(0) <= t {
+        if self.is_now(self.time(self.count), t) {
             let input = self.controller.sample(now.t, &now.q, &now.z);
             if !input.is_finite() {
                 return Err(SamplingMistake::Input);
