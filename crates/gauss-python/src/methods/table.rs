@@ -299,8 +299,8 @@ impl<S: System> Table<S> {
     ///
     /// # Safety
     /// All arguments that the [`Spec`](super::Spec) of the method names have these rows, as
-    /// [`Lanes`](crate::lanes::Lanes) has them, each with as many vectors as the sizes of the system say, one row behind
-    /// the other; one time may be there for all. Results have a row of numbers for each lane of them.
+    /// [`Lanes`](crate::lanes::Lanes) has them, each with as many vectors as the sizes of the system say, one row
+    /// behind the other; one time may be there for all. Results have a row of numbers for each lane of them.
     #[allow(unsafe_code)]
     pub unsafe fn run(&self, system: &S, id: Id, work: &Work, rows: Range<usize>) {
         if let Some(run) = &self.loops[id as usize] {

@@ -24,8 +24,9 @@ where
     ///   [`input`](crate::integrate::Trajectory::input) tells what was held.
     /// - Several controllers, each with a period of its own, add up what they hold; a loop within another one is given
     ///   its goal by a `Cell` that both closures refer to. Those that sample at the same time, but for roundings of it,
-    ///   do so in the order in which they were added. A function of time and state that was given *before*, by [`input`](Self::input), is
-    ///   added as well: a gust, or what is not sampled. One that is given after that is refused when the run begins.
+    ///   do so in the order in which they were added. A function of time and state that was given *before*, by
+    ///   [`input`](Self::input), is added as well: a gust, or what is not sampled. One that is given after that is
+    ///   refused when the run begins.
     /// - [`delayed`](Simulation::delayed), [`delayed_samples`](Simulation::delayed_samples) and
     ///   [`initially`](Simulation::initially) say when the input acts, and what does before.
     /// - The end of a run is no instant: a run that goes on from there begins with it.
