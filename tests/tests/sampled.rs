@@ -272,7 +272,7 @@ fn several_rates_and_a_gust_add_up() {
     assert_eq!((seen[0], seen[1], seen[6]), ((0.0, 'g'), (0.0, 'l'), (0.5, 'g')));
 }
 
-/// 30 · 0.005 is not 3 · 0.05: whoever was added first samples first all the same, and no step of a rounding is between.
+/// 30 · 0.005 is not 3 · 0.05: whoever was added first samples first, and no step of a rounding is between.
 #[test]
 fn instants_that_coincide_on_paper_are_one() -> Result<(), Box<dyn std::error::Error>> {
     let kernel = Cart { m: 2.0 }.kernel()?;
