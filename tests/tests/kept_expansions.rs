@@ -17,23 +17,39 @@ impl Package {
         if folder.exists() {
             fs::remove_dir_all(&folder).expect("what an earlier run left");
         }
-        fs::create_dir_all(&folder).expect("a folder");
-        Self { folder }
+        fs::create_dir_all(folder.join("libraries")).expect("a folder");
+        let package = Self { folder };
+        package.take_libraries();
+        package
+    }
+
+    /// Libraries that were there before this test. What is compiled beside tests may be half of a file, and another
+    /// macro among them is one that the compiler may have loaded.
+    fn take_libraries(&self) {
+        let this = std::env::current_exe().expect("this test");
+        let before = fs::metadata(&this).and_then(|about| about.modified()).expect("a time");
+        for entry in fs::read_dir(this.parent().expect("its folder")).expect("libraries") {
+            let path = entry.expect("a library").path();
+            let kind = path.extension().and_then(|kind| kind.to_str()).unwrap_or_default();
+            let is_library = ["rlib", "rmeta", std::env::consts::DLL_EXTENSION].contains(&kind);
+            // What is gone meanwhile was not one of them.
+            if is_library && fs::metadata(&path).and_then(|about| about.modified()).is_ok_and(|time| time <= before) {
+                let own = self.folder.join("libraries").join(path.file_name().expect("a name"));
+                fs::hard_link(&path, own).expect("a library");
+            }
+        }
     }
 
     /// Checks the package as Cargo would, against the libraries of this test; what the compiler says.
     fn check(&self, source: &str, keeps: bool) -> String {
         fs::write(self.folder.join("lib.rs"), source).expect("a source");
-        let libraries = std::env::current_exe().expect("this test").parent().expect("its folder").to_owned();
+        let libraries = self.folder.join("libraries");
         let named = |path: &Path| path.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
         let time = |path: &Path| fs::metadata(path).and_then(|about| about.modified()).expect("a time");
-        // The latest before this test: what is compiled beside tests may be half of a file.
-        let this = time(&std::env::current_exe().expect("this test"));
         let runtime = fs::read_dir(&libraries)
             .expect("libraries")
             .map(|entry| entry.expect("a library").path())
             .filter(|path| named(path).starts_with("libgauss_runtime-") && named(path).ends_with(".rlib"))
-            .filter(|path| time(path) <= this)
             .max_by_key(|path| time(path))
             .expect("the runtime");
         let mut rustc = Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()));
