@@ -166,6 +166,9 @@ def measure(of):
     for name in made:
         print(f"{name:10} {1e9 * min(singles[name]):8.0f} ns a call   {1e9 * min(batches[name]):8.2f} ns a state of a batch")
     print(f"{'in Rust':10} {'':8}                {1e9 * min(rust):8.2f} ns a state of a batch (gauss-batch, one thread)")
+    out = np.empty((of.count, of.joints))
+    inverse = lambda: of.kernel.inverse_dynamics(of.q, of.z, of.u, of.u, out=out)
+    print(f"inverse dynamics by gauss       {1e9 * least(inverse, of.count, ROUNDS * IN_A_ROW):8.2f} ns a state of a batch")
 
 
 if __name__ == "__main__":
