@@ -249,7 +249,7 @@ fn places<S>(packs: &[Pack<S>], count: usize) -> Vec<Option<(usize, usize)>> {
 }
 
 /// The pack of which these are the lanes, in their order.
-pub(super) fn in_place<S: Copy>(vector: &[Operand<S>], of: &[Option<(usize, usize)>]) -> Option<usize> {
+pub(crate) fn in_place<S: Copy>(vector: &[Operand<S>], of: &[Option<(usize, usize)>]) -> Option<usize> {
     let place = |operand: &Operand<S>| if let Operand::Value(k) = *operand { of[k] } else { None };
     let (pack, _) = place(&vector[0])?;
     (0..vector.len()).all(|lane| place(&vector[lane]) == Some((pack, lane))).then_some(pack)

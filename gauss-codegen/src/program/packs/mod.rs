@@ -26,7 +26,7 @@ use super::code::Code;
 use super::instruction::Operand;
 use graph::Graph;
 pub(crate) use kinds::{LANES, Operation, Place, Step};
-pub(crate) use limbs::Leaf;
+pub(crate) use limbs::{Leaf, in_place};
 
 /// Instructions of code that is packed. A shorter one is all beginning and end; longer ones, chains of many joints,
 /// have few sums in them that are alike term by term.

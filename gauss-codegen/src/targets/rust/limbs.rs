@@ -5,12 +5,13 @@ use std::collections::HashMap;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
+use super::packed::function;
 use super::{
     BLOCK, Dialect, Kept, Line, Statement, angles_together, cosine, in_blocks, operand, pairs_read, row_of_angles,
     sine, statement, value,
 };
 use crate::algebra::{Key, joined};
-use crate::program::{Code, Instruction, Operand, Operation, Pack, Packed, Step};
+use crate::program::{Code, Instruction, Operand, Pack, Packed, Step, in_place};
 
 /// What a name stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -181,17 +182,6 @@ impl<S: Copy + Key, D: Dialect<S>> Writer<'_, S, D> {
         }
         names.into_iter().zip(self.statements.into_iter().map(Some)).collect()
     }
-}
-
-fn function(operation: Operation) -> Ident {
-    super::packed::function(operation)
-}
-
-/// The pack of which these are the lanes, in their order.
-fn in_place<S: Copy>(operands: &[Operand<S>], of: &[Option<(usize, usize)>]) -> Option<usize> {
-    let place = |operand: &Operand<S>| if let Operand::Value(k) = *operand { of[k] } else { None };
-    let (pack, _) = place(&operands[0])?;
-    (0..operands.len()).all(|lane| place(&operands[lane]) == Some((pack, lane))).then_some(pack)
 }
 
 /// Whether lanes of each pack are read one by one.
