@@ -10,8 +10,8 @@ example:
 
 # Kernels in the integrators of other crates.
 adapters:
-    cargo test -p gauss-tests --features adapters --test adapters
-    cargo run --release --features other-integrators --example other_integrators
+    cargo test -p gauss-tests --test adapters
+    cargo run --release -p gauss-comparisons --example other_integrators
 
 # Formatting and lints, as CI has them.
 lint:

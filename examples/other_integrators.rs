@@ -1,5 +1,5 @@
 //! A kernel in the integrators of other crates:
-//! `cargo run --release --features other-integrators --example other_integrators`.
+//! `cargo run --release -p gauss-comparisons --example other_integrators`.
 //!
 //! A heavy top for two seconds by `ode_solvers` and `differential-equations` beside our own run, and a door with a
 //! strong damper, which is stiff, by the implicit methods of `diffsol`. The tolerance of a step is the same everywhere.
