@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 use roxmltree::Node;
 
 use super::File;
-use super::rotations::of_quaternion;
 use crate::description::Inertial;
 use crate::hull::hull;
 use crate::mesh::{Mesh, Rule};
 use crate::names::unknown;
-use crate::rotation::{Rotation, Triple};
+use crate::rotation::{Rotation, Triple, of_quaternion};
 use crate::xml::shown;
 
 const MESH: &[&str] = &["mesh"];
