@@ -9,6 +9,7 @@ mod mesh;
 mod mimic;
 mod mjcf;
 mod names;
+mod polygon;
 mod reference;
 pub mod rotation;
 mod structure;

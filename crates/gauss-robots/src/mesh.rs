@@ -7,6 +7,7 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use super::description::Inertial;
+use super::polygon;
 use super::rotation::Triple;
 use super::text;
 
@@ -18,6 +19,8 @@ const MOST: u64 = 64 << 20;
 pub struct Mesh {
     pub vertices: Vec<Triple>,
     pub faces: Vec<[usize; 3]>,
+    /// How much of the volume depends on how faces with more than four corners, in no plane, were cut.
+    pub unsure: f64,
 }
 
 /// What has mass, and how it is counted, as `inertia` of MuJoCo's `<mesh>` has it
@@ -89,21 +92,6 @@ impl Mesh {
         let trace: f64 = (0..3).map(|i| squares[i][i]).sum();
         let entry = |i: usize, j: usize| if i == j { trace - squares[i][i] } else { -squares[i][j] };
         Ok(Inertial { mass, center, inertia: std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))) })
-    }
-
-    /// No point is in front of a face, by more than what rounding to single precision moves it; so that the surface is
-    /// its own convex hull. Not looked at where that takes long.
-    pub fn is_convex(&self) -> bool {
-        const MOST_TESTS: usize = 20_000_000;
-        const SLACK: f64 = 1e-6;
-        let size = self.vertices.iter().flatten().fold(0.0, |size: f64, c| size.max(c.abs()));
-        let behind = |corners: [Triple; 3]| {
-            let normal = normal(&corners);
-            let height = |point: &Triple| (0..3).map(|i| normal[i] * (point[i] - corners[0][i])).sum::<f64>();
-            self.vertices.iter().all(|point| height(point) <= SLACK * size * norm(&normal))
-        };
-        let few = self.vertices.len().checked_mul(self.faces.len()).is_some_and(|tests| tests <= MOST_TESTS);
-        few && !self.faces.is_empty() && self.refuse_open().is_ok() && self.triangles([0.0; 3]).all(behind)
     }
 
     /// Corners from a point.
@@ -209,11 +197,11 @@ fn ascii_stl(text: &str) -> Result<Mesh, String> {
 
 fn of_corners(vertices: Vec<Triple>) -> Mesh {
     let faces = (0..vertices.len() / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
-    Mesh { vertices, faces }
+    Mesh { vertices, faces, unsure: 0.0 }
 }
 
-/// Points and faces of <https://www.loc.gov/preservation/digital/formats/fdd/fdd000507.shtml>; faces with more corners
-/// are fans.
+/// Points and faces of <https://www.loc.gov/preservation/digital/formats/fdd/fdd000507.shtml>; faces with more than
+/// three corners are cut.
 fn obj(bytes: &[u8]) -> Result<Mesh, String> {
     let text = text_of(bytes).ok_or("it is no text in UTF-8")?;
     let mut mesh = Mesh::default();
@@ -228,7 +216,9 @@ fn obj(bytes: &[u8]) -> Result<Mesh, String> {
                     rest.split_whitespace().map(|corner| index_of(corner, count)).collect();
                 let corners = corners.filter(|corners| corners.len() >= 3);
                 let corners = corners.ok_or_else(|| wrong("no face of points before it"))?;
-                mesh.faces.extend(corners[1..].windows(2).map(|pair| [corners[0], pair[0], pair[1]]));
+                let cut = polygon::cut(&corners, &mesh.vertices);
+                mesh.faces.extend(cut.ok_or_else(|| wrong("a face that crosses itself; write triangles"))?);
+                mesh.unsure += if corners.len() > 4 { polygon::bent(&corners, &mesh.vertices) } else { 0.0 };
             }
             _ => {}
         }
@@ -302,9 +292,8 @@ mod tests {
         };
         let shell = mesh.inertial(Rule::Shell).expect("an area");
         near(&shell, area, center, of_squares(area, [mean(0), mean(1), mean(2)]));
-        assert!(mesh.is_convex());
         let turned = obj(box_file(from, sides, true).as_bytes()).expect("a box");
-        assert!(turned.inertial(Rule::Exact).is_err() && !turned.is_convex());
+        assert!(turned.inertial(Rule::Exact).is_err());
         assert_eq!(turned.inertial(Rule::Legacy).map(|own| own.mass), mesh.inertial(Rule::Legacy).map(|own| own.mass));
     }
 

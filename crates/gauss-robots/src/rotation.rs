@@ -84,6 +84,21 @@ pub fn about_direction(n: &Triple, angle: f64) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| (1.0 - cosine) * n[i] * n[j] + across(i, j)))
 }
 
+/// The turn of a quaternion (w, x, y, z) of any length; `None` of one that is zero.
+pub fn of_quaternion(q: [f64; 4]) -> Option<Matrix> {
+    let square: f64 = q.iter().map(|c| c * c).sum();
+    if square == 0.0 || !square.is_finite() {
+        return None;
+    }
+    let [w, x, y, z] = q;
+    let entry = |e: f64| e / square;
+    Some([
+        [entry(w * w + x * x - y * y - z * z), entry(2.0 * (x * y - w * z)), entry(2.0 * (x * z + w * y))],
+        [entry(2.0 * (x * y + w * z)), entry(w * w - x * x + y * y - z * z), entry(2.0 * (y * z - w * x))],
+        [entry(2.0 * (x * z - w * y)), entry(2.0 * (y * z + w * x)), entry(w * w - x * x - y * y + z * z)],
+    ])
+}
+
 /// A B.
 pub fn multiply(a: &Matrix, b: &Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))

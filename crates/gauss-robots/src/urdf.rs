@@ -5,13 +5,15 @@ use roxmltree::Node;
 use super::collision::{Collision, Shape};
 use super::description::{Description, Drive, Fault, Inertial, Joint, JointKind, Link, Mimic, Note};
 use super::names::unknown;
-use super::rotation::{Rotation, Triple, direction, turned_tensor};
+use super::rotation::{Rotation, Triple, direction, of_quaternion, turned_tensor};
 use super::text::Text;
 use super::urdf_reference::ELEMENTS;
 use super::xml::{Reading, parse, shown};
 
 /// Turns of a joint without an axis, by the specification.
 const AXIS: Triple = [1.0, 0.0, 0.0];
+
+const QUATERNION: &str = "quat_xyzw";
 
 /// # Errors
 /// Everything that is wrong in the elements of the file, each by itself.
@@ -24,6 +26,7 @@ pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
         reading.fault(robot, "a URDF file is a <robot>");
     }
     refuse_macros(robot, &mut reading);
+    refuse_version(robot, &mut reading);
     for node in reading.children(robot, "link") {
         let own = link(node, &mut reading);
         if let Some(link) = &own {
@@ -58,6 +61,20 @@ fn refuse_macros<'a>(robot: Node<'a, 'a>, reading: &mut Reading<'a>) {
     if let Some(first) = robot.descendants().find(is_macro) {
         reading.fault(first, "macros are not read; let `xacro` write the file without them");
     }
+}
+
+/// Versions that urdfdom 5.1 reads: 1.0, also without an attribute, and 1.1, which has quaternions and capsules.
+fn refuse_version<'a>(robot: Node<'a, 'a>, reading: &mut Reading<'a>) {
+    let version = reading.text(robot, "version").unwrap_or("1.0");
+    if !matches!(version, "1" | "1.0" | "1.1") {
+        let text = format!("`version` is 1.0 or 1.1, found `{version}`; what others mean is not read");
+        reading.fault(robot, text);
+    }
+}
+
+/// Whether the file has what version 1.1 added.
+fn has_quaternions(node: Node<'_, '_>) -> bool {
+    node.document().root_element().attribute("version").map(str::trim) == Some("1.1")
 }
 
 fn link<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Option<Link> {
@@ -138,17 +155,48 @@ fn edges<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> Option<Triple> {
     Some(edges)
 }
 
-/// `<origin xyz="…" rpy="…"/>` of an element.
+/// `<origin xyz="…" rpy="…"/>` of an element; since version 1.1 `quat_xyzw="…"` stands in place of `rpy`.
 fn place<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> (Triple, Rotation) {
     let Some(origin) = reading.child(node, "origin") else { return ([0.0; 3], Rotation::none()) };
     let position = reading.numbers(origin, "xyz").unwrap_or_default();
-    (position, Rotation::from_angles(reading.numbers(origin, "rpy").unwrap_or_default()))
+    let angles = reading.numbers(origin, "rpy").map(Rotation::from_angles);
+    let rotation = match reading.numbers::<4>(origin, QUATERNION) {
+        None => angles,
+        Some([x, y, z, w]) => quaternion(origin, [w, x, y, z], angles, reading),
+    };
+    (position, rotation.unwrap_or_else(Rotation::none))
 }
 
-/// The same; angles that are nearly quarter turns are told of.
+/// The rotation of a quaternion (w, x, y, z), beside that of angles, if there are some.
+fn quaternion<'a>(
+    origin: Node<'a, 'a>,
+    q: [f64; 4],
+    angles: Option<Rotation>,
+    reading: &mut Reading<'a>,
+) -> Option<Rotation> {
+    let message = match (has_quaternions(origin), angles) {
+        (true, None) => match of_quaternion(q) {
+            Some(matrix) => return Some(Rotation::from_matrix(&matrix)),
+            None => "`quat_xyzw` is zero and has no direction",
+        },
+        (true, Some(_)) => "`rpy` and `quat_xyzw` say the same; write one of the two",
+        (false, None) => "`quat_xyzw` is of version 1.1: write `version=\"1.1\"` in <robot>, or `rpy`",
+        // By the specification those who read version 1.0 see the angles alone.
+        (false, Some(angles)) => {
+            let text = "`quat_xyzw` does not act beside `rpy`: without `version=\"1.1\"` in <robot> angles count";
+            reading.notes.push(Note::ignored(reading.at(origin), QUATERNION, text).about(QUATERNION));
+            return Some(angles);
+        }
+    };
+    reading.fault(origin, message);
+    None
+}
+
+/// The same; written angles that are nearly quarter turns are told of.
 fn origin<'a>(node: Node<'a, 'a>, reading: &mut Reading<'a>) -> (Triple, Rotation) {
     let (position, rotation) = place(node, reading);
-    let Some(origin) = reading.children(node, "origin").first().copied() else { return (position, rotation) };
+    let origin = reading.children(node, "origin").first().copied().filter(|origin| origin.has_attribute("rpy"));
+    let Some(origin) = origin else { return (position, rotation) };
     let quarter = std::f64::consts::FRAC_PI_2;
     for angle in rotation.angles {
         let off = (angle / quarter).round() * quarter - angle;
@@ -354,6 +402,57 @@ mod tests {
         ];
         assert!(found.iter().map(|own| &own.shape).eq(&expected), "{found:?}");
         assert!(found.iter().all(|own| own.surface.is_none() && own.link == "a"));
+    }
+
+    /// As urdfdom 5.1 has it: its tests `urdf_schema_quaternion_test`, and its README of versions.
+    #[test]
+    fn quaternions_of_version_1_1() {
+        let read = |version: &str, rotation: &str| {
+            let text = format!(
+                "<robot name=\"r\" {version}><link name=\"a\"/><link name=\"b\"><inertial>\
+                 <origin {rotation}/><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"2\" izz=\"2.5\"/></inertial>\
+                 <collision><origin {rotation}/><geometry><capsule radius=\"0.1\" length=\"0.6\"/></geometry></collision>\
+                 </link><joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/><origin {rotation}/>\
+                 </joint></robot>"
+            );
+            read(&Text::of(Written::new(String::new(), PathBuf::new(), text)))
+        };
+        let new = r#"version="1.1""#;
+        let turned = read(new, r#"xyz="1 2 3" quat_xyzw="1.2 0 0 1.6""#).unwrap();
+        // cos φ = 0.8² − 0.6², sin φ = 2 · 0.8 · 0.6 about the first axis.
+        let expected = [[1.0, 0.0, 0.0], [0.0, 0.28, -0.96], [0.0, 0.96, 0.28]];
+        let near = |found: &[[f64; 3]; 3], expected: &[[f64; 3]; 3]| {
+            // A few products of numbers of size one.
+            let off = |i: usize, j: usize| (found[i][j] - expected[i][j]).abs();
+            (0..9).all(|k| off(k / 3, k % 3) <= 8.0 * f64::EPSILON)
+        };
+        assert!(near(&turned.joints[0].rotation.matrix, &expected) && turned.joints[0].position == [1.0, 2.0, 3.0]);
+        assert!(near(&turned.collisions[0].rotation, &expected));
+        assert_eq!(turned.collisions[0].shape, Shape::Capsule { radius: 0.1, half: 0.3 });
+        let inertia = turned.links[1].inertial.unwrap().inertia;
+        let [a, b, c] =
+            [2.0 * 0.28 * 0.28 + 2.5 * 0.96 * 0.96, 2.0 * 0.96 * 0.96 + 2.5 * 0.28 * 0.28, -0.5 * 0.28 * 0.96];
+        assert!(near(&inertia, &[[1.0, 0.0, 0.0], [0.0, a, c], [0.0, c, b]]), "{inertia:?}");
+        let by_angle = read("", &format!("xyz=\"1 2 3\" rpy=\"{} 0 0\"", 2.0 * 0.6_f64.atan2(0.8))).unwrap();
+        assert!(near(&by_angle.joints[0].rotation.matrix, &expected));
+        let message = |version: &str, rotation: &str| read(version, rotation).unwrap_err()[0].message.clone();
+        let both = r#"rpy="0 0 1" quat_xyzw="0 0 0 1""#;
+        assert!(message(new, both).contains("`rpy` and `quat_xyzw` say the same; write one of the two"));
+        assert!(message(new, r#"quat_xyzw="0 0 0 0""#).contains("is zero and has no direction"));
+        assert!(message(new, r#"quat_xyzw="0 0 1""#).contains("`quat_xyzw` is 4 numbers, found `0 0 1`"));
+        for old in ["", r#"version="1.0""#, r#"version="1""#] {
+            assert!(
+                message(old, r#"quat_xyzw="0 0 0 1""#)
+                    .contains("`quat_xyzw` is of version 1.1: write `version=\"1.1\"`")
+            );
+            let angles = read(old, both).unwrap();
+            assert_eq!(angles.joints[0].rotation.angles, [0.0, 0.0, 1.0]);
+            assert!(angles.notes.iter().any(|note| note.ignored.as_deref() == Some("quat_xyzw")), "{:?}", angles.notes);
+        }
+        assert_eq!(
+            message(r#"version="2.0""#, ""),
+            "<robot name=\"r\">: `version` is 1.0 or 1.1, found `2.0`; what others mean is not read"
+        );
     }
 
     #[test]

@@ -1,5 +1,5 @@
 //! What becomes of every element and attribute of URDF, by its specification (<https://wiki.ros.org/urdf/XML>) and by
-//! what urdfdom 4 reads besides.
+//! what urdfdom 5.1 reads besides.
 
 use super::reference::Verdict::{self, Acts, Harmless, Warned};
 use super::reference::{Element, element, whole};
@@ -9,10 +9,10 @@ const LOOKS: Verdict = Harmless("how it looks");
 const SEVERAL: Verdict = Warned("gears that join several joints are not read: its joints have efforts", "");
 
 pub const ELEMENTS: &[Element] = &[
-    element("", "robot", &[&[("name", NAME), ("version schemaLocation", Harmless("the version of the format"))]]),
+    element("", "robot", &[&[("name", NAME), ("version", Acts), ("schemaLocation", Harmless("where its grammar is"))]]),
     element("robot", "link", &[&[("name", Acts), ("type", Harmless("a word for programs that show it"))]]),
     element("link", "inertial", &[]),
-    element("joint inertial collision", "origin", &[&[("xyz rpy", Acts), ("quat_xyzw", Warned("`rpy` is read", ""))]]),
+    element("joint inertial collision", "origin", &[&[("xyz rpy quat_xyzw", Acts)]]),
     element("inertial", "mass", &[&[("value", Acts)]]),
     element("inertial", "inertia", &[&[("ixx ixy ixz iyy iyz izz", Acts)]]),
     whole("link", "visual", LOOKS),
@@ -86,7 +86,7 @@ mod tests {
         assert!(untrue.is_empty(), "{}", untrue.join("\n"));
     }
 
-    const FILE: &str = r#"<robot @/robot{}>
+    const FILE: &str = r#"<robot @/robot{ version="1.1"}>
         <link @robot/link{ name="a"}/>
         <link name="b">
             <inertial><origin @inertial/origin{}/><mass @inertial/mass{ value="1"}/>
@@ -114,6 +114,8 @@ mod tests {
         ("robot/link", "", r#"!name="a""#),
         ("inertial/origin", "", r#"xyz="1 2 3""#),
         ("inertial/origin", "", r#"rpy="1 2 3""#),
+        ("inertial/origin", "", r#"quat_xyzw="1 2 3 4""#),
+        ("/robot", "", r#"!version="2.0""#),
         ("inertial/mass", "", r#"!value="1""#),
         ("inertial/inertia", r#"iyy="2" izz="3""#, r#"!ixx="1""#),
         ("inertial/inertia", r#"ixx="2" izz="3""#, r#"!iyy="1""#),

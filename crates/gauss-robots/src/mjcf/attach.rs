@@ -209,9 +209,8 @@ mod tests {
     use std::path::PathBuf;
 
     use crate::description::{Description, Fault};
-    use crate::mjcf::rotations::of_quaternion;
     use crate::mjcf::{included, read};
-    use crate::rotation::Rotation;
+    use crate::rotation::{Rotation, of_quaternion};
     use crate::text::{Text, Written};
 
     /// In radians, with classes, and relations of which some are of another body.

@@ -181,13 +181,21 @@ const FLAG: &[Attributes] = &[
     ("multiccd nativeccd midphase", CONTACT),
     ("warmstart refsafe diagexact island eulerdamp", SOLVER),
     ("energy fwdinv invdiscrete sensor sensornoise", Harmless("what is computed beside the motion")),
-    ("autoreset sleep speculative ipc", SPEED),
+    ("sleep", Harmless("what has come to rest is not computed; of what is to sleep from the start there is a warning")),
+    ("autoreset speculative ipc", SPEED),
 ];
 
 const BODY: &[Attributes] = &[
     ("name childclass gravcomp", Acts),
     ("mocap", Warned("a body without joints stays where it is", "false")),
-    ("sleep simple fuse", SPEED),
+    (
+        "sleep",
+        Warned(
+            "with the flag `sleep` MuJoCo holds it until something wakes it; here it moves at once",
+            "auto never allowed",
+        ),
+    ),
+    ("simple fuse", SPEED),
     ("user", USER),
 ];
 

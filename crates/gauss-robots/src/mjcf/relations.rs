@@ -4,9 +4,9 @@ use roxmltree::Node;
 
 use super::File;
 use super::reference::WRAPPED;
-use super::rotations::of_quaternion;
 use crate::description::{Cable, Closure, Mimic, Polynomial, Tendon, Turn};
 use crate::names::unknown;
+use crate::rotation::of_quaternion;
 
 /// The element of defaults.
 const EQUALITY: &[&str] = &["equality"];

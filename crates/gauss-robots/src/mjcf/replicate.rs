@@ -179,7 +179,8 @@ impl<'a> Copies<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mjcf::{read, rotations::of_quaternion};
+    use crate::mjcf::read;
+    use crate::rotation::of_quaternion;
     use crate::text::Written;
 
     /// The places are those that MuJoCo 4.0.0 prints (`body_pos`, `body_quat`) of the same file.

@@ -2,7 +2,7 @@
 
 use roxmltree::Node;
 
-use crate::rotation::{Matrix, Rotation, Triple, about, direction, multiply};
+use crate::rotation::{Matrix, Rotation, Triple, about, direction, multiply, of_quaternion};
 use crate::xml::Reading;
 
 /// The attributes that write a rotation.
@@ -85,21 +85,6 @@ pub fn to_direction(axis: Triple) -> Option<Matrix> {
     }
     let half = across.atan2(z) / 2.0;
     of_quaternion([half.cos(), -y / across * half.sin(), x / across * half.sin(), 0.0])
-}
-
-/// (w, x, y, z), of any length.
-pub fn of_quaternion(q: [f64; 4]) -> Option<Matrix> {
-    let square: f64 = q.iter().map(|c| c * c).sum();
-    if square == 0.0 || !square.is_finite() {
-        return None;
-    }
-    let [w, x, y, z] = q;
-    let entry = |e: f64| e / square;
-    Some([
-        [entry(w * w + x * x - y * y - z * z), entry(2.0 * (x * y - w * z)), entry(2.0 * (x * z + w * y))],
-        [entry(2.0 * (x * y + w * z)), entry(w * w - x * x + y * y - z * z), entry(2.0 * (y * z - w * x))],
-        [entry(2.0 * (x * z - w * y)), entry(2.0 * (y * z + w * x)), entry(w * w - x * x - y * y + z * z)],
-    ])
 }
 
 /// The first axis, and another that spans a plane with it.

@@ -7,7 +7,7 @@ use super::touching::{Between, Made};
 use crate::model::language::context::Context;
 use crate::model::language::self_contact::SelfContact;
 use gauss_robots::collision::{Collision, Shape, Touch};
-use gauss_robots::description::Note;
+use gauss_robots::description::{Description, JointKind, Note};
 
 /// Two shapes that touch, if they can.
 struct Candidate<'a> {
@@ -141,12 +141,14 @@ impl Robot<'_> {
             && (above[0] == Some(owners[1]) || above[1] == Some(owners[0]))
     }
 
-    /// What a link hangs on, past those that stand between the joints of one body.
+    /// What a link hangs on, past those that stand between the joints of one body. They are where their joints are,
+    /// which move; a body whose last joint has a place of its own is mounted where it is itself.
     fn above(&self, owner: usize) -> Option<usize> {
-        let links = &self.description.links;
+        let Description { links, joints, .. } = self.description;
         let mut parent = self.structure.parent_of[owner]?;
         while let Some(joint) = self.structure.joint_of[parent]
-            && links[parent].at == self.description.joints[joint].at
+            && joints[joint].kind != JointKind::Fixed
+            && links[parent].at == joints[joint].at
         {
             parent = self.structure.parent_of[parent]?;
         }

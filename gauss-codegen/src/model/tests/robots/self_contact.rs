@@ -119,3 +119,27 @@ fn pairs_of_a_file() {
     let read = super::read(&file.of(", self_contact", "")).expect("a struct");
     assert_eq!(read.contacts.len(), 1);
 }
+
+/// Bodies whose joints have places of their own, several joints, or none: the pairs are `d.contact` of MuJoCo 4.0.0
+/// after `mj_forward`, where all spheres meet.
+#[cfg(feature = "mjcf")]
+#[test]
+fn joints_with_places_do_not_change_what_hangs_on_what() {
+    let sphere = |name: &str| format!("<geom name=\"{name}\" size=\"0.1\"/>");
+    let body = |name: &str, joints: &str, inside: &str| {
+        format!("<body name=\"body_{name}\">{joints}{}{inside}</body>", sphere(name))
+    };
+    let pill = body("f", "<joint name=\"jf\" type=\"ball\" pos=\"0 0 0.2\"/>", "");
+    let foot = "<joint name=\"je\" axis=\"0 1 0\"/><joint name=\"js\" type=\"slide\" pos=\"0 0 1\"/>";
+    let cuff = body("d", "", &body("e", foot, &pill));
+    let shin = "<joint name=\"jc\" axis=\"1 0 0\"/><joint name=\"jd\" axis=\"0 1 0\" pos=\"0.1 0 0\"/>";
+    let thigh = body("b", "<joint name=\"jb\" axis=\"1 0 0\" pos=\"0 0 0.1\"/>", &body("c", shin, &cuff));
+    let arm = body("h", "<joint name=\"jh\" axis=\"1 0 0\" pos=\"0 0.1 0\"/>", "");
+    let trunk = body("a", "<joint name=\"ja\" axis=\"0 1 0\" pos=\"0 0 0.1\"/>", &(thigh + &arm));
+    let text = format!("<mujoco><worldbody>{}{trunk}</worldbody></mujoco>", sphere("w"));
+    let file = Scratch::called(&text, "xml");
+    let read = super::read(&file.of(", self_contact(friction = 0)", "")).expect("a struct");
+    let found: Vec<String> = read.contacts.iter().map(|clause| clause.names[0].to_string()).collect();
+    let expected = "w_a w_b w_c w_d w_e w_f w_h a_c a_d a_e a_f b_e b_f b_h c_f c_h d_f d_h e_h f_h";
+    assert_eq!(found.join(" "), expected);
+}
