@@ -7,8 +7,10 @@
 //! laws of Signorini and Coulomb for accelerations.
 //!
 //! - What sticks has slip 0, and what rests has gap 0 to rounding: they are constraints.
-//! - Bounces that pile up end in rest ([`EventKind::Rests`]), with what was left out.
-//! - Contacts that depend on one another, as four legs of a table, have forces of least norm; the motion is unique.
+//! - Bounces that pile up end in rest ([`EventKind::Rests`]), with what was left out, and so do impacts that alternate
+//!   between contacts.
+//! - Contacts that depend on one another, as four legs of a table, hold as long as any of their forces keep all laws;
+//!   those of least norm are given if they do.
 //! - Each solution of the laws has its residuals in the history ([`SolveRecord`]).
 //! - Where rigid bodies and Coulomb's law have no motion or several (Painlevé), the run ends with an error; where they
 //!   have none it can go on by an impulse ([`ContactRun::impact_without_collision`]).
@@ -42,6 +44,7 @@ mod ball;
 mod changeover;
 mod decide;
 mod dense;
+mod equations;
 mod error;
 mod frame;
 mod friction;
@@ -52,15 +55,19 @@ mod lockstep;
 mod mode;
 mod poisson;
 mod problem;
+mod reserve;
 mod residual;
+mod rest;
 mod rounding;
 mod run;
 mod sensors;
+mod shared;
 mod slots;
 mod solution;
 mod solver;
 mod start;
 mod steps;
+mod sticking;
 mod trajectory;
 mod witness;
 

@@ -155,8 +155,14 @@ impl<'k, K: ContactSystem, C> ContactRun<'k, K, C> {
         let Self { kernel, control, law, jams, tolerance, limit, .. } = self;
         let (segments, events, solves) = (Vec::new(), Vec::new(), Vec::new());
         let made = ContactTrajectory { segments, events, solves, input };
-        let scales =
-            Scales { tolerance, largest: 0.0, law, start: value(interval.start), epsilon: epsilon::<K::Scalar>() };
+        let scales = Scales {
+            tolerance,
+            largest: 0.0,
+            of_rate: Vec::new(),
+            law,
+            start: value(interval.start),
+            epsilon: epsilon::<K::Scalar>(),
+        };
         let end = interval.end;
         let mut driver = Driver {
             kernel,
@@ -194,6 +200,10 @@ struct Driver<'k, K: ContactSystem, C> {
     at_once: u32,
 }
 
+/// What sinks below zero by so many times what counts as closed is a landing.
+const DEEP: f64 = 8.0;
+/// The part of forces to which the most of their bounds is known.
+const LEAST_RESERVE: f64 = 1e-9;
 /// Events at one time before they count as endless: all contacts may have several of their own.
 const AT_ONCE: u32 = 200;
 
@@ -345,6 +355,7 @@ where
     /// What ends the segment from here.
     fn witnesses(&self, from: &Instant<'k, K>, problem: &InModeProblem<'k, K>) -> Vec<Witness<'k, K>> {
         let mut found = Vec::new();
+        let gaps = self.kernel.gaps(from.t, &from.q);
         // The run starts there: what brings closed gaps to zero moves others by rounding, and below zero none closes.
         let start = problem.system.project(from.t, &from.q, &from.z);
         let (q, z) = start.unwrap_or((from.q, from.z));
@@ -355,6 +366,12 @@ where
         };
         let sizes = from.sizes(&self.scales);
         let loads = (!problem.system.is_open()).then(|| problem.loads(from.t, &from.q, &from.z));
+        // Contacts that depend on one another hold as long as any of their forces do.
+        let input = (self.made.input)(from.t, &from.q, &from.z);
+        let shared = problem.system.reserve((from.t, &q, &z), &input).is_some();
+        if let Some(first) = from.modes.iter().position(Mode::is_closed).filter(|_| shared) {
+            watch(Watched::Reserve(first), &|part| (LEAST_RESERVE - part).max(0.0));
+        }
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             // Forces that are no more than rounding start above zero by as much.
             let least = loads.as_ref().map_or(0.0, |loads| loads.rounding(contact).max(f64::MIN_POSITIVE));
@@ -368,7 +385,13 @@ where
                     let opens = value(sizes.rates.component(contact.normal)) > sizes.of_rate[contact.normal];
                     let start = if opens { 0.0 } else { sizes.rounding[i] };
                     watch(Watched::Gap(i), &|gap| if gap <= sizes.of_gap[i] { start - gap } else { 0.0 });
+                    // A flight that is lower than rounding is not seen to end: what sinks by more is.
+                    if value(gaps.component(i)) <= sizes.of_gap[i] {
+                        let deep = (DEEP * sizes.of_gap[i]).max(f64::MIN_POSITIVE);
+                        watch(Watched::Gap(i), &|gap| deep - gap.min(0.0));
+                    }
                 }
+                Mode::Closed | Mode::Sticks if shared => {}
                 Mode::Closed => watch(Watched::Force(i), &above),
                 Mode::Sticks => {
                     if contact.has_gap() {
@@ -382,6 +405,11 @@ where
                     }
                     let rounding = tangents(contact).map(|row| sizes.of_rate[row]).fold(0.0, f64::max);
                     watch(Watched::Slip(i), &from_zero(rounding));
+                    // A slip that begins against its direction would be driven by its friction.
+                    let least = 0.5 * self.scales.rest();
+                    watch(Watched::Slip(i), &|slip| {
+                        if slip <= least { rounding.max(least) - slip.min(0.0) } else { 0.0 }
+                    });
                     if tangents(contact).len() > 1 {
                         watch(Watched::Speed(i, self.scales.rest()), &|_| 0.0);
                     }

@@ -107,7 +107,8 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
 
     /// The contact forces at a time, all rows: normal, then tangents, then the spin, contact by contact; of dry
     /// friction and rolling resistance tangents alone. Where contacts depend on one another they are those of least
-    /// `Σ D_ii λ_i²`; the motion is the same for all others.
+    /// `Σ D_ii λ_i²`, or, where these break a law that others keep, those that keep the laws with the most to spare; the
+    /// motion is the same for all.
     ///
     /// # Errors
     /// Where the run does not cover the time.
@@ -115,9 +116,16 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
         let segment = self.segment_at(t)?;
         let state = segment.trajectory.at(t).map_err(|error| integration(value(t), error))?;
         let input = (self.input)(t, &state.q, &state.z);
-        let loads = segment.system.loads(t, &state.q, &state.z, &input);
+        let system = &segment.system;
+        let least = system.loads(t, &state.q, &state.z, &input);
+        let keeps = system.keeps_laws(&least, &system.kernel.friction(t, &state.q, &state.z, &input));
+        let shared = if keeps { None } else { system.reserve((t, &state.q, &state.z), &input) };
         let mut forces = K::ContactRows::zero();
-        loads.forces.iter().enumerate().for_each(|(row, force)| forces.set_component(row, *force));
+        shared
+            .map_or(least.forces, |shared| shared.forces)
+            .iter()
+            .enumerate()
+            .for_each(|(row, force)| forces.set_component(row, *force));
         Ok(forces)
     }
 

@@ -23,6 +23,8 @@ pub(crate) enum Watched {
     Speed(usize, f64),
     /// μ λ_N − |λ_T| of a contact that sticks, f − |λ| of dry friction.
     Cone(usize),
+    /// What the bounds of contacts that depend on one another leave of forces, by the number of the first.
+    Reserve(usize),
     /// p of a contact that slides: how its normal force, with its friction, moves its gap (P. Painlevé).
     Pushes(usize),
 }
@@ -31,7 +33,13 @@ impl Watched {
     /// The number of the contact.
     pub(crate) fn contact(self) -> usize {
         match self {
-            Self::Gap(i) | Self::Force(i) | Self::Slip(i) | Self::Speed(i, _) | Self::Cone(i) | Self::Pushes(i) => i,
+            Self::Gap(i)
+            | Self::Force(i)
+            | Self::Slip(i)
+            | Self::Speed(i, _)
+            | Self::Cone(i)
+            | Self::Reserve(i)
+            | Self::Pushes(i) => i,
         }
     }
 }
@@ -75,6 +83,10 @@ impl<K: ContactSystem> Witness<'_, K> {
             Watched::Cone(i) => {
                 let (loads, contact) = (self.problem.loads(t, q, z), &K::CONTACTS[i]);
                 loads.reserve(contact, Bounds::of(contact, &kernel.friction(t, q, z, &input())))
+            }
+            Watched::Reserve(_) => {
+                let shared = self.problem.system.reserve((t, q, z), &input());
+                K::Scalar::from_f64(shared.map_or(1.0, |shared| shared.part))
             }
             Watched::Pushes(i) => self.pushes(i, t, q, z),
         }

@@ -7,6 +7,8 @@ mod edges;
 mod friction;
 mod hostile;
 mod impacts;
+mod rocking;
 mod spatial;
 mod steps;
+mod tossed;
 mod turning;
