@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use proc_macro2::{Ident, Span};
 
-use crate::algebra::{Graph, Notation, Number, Precise, Scalar as _, decimal};
+use crate::algebra::{Graph, Notation, Number, decimal};
 use crate::error::{Error, Mistakes, Result};
 use crate::kernel::Kernel;
 use crate::mechanics::{
@@ -299,11 +299,10 @@ pub fn refuse_lost<'g>(given: &Given<'g>, kernel: &Kernel<'g>) -> Result<()> {
     let has_extreme = !given.extreme.is_empty();
     // Zero, too small or too large.
     let suspicious = kernel.known_constants.iter().zip(&kernel.folded).filter(|((_, found), _)| is_lost(*found));
-    let of_literals = suspicious.map(|(_, (_, definition))| given.known(*definition)).any(|exact| {
-        let exact = exact.filter(|exact| *exact != Precise::number(0.0));
-        // Among usual numbers a zero is what rounding left of a difference; among extreme ones a product may be lost.
-        exact.is_some_and(|exact| is_lost(exact.to_f64()) || has_extreme)
-    });
+    // Among usual numbers a zero is what rounding left of a difference; among extreme ones a product may be lost.
+    let of_literals = suspicious
+        .filter_map(|(_, (_, definition))| given.rounded(*definition))
+        .any(|exact| !exact.may_be_zero() && (is_lost(exact.value.to_f64()) || has_extreme));
     let programs = kernel.written();
     let in_programs = || {
         let mut operands = programs.flat_map(|program| &program.instructions).flat_map(Instruction::operands);

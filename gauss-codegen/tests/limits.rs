@@ -176,6 +176,34 @@ fn constants_beyond_their_range() {
     works(plane("drive(x = 1e-200 * y * 1e200)"));
 }
 
+/// Two legs with wheels, of which one has moments that rounding left of zeros, and the other its centre of mass so near
+/// to its axis that the square of that is nothing beside its moments: a difference of them is zero in doubles. Nothing
+/// is lost by that.
+#[test]
+fn small_numbers_beside_zeros_of_rounding() {
+    let leg = |name: &str, side: f64, off: &str, small: &str| {
+        format!(
+            "body({name}, position = [0.2, {side}, 0.1], rotation = rotation_z(-{name}_turn), mass = 0.4,
+                 center_of_mass = [0, 0.04, -0.03], inertia_about_center_of_mass = [7e-4, 0, 0, 6e-4, 2e-4, 4e-4]),
+             body({name}_wheel, parent = {name}, position = [0, 0.04, -0.1], rotation = rotation_y(-{name}_roll), mass = 3.7,
+                 center_of_mass = [{off}, -0.04, 0],
+                 inertia_about_center_of_mass = [0.00676, 0, {small}, 0.01139, 0, 0.00676])"
+        )
+    };
+    let legs = |small: &str, off: &str| {
+        format!(
+            "#[gauss(coordinates(left_turn, left_roll, right_turn, right_roll), {}, {}, gravity = 9.81)] struct Legs {{}}",
+            leg("left", 0.2, "0", small),
+            leg("right", -0.2, off, "0")
+        )
+    };
+    for small in ["5e-20", "3.107e-22", "1e-40"] {
+        for off in ["7.83171e-18", "1e-160"] {
+            works(legs(small, off));
+        }
+    }
+}
+
 /// Accelerations in range, with products that are not, are no mistake of the equations.
 #[test]
 fn checks_out_of_range() {

@@ -88,7 +88,7 @@ impl Structure {
     }
 
     /// The same while joints with one coordinate are turned or moved by that much.
-    fn moved(&self, description: &Description, mut link: usize, by: impl Fn(&Joint) -> f64) -> (Triple, Matrix) {
+    pub fn moved(&self, description: &Description, mut link: usize, by: impl Fn(&Joint) -> f64) -> (Triple, Matrix) {
         let mut place = ([0.0; 3], Rotation::none().matrix);
         while let (Some(joint), Some(parent)) = (self.joint_of[link], self.parent_of[link]) {
             let joint = &description.joints[joint];

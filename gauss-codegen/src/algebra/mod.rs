@@ -38,6 +38,7 @@ pub use numbers::doubled::Doubled;
 pub use numbers::dual::Dual;
 pub use numbers::evaluate::{Evaluation, Number, Scalar, Tangents};
 pub use numbers::precise::Precise;
+pub use numbers::rounded::Rounded;
 pub use orthogonal::LeastSquares;
 pub use parts::{LONG, Parts};
 pub use print::{Notation, decimal, print, print_definition, print_parts, print_short, print_with};

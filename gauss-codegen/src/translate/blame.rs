@@ -1,6 +1,6 @@
 //! Which part of a scene is to blame where a check fails that no mistake of this crate makes fail.
 
-use crate::algebra::{Expr, Notation, Number, Precise, Scalar, decimal};
+use crate::algebra::{Expr, Notation, Number, Precise, Rounded, Scalar, decimal};
 use crate::error::Error;
 use crate::mechanics::{Body, Tree};
 use crate::terms::Role;
@@ -85,6 +85,11 @@ impl<'g> Given<'g> {
 
     /// The value of what literals alone determine.
     pub fn known(&self, value: Expr<'g>) -> Option<Precise> {
+        value_of_literals(value, &self.literals)
+    }
+
+    /// The same with what rounding to doubles may do to it.
+    pub fn rounded(&self, value: Expr<'g>) -> Option<Rounded> {
         value_of_literals(value, &self.literals)
     }
 }

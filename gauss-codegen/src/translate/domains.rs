@@ -185,11 +185,11 @@ impl<'g> Translator<'_, 'g> {
 }
 
 /// The value of what literals alone determine.
-pub(super) fn value_of_literals<'g>(value: Expr<'g>, literals: &[(Rational, Expr<'g>)]) -> Option<Precise> {
+pub(super) fn value_of_literals<'g, N: Number>(value: Expr<'g>, literals: &[(Rational, Expr<'g>)]) -> Option<N> {
     if value.as_number().is_none() && !value.is_constant() {
         return None;
     }
-    let literals = literals.iter().map(|(value, symbol)| (symbol.key(), Precise::fraction(*value))).collect();
+    let literals = literals.iter().map(|(value, symbol)| (symbol.key(), N::fraction(*value))).collect();
     // Symbols without a value make it undefined.
-    Some(Evaluation::of_known(&literals).value(value)).filter(|value: &Precise| value.is_finite())
+    Some(Evaluation::of_known(&literals).value(value)).filter(|value: &N| value.is_finite())
 }

@@ -102,8 +102,10 @@ impl<'a> File<'a> {
             let [damping, armature, stiffness] =
                 ["damping", "armature", "stiffness"].map(|law| self.amount(node, law, class));
             self.refuse_friction(node, class);
-            if self.numbers::<2>(node, JOINT, "range", class).is_some() {
-                self.reading.note(node, format!("the limit of the ball joint {} does not act", shown(node)));
+            let range = self.numbers::<2>(node, JOINT, "range", class);
+            let word = self.text(node, JOINT, "limited", class);
+            if range.and_then(|range| self.limited(node, range, word)).is_some() {
+                self.reading.ignored(node, format!("the limit of the ball joint {} does not act", shown(node)));
             }
             Joint { damping, armature, stiffness, ..joint }
         } else {

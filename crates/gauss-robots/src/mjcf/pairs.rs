@@ -39,16 +39,19 @@ impl<'a> File<'a> {
                 self.reading.fault(node, "`friction` is five numbers at most, which are zero or more");
             }
             let friction = own.first().copied().unwrap_or(1.0);
-            if own.get(1).is_some_and(|second| *second != friction) && dimension > 1 {
-                self.ignored(node, "its friction differs along both tangents, whose directions are MuJoCo's own");
-                continue;
+            let is_read = dimension == 1 || own.get(1).is_none_or(|second| *second == friction);
+            if !is_read {
+                let text = "its friction differs along both tangents, whose directions are MuJoCo's own: these two do not \
+                            touch";
+                self.ignored(node, text);
             }
             let mut unread = Vec::new();
             for name in ["margin", "gap", "adhesion"] {
                 let acts = self.list(node, PAIR, name, None).unwrap_or_default().iter().any(|number| *number != 0.0);
                 unread.extend(acts.then_some(name));
             }
-            let touch = Touch { friction: if dimension > 1 { friction } else { 0.0 }, turns: dimension > 3 };
+            let friction = if dimension > 1 { friction } else { 0.0 };
+            let touch = is_read.then_some(Touch { friction, turns: dimension > 3 });
             if let [Some(Ok(first)), Some(Ok(second))] = shapes {
                 let at = self.reading.at(node);
                 self.description.pairs.push(Pair { at, shapes: [first, second], touch, unread });
@@ -85,7 +88,8 @@ mod tests {
 
     #[test]
     fn pairs_say_all_themselves() {
-        let touch = |more: &str| described(&format!(r#"geom1="g" geom2="f" {more}"#)).unwrap().pairs.remove(0).touch;
+        let touch =
+            |more: &str| described(&format!(r#"geom1="g" geom2="f" {more}"#)).unwrap().pairs.remove(0).touch.unwrap();
         assert_eq!(touch(""), Touch { friction: 1.0, turns: true });
         assert_eq!(touch(r#"class="c" condim="3""#), Touch { friction: 0.3, turns: false });
         assert_eq!(touch(r#"condim="1" friction="0.2 0.4""#), Touch { friction: 0.0, turns: false });
@@ -104,6 +108,9 @@ mod tests {
         assert!(message(r#"geom1="g" geom2="h""#).contains("it is about `h`, which is no geom"));
         assert!(message(r#"geom1="g" geom2="f" condim="2""#).contains("`condim` is 1, 3, 4 or 6, found `2`"));
         let read = described(r#"geom1="g" geom2="f" friction="0.2 0.4""#).unwrap();
-        assert!(read.pairs.is_empty() && read.notes.iter().any(|note| note.text.contains("along both tangents")));
+        // Nor do they touch by their own bits.
+        assert!(
+            read.pairs[0].touch.is_none() && read.notes.iter().any(|note| note.text.contains("along both tangents"))
+        );
     }
 }

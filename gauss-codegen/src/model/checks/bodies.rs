@@ -221,7 +221,11 @@ fn refuse_reference(reference: &Reference<'_>, statements: &Statements, context:
     let both: Vec<(&str, bool)> = table.iter().map(|(name, ())| (*name, false)).chain(joints.iter().copied()).collect();
     // Joints are numbered more often than not.
     let near = words::all_nearest(&written.unraw().to_string(), &both);
+    let renamed = statements.links_of_file.iter().find(|(name, _)| written.unraw() == name);
     let remedy = match near.first() {
+        _ if renamed.is_some() => renamed
+            .map(|(name, called)| format!("the link `{name}` of the file is called `{called}`"))
+            .unwrap_or_default(),
         Some(_) if near.iter().all(|(_, joint)| *joint) => format!("did you mean the joint {}?", words::list(&near)),
         Some((first, _)) => format!("did you mean `{first}`?"),
         None if statements.has_unnamed_body() && table.len() == 1 => format!("the only body is `{UNNAMED}`"),

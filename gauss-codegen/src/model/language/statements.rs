@@ -53,6 +53,8 @@ pub struct Statements {
     pub forces_of_file: usize,
     /// Names of joints of a robot's file, by which their reactions are asked for, too.
     pub joints_of_file: Vec<String>,
+    /// Links that are not called as in the file, by both names.
+    pub links_of_file: Vec<(String, String)>,
     /// Bodies that deform.
     pub modes: Vec<ReadModes>,
     /// Coordinates with the inertia of their rates.

@@ -49,6 +49,7 @@ pub fn compose(
         let mut robot = Robot::new(file, clauses, reader, &description, &structure);
         robot.cut(reactions, context);
         statements.joints_of_file = robot.names_of_joints();
+        statements.links_of_file = robot.renamed_links();
         robot.refuse_mount(file, context);
         let idle = robot.without_inertia();
         let moves = statements.coordinates.is_some() || statements.in_chart;
@@ -96,7 +97,8 @@ impl<'a> Robot<'a> {
         description: &'a Description,
         structure: &'a Structure,
     ) -> Self {
-        let mut names = Names::new(file.span);
+        let words = description.joints.iter().map(|joint| &joint.name);
+        let mut names = Names::new(file.span, words.chain(description.links.iter().map(|link| &link.name)));
         let floating = clauses.base == Some(Base::Floating);
         let base = floating.then(|| names.chosen(BASE));
         let own = |index: usize| structure.coupling_of[index].joint == index;
@@ -113,6 +115,7 @@ impl<'a> Robot<'a> {
         let mut notes = description.notes.clone();
         notes.append(&mut names.notes);
         notes.extend(drives::notes(description, &inputs));
+        notes.extend(drives::lost(description, &inputs, clauses.inputs));
         let writer = Writer { span: file.span };
         Robot {
             clauses,
@@ -177,6 +180,18 @@ impl<'a> Robot<'a> {
             if syn::parse_str::<Ident>(&own).is_ok() { vec![own] } else { coordinates.collect() }
         };
         carrying.flat_map(called).collect()
+    }
+
+    /// Links that are not called as in the file, by both names.
+    pub fn renamed_links(&self) -> Vec<(String, String)> {
+        let links = self.links.iter().zip(&self.description.links);
+        let renamed = links.filter(|(ident, link)| *ident != &link.name);
+        renamed.map(|(ident, link)| (link.name.clone(), ident.to_string())).collect()
+    }
+
+    /// Whether the root moves freely.
+    pub fn is_floating(&self) -> bool {
+        self.base.is_some()
     }
 
     /// Whether a link moves at all.

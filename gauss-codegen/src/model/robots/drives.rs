@@ -101,3 +101,28 @@ pub fn notes(description: &Description, inputs: &[Input]) -> Vec<Note> {
     };
     if inputs.iter().any(is_drive) { Vec::new() } else { description.drives.iter().filter(plain).map(told).collect() }
 }
+
+/// Drives of joints that have no effort of their own for an input, because they mimic others.
+pub fn lost(description: &Description, inputs: &[Input], asked: Option<Inputs>) -> Vec<Note> {
+    if matches!(asked, Some(Inputs::None | Inputs::Actuators)) {
+        return Vec::new();
+    }
+    let has_input = |joint: &str| {
+        let is_it = |input: &Input| matches!(input.of, Driven::Joint(index) if description.joints[index].name == joint);
+        inputs.iter().any(is_it)
+    };
+    let is_lost = |drive: &&Drive| {
+        let joints = description.joints.iter().filter(|joint| drive.along.iter().any(|(name, _)| *name == joint.name));
+        let mimics = joints.clone().any(|joint| joint.mimic.is_some());
+        mimics && !joints.into_iter().any(|joint| has_input(&joint.name))
+    };
+    let told = |drive: &Drive| {
+        let text = format!(
+            "`{}` drives a joint that mimics another, and has no input: `inputs = actuators` has it, scaled as the joint is",
+            drive.name
+        );
+        let word = if description.only_driven { "actuator" } else { "transmission" };
+        Note::ignored(drive.at, word, text).about("mimics")
+    };
+    description.drives.iter().filter(is_lost).map(told).collect()
+}

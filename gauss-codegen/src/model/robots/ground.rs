@@ -3,13 +3,15 @@
 use proc_macro2::Ident;
 
 use super::clauses::Robot;
+use super::still::Level;
 use super::touching::Made;
 use crate::model::language::context::Context;
 use crate::model::language::ground::Ground;
 use crate::model::scene::contacts::Against;
+use crate::model::scene::expression::{Expression, ExpressionKind};
 use gauss_robots::collision::{Collision, Shape, Surface, Touch};
-use gauss_robots::description::{Description, Note};
-use gauss_robots::rotation::{Triple, turned};
+use gauss_robots::description::{At, Description, Note};
+use gauss_robots::rotation::{Triple, direction, turned};
 use gauss_robots::unknown;
 
 /// What holds all bodies of an MJCF file.
@@ -18,6 +20,8 @@ pub const WORLD: &str = "world";
 /// A plane, with the shape of the file that it is.
 struct Plane<'a> {
     against: Against,
+    /// Where it is, if numbers say that.
+    level: Option<Level>,
     of: Option<&'a Collision>,
 }
 
@@ -26,11 +30,12 @@ impl Robot<'_> {
     pub fn touching(&mut self, context: &mut Context) -> Made {
         let of_joints = self.ranges().into_iter().chain(self.dry_friction()).flat_map(|clause| clause.names);
         let mut made = Made::new(self.names.clone(), of_joints, self.writer);
-        let mut notes = self.notes_of_shapes();
+        let mut notes = self.notes_of_surfaces();
+        notes.extend(self.notes_of_shapes());
         for ground in &self.clauses.grounds {
             let links = self.links_on(ground, context);
             let planes = self.planes(ground);
-            let (earlier, mut own) = (made.count(), Vec::new());
+            let (earlier, mut own, mut clear) = (made.count(), Vec::new(), Vec::new());
             for collision in self.shapes() {
                 let Some(link) = self.link_of(collision).filter(|link| links.contains(link)) else { continue };
                 for plane in &planes {
@@ -39,13 +44,16 @@ impl Robot<'_> {
                         Shape::Plane => own.push(unread(collision, "a plane of a link that moves")),
                         Shape::Unread(what) => own.push(unread(collision, what)),
                         _ => {
-                            made.add(collision, &self.links[link], &plane.against, ground, &touch);
+                            let seen = plane.level.and_then(|level| self.seen(link, level));
+                            let (what, against) = ((collision, &self.links[link]), (&plane.against, seen.as_ref()));
+                            clear.extend(made.add(what, against, ground, &touch).then_some(collision));
                             own.extend(beyond(collision, plane.of, &touch));
                         }
                     }
                 }
             }
             own.extend(self.steps(ground));
+            own.extend(clear.first().map(|first| told_of_clear(first, clear.len())));
             own.dedup();
             match made.count() - earlier {
                 0 => refuse_idle(ground, &own, context),
@@ -56,6 +64,13 @@ impl Robot<'_> {
         self.notes.extend(notes);
         self.touching_each_other(&mut made, context);
         made
+    }
+
+    /// Surfaces that stick or move by themselves.
+    fn notes_of_surfaces(&self) -> Vec<Note> {
+        let surfaces = self.description.collisions.iter().filter_map(|own| Some((own.at, own.surface.as_ref()?)));
+        let driving = surfaces.flat_map(|(at, surface)| surface.unread.iter().map(move |name| (at, *name)));
+        driving.filter(|(_, name)| DRIVING.contains(name)).map(|(at, name)| unread_attribute(at, name)).collect()
     }
 
     /// That shapes touch nothing, where nothing is said of them.
@@ -107,7 +122,11 @@ impl Robot<'_> {
             let Some(link) = self.links.iter().position(|link| link == name) else {
                 let word = name.to_string();
                 let known: Vec<String> = self.links.iter().map(Ident::to_string).collect();
-                let which = unknown("link", &word, known.iter().map(String::as_str));
+                let renamed = self.renamed_links().into_iter().find(|(name, _)| *name == word);
+                let which = match renamed {
+                    Some((_, called)) => format!("`{word}`; this link of the file is called `{called}`"),
+                    None => unknown("link", &word, known.iter().map(String::as_str)),
+                };
                 context.error(name.span(), format!("`{clause}` is touched by {which}"));
                 continue;
             };
@@ -133,7 +152,10 @@ impl Robot<'_> {
     fn planes(&self, ground: &Ground) -> Vec<Plane<'_>> {
         let writer = self.writer;
         let plane = |normal, height| Against::Plane { normal, height, along: ground.along.clone() };
-        let own = || vec![Plane { against: plane(ground.normal.clone(), ground.height.clone()), of: None }];
+        let own = || {
+            let against = plane(ground.normal.clone(), ground.height.clone());
+            vec![Plane { against, level: level(ground), of: None }]
+        };
         if ground.normal.is_some() || ground.height.is_some() {
             return own();
         }
@@ -147,10 +169,11 @@ impl Robot<'_> {
             let place: Triple = std::array::from_fn(|i| at[i] + moved[i]);
             let normal = turned(&matrix, &collision.rotation.map(|row| row[2]));
             let height: f64 = (0..3).map(|i| normal[i] * place[i]).sum();
-            let level = normal == [0.0, 0.0, 1.0];
+            let level = Some(Level { normal, height });
+            let is_flat = normal == [0.0, 0.0, 1.0];
             let height = (height != 0.0).then(|| writer.number(height));
-            let normal = writer.triple(&normal).filter(|_| !level);
-            Some(Plane { against: plane(normal, height), of: Some(collision) })
+            let normal = writer.triple(&normal).filter(|_| !is_flat);
+            Some(Plane { against: plane(normal, height), level, of: Some(collision) })
         });
         let fixed: Vec<_> = fixed.collect();
         if fixed.is_empty() { own() } else { fixed }
@@ -170,12 +193,34 @@ impl Robot<'_> {
     }
 }
 
+/// The plane that a clause says by numbers, or that through Ω.
+fn level(ground: &Ground) -> Option<Level> {
+    let written = match ground.normal.as_ref().map(|normal| &normal.kind) {
+        None => Some([0.0, 0.0, 1.0]),
+        Some(ExpressionKind::Vector(entries)) => {
+            let [x, y, z] = entries.each_ref().map(|entry| entry.literal());
+            Some([x?, y?, z?])
+        }
+        Some(_) => None,
+    };
+    let height = ground.height.as_ref().map_or(Some(0.0), Expression::literal)?;
+    Some(Level { normal: direction(written?)?, height })
+}
+
+fn told_of_clear(first: &Collision, count: usize) -> Note {
+    let text = format!(
+        "shapes of which points stay clear of the ground, whatever moves, and make no contacts: {count}, first of `{}`",
+        first.link
+    );
+    Note::told(first.at, text)
+}
+
 /// What a shape has with a plane, or with one that says nothing: `None` if the file keeps them from touching.
 fn touch(collision: &Collision, plane: Option<&Collision>, description: &Description) -> Option<Touch> {
     let Some(own) = &collision.surface else { return Some(Touch { friction: 0.0, turns: false }) };
     let pairs = || description.pairs.iter();
     if let Some(pair) = plane.and_then(|plane| pairs().find(|pair| pair.is_of([collision, plane]))) {
-        return Some(pair.touch.clone());
+        return pair.touch.clone();
     }
     let link = plane.map_or(WORLD, |plane| plane.link.as_str());
     let of_plane = plane.and_then(|plane| plane.surface.as_ref());
@@ -208,7 +253,7 @@ fn unread(collision: &Collision, what: &str) -> Note {
 }
 
 /// What a file says of a contact that is not modelled.
-fn beyond(collision: &Collision, plane: Option<&Collision>, touch: &Touch) -> Vec<Note> {
+pub fn beyond(collision: &Collision, plane: Option<&Collision>, touch: &Touch) -> Vec<Note> {
     let turns = touch.turns.then(|| {
         let text = "there is no friction of turning and rolling (`condim` 4 and 6)";
         Note::ignored(collision.at, "condim", text).about("condim")
@@ -216,8 +261,13 @@ fn beyond(collision: &Collision, plane: Option<&Collision>, touch: &Touch) -> Ve
     let surfaces = [Some(collision), plane].into_iter().flatten();
     let names = surfaces.flat_map(|own| own.surface.iter().map(move |surface| (own, surface)));
     let attributes = names.flat_map(|(own, surface)| surface.unread.iter().map(move |name| (own.at, *name)));
-    let attributes = attributes.map(|(at, name)| {
-        Note::ignored(at, name, format!("`{name}` of geoms does not act: they touch where they meet")).about(name)
-    });
-    turns.into_iter().chain(attributes).collect()
+    let attributes = attributes.filter(|(_, name)| !DRIVING.contains(name));
+    turns.into_iter().chain(attributes.map(|(at, name)| unread_attribute(at, name))).collect()
+}
+
+/// Attributes that move what touches, of which a file without contacts is told as well.
+const DRIVING: [&str; 2] = ["adhesion", "surfacevel"];
+
+fn unread_attribute(at: At, name: &'static str) -> Note {
+    Note::ignored(at, name, format!("`{name}` of geoms does not act: they touch where they meet")).about(name)
 }

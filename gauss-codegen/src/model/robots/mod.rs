@@ -10,6 +10,7 @@
 //! | `drives`, `efforts`, `ranges` | inputs; what they do; how much of it at most |
 //! | `limits` | those of joints and tendons; dry friction of joints |
 //! | `ground`, `pairs`, `touching` | planes and what touches them; links that touch each other; contacts of shapes |
+//! | `still` | what stays clear of a plane, whatever moves |
 //! | `laws`, `springs`, `relations` | other forces in joints; springs of all kinds; relations of links besides the tree |
 //! | `inertias` | mass data that no body has |
 //! | `states` | states with names, mass data for fields |
@@ -29,6 +30,7 @@ mod relations;
 mod source;
 mod springs;
 mod states;
+mod still;
 mod touching;
 
 pub use clauses::compose;

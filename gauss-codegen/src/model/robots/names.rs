@@ -13,12 +13,15 @@ use gauss_robots::description::{At, Note};
 pub struct Names {
     span: Span,
     taken: HashSet<String>,
+    /// Words of the file: nothing has one of them that is not called so there.
+    own: HashSet<String>,
     pub notes: Vec<Note>,
 }
 
 impl Names {
-    pub fn new(span: Span) -> Self {
-        Self { span, taken: HashSet::new(), notes: Vec::new() }
+    /// For a file that calls its joints and links so.
+    pub fn new<'a>(span: Span, own: impl IntoIterator<Item = &'a String>) -> Self {
+        Self { span, taken: HashSet::new(), own: own.into_iter().cloned().collect(), notes: Vec::new() }
     }
 
     /// The identifier of a name, which differs from it where it is none or is taken: then `noun` is added, or a number.
@@ -36,7 +39,7 @@ impl Names {
     }
 
     fn free(&mut self, name: &str, noun: &str) -> Ident {
-        let free = free(name, noun, |word| self.is_free(word));
+        let free = free(name, noun, |word| self.is_free(word) && (word == name || !self.own.contains(word)));
         self.taken.insert(free.clone());
         Ident::new(&free, self.span)
     }
@@ -64,7 +67,7 @@ mod tests {
 
     #[test]
     fn identifiers() {
-        let mut names = Names::new(Span::call_site());
+        let mut names = Names::new(Span::call_site(), &[]);
         let mut of = |name: &str, noun: &str| names.identifier(name, noun, At::default()).to_string();
         assert_eq!(of("elbow", "joint"), "elbow");
         assert_eq!(of("elbow", "link"), "elbow_link");
@@ -77,5 +80,18 @@ mod tests {
         assert_eq!(of("LF_HAA", "joint"), "LF_HAA");
         assert_eq!(of("-", "joint"), "joint__");
         assert_eq!(names.notes.len(), 8);
+    }
+
+    /// Whichever comes first, what is called so in the file keeps its name.
+    #[test]
+    fn names_of_the_file_come_first() {
+        let own = ["left-hip", "left_hip", "arm", "arm_link"].map(str::to_owned);
+        let mut names = Names::new(Span::call_site(), &own);
+        let mut of = |name: &str, noun: &str| names.identifier(name, noun, At::default()).to_string();
+        assert_eq!(of("left-hip", "joint"), "left_hip_joint");
+        assert_eq!(of("left_hip", "joint"), "left_hip");
+        assert_eq!(of("arm", "joint"), "arm");
+        assert_eq!(of("arm", "link"), "arm_2");
+        assert_eq!(of("arm_link", "link"), "arm_link");
     }
 }

@@ -2,7 +2,7 @@
 //! closed form.
 
 use super::clauses::Robot;
-use super::ground::WORLD;
+use super::ground::{WORLD, beyond};
 use super::touching::{Between, Made};
 use crate::model::language::context::Context;
 use crate::model::language::self_contact::SelfContact;
@@ -42,10 +42,7 @@ impl Robot<'_> {
                     let between = Between { links: [first, second], clause, friction };
                     made.add_pair(shapes, &between);
                 }
-                notes.extend(candidate.touch.turns.then(|| {
-                    let text = "there is no friction of turning and rolling (`condim` 4 and 6)";
-                    Note::ignored(shapes[0].at, "condim", text).about("condim")
-                }));
+                notes.extend(beyond(shapes[0], Some(shapes[1]), &candidate.touch));
             }
             let count = made.count() - earlier;
             notes.extend(self.told_of_pairs(count, &unread));
@@ -98,9 +95,9 @@ impl Robot<'_> {
         let mut all: Vec<Candidate<'_>> = Vec::new();
         for pair in pairs {
             let shapes = pair.shapes.each_ref();
-            if shapes.iter().all(|own| own.shape != Shape::Plane) && self.may_meet(shapes, links) {
-                all.push(Candidate { shapes, touch: pair.touch.clone() });
-            }
+            let meet = shapes.iter().all(|own| own.shape != Shape::Plane) && self.may_meet(shapes, links);
+            let touch = pair.touch.clone().filter(|_| meet);
+            all.extend(touch.map(|touch| Candidate { shapes, touch }));
         }
         let shapes: Vec<&Collision> =
             self.description.collisions.iter().filter(|own| own.shape != Shape::Plane).collect();

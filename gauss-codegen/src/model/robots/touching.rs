@@ -8,6 +8,7 @@ use syn::ext::IdentExt;
 
 use super::joints::Writer;
 use super::names::{self, Names};
+use super::still::Seen;
 use crate::model::language::ground::Ground;
 use crate::model::language::self_contact::SelfContact;
 use crate::model::language::words::UNNAMED;
@@ -67,12 +68,20 @@ impl Made {
         self.contacts.iter().map(|clause| clause.names.len()).sum()
     }
 
-    /// Contacts of one shape of a link with one plane.
-    pub fn add(&mut self, collision: &Collision, link: &Ident, against: &Against, ground: &Ground, touch: &Touch) {
+    /// Contacts of one shape of a link with one plane; whether all of it, or points of it, stay clear of that.
+    pub fn add(
+        &mut self,
+        (collision, link): (&Collision, &Ident),
+        (against, seen): (&Against, Option<&Seen>),
+        ground: &Ground,
+        touch: &Touch,
+    ) -> bool {
         let writer = self.writer;
         let called = collision.name.as_ref().unwrap_or(&collision.link);
         let size = |length: f64| (length != 0.0).then(|| writer.number(length));
-        let Some(form) = form(collision, ground.points) else { return };
+        let Some(form) = form(collision, ground.points) else { return false };
+        let (form, is_clear) = without_clear(form, collision, seen);
+        let Some(form) = form else { return true };
         let mut contacts: Vec<(Vec<Ident>, PointContact)> = Vec::new();
         match form {
             Form::Spheres(centers, radius) => {
@@ -126,6 +135,7 @@ impl Made {
             of_file: true,
             links: [Some(link.clone()), None],
         }));
+        is_clear
     }
 
     /// A contact of a sphere with a sphere or a capsule.
@@ -209,6 +219,27 @@ impl Made {
         self.taken.extend(names.iter().cloned());
         self.shapes.insert(chosen);
         names.iter().map(|name| Ident::new(name, self.writer.span)).collect()
+    }
+}
+
+/// Where a shape touches, without what stays clear of a plane, and whether that is something.
+fn without_clear(form: Form, collision: &Collision, seen: Option<&Seen>) -> (Option<Form>, bool) {
+    let Some(seen) = seen else { return (Some(form), false) };
+    let (points, radius) = match &form {
+        Form::Spheres(points, radius) => (points.clone(), *radius),
+        Form::Ends(ends, radius) => (ends.to_vec(), *radius),
+        Form::Corners(center, edges) => {
+            let corners = corners(edges.map(|edge| edge / 2.0)).into_iter();
+            (corners.map(|corner| std::array::from_fn(|i| center[i] + corner[i])).collect(), 0.0)
+        }
+        Form::Rims(..) | Form::Ellipsoid(..) if seen.is_round_and_clear(collision) => return (None, true),
+        Form::Rims(..) | Form::Ellipsoid(..) => return (Some(form), false),
+    };
+    let left: Vec<Triple> = points.iter().copied().filter(|point| !seen.is_clear(point, radius)).collect();
+    match left.len() {
+        count if count == points.len() => (Some(form), false),
+        0 => (None, true),
+        _ => (Some(Form::Spheres(left, radius)), true),
     }
 }
 

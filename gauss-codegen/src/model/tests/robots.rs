@@ -518,6 +518,23 @@ fn names_of_reactions() {
 }
 
 /// Prefixes that nothing declares, as Drake has them, and what stands before the root.
+/// What is called so in the file keeps its name, and what is not is told of where it is asked for.
+#[test]
+fn names_that_several_have() {
+    let hip = |name: &str, child: &str| joint(name, "revolute", "base", child, "") + &link(child);
+    let text = robot(&(hip("left-hip", "a") + &hip("left_hip", "b") + &hip("arm", "arm") + &hip("k", "Ärm")));
+    let read = model(&text, "", "");
+    let coordinates = read.coordinates.iter().map(|q| q.ident.to_string()).collect::<Vec<_>>();
+    assert_eq!(coordinates, ["left_hip_joint", "left_hip", "arm", "k"]);
+    let found = mistakes(&text, ", frame(tool, parent = arm)", "");
+    let called = "the link `arm` of the file is called `arm_link`";
+    assert!(found.len() == 1 && found[0].ends_with(called), "{found:?}");
+    let ball = "<collision><geometry><sphere radius=\"1\"/></geometry></collision></link>";
+    let shaped = text.replace("izz=\"1\"/></inertial></link>", &format!("izz=\"1\"/></inertial>{ball}"));
+    let found = mistakes(&shaped, ", ground(links = [arm])", "");
+    assert!(found[0].contains("`arm`; this link of the file is called `arm_link`"), "{found:?}");
+}
+
 #[test]
 fn prefixes() {
     let drake = "<drake:joint name=\"b\" type=\"ball\"><parent link=\"base\"/></drake:joint><transmission name=\"t\">\

@@ -62,3 +62,19 @@ fn inputs_by_the_names_of_the_file() {
     assert_eq!(found("[input.elbw, 0, 0]"), ["there is no input `elbw`; did you mean `input.elbow`?"]);
     assert_eq!(found("[input.gravity, 0, 0]"), ["there is no input `gravity`; `input(gravity)` declares one"]);
 }
+
+/// A motor of a joint that mimics another has no effort for an input.
+#[test]
+fn motors_of_joints_that_mimic() {
+    let finger = joint("finger", "revolute", "base", "tip", "<mimic joint=\"elbow\" multiplier=\"2\"/>") + &link("tip");
+    let own = TRANSMISSION.replace("elbow", "finger");
+    let lost = "`motor 1` drives a joint that mimics another, and has no input: `inputs = actuators` has it";
+    let told = |clauses: &str| {
+        let all = remarks(&geared(&(finger.clone() + &own)), clauses);
+        all.iter().any(|(text, ignored)| text.contains(lost) && *ignored)
+    };
+    assert!(told("") && told(", inputs = all") && told(", inputs = transmissions"));
+    assert!(!told(", inputs = actuators") && !told(", inputs = none"));
+    let both = remarks(&geared(&(finger + TRANSMISSION)), ", inputs = all");
+    assert!(!both.iter().any(|(text, _)| text.contains("mimics another")));
+}

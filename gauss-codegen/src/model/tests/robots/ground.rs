@@ -177,6 +177,39 @@ fn what_is_told() {
     assert!(remarks(&text, "").contains(&told(nothing, false)));
 }
 
+/// On a column that turns about its own axis a ball stays where it is, and so does the end of a rod that its joint goes
+/// through; the other end swings. What the file does not place keeps all.
+#[test]
+fn what_stays_clear_of_the_ground() {
+    let column = |at: &str| link("column").replace("</link>", &format!("{}</link>", shape("ball", at, SPHERE)));
+    let arm = link("arm").replace("</link>", &format!("{}</link>", shape("rod", "xyz=\"0 0 -0.25\"", PILL)));
+    let hinge = "<joint name=\"swing\" type=\"revolute\"><parent link=\"column\"/><child link=\"arm\"/>\
+                 <origin xyz=\"0 0 1\"/><axis xyz=\"1 0 0\"/></joint>";
+    let text = |at: &str| robot(&(joint("turn", "revolute", "base", "column", "") + &column(at) + hinge + &arm));
+    let high = text("xyz=\"0.3 0 1\"");
+    assert_eq!(names(&contacts(&high, ", ground")), ["rod"]);
+    assert_eq!(names(&contacts(&high, ", ground(plane = [0, 0, 2], height = 0.5)")), ["rod"]);
+    let remark =
+        "shapes of which points stay clear of the ground, whatever moves, and make no contacts: 2, first of `column`";
+    assert!(remarks(&high, ", ground").iter().any(|(text, ignored)| text.contains(remark) && !ignored));
+    // What is left has a gap that speeds change.
+    let file = Scratch::new(&high);
+    let input: syn::DeriveInput = syn::parse_str(&file.of(", ground", "")).expect("a struct");
+    assert!(crate::expand(&input).is_ok());
+    // It touches, or a field says where the plane is, or what holds the column moves.
+    let all = ["ball", "rod_0", "rod_1"];
+    assert_eq!(names(&contacts(&text("xyz=\"0.3 0 0.05\""), ", ground")), ["ball", "rod"]);
+    assert_eq!(names(&model(&high, ", ground(height = h)", "h: f64").contacts), all);
+    assert_eq!(names(&contacts(&high, ", ground, base = floating")), all);
+    // Before a wall the ball comes and goes.
+    assert_eq!(names(&contacts(&high, ", ground(plane = [0, 1, 0], height = -3)")), ["ball", "rod"]);
+    let nothing = mistakes(&high, ", ground(links = [column])", "").remove(0);
+    assert!(
+        nothing.contains("nothing of the file touches this ground (shapes of which points stay clear"),
+        "{nothing}"
+    );
+}
+
 /// A cylinder that never leans has no lowest point of its rims.
 #[test]
 fn a_cylinder_that_stands_has_points_alone() {

@@ -91,6 +91,12 @@ fn what_is_told() {
 }
 
 #[cfg(feature = "mjcf")]
+fn mistakes_of(text: &str, clauses: &str) -> String {
+    let file = Scratch::called(text, "xml");
+    super::read(&file.of(clauses, "")).err().map(|error| error.to_string()).unwrap_or_default()
+}
+
+#[cfg(feature = "mjcf")]
 #[test]
 fn pairs_of_a_file() {
     let text = |flag: &str| {
@@ -114,6 +120,17 @@ fn pairs_of_a_file() {
     assert!(read.contacts[0].friction.is_empty());
     assert!(told(", self_contact").iter().any(|text| text.contains("`gap` of pairs does not act")));
     assert!(told("").iter().any(|text| text.contains("pairs of shapes do not act; `self_contact(…)`")));
+    // A pair that is not read does not touch by other rules either; surfaces that move are told of without any contact.
+    let rough = text("filterparent=\"disable\"").replace("condim=\"1\"", "friction=\"1 0.5\"");
+    let found = mistakes_of(&rough, ", self_contact");
+    assert!(found.contains("no links of the file touch each other here"), "{found}");
+    let belt = text("").replace("size=\"1\"/>", "size=\"1\" surfacevel=\"0 0 0 1\" adhesion=\"2\"/>");
+    let file = Scratch::called(&belt, "xml");
+    let remarks = super::read(&file.of("", "")).expect("a struct").item.described.expect("a file").remarks;
+    for word in ["surfacevel", "adhesion"] {
+        let text = format!("`{word}` of geoms does not act");
+        assert!(remarks.iter().any(|remark| remark.ignored && remark.text.contains(&text)), "{word}");
+    }
     // Without the filter all parents touch, here by the pair still, and once.
     let file = Scratch::called(&text("filterparent=\"disable\""), "xml");
     let read = super::read(&file.of(", self_contact", "")).expect("a struct");
