@@ -51,7 +51,8 @@ fn apart(array: &Bound<'_, PyArrayDyn<f64>>) -> Option<usize> {
     usize::try_from(own / SIZE).ok()
 }
 
-/// `numpy.asarray(x).astype(float, order="C", casting="same_kind", copy=False)`: complex numbers and texts are refused.
+/// `numpy.asarray(x).astype(float, order="C", casting="same_kind", copy=False)`, copied where it is not aligned: complex
+/// numbers and texts are refused.
 fn converted<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     static ASARRAY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
     let py = value.py();
@@ -63,13 +64,23 @@ fn converted<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, 
     how.set_item("casting", "same_kind")?;
     how.set_item("copy", false)?;
     let array = array.call_method("astype", ("float64",), Some(&how)).map_err(named)?;
-    array.cast_into::<PyArrayDyn<f64>>().map_err(Into::into)
+    let array = array.cast_into::<PyArrayDyn<f64>>()?;
+    if is_plain(&array) { Ok(array) } else { array.call_method1("copy", ("C",))?.cast_into().map_err(Into::into) }
 }
 
 /// All numbers of a value in C order, with the axes that it has.
 pub fn numbers(name: &str, value: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, Vec<usize>)> {
     let array = converted(name, value)?;
     Ok((array.readonly().as_slice()?.to_vec(), array.shape().to_vec()))
+}
+
+/// A vector of so many numbers.
+pub fn vector(name: &str, value: &Bound<'_, PyAny>, size: usize) -> PyResult<Vec<f64>> {
+    let (numbers, axes) = numbers(name, value)?;
+    match axes[..] {
+        [count] if count == size => Ok(numbers),
+        _ => Err(PyValueError::new_err(format!("{name} has shape {}; expected ({size},)", shown(&axes)))),
+    }
 }
 
 impl<'py> Rows<'py> {
@@ -204,7 +215,7 @@ pub fn given<'py>(
         }));
     };
     if !is_plain(array) {
-        return Err(PyValueError::new_err(format!("{name} must be in C order")));
+        return Err(PyValueError::new_err(format!("{name} must be in C order, and aligned")));
     }
     if !array.shape().iter().copied().eq(axes.clone()) {
         let (shape, axes) = (shown(array.shape()), shown(&axes.collect::<Vec<_>>()));

@@ -12,6 +12,8 @@ use crate::arrays::{self, Batch, Rows, shown};
 use crate::kernels::{AnyKernel, AnyScene, OffGroup};
 use crate::memory::Source;
 use crate::methods::{Id, SPECS, Spec, Work};
+use crate::steps::off_group_words;
+use crate::{threads, tuples};
 
 /// From so many rows on other threads of Python may run meanwhile: letting them costs as much as some rows.
 const DETACHED: usize = 64;
@@ -106,7 +108,7 @@ pub fn call<'py>(
     match (given.out, &results[..]) {
         (Some(out), _) => Ok(out.clone()),
         (None, [one]) => Ok(one.clone().into_any()),
-        (None, _) => crate::class::named_tuple(py, spec, &results),
+        (None, _) => tuples::new(py, &spec.class_name(), PyTuple::new(py, &results)?),
     }
 }
 
@@ -253,18 +255,19 @@ fn compute(py: Python<'_>, kernel: &dyn AnyKernel, id: Id, work: &Work, count: u
 pub unsafe fn rows(kernel: &dyn AnyKernel, id: Id, work: &Work, count: usize) -> Result<(), OffGroup> {
     // SAFETY: of this function.
     let run = |rows| unsafe { kernel.run(id, work, rows) };
-    // One thread alone need not be woken.
-    if count <= CHUNK || rayon::current_num_threads() == 1 {
-        return run(0..count);
-    }
+    // One thread alone need not be woken, and where the system gives none this one computes.
+    let pool = if count > CHUNK { threads::pool().ok().filter(|pool| pool.current_num_threads() > 1) } else { None };
+    let Some(pool) = pool else { return run(0..count) };
     let first: Mutex<Option<OffGroup>> = Mutex::new(None);
-    (0..count.div_ceil(CHUNK)).into_par_iter().for_each(|chunk| {
-        if let Err(off) = run(chunk * CHUNK..((chunk + 1) * CHUNK).min(count))
-            && let Ok(mut first) = first.lock()
-            && first.is_none_or(|other| off.row < other.row)
-        {
-            *first = Some(off);
-        }
+    pool.install(|| {
+        (0..count.div_ceil(CHUNK)).into_par_iter().for_each(|chunk| {
+            if let Err(off) = run(chunk * CHUNK..((chunk + 1) * CHUNK).min(count))
+                && let Ok(mut first) = first.lock()
+                && first.is_none_or(|other| off.row < other.row)
+            {
+                *first = Some(off);
+            }
+        });
     });
     first.into_inner().ok().flatten().map_or(Ok(()), Err)
 }
@@ -279,9 +282,5 @@ fn off_group(spec: &Spec, off: &OffGroup, batch: Batch<'_>) -> PyErr {
     }
     index.reverse();
     index.push(format!("{}:{}", off.place, off.place + off.count));
-    PyValueError::new_err(format!(
-        "{name}[{}] is no rotation: squares of its numbers add up to {:.6}, and to 1 of every rotation",
-        index.join(", "),
-        off.squares
-    ))
+    PyValueError::new_err(format!("{name}[{}] is no rotation: {}", index.join(", "), off_group_words(off.squares)))
 }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use numpy::PyArray1;
-use pyo3::exceptions::{PyImportError, PyKeyboardInterrupt, PyTypeError};
+use pyo3::exceptions::{PyImportError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
 
@@ -60,10 +60,9 @@ impl Calls {
         }
     }
 
-    /// The error, unless it is an interruption.
-    pub fn error(self, py: Python<'_>) -> Option<PyErr> {
-        let error = self.error.into_inner().ok().flatten();
-        error.filter(|error| !error.is_instance_of::<PyKeyboardInterrupt>(py))
+    /// The first error: that of a function, or what the handler of a signal raised, as Ctrl-C does.
+    pub fn error(self) -> Option<PyErr> {
+        self.error.into_inner().ok().flatten()
     }
 
     /// Calls a function of Python with a time and a state.
@@ -136,17 +135,24 @@ impl Progress {
 }
 
 /// Runs on another thread while this one looks for Ctrl-C, which only the first thread of Python is told of.
-pub fn watched_run<R: Send>(run: impl FnOnce() -> R + Send, calls: &Calls, ended: &(dyn Fn() -> f64 + Sync)) -> R {
+///
+/// # Errors
+/// The system has no thread to give.
+pub fn watched_run<R: Send>(
+    run: impl FnOnce() -> R + Send,
+    calls: &Calls,
+    ended: &(dyn Fn() -> f64 + Sync),
+) -> std::io::Result<R> {
     std::thread::scope(|scope| {
         let (done, wait) = std::sync::mpsc::channel::<()>();
-        let running = scope.spawn(move || {
+        let running = std::thread::Builder::new().spawn_scoped(scope, move || {
             let result = run();
             drop(done);
             result
-        });
+        })?;
         while let Err(std::sync::mpsc::RecvTimeoutError::Timeout) = wait.recv_timeout(PATIENCE) {
             calls.look(ended());
         }
-        running.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        Ok(running.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
     })
 }

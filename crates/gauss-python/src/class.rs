@@ -4,14 +4,12 @@ use std::sync::Arc;
 
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
 use numpy::{PyArray1, PyArrayDyn, PyArrayMethods};
 
 use crate::arrays;
 use crate::kernels::{AnyKernel, AnyScene};
-use crate::methods::Spec;
 use crate::parameters;
 
 /// The scene of a class, as its attribute `_scene`.
@@ -98,7 +96,8 @@ impl Kernel {
         parameters::as_dict(py, self.kernel())
     }
 
-    /// What is likely not meant, although a kernel can be made of it.
+    /// What of the robot's file does not act in the equations, and what is likely not meant, although a kernel can be
+    /// made of it.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.kernel.warnings()
@@ -191,6 +190,21 @@ impl Kernel {
         Ok(numbers.map(|numbers| PyArray1::from_vec(py, numbers).to_dyn().clone()))
     }
 
+    /// The state q, z nearest to these, measured by the kinetic energy, that satisfies the constraints.
+    #[pyo3(signature = (q, z, *, t=0.0))]
+    fn project<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        z: &Bound<'py, PyAny>,
+        t: f64,
+    ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 2]> {
+        let sizes = self.scene().sizes();
+        let (q, z) = (arrays::vector("q", q, sizes.configuration)?, arrays::vector("z", z, sizes.speeds)?);
+        let found = self.kernel().project(t, &q, &z).map_err(PyValueError::new_err)?;
+        Ok(found.map(|numbers| PyArray1::from_vec(py, numbers).to_dyn().clone()))
+    }
+
     fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
         let parameters = slf.get().parameters(slf.py())?;
         let words = parameters.iter().map(|(name, value)| {
@@ -254,24 +268,4 @@ pub fn place(scene: &dyn AnyScene, name: &str, values: &[f64], [q, z]: &mut [Vec
     }
     numbers[first..first + size].copy_from_slice(values);
     Ok(())
-}
-
-/// Results by their names: one class of tuples for each method.
-pub fn named_tuple<'py>(
-    py: Python<'py>,
-    spec: &Spec,
-    results: &[Bound<'py, PyArrayDyn<f64>>],
-) -> PyResult<Bound<'py, PyAny>> {
-    static CLASSES: PyOnceLock<Py<PyDict>> = PyOnceLock::new();
-    let classes = CLASSES.get_or_init(py, || PyDict::new(py).unbind()).bind(py);
-    let class = match classes.get_item(spec.name)? {
-        Some(class) => class,
-        None => {
-            let names: Vec<&str> = spec.results.iter().map(|result| result.name).collect();
-            let class = py.import("collections")?.call_method1("namedtuple", (spec.class_name(), names))?;
-            classes.set_item(spec.name, &class)?;
-            class
-        }
-    };
-    class.call1(PyTuple::new(py, results)?)
 }

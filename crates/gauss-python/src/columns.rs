@@ -9,9 +9,9 @@ use arrow_buffer::{Buffer, ScalarBuffer};
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use numpy::ndarray::{ArrayView2, ShapeBuilder};
 use numpy::{PyArray2, PyArrayMethods};
-use pyo3::exceptions::{PyKeyError, PyRuntimeError};
+use pyo3::exceptions::{PyIndexError, PyKeyError, PyRuntimeError, PyTypeError};
 use pyo3::prelude::*;
-use pyo3::types::PyCapsule;
+use pyo3::types::{PyCapsule, PyDict, PyRange};
 
 /// Named columns of one length, one after the other in memory that is never written again.
 pub struct Columns {
@@ -30,6 +30,11 @@ impl Columns {
     /// How many rows there are.
     pub fn len(&self) -> usize {
         self.rows
+    }
+
+    /// All numbers, column by column.
+    pub fn numbers(&self) -> &[f64] {
+        &self.numbers
     }
 
     /// The names.
@@ -56,6 +61,38 @@ impl Columns {
             Some(place) => self.view(owner, place, 1).call_method0("ravel"),
             None => Err(PyKeyError::new_err(format!("no column {name}; there are {}", self.names.join(", ")))),
         }
+    }
+
+    /// A column by its name, a row by its number: one from the end where that is negative.
+    pub fn item<'py>(&self, owner: Bound<'py, PyAny>, key: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        if let Ok(name) = key.extract::<&str>() {
+            return self.column(owner, name);
+        }
+        let Ok(number) = key.extract::<isize>() else {
+            return Err(PyTypeError::new_err("columns are asked for by a name, rows by a number"));
+        };
+        let row = if number < 0 { number.checked_add_unsigned(self.rows) } else { Some(number) };
+        let row = row.and_then(|row| usize::try_from(row).ok()).filter(|row| *row < self.rows);
+        match row {
+            Some(row) => self.row(key.py(), row).map(Bound::into_any),
+            None => Err(PyIndexError::new_err(format!("there is no row {number}; there are {}", self.rows))),
+        }
+    }
+
+    /// A row by the names of its numbers.
+    fn row<'py>(&self, py: Python<'py>, row: usize) -> PyResult<Bound<'py, PyDict>> {
+        let named = PyDict::new(py);
+        for (k, name) in self.names.iter().enumerate() {
+            named.set_item(name, self.numbers[k * self.rows + row])?;
+        }
+        Ok(named)
+    }
+
+    /// All rows, one after the other, by the numbers of `owner`.
+    pub fn iterator<'py>(&self, owner: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let py = owner.py();
+        let numbers = PyRange::new(py, 0, self.rows as isize)?;
+        py.import("builtins")?.getattr("map")?.call1((owner.getattr("__getitem__")?, numbers))
     }
 
     /// The columns as a stream of one record batch: a capsule named `arrow_array_stream`.

@@ -18,6 +18,8 @@ pub struct Field {
 pub enum Shape {
     /// An array of these axes, none of a number; matrices row by row.
     Array(&'static [usize]),
+    /// A unit quaternion x, y, z, w.
+    Rotation,
     /// Mass, centre of mass and inertia about O: a mapping of Python.
     Body,
 }
@@ -28,6 +30,7 @@ impl Shape {
     pub fn size(self) -> usize {
         match self {
             Self::Array(axes) => axes.iter().product(),
+            Self::Rotation => 4,
             Self::Body => 1 + 3 + 9,
         }
     }
@@ -46,6 +49,15 @@ pub struct Part {
     pub label: &'static str,
 }
 
+/// Something to know of the file that a scene comes from.
+#[derive(Clone, Copy, Debug)]
+pub struct Remark {
+    /// What, with its place in the file.
+    pub text: &'static str,
+    /// Whether something that acts in the file does not act in the equations.
+    pub ignored: bool,
+}
+
 /// All that is known of a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Description {
@@ -61,6 +73,8 @@ pub struct Description {
     pub speeds: &'static [Part],
     /// Inputs, in their order.
     pub inputs: &'static [Part],
+    /// What there is to know of its file.
+    pub remarks: &'static [Remark],
 }
 
 impl Description {

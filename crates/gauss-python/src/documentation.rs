@@ -4,7 +4,8 @@ use crate::arrays::shown;
 use crate::description::{Description, Shape};
 use crate::parameters::described;
 
-/// The class in words: the struct's doc comment, its parameters, coordinates, speeds and inputs.
+/// The class in words: the struct's doc comment, its parameters, coordinates, speeds and inputs, and what of its file
+/// does not act.
 pub fn documentation(description: &Description) -> String {
     let mut text = description.documentation.to_owned();
     if !description.fields.is_empty() {
@@ -13,6 +14,7 @@ pub fn documentation(description: &Description) -> String {
             let shape = match field.shape {
                 Shape::Array([]) => "number".to_owned(),
                 Shape::Array(axes) => format!("array {}", shown(axes)),
+                Shape::Rotation => "unit quaternion x, y, z, w".to_owned(),
                 Shape::Body => "mapping of mass, center_of_mass, inertia".to_owned(),
             };
             text.push_str(&format!("  {}: {shape}{}\n", field.name, described(field)));
@@ -26,6 +28,10 @@ pub fn documentation(description: &Description) -> String {
             let numbers = if part.size == 1 { String::new() } else { format!(" ({} numbers)", part.size) };
             text.push_str(&format!("  {}{numbers}: {}\n", part.name, part.label));
         }
+    }
+    if !description.remarks.is_empty() {
+        text.push_str("\nThe file:\n");
+        description.remarks.iter().for_each(|remark| text.push_str(&format!("  {}\n", remark.text)));
     }
     text
 }

@@ -120,14 +120,19 @@ pub fn ends(scene: &dyn AnyScene, given: Option<&Bound<'_, PyAny>>) -> PyResult<
     }
 }
 
-/// Finite numbers, and what else must hold of tolerances and steps.
+/// Finite numbers, and what else must hold of tolerances and steps. The first of them is the relative tolerance.
 pub fn checked(interval: (f64, f64), positive: &[(&str, f64)]) -> PyResult<()> {
     if !(interval.0.is_finite() && interval.1.is_finite()) {
         return Err(PyValueError::new_err("the interval is a pair of finite times"));
     }
-    match positive.iter().find(|(_, value)| value.is_nan() || *value <= 0.0) {
-        Some((name, value)) => Err(PyValueError::new_err(format!("{name} must be positive, found {value}"))),
-        None => Ok(()),
+    let wrong = |why: String| Err(PyValueError::new_err(why));
+    match (positive.iter().find(|(_, value)| value.is_nan() || *value <= 0.0), positive.first()) {
+        (Some((name, value)), _) => wrong(format!("{name} must be positive, found {value}")),
+        (None, Some((name, value))) if *value < f64::EPSILON => wrong(format!(
+            "{name} is {value:e}, and numbers of 64 bits have rounding of {:.1e}: no step can keep it",
+            f64::EPSILON
+        )),
+        (None, _) => Ok(()),
     }
 }
 
@@ -139,15 +144,6 @@ pub fn times_within(given: &Bound<'_, PyAny>, (from, to): (f64, f64)) -> PyResul
         _ if axes.len() != 1 => Err(PyValueError::new_err(format!("times has shape {}; expected (n,)", shown(&axes)))),
         Some(time) => Err(PyValueError::new_err(format!("the time {time} is outside of the run"))),
         None => Ok(times),
-    }
-}
-
-/// The numbers of a state.
-pub fn state(name: &'static str, given: &Bound<'_, PyAny>, size: usize) -> PyResult<Vec<f64>> {
-    let (numbers, axes) = arrays::numbers(name, given)?;
-    match axes[..] {
-        [count] if count == size => Ok(numbers),
-        _ => Err(PyValueError::new_err(format!("{name} has shape {}; expected ({size},)", shown(&axes)))),
     }
 }
 

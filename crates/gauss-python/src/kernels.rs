@@ -6,7 +6,7 @@ use std::time::Duration;
 use gauss_runtime::accuracy::Accuracy;
 use gauss_runtime::description::{Equations, Operations};
 use gauss_runtime::error::ParameterError;
-use gauss_runtime::prelude::DescribedSystem;
+use gauss_runtime::prelude::{DescribedSystem, GaussSystem};
 use gauss_runtime::simd::Packed;
 
 use crate::description::Description;
@@ -52,7 +52,7 @@ pub trait AnyKernel: Send + Sync {
     fn scene(&self) -> &'static dyn AnyScene;
     /// Its parameters.
     fn numbers(&self) -> &[f64];
-    /// What is likely not meant.
+    /// What of the scene's file does not act, and what is likely not meant.
     fn warnings(&self) -> Vec<String>;
     /// Computes rows; the first row whose rotation is none, with how far the squares of its numbers are from 1.
     ///
@@ -60,6 +60,11 @@ pub trait AnyKernel: Send + Sync {
     /// All arrays that the method names have these rows, each of the sizes of the scene.
     #[allow(unsafe_code)]
     unsafe fn run(&self, id: Id, work: &Work, rows: Range<usize>) -> Result<(), OffGroup>;
+    /// The nearest state on the constraints.
+    ///
+    /// # Errors
+    /// A state that is none, one from which no such state is found.
+    fn project(&self, t: f64, q: &[f64], z: &[f64]) -> Result<[Vec<f64>; 2], String>;
     /// A run.
     fn simulate(&self, request: &Request<'_>) -> Result<Outcome, String>;
     /// Many runs.
@@ -168,15 +173,14 @@ struct Instance<S: Scene> {
 }
 
 impl<S: Scene> Instance<S> {
-    /// The first rotation in these rows that is none. What is not a number passes: it gives none.
+    /// The first rotation in these rows that is none, as what is not a number is.
     fn off_group(&self, slot: Slot, source: &Source, rows: Range<usize>) -> Result<(), OffGroup> {
         for &(place, count) in &self.scene.blocks {
             for row in rows.clone() {
                 // SAFETY: of `run`.
                 #[allow(unsafe_code)]
                 let squares: f64 = (place..place + count).map(|i| unsafe { source.get(row, i) }.powi(2)).sum();
-                // The squares of numbers with half of the digits: as `configuration::check` has it.
-                if (squares - 1.0).abs() > 2.0 * f64::EPSILON.sqrt() {
+                if steps::off_group(squares) {
                     return Err(OffGroup { row, slot, place, count, squares });
                 }
             }
@@ -295,7 +299,9 @@ impl<S: Scene> AnyKernel for Instance<S> {
     }
 
     fn warnings(&self) -> Vec<String> {
-        S::warnings(&self.numbers).iter().map(ToString::to_string).collect()
+        let of_file =
+            S::DESCRIPTION.remarks.iter().filter(|remark| remark.ignored).map(|remark| remark.text.to_owned());
+        of_file.chain(S::warnings(&self.numbers).iter().map(ToString::to_string)).collect()
     }
 
     #[allow(unsafe_code)]
@@ -311,7 +317,16 @@ impl<S: Scene> AnyKernel for Instance<S> {
         Ok(())
     }
 
+    fn project(&self, t: f64, q: &[f64], z: &[f64]) -> Result<[Vec<f64>; 2], String> {
+        let start = steps::state(&S::DESCRIPTION, self.scene.names(), q, z).map_err(|mistakes| mistakes.join("; "))?;
+        let found = self.single.project(t, &start, &steps::vector(z)).map_err(|error| error.to_string())?;
+        Ok([steps::numbers_of(&found.0), steps::components(&found.1)])
+    }
+
     fn simulate(&self, request: &Request<'_>) -> Result<Outcome, String> {
+        let names = self.scene.names();
+        steps::state::<<S::Single as GaussSystem>::Configuration>(&S::DESCRIPTION, names, request.q, request.z)
+            .map_err(|mistakes| mistakes.join("; "))?;
         self.scene.steps.simulate(&self.single, request)
     }
 

@@ -31,12 +31,12 @@
 //! `cargo gauss create --python NAME` writes such a package, which `pip install .` builds. The guide, "From Python",
 //! has what classes offer.
 //!
-//! Rooms, each knows those before it: `description`, `parameter` (what is known of a struct, its fields), `memory`
-//! (the only access to arrays by address), `methods` (methods of a kernel over rows), `steps` (one run: numbers in,
-//! columns out), `scene` (a struct as Python sees it), `runs` (many), `kernels` (its kernels, their types forgotten),
-//! and what Python sees: `arrays`, `columns`, `call`, `parameters`, `class` with `of_kernels`, `states` and
-//! `simulation`, which knows `calls` (functions of Python in a run) and `given` (what a run is given), `run`, `stubs`,
-//! `jax` (the door to XLA), `make`.
+//! Rooms, each knows those before it: `description`, `parameter` (what is known of a struct, its fields), `threads`,
+//! `memory` (the only access to arrays by address), `methods` (methods of a kernel over rows), `steps` (one run: numbers
+//! in, columns out), `scene` (a struct as Python sees it), `runs` (many), `kernels` (its kernels, their types forgotten),
+//! and what Python sees: `errors`, `arrays`, `tuples`, `columns`, `call`, `parameters`, `class` with `of_kernels`, `states` and
+//! `simulation`, which knows `calls` (functions of Python in a run) and `given` (what a run is given), `run`, `ends`,
+//! `stubs`, `jax` (the door to XLA), `make`.
 
 #![deny(missing_docs, unsafe_code)]
 
@@ -47,6 +47,8 @@ mod class;
 mod columns;
 mod description;
 mod documentation;
+mod ends;
+mod errors;
 mod given;
 mod jax;
 mod kernels;
@@ -64,8 +66,10 @@ mod simulation;
 mod states;
 mod steps;
 mod stubs;
+mod threads;
+mod tuples;
 
-pub use description::{Description, Field, Part, Shape};
+pub use description::{Description, Field, Part, Remark, Shape};
 pub use gauss_runtime::error::{ParameterError, ParameterWarnings};
 pub use gauss_runtime::real::Real;
 #[doc(hidden)]

@@ -7,21 +7,26 @@ use pyo3::types::{PyCFunction, PyDict, PyList, PyTuple, PyType};
 use crate::class::{Kernel, SceneHandle};
 use crate::description::Description;
 use crate::documentation::documentation;
-use crate::jax;
+use crate::ends::Ends;
 use crate::kernels::{AnyScene, Registered};
-use crate::parameters::ParameterError;
-use crate::run::{Ends, IntegrationError, Run};
+use crate::run::Run;
 use crate::scene::Scene;
-use crate::stubs;
+use crate::{errors, jax, stubs, tuples};
 
 /// Adds what all modules have: [`finish`] comes after the last class.
 pub fn begin(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
-    module.add_class::<Kernel>()?;
-    module.add_class::<Run>()?;
-    module.add_class::<Ends>()?;
-    module.add("ParameterError", py.get_type::<ParameterError>())?;
-    module.add("IntegrationError", py.get_type::<IntegrationError>())
+    errors::set_package(module)?;
+    for class in [py.get_type::<Kernel>(), py.get_type::<Run>(), py.get_type::<Ends>()] {
+        // Pickles look for it where it can be imported from.
+        class.setattr("__module__", module.name()?)?;
+        module.add(class.name()?, class)?;
+    }
+    for name in ["ParameterError", "IntegrationError"] {
+        module.add(name, errors::class(py, name)?)?;
+    }
+    module.add_function(wrap_pyfunction!(errors::raised, module)?)?;
+    tuples::add(module)
 }
 
 /// Adds the class of a struct.
@@ -47,8 +52,9 @@ pub fn add<S: Scene>(module: &Bound<'_, PyModule>) -> PyResult<&'static dyn AnyS
 pub fn finish(module: &Bound<'_, PyModule>, scenes: Vec<&'static dyn AnyScene>) -> PyResult<()> {
     let py = module.py();
     let names = ["Kernel", "Run", "Ends", "ParameterError", "IntegrationError", "jax", "stubs"];
-    let all = names.into_iter().chain(scenes.iter().map(|scene| scene.description().name));
-    module.add("__all__", PyList::new(py, all)?)?;
+    let names = names.into_iter().map(str::to_owned).chain(tuples::names());
+    let all = names.chain(scenes.iter().map(|scene| scene.description().name.to_owned()));
+    module.add("__all__", PyList::new(py, all.collect::<Vec<_>>())?)?;
     let stubs = move |_: &Bound<'_, PyTuple>, _: Option<&Bound<'_, PyDict>>| stubs::text(&scenes);
     let function = PyCFunction::new_closure(py, Some(c"stubs"), Some(c"The text of the stubs of this module."), stubs)?;
     module.add("stubs", function)?;

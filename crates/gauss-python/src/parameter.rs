@@ -72,7 +72,7 @@ impl<T: Real, const R: usize, const C: usize> Parameter<T> for SMatrix<T, R, C> 
 }
 
 impl<T: Real> Parameter<T> for UnitQuaternion<T> {
-    const SHAPE: Shape = Shape::Array(&[4]);
+    const SHAPE: Shape = Shape::Rotation;
 
     fn read(numbers: &mut Numbers<'_, T>) -> Self {
         let components: SVector<T, 4> = Parameter::read(numbers);

@@ -1,19 +1,13 @@
 //! Keywords of Python as the parameters of a struct, and back.
 
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{self, shown};
 use crate::description::{Field, Shape};
+use crate::errors;
 use crate::kernels::{AnyKernel, AnyScene};
-
-pyo3::create_exception!(
-    gauss_python,
-    ParameterError,
-    PyValueError,
-    "Parameters that cannot be: `fields` has a pair (name, what is wrong) for each mistake."
-);
+use crate::steps::{off_group, off_group_words};
 
 /// What is wrong: the name of a field, and why.
 type Mistakes = Vec<(String, String)>;
@@ -57,11 +51,8 @@ fn raised(py: Python<'_>, scene: &dyn AnyScene, mistakes: Mistakes) -> PyErr {
         true => format!("\n  {why}"),
         false => format!("\n  {name} {why}"),
     });
-    let error = ParameterError::new_err(format!("{}:{}", scene.description().name, lines.collect::<Vec<_>>().concat()));
-    match error.value(py).setattr("fields", mistakes) {
-        Ok(()) => error,
-        Err(other) => other,
-    }
+    let message = format!("{}:{}", scene.description().name, lines.collect::<Vec<_>>().concat());
+    errors::new(py, "ParameterError", message, ("fields", mistakes))
 }
 
 /// ` (kg): of the hull`.
@@ -76,6 +67,10 @@ fn read(field: &Field, value: &Bound<'_, PyAny>, numbers: &mut Vec<f64>, mistake
     let next = numbers.len() + field.shape.size();
     let read = match field.shape {
         Shape::Array(axes) => array(field.name, value, axes).map(|array| numbers.extend(array)),
+        Shape::Rotation => array(field.name, value, &[4]).and_then(|array| {
+            numbers.extend(&array);
+            rotation(&array)
+        }),
         Shape::Body => body(field.name, value).map(|body| numbers.extend(body)),
     };
     if let Err(why) = read {
@@ -91,6 +86,12 @@ fn array(name: &str, value: &Bound<'_, PyAny>, axes: &[usize]) -> Result<Vec<f64
     }
     let expected = if axes.is_empty() { "one number".to_owned() } else { format!("shape {}", shown(axes)) };
     Err(format!("has shape {}; expected {expected}", shown(&found)))
+}
+
+/// That the components of a quaternion are those of a rotation.
+fn rotation(numbers: &[f64]) -> Result<(), String> {
+    let squares = numbers.iter().map(|number| number * number).sum();
+    if off_group(squares) { Err(format!("is no rotation: {}", off_group_words(squares))) } else { Ok(()) }
 }
 
 /// Mass, centre of mass and inertia of a mapping; the centre of mass is O where it is left out, and three numbers are
@@ -125,6 +126,7 @@ pub fn as_dict<'py>(py: Python<'py>, kernel: &dyn AnyKernel) -> PyResult<Bound<'
         rest = others;
         match field.shape {
             Shape::Array(axes) => parameters.set_item(field.name, value(py, own, axes)?)?,
+            Shape::Rotation => parameters.set_item(field.name, value(py, own, &[4])?)?,
             Shape::Body => {
                 let (body, mut own) = (PyDict::new(py), own);
                 for (part, axes) in BODY {
@@ -143,5 +145,21 @@ fn value<'py>(py: Python<'py>, numbers: &[f64], axes: &[usize]) -> PyResult<Boun
     match (axes, numbers) {
         ([], [number]) => Ok(number.into_pyobject(py)?.into_any()),
         _ => numpy::PyArray1::from_slice(py, numbers).call_method1("reshape", (axes.to_vec(),)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rotation;
+
+    #[test]
+    fn quaternions_have_norm_1() {
+        assert_eq!(rotation(&[0.6, 0.0, 0.8, 0.0]), Ok(()));
+        // Nine digits of a file.
+        assert_eq!(rotation(&[0.547722558, 0.0, 0.836660027, 0.0]), Ok(()));
+        for wrong in [[0.0; 4], [0.6, 0.0, 0.8, 1e-3], [f64::NAN, 0.0, 0.0, 1.0], [1e200, 0.0, 0.0, 0.0]] {
+            let told = rotation(&wrong).expect_err("none");
+            assert!(told.starts_with("is no rotation: squares of its numbers add up to "), "{told}");
+        }
     }
 }

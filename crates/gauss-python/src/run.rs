@@ -1,21 +1,14 @@
-//! Runs in Python: what became of one, and of many.
+//! A run in Python.
 
-use numpy::{PyArray1, PyArray2};
+use gauss_runtime::integrate::Summary;
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyCapsule, PyList};
+use pyo3::types::{PyCapsule, PyList, PyTuple, PyType};
 
 use crate::columns::Columns;
 use crate::kernels::AnyScene;
-use crate::runs::ManyEnds;
-use crate::steps::Outcome;
-
-pyo3::create_exception!(
-    gauss_python,
-    IntegrationError,
-    pyo3::exceptions::PyRuntimeError,
-    "A run that did not reach its end: `run` has the states up to the last good one."
-);
+use crate::steps::{Event, Outcome};
+use crate::tuples;
 
 /// A run: its states in columns that NumPy and Arrow see without a copy.
 #[pyclass(frozen, module = "gauss_python")]
@@ -44,11 +37,6 @@ impl Run {
 
     /// The times and states of one event.
     fn event<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyAny>> {
-        static CLASS: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
-        let class = CLASS.get_or_try_init(py, || {
-            let class = py.import("collections")?.call_method1("namedtuple", ("Events", ["t", "q", "z"]))?;
-            Ok::<_, PyErr>(class.unbind())
-        })?;
         let rows: Vec<&[f64]> =
             self.outcome.events.iter().filter(|event| event.number == number).map(|event| &event.row[..]).collect();
         let part = |from: usize, count: usize| {
@@ -56,7 +44,8 @@ impl Run {
             PyArray1::from_vec(py, numbers).call_method1("reshape", ((rows.len(), count),))
         };
         let t = part(0, 1)?.call_method0("ravel")?;
-        class.bind(py).call1((t, part(1, self.coordinates)?, part(1 + self.coordinates, self.speeds)?))
+        let fields = (t, part(1, self.coordinates)?, part(1 + self.coordinates, self.speeds)?);
+        tuples::new(py, tuples::EVENTS, fields.into_pyobject(py)?)
     }
 
     /// Why it did not reach its end.
@@ -66,7 +55,7 @@ impl Run {
 }
 
 /// `t`, the numbers of q and z, and more.
-fn names(scene: &dyn AnyScene, more: &[&str]) -> Vec<String> {
+pub fn names(scene: &dyn AnyScene, more: &[&str]) -> Vec<String> {
     let [coordinates, speeds] = scene.names();
     let all = ["t"].iter().chain(coordinates).chain(speeds).chain(more);
     all.map(ToString::to_string).collect()
@@ -125,7 +114,7 @@ impl Run {
         self.outcome.stopped_by
     }
 
-    /// Whether it was interrupted, by Ctrl-C.
+    /// Whether it was interrupted, by Ctrl-C or an exception, which has it as `run`.
     #[getter]
     fn interrupted(&self) -> bool {
         self.outcome.interrupted
@@ -149,8 +138,19 @@ impl Run {
         self.outcome.summary.rejected
     }
 
-    fn __getitem__<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        slf.get().columns.column(slf.clone().into_any(), name)
+    /// A column by its name, a state by its number.
+    fn __getitem__<'py>(slf: &Bound<'py, Self>, key: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        slf.get().columns.item(slf.clone().into_any(), key)
+    }
+
+    /// States, each with its numbers by name.
+    fn __iter__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.get().columns.iterator(slf.as_any())
+    }
+
+    /// Whether it has a column of this name.
+    fn __contains__(&self, name: &str) -> bool {
+        self.columns.names().iter().any(|other| other == name)
     }
 
     fn __len__(&self) -> usize {
@@ -179,99 +179,38 @@ impl Run {
         };
         format!("Run({} states, {}{end})", columns.len(), outcome.summary)
     }
-}
-
-/// The ends of many runs, a row for each.
-#[pyclass(frozen, module = "gauss_python")]
-pub struct Ends {
-    columns: Columns,
-    coordinates: usize,
-    speeds: usize,
-    stopped: Vec<bool>,
-    errors: Vec<(usize, String)>,
-    interrupted: bool,
-}
-
-impl Ends {
-    /// Those of a scene.
-    pub fn new(scene: &dyn AnyScene, ends: ManyEnds, interrupted: bool) -> Self {
-        let sizes = scene.sizes();
-        let ManyEnds { columns, stopped, errors } = ends;
-        let mut names = names(scene, &["steps"]);
-        if columns.is_empty() {
-            names.clear();
-        }
-        let columns = Columns::new(names, columns, stopped.len());
-        Self { columns, coordinates: sizes.configuration, speeds: sizes.speeds, stopped, errors, interrupted }
-    }
-}
-
-#[pymethods]
-impl Ends {
-    /// When each run ended.
-    #[getter]
-    fn t<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.get().columns.column(slf.clone().into_any(), "t")
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (py, Self { columns, coordinates, speeds, kinds, outcome }) = (slf.py(), slf.get());
+        let Outcome { reached, events, stopped_by, summary, error, interrupted, .. } = outcome;
+        let events: Vec<(usize, Vec<f64>)> = events.iter().map(|event| (event.number, event.row.clone())).collect();
+        let state = (
+            (columns.names().to_vec(), PyArray1::from_slice(py, columns.numbers()), columns.len()),
+            (*coordinates, *speeds, *kinds),
+            (*reached, *stopped_by, error.clone(), *interrupted),
+            events,
+            (summary.steps, summary.rejected, summary.rounded, summary.excess, summary.jumps),
+        );
+        // A method of the class: pickles find it in all protocols.
+        Ok((slf.get_type().getattr("_restored")?, state.into_pyobject(py)?))
     }
 
-    /// The last configuration of each.
-    #[getter]
-    fn q<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray2<f64>> {
-        let ends = slf.get();
-        ends.columns.view(slf.clone().into_any(), 1, ends.coordinates)
-    }
-
-    /// The last speeds of each.
-    #[getter]
-    fn z<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray2<f64>> {
-        let ends = slf.get();
-        ends.columns.view(slf.clone().into_any(), 1 + ends.coordinates, ends.speeds)
-    }
-
-    /// Whether each came to the end in `until`.
-    #[getter]
-    fn stopped<'py>(&self, py: Python<'py>) -> Bound<'py, numpy::PyArray1<bool>> {
-        numpy::PyArray1::from_slice(py, &self.stopped)
-    }
-
-    /// Runs that did not reach their end: pairs of a number and a reason.
-    #[getter]
-    fn errors(&self) -> Vec<(usize, String)> {
-        self.errors.clone()
-    }
-
-    /// Whether they were interrupted, by Ctrl-C.
-    #[getter]
-    fn interrupted(&self) -> bool {
-        self.interrupted
-    }
-
-    /// The names of the columns.
-    #[getter]
-    fn columns(&self) -> Vec<String> {
-        self.columns.names().to_vec()
-    }
-
-    fn __getitem__<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        slf.get().columns.column(slf.clone().into_any(), name)
-    }
-
-    fn __len__(&self) -> usize {
-        self.stopped.len()
-    }
-
-    /// All columns for programs that read Arrow.
-    #[pyo3(signature = (requested_schema=None))]
-    fn __arrow_c_stream__<'py>(
-        &self,
-        py: Python<'py>,
-        requested_schema: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyCapsule>> {
-        let _ = requested_schema;
-        self.columns.stream(py)
-    }
-
-    fn __repr__(&self) -> String {
-        format!("Ends({} runs, {} failed)", self.stopped.len(), self.errors.len())
+    /// A run from its pickle.
+    #[classmethod]
+    fn _restored(
+        _class: &Bound<'_, PyType>,
+        columns: (Vec<String>, Bound<'_, PyArray1<f64>>, usize),
+        sizes: (usize, usize, usize),
+        end: (f64, Option<usize>, Option<String>, bool),
+        events: Vec<(usize, Vec<f64>)>,
+        steps: (u64, u64, u64, f64, u64),
+    ) -> PyResult<Self> {
+        let ((names, numbers, rows), (coordinates, speeds, kinds)) = (columns, sizes);
+        let (reached, stopped_by, error, interrupted) = end;
+        let mut summary = Summary::default();
+        (summary.steps, summary.rejected, summary.rounded, summary.excess, summary.jumps) = steps;
+        let columns = Columns::new(names, numbers.readonly().to_vec()?, rows);
+        let events = events.into_iter().map(|(number, row)| Event { number, row }).collect();
+        let outcome = Outcome { columns: Vec::new(), rows, reached, events, stopped_by, summary, error, interrupted };
+        Ok(Self { columns, coordinates, speeds, kinds, outcome })
     }
 }

@@ -65,6 +65,7 @@ macro_rules! scene {
         inputs { $($input:tt)* }
         offers { $($offer:ident)* }
         steps { $($step:ident)* }
+        remarks { $($remark:literal $ignored:literal;)* }
     ) => {
         const _: () = {
             $crate::__from_numbers! { $name [$($scalar)?] $($field [$ty])* }
@@ -90,6 +91,7 @@ macro_rules! scene {
                         coordinates: $crate::__parts!($($coordinate)*),
                         speeds: $crate::__parts!($($speed)*),
                         inputs: $crate::__parts!($($input)*),
+                        remarks: &[$($crate::Remark { text: $remark, ignored: $ignored }),*],
                     }
                 };
 

@@ -2,14 +2,18 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::arrays::vector;
 use crate::calls::{Calls, Progress, watched_run};
 use crate::class::Kernel;
-use crate::given::{self, GivenController, GivenEnd, GivenInput, state, states};
-use crate::run::{Ends, IntegrationError, Run};
+use crate::ends::Ends;
+use crate::errors;
+use crate::given::{self, GivenController, GivenEnd, GivenInput, states};
+use crate::run::Run;
 use crate::runs::Many;
 use crate::steps::{Control, Held, Input, Outcome, Request};
 
@@ -33,7 +37,7 @@ impl Given {
         let kernel = kernel.kernel();
         let size = kernel.scene().sizes().input;
         let of_function = |function: &Py<PyAny>, at: (f64, &[f64], &[f64])| {
-            let read = |value: &Bound<'_, PyAny>| state("input", value, size);
+            let read = |value: &Bound<'_, PyAny>| vector("input", value, size);
             calls.call(function, at, read).unwrap_or_else(|| vec![f64::NAN; size])
         };
         let by_function = |t: f64, q: &[f64], z: &[f64]| match &self.input {
@@ -80,7 +84,7 @@ impl Kernel {
     /// added to the input. `until` ends the run early: (name, value), (name, value, "falling"), a function of (t, q,
     /// z), or a list of such; states at `events`, as these, are found in the run. `times` are those of the states that
     /// are given back, instead of the ends of steps. `progress` is a function of the time, or True for a bar of tqdm.
-    /// Ctrl-C ends the run with what there is.
+    /// Ctrl-C, and an exception in a function, end the run and are raised with what there is of it, as `run`.
     #[pyo3(signature = (q, z, interval, *, rtol=1e-9, atol=1e-9, step=None, largest_step=None, method=None, input=None,
         controller=None, period=None, delay=0.0, until=None, events=None, times=None, max_steps=None, progress=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords")]
@@ -112,8 +116,8 @@ impl Kernel {
         let (events, ends) = (given::ends(scene, events)?, given::ends(scene, until)?);
         let kinds = events.len();
         let given = Given {
-            q: state("q", q, sizes.configuration)?,
-            z: state("z", z, sizes.speeds)?,
+            q: vector("q", q, sizes.configuration)?,
+            z: vector("z", z, sizes.speeds)?,
             interval,
             control: given::control(method, step, (rtol, atol, largest_step))?,
             input: given::input(scene, input, controller.is_some())?,
@@ -130,18 +134,19 @@ impl Kernel {
         let calls = Calls::new(Progress::of(progress, interval, "s")?);
         let run = given.run(py, self, &calls).map(|outcome| Run::new(scene, outcome, kinds));
         calls.end(py, run.as_ref().map_or(interval.0, Run::reached));
-        if let Some(error) = calls.error(py) {
-            return Err(error);
+        match calls.error() {
+            None => finished(py, run?),
+            Some(error) => Err(ended_by(py, error, "run", run.and_then(|run| run.into_bound_py_any(py)))),
         }
-        finished(py, run?)
     }
 
     /// Carries many states, in lanes and on all threads, each with steps of its own: q and z are rows, or one for all;
     /// `parameters` has an array with a number for each run. `input` is an array or a pair (times, values); `until` is
-    /// (name, value) or (name, value, direction). Runs that fail are told of in `errors`. `progress` is a function of
-    /// the number of runs that have ended, or True for a bar of tqdm.
+    /// (name, value) or (name, value, direction). Runs that fail, or cannot begin, are told of in `errors`, each with
+    /// all that is wrong. `progress` is a function of the number of runs that have ended, or True for a bar of tqdm.
+    /// Ctrl-C ends all runs and is raised with what there is, as `ends`.
     #[pyo3(signature = (q, z, interval, *, rtol=1e-9, atol=1e-9, input=None, until=None, parameters=None,
-        progress=None))]
+        max_steps=None, progress=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords")]
     fn ensemble<'py>(
         &self,
@@ -154,6 +159,7 @@ impl Kernel {
         input: Option<&Bound<'py, PyAny>>,
         until: Option<&Bound<'py, PyAny>>,
         parameters: Option<&Bound<'py, PyDict>>,
+        max_steps: Option<u64>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Ends> {
         let (kernel, scene) = (self.kernel(), self.kernel().scene());
@@ -186,6 +192,7 @@ impl Kernel {
             parameters: own.into_iter().map(|(_, place, values)| (place, values)).collect(),
             interval,
             tolerances: (rtol, atol),
+            limit: max_steps,
             input,
             until,
             stop: &calls.stop,
@@ -196,11 +203,21 @@ impl Kernel {
         drop(many);
         let interrupted = calls.stop.load(Ordering::Relaxed);
         calls.end(py, so_many());
-        if let Some(error) = calls.error(py) {
-            return Err(error);
+        let ends = ends?.map_err(PyValueError::new_err).map(|ends| Ends::new(scene, ends, interrupted));
+        match calls.error() {
+            None => ends,
+            Some(error) => Err(ended_by(py, error, "ends", ends.and_then(|ends| ends.into_bound_py_any(py)))),
         }
-        Ok(Ends::new(scene, ends.map_err(PyValueError::new_err)?, interrupted))
     }
+}
+
+/// What ended a run before its time, with what there is of it.
+fn ended_by(py: Python<'_>, error: PyErr, name: &str, there: PyResult<Bound<'_, PyAny>>) -> PyErr {
+    if let Ok(there) = there {
+        // An exception that takes no attributes is raised as it is.
+        let _ = error.value(py).setattr(name, there);
+    }
+    error
 }
 
 /// The run; an error of Python that has it, where it did not reach its end.
@@ -208,11 +225,7 @@ fn finished(py: Python<'_>, run: Run) -> PyResult<Bound<'_, Run>> {
     let run = Bound::new(py, run)?;
     match run.get().failure() {
         None => Ok(run),
-        Some(failure) => {
-            let error = IntegrationError::new_err(failure.to_owned());
-            error.value(py).setattr("run", run.clone())?;
-            Err(error)
-        }
+        Some(failure) => Err(errors::new(py, "IntegrationError", failure.to_owned(), ("run", run.clone()))),
     }
 }
 
@@ -240,6 +253,7 @@ impl Kernel {
             parameters: Vec::new(),
             interval: (0.0, 0.0),
             tolerances: (1.0, 1.0),
+            limit: None,
             input,
             until: None,
             stop: &calls.stop,

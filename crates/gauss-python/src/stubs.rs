@@ -29,7 +29,7 @@ fn class(scene: &dyn AnyScene) -> String {
     text.push_str(&docstring(&documentation(description), 4));
     let keywords = description.fields.iter().map(|field| match field.shape {
         Shape::Array([]) => format!("{}: float", field.name),
-        Shape::Array(_) => format!("{}: ArrayLike", field.name),
+        Shape::Array(_) | Shape::Rotation => format!("{}: ArrayLike", field.name),
         Shape::Body => format!("{}: Mapping[str, Any]", field.name),
     });
     let keywords: Vec<String> = keywords.collect();

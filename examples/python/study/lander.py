@@ -99,8 +99,6 @@ def touchdowns(seed, start, stop):
     q, z = states(drawn)
     until = ("pose_z", 0.0, "falling")
     ends = _lander.ensemble(q, z, (0.0, LONGEST), until=until, parameters=parameters, **TOLERANCES)
-    if ends.interrupted:
-        raise KeyboardInterrupt
     (i, j), (u, v, w), (a, b, c) = ends.q[:, :2].T, ends.z[:, :3].T, ends.z[:, 3:].T
     along, swing = np.sqrt(u * u + v * v), np.sqrt(a * a + b * b + c * c)
     columns = [ends.t, ends.q[:, 4], ends.q[:, 5], -w, along, 1.0 - 2.0 * (i * i + j * j), swing, ends["steps"]]

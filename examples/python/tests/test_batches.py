@@ -72,6 +72,31 @@ def test_leading_axes_are_the_batch(pendulum):
     assert np.array_equal(pendulum.potential_energy(np.asfortranarray(far)), pendulum.potential_energy(far))
 
 
+def misaligned(array):
+    """The same numbers a byte beside where numbers of 64 bits lie, as arrays from a wire have them."""
+    memory = np.zeros(array.nbytes + 9, dtype=np.uint8)
+    off = 1 if memory.ctypes.data % 8 == 0 else 0
+    found = memory[off : off + array.nbytes].view(np.float64).reshape(array.shape)
+    found[...] = array
+    assert not found.flags.aligned
+    return found
+
+
+def test_arrays_need_not_be_aligned(pendulum, random):
+    q, z = random.standard_normal((2, 600, 1))
+    u = np.array([0.3])
+    for odd in (misaligned, lambda array: array.astype(">f8"), np.asfortranarray):
+        p, v = odd(q), odd(z)
+        p.flags.writeable = False
+        assert np.array_equal(pendulum.acceleration(p, v, odd(u)), pendulum.acceleration(q, z, u))
+        ends = pendulum.ensemble(p[:20], v[:20], (0, 0.1), input=odd(u), parameters={"length": odd(np.full(20, 0.5))})
+        assert np.array_equal(ends.q, pendulum.ensemble(q[:20], z[:20], (0, 0.1), input=u).q)
+        run = pendulum.simulate(p[0], v[0], (0, 0.1), input=odd(u), times=odd(np.array([0.05])))
+        assert np.array_equal(run.q, pendulum.simulate(q[0], z[0], (0, 0.1), input=u, times=[0.05]).q)
+    with pytest.raises(ValueError, match="out must be in C order, and aligned"):
+        pendulum.acceleration(q, z, u, out=misaligned(q))
+
+
 def test_results_are_written_where_they_are_wanted(pendulum, random):
     q, z, u = (random.standard_normal((100, 1)) for _ in range(3))
     out = np.full((100, 1), np.nan)
@@ -158,6 +183,11 @@ def test_mistakes_in_arrays(pendulum, torpedo):
 def test_what_is_no_number_stays_none(pendulum, torpedo):
     assert np.isnan(pendulum.acceleration([np.nan], [0.0], [0.0])).all()
     assert np.isnan(torpedo.energy(torpedo.state()[0], np.full(6, np.nan)))
+    # But a rotation is none that is not a number, also where no result depends on it.
+    turned = np.tile(torpedo.state()[0], (3, 1))
+    turned[2, 1] = np.nan
+    with pytest.raises(ValueError, match=r"q\[2, 0:4\] is no rotation: squares of its numbers add up to NaN"):
+        torpedo.potential_energy(turned)
 
 
 def test_derivatives_against_differences(pendulum, random):

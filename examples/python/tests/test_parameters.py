@@ -47,6 +47,14 @@ def test_warnings(torpedo):
     assert scenes.Pendulum(mass=2.0, length=0.5, g=-9.81).warnings != []
 
 
+def test_what_of_a_file_does_not_act_is_told(arm):
+    (told,) = arm.warnings
+    assert "the range -40 to 40 of `elbow` (`effort`) does not act; write `saturation = clamp`" in told
+    assert told in scenes.Arm.__doc__
+    upward = scenes.Arm(g=-9.81).warnings
+    assert upward[0] == told and "fall upward" in upward[1] and len(upward) == 2
+
+
 def test_pickles_are_parameters(torpedo, wire):
     for kernel in (torpedo, wire):
         for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):

@@ -1,5 +1,6 @@
 """Runs and ensembles."""
 
+import contextlib
 import os
 import signal
 import threading
@@ -76,18 +77,81 @@ def test_failures_keep_what_there_is(pendulum):
         pendulum.simulate([1.0], [0.0], (0, 1), input=lambda t, q, z: [np.inf if t > 0.5 else 0.0])
     run = caught.value.run
     assert 0.0 < run.t[-1] <= 0.5 and run.error and not run.interrupted
-    with pytest.raises(ValueError, match="rtol must be positive"):
-        pendulum.simulate([1.0], [0.0], (0, 1), rtol=0.0, input=[0.0])
+    for call in (pendulum.simulate, pendulum.ensemble):
+        with pytest.raises(ValueError, match="rtol must be positive"):
+            call([1.0], [0.0], (0, 1), rtol=0.0, input=[0.0])
+        with pytest.raises(ValueError, match="rtol is 1e-30, and numbers of 64 bits have rounding of 2.2e-16"):
+            call([1.0], [0.0], (0, 1), rtol=1e-30, input=[0.0])
+        # What is near zero has no relative error to speak of.
+        call([1.0], [0.0], (0, 0.1), rtol=1e-12, atol=1e-30, input=[0.0])
 
 
-def test_interruption_keeps_what_there_is(pendulum):
-    # What runs in the background of a shell ignores Ctrl-C.
+def test_causes_are_told_in_words_of_python(pendulum):
+    # At ten steps in a second, a tenth of a day; the default is ten million steps.
+    with pytest.raises(scenes.IntegrationError, match="10000000 steps do not reach the end; allow more with `max_steps`"):
+        pendulum.simulate([1.0], [0.0], (0, 1e6), input=[0.0])
+    with pytest.raises(scenes.IntegrationError, match="100 steps do not reach the end; allow more with `max_steps`"):
+        pendulum.simulate([1.0], [0.0], (0, 1e6), input=[0.0], max_steps=100)
+    ends = pendulum.ensemble([1.0], [0.0], (0, 1e6), input=[0.0], max_steps=100)
+    ((number, why),) = ends.errors
+    assert number == 0 and "100 steps do not reach the end; allow more with `max_steps`" in why
+    assert len(pendulum.ensemble([1.0], [0.0], (0, 100), input=[0.0], max_steps=10**6).errors) == 0
+    wire = scenes.Wire(block={"mass": 2.0, "inertia": [0.1, 0.2, 0.3]}, radius=1.5, g=[0, -9.81, 0])
+    q, z = wire.state(x=1.0, y=1.0, y_dot=1.0)
+    with pytest.raises(scenes.IntegrationError, match="start from `q, z = kernel.project\\(q, z\\)`"):
+        wire.simulate(q, z, (0, 1))
+    # The remedy works.
+    q, z = wire.project(q, z)
+    assert abs(np.hypot(*q[4:]) - 1.5) < 1e-14 and len(wire.simulate(q, z, (0, 0.1))) > 1
+
+
+def test_states_that_are_none_are_told_with_all_mistakes(torpedo, pendulum):
+    q, z = torpedo.state()
+    q[1], q[4], z[2] = np.nan, np.inf, -np.inf
+    for call in (torpedo.simulate, torpedo.project):
+        with pytest.raises(ValueError) as caught:
+            call(q, z, *([(0, 1)] if call == torpedo.simulate else []))
+        told = str(caught.value)
+        assert all(word in told for word in ["q[1] (pose_j) is NaN", "q[4] (pose_x) is inf", "z[2] ("]), told
+    q, z = torpedo.state()
+    with pytest.raises(ValueError, match=r"q\[0:4\] \(pose\) is no rotation: squares of its numbers add up to 4"):
+        torpedo.simulate(2 * q, z, (0, 1))
+
+
+@contextlib.contextmanager
+def interrupted_after(seconds):
+    """Ctrl-C in a while; what runs in the background of a shell ignores it."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer = threading.Timer(seconds, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
-    run = pendulum.simulate([1.0], [0.0], (0.0, 1e9), input=[0.0], max_steps=10**12)
-    signal.signal(signal.SIGINT, before)
+    try:
+        with pytest.raises(KeyboardInterrupt) as caught:
+            yield caught
+    finally:
+        timer.join()
+        signal.signal(signal.SIGINT, before)
+
+
+def test_interruption_is_raised_with_what_there_is(pendulum):
+    with interrupted_after(0.5) as caught:
+        pendulum.simulate([1.0], [0.0], (0.0, 1e9), input=[0.0], max_steps=10**12)
+    run = caught.value.run
     assert run.interrupted and run.error is None and 0.0 < run.t[-1] < 1e9
+    # Many runs one after the other, each of some milliseconds, and longer ones.
+    for end in (1.0, 1000.0):
+        with interrupted_after(0.5):
+            while True:
+                pendulum.simulate([1.0], [0.0], (0.0, end), input=[0.0])
+    with interrupted_after(0.5) as caught:
+        pendulum.ensemble(np.ones((50, 1)), [0.0], (0.0, 1e9), input=[0.0], max_steps=10**12)
+    ends = caught.value.ends
+    assert ends.interrupted and len(ends) == 50 and (ends.t < 1e9).all()
+
+
+def test_exceptions_of_functions_have_what_there_is(pendulum):
+    with pytest.raises(ZeroDivisionError) as caught:
+        pendulum.simulate([1.0], [0.0], (0, 1), input=lambda t, q, z: [1 / 0 if t > 0.5 else 0.0])
+    assert 0.0 < caught.value.run.t[-1] <= 0.5 and caught.value.run.interrupted
 
 
 def test_tables_are_read_without_a_copy(torpedo):
@@ -136,10 +200,73 @@ def test_ensembles_have_parameters_and_ends_of_their_own(pendulum):
     assert abs(ends.t - expected).max() < 1e-9
     with pytest.raises(KeyError, match="size is no parameter"):
         pendulum.ensemble([1.0], [0.0], (0, 1), input=[0.0], parameters={"size": lengths})
-    with pytest.raises(ValueError, match="runs 16 to 18: .*length"):
-        pendulum.ensemble([1.0], [0.0], (0, 1), input=[0.0], parameters={"length": np.append(lengths[:-1], np.nan)})
     with pytest.raises(ValueError, match="q has 2 runs, length has 19"):
         pendulum.ensemble([[1.0], [2.0]], [0.0], (0, 1), input=[0.0], parameters={"length": lengths})
+
+
+def test_runs_that_cannot_begin_are_errors_of_their_own(torpedo, pendulum, random):
+    count = 45
+    q, z = random.standard_normal((2, count, 1))
+    lengths, masses = np.linspace(0.3, 0.9, count), np.full(count, 2.0)
+    expected = pendulum.ensemble(q, z, (0, 1), input=[0.1], parameters={"length": lengths, "mass": masses})
+    lengths[7], masses[7], q[8], lengths[44], z[44] = np.nan, -1.0, np.inf, 0.0, np.nan
+    done = []
+    ends = pendulum.ensemble(q, z, (0, 1), input=[0.1], parameters={"length": lengths, "mass": masses}, progress=done.append)
+    told = dict(ends.errors)
+    assert list(told) == [7, 8, 44] and done[-1] == count
+    assert "length" in told[7] and "mass" in told[7] and "q[0] (angle) is inf" in told[8]
+    assert "z[0] (angle_dot) is NaN" in told[44]
+    good = np.delete(np.arange(count), [7, 8, 44])
+    # Others have the bits that they have without these.
+    assert np.array_equal(ends.q[good], expected.q[good]) and np.array_equal(ends.steps[good], expected.steps[good])
+    assert np.isnan(ends.q[[7, 8, 44]]).all() and np.isnan(ends.t[[7, 8, 44]]).all() and not ends.stopped.any()
+    # All of them.
+    ends = pendulum.ensemble(np.full((9, 1), np.nan), [0.0], (0, 1), input=[0.0])
+    assert len(ends) == 9 and [number for number, _ in ends.errors] == list(range(9)) and np.isnan(ends.q).all()
+    start, still = torpedo.state()
+    rows = np.tile(start, (3, 1))
+    rows[1, 3] = 1.1
+    ends = torpedo.ensemble(rows, still, (0, 1))
+    ((number, why),) = ends.errors
+    assert number == 1 and "q[0:4] (pose) is no rotation: squares of its numbers add up to 1.21" in why
+
+
+def test_an_ensemble_of_nothing_is_empty(pendulum, torpedo):
+    for kernel, inputs in ((pendulum, {"input": [0.0]}), (torpedo, {})):
+        q, z = kernel.state()
+        ends = kernel.ensemble(np.empty((0, len(q))), z, (0, 1), **inputs)
+        assert len(ends) == 0 and ends.t.shape == (0,) and ends.q.shape == (0, len(q)) and ends.errors == []
+        assert ends.steps.shape == ends.stopped.shape == (0,) and list(ends) == [] and ends.columns[0] == "t"
+    ends = pendulum.ensemble([1.0], [0.0], (0, 1), input=[0.0], parameters={"length": []})
+    assert len(ends) == 0 and ends.z.shape == (0, 1)
+    pyarrow = pytest.importorskip("pyarrow")
+    assert pyarrow.table(ends).num_rows == 0
+
+
+def test_runs_are_sequences_of_states(pendulum):
+    run = pendulum.simulate([1.0], [0.0], (0, 1), input=[0.0])
+    states = list(run)
+    assert len(states) == len(run) and list(states[0]) == run.columns
+    assert states[0]["angle"] == 1.0 and states[-1] == run[-1] == run[len(run) - 1]
+    assert [state["t"] for state in run] == run.t.tolist()
+    assert "angle" in run and "height" not in run
+    for wrong in (len(run), -len(run) - 1):
+        with pytest.raises(IndexError, match="there is no row"):
+            run[wrong]
+    with pytest.raises(TypeError, match="columns are asked for by a name, rows by a number"):
+        run[0.5]
+    ends = pendulum.ensemble([[1.0], [0.5]], [0.0], (0, 1), input=[0.0])
+    assert [end["angle"] for end in ends] == ends.q[:, 0].tolist() and ends[1]["steps"] == ends.steps[1]
+
+
+def test_runs_are_tables_of_pandas(pendulum):
+    pandas = pytest.importorskip("pandas")
+    run = pendulum.simulate([1.0], [0.0], (0, 1), input=[0.0])
+    ends = pendulum.ensemble([[1.0], [0.5]], [0.0], (0, 1), input=[0.0])
+    for table in (run, ends):
+        frame = pandas.DataFrame(table)
+        assert list(frame.columns) == table.columns
+        assert all(np.array_equal(frame[name], table[name]) for name in table.columns)
 
 
 def test_solvers_of_others(torpedo):

@@ -34,6 +34,14 @@ names = pendulum.dtype.names
 arm.reaction("elbow", q, z, [0.0, 1.0], out=np.zeros((10, 6), dtype=np.float32))
 pendulum.linearize(q, z, [0.0], out=tuple(np.zeros(1, dtype=np.float32) for _ in range(4)))
 functions = scenes.jax(pendulum)
+q, z = pendulum.project([0.0], [0.0], t=1.0)
+angles = [state["angle"] + run[0]["angle"] for state in run if "angle" in run]
+ends = pendulum.ensemble([0.0], [0.0], (0, 1), max_steps=10)
+column, end = ends["t"] + ends.steps, ends[-1]["t"] + 1.0
+try:
+    pendulum.simulate([0.0], [0.0], (0, 1))
+except scenes.IntegrationError as error:
+    last, package = error.run.t[-1], error.package
 """
 
 WRONG = """

@@ -36,6 +36,7 @@ pub struct Derivation {
     functions: Functions,
     accuracy: Vec<(String, [f64; 2])>,
     remarks: Vec<String>,
+    files: Vec<String>,
     latex: String,
     sections: [Printed; 2],
     rust: TokenStream,
@@ -76,11 +77,12 @@ impl Derivation {
         let rust = emit(derived, &equations);
         let accuracy = figures(derived).map(|(_, name, figure)| (name.to_owned(), figure.rounded())).collect();
         let described = derived.item().described.iter();
+        let files = described.clone().flat_map(|file| file.paths.clone()).collect();
         let remarks = described.flat_map(|file| &file.remarks).map(|remark| remark.text.clone()).collect();
         let Equations { text, latex } = equations;
         let functions = Functions { name: ident.unraw().to_string(), equations: text, constants, methods: programs };
         let sections = derived.printed.clone();
-        Ok(Self { functions, accuracy, remarks, latex, sections, rust })
+        Ok(Self { functions, accuracy, remarks, files, latex, sections, rust })
     }
 
     /// The name of the struct.
@@ -119,6 +121,11 @@ impl Derivation {
     /// Remarks about a robot from a file: names that were changed, and elements that do not act in the equations.
     pub fn remarks(&self) -> &[String] {
         &self.remarks
+    }
+
+    /// Whole paths of all files that were read for a robot: its own first, then those that it includes.
+    pub fn files(&self) -> &[String] {
+        &self.files
     }
 
     /// The equations of motion: a page of plain text, or LaTeX whose lines fit 16 cm at 10 pt, in `align*`.

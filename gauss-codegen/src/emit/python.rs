@@ -8,7 +8,7 @@ use crate::emit::derived::Derived;
 use crate::emit::records::record::{Part, PartKind};
 use crate::emit::records::{input, state};
 use crate::methods::DerivativeKind;
-use crate::terms::{Field, Scalar, WantedMethod};
+use crate::terms::{Field, Remark, Scalar, WantedMethod};
 use crate::words::Unraw;
 
 /// The call; nothing where no Python is wanted.
@@ -26,6 +26,11 @@ pub fn scene(derived: &Derived<'_, '_>) -> TokenStream {
     let inputs = input::parts(derived);
     let inputs = inputs.iter().map(part);
     let (offers, steps) = (offers(derived), steps(derived));
+    let remarks = item.described.iter().flat_map(|file| &file.remarks);
+    let remarks = remarks.map(|Remark { text, ignored }| {
+        let text = without_contacts(text);
+        quote!(#text #ignored;)
+    });
     // Where the crate is missing, the clause is to blame.
     let path = quote_spanned!(clause.span()=> ::gauss_python::scene!);
     quote! {
@@ -38,7 +43,17 @@ pub fn scene(derived: &Derived<'_, '_>) -> TokenStream {
             inputs { #(#inputs)* }
             offers { #(#offers)* }
             steps { #(#steps)* }
+            remarks { #(#remarks)* }
         }
+    }
+}
+
+/// A remark without the remedies that need runs with contacts, which Python does not have.
+fn without_contacts(text: &str) -> String {
+    let remedy = text.split_once(", which a `ContactRun` runs, ");
+    match remedy.and_then(|(before, others)| Some((before.rsplit_once("write ")?.0, others))) {
+        Some((matter, others)) => format!("{matter}write {others}"),
+        None => text.to_owned(),
     }
 }
 
@@ -86,4 +101,18 @@ fn steps(derived: &Derived<'_, '_>) -> Vec<proc_macro2::Ident> {
     let has_jacobian = derived.kernel.derivatives.iter().any(|other| matches!(other.kind, DerivativeKind::ByState));
     let words = [(derived.item().wanted.taylor.is_some(), "taylor"), (has_jacobian, "rosenbrock")];
     words.into_iter().filter(|(has, _)| *has).map(|(_, word)| format_ident!("{}", word)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_contacts;
+
+    #[test]
+    fn remedies_are_those_of_python() {
+        let told = "3:1: the limits of joints do not act; write `limits = range` for exact stops, which a `ContactRun` \
+                    runs, `limits = stop(…)` for stops that give way, or `limits = none`";
+        let expected = "3:1: the limits of joints do not act; write `limits = stop(…)` for stops that give way, or `limits = none`";
+        assert_eq!(without_contacts(told), expected);
+        assert_eq!(without_contacts("<antenna/> is not read"), "<antenna/> is not read");
+    }
 }

@@ -204,7 +204,7 @@ fn python_is_one_call_more() {
     let expected = ":: gauss_python :: scene ! { scene Swing [T] \"Swings.\" ; kernel SwingKernel ; state SwingState ; \
          fields { m [T] \"m\" \"kg\" \"\" ; } coordinates { \"a\" 1 0 \"coordinate\" ; } \
          speeds { \"a_dot\" 1 0 \"rate of `a`\" ; } inputs { \"motor\" 1 0 \"input, in N m\" ; } offers { frames } \
-         steps { } }";
+         steps { } remarks { } }";
     assert_eq!(call.split_whitespace().collect::<Vec<_>>(), expected.split_whitespace().collect::<Vec<_>>());
 }
 

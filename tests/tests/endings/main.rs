@@ -100,6 +100,21 @@ fn what_is_too_fast_is_told_at_once() {
     });
 }
 
+/// A swing of 1e8 s: its steps are too many, which a part of them tells, but the motion is slow. Batches ask the same
+/// function.
+#[test]
+fn a_run_that_is_only_long_is_told_by_its_limit() {
+    for span in [0.0..1e8, 1e8..0.0] {
+        within(SOON, "an oscillator of 1 rad per unit of time for a long time", || {
+            let kernel = Spring { k: 1.0, c: 0.0 }.kernel().expect("a spring");
+            let run = Simulation::new(&kernel).adaptive(1e-9, 1e-9).max_steps(1_000_000);
+            let error = refusal(run.attempt(one(1.0), one(0.0), span));
+            assert_eq!(error.kind, IntegrationErrorKind::TooManySteps { limit: 1_000_000 }, "{error}");
+            assert!(error.to_string().contains("allow more with `max_steps`"), "{error}");
+        });
+    }
+}
+
 #[test]
 fn tolerances_below_rounding_are_met_as_far_as_rounding_lets_them() {
     within(SOON, "tolerances of 1e-300", || {

@@ -70,13 +70,14 @@ pub enum Form {
 pub struct New {
     /// A folder that is made; its last part is the name of the package.
     pub folder: PathBuf,
-    /// A clone of Gauss, whose crates the package uses; without it the published ones.
+    /// A clone of Gauss, whose crates the package uses. Without it they are those of the clone that this command was
+    /// built from, or the published ones.
     #[arg(long)]
     pub gauss: Option<PathBuf>,
     /// A package for Python, which `pip install .` builds.
     #[arg(long)]
     pub python: bool,
-    /// With `--python`: the robot of this file, URDF or MJCF, which is copied.
+    /// With `--python`: the robot of this file, URDF or MJCF. It is derived, and copied with all files that it reads.
     #[arg(long, requires = "python")]
     pub robot: Option<PathBuf>,
 }

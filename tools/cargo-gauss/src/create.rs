@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::arguments::New;
-use crate::package::{Files, from};
+use crate::package::{Files, clone, from};
 use crate::python;
 
 const MAIN: &str = include_str!("template.rs.txt");
@@ -41,16 +41,18 @@ fn impossible(name: &str) -> Option<&'static str> {
 /// Makes the folder with its manifest and its program.
 ///
 /// # Errors
-/// A name that no package can have, a folder that exists, an error of the operating system.
+/// A name that no package can have, a folder that exists, mistakes in a robot's file, an error of the operating system.
 pub fn create(wanted: &New) -> Result<(), String> {
     let folder = &wanted.folder;
     let name = folder.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-    if let Some(why) = impossible(name) {
+    let why = impossible(name).or_else(|| if wanted.python { python::impossible(name) } else { None });
+    if let Some(why) = why {
         return Err(format!("`{name}` is no name of a package: {why}"));
     }
     if folder.exists() {
         return Err(format!("{} exists", folder.display()));
     }
+    // All of it is known to be right before anything is written.
     let files = if wanted.python { python::files(wanted, name)? } else { program(wanted, name)? };
     for (file, text) in &files {
         let path = folder.join(file);
@@ -58,8 +60,10 @@ pub fn create(wanted: &New) -> Result<(), String> {
         fs::create_dir_all(parent).map_err(|error| format!("{}: {error}", parent.display()))?;
         fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
     }
-    if wanted.gauss.is_none() {
-        println!("its crates are the published ones; `--gauss FOLDER` takes those of a clone");
+    match (&wanted.gauss, clone(wanted)) {
+        (Some(_), _) => {}
+        (None, Some(clone)) => println!("its crates are those of {}; `--gauss FOLDER` takes others", clone.display()),
+        (None, None) => println!("its crates are the published ones; `--gauss FOLDER` takes those of a clone"),
     }
     let then = if wanted.python { "pip install ." } else { "cargo run --release" };
     println!("made {}; now `cd {} && {then}`", folder.display(), folder.display());
@@ -76,5 +80,5 @@ fn program(wanted: &New, name: &str) -> Result<Files, String> {
          [workspace]\n"
     );
     let files = [("Cargo.toml", &manifest[..]), ("src/main.rs", MAIN), (".gitignore", "/target\n/top.csv\n")];
-    Ok(files.map(|(file, text)| (file.to_owned(), text.to_owned())).to_vec())
+    Ok(files.map(|(file, text)| (file.to_owned(), text.as_bytes().to_vec())).to_vec())
 }

@@ -45,9 +45,16 @@ fn section(shown: &Shown) -> String {
         "<section>\n<h1>{}</h1>\n<div class=\"equations\">\n{lines}</div>\n<table>\n<thead><tr><th>method</th><th>operations</th>\
          <th>cost</th><th>chain</th><th>rounding, at most</th><th>mostly</th></tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n\
          <p class=\"note\">Cost counts instructions, the chain those that wait for one another. Rounding: how much more than a \
-         change of the arguments in their last place it does, at the worst state found.</p>\n</section>\n",
-        escaped(&shown.title)
+         change of the arguments in their last place it does, at the worst state found.</p>\n{}</section>\n",
+        escaped(&shown.title),
+        remarks(derivation.remarks())
     )
+}
+
+/// What there is to know of a robot's file.
+fn remarks(remarks: &[String]) -> String {
+    let items: String = remarks.iter().map(|remark| format!("<li>{}</li>\n", escaped(remark))).collect();
+    if items.is_empty() { items } else { format!("<h2>The file</h2>\n<ul class=\"note\">\n{items}</ul>\n") }
 }
 
 fn heading(title: &str) -> String {

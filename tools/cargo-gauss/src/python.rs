@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use gauss_codegen::Derivation;
+
 use crate::arguments::New;
 use crate::package::{Files, from};
 
@@ -15,6 +17,31 @@ const CONFIGURATION: &str = "\
 rustflags = [\"-C\", \"target-cpu=native\"]
 ";
 
+/// Words that name nothing in Python.
+const KEYWORDS: &str = "False None True and as assert async await break class continue def del elif else except finally \
+                        for from global if import in is lambda nonlocal not or pass raise return try while with yield";
+
+/// Modules that come with Python, whose place no package takes.
+const OWN_MODULES: &str = include_str!("python_modules.txt");
+
+/// Modules that the package imports itself, or may.
+const NEEDED: &str = "gauss_python jax numpy tqdm";
+
+/// Why no module of Python has the name of a package.
+pub fn impossible(name: &str) -> Option<&'static str> {
+    let module = name.replace('-', "_");
+    let among = |words: &str| words.split_whitespace().any(|word| word == module);
+    if among(KEYWORDS) {
+        Some("it is a word of Python, which `import` does not take")
+    } else if among(OWN_MODULES) {
+        Some("Python has a module of this name, which `import` takes instead")
+    } else if among(NEEDED) {
+        Some("the package needs another one of this name")
+    } else {
+        None
+    }
+}
+
 /// All files of the package.
 pub fn files(wanted: &New, name: &str) -> Result<Files, String> {
     let module = name.replace('-', "_");
@@ -22,9 +49,9 @@ pub fn files(wanted: &New, name: &str) -> Result<Files, String> {
     let (source, class) = match &wanted.robot {
         None => (PENDULUM.replace("MODULE", &module), "Pendulum(mass=1.0, length=0.5, g=9.81)"),
         Some(file) => {
-            let (format, text) = robot(file)?;
+            let format = format_of(file)?;
             let copied = format!("{module}.{format}");
-            files.push((copied.clone(), text));
+            files.extend(robot(file, format, &copied)?);
             features = format!(", features = [\"{format}\"]");
             (of_robot(&module, &copied, format), "Robot(g=9.81)")
         }
@@ -55,27 +82,49 @@ pub fn files(wanted: &New, name: &str) -> Result<Files, String> {
         (".cargo/config.toml", CONFIGURATION.to_owned()),
         (".gitignore", "/target\n".to_owned()),
     ];
-    files.extend(more.map(|(file, text)| (file.to_owned(), text)));
+    files.extend(more.map(|(file, text)| (file.to_owned(), text.into_bytes())));
     Ok(files)
 }
 
-/// The format of a robot's file, and its text.
-fn robot(file: &Path) -> Result<(&'static str, String), String> {
+/// The format of a robot's file.
+fn format_of(file: &Path) -> Result<&'static str, String> {
     let text = fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
     match file.extension().and_then(|end| end.to_str()) {
-        Some("urdf") => Ok(("urdf", text)),
-        Some("mjcf") => Ok(("mjcf", text)),
-        Some("xml") if text.contains("<mujoco") => Ok(("mjcf", text)),
+        Some("urdf") => Ok("urdf"),
+        Some("mjcf") => Ok("mjcf"),
+        Some("xml") if text.contains("<mujoco") => Ok("mjcf"),
         _ => {
             Err(format!("{}: robots are read from files of URDF (`.urdf`) and MJCF (`.xml`, `.mjcf`)", file.display()))
         }
     }
 }
 
+/// The robot's file by its new name, and all files that it reads, at the same places from it. Its equations are derived
+/// before: what the compiler would say of the package is said at once, and what of the file does not act.
+fn robot(file: &Path, format: &str, copied: &str) -> Result<Files, String> {
+    let read = |path: &Path| fs::read(path).map_err(|error| format!("{}: {error}", path.display()));
+    let whole = file.canonicalize().map_err(|error| format!("{}: {error}", file.display()))?;
+    let derivation = Derivation::of_source(&of_robot("robot", &whole.display().to_string(), format), "Robot");
+    let derivation = derivation.map_err(|mistakes| {
+        let lines = mistakes.into_iter().map(|mistake| format!("{}: {mistake}", file.display()));
+        lines.collect::<Vec<_>>().join("\n")
+    })?;
+    derivation.remarks().iter().for_each(|remark| println!("{}: {remark}", file.display()));
+    let folder = whole.parent().unwrap_or(Path::new("/"));
+    let mut files = vec![(copied.to_owned(), read(&whole)?)];
+    for other in derivation.files().iter().map(Path::new).filter(|other| **other != whole) {
+        let place = other.strip_prefix(folder).map_err(|_| {
+            format!("{}: it reads {}, which is not below its folder; move it there", file.display(), other.display())
+        })?;
+        files.push((place.display().to_string(), read(other)?));
+    }
+    Ok(files)
+}
+
 fn of_robot(module: &str, file: &str, format: &str) -> String {
     format!(
         "//! A robot for Python.\n\nuse gauss_runtime::prelude::*;\n\n/// The robot of `{file}`.\n#[derive(GaussDynamics)]\n\
-         #[gauss(python, {format} = \"{file}\", linearize)]\npub struct Robot<T> {{\n    /// Acceleration of free fall.\n    \
+         #[gauss(python, {format} = {file:?}, linearize)]\npub struct Robot<T> {{\n    /// Acceleration of free fall.\n    \
          #[gauss(gravity, unit = \"m/s^2\")]\n    g: T,\n}}\n\ngauss_python::module!({module}: Robot<f64>);\n"
     )
 }

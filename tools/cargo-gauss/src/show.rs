@@ -120,5 +120,9 @@ fn plain(shown: &Shown) -> String {
         let counts = program.code.counts().to_string();
         out.push_str(&format!("{:<22}{counts:<48}{:>6}{:>7}{loss}\n", program.name, cost.total(), cost.chain));
     }
+    if !derivation.remarks().is_empty() {
+        out.push_str("\nthe file\n");
+        derivation.remarks().iter().for_each(|remark| out.push_str(&format!("- {remark}\n")));
+    }
     out
 }

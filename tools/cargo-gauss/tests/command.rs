@@ -162,9 +162,84 @@ fn a_package_for_python_is_made() {
     assert!(read("Cargo.toml").contains("features = [\"urdf\"]"));
     let source = read("src/lib.rs");
     assert!(source.contains("urdf = \"my_robot.urdf\"") && syn::parse_file(&source).is_ok(), "{source}");
+    assert!(read("Cargo.toml").contains("crates/gauss-python\" }"));
     let text = file("robot.txt", "a robot");
     let arguments = ["create", "--python", "--robot", text.to_str().expect("UTF-8"), "no_such_folder"];
     assert!(refused(&arguments).contains("robots are read from files of URDF"));
+}
+
+/// What cannot be imported, or would hide what it needs, is no name.
+#[test]
+fn names_of_packages_are_names_in_python() {
+    let create = |name: &str| refused(&["create", "--python", &format!("{}/{name}", env!("CARGO_TARGET_TMPDIR"))]);
+    for (names, why) in [
+        (&["class", "lambda", "from", "None", "def"][..], "it is a word of Python"),
+        (&["json", "random", "queue"], "a module of this name"),
+        (&["numpy", "gauss_python", "gauss-python", "jax"], "needs another one of this name"),
+    ] {
+        for name in names {
+            let told = create(name);
+            assert!(told.contains(&format!("`{name}` is no name of a package")) && told.contains(why), "{told}");
+        }
+    }
+    // A program in Rust may be called so.
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("class");
+    let _ = fs::remove_dir_all(&folder);
+    printed(&["new", folder.to_str().expect("UTF-8")]);
+}
+
+/// What the compiler would say of a robot's file is said before anything is made, and what of it does not act.
+#[test]
+fn robots_are_checked_before_a_package_is_made() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("checked_robot");
+    let _ = fs::remove_dir_all(&folder);
+    let made = |robot: &Path| {
+        let (folder, robot) = (folder.to_str().expect("UTF-8"), robot.to_str().expect("UTF-8"));
+        gauss(&["create", "--python", folder, "--robot", robot])
+    };
+    let wrong = file("wrong.urdf", &ARM.replace("child link=\"upper\"", "child link=\"uper\""));
+    let output = made(&wrong);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        !output.status.success() && told.contains("wrong.urdf") && told.contains("did you mean `upper`?"),
+        "{told}"
+    );
+    assert!(!folder.exists());
+    let limited = file("limited.urdf", &ARM.replace("<axis", "<limit effort=\"7\" velocity=\"2\"/><axis"));
+    let output = made(&limited);
+    let told = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success() && told.contains("(`effort`) does not act"), "{told}");
+    // Without `--gauss` the crates are those of the clone that the command was built from.
+    let manifest = fs::read_to_string(folder.join("Cargo.toml")).expect("a manifest");
+    assert!(manifest.contains("path = ") && !manifest.contains("gauss-python = { version"), "{manifest}");
+    // The command that shows equations says so, too.
+    let shown = printed(&["show", folder.join("src/lib.rs").to_str().expect("UTF-8")]);
+    assert!(shown.contains("\nthe file\n- ") && shown.contains("(`effort`) does not act"), "{shown}");
+    let page = printed(&["show", folder.join("src/lib.rs").to_str().expect("UTF-8"), "--as", "html"]);
+    assert!(page.contains("<h2>The file</h2>") && page.contains("does not act"));
+}
+
+/// A file that reads others is copied with them.
+#[test]
+fn robots_come_with_the_files_that_they_read() {
+    let source = Path::new(env!("CARGO_TARGET_TMPDIR")).join("included");
+    fs::create_dir_all(source.join("parts")).expect("a folder that can be written");
+    let write = |name: &str, text: &str| {
+        fs::write(source.join(name), text).expect("a file that can be written");
+        source.join(name)
+    };
+    write(
+        "parts/arm.xml",
+        "<mujoco><worldbody><body name=\"arm\"><joint name=\"hinge\" axis=\"0 1 0\"/>\
+        <geom type=\"sphere\" size=\"0.1\" mass=\"1\"/></body></worldbody></mujoco>",
+    );
+    let robot = write("robot.xml", "<mujoco><include file=\"parts/arm.xml\"/></mujoco>");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("with_parts");
+    let _ = fs::remove_dir_all(&folder);
+    let [folder_name, robot] = [&folder, &robot].map(|path| path.to_str().expect("UTF-8"));
+    printed(&["create", "--python", folder_name, "--robot", robot]);
+    assert!(folder.join("parts/arm.xml").is_file() && folder.join("with_parts.mjcf").is_file());
+    assert!(printed(&["show", folder.join("src/lib.rs").to_str().expect("UTF-8")]).contains("hinge"));
 }
 
 /// Brackets in brackets, in a struct, beside it and around it.

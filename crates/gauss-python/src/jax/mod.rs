@@ -15,6 +15,7 @@ use crate::class::Kernel;
 use crate::kernels::AnyKernel;
 use crate::memory::{Source, Target};
 use crate::methods::{Id, SPECS, Work};
+use crate::steps::off_group_words;
 use abi::{Buffer, F32, F64, Frame};
 
 /// Kernels of which JAX was given functions: compiled programs name them by their place here, and nobody tells when the
@@ -113,12 +114,7 @@ fn compute(frame: &Frame) -> Result<(), String> {
     // SAFETY: all arrays of the method have these rows: their sizes were compared.
     #[allow(unsafe_code)]
     let computed = unsafe { call::rows(&*kernel, id, &work, count) };
-    computed.map_err(|off| {
-        format!(
-            "row {} of q is no rotation: squares of its numbers add up to {:.6}, and not to 1",
-            off.row, off.squares
-        )
-    })?;
+    computed.map_err(|off| format!("row {} of q is no rotation: {}", off.row, off_group_words(off.squares)))?;
     round(wide);
     Ok(())
 }

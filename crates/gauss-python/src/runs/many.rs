@@ -1,5 +1,6 @@
 //! Many runs, in lanes and on threads.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use gauss_batch::{Batch, BatchSystem, Ensemble, Kernels, RunOutcome, SingleConfiguration, SingleSpeeds, States};
@@ -8,7 +9,8 @@ use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
 use crate::scene::{ScalarOf, Scene};
-use crate::steps::{Input, Stoppable, Until, Watched, components, configuration, numbers_of, vector};
+use crate::steps::{self, Input, Stoppable, Until, Watched, components, numbers_of, vector};
+use crate::threads;
 
 /// Many runs over one interval.
 pub struct Many<'a> {
@@ -24,6 +26,8 @@ pub struct Many<'a> {
     pub interval: (f64, f64),
     /// Relative and absolute.
     pub tolerances: (f64, f64),
+    /// The most steps of each.
+    pub limit: Option<u64>,
     /// The input, the same for all.
     pub input: Input<'a>,
     /// Where a run ends before its time.
@@ -34,55 +38,110 @@ pub struct Many<'a> {
     pub ended: &'a AtomicUsize,
 }
 
-/// Where the runs ended, column by column: time, the numbers of q and z, steps.
+/// Where the runs ended, column by column: time, the numbers of q and z, steps. Of a run that could not begin there is
+/// no number.
 #[derive(Clone, Debug)]
 pub struct ManyEnds {
     /// The columns, one after the other.
     pub columns: Vec<f64>,
+    /// How many columns there are.
+    pub width: usize,
     /// Whether the end was that of `until`.
     pub stopped: Vec<bool>,
-    /// Runs that did not reach their end, and why.
-    pub errors: Vec<(usize, String)>,
+    /// Runs that did not reach their end, or could not begin, and why, in the order of the runs.
+    pub errors: BTreeMap<usize, String>,
 }
 
 type Packs<S> = <S as Scene>::Packed;
 type StateOf<S> = (SingleConfiguration<S>, SingleSpeeds<S>);
+/// Runs that cannot begin: all that is wrong with each.
+type Refused = BTreeMap<usize, Vec<String>>;
 
-/// Runs them.
+/// Runs them. Those whose first state is none, or whose parameters no body can have, are told of as errors of their
+/// own, and the others run.
 ///
 /// # Errors
-/// A first state that is none; parameters that no body can have.
+/// The system has no threads to give.
 pub fn ensemble<S: Scene>(shared: &Packs<S>, numbers: &[f64], many: &Many<'_>) -> Result<ManyEnds, String> {
-    let sizes = many.q.len().checked_div(many.count).unwrap_or(0);
-    let speeds = many.z.len().checked_div(many.count).unwrap_or(0);
-    let mut first = Vec::with_capacity(many.count);
-    for i in 0..many.count {
-        let q = configuration(&many.q[i * sizes..(i + 1) * sizes]).map_err(|error| format!("run {i}: {error}"))?;
-        first.push((q, vector(&many.z[i * speeds..(i + 1) * speeds])));
-    }
-    if many.parameters.is_empty() {
-        return Ok(run(&Stoppable { system: shared, stop: many.stop }, many, &first));
-    }
-    let kernels = kernels::<S>(numbers, many)?;
+    let pool = threads::pool().map_err(|error| format!("an ensemble runs on threads of its own: {error}"))?;
+    let mut refused = Refused::new();
+    let first = first_states::<S>(many, &mut refused);
+    let mut runs: Vec<usize> = (0..many.count).collect();
+    let kernels = loop {
+        let mut wrong = Refused::new();
+        let kernels = own_kernels::<S>(numbers, many, &runs, &mut wrong);
+        wrong.into_iter().for_each(|(i, mistakes)| refused.entry(i).or_default().extend(mistakes));
+        let before = runs.len();
+        runs.retain(|i| !refused.contains_key(i));
+        if runs.len() == before {
+            break kernels;
+        }
+    };
+    many.ended.fetch_add(refused.len(), Ordering::Relaxed);
+    let first: Vec<_> = runs.iter().filter_map(|&i| first[i]).collect();
     let stoppable: Vec<_> = kernels.iter().map(|system| Stoppable { system, stop: many.stop }).collect();
-    Ok(run(&stoppable[..], many, &first))
+    let (shared, own) = (&Stoppable { system: shared, stop: many.stop }, &stoppable[..]);
+    let ran = pool.install(move || match many.parameters[..] {
+        [] => run(shared, many, &first),
+        _ => run(own, many, &first),
+    });
+    Ok(ran.scattered(&runs, many.count, refused))
 }
 
-/// A kernel for each block of runs.
-fn kernels<S: Scene>(numbers: &[f64], many: &Many<'_>) -> Result<Vec<Packs<S>>, String> {
+/// The first states; of those that are none all that is wrong is noted.
+fn first_states<S: Scene>(many: &Many<'_>, refused: &mut Refused) -> Vec<Option<StateOf<Packs<S>>>> {
+    let size = |numbers: &[f64]| numbers.len().checked_div(many.count).unwrap_or(0);
+    let (coordinates, speeds) = (size(many.q), size(many.z));
+    let state = |i: usize| {
+        let (q, z) = (&many.q[i * coordinates..(i + 1) * coordinates], &many.z[i * speeds..(i + 1) * speeds]);
+        match steps::state(&S::DESCRIPTION, names::<S>(), q, z) {
+            Ok(q) => Some((q, vector(z))),
+            Err(mistakes) => {
+                refused.entry(i).or_default().extend(mistakes);
+                None
+            }
+        }
+    };
+    (0..many.count).map(state).collect()
+}
+
+fn names<S: Scene>() -> [&'static [&'static str]; 2] {
+    [<S::Single as DescribedSystem>::COORDINATE_NAMES, <S::Single as DescribedSystem>::SPEED_NAMES]
+}
+
+/// A kernel for each block of runs that have parameters of their own. What is wrong with parameters is noted.
+fn own_kernels<S: Scene>(numbers: &[f64], many: &Many<'_>, runs: &[usize], refused: &mut Refused) -> Vec<Packs<S>> {
+    if many.parameters.is_empty() {
+        return Vec::new();
+    }
     let lanes = <ScalarOf<Packs<S>> as Packed>::WIDTH;
-    let of_block = |block: usize| {
+    let alone = |i: usize| {
+        let mut own = numbers.to_vec();
+        many.parameters.iter().for_each(|(place, values)| own[*place] = values[i]);
+        own
+    };
+    let mut kernels = Vec::new();
+    for block in runs.chunks(lanes) {
         let mut packed: Vec<_> = numbers.iter().map(ScalarOf::<Packs<S>>::repeat).collect();
         for (place, values) in &many.parameters {
             for lane in 0..lanes {
-                packed[*place].replace(lane, &values[(block * lanes + lane).min(many.count - 1)]);
+                packed[*place].replace(lane, &values[block[lane.min(block.len() - 1)]]);
             }
         }
-        S::packed(&packed).map_err(|error| {
-            format!("runs {} to {}: {error}", block * lanes, ((block + 1) * lanes).min(many.count) - 1)
-        })
-    };
-    (0..many.count.div_ceil(lanes)).map(of_block).collect()
+        let Err(error) = S::packed(&packed).map(|kernel| kernels.push(kernel)) else { continue };
+        let before = refused.len();
+        for &i in block {
+            if let Err(error) = S::single(&alone(i)) {
+                refused.entry(i).or_default().extend(error.violations().iter().map(ToString::to_string));
+            }
+        }
+        if refused.len() == before {
+            // Whom of them the lanes refuse is not known.
+            let all = block.iter().map(|&i| (i, error.violations().iter().map(ToString::to_string).collect()));
+            refused.extend(all);
+        }
+    }
+    kernels
 }
 
 fn run<'k, S, K>(kernels: &'k K, many: &'k Many<'_>, first: &[StateOf<S>]) -> ManyEnds
@@ -113,7 +172,11 @@ where
     let (relative, absolute) = many.tolerances;
     let ensemble: Ensemble<'_, K, VelocityForm, _, _> = kernels.batch().input(source).adaptive(relative, absolute);
     let ensemble = ensemble.until(crossing, watched).progress(&count);
-    let mut states = States::from_fn(many.count, |i| first[i]);
+    let ensemble = match many.limit {
+        Some(limit) => ensemble.max_steps(limit),
+        None => ensemble,
+    };
+    let mut states = States::from_fn(first.len(), |i| first[i]);
     let ends = ensemble.run_on_all_threads(many.interval.0..many.interval.1, &mut states);
     gathered(&ends, &states)
 }
@@ -142,6 +205,7 @@ fn lanes<T: Real + Packed<Single = f64>>(number: &dyn Fn(usize) -> f64) -> T {
     value
 }
 
+/// The ends of all runs that began, in their order.
 fn gathered<S>(ends: &[RunOutcome<S>], states: &States<S>) -> ManyEnds
 where
     S: BatchSystem,
@@ -149,7 +213,9 @@ where
     SingleSpeeds<S>: VectorSpace<f64>,
 {
     let rows = ends.len();
-    let mut result = ManyEnds { columns: Vec::new(), stopped: Vec::new(), errors: Vec::new() };
+    let width = 2 + <<SingleConfiguration<S> as Configuration>::Components as VectorSpace<f64>>::DIM + S::DOF;
+    let columns = vec![0.0; width * rows];
+    let mut result = ManyEnds { columns, width, stopped: Vec::new(), errors: BTreeMap::new() };
     for (i, (end, (q, z))) in ends.iter().zip(states.iter()).enumerate() {
         let (time, steps) = match end {
             Ok(end) => {
@@ -158,13 +224,31 @@ where
             }
             Err(error) => {
                 result.stopped.push(false);
-                result.errors.push((i, format!("t = {}: {}", error.time, error.kind)));
+                result.errors.insert(i, format!("t = {}: {}", error.time, steps::words(&error.kind)));
                 (error.time, f64::NAN)
             }
         };
         let row = [vec![time], numbers_of(&q), components(&z), vec![steps]].concat();
-        result.columns.resize(row.len() * rows, 0.0);
         row.into_iter().enumerate().for_each(|(column, number)| result.columns[column * rows + i] = number);
     }
     result
+}
+
+impl ManyEnds {
+    /// These runs among all, of which others were refused.
+    fn scattered(self, runs: &[usize], count: usize, refused: Refused) -> Self {
+        if refused.is_empty() {
+            return self;
+        }
+        let width = self.width;
+        let (columns, stopped) = (vec![f64::NAN; width * count], vec![false; count]);
+        let mut all = Self { columns, width, stopped, errors: BTreeMap::new() };
+        for (k, &i) in runs.iter().enumerate() {
+            all.stopped[i] = self.stopped[k];
+            (0..width).for_each(|column| all.columns[column * count + i] = self.columns[column * runs.len() + k]);
+        }
+        all.errors.extend(self.errors.into_iter().map(|(k, why)| (runs[k], why)));
+        all.errors.extend(refused.into_iter().map(|(i, mistakes)| (i, mistakes.join("; "))));
+        all
+    }
 }

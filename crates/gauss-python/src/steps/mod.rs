@@ -1,14 +1,18 @@
 //! Runs of one state, the type of their system forgotten: numbers in, columns of numbers out.
 
+mod causes;
 mod one;
 mod request;
 mod stoppable;
 
-pub use one::{Methods, Outcome};
+pub use causes::words;
+pub use one::{Event, Methods, Outcome};
 pub use request::{Control, Function, Held, Input, Request, Table, Until, Watched};
 pub use stoppable::Stoppable;
 
 use gauss_runtime::prelude::{Configuration, VectorSpace};
+
+use crate::description::Description;
 
 /// The numbers of a vector.
 pub fn components<V: VectorSpace<f64>>(vector: &V) -> Vec<f64> {
@@ -34,4 +38,43 @@ pub fn configuration<Q: Configuration<Scalar = f64>>(numbers: &[f64]) -> Result<
         Ok(()) => Ok(q.renormalise()),
         Err(error) => Err(error.to_string()),
     }
+}
+
+/// The configuration of a state.
+///
+/// # Errors
+/// All numbers of the state that are not finite, and all rotations that are none, by their names.
+pub fn state<Q: Configuration<Scalar = f64>>(
+    description: &Description,
+    [coordinates, speeds]: [&[&str]; 2],
+    q: &[f64],
+    z: &[f64],
+) -> Result<Q, Vec<String>> {
+    let of = |letter: &'static str, names: &[&str], numbers: &[f64]| {
+        let lost = names.iter().zip(numbers).enumerate().filter(|(_, (_, number))| !number.is_finite());
+        let told = lost.map(|(k, (name, number))| format!("{letter}[{k}] ({name}) is {number}, and no finite number"));
+        told.collect::<Vec<_>>()
+    };
+    let mut mistakes = of("q", coordinates, q);
+    for (place, part) in description.configuration().filter(|(_, part)| part.unit > 0) {
+        let (name, end) = (part.name, place + part.unit);
+        let squares: f64 = q[place..end].iter().map(|number| number * number).sum();
+        if squares.is_finite() && off_group(squares) {
+            mistakes.push(format!("q[{place}:{end}] ({name}) is no rotation: {}", off_group_words(squares)));
+        }
+    }
+    mistakes.extend(of("z", speeds, z));
+    if mistakes.is_empty() { configuration(q).map_err(|why| vec![why]) } else { Err(mistakes) }
+}
+
+/// Whether numbers whose squares add up to this are no rotation: in more than half of the digits, as
+/// `configuration::check` has it. What is not a number is none.
+pub fn off_group(squares: f64) -> bool {
+    // NaN is neither near nor far.
+    (squares - 1.0).abs().partial_cmp(&(2.0 * f64::EPSILON.sqrt())).is_none_or(core::cmp::Ordering::is_gt)
+}
+
+/// Why numbers with such squares are no rotation.
+pub fn off_group_words(squares: f64) -> String {
+    format!("squares of its numbers add up to {squares:.6}, and to 1 of every rotation")
 }

@@ -7,7 +7,7 @@ use gauss_runtime::prelude::*;
 
 use super::request::{Control, Function, Input, Request, Until, Watched};
 use super::stoppable::Stoppable;
-use super::{components, configuration, numbers_of, vector};
+use super::{components, configuration, numbers_of, vector, words};
 use crate::methods::System;
 
 /// A run with its states, column by column: time, the numbers of q and z, kinetic and potential energy.
@@ -202,7 +202,7 @@ fn outcome<S: Moving>(
         events: happened.collect(),
         stopped_by: run.stopped_by().map(|number| ends[number - events.len()]),
         summary: *run.summary(),
-        error: error.filter(|_| !interrupted).map(|error| format!("t = {}: {}", error.time, error.kind)),
+        error: error.filter(|_| !interrupted).map(|error| format!("t = {}: {}", error.time, words(&error.kind))),
         interrupted,
     })
 }
@@ -235,7 +235,7 @@ fn between<S: GaussSystem<Scalar = f64>>(run: &Trajectory<'_, S>, times: &[f64])
         match run.at(t) {
             Ok(state) => states.push(state),
             Err(error) if matches!(error.kind, IntegrationErrorKind::OutsideRun { .. }) => {}
-            Err(error) => return Err(format!("t = {}: {}", error.time, error.kind)),
+            Err(error) => return Err(format!("t = {}: {}", error.time, words(&error.kind))),
         }
     }
     Ok(states)

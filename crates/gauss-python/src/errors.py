@@ -1,0 +1,26 @@
+"""The exceptions of all packages that Gauss makes: the package that is imported first brings this module."""
+
+from importlib import import_module
+
+
+class _Raised:
+    """Pickles by the package that raised it: this module is in no file, and comes with any package."""
+
+    package = None
+
+    def __reduce__(self):
+        if self.package is None:
+            return super().__reduce__()
+        return import_module(self.package)._raised, (type(self).__name__, self.args, self.__dict__)
+
+
+class ParameterError(_Raised, ValueError):
+    """Parameters that cannot be: `fields` has a pair (name, what is wrong) for each mistake."""
+
+    fields = []
+
+
+class IntegrationError(_Raised, RuntimeError):
+    """A run that did not reach its end: `run` has the states up to the last good one."""
+
+    run = None

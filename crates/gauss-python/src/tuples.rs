@@ -1,0 +1,47 @@
+//! Results by their names: classes of tuples, which the package has, so that pickles find them.
+
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::methods::SPECS;
+
+/// The class of the times and states of an event.
+pub const EVENTS: &str = "Events";
+
+static CLASSES: PyOnceLock<Py<PyDict>> = PyOnceLock::new();
+
+/// The names of all classes.
+pub fn names() -> impl Iterator<Item = String> {
+    all().map(|(name, _)| name)
+}
+
+/// All classes with their fields: of each method that gives several results, and of events.
+fn all() -> impl Iterator<Item = (String, Vec<&'static str>)> {
+    let several = SPECS.iter().filter(|spec| spec.results.len() > 1);
+    let of_methods = several.map(|spec| (spec.class_name(), spec.results.iter().map(|result| result.name).collect()));
+    of_methods.chain([(EVENTS.to_owned(), vec!["t", "q", "z"])])
+}
+
+/// Adds them to the package.
+pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = module.py();
+    let make = py.import("collections")?.getattr("namedtuple")?;
+    let named = PyDict::new(py);
+    named.set_item("module", module.name()?)?;
+    let classes = PyDict::new(py);
+    for (name, fields) in all() {
+        let class = make.call((&name, fields), Some(&named))?;
+        classes.set_item(&name, &class)?;
+        module.add(name.as_str(), class)?;
+    }
+    CLASSES.get_or_init(py, || classes.unbind());
+    Ok(())
+}
+
+/// A tuple of a class.
+pub fn new<'py>(py: Python<'py>, name: &str, fields: Bound<'py, PyTuple>) -> PyResult<Bound<'py, PyAny>> {
+    let class = CLASSES.get(py).map(|classes| classes.bind(py).get_item(name)).transpose()?.flatten();
+    let class = class.ok_or_else(|| pyo3::exceptions::PyRuntimeError::new_err(format!("the package has no {name}")))?;
+    class.call1(fields)
+}
