@@ -15,6 +15,7 @@ use gauss_runtime::integrate::drive::tolerance::{Floor, Trial};
 use gauss_runtime::integrate::problem::called::Called;
 use gauss_runtime::integrate::problem::equations::Problem;
 use gauss_runtime::integrate::problem::error::IntegrationErrorKind;
+use gauss_runtime::integrate::problem::state::Rates;
 use gauss_runtime::integrate::step::one_step::EstimatingStep;
 use gauss_runtime::real::Real;
 use gauss_runtime::simd::Packed;
@@ -237,8 +238,11 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         let called = Called(problem);
         let (step, coarse) = self.method.step_and_estimates(&called, &group.state, &group.rates, h)?;
         let tolerance = &self.tolerance;
-        let states = (&group.state, &step.state, lengths);
-        let estimates = (&step.error, coarse.as_ref());
+        let measured = |change: &Rates<S>| problem.change_of_speeds(&step.state, change);
+        let (fine, coarse) = (measured(&step.error), coarse.as_ref().map(measured));
+        let seen = [&group.state, &step.state].map(|state| problem.in_speeds(state));
+        let states = (&seen[0], &seen[1], lengths);
+        let estimates = (&fine, coarse.as_ref());
         let errors = match &memory.floor {
             None => {
                 let trial = Trial { from: states.0, to: states.1, length: lengths, floor: None };
@@ -254,8 +258,7 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         if look {
             // It may be rounding that is too much.
             memory.look(problem, group, |lane| lane.rejects() && !lane.floored);
-            let states = (&group.state, &step.state, lengths);
-            let above = |floor: &Floor<S>| tolerance.errors_above(floor, states, (&step.error, coarse.as_ref()));
+            let above = |floor: &Floor<S>| tolerance.errors_above(floor, states, estimates);
             let errors = memory.floor.as_ref().map_or(errors, above);
             for (n, lane) in memory.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.rejects() && !lane.floored) {
                 (lane.error, lane.floored) = (largest(errors, n), true);
@@ -283,7 +286,8 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
             check_move(tolerance, problem, &trial, &computed)?;
         }
         let floors = memory.floor.as_ref().map(|floor| {
-            tolerance.excesses(&Trial { from: &group.state, to: &reached, length: lengths, floor: Some(floor) })
+            let to = &problem.in_speeds(&reached);
+            tolerance.excesses(&Trial { from: states.0, to, length: lengths, floor: Some(floor) })
         });
         group.take(ones, all, (reached, next));
         memory.judge(problem, group, floors);

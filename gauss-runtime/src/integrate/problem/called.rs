@@ -60,6 +60,11 @@ impl<P: Problem> Problem for Called<'_, P> {
     }
 
     #[inline(always)]
+    fn change_of_speeds(&self, state: &State<P::System>, change: &Rates<P::System>) -> Rates<P::System> {
+        self.0.change_of_speeds(state, change)
+    }
+
+    #[inline(always)]
     fn held(&self) -> Option<&Cell<Input<P>>> {
         self.0.held()
     }

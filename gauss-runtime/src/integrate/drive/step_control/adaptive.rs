@@ -46,8 +46,9 @@ impl Adaptive {
     /// [`RungeKutta`] of [`DormandPrince8`].
     ///
     /// The error of a step is measured component by component against `absolute + relative·size`, where the size is
-    /// |y| for velocities or momenta, 1 for a rotation, |b| for a translation and |q| for a plain coordinate, and the root
-    /// mean square must not exceed 1.
+    /// |z| for speeds, 1 for a rotation, |b| for a translation and |q| for a plain coordinate, and the root mean square
+    /// must not exceed 1. In the momentum form as well errors are those of the speeds: near a singular place of a chart
+    /// a small part of a momentum is much of a speed.
     #[must_use]
     pub fn new(relative: f64, absolute: f64) -> Self {
         Self::by(RungeKutta(DormandPrince8), relative, absolute)
@@ -204,16 +205,18 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         let used = if last { left } else { self.length };
         let length = S::Scalar::from_f64(used);
         let tolerance = &self.control.tolerance;
-        let (from, to) = (&self.state, &step.state);
+        let measured = |change: &Rates<S>| self.problem.change_of_speeds(&step.state, change);
+        let (fine, coarse) = (measured(&step.error), coarse.as_ref().map(measured));
+        let (from, to) = (&self.problem.in_speeds(&self.state), &self.problem.in_speeds(&step.state));
         let limit = self.lengths.limit();
         let mut error = match &self.floor {
-            None => tolerance.error(&Trial { from, to, length, floor: None }, &step.error, coarse.as_ref()),
-            Some(floor) => tolerance.error_above(floor, (from, to, length), (&step.error, coarse.as_ref())),
+            None => tolerance.error(&Trial { from, to, length, floor: None }, &fine, coarse.as_ref()),
+            Some(floor) => tolerance.error_above(floor, (from, to, length), (&fine, coarse.as_ref())),
         };
         if self.floor.is_none() && (error.is_nan() || error > limit) {
             // It may be rounding that is too much.
-            let floor = Floor::at(self.problem, from, &self.rates);
-            error = tolerance.error_above(&floor, (from, to, length), (&step.error, coarse.as_ref()));
+            let floor = Floor::at(self.problem, &self.state, &self.rates);
+            error = tolerance.error_above(&floor, (from, to, length), (&fine, coarse.as_ref()));
             self.floor = Some(floor);
         }
         if error.is_nan() || error > limit {
@@ -230,15 +233,14 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
             Err(kind) => return self.halve(left, kind),
         };
         if S::CONSTRAINED {
-            let trial = Trial { from, to: &reached, length, floor: None };
+            let trial = Trial { from: &self.state, to: &reached, length, floor: None };
             if let Err(kind) = check_move(tolerance, self.problem, &trial, &step.state) {
                 return self.halve(left, kind);
             }
         }
-        let excess = match &self.floor {
-            None => 0.0,
-            Some(floor) => tolerance.excess(&Trial { from, to: &reached, length, floor: Some(floor) }),
-        };
+        let excess = self.floor.as_ref().map_or(0.0, |floor| {
+            tolerance.excess(&Trial { from, to: &self.problem.in_speeds(&reached), length, floor: Some(floor) })
+        });
         let taken = StepStatistics { rejected: core::mem::take(&mut self.rejected), excess };
         (self.state, self.rates) = (reached, rates);
         self.choose_length(used, error, excess);
