@@ -80,6 +80,14 @@ pub enum ContactErrorKind {
         /// How many.
         states: usize,
     },
+    /// Forces change with places or speeds more than a step can follow, in parts as well: stiff springs and dampers, a
+    /// body that turns by more than a radian in a sixteenth of the step.
+    Stiff {
+        /// The speed for which they do, by its place among the quasi-velocities.
+        speed: usize,
+        /// The length of the part.
+        step: f64,
+    },
     /// More steps than the run may have.
     TooManySteps {
         /// The limit.
@@ -183,6 +191,11 @@ impl ContactErrorKind {
             Self::TooManySteps { limit } => {
                 write!(f, "{limit} steps do not reach the end; use a larger tolerance, or allow more by `max_steps`")
             }
+            Self::Stiff { speed, step } => write!(
+                f,
+                "forces on speed number {speed} (from 0) change with places or speeds faster than a step can follow, in \
+                 a part of {step:e} as well: make steps shorter than that"
+            ),
             Self::States { states } => write!(
                 f,
                 "elements of the scene have {states} states, which steps of one length do not follow; run it from event \
@@ -220,6 +233,7 @@ impl fmt::Display for ContactErrorKind {
             | Self::Lanes { .. }
             | Self::LawWithoutSteps { .. }
             | Self::States { .. }
+            | Self::Stiff { .. }
             | Self::TooManySteps { .. } => self.of_steps(f),
             Self::NonFinite => f.write_str("gaps, rates or coefficients are not finite"),
             Self::Inconsistent => f.write_str("no contact force agrees with rigid bodies and Coulomb's law (Painlevé)"),

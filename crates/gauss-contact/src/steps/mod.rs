@@ -8,7 +8,8 @@
 //! and goes the other half with the speeds after it. All impacts of a step are solved at once. What counts as closed is
 //! decided by the gap that the step would end with. Then positions and speeds are projected: closed gaps are zero, so
 //! are their rates and the slips of what sticks. No event is sought, so that dozens of contacts, and impacts that pile
-//! up, are no more work than one; the time of an impact is known to a step.
+//! up, are no more work than one; the time of an impact is known to a step. A step whose forces were taken at other
+//! speeds than its mean ones is made again (`speeds`).
 
 mod active;
 mod adaptive;
@@ -31,6 +32,7 @@ mod relaxed;
 mod report;
 mod rounds;
 mod run;
+mod speeds;
 mod stepper;
 mod together;
 mod unknowns;

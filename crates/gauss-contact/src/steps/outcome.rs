@@ -20,6 +20,12 @@ pub(super) struct Pushed<K: ContactSystem> {
     pub(super) solved: Solved<K>,
 }
 
+/// An attempt at a step, with the acceleration without contact forces that it took at half of the step.
+pub(super) struct Attempt<K: ContactSystem> {
+    pub(super) end: End<K>,
+    pub(super) acceleration: K::Speeds,
+}
+
 /// The end of a step.
 pub(super) struct End<K: ContactSystem> {
     pub(super) q: K::Configuration,
@@ -73,7 +79,7 @@ impl<K: ContactSystem<Scalar = f64>> Solved<K> {
             self.struck |= closes && (was_open || lifts);
             let carries = carrier(K::CONTACTS, i);
             let parts = K::CONTACTS[carries].has_gap() && passed_on(carries) != 0.0;
-            let bounces = passed_on(carries) > self.found.residual.rounding;
+            let bounces = passed_on(carries).abs() > self.found.residual.rounding;
             self.impacts += usize::from(closes && (was_open || bounces));
             self.rests[i] = is_closed && !parts && !lifts;
         }

@@ -20,7 +20,7 @@ use super::impulses::{Impulses, memory};
 use super::kept::Kept;
 use super::linear::Place;
 use super::motion::{self, Middle};
-use super::outcome::{End, Pushed, Solved};
+use super::outcome::{Attempt, End, Pushed, Solved};
 use super::posed::Posed;
 use super::projection::{Closed, Projection};
 use super::relaxed::StepLaw;
@@ -57,7 +57,8 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) report: StepReport,
 }
 
-/// How often a step is halved where no impulses are found for it.
+/// How often a step is halved where no impulses are found for it, where gaps do not close at its end, or where it is
+/// too long for its forces.
 const HALVINGS: u32 = 4;
 
 impl<K: ContactSystem<Scalar = f64>, M> fmt::Debug for ContactStepper<'_, K, M> {
@@ -204,11 +205,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
     }
 
-    /// One step of length `h`, under an input that stays. Where no impulses are found for it, it is made in up to 16
-    /// parts. Where it is an error, the state is that before the step.
+    /// One step of length `h`, under an input that stays. Where no impulses are found for it, where gaps do not close at
+    /// its end, or where it is too long for its forces, it is made in up to 16 parts. Where it is an error, the state is
+    /// that before the step.
     ///
     /// # Errors
-    /// `Unsolved` where no impulses were found that satisfy the laws, `InvalidFriction`, `NonFinite`, `Projection`.
+    /// `Unsolved` where no impulses were found that satisfy the laws, `Stiff` where forces depend on places or speeds
+    /// more than the step can follow, `InvalidFriction`, `NonFinite`, `Projection`.
     pub fn step(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
         self.watched(h, input, &mut ())
     }
@@ -248,8 +251,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         input: &K::Input,
         (halvings, watch): (u32, &mut W),
     ) -> Result<StepReport, ContactError> {
-        match self.whole(h, input, watch) {
-            Err(ContactError { kind: ContactErrorKind::Unsolved { .. }, .. }) if halvings > 0 => {
+        use ContactErrorKind::{Projection, Stiff, Unsolved};
+        match self.whole(h, input, (watch, halvings == 0)) {
+            Err(ContactError { kind: Projection(_) | Stiff { .. } | Unsolved { .. }, .. }) if halvings > 0 => {
                 let before = self.kept();
                 let first = self.in_parts(0.5 * h, input, (halvings - 1, watch))?;
                 let of_first = self.impulses;
@@ -260,25 +264,6 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             }
             made => made,
         }
-    }
-
-    fn whole<W: Watch<K>>(&mut self, h: f64, input: &K::Input, watch: &mut W) -> Result<StepReport, ContactError> {
-        watch.begins();
-        let rate = self.kernel.kinematics(self.t, &self.q, &self.z);
-        let end = match self.middle(h, &rate) {
-            (middle, true) => self.attempt(h, &middle, input)?,
-            // At the start and after impacts no acceleration is known: the step is made twice.
-            (middle, false) => match self.attempt(h, &middle, input)? {
-                end if end.struck => end,
-                end => {
-                    watch.first(end.attempted(self.next.as_ref()));
-                    let z = self.z.add_scaled(1.0, &end.z).scale(0.5);
-                    self.attempt(h, &Middle { z, ..middle }, input)?
-                }
-            },
-        };
-        watch.part((self.t, h), end.attempted(self.next.as_ref()));
-        self.take(h, end)
     }
 
     /// Half of a step, given the rate of places before it, and whether its speeds are those that the scheme wants.
@@ -306,9 +291,10 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         Ok(StepReport { length: h, ..end.report })
     }
 
-    fn attempt(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<End<K>, ContactError> {
+    /// A step with forces that are taken at half of it.
+    pub(super) fn attempt(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Attempt<K>, ContactError> {
         match self.flight(h, middle, input)? {
-            Some(end) => Ok(end),
+            Some(made) => Ok(made),
             None => self.touching(h, middle, input),
         }
     }
@@ -340,12 +326,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     }
 
     /// A step in which no gap closes: the motion without contacts is all that it needs.
-    fn flight(&self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Option<End<K>>, ContactError> {
+    fn flight(&self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Option<Attempt<K>>, ContactError> {
         if !self.flies() {
             return Ok(None);
         }
         let kernel = self.kernel;
-        let z = self.z.add_scaled(h, &kernel.acceleration(middle.t, &middle.q, &middle.z, input));
+        let acceleration = kernel.acceleration(middle.t, &middle.q, &middle.z, input);
+        let z = self.z.add_scaled(h, &acceleration);
         if self.comes_to_zero(h, &kernel.contact_rates(middle.t, &middle.q, &z)) {
             return Ok(None);
         }
@@ -356,7 +343,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             return Ok(None);
         }
         let rates = kernel.contact_rates(self.t + h, &q, &z);
-        Ok(Some(Self::flown((q, z), gaps, rates)))
+        Ok(Some(Attempt { end: Self::flown((q, z), gaps, rates), acceleration }))
     }
 
     fn gaps_of() -> impl Iterator<Item = usize> {
@@ -379,7 +366,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     }
 
     /// A step in which contacts may act.
-    fn touching(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<End<K>, ContactError> {
+    fn touching(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Attempt<K>, ContactError> {
         let (kernel, t) = (self.kernel, self.t + h);
         let friction = kernel.friction(middle.t, &middle.q, &middle.z, input);
         let dynamics = kernel.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
@@ -391,7 +378,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let closed = self.close(h, (response, &pushed), (q, gaps))?;
         let rates = kernel.contact_rates(t, &closed.q, &z);
         let (z, rates) = self.stop(h, (response, &pushed), &closed, (z, rates));
-        Ok(self.end(pushed, closed, (z, rates)))
+        Ok(Attempt { end: self.end(pushed, closed, (z, rates)), acceleration: *acceleration })
     }
 
     /// Impulses at half of a step, with the speeds after them: of the motion without them its acceleration, and of
@@ -516,7 +503,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let mut unknowns = Unknowns::<K>::new();
         let Self { law, tolerance, gaps, impulses, dependent, .. } = *self;
         let (restitution, delassus, modes) = (self.kernel.restitution(), &response.delassus, self.modes.as_ref());
-        let posed = Posed { h, law, tolerance, laws, delassus, restitution, gaps, rates, impulses, modes, dependent };
+        let still = motion::still::<K>(&rates[0]);
+        let posed =
+            Posed { h, law, tolerance, laws, delassus, restitution, gaps, rates, still, impulses, modes, dependent };
         let memory = &mut self.memory.as_mut()[..memory(Self::ROWS)];
         let mut problem = Impulses::new(memory, unknowns.slices());
         let mut cones = posed.pose(&mut problem);
@@ -529,6 +518,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             let unsolved = ContactErrorKind::Unsolved { residual: found.residual };
             return Err(if finite { unsolved } else { ContactErrorKind::NonFinite });
         }
+        posed.drive(&mut problem, cones.as_ref());
         let answer = posed.answer(&problem, found, cones.as_ref());
         let solved = posed.solved(&problem, (&answer, cones.as_ref()), (modes, self.next.as_mut()), 0);
         Ok((solved, posed.impulses(&problem)))

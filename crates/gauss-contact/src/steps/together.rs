@@ -16,6 +16,7 @@ use super::posed::Posed;
 use super::projection::{Closed, Projection};
 use super::relaxed::StepLaw;
 use super::report::StepScheme;
+use super::speeds::Used;
 use super::unknowns::Unknowns;
 
 /// What impulses have made of the speeds of all lanes.
@@ -78,6 +79,9 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let (q, z) = self.second_half_together(h, &middle, pushed.z)?;
         let at_end = (end, q, z);
         let (closed, z, rates) = self.close_together(at_end, &dynamics.response)?;
+        if !self.agree_together(h, (&state, &middle), (&dynamics.acceleration, &z), input) {
+            return None;
+        }
         self.take_together(h, (&state, end), &pushed, (closed, z, rates));
         Some(())
     }
@@ -104,6 +108,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
             restitution: self.wide.restitution(),
             gaps: state.gaps,
             rates,
+            still: motion::still::<W>(&rates[0]),
             impulses: state.impulses,
             modes: first.modes.as_ref(),
             dependent,
@@ -114,6 +119,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let cones = posed.pose(&mut problem);
         let cones = cones.as_ref();
         let found = problem.solve_in_lockstep(cones, posed.tolerance)?;
+        posed.drive(&mut problem, cones);
         let joins = |i: usize| {
             let rate = cones[i].normal.map(|normal| problem.rates[normal]);
             let closes = |rate| (0..self.steppers.len()).any(|lane| posed.gap_left_open(i, rate).lane(lane) < 0.0);
@@ -183,6 +189,30 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let at_end = (t, &closed.q, z, rates);
         let (z, rates) = projection.stop(self.wide, at_end, response, (|i| modes[i], rounding));
         (!projection.lockstep.has_parted()).then_some((closed, z, rates))
+    }
+
+    /// Whether no lane is to make its step again for its speeds.
+    fn agree_together(
+        &self,
+        h: f64,
+        (state, middle): (&PackedState<W>, &Middle<W>),
+        (acceleration, after): (&W::Speeds, &W::Speeds),
+        input: &W::Input,
+    ) -> bool {
+        let of = |vectors: &W::Speeds, lane: usize| single::<W, _, K::Speeds>(vectors, lane);
+        let used = |lane: usize| Used {
+            h,
+            before: of(&state.z, lane),
+            used: of(&middle.z, lane),
+            acceleration: of(acceleration, lane),
+            after: of(after, lane),
+        };
+        let mut apart = (0..self.steppers.len()).map(used).enumerate().filter(|(_, used)| !used.is_plain()).peekable();
+        apart.peek().is_none() || {
+            let mean = state.z.add_scaled(W::Scalar::one(), after).scale(W::Scalar::from_f64(0.5));
+            let at_mean = self.wide.acceleration(middle.t, &middle.q, &mean, input);
+            apart.all(|(lane, used)| !used.is_rough() && !used.grows(&of(&at_mean, lane)))
+        }
     }
 
     /// The end of a step to each lane, and in packs where all of them go on.

@@ -7,6 +7,8 @@ use gauss_runtime::contact::ContactSystem;
 
 use crate::mode::Mode;
 
+use super::motion::Mean;
+
 /// What an attempt at a part of a step came to.
 pub(super) struct Attempted<'a, K: ContactSystem> {
     pub(super) impulses: &'a K::ContactRows,
@@ -24,8 +26,9 @@ pub(super) struct Attempted<'a, K: ContactSystem> {
 pub(super) trait Watch<K: ContactSystem> {
     /// A part of a step begins.
     fn begins(&mut self);
-    /// Its first attempt, of two.
-    fn first(&mut self, attempted: Attempted<K>);
+    /// An attempt that is not the last, and how the speeds of the next one follow from it: by what part of the
+    /// difference to which mean.
+    fn again(&mut self, attempted: Attempted<K>, how: (Mean, f64));
     /// The attempt with which a part from a time on, of some length, ends.
     fn part(&mut self, of: (f64, f64), attempted: Attempted<K>);
 }
@@ -33,7 +36,7 @@ pub(super) trait Watch<K: ContactSystem> {
 /// Nobody.
 impl<K: ContactSystem> Watch<K> for () {
     fn begins(&mut self) {}
-    fn first(&mut self, _: Attempted<K>) {}
+    fn again(&mut self, _: Attempted<K>, _: (Mean, f64)) {}
     fn part(&mut self, _: (f64, f64), _: Attempted<K>) {}
 }
 
@@ -55,15 +58,15 @@ pub(super) struct Taken {
 pub(super) struct Part {
     pub(super) t: f64,
     pub(super) h: f64,
-    /// The attempt that told the speeds at half of the part.
-    pub(super) first: Option<Taken>,
+    /// The attempts that told the speeds at half of the part, and how.
+    pub(super) before: Vec<(Taken, (Mean, f64))>,
     pub(super) taken: Taken,
 }
 
 /// All parts of a step.
 #[derive(Default)]
 pub(super) struct Seen {
-    first: Option<Taken>,
+    before: Vec<(Taken, (Mean, f64))>,
     pub(super) parts: Vec<Part>,
 }
 
@@ -81,14 +84,15 @@ impl Taken {
 
 impl<K: ContactSystem<Scalar = f64>> Watch<K> for Seen {
     fn begins(&mut self) {
-        self.first = None;
+        self.before.clear();
     }
 
-    fn first(&mut self, attempted: Attempted<K>) {
-        self.first = Some(Taken::of::<K>(&attempted));
+    fn again(&mut self, attempted: Attempted<K>, how: (Mean, f64)) {
+        self.before.push((Taken::of::<K>(&attempted), how));
     }
 
     fn part(&mut self, (t, h): (f64, f64), attempted: Attempted<K>) {
-        self.parts.push(Part { t, h, first: self.first.take(), taken: Taken::of::<K>(&attempted) });
+        let before = core::mem::take(&mut self.before);
+        self.parts.push(Part { t, h, before, taken: Taken::of::<K>(&attempted) });
     }
 }
