@@ -51,8 +51,8 @@ fn apart(array: &Bound<'_, PyArrayDyn<f64>>) -> Option<usize> {
     usize::try_from(own / SIZE).ok()
 }
 
-/// `numpy.asarray(x).astype(float, order="C", casting="same_kind", copy=False)`, copied where it is not aligned: complex
-/// numbers and texts are refused.
+/// `numpy.asarray(x).astype(float, order="C", casting="same_kind", copy=False)`, copied where it is not aligned:
+/// complex numbers and texts are refused.
 fn converted<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     static ASARRAY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
     let py = value.py();

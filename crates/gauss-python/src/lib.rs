@@ -32,11 +32,11 @@
 //! has what classes offer.
 //!
 //! Rooms, each knows those before it: `description`, `parameter` (what is known of a struct, its fields), `threads`,
-//! `memory` (the only access to arrays by address), `methods` (methods of a kernel over rows), `steps` (one run: numbers
-//! in, columns out), `scene` (a struct as Python sees it), `runs` (many), `kernels` (its kernels, their types forgotten),
-//! and what Python sees: `errors`, `arrays`, `tuples`, `columns`, `call`, `parameters`, `class` with `of_kernels`, `states` and
-//! `simulation`, which knows `calls` (functions of Python in a run) and `given` (what a run is given), `run`, `ends`,
-//! `stubs`, `jax` (the door to XLA), `make`.
+//! `memory` (the only access to arrays by address), `methods` (methods of a kernel over rows), `steps` (one run:
+//! numbers in, columns out), `scene` (a struct as Python sees it), `runs` (many), `kernels` (its kernels, their types
+//! forgotten), and what Python sees: `errors`, `arrays`, `tuples`, `columns`, `call`, `parameters`, `class` with
+//! `of_kernels`, `states` and `simulation`, which knows `calls` (functions of Python in a run) and `given` (what a run
+//! is given), `run`, `ends`, `stubs`, `jax` (the door to XLA), `make`.
 
 #![deny(missing_docs, unsafe_code)]
 

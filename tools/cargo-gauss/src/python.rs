@@ -105,11 +105,12 @@ fn robot(file: &Path, format: &str, copied: &str) -> Result<Files, String> {
     let read = |path: &Path| fs::read(path).map_err(|error| format!("{}: {error}", path.display()));
     let whole = file.canonicalize().map_err(|error| format!("{}: {error}", file.display()))?;
     let derivation = Derivation::of_source(&of_robot("robot", &whole.display().to_string(), format), "Robot");
+    // Mistakes and remarks have their places in the file.
     let derivation = derivation.map_err(|mistakes| {
-        let lines = mistakes.into_iter().map(|mistake| format!("{}: {mistake}", file.display()));
+        let lines = mistakes.into_iter().map(|mistake| mistake.to_string());
         lines.collect::<Vec<_>>().join("\n")
     })?;
-    derivation.remarks().iter().for_each(|remark| println!("{}: {remark}", file.display()));
+    derivation.remarks().iter().for_each(|remark| println!("{remark}"));
     let folder = whole.parent().unwrap_or(Path::new("/"));
     let mut files = vec![(copied.to_owned(), read(&whole)?)];
     for other in derivation.files().iter().map(Path::new).filter(|other| **other != whole) {
