@@ -15,8 +15,8 @@
 //! over the energy of a step, since forces at the mean speeds do the work that they should.
 //!
 //! A step that is made again uses `z̄ − h/12 (a⁺ − a⁻)` with the accelerations at both ends, which is the mean over
-//! time to fourth order: where a body spins evenly, h ω errs by (ωh)⁵/720, in place of (ωh)³/12, by which a ball in the air
-//! would leave its way. Energy is kept as well: of z' = iωz that is the Padé approximation of degrees (2, 2).
+//! time to fourth order: where a body spins evenly, h ω errs by (ωh)⁵/720, in place of (ωh)³/12, by which a ball in the
+//! air would leave its way. Energy is kept as well: of z' = iωz that is the Padé approximation of degrees (2, 2).
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::ContactSystem;
