@@ -194,7 +194,8 @@ impl ContactErrorKind {
             Self::Stiff { speed, step } => write!(
                 f,
                 "forces on speed number {speed} (from 0) change with places or speeds faster than a step can follow, in \
-                 a part of {step:e} as well: make steps shorter than that"
+                 a part of {step:e} as well: make steps shorter than that, and write friction that jumps with the \
+                 sign of a speed as `dry_friction`"
             ),
             Self::States { states } => write!(
                 f,
@@ -219,13 +220,11 @@ impl fmt::Display for ContactErrorKind {
             Self::InvalidRestitution { restitution } => {
                 write!(f, "the coefficient of restitution is {restitution}; it must be between 0 and 1")
             }
-            Self::InvalidFriction { friction } => {
-                write!(
-                    f,
-                    "the bound of friction is {friction}; it must be finite and not negative, and zero along all axes \
-                     or none"
-                )
-            }
+            Self::InvalidFriction { friction } => write!(
+                f,
+                "the bound of friction is {friction}; it must be finite and not negative, and zero along all axes or \
+                 none"
+            ),
             Self::InvalidInterval => f.write_str("the run must go forward in time, between finite ends"),
             Self::InvalidStep { .. }
             | Self::InvalidTolerance { .. }

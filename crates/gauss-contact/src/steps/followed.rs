@@ -164,8 +164,8 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         self.projected((q, z), &dynamics, (taken, modes, &passes), same)
     }
 
-    /// The rates that contacts with restitution pass on, whose gaps do not open before the step, or are closed by others
-    /// alone. Of an approach of zero derivatives are those of an approach.
+    /// The rates that contacts with restitution pass on, whose gaps do not open before the step, or are closed by
+    /// others alone. Of an approach of zero derivatives are those of an approach.
     fn passes(&self, tolerance: f64, gaps: &L::Gaps, [before, free]: &[L::ContactRows; 2]) -> Vec<Option<Dual<N>>> {
         let e = self.kernel.restitution();
         let size = |row: usize| before.component(row).value.abs().max(free.component(row).value.abs());

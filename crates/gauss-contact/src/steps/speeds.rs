@@ -1,20 +1,22 @@
 //! The speeds at which a step takes its forces.
 //!
-//! Forces are taken once, at half of a step. With the *mean* speeds of the step, `z̄ = (z + z⁺)/2`, gyroscopic forces do
-//! no work however far a step turns, and forces against the speeds take energy away however stiff they are: `z̄·A(z⁺ − z)`
-//! is the work of the forces that were taken. But z⁺ is not known before: speeds at half of a step are foreseen by the
-//! acceleration of the step before, or are those before the step. Forces that depend on speeds then work on speeds that
-//! they were not taken at, and some of them make these grow without bound, by (ωh)⁴/4 a step where a body turns by ωh.
+//! Forces are taken once, at half of a step. With the *mean* speeds of the step, `z̄ = (z + z⁺)/2`, gyroscopic forces
+//! do no work however far a step turns, and forces against the speeds take energy away however stiff they are:
+//! `z̄·A(z⁺ − z)` is the work of the forces that were taken. But z⁺ is not known before: speeds at half of a step are
+//! foreseen by the acceleration of the step before, or are those before the step. Forces that depend on speeds then
+//! work on other speeds than they were taken at, and some make these grow without bound, by (ωh)⁴/4 a step where a body
+//! turns by ωh.
 //!
 //! So a step looks back. Where the speeds that were used are the mean ones to a part [`NEAR`], or forces at the mean
-//! ones would not change a speed by more than a part [`ALLOWED`] of it, it is taken as it is: what is left is a growth by
-//! at most that part, of a body that turns of its power 4/3: 10⁻⁸. What dampers differ by shrinks by itself as long as
-//! it is smaller than the difference of the speeds. Else the step is made again from the end that it had, until speeds
-//! agree; where it is too long for that, it is made in parts, and refused in the end: no step gives energy in this way.
+//! ones would not change a speed by more than a part [`ALLOWED`] of it, it is taken as it is: what is left is a growth
+//! by at most that part, of a body that turns of its power 4/3: 10⁻⁸. What dampers differ by shrinks by itself as long
+//! as it is smaller than the difference of the speeds. Else the step is made again from the end that it had, until
+//! speeds agree; where it is too long for that, it is made in parts, and refused in the end: so this check is the watch
+//! over the energy of a step, since forces at the mean speeds do the work that they should.
 //!
-//! A step that is made again uses `z̄ − h/12 (a⁺ − a⁻)` with the accelerations at both ends, which is the mean over time
-//! to fourth order: where a body spins evenly, h ω errs by (ωh)⁵/720, in place of (ωh)³/12, by which a ball in the air
-//! would leave its way. Energy is kept as well: of z' = iωz that is the Padé approximation of degrees (2, 2).
+//! A step that is made again uses `z̄ − h/12 (a⁺ − a⁻)` with the accelerations at both ends, which is the mean over
+//! time to fourth order: where a body spins evenly, h ω errs by (ωh)⁵/720, in place of (ωh)³/12, by which a ball in the
+//! air would leave its way. Energy is kept as well: of z' = iωz that is the Padé approximation of degrees (2, 2).
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::ContactSystem;

@@ -205,9 +205,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
     }
 
-    /// One step of length `h`, under an input that stays. Where no impulses are found for it, where gaps do not close at
-    /// its end, or where it is too long for its forces, it is made in up to 16 parts. Where it is an error, the state is
-    /// that before the step.
+    /// One step of length `h`, under an input that stays. Where no impulses are found for it, where gaps do not close
+    /// at its end, or where it is too long for its forces, it is made in up to 16 parts. Where it is an error, the
+    /// state is that before the step.
     ///
     /// # Errors
     /// `Unsolved` where no impulses were found that satisfy the laws, `Stiff` where forces depend on places or speeds
