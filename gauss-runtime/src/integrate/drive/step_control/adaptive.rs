@@ -265,10 +265,9 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         if self.problem.has_input() && self.leads_over_input((used, error), (&reached, &rates)) {
             return Ok(None);
         }
-        let excess = match &self.floor {
-            None => 0.0,
-            Some(floor) => control.tolerance.excess(&Trial { from, to: &reached, length, floor: Some(floor) }),
-        };
+        let excess = self.floor.as_ref().map_or(0.0, |floor| {
+            control.tolerance.excess(&Trial { from: &self.state, to: &reached, length, floor: Some(floor) })
+        });
         let taken = StepStatistics { rejected: core::mem::take(&mut self.rejected), excess };
         (self.state, self.rates) = (reached, rates);
         self.choose_length(used, error, excess);
