@@ -39,6 +39,12 @@ pub(crate) struct Scales {
 }
 
 impl Scales {
+    /// The scales of a run in numbers of this kind that starts at that time.
+    pub(crate) fn new<T: Real>(tolerance: Tolerance, law: Impact, start: T) -> Self {
+        let (start, epsilon) = (value(start), epsilon::<T>());
+        Self { tolerance, largest: 0.0, of_rate: Vec::new(), law, start, epsilon }
+    }
+
     /// Speeds below are rest.
     pub(crate) fn rest(&self) -> f64 {
         self.tolerance.relative.fma(self.largest, self.tolerance.absolute)

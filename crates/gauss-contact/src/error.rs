@@ -30,7 +30,7 @@ pub enum ContactErrorKind {
         /// The gap.
         gap: f64,
     },
-    /// A gap that counts as open became negative: it opened and closed again within what the steps show.
+    /// A gap that counts as open became negative without having been seen to close.
     Penetration {
         /// The gap.
         gap: f64,
@@ -161,6 +161,11 @@ pub enum ContactErrorKind {
         /// How far its step ends from that in `f64`.
         difference: f64,
     },
+    /// A closed gap is closing, so that an impact comes before accelerations are finite.
+    Strikes {
+        /// The rate of the gap.
+        rate: f64,
+    },
     /// The run does not cover the time.
     OutsideRun,
     /// The integration between two events failed.
@@ -208,14 +213,34 @@ impl ContactErrorKind {
             _ => Ok(()),
         }
     }
+
+    /// What closed gaps, and those that should be open, are refused for.
+    fn of_gaps(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NegativeGap { gap } => write!(f, "the gap starts at {gap:e}; it must not be negative"),
+            Self::Penetration { gap } => {
+                write!(
+                    f,
+                    "the gap of an open contact is {gap:e} and was not seen to close; `attempt` gives the motion up to \
+                     here, and `changing_over` goes on in steps"
+                )
+            }
+            Self::Projection(error) => {
+                write!(f, "{error}; a gap with a kink where it closes (`abs`, `min`) has no rate there: smooth it")
+            }
+            Self::Strikes { rate } => {
+                write!(f, "the closed gap is closing at {rate:e}; start from the state after the impact")
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 impl fmt::Display for ContactErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NegativeGap { gap } => write!(f, "the gap starts at {gap:e}; it must not be negative"),
-            Self::Penetration { gap } => {
-                write!(f, "the gap has become {gap:e} unseen, within a step; bound the steps by `largest_step`")
+            Self::NegativeGap { .. } | Self::Penetration { .. } | Self::Projection(_) | Self::Strikes { .. } => {
+                self.of_gaps(f)
             }
             Self::InvalidRestitution { restitution } => {
                 write!(f, "the coefficient of restitution is {restitution}; it must be between 0 and 1")
@@ -254,7 +279,6 @@ impl fmt::Display for ContactErrorKind {
             Self::TooManyEvents { limit } => {
                 write!(f, "{limit} events do not reach the end; allow more by `max_events`")
             }
-            Self::Projection(error) => error.fmt(f),
             Self::Grazes { rate } => {
                 write!(f, "what ends the mode only touches zero (rate {rate:.1e}): its time has no derivative")
             }

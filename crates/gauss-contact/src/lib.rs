@@ -18,9 +18,10 @@
 //! For many contacts there are steps of one length in velocities and impulses ([`ContactSteps`], [`ContactStepper`]):
 //! any number of contacts, all impacts of a step at once, without events and without allocation.
 //!
-//! Limits: flights lower than some hundred roundings of the largest coordinate are rest, or an error where e = 1. A gap
-//! that opens and closes within a step is seen as far as [events](gauss_runtime::integrate::drive::event) are; one that
-//! is found closed too late ends the run with [`ContactErrorKind::Penetration`].
+//! Limits: flights lower than some hundred roundings of the largest coordinate are rest, or an error where e = 1. No
+//! first touch is missed, however long the steps: the rate of a gap is bounded by kinetic energy. Where that is not
+//! enough the run says so ([`ContactTrajectory::sampled_gaps`]). A gap that is found below zero all the same ends it
+//! with [`ContactErrorKind::Penetration`].
 //!
 //! Scalars are any of one lane. Values decide what happens; where numbers carry derivatives, so do times of events,
 //! impulses and forces, and the end of a run has those of the run through its events. Derivatives are those of the
@@ -39,6 +40,7 @@
 
 extern crate alloc;
 
+mod action;
 mod balance;
 mod ball;
 mod changeover;
@@ -53,7 +55,9 @@ mod impact;
 mod law;
 mod lockstep;
 mod mode;
+mod moving;
 mod poisson;
+mod present;
 mod problem;
 mod reserve;
 mod residual;
@@ -74,7 +78,7 @@ mod witness;
 pub use balance::ContactBalance;
 pub use changeover::{ChangingRun, ChangingTrajectory, EventPart, RunPart, StepPart};
 pub use error::{ContactError, ContactErrorKind};
-pub use history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
+pub use history::{ContactEvent, EventKind, ImpactRecord, Passage, SampledGap, SolveRecord};
 pub use impact::Impact;
 pub use mode::{InMode, Mode};
 pub use residual::Residual;

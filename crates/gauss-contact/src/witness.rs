@@ -1,13 +1,20 @@
 //! Functions that pass through zero where the modes of a segment end.
 
+use alloc::rc::Rc;
+use alloc::vec::Vec;
+use core::cell::RefCell;
+
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::integrate::drive::bounded::RateBound;
+use gauss_runtime::integrate::problem::state::{Rates, State};
 use gauss_runtime::real::Real;
 
 use crate::dense::{dot, norm, value};
 use crate::friction::Bounds;
+use crate::history::SampledGap;
 use crate::law::carrier;
-use crate::mode::{Mode, slip, tangents};
+use crate::mode::{InMode, Mode, slip, tangents};
 use crate::problem::InModeProblem;
 
 /// What is watched, by the number of the contact. All of them fall to zero.
@@ -40,6 +47,40 @@ impl Watched {
             | Self::Cone(i)
             | Self::Reserve(i)
             | Self::Pushes(i) => i,
+        }
+    }
+}
+
+/// What bounds the rate of an open gap.
+pub(crate) struct GapBound<'k, K: ContactSystem> {
+    pub(crate) problem: InModeProblem<'k, K>,
+    pub(crate) contact: usize,
+    /// Where a gap is known by samples alone.
+    pub(crate) sampled: Rc<RefCell<Vec<SampledGap>>>,
+}
+
+impl<'k, K: ContactSystem> GapBound<'k, K> {
+    /// Of what a witness watches, if that is a gap.
+    pub(crate) fn of(witness: &Witness<'k, K>, sampled: &Rc<RefCell<Vec<SampledGap>>>) -> Option<Self> {
+        let Watched::Gap(contact) = witness.watched else { return None };
+        Some(Self { problem: witness.problem.clone(), contact, sampled: Rc::clone(sampled) })
+    }
+}
+
+impl<'k, K: ContactSystem> RateBound<InMode<'k, K>> for GapBound<'k, K> {
+    fn bound(&self, state: &State<InMode<'k, K>>, rates: &Rates<InMode<'k, K>>) -> [f64; 2] {
+        self.problem.bounds(state, rates)[self.contact]
+    }
+
+    fn rate(&self, State { t, q, y }: &State<InMode<'k, K>>) -> f64 {
+        value(self.problem.system.kernel.contact_rates(*t, q, y).component(K::CONTACTS[self.contact].normal))
+    }
+
+    fn sampled(&self, start: f64, end: f64) {
+        let (mut sampled, contact) = (self.sampled.borrow_mut(), self.contact);
+        match sampled.last_mut() {
+            Some(last) if last.contact == contact && last.end == start => last.end = end,
+            _ => sampled.push(SampledGap { contact, start, end }),
         }
     }
 }

@@ -48,6 +48,23 @@ pub trait Problem {
         *change
     }
 
+    /// Whether there is an input, which may change with the time alone.
+    #[inline(always)]
+    fn has_input(&self) -> bool {
+        core::mem::size_of::<Input<Self>>() > 0
+    }
+
+    /// Whether constraints that come and go hide what acts on the system from ẏ.
+    fn hides_action(&self) -> bool {
+        false
+    }
+
+    /// What acts in a state, for looks at the input between the stages of a step: ẏ, whose rates may be known; where it
+    /// is hidden, ẏ without the constraints that hide it.
+    fn action(&self, state: &State<Self::System>, rates: Option<&Rates<Self::System>>) -> Speeds<Self> {
+        rates.map_or_else(|| self.rates(state).variables, |rates| rates.variables)
+    }
+
     /// The part of the input that controllers hold, where there are some that sample: a run makes a step end where that
     /// changes.
     fn held(&self) -> Option<&Cell<Input<Self>>> {

@@ -4,6 +4,7 @@ use core::fmt;
 
 use alloc::collections::VecDeque;
 
+use crate::integrate::drive::bounded::Bound;
 use crate::integrate::drive::schedule::Scheduled;
 use crate::integrate::drive::search::Function;
 use crate::integrate::drive::watched::{Events, Mark};
@@ -173,6 +174,10 @@ impl<S: GaussSystem, E: Events<S>, K: Scheduled<S>> Events<S> for Controlled<E, 
 
     fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {
         self.others.each(visit);
+    }
+
+    fn each_bounded(&mut self, visit: &mut dyn FnMut(Function<'_, S>, Bound<'_, S>, &mut Mark)) {
+        self.others.each_bounded(visit);
     }
 
     fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {
