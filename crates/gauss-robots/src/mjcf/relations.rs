@@ -137,8 +137,8 @@ impl<'a> File<'a> {
         }
     }
 
-    /// The stiffness, the damping, what both do besides, and the lengths without force; none where they are those that joints have where
-    /// their springs have no force. Then the lengths that it can have.
+    /// The stiffness, the damping, what both do besides, and the lengths without force; none where they are those that
+    /// joints have where their springs have no force. Then the lengths that it can have.
     fn law(&mut self, node: Node<'a, 'a>) -> ((f64, f64, Nonlinear), [Option<[f64; 2]>; 2]) {
         let tags = &["tendon"];
         let factors = self.springs_of(node, tags, None);
