@@ -220,16 +220,20 @@ mod kept;
 /// planes of what is fixed are the ground. Of a ground that is the struct's own the bits are 1, it is excluded as
 /// `world` is, and the friction is that of the geom. Links touch each other by `self_contact(…)`, in the same way, and
 /// not what they hang on, but for the world; `filterparent` and `<pair>` act as MuJoCo has them, pairs with planes by
-/// `ground(…)`. What is not read (meshes, height fields, shapes of the world that are no planes, `margin`, friction of
-/// turning and rolling, capsules and boxes that touch other shapes) is a warning where it would act.
+/// `ground(…)`. Points that stay clear of a plane whatever moves make no contacts with it. What is not read (meshes,
+/// height fields, shapes of the world that are no planes, `margin`, friction of turning and rolling, capsules and boxes
+/// that touch other shapes) is a warning where it would act.
 ///
 /// Of MJCF there are read: bodies, frames, joints of all kinds, several in a body, about anchors, with references,
 /// damping, dry friction, springs (`elbow_spring`), also of balls and free joints, `springdamper` of joints that move
-/// alone, armature and ranges; inertials, and the masses of geoms, of shells as well, of meshes in STL and OBJ files
-/// (by `inertia="exact"`, `legacy`, `convex` or `shell`), of the groups in `inertiagrouprange`, within bounds, scaled
-/// to `settotalmass`; classes of defaults; what a body's `gravcomp` holds of its weight; what flags switch off; angles
-/// and Euler sequences of the compiler; sites as frames; gravity, where the struct has none; equalities of joints,
-/// linear ones as coupled joints, others and those of fixed tendons as constraints; points in common and welds as
+/// alone, armature and ranges; stiffness and damping of up to three numbers, of x, x², x³ and of v, v |v|, v³, whose
+/// part that is not linear is a force `joint_laws`; damping and armature of actuators; inertials, and the masses of
+/// geoms, of shells as well, of meshes in STL and OBJ files (by `inertia="exact"`, `legacy`, `convex` or `shell`; faces
+/// of four corners are cut along the shorter diagonal, of more by ears), of the groups in `inertiagrouprange`, within
+/// bounds, scaled to `settotalmass`; classes of defaults; what a body's `gravcomp` holds of its weight; what flags
+/// switch off; angles and Euler sequences of the compiler; sites as frames; gravity, where the struct has none;
+/// equalities of joints, linear ones as coupled joints, others and those of fixed tendons as constraints; points in
+/// common and welds as
 /// constraints; springs and dampers of tendons, fixed ones and spatial ones through sites and pulleys, slack over a
 /// range; actuators along joints and fixed tendons that are linear in their control, with gains that may depend on
 /// length and rate, and at sites, without `refsite`: those are wrenches, each with its control for an input whatever

@@ -161,6 +161,15 @@ impl Inertial {
     }
 }
 
+/// What a spring and a damper do beyond what is linear.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Nonlinear {
+    /// Force by x² and by x³, of the coordinate or length x beyond the rest.
+    pub stiffness: [f64; 2],
+    /// Force by v |v| and by v³, of its rate v.
+    pub damping: [f64; 2],
+}
+
 /// What a link moves by, relative to its parent.
 #[derive(Clone, Debug)]
 pub struct Joint {
@@ -190,6 +199,8 @@ pub struct Joint {
     pub friction: f64,
     /// Force by coordinate beyond the rest of a spring.
     pub stiffness: f64,
+    /// What both do besides.
+    pub nonlinear: Nonlinear,
     /// The coordinate at which the spring has no force.
     pub rest: f64,
     /// The least and the most of all efforts that are put in.
@@ -219,6 +230,7 @@ impl Joint {
             damping: 0.0,
             friction: 0.0,
             stiffness: 0.0,
+            nonlinear: Nonlinear::default(),
             rest: 0.0,
             efforts: None,
             armature: 0.0,
@@ -273,6 +285,8 @@ pub struct Tendon {
     pub stiffness: f64,
     /// Force by rate.
     pub damping: f64,
+    /// What both do besides.
+    pub nonlinear: Nonlinear,
     /// The least and the most length without force.
     pub rest: [f64; 2],
     /// The least and the most length.
@@ -292,6 +306,8 @@ pub struct Cable {
     pub stiffness: f64,
     /// Force by rate.
     pub damping: f64,
+    /// What both do besides.
+    pub nonlinear: Nonlinear,
     /// The least and the most length without force; where there are none, the length while all joints are where their
     /// springs have no force.
     pub rest: Option<[f64; 2]>,

@@ -124,7 +124,8 @@ mod tests {
         }
     }
 
-    /// A square with a square hole, along a line that is there twice; corners on edges; no area; one that crosses itself.
+    /// A square with a square hole, along a line that is there twice; corners on edges; no area; one that crosses
+    /// itself.
     #[test]
     fn other_faces() {
         let square = |half: f64| [[-half, -half, 0.0], [half, -half, 0.0], [half, half, 0.0], [-half, half, 0.0]];

@@ -4,7 +4,7 @@ use roxmltree::Node;
 
 use super::File;
 use super::gains::{ACTUATOR, Gains};
-use crate::description::Drive;
+use crate::description::{Description, Drive};
 use crate::names::unknown;
 use crate::rotation::Triple;
 use crate::xml::shown;
@@ -19,7 +19,10 @@ enum ActsOn {
 
 impl<'a> File<'a> {
     pub fn actuators(&mut self, section: Node<'a, 'a>) {
-        for node in self.reading.elements(section) {
+        let all = self.reading.elements(section);
+        // Ratios of damping are of the inertia with all of these.
+        all.iter().for_each(|node| self.reflect(*node));
+        for node in all {
             let drive = self.drive(node);
             // Keyframes count those that are not read as well.
             self.controls.push(drive.as_ref().map(|_| self.description.drives.len()));
@@ -51,6 +54,50 @@ impl<'a> File<'a> {
         let [controls, forces] = self.ranges(node, &gains, &along);
         let at = self.reading.at(node);
         Some(Drive { name: named.or(first)?, at, along, at_link, gain, bias, controls, forces })
+    }
+
+    /// Adds what an actuator has of damping and inertia of its own to its joint or tendon, by the square of its gear,
+    /// also where the actuator is switched off (`mj_actuatorDamping` of MuJoCo's `src/engine/engine_core_util.c`).
+    fn reflect(&mut self, node: Node<'a, 'a>) {
+        let gear = self.list(node, ACTUATOR, "gear", None).and_then(|gear| gear.first().copied()).unwrap_or(1.0);
+        let damping = self.polynomial(node, ACTUATOR, "damping", None).map(|own| own * gear * gear);
+        let armature = self.numbers::<1>(node, ACTUATOR, "armature", None).map_or(0.0, |[own]| own * gear * gear);
+        if damping == [0.0; 3] && armature == 0.0 {
+            return;
+        }
+        let joint = self.reading.text(node, "joint").or(self.reading.text(node, "jointinparent"));
+        let tendon = self.reading.text(node, "tendon").filter(|_| joint.is_none());
+        let Description { joints, tendons, cables, .. } = &mut self.description;
+        let is_named = |name: &Option<String>| name.as_deref() == tendon && tendon.is_some();
+        let laws = if let Some(joint) = joints.iter_mut().find(|own| Some(own.name.as_str()) == joint) {
+            joint.armature += armature;
+            Some((joint.kind.is_scalar(), true, &mut joint.damping, &mut joint.nonlinear))
+        } else if let Some(own) = tendons.iter_mut().find(|own| is_named(&own.name)) {
+            Some((true, armature == 0.0, &mut own.damping, &mut own.nonlinear))
+        } else {
+            let cable = cables.iter_mut().find(|own| is_named(&own.name));
+            cable.map(|own| (true, armature == 0.0, &mut own.damping, &mut own.nonlinear))
+        };
+        let Some((has_one_rate, has_inertia, linear, nonlinear)) = laws else {
+            let text = format!(
+                "`damping` and `armature` of {} do not act: they are those of a joint or a tendon",
+                shown(node)
+            );
+            return self.reading.ignored(node, text);
+        };
+        *linear += damping[0];
+        let is_read = has_inertia && (has_one_rate || damping[1..] == [0.0; 2]);
+        if has_one_rate {
+            nonlinear.damping = [0, 1].map(|k| nonlinear.damping[k] + damping[k + 1]);
+        }
+        if !is_read {
+            let text = format!(
+                "of `damping` and `armature` of {} a part does not act: inertia of tendons, and damping that is not \
+                 linear where there is not one coordinate",
+                shown(node)
+            );
+            self.reading.ignored(node, text);
+        }
     }
 
     /// What defaults and an element say.

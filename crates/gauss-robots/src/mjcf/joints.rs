@@ -3,7 +3,7 @@
 use roxmltree::Node;
 
 use super::{File, WORLD};
-use crate::description::{Joint, JointKind};
+use crate::description::{Joint, JointKind, Nonlinear};
 use crate::rotation::{Matrix, Rotation, Triple, direction, turned};
 use crate::xml::shown;
 
@@ -37,13 +37,10 @@ impl<'a> File<'a> {
                 }
                 self.hang(element, own, (&parent, name), JointKind::Floating, ([0.0; 3], Rotation::none()));
                 // `<freejoint>` has no defaults.
-                let [damping, armature, stiffness] = ["damping", "armature", "stiffness"]
-                    .map(|law| if is_free { 0.0 } else { self.amount(element, law, class) });
+                let laws = if is_free { None } else { Some(self.laws_of_group(element, class)) };
+                let (damping, armature, stiffness) = laws.unwrap_or_default();
                 if let Some(joint) = self.description.joints.last_mut() {
                     *joint = Joint { start: (position, rotation), damping, armature, stiffness, ..joint.clone() };
-                }
-                if !is_free {
-                    self.refuse_friction(element, class);
                 }
                 return;
             }
@@ -66,12 +63,46 @@ impl<'a> File<'a> {
         }
     }
 
-    /// What joints with several speeds have not.
-    fn refuse_friction(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) {
+    /// Damping, armature and stiffness of a joint with several speeds, and what it has not.
+    fn laws_of_group(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) -> (f64, f64, f64) {
+        let (stiffness, damping, nonlinear) = self.springs_of(node, JOINT, class);
+        if nonlinear != Nonlinear::default() {
+            let text = format!(
+                "of `stiffness` and `damping` of {} the first numbers act: it has not one coordinate",
+                shown(node)
+            );
+            self.reading.ignored(node, text);
+        }
         if self.amount(node, "frictionloss", class) > 0.0 {
             let text = format!("`frictionloss` of {} does not act: it has not one coordinate", shown(node));
             self.reading.ignored(node, text);
         }
+        (damping, self.amount(node, "armature", class), stiffness)
+    }
+
+    /// Stiffness and damping, of which each is up to three numbers: of x, x², x³, and of v, v |v|, v³.
+    pub fn springs_of(&mut self, node: Node<'a, 'a>, tags: &[&str], class: Option<&'a str>) -> (f64, f64, Nonlinear) {
+        let [[stiffness, b, c], [damping, e, f]] =
+            ["stiffness", "damping"].map(|name| self.polynomial(node, tags, name, class));
+        (stiffness, damping, Nonlinear { stiffness: [b, c], damping: [e, f] })
+    }
+
+    /// Up to three numbers, of which the first is not negative.
+    pub fn polynomial(
+        &mut self,
+        node: Node<'a, 'a>,
+        tags: &[&str],
+        name: &'static str,
+        class: Option<&'a str>,
+    ) -> Triple {
+        let all = self.list(node, tags, name, class).unwrap_or_default();
+        if all.len() > 3 {
+            self.reading.fault(node, format!("`{name}` is three numbers at most"));
+        }
+        if all.first().is_some_and(|first| *first < 0.0) {
+            self.reading.fault(node, format!("`{name}` is zero or more, found `{}`", all[0]));
+        }
+        std::array::from_fn(|k| all.get(k).copied().unwrap_or(0.0))
     }
 
     fn joint(
@@ -99,9 +130,7 @@ impl<'a> File<'a> {
         let joint = Joint::new(name, self.reading.at(node), kind, parent.to_owned(), child.to_owned());
         let joint = Joint { position, rotation, axis, ..joint };
         let joint = if kind == JointKind::Ball {
-            let [damping, armature, stiffness] =
-                ["damping", "armature", "stiffness"].map(|law| self.amount(node, law, class));
-            self.refuse_friction(node, class);
+            let (damping, armature, stiffness) = self.laws_of_group(node, class);
             let range = self.numbers::<2>(node, JOINT, "range", class);
             let word = self.text(node, JOINT, "limited", class);
             if range.and_then(|range| self.limited(node, range, word)).is_some() {
@@ -127,8 +156,8 @@ impl<'a> File<'a> {
 
     /// Damping, springs, limits of a joint with one coordinate.
     fn with_laws(&mut self, node: Node<'a, 'a>, joint: Joint, class: Option<&'a str>) -> Joint {
-        let [damping, friction, stiffness, armature] =
-            ["damping", "frictionloss", "stiffness", "armature"].map(|name| self.amount(node, name, class));
+        let (stiffness, damping, nonlinear) = self.springs_of(node, JOINT, class);
+        let [friction, armature] = ["frictionloss", "armature"].map(|name| self.amount(node, name, class));
         let unit = if joint.kind == JointKind::Turning { self.angles.unit } else { 1.0 };
         let [reference, rest] = ["ref", "springref"]
             .map(|name| self.numbers::<1>(node, JOINT, name, class).map_or(0.0, |[number]| number * unit));
@@ -139,6 +168,6 @@ impl<'a> File<'a> {
         let efforts = self.numbers::<2>(node, JOINT, "actuatorfrcrange", class);
         let word = self.text(node, JOINT, "actuatorfrclimited", class);
         let efforts = efforts.and_then(|range| self.limited(node, range, word));
-        Joint { damping, friction, stiffness, armature, rest, reference, limits, efforts, ..joint }
+        Joint { damping, friction, stiffness, nonlinear, armature, rest, reference, limits, efforts, ..joint }
     }
 }

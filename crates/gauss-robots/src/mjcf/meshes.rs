@@ -260,10 +260,10 @@ mod tests {
         points.chain(faces).collect()
     }
 
-    /// A cube with one corner lifted by a half, and a prism over an L, by every rule: `body_mass` of MuJoCo 4.0.0 of the
-    /// same files, whichever corner comes first. Where the L is elsewhere MuJoCo takes some corners for ears which are
-    /// none, and drops others (it asks on which side of the origin they are; 12,745.9 for 14,000 there); the volume is
-    /// what it was.
+    /// A cube with one corner lifted by a half, and a prism over an L, by every rule: `body_mass` of MuJoCo 4.0.0 of
+    /// the same files, whichever corner comes first. Where the L is elsewhere MuJoCo takes some corners for ears which
+    /// are none, and drops others (it asks on which side of the origin they are; 12,745.9 for 14,000 there); the volume
+    /// is what it was.
     #[test]
     fn faces_with_several_corners() {
         let cube: Vec<[f64; 3]> = (0..8)

@@ -4,6 +4,7 @@ use roxmltree::Node;
 
 use super::File;
 use super::disabled::Disabled;
+use crate::description::Nonlinear;
 use crate::xml::shown;
 
 impl<'a> File<'a> {
@@ -59,11 +60,16 @@ impl<'a> File<'a> {
     /// Takes away what is switched off, once all is read.
     pub fn switch_off(&mut self) {
         let Disabled { springs, dampers, equalities, frictions, limits, .. } = self.disabled;
+        let left = |Nonlinear { stiffness, damping }: Nonlinear| Nonlinear {
+            stiffness: if springs { [0.0; 2] } else { stiffness },
+            damping: if dampers { [0.0; 2] } else { damping },
+        };
         let description = &mut self.description;
         description.parents_touch = self.disabled.parents_touch;
         for joint in &mut description.joints {
             joint.stiffness *= f64::from(!springs);
             joint.damping *= f64::from(!dampers);
+            joint.nonlinear = left(joint.nonlinear);
             joint.friction *= f64::from(!frictions);
             joint.limits = if limits { [None; 2] } else { joint.limits };
             joint.mimic = joint.mimic.take().filter(|_| !equalities);
@@ -71,11 +77,13 @@ impl<'a> File<'a> {
         for tendon in &mut description.tendons {
             tendon.stiffness *= f64::from(!springs);
             tendon.damping *= f64::from(!dampers);
+            tendon.nonlinear = left(tendon.nonlinear);
             tendon.limits = tendon.limits.filter(|_| !limits);
         }
         for cable in &mut description.cables {
             cable.stiffness *= f64::from(!springs);
             cable.damping *= f64::from(!dampers);
+            cable.nonlinear = left(cable.nonlinear);
             cable.limits = cable.limits.filter(|_| !limits);
         }
         if equalities {

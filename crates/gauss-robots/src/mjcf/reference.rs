@@ -19,7 +19,6 @@ const STATES: Verdict = Harmless("of actuators with states, each of which is war
 const UNKNOWN_LAW: Verdict = Warned("it is not linear in its control, or has a state of its own", "");
 const DELAY: Verdict = Warned("controls act without delay", "0");
 const FILTERED: Attributes = ("timeconst", Warned("it is not linear in its control, or has a state of its own", "0"));
-const OF_JOINT: Verdict = Warned("what an actuator adds to its joint is to be written in the <joint>", "0");
 /// Of tendons through geoms.
 pub const WRAPPED: &str = "it wraps around a geom; through sites alone tendons are read";
 const CLASS: Attributes = ("class", Acts);
@@ -46,7 +45,7 @@ const ACTUATOR: &[Attributes] = &[
     ("body cranksite slidersite cranklength", Warned("it acts on no joint, no site, and no tendon that is read", "")),
     ("delay nsample", DELAY),
     ("interp", Harmless("how a delayed control is read, of which there is a warning")),
-    ("damping armature", OF_JOINT),
+    ("damping armature", Acts),
     ("lengthrange", Harmless("of muscles, which are warned of")),
     ("user", USER),
     ("actdim actearly actlimited actrange", STATES),

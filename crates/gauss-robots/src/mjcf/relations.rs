@@ -4,7 +4,7 @@ use roxmltree::Node;
 
 use super::File;
 use super::reference::WRAPPED;
-use crate::description::{Cable, Closure, Mimic, Polynomial, Tendon, Turn};
+use crate::description::{Cable, Closure, Mimic, Nonlinear, Polynomial, Tendon, Turn};
 use crate::names::unknown;
 use crate::rotation::of_quaternion;
 
@@ -72,8 +72,7 @@ impl<'a> File<'a> {
     /// `joint1 = c₀ + c₁ joint2 + …`, both from their references.
     fn coupled(&mut self, node: Node<'a, 'a>) {
         let Some(first) = self.reading.required(node, "joint1") else { return };
-        let coefficients: [f64; 5] =
-            self.numbers(node, EQUALITY, "polycoef", None).unwrap_or([0.0, 1.0, 0.0, 0.0, 0.0]);
+        let coefficients = self.coefficients(node);
         let at = self.reading.at(node);
         let second = self.reading.text(node, "joint2").map(str::to_owned);
         let joints = &mut self.description.joints;
@@ -98,10 +97,19 @@ impl<'a> File<'a> {
         }
     }
 
+    /// Of 1, x, x², x³, x⁴; what is not written is as in x.
+    fn coefficients(&mut self, node: Node<'a, 'a>) -> [f64; 5] {
+        let written = self.list(node, EQUALITY, "polycoef", None).unwrap_or_default();
+        if written.len() > 5 {
+            self.reading.fault(node, "`polycoef` is five numbers at most");
+        }
+        let usual = [0.0, 1.0, 0.0, 0.0, 0.0];
+        std::array::from_fn(|k| written.get(k).copied().unwrap_or(usual[k]))
+    }
+
     /// The same of the lengths of tendons that are linear in joints, from where they are at first.
     fn tied(&mut self, node: Node<'a, 'a>) {
-        let coefficients: [f64; 5] =
-            self.numbers(node, EQUALITY, "polycoef", None).unwrap_or([0.0, 1.0, 0.0, 0.0, 0.0]);
+        let coefficients = self.coefficients(node);
         let Some(first) = self.reading.required(node, "tendon1") else { return };
         let second = self.reading.text(node, "tendon2").map(str::to_owned);
         let tendons = &self.description.tendons;
@@ -129,12 +137,11 @@ impl<'a> File<'a> {
         }
     }
 
-    /// The stiffness, the damping, and the lengths without force; none where they are those that joints have where
-    /// their springs have no force. Then the lengths that it can have.
-    fn law(&mut self, node: Node<'a, 'a>) -> ([f64; 2], [Option<[f64; 2]>; 2]) {
+    /// The stiffness, the damping, what both do besides, and the lengths without force; none where they are those that
+    /// joints have where their springs have no force. Then the lengths that it can have.
+    fn law(&mut self, node: Node<'a, 'a>) -> ((f64, f64, Nonlinear), [Option<[f64; 2]>; 2]) {
         let tags = &["tendon"];
-        let factors = ["stiffness", "damping"]
-            .map(|name| self.numbers::<1>(node, tags, name, None).map_or(0.0, |[amount]| amount));
+        let factors = self.springs_of(node, tags, None);
         let written = self.list(node, tags, "springlength", None).unwrap_or_default();
         let rest = match written.as_slice() {
             // MuJoCo's word for that.
@@ -158,14 +165,14 @@ impl<'a> File<'a> {
             let factor = self.reading.required_number(joint, "coef");
             along.extend(name.zip(factor));
         }
-        let ([stiffness, damping], [rest, limits]) = self.law(node);
+        let ((stiffness, damping, nonlinear), [rest, limits]) = self.law(node);
         let joints = &self.description.joints;
         let at_spring = |name: &String| joints.iter().find(|joint| joint.name == *name).map_or(0.0, |joint| joint.rest);
         let at_springs: f64 = along.iter().map(|(name, factor)| factor * at_spring(name)).sum();
         let rest = rest.unwrap_or([at_springs; 2]);
         let name = self.reading.text(node, "name").map(str::to_owned);
         let at = self.reading.at(node);
-        self.description.tendons.push(Tendon { name, at, along, stiffness, damping, rest, limits });
+        self.description.tendons.push(Tendon { name, at, along, stiffness, damping, nonlinear, rest, limits });
     }
 
     /// From site to site; a pulley begins a part whose length counts by its divisor.
@@ -194,9 +201,9 @@ impl<'a> File<'a> {
                 _ => return self.ignored(node, WRAPPED),
             }
         }
-        let ([stiffness, damping], [rest, limits]) = self.law(node);
+        let ((stiffness, damping, nonlinear), [rest, limits]) = self.law(node);
         let name = self.reading.text(node, "name").map(str::to_owned);
         let at = self.reading.at(node);
-        self.description.cables.push(Cable { name, at, parts, stiffness, damping, rest, limits });
+        self.description.cables.push(Cable { name, at, parts, stiffness, damping, nonlinear, rest, limits });
     }
 }

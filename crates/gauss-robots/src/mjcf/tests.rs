@@ -30,6 +30,73 @@ fn every_attribute_has_a_verdict() {
     assert!(count > 600, "{count} attributes are in the list");
 }
 
+/// Attributes of the grammar that MuJoCo has since 3.12, with their types: each has a verdict, and of those that act as
+/// few and as many numbers are read as it lets them be.
+#[test]
+fn numbers_of_the_grammar_are_read() {
+    let format = Format { elements: ELEMENTS, read: beside_others, file: FILE, samples: SAMPLES };
+    let joined = include_str!("tests/types.txt").replace("\n    ", " ");
+    let is_place = |place: &str| place.contains('/') && !place.contains(' ');
+    let rows = joined.lines().filter_map(|line| line.split_once(": ")).filter(|(place, _)| is_place(place));
+    let (mut known, mut tried, mut wrong) = (0, 0, Vec::new());
+    for (place, attributes) in rows {
+        let (parent, name) = place.split_once('/').expect("an element in another");
+        let element = Element::find(ELEMENTS, parent, name).unwrap_or_else(|| panic!("{place} has no verdict"));
+        for (attribute, kind) in attributes.split_whitespace().filter_map(|own| own.split_once(':')) {
+            if element.verdict != Verdict::Acts {
+                continue;
+            }
+            known += 1;
+            let verdict = element.of(attribute);
+            wrong.extend(verdict.is_none().then(|| format!("`{attribute}` of {place} has no verdict")));
+            let counts = kind.split_once('(').and_then(|(_, counts)| counts.strip_suffix(')'));
+            let Some(counts) = counts.filter(|_| verdict == Some(Verdict::Acts) && format.has(place)) else { continue };
+            let ends = counts.split_once("..").unwrap_or((counts, counts));
+            for count in [ends.0, ends.1].into_iter().filter_map(|end| end.parse().ok()) {
+                tried += 1;
+                let refuses =
+                    |message: &String| message.contains(&format!("`{attribute}` is ")) && message.contains("number");
+                let found = format.faults(place, attribute, &vec!["1"; count].join(" "));
+                wrong.extend(
+                    found.into_iter().filter(refuses).map(|message| format!("{place}, {count} numbers: {message}")),
+                );
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(known > 700 && tried > 100, "{known} attributes are known, {tried} counts tried");
+}
+
+/// `jnt_stiffness`, `jnt_stiffnesspoly`, `dof_damping` and the like of MuJoCo 4.0.0: what actuators add counts by the
+/// square of their gears, also where they are switched off.
+#[test]
+fn springs_and_dampers_of_three_numbers() {
+    let text = |joint: &str, more: &str| {
+        described(&format!(
+            r#"<default><default class="c"><joint stiffness="10 4 50" damping="1 -2"/></default></default><worldbody><body>
+            <joint name="a" {joint}/><geom size="1"/></body></worldbody>{more}"#
+        ))
+    };
+    let of = |joint: &Joint| (joint.stiffness, joint.damping, joint.nonlinear.stiffness, joint.nonlinear.damping);
+    let ignored = |read: &Description| read.notes.iter().filter(|note| note.ignored.is_some()).count();
+    assert_eq!(of(&text(r#"class="c""#, "").joints[0]), (10.0, 1.0, [4.0, 50.0], [-2.0, 0.0]));
+    let ball = text(r#"class="c" type="ball" range="0 90""#, "");
+    assert_eq!((of(&ball.joints[0]), ignored(&ball)), ((10.0, 1.0, [0.0; 2], [0.0; 2]), 2));
+    let motors = r#"<tendon><fixed name="t" damping="3"><joint joint="a" coef="2"/></fixed></tendon><actuator>
+        <motor joint="a" gear="3" damping="1 2 0.5" armature="0.25" group="1"/><motor joint="a" gear="-2" damping="0.5"/>
+        <motor tendon="t" gear="0.5" damping="1 2"/></actuator>"#;
+    for more in ["", r#"<option actuatorgroupdisable="1"><flag actuation="disable"/></option>"#] {
+        let read = text("", &format!("{motors}{more}"));
+        assert_eq!((of(&read.joints[0]), read.joints[0].armature), ((0.0, 11.0, [0.0; 2], [18.0, 4.5]), 2.25));
+        assert_eq!((read.tendons[0].damping, read.tendons[0].nonlinear.damping), (3.25, [0.5, 0.0]));
+        assert_eq!(ignored(&read), 0, "{:?}", read.notes);
+    }
+    let off = text(r#"class="c""#, &format!(r#"{motors}<option><flag damper="disable" spring="disable"/></option>"#));
+    assert_eq!((of(&off.joints[0]), off.joints[0].armature), ((0.0, 0.0, [0.0; 2], [0.0; 2]), 2.25));
+    let heavy = text("", &motors.replace("damping=\"1 2\"", "armature=\"1\""));
+    assert_eq!(ignored(&heavy), 1, "{:?}", heavy.notes);
+}
+
 #[test]
 fn verdicts_are_true() {
     let untrue = Format { elements: ELEMENTS, read: beside_others, file: FILE, samples: SAMPLES }.untrue();
@@ -501,6 +568,8 @@ const SAMPLES: &[(&str, &str, &str)] = &[
     ("actuator/motor", "", r#"tendon="t""#),
     ("actuator/motor", r#"joint="a""#, r#"!group="x""#),
     ("actuator/motor", r#"joint="a""#, r#"gear="7""#),
+    ("actuator/motor", r#"joint="a""#, r#"damping="7""#),
+    ("actuator/motor", r#"joint="a""#, r#"armature="7""#),
     ("actuator/motor", r#"joint="a""#, r#"ctrlrange="-7 7""#),
     ("actuator/motor", r#"joint="a" ctrlrange="-7 7""#, r#"ctrllimited="false""#),
     ("actuator/motor", r#"joint="a""#, r#"forcerange="-7 7""#),

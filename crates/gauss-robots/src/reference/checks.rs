@@ -38,6 +38,23 @@ impl Format {
         })
     }
 
+    /// What is wrong with an element whose attribute has another value.
+    pub fn faults(&self, place: &str, name: &str, value: &str) -> Vec<String> {
+        let usual = self.usual(place);
+        let start = format!(" {name}=\"");
+        let others = match usual.split_once(&start) {
+            Some((before, rest)) => format!("{before}{}", rest.split_once('"').map_or("", |(_, after)| after)),
+            None => usual.to_owned(),
+        };
+        let read = self.read(place, &format!("{others} {name}=\"{value}\""));
+        read.err().unwrap_or_default().into_iter().map(|fault| fault.message).collect()
+    }
+
+    /// Whether the file has a place for the attributes of an element.
+    pub fn has(&self, place: &str) -> bool {
+        self.file.contains(&format!("@{place}{{"))
+    }
+
     fn usual(&self, place: &str) -> &'static str {
         let start = format!("@{place}{{");
         let after = self.file.split_once(&start).unwrap_or_else(|| panic!("the file has no place for {place}")).1;

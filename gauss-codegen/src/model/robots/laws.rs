@@ -32,6 +32,9 @@ impl Robot<'_> {
         let (tendons, mut of_tendons) = self.tendons();
         forces.extend(tendons);
         self.notes.append(&mut of_tendons);
+        let (bent, mut of_springs) = self.nonlinear_springs();
+        forces.extend(bent);
+        self.notes.append(&mut of_springs);
         let (held, mut of_weights) = self.held(gravity);
         forces.extend(held);
         self.notes.append(&mut of_weights);

@@ -11,7 +11,7 @@ use crate::model::scene::elements::argument::{
 use crate::model::scene::elements::{FORCE, SPRING, TORQUE};
 use crate::model::scene::expression::{BinaryOperator, Expression, FunctionName, Property};
 use crate::model::scene::forces::{ForceAxes, ForceClause};
-use gauss_robots::description::{Cable, Joint, JointKind, Note, Tendon};
+use gauss_robots::description::{At, Cable, Joint, JointKind, Nonlinear, Note, Tendon};
 use gauss_robots::rotation::{Rotation, Triple};
 
 /// The square of the sine of an angle below which the angle is its sine, in double precision.
@@ -127,14 +127,89 @@ impl Robot<'_> {
         (forces, notes)
     }
 
+    /// What springs and dampers of joints and tendons do beyond what is linear.
+    pub fn nonlinear_springs(&self) -> (Vec<ForceClause>, Vec<Note>) {
+        let (mut rates, mut forces, mut notes) = (Vec::new(), Vec::new(), Vec::new());
+        for (index, joint, q, multiplier) in self.scalar_joints() {
+            let along = self.values(index, 0.0).into_iter().next();
+            let Some(force) = along.and_then(|along| self.bent(joint.nonlinear, [joint.rest; 2], &along)) else {
+                continue;
+            };
+            self.add_along(&mut rates, q, multiplier, &force);
+            notes.extend(told_of_energy(joint.at, joint.nonlinear));
+        }
+        for tendon in &self.description.tendons {
+            let along = self.length(&tendon.along);
+            let Some(force) = along.and_then(|along| self.bent(tendon.nonlinear, tendon.rest, &along)) else {
+                continue;
+            };
+            for (_, q, multiplier, factor) in self.ends_of(&tendon.along) {
+                self.add_along(&mut rates, q, factor * multiplier, &force);
+            }
+            notes.extend(told_of_energy(tendon.at, tendon.nonlinear));
+        }
+        for cable in &self.description.cables {
+            let Some(parts) = self.moving_parts(cable) else { continue };
+            let rest = cable.rest.unwrap_or_else(|| [self.length_at_springs(&parts); 2]);
+            let Some(tension) = self.bent(cable.nonlinear, rest, &self.length_of(&parts)) else { continue };
+            forces.extend(self.pulls(&parts, &tension));
+            notes.extend(told_of_energy(cable.at, cable.nonlinear));
+        }
+        if !rates.is_empty() {
+            let name = Ident::new("joint_laws", self.writer.span);
+            forces.push(ForceClause::drive(Some(name), rates, self.writer.span));
+        }
+        (forces, notes)
+    }
+
+    fn add_along(&self, rates: &mut Vec<(Ident, Expression)>, q: &Ident, factor: f64, force: &Expression) {
+        let writer = self.writer;
+        let part = if factor == 1.0 { force.clone() } else { writer.times(writer.number(factor), force.clone()) };
+        match rates.iter_mut().find(|(name, _)| name == q) {
+            Some((_, sum)) => *sum = writer.plus(sum.clone(), part),
+            None => rates.push((q.clone(), part)),
+        }
+    }
+
+    /// −(b x² + c x³) − (e v |v| + f v³) along a length, of its x beyond the nearest length without force and its rate
+    /// v; `None` of nothing.
+    fn bent(&self, law: Nonlinear, rest: [f64; 2], along: &Expression) -> Option<Expression> {
+        let writer = self.writer;
+        let x = self.beyond(rest, along);
+        let v = writer.call(FunctionName::Rate, vec![along.clone()]);
+        let product = |factors: Vec<Expression>| factors.into_iter().reduce(|a, b| writer.times(a, b));
+        let size = writer.call(FunctionName::Abs, vec![v.clone()]);
+        let terms = [
+            (law.stiffness[0], vec![x.clone(), x.clone()]),
+            (law.stiffness[1], vec![x.clone(), x.clone(), x]),
+            (law.damping[0], vec![size, v.clone()]),
+            (law.damping[1], vec![v.clone(), v.clone(), v]),
+        ];
+        let acting = terms.into_iter().filter(|(factor, _)| *factor != 0.0);
+        let term = |(factor, powers): (f64, Vec<Expression>)| {
+            product(powers).map(|power| writer.times(writer.number(-factor), power))
+        };
+        acting.filter_map(term).reduce(|a, b| writer.plus(a, b))
+    }
+
+    /// A length beyond the nearest of those without force.
+    fn beyond(&self, rest: [f64; 2], along: &Expression) -> Expression {
+        let writer = self.writer;
+        let nearest = match rest {
+            [0.0, 0.0] => return along.clone(),
+            [least, most] if least == most => writer.number(least),
+            _ => {
+                let ends = [along.clone()].into_iter().chain(rest.map(|end| writer.number(end)));
+                writer.call(FunctionName::Clamp, ends.collect())
+            }
+        };
+        writer.binary(BinaryOperator::Subtract, along.clone(), nearest)
+    }
+
     /// −k (l − l₀) − d l̇, with the l₀ of a range that is the nearest to l.
     fn beyond_a_range(&self, [stiffness, damping]: [f64; 2], rest: [f64; 2], along: Expression) -> Expression {
         let writer = self.writer;
-        let mut ends = vec![along.clone()];
-        ends.extend(rest.map(|end| writer.number(end)));
-        let nearest = writer.call(FunctionName::Clamp, ends);
-        let beyond = writer.binary(BinaryOperator::Subtract, along.clone(), nearest);
-        let force = writer.times(writer.number(-stiffness), beyond);
+        let force = writer.times(writer.number(-stiffness), self.beyond(rest, &along));
         if damping == 0.0 {
             return force;
         }
@@ -143,15 +218,10 @@ impl Robot<'_> {
     }
 
     fn over_a_range(&self, tendon: &Tendon, along: Expression) -> Vec<(Ident, Expression)> {
-        let writer = self.writer;
         let force = self.beyond_a_range([tendon.stiffness, tendon.damping], tendon.rest, along);
         let mut rates: Vec<(Ident, Expression)> = Vec::new();
         for (_, q, multiplier, factor) in self.ends_of(&tendon.along) {
-            let part = writer.times(writer.number(factor * multiplier), force.clone());
-            match rates.iter_mut().find(|(name, _)| name == q) {
-                Some((_, sum)) => *sum = writer.plus(sum.clone(), part),
-                None => rates.push((q.clone(), part)),
-            }
+            self.add_along(&mut rates, q, factor * multiplier, &force);
         }
         rates
     }
@@ -164,7 +234,8 @@ impl Robot<'_> {
             let Some(parts) = self.moving_parts(cable) else { continue };
             let rest = cable.rest.unwrap_or_else(|| [self.length_at_springs(&parts); 2]);
             if rest[0] != rest[1] {
-                forces.extend(self.pulls(cable, &parts, rest));
+                let laws = [cable.stiffness, cable.damping];
+                forces.extend(self.pulls(&parts, &self.beyond_a_range(laws, rest, self.length_of(&parts))));
                 continue;
             }
             let spring = ForceClause::new(&SPRING, None, writer.span);
@@ -208,10 +279,9 @@ impl Robot<'_> {
         terms.reduce(|a, b| writer.plus(a, b)).unwrap_or_else(|| writer.number(0.0))
     }
 
-    /// −k (l − l₀) − d l̇ with the l₀ of the range that is the nearest to l, along each part on its ends.
-    fn pulls(&self, cable: &Cable, parts: &[([usize; 2], f64)], rest: [f64; 2]) -> Vec<ForceClause> {
+    /// A force along a length, along each part on its ends.
+    fn pulls(&self, parts: &[([usize; 2], f64)], tension: &Expression) -> Vec<ForceClause> {
         let writer = self.writer;
-        let tension = self.beyond_a_range([cable.stiffness, cable.damping], rest, self.length_of(parts));
         let mut forces = Vec::new();
         for (ends, factor) in parts {
             let [arm, length] = self.arm(*ends);
@@ -235,4 +305,10 @@ impl Robot<'_> {
         };
         parts.iter().map(|(ends, factor)| factor * distance(*ends)).sum()
     }
+}
+
+/// That the work of a spring is left out of the energy.
+fn told_of_energy(at: At, law: Nonlinear) -> Option<Note> {
+    let text = "a spring that is not linear acts as a force: its energy is not in the potential energy";
+    (law.stiffness != [0.0; 2]).then(|| Note::told(at, text).about("springs"))
 }

@@ -1,5 +1,5 @@
-//! Points of links that no motion brings nearer to a plane, or away from it: a ball on a column that turns about its own
-//! axis, a cart on a level rail.
+//! Points of links that no motion brings nearer to a plane, or away from it: a ball on a column that turns about its
+//! own axis, a cart on a level rail.
 
 use super::clauses::Robot;
 use gauss_robots::collision::{Collision, Shape};

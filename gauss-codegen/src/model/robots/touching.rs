@@ -125,16 +125,8 @@ impl Made {
             [] => size(touch.friction).into_iter().collect(),
             own => own.to_vec(),
         };
-        self.contacts.extend(contacts.into_iter().map(|(names, contact)| ContactClause {
-            names,
-            touching: Touching::Point(Box::new(contact)),
-            friction: friction.clone(),
-            restitution: ground.restitution.clone(),
-            drilling: None,
-            rolling: None,
-            of_file: true,
-            links: [Some(link.clone()), None],
-        }));
+        let clause = |(names, contact)| of_ground(names, contact, friction.clone(), ground, link);
+        self.contacts.extend(contacts.into_iter().map(clause));
         is_clear
     }
 
@@ -219,6 +211,26 @@ impl Made {
         self.taken.extend(names.iter().cloned());
         self.shapes.insert(chosen);
         names.iter().map(|name| Ident::new(name, self.writer.span)).collect()
+    }
+}
+
+/// A contact of a link with a ground.
+fn of_ground(
+    names: Vec<Ident>,
+    contact: PointContact,
+    friction: Vec<Expression>,
+    ground: &Ground,
+    link: &Ident,
+) -> ContactClause {
+    ContactClause {
+        names,
+        touching: Touching::Point(Box::new(contact)),
+        friction,
+        restitution: ground.restitution.clone(),
+        drilling: None,
+        rolling: None,
+        of_file: true,
+        links: [Some(link.clone()), None],
     }
 }
 
