@@ -36,8 +36,8 @@ impl<'g> Tree<'g> {
         (0..self.speed_count()).map(|k| self.speed(k)).collect()
     }
 
-    /// With its forces of inertia, less what fields do to it, with ż by its rates in `along`, and with `a_O − g` and ω̇ of
-    /// the links as observers see them.
+    /// With its forces of inertia, less what fields do to it, with ż by its rates in `along`, and with `a_O − g` and ω̇
+    /// of the links as observers see them.
     pub fn with_formal(
         &self,
         rows: Vec<Expr<'g>>,

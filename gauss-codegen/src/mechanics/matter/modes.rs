@@ -145,8 +145,8 @@ impl<'g> Deformation<'g> {
         cross(&w, &q).into_iter().chain(angular).chain(modes).map(Expr::group).collect()
     }
 
-    /// ∫a_P·∂v_P/∂ν_i dm, with the acceleration of O, body axes, as an observer sees it who moves as well, and ω̇ and η̈
-    /// by the rates in `along`. Of O's velocity nothing depends (Galilei): it is left out before anything is formed.
+    /// ∫a_P·∂v_P/∂ν_i dm, with the acceleration of O, body axes, as an observer sees it who moves as well, and ω̇ and
+    /// η̈ by the rates in `along`. Nothing depends on O's velocity (Galilei): it is left out before anything is formed.
     pub fn inertia_forces(&self, acceleration: &Triple<'g>, along: &Map<u32, Expr<'g>>) -> Vec<Expr<'g>> {
         let mut rates = self.rates.clone();
         rates[..3].fill(self.graph().zero());
