@@ -188,8 +188,8 @@ impl<'g> Laws<'_, 'g> {
         InertiaRules { rules, tensor, shape, mass, center, is_formal: body.is_some_and(|body| body.is_formal) }
     }
 
-    /// Of a body that moves with others: what enters of its moments depends on the axes about which it turns. A field of
-    /// attraction sees all of them.
+    /// Of a body that moves with others: what enters of its moments depends on the axes about which it turns. A field
+    /// of attraction sees all of them.
     fn in_sum(&self, body: Option<&BodyData<'g>>) -> InertiaRule {
         let Some(body) = body.filter(|_| !self.given.mass_data.attracted) else { return InertiaRule::InSum };
         match self.scene.tree.links[body.link].turns_about()[..] {
@@ -329,7 +329,7 @@ mod tests {
         assert_eq!(of_one("planar"), planar);
     }
 
-    /// Components of the inertia in body axes, however the axis of the turn comes about; a field of attraction sees all.
+    /// The axis is one of the body's, however the turn comes about; a field of attraction sees all moments.
     #[test]
     fn of_a_moment_that_does_not_enter_nothing_is_said() {
         let of_one = |clauses: &str, placed: &str| {
