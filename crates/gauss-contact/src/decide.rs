@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::contact::{Contact, ContactSystem};
+use gauss_runtime::contact::{Contact, ContactDynamics, ContactSystem};
 use gauss_runtime::forces::Columns;
 use gauss_runtime::integrate::drive::tolerance::Tolerance;
 use gauss_runtime::integrate::problem::state::TangentOf;
@@ -265,40 +265,6 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         self.record(contacts, &rates, &impulses, (law, made))
     }
 
-    /// The contacts whose force has fallen to zero, and those that stuck and begin to slide: against their friction.
-    fn gives_way(&self, made: &ContactTrajectory<'k, K>) -> (Vec<usize>, Vec<(usize, [K::Scalar; 3])>) {
-        let system = InMode::new(self.kernel, &self.modes);
-        let input = (made.input)(self.t, &self.q, &self.z);
-        let friction = || self.kernel.friction(self.t, &self.q, &self.z, &input);
-        match self.fired {
-            Some(Watched::Force(i)) => (vec![i], Vec::new()),
-            Some(Watched::Cone(i)) => {
-                let loads = system.loads(self.t, &self.q, &self.z, &input);
-                let contact = &K::CONTACTS[i];
-                let along = Bounds::of(contact, &friction()).gives_way(&loads.forces[tangents(contact)]);
-                (Vec::new(), along.into_iter().map(|along| (i, along)).collect())
-            }
-            Some(Watched::Reserve(_)) => {
-                let Some(reserve) = system.reserve((self.t, &self.q, &self.z), &input) else {
-                    return Default::default();
-                };
-                let friction = friction();
-                let (mut leaves, mut slides) = (Vec::new(), Vec::new());
-                for i in reserve.binding() {
-                    let contact = &K::CONTACTS[i];
-                    let along = Bounds::of(contact, &friction).gives_way(&reserve.forces[tangents(contact)]);
-                    match along.filter(|_| !reserve.is_free(contact)) {
-                        Some(along) => slides.push((i, along)),
-                        None if contact.has_gap() => leaves.push(i),
-                        None => {}
-                    }
-                }
-                (leaves, slides)
-            }
-            _ => Default::default(),
-        }
-    }
-
     /// The contacts whose gap is zero. Where one has just closed beyond zero, by less than what times are told apart by,
     /// gaps are brought to zero: else each bounce would be a little lower. In the metric of the energy that moves nothing
     /// by more than it has to; back along the motion it would be, at a small rate beside a large velocity, a long way.
@@ -455,13 +421,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             let dynamics = self.kernel.contact_dynamics(self.t, &self.q, &self.z, &input);
             let rows = rows::<K>(&contacts);
             let delassus = &dynamics.response.delassus;
-            let matrix = Matrix::from_fn(rows.len(), |i, j| delassus[(rows[i], rows[j])]);
-            let bias = rows.iter().map(|&row| dynamics.bias.component(row)).collect();
-            // Accelerations are sums as rates are.
-            let jacobian = self.kernel.contact_jacobian(self.t, &self.q);
-            let of_row = |row: usize| jacobian.nth(row).map_or(0.0, |column| terms(&column, &dynamics.acceleration));
-            let noise = rows.iter().map(|&row| 64.0 * epsilon::<K::Scalar>() * of_row(row));
-            let solver = Contacts::new(laws.clone(), matrix, bias).known_to(noise);
+            let solver = self.posed(laws.clone(), &rows, &dynamics);
             let solution = match solver.solve() {
                 // A contact is stopped once: then its slip is not known to go on.
                 Err(Failure::Inconsistent(n)) if self.jams && laws[n].along().is_some() => {
@@ -510,6 +470,18 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             made.solves.push(SolveRecord { time: value(self.t), impact: false, residuals });
             return Ok(accelerations.into_iter().map(|(rate, _)| rate).collect());
         }
+    }
+
+    /// The laws of contacts with these rows for the accelerations.
+    fn posed(&self, laws: Vec<Law<K::Scalar>>, rows: &[usize], dynamics: &ContactDynamics<K>) -> Contacts<K::Scalar> {
+        let delassus = &dynamics.response.delassus;
+        let matrix = Matrix::from_fn(rows.len(), |i, j| delassus[(rows[i], rows[j])]);
+        let bias = rows.iter().map(|&row| dynamics.bias.component(row)).collect();
+        // Accelerations are sums as rates are.
+        let jacobian = self.kernel.contact_jacobian(self.t, &self.q);
+        let of_row = |row: usize| jacobian.nth(row).map_or(0.0, |column| terms(&column, &dynamics.acceleration));
+        let noise = rows.iter().map(|&row| 64.0 * epsilon::<K::Scalar>() * of_row(row));
+        Contacts::new(laws, matrix, bias).known_to(noise)
     }
 
     /// Brings gaps of contacts, their rates and slips that have ended to zero; the laws for the accelerations there.

@@ -81,14 +81,14 @@ impl Barrier<'_> {
         let (y, level) = (&point[..self.free.len()], point[self.free.len()]);
         let forces = self.forces(y);
         let ball = self.radius * self.radius - dot(y, y);
-        if !(ball > 0.0) {
+        if ball.is_nan() || ball <= 0.0 {
             return f64::INFINITY;
         }
         let mut sum = -weight * level - Real::ln(ball);
         for margin in self.margins {
             let bound = margin.bound(&forces) - level;
             let friction = margin.scale * norm(&forces[margin.tangents.clone()]);
-            if !(bound > friction) {
+            if bound.is_nan() || bound <= friction {
                 return f64::INFINITY;
             }
             sum -= Real::ln(bound - friction) + Real::ln(bound + friction);
@@ -104,10 +104,10 @@ impl Barrier<'_> {
         let (mut first, mut second) = (vec![0.0; n + 1], vec![vec![0.0; n + 1]; n + 1]);
         first[n] = -weight;
         let ball = self.radius * self.radius - dot(y, y);
-        for i in 0..n {
-            first[i] += 2.0 * y[i] / ball;
-            second[i][i] += 2.0 / ball;
-            (0..n).for_each(|j| second[i][j] += 4.0 * y[i] * y[j] / (ball * ball));
+        for (i, (slope, row)) in first.iter_mut().zip(&mut second).enumerate().take(n) {
+            *slope += 2.0 * y[i] / ball;
+            row[i] += 2.0 / ball;
+            row.iter_mut().zip(y).for_each(|(entry, yj)| *entry += 4.0 * y[i] * yj / (ball * ball));
         }
         for margin in self.margins {
             let of = |row: usize| self.free.iter().map(move |direction| margin.scale * direction[row]);
@@ -127,11 +127,11 @@ impl Barrier<'_> {
             let change =
                 |i: usize| 2.0 * bound * slope[i] - 2.0 * rows.iter().map(|(force, row)| force * row[i]).sum::<f64>();
             let changes: Vec<f64> = (0..=n).map(change).collect();
-            for i in 0..=n {
-                first[i] -= changes[i] / left;
-                for j in 0..=n {
+            first.iter_mut().zip(&changes).for_each(|(first, change)| *first -= change / left);
+            for (i, second) in second.iter_mut().enumerate() {
+                for (j, entry) in second.iter_mut().enumerate() {
                     let curved = slope[i] * slope[j] - rows.iter().map(|(_, row)| row[i] * row[j]).sum::<f64>();
-                    second[i][j] += changes[i] / left * (changes[j] / left) - 2.0 * curved / left;
+                    *entry += changes[i] / left * (changes[j] / left) - 2.0 * curved / left;
                 }
             }
         }

@@ -490,6 +490,20 @@ where
         Ok(())
     }
 
+    /// How a slip ends.
+    fn watch_slip(&self, i: usize, of_rate: &[f64], watch: &mut dyn FnMut(Watched, &dyn Fn(f64) -> f64)) {
+        let rows = tangents(&K::CONTACTS[i]);
+        let (several, rest) = (rows.len() > 1, self.scales.rest());
+        let rounding = rows.map(|row| of_rate[row]).fold(0.0, f64::max);
+        watch(Watched::Slip(i), &|slip| if slip.abs() <= rounding { -slip } else { 0.0 });
+        // One that begins against its direction would be driven by its friction.
+        let least = rounding.max(0.5 * rest);
+        watch(Watched::Slip(i), &|slip| if slip <= least { least - slip.min(0.0) } else { 0.0 });
+        if several {
+            watch(Watched::Speed(i, rest), &|_| 0.0);
+        }
+    }
+
     /// What ends the segment from here.
     fn witnesses(&self, from: &Instant<'k, K>, problem: &InModeProblem<'k, K>) -> Vec<Witness<'k, K>> {
         let mut found = Vec::new();
@@ -514,7 +528,6 @@ where
             // Forces that are no more than rounding start above zero by as much.
             let least = loads.as_ref().map_or(0.0, |loads| loads.rounding(contact).max(f64::MIN_POSITIVE));
             let above = move |value: f64| if value > least { 0.0 } else { least - value };
-            let from_zero = |bound: f64| move |value: f64| if value.abs() <= bound { -value } else { 0.0 };
             match from.modes[i] {
                 Mode::Open if !contact.has_gap() => {}
                 Mode::Open => {
@@ -541,16 +554,7 @@ where
                     if contact.has_gap() {
                         watch(Watched::Force(i), &above);
                     }
-                    let rounding = tangents(contact).map(|row| sizes.of_rate[row]).fold(0.0, f64::max);
-                    watch(Watched::Slip(i), &from_zero(rounding));
-                    // A slip that begins against its direction would be driven by its friction.
-                    let least = 0.5 * self.scales.rest();
-                    watch(Watched::Slip(i), &|slip| {
-                        if slip <= least { rounding.max(least) - slip.min(0.0) } else { 0.0 }
-                    });
-                    if tangents(contact).len() > 1 {
-                        watch(Watched::Speed(i, self.scales.rest()), &|_| 0.0);
-                    }
+                    self.watch_slip(i, &sizes.of_rate, &mut watch);
                     if contact.has_gap() {
                         watch(Watched::Pushes(i), &|_| 0.0);
                     }

@@ -7,13 +7,16 @@ use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::{Contact, ContactSystem};
 use gauss_runtime::real::Real;
 
+use crate::decide::Instant;
 use crate::dense::{Matrix, value};
 use crate::friction::Bounds;
 use crate::impact::rows;
 use crate::law::Law;
-use crate::mode::{InMode, Loads, Mode};
+use crate::mode::{InMode, Loads, Mode, tangents};
 use crate::solution::State;
 use crate::solver::Contacts;
+use crate::trajectory::ContactTrajectory;
+use crate::witness::Watched;
 
 /// Of all forces that make one motion those that are deepest inside the bounds of their laws.
 pub(crate) struct Shared<K: ContactSystem> {
@@ -66,6 +69,9 @@ impl<K: ContactSystem> InMode<'_, K> {
             return None;
         }
         let contacts: Vec<usize> = self.closed().map(|(i, ..)| i).collect();
+        if contacts.is_empty() {
+            return None;
+        }
         let friction = self.kernel.friction(t, q, z, input);
         let law = |(_, contact, _): (usize, &Contact, _)| {
             Law::new(contact, Bounds::of(contact, &friction), None).among(contact, &contacts)
@@ -88,5 +94,41 @@ impl<K: ContactSystem> InMode<'_, K> {
         let mut weights = vec![0.0; K::CONTACTS.len()];
         contacts.iter().zip(&found.weights).for_each(|(&i, weight)| weights[i] = *weight);
         Some(Shared { part: found.part, forces, weights })
+    }
+}
+
+impl<'k, K: ContactSystem> Instant<'k, K> {
+    /// The contacts whose force has fallen to zero, and those that stuck and begin to slide: against their friction.
+    pub(crate) fn gives_way(&self, made: &ContactTrajectory<'k, K>) -> (Vec<usize>, Vec<(usize, [K::Scalar; 3])>) {
+        let system = InMode::new(self.kernel, &self.modes);
+        let input = (made.input)(self.t, &self.q, &self.z);
+        let friction = || self.kernel.friction(self.t, &self.q, &self.z, &input);
+        match self.fired {
+            Some(Watched::Force(i)) => (vec![i], Vec::new()),
+            Some(Watched::Cone(i)) => {
+                let loads = system.loads(self.t, &self.q, &self.z, &input);
+                let contact = &K::CONTACTS[i];
+                let along = Bounds::of(contact, &friction()).gives_way(&loads.forces[tangents(contact)]);
+                (Vec::new(), along.into_iter().map(|along| (i, along)).collect())
+            }
+            Some(Watched::Reserve(_)) => {
+                let Some(reserve) = system.reserve((self.t, &self.q, &self.z), &input) else {
+                    return Default::default();
+                };
+                let friction = friction();
+                let (mut leaves, mut slides) = (Vec::new(), Vec::new());
+                for i in reserve.binding() {
+                    let contact = &K::CONTACTS[i];
+                    let along = Bounds::of(contact, &friction).gives_way(&reserve.forces[tangents(contact)]);
+                    match along.filter(|_| !reserve.is_free(contact)) {
+                        Some(along) => slides.push((i, along)),
+                        None if contact.has_gap() => leaves.push(i),
+                        None => {}
+                    }
+                }
+                (leaves, slides)
+            }
+            _ => Default::default(),
+        }
     }
 }

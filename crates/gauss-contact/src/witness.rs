@@ -126,7 +126,10 @@ impl<K: ContactSystem> Witness<'_, K> {
                 loads.reserve(contact, Bounds::of(contact, &kernel.friction(t, q, z, &input())))
             }
             Watched::Reserve(_) => {
-                let shared = self.problem.system.reserve((t, q, z), &input());
+                let (system, loads) = (&self.problem.system, self.problem.loads(t, q, z));
+                // Where forces of least norm keep the laws there is nothing to look for.
+                let keeps = system.keeps_laws(&loads, &kernel.friction(t, q, z, &input()));
+                let shared = if keeps { None } else { system.reserve((t, q, z), &input()) };
                 K::Scalar::from_f64(shared.map_or(1.0, |shared| shared.part))
             }
             Watched::Pushes(i) => self.pushes(i, t, q, z),
