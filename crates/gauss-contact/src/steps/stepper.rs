@@ -252,18 +252,37 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         (halvings, watch): (u32, &mut W),
     ) -> Result<StepReport, ContactError> {
         use ContactErrorKind::{Projection, Stiff, Unsolved};
-        match self.whole(h, input, (watch, halvings == 0)) {
-            Err(ContactError { kind: Projection(_) | Stiff { .. } | Unsolved { .. }, .. }) if halvings > 0 => {
-                let before = self.kept();
-                let first = self.in_parts(0.5 * h, input, (halvings - 1, watch))?;
-                let of_first = self.impulses;
-                let second = self.in_parts(0.5 * h, input, (halvings - 1, watch));
-                let second = second.inspect_err(|_| self.restore(&before))?;
-                self.impulses = self.impulses.add_scaled(1.0, &of_first);
-                Ok(first.and(second))
-            }
-            made => made,
+        let cause = match self.whole(h, input, (watch, halvings == 0)) {
+            Err(cause) if halvings > 0 => cause,
+            made => return made,
+        };
+        if !matches!(cause.kind, Projection(_) | Stiff { .. } | Unsolved { .. }) {
+            return Err(cause);
         }
+        let (before, parts) = (self.kept(), watch.parts());
+        let both = self.both_halves(h, input, (halvings - 1, watch));
+        both.or_else(|error| {
+            self.restore(&before);
+            if !matches!((&cause.kind, &error.kind), (Stiff { .. }, Projection(_) | Unsolved { .. })) {
+                return Err(error);
+            }
+            // Too long for its forces, but its laws have a solution for the whole of it, if for any.
+            watch.keep(parts);
+            self.whole(h, input, (watch, true)).map_err(|_| error)
+        })
+    }
+
+    fn both_halves<W: Watch<K>>(
+        &mut self,
+        h: f64,
+        input: &K::Input,
+        (halvings, watch): (u32, &mut W),
+    ) -> Result<StepReport, ContactError> {
+        let first = self.in_parts(0.5 * h, input, (halvings, watch))?;
+        let of_first = self.impulses;
+        let second = self.in_parts(0.5 * h, input, (halvings, watch))?;
+        self.impulses = self.impulses.add_scaled(1.0, &of_first);
+        Ok(first.and(second))
     }
 
     /// Half of a step, given the rate of places before it, and whether its speeds are those that the scheme wants.

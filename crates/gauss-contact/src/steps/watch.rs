@@ -29,6 +29,10 @@ pub(super) trait Watch<K: ContactSystem> {
     /// An attempt that is not the last, and how the speeds of the next one follow from it: by what part of the
     /// difference to which mean.
     fn again(&mut self, attempted: Attempted<K>, how: (Mean, f64));
+    /// How many parts there are.
+    fn parts(&self) -> usize;
+    /// Only the first so many parts stay.
+    fn keep(&mut self, parts: usize);
     /// The attempt with which a part from a time on, of some length, ends.
     fn part(&mut self, of: (f64, f64), attempted: Attempted<K>);
 }
@@ -37,6 +41,10 @@ pub(super) trait Watch<K: ContactSystem> {
 impl<K: ContactSystem> Watch<K> for () {
     fn begins(&mut self) {}
     fn again(&mut self, _: Attempted<K>, _: (Mean, f64)) {}
+    fn parts(&self) -> usize {
+        0
+    }
+    fn keep(&mut self, _: usize) {}
     fn part(&mut self, _: (f64, f64), _: Attempted<K>) {}
 }
 
@@ -89,6 +97,14 @@ impl<K: ContactSystem<Scalar = f64>> Watch<K> for Seen {
 
     fn again(&mut self, attempted: Attempted<K>, how: (Mean, f64)) {
         self.before.push((Taken::of::<K>(&attempted), how));
+    }
+
+    fn parts(&self) -> usize {
+        self.parts.len()
+    }
+
+    fn keep(&mut self, parts: usize) {
+        self.parts.truncate(parts);
     }
 
     fn part(&mut self, (t, h): (f64, f64), attempted: Attempted<K>) {
