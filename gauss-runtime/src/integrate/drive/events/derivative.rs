@@ -30,6 +30,8 @@ const LONGEST: f64 = 1e-3;
 const TOUCHES: f64 = 4.0;
 /// Roundings of each derivative that a function's own are made of: they are sums of some terms.
 const ROUNDINGS: f64 = 16.0;
+/// And what they add has fallen to this part of the sum: a cube, which passes at no rate, has nothing to settle.
+const SETTLES: f64 = 1e-3;
 /// Newton's steps.
 const MOST_STEPS: u32 = 12;
 /// Steps end where what they add is this part of the sum, and have failed where it is the other.
@@ -71,7 +73,7 @@ where
             sum += by;
             let (last, all) = (largest_derivative(by), largest_derivative(sum));
             // Beyond that there is rounding alone: of the time, or of what the function is the difference of.
-            if last * slope.lane(0).abs() <= rounding
+            if (last <= SETTLES * all && last * slope.lane(0).abs() <= rounding)
                 || last <= ENDS * all
                 || last <= FAILS * all && last >= 0.5 * before
             {
