@@ -119,7 +119,8 @@ impl Facet {
         let corners = [triangle.a, triangle.b, triangle.c];
         let longest = CORNERS.iter().map(|[from, to, _]| (corners[*to] - corners[*from]).length()).fold(0.0, f64::max);
         let area = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        if !(area.length() > FLAT * longest * longest) {
+        let has_area = area.length() > FLAT * longest * longest;
+        if !has_area {
             return None;
         }
         let normal = area.normalize();
