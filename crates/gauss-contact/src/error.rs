@@ -143,6 +143,14 @@ pub enum ContactErrorKind {
     },
     /// The state cannot be brought onto closed gaps.
     Projection(ProjectionError),
+    /// To close gaps, bodies would move much farther than these are from zero: planes of contacts contradict one
+    /// another.
+    Displacement {
+        /// The largest of the gaps, as a positive number.
+        gap: f64,
+        /// How far a point of a contact would move.
+        moved: f64,
+    },
     /// The numbers of the run carry derivatives, and the time of this event has none: the gap, force or slip that ends
     /// the mode of the contact touches zero without passing through it.
     Grazes {
@@ -279,6 +287,11 @@ impl fmt::Display for ContactErrorKind {
             Self::TooManyEvents { limit } => {
                 write!(f, "{limit} events do not reach the end; allow more by `max_events`")
             }
+            Self::Displacement { gap, moved } => write!(
+                f,
+                "to close gaps of {gap:.1e} a point would move by {moved:.1e}: the planes of contacts contradict one \
+                 another; shorter steps meet them one after the other"
+            ),
             Self::Grazes { rate } => {
                 write!(f, "what ends the mode only touches zero (rate {rate:.1e}): its time has no derivative")
             }

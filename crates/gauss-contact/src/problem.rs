@@ -22,14 +22,20 @@ pub(crate) struct InModeProblem<'k, K: ContactSystem> {
     pub(crate) system: InMode<'k, K>,
     pub(crate) input: InputOf<'k, K>,
     /// The state at which contact forces were asked for last, and they: each witness needs those at the end of a step.
-    last: Rc<RefCell<Option<Known<K, Loads<K>>>>>,
+    last: Rc<RefCell<Memo<K, Loads<K>>>>,
     /// What bounds the rates of the gaps at the last two states that were asked for: the ends of a step.
-    fast: Rc<RefCell<[Option<Known<K, Vec<[f64; 2]>>>; 2]>>,
+    fast: Rc<RefCell<[Memo<K, Fastest>; 2]>>,
     /// The largest entry of D of each normal so far.
     light: Rc<RefCell<Vec<f64>>>,
     /// How fast each gap changes with the time alone.
     moving: Rc<[f64]>,
 }
+
+/// How fast each gap can change, and how fast that can change.
+type Fastest = Vec<[f64; 2]>;
+
+/// A quantity at the last state at which it was asked for.
+type Memo<K, T> = Option<Known<K, T>>;
 
 struct Known<K: ContactSystem, T> {
     state: (K::Scalar, K::Configuration, K::Speeds),

@@ -275,6 +275,9 @@ const LEAST_RESERVE: f64 = 1e-9;
 /// Events at one time before they count as endless: all contacts may have several of their own.
 const AT_ONCE: u32 = 200;
 
+/// Adds a witness, whose function is shifted by a function of its value at the start.
+type AddWitness<'w> = dyn FnMut(Watched, &dyn Fn(f64) -> f64) + 'w;
+
 /// What ended a segment.
 enum Stop {
     /// The end of the run, or an event of the user.
@@ -491,7 +494,7 @@ where
     }
 
     /// How a slip ends.
-    fn watch_slip(&self, i: usize, of_rate: &[f64], watch: &mut dyn FnMut(Watched, &dyn Fn(f64) -> f64)) {
+    fn watch_slip(&self, i: usize, of_rate: &[f64], watch: &mut AddWitness<'_>) {
         let rows = tangents(&K::CONTACTS[i]);
         let (several, rest) = (rows.len() > 1, self.scales.rest());
         let rounding = rows.map(|row| of_rate[row]).fold(0.0, f64::max);

@@ -97,9 +97,12 @@ impl<K: ContactSystem> InMode<'_, K> {
     }
 }
 
+/// A contact that begins to slide, and its direction.
+pub(crate) type Slip<T> = (usize, [T; 3]);
+
 impl<'k, K: ContactSystem> Instant<'k, K> {
     /// The contacts whose force has fallen to zero, and those that stuck and begin to slide: against their friction.
-    pub(crate) fn gives_way(&self, made: &ContactTrajectory<'k, K>) -> (Vec<usize>, Vec<(usize, [K::Scalar; 3])>) {
+    pub(crate) fn gives_way(&self, made: &ContactTrajectory<'k, K>) -> (Vec<usize>, Vec<Slip<K::Scalar>>) {
         let system = InMode::new(self.kernel, &self.modes);
         let input = (made.input)(self.t, &self.q, &self.z);
         let friction = || self.kernel.friction(self.t, &self.q, &self.z, &input);

@@ -17,6 +17,7 @@
 //! not change (a semismooth Newton method: P. Alart & A. Curnier 1991). Where that finds nothing, or where friction is
 //! so large that solutions need not be unique, all combinations are tried, if they are few.
 
+use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -242,7 +243,7 @@ impl Contacts {
         for forces in core::iter::once(none).chain(near) {
             match self.search(forces) {
                 Ok(found) => return Ok(found),
-                Err(found) if found.0.worst() < best.0.worst() => best = found,
+                Err(found) if found.0.worst() < best.0.worst() => best = *found,
                 Err(_) => {}
             }
         }
@@ -253,7 +254,7 @@ impl Contacts {
     }
 
     /// Sweeps from forces and corrections of states; else the best that there was, with its worst residual.
-    fn search(&self, mut forces: Vec<f64>) -> Result<Solution, (Residual, Option<Solution>)> {
+    fn search(&self, mut forces: Vec<f64>) -> Result<Solution, Box<(Residual, Option<Solution>)>> {
         let mut best = (Residual { signorini: f64::INFINITY, ..Residual::default() }, None);
         let rows = self.laws.iter().map(|law| law.tangents).max().unwrap_or(0);
         // Spins and tangents are in units of their own: one step for all rows would be small for some.
@@ -277,7 +278,7 @@ impl Contacts {
                 }
             }
         }
-        Err(best)
+        Err(Box::new(best))
     }
 
     /// A solution that is right to what b is known to.

@@ -17,6 +17,7 @@ use crate::lockstep::Lockstep;
 use crate::mode::{Mode, after_impulses};
 
 use super::active::{Active, LEFT, NOTHING, Solvable, inverse, largest_slope, multiplied};
+use super::bounds::Touched;
 use super::edges::{self, AtChange, Known};
 use super::motion::{self, Middle};
 use super::projection::{Closed, Projection};
@@ -131,10 +132,10 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         let friction = kernel.friction(middle.t, &middle.q, &middle.z, input);
         let dynamics = kernel.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
         let t = Dual::constant(self.t);
-        let rates = kernel.contact_rates(t, &state.q, &state.z);
+        let before = kernel.contact_rates(t, &state.q, &state.z);
         let free = state.z.add_scaled(Dual::constant(*h), &dynamics.acceleration);
         let free_and_bias = (&free, &dynamics.bias);
-        let rates = motion::free_rates(*kernel, (*h, taken.dependent), middle, (&state.z, &rates), free_and_bias);
+        let rates = motion::free_rates(*kernel, (*h, taken.dependent), middle, (&state.z, &before), free_and_bias);
         let gaps = kernel.gaps(t, &state.q);
         let passes = self.passes(same.tolerance, &gaps, &rates);
         let active = self.active((modes, &passes), (&friction, &dynamics), rates[1]);
@@ -161,7 +162,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         impulses.iter().enumerate().for_each(|(row, impulse)| rows.set_component(row, *impulse));
         let z = after_impulses(&Lockstep::default(), *kernel, &free, (&dynamics.response.factors, &rows));
         let (q, z) = self.second_half(z)?;
-        self.projected((q, z), &dynamics, (taken, modes, &passes), same)
+        self.projected((q, z), (&dynamics, [&rows, &before]), (taken, modes, &passes), same)
     }
 
     /// The rates that contacts with restitution pass on, whose gaps do not open before the step, or are closed by
@@ -205,7 +206,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
     fn projected(
         &self,
         (q, z): (L::Configuration, L::Speeds),
-        dynamics: &ImpulseDynamics<L>,
+        (dynamics, [impulses, rates]): (&ImpulseDynamics<L>, [&L::ContactRows; 2]),
         (taken, modes, passes): (&Taken, &[Mode], &[Option<Dual<N>>]),
         same: &mut Same,
     ) -> Moved<L> {
@@ -213,9 +214,9 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         let mut memory = vec![Dual::constant(0.0); Projection::<L>::MEMORY];
         let mut projection = Projection::<L>::new(&mut memory);
         let before = kernel.gaps(t, &q);
-        let closed =
-            projection.close(kernel, (t, q, before), (&dynamics.response, motion::magnitude(&q)), &taken.rests);
-        let Closed { mut q, gaps, .. } = closed.map_err(ContactErrorKind::Projection)?;
+        let touched = Touched { closed: &taken.rests, impulses, rates, h: self.h };
+        let closed = projection.close(kernel, (t, q, before), (&dynamics.response, motion::magnitude(&q)), &touched);
+        let Closed { mut q, gaps, .. } = closed.map_err(|not_closed| not_closed.kind)?;
         if same.looks && same.at_change.is_none() {
             let nothing = same.tolerance * self.h * (1.0 + z.max_norm());
             same.at_change = edges::of_gaps::<L>((&before, &gaps), &taken.rests, nothing);

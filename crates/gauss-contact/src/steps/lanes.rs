@@ -367,8 +367,8 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
             let gaps = single::<W, _, K::Gaps>(&gaps, lane);
             let response = &self.responses[lane];
             self.stages[lane] = match (core::mem::replace(&mut self.stages[lane], Stage::Alone), response) {
-                (Stage::Open(forces, q, z, pushed), Some(response)) => {
-                    match stepper.close(h, (response, &pushed), (q, gaps)) {
+                (Stage::Open(forces, q, z, mut pushed), Some(response)) => {
+                    match stepper.close(h, (response, &mut pushed), (q, gaps)) {
                         Ok(closed) => Stage::Closed(forces, closed, z, pushed),
                         Err(_) => Stage::Alone,
                     }

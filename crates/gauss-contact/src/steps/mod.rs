@@ -7,12 +7,14 @@
 //!
 //! and goes the other half with the speeds after it. All impacts of a step are solved at once. What counts as closed is
 //! decided by the gap that the step would end with. Then positions and speeds are projected: closed gaps are zero, so
-//! are their rates and the slips of what sticks. No event is sought, so that dozens of contacts, and impacts that pile
-//! up, are no more work than one; the time of an impact is known to a step. A step whose forces were taken at other
-//! speeds than its mean ones is made again (`speeds`).
+//! are their rates and the slips of what sticks. Positions move by the least that leaves no gap below zero; a gap above
+//! zero is pulled shut by at most what the impulse of the step does at another time of it, and stays open else. No event
+//! is sought, so that dozens of contacts, and impacts that pile up, are no more work than one; the time of an impact is
+//! known to a step. A step whose forces were taken at other speeds than its mean ones is made again (`speeds`).
 
 mod active;
 mod adaptive;
+mod bounds;
 mod cones;
 mod derivatives;
 mod edges;
@@ -23,6 +25,7 @@ mod held;
 mod impulses;
 mod kept;
 mod lanes;
+mod least;
 mod linear;
 mod motion;
 mod outcome;

@@ -35,6 +35,8 @@ pub(super) struct End<K: ContactSystem> {
     pub(super) impulses: K::ContactRows,
     /// What is closed and stays so.
     pub(super) rests: K::EachContact<bool>,
+    /// What acted and is open.
+    pub(super) left: K::EachContact<bool>,
     /// Whether contacts may have changed their modes.
     pub(super) touches: bool,
     /// Whether rates were those of contacts that depend on one another.

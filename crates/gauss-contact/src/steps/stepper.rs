@@ -15,6 +15,7 @@ use crate::lockstep::Lockstep;
 use crate::mode::{Mode, after_impulses};
 use crate::sensors::ContactForces;
 
+use super::bounds::{NotClosed, Touched};
 use super::cones::Laws;
 use super::impulses::{Impulses, memory};
 use super::kept::Kept;
@@ -57,8 +58,8 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) report: StepReport,
 }
 
-/// How often a step is halved where no impulses are found for it, where gaps do not close at its end, or where it is
-/// too long for its forces.
+/// How often a step is halved where no impulses, or no places, are found for it, or where it is too long for its
+/// forces.
 const HALVINGS: u32 = 4;
 
 impl<K: ContactSystem<Scalar = f64>, M> fmt::Debug for ContactStepper<'_, K, M> {
@@ -205,13 +206,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
     }
 
-    /// One step of length `h`, under an input that stays. Where no impulses are found for it, where gaps do not close
-    /// at its end, or where it is too long for its forces, it is made in up to 16 parts. Where it is an error, the
+    /// One step of length `h`, under an input that stays. Where no impulses are found for it, where its gaps contradict
+    /// one another, or where it is too long for its forces, it is made in up to 16 parts. Where it is an error, the
     /// state is that before the step.
     ///
     /// # Errors
     /// `Unsolved` where no impulses were found that satisfy the laws, `Stiff` where forces depend on places or speeds
-    /// more than the step can follow, `InvalidFriction`, `NonFinite`, `Projection`.
+    /// more than the step can follow, `InvalidFriction`, `NonFinite`, `Projection`, `Displacement`.
     pub fn step(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
         self.watched(h, input, &mut ())
     }
@@ -251,19 +252,22 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         input: &K::Input,
         (halvings, watch): (u32, &mut W),
     ) -> Result<StepReport, ContactError> {
-        use ContactErrorKind::{Projection, Stiff, Unsolved};
+        use ContactErrorKind::{Displacement, Projection, Stiff, Unsolved};
         let cause = match self.whole(h, input, (watch, halvings == 0)) {
             Err(cause) if halvings > 0 => cause,
             made => return made,
         };
-        if !matches!(cause.kind, Projection(_) | Stiff { .. } | Unsolved { .. }) {
+        if !matches!(cause.kind, Projection(_) | Displacement { .. } | Stiff { .. } | Unsolved { .. }) {
             return Err(cause);
         }
         let (before, parts) = (self.kept(), watch.parts());
         let both = self.both_halves(h, input, (halvings - 1, watch));
         both.or_else(|error| {
             self.restore(&before);
-            if !matches!((&cause.kind, &error.kind), (Stiff { .. }, Projection(_) | Unsolved { .. })) {
+            if !matches!(
+                (&cause.kind, &error.kind),
+                (Stiff { .. }, Projection(_) | Displacement { .. } | Unsolved { .. })
+            ) {
                 return Err(error);
             }
             // Too long for its forces, but its laws have a solution for the whole of it, if for any.
@@ -305,6 +309,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         (self.q, self.z, self.impulses) = (end.q, end.z, end.impulses);
         if end.touches {
             core::mem::swap(&mut self.modes, &mut self.next);
+            (0..K::CONTACTS.len()).filter(|i| end.left[*i]).for_each(|i| self.modes[i] = Mode::Open);
         }
         (self.gaps, self.rates, self.rests) = (end.gaps, end.rates, end.rests);
         Ok(StepReport { length: h, ..end.report })
@@ -381,7 +386,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     /// The end of a step in flight.
     pub(super) fn flown((q, z): (K::Configuration, K::Speeds), gaps: K::Gaps, rates: K::ContactRows) -> End<K> {
         let (impulses, report, rests) = (K::ContactRows::zero(), StepReport::default(), Each::from_fn(|_| false));
-        End { q, z, gaps, rates, impulses, rests, touches: false, dependent: false, report, struck: false }
+        let left = rests;
+        End { q, z, gaps, rates, impulses, rests, left, touches: false, dependent: false, report, struck: false }
     }
 
     /// A step in which contacts may act.
@@ -390,11 +396,11 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let friction = kernel.friction(middle.t, &middle.q, &middle.z, input);
         let dynamics = kernel.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
         let ImpulseDynamics { acceleration, bias, response, .. } = &dynamics;
-        let pushed = self.push(h, middle, &friction, (acceleration, bias, response))?;
+        let mut pushed = self.push(h, middle, &friction, (acceleration, bias, response))?;
         let half = kernel.kinematics(middle.t, &middle.q, &pushed.z);
         let (q, z) = self.second_half(h, middle, (pushed.z, &half))?;
         let gaps = kernel.gaps(t, &q);
-        let closed = self.close(h, (response, &pushed), (q, gaps))?;
+        let closed = self.close(h, (response, &mut pushed), (q, gaps))?;
         let rates = kernel.contact_rates(t, &closed.q, &z);
         let (z, rates) = self.stop(h, (response, &pushed), &closed, (z, rates));
         Ok(Attempt { end: self.end(pushed, closed, (z, rates)), acceleration: *acceleration })
@@ -423,20 +429,22 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         Ok(Pushed { z, impulses, dependent, solved })
     }
 
-    /// Closed gaps brought to zero at the end of a step.
+    /// Closed gaps brought to zero at the end of a step; what is left open rests no longer.
     pub(super) fn close(
         &mut self,
         h: f64,
-        (response, pushed): (&ImpulseResponse<K>, &Pushed<K>),
+        (response, pushed): (&ImpulseResponse<K>, &mut Pushed<K>),
         (q, gaps): (K::Configuration, K::Gaps),
     ) -> Result<Closed<K>, ContactError> {
-        let (start, t) = (self.t, self.t + h);
-        let failed = |cause| ContactError { contact: None, time: start, kind: ContactErrorKind::Projection(cause) };
+        let at_end = (self.t + h, q, gaps);
         let of_projection = &mut self.memory.as_mut()[memory(K::ContactRows::DIM)..];
-        let mut projection = Projection::<K>::new(of_projection);
-        projection
-            .close(self.kernel, (t, q, gaps), (response, motion::magnitude(&q)), pushed.solved.rests.as_ref())
-            .map_err(failed)
+        let (closed, impulses, rates) = (pushed.solved.rests.as_ref(), &pushed.impulses, &self.rates);
+        let touched = Touched { closed, impulses, rates, h };
+        let closed =
+            Projection::<K>::new(of_projection).close(self.kernel, at_end, (response, motion::magnitude(&q)), &touched);
+        let closed = closed.map_err(|NotClosed { contact, kind }| self.error(contact, kind))?;
+        (0..K::CONTACTS.len()).filter(|i| closed.left[*i]).for_each(|i| pushed.solved.rests[i] = false);
+        Ok(closed)
     }
 
     /// What a contact does at the end of a step, whose rates are brought to zero.
@@ -479,7 +487,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         (z, rates): (K::Speeds, K::ContactRows),
     ) -> End<K> {
         let Pushed { impulses, dependent, solved, .. } = pushed;
-        let Closed { q, gaps, penetration, closure } = closed;
+        let Closed { q, gaps, penetration, closure, left } = closed;
         self.dependent &= !self.changes(self.next.as_ref());
         let report = StepReport {
             residual: solved.found.residual,
@@ -494,7 +502,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             ..StepReport::default()
         };
         let Solved { rests, struck, .. } = solved;
-        End { q, z, gaps, rates, impulses, rests, touches: true, dependent, report, struck }
+        End { q, z, gaps, rates, impulses, rests, left, touches: true, dependent, report, struck }
     }
 
     /// The end of a step as the state, with the report.

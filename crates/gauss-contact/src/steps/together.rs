@@ -7,6 +7,7 @@ use gauss_runtime::simd::Packed;
 
 use crate::mode::{Mode, after_impulses};
 
+use super::bounds::Touched;
 use super::cones::Laws;
 use super::impulses::{self, Impulses};
 use super::lanes::{ContactLanes, LanesOf, PackedState, put, single};
@@ -78,7 +79,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let pushed = self.push_together(h, (&state, &middle), &laws, &dynamics)?;
         let (q, z) = self.second_half_together(h, &middle, pushed.z)?;
         let at_end = (end, q, z);
-        let (closed, z, rates) = self.close_together(at_end, &dynamics.response)?;
+        let (closed, z, rates) = self.close_together((h, &state), at_end, (&dynamics.response, &pushed))?;
         if !self.agree_together(h, (&state, &middle), (&dynamics.acceleration, &z), input) {
             return None;
         }
@@ -161,8 +162,9 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
     /// Closed gaps brought to zero, then rates of what rests, and slips of what sticks.
     fn close_together(
         &mut self,
+        (h, state): (f64, &PackedState<W>),
         (t, q, z): (W::Scalar, W::Configuration, W::Speeds),
-        response: &ImpulseResponse<W>,
+        (response, pushed): (&ImpulseResponse<W>, &PushedLanes<W>),
     ) -> Option<(Closed<W>, W::Speeds, W::ContactRows)> {
         let rest = |lane: usize, i: usize| self.solved[lane].1.rests[i];
         let rests: W::EachContact<bool> = Each::from_fn(|i| rest(0, i));
@@ -184,7 +186,9 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let rounding = self.number(rounding);
         let mut projection = Projection::<W>::new(&mut self.memory[impulses::memory(W::ContactRows::DIM)..]);
         let (gaps, magnitude) = (self.wide.gaps(t, &q), motion::magnitude(&q));
-        let closed = projection.close(self.wide, (t, q, gaps), (response, magnitude), rests.as_ref()).ok()?;
+        let (closed, impulses, rates) = (rests.as_ref(), &pushed.impulses, &state.rates);
+        let touched = Touched { closed, impulses, rates, h };
+        let closed = projection.close(self.wide, (t, q, gaps), (response, magnitude), &touched).ok()?;
         let rates = self.wide.contact_rates(t, &closed.q, &z);
         let at_end = (t, &closed.q, z, rates);
         let (z, rates) = projection.stop(self.wide, at_end, response, (|i| modes[i], rounding));
@@ -232,6 +236,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
                 gaps: single::<W, _, K::Gaps>(&closed.gaps, lane),
                 penetration: closed.penetration.lane(lane),
                 closure: closed.closure.lane(lane),
+                left: Each::from_fn(|_| false),
             };
             let (z, rates) = (single::<W, _, K::Speeds>(&z, lane), single::<W, _, K::ContactRows>(&rates, lane));
             let impulses = single::<W, _, K::ContactRows>(&pushed.impulses, lane);

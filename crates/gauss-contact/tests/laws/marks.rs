@@ -159,6 +159,6 @@ fn accelerations_in_the_modes_at_a_state_have_contact_forces() {
     assert!((slides[0] + 0.4 * G).abs() < 1e-14 && slides[1].abs() < 1e-14);
     let above = SVector::from([0.0, 0.1]);
     assert_eq!(at(&above, &rest).expect("falls").modes(), [Mode::Open]);
-    let error = at(&rest, &SVector::from([0.0, -2.0])).err().expect("strikes");
+    let Err(error) = at(&rest, &SVector::from([0.0, -2.0])) else { panic!("it strikes") };
     assert_eq!((error.contact, error.kind), (Some("ground"), ContactErrorKind::Strikes { rate: -2.0 }));
 }

@@ -226,3 +226,116 @@ fn balls_fall_on_a_flat_mesh_as_on_a_plane() {
         (0..4).for_each(|seed| check(units, seed, (0.25, 2e-3, 1.0)));
     }
 }
+
+#[test]
+fn tossed_boxes_come_to_rest_on_a_flat_mesh() {
+    let check = |units: Units, seed: u64, (cell, h): (f64, f64)| {
+        let kernel = units.cuboid();
+        let mut r = random(1000 + seed);
+        let mut s = || 2.0 * r() - 1.0;
+        let place = Vector3::new(0.3 * s(), 0.3 * s(), 0.5) * units.metre;
+        let pose = Isometry3::new(place, Vector3::new(s(), s(), s()));
+        let z = FreeState {
+            pose_u: Vector3::new(s(), s(), s()) * units.metre,
+            pose_omega: Vector3::new(s(), s(), s()) * 5.0,
+            ..Default::default()
+        };
+        let [shapes, _] = grounds(units, cell, &units.block(), 0.5);
+        // Steps of 10 ms go farther than the reach of 2 cm.
+        let shapes = shapes.deepest(0.05 * units.metre);
+        let mut steps = ParrySteps::<_, 16, 48, _>::new(&kernel, shapes, (0.0, pose, z.z())).unwrap();
+        let weight = 2.0 * units.kilogram * G * units.metre;
+        let mut energy = kernel.energy(0.0, steps.configuration(), steps.speeds());
+        let first = energy;
+        for n in 0..(3.0 / h) as usize {
+            let made = steps.step(h, &());
+            let report = made.unwrap_or_else(|error| panic!("{units:?} {seed} {h} {n}: {error}"));
+            let now = kernel.energy(0.0, steps.configuration(), steps.speeds());
+            // What is below zero is lifted; a step errs by the third power of its turn, which is below 20 rad/s.
+            let allowed = 2.0 * weight * report.penetration + first * (20.0 * h).powi(3);
+            assert!(now <= energy + allowed, "{units:?} {seed} {h} {n}: {now} {energy} {report:?}");
+            energy = now;
+        }
+        let height = steps.configuration().translation.z / units.metre;
+        let off = HALF.iter().map(|half| (height - half).abs()).fold(f64::INFINITY, f64::min);
+        // On one of its faces, to rounding of a place of 1.
+        assert!(off <= 1e-12 && steps.speeds().amax() <= 1e-6 * units.metre, "{units:?} {seed} {h}: {height}");
+    };
+    (0..24).for_each(|seed| check(SI, seed, (0.25, 1e-2)));
+    for units in UNITS {
+        check(units, 0, (0.25, 2e-3));
+        check(units, 18, (0.08, 1e-2));
+    }
+}
+
+/// Two boxes.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(p: Pose, q: Pose),
+    body(lower, position = p.position, rotation = p.rotation, mass = 2, inertia = [0.022, 0.033, 0.042]),
+    body(upper, position = q.position, rotation = q.rotation, mass = 2, inertia = [0.022, 0.033, 0.042]),
+    frames(lower, upper),
+)]
+struct Stacked {
+    #[gauss(gravity)]
+    g: f64,
+}
+
+#[test]
+fn a_box_falls_on_a_box() {
+    let kernel = Stacked { g: G }.kernel().unwrap();
+    let mut refused = Vec::new();
+    for seed in 0..24 {
+        let mut r = random(3000 + seed);
+        let mut s = || 2.0 * r() - 1.0;
+        let mut shapes = Shapes::new();
+        shapes.add(None, SharedShape::halfspace(Vector::Z), Isometry3::identity(), surface(0.5, 0.0));
+        for frame in [StackedFrame::lower, StackedFrame::upper] {
+            shapes.add(Some(frame), SI.block(), Isometry3::identity(), surface(0.5, 0.0));
+        }
+        let shapes = shapes.reduce(Reduction::Quadrilateral).deepest(0.05);
+        let upper = Isometry3::new(Vector3::new(0.1 * s(), 0.1 * s(), 0.5), Vector3::new(0.5 * s(), 0.5 * s(), s()));
+        let lower = Isometry3::translation(0.0, 0.0, HALF[2]);
+        let start = StackedState { p: lower, q: upper, ..Default::default() };
+        let mut steps = ParrySteps::<_, 24, 72, _>::new(&kernel, shapes, (0.0, start.q(), start.z())).unwrap();
+        for n in 0..150 {
+            if let Err(error) = steps.step(1e-2, &()) {
+                refused.push((seed, n, error.to_string()));
+                break;
+            }
+        }
+        let end = kernel.energy(0.0, steps.configuration(), steps.speeds());
+        assert!(end < kernel.energy(0.0, &start.q(), &start.z()), "{seed} {end}");
+    }
+    assert!(refused.is_empty(), "{refused:#?}");
+}
+
+#[test]
+fn capsules_do_not_jump_on_rough_ground() {
+    for (seed, h) in (0..8).map(|seed| (seed, 2e-3)).chain((0..8).map(|seed| (seed, 1e-2))) {
+        let kernel = SI.kernel([0.01, 0.02, 0.02]);
+        let mut r = random(2000 + seed);
+        let mut s = || 2.0 * r() - 1.0;
+        let pose = Isometry3::new(Vector3::new(0.3 * s(), 0.3 * s(), 0.5), Vector3::new(s(), s(), s()));
+        let z = FreeState { pose_u: Vector3::new(s(), s(), s()), ..Default::default() };
+        let ground = SI.terrain(0.25, |i, j| 0.05 * f64::from(i * 7 + j * 13).sin());
+        let shapes = SI.shapes(ground, SharedShape::capsule_x(0.2, 0.08), 0.5).reduce(Reduction::Quadrilateral);
+        let shapes = shapes.most(32).deepest(0.05);
+        let mut steps = ParrySteps::<_, 32, 96, _>::new(&kernel, shapes, (0.0, pose, z.z())).unwrap();
+        let mut energy = kernel.energy(0.0, &pose, &z.z());
+        let first = energy;
+        for n in 0..(1.5 / h) as usize {
+            let (before, fast) = (*steps.configuration(), steps.speeds().fixed_rows::<3>(0).norm());
+            let made = steps.step(h, &());
+            let report = made.unwrap_or_else(|error| panic!("{seed} {h} {n}: {error}"));
+            let moved = (steps.configuration().translation.vector - before.translation.vector).norm();
+            let way = h * fast.max(steps.speeds().fixed_rows::<3>(0).norm());
+            // What is projected is of the order of the gaps: two planes at a time.
+            assert!(moved <= way + 4.0 * report.closure + 1e-12, "{seed} {h} {n}: {moved} {way} {report:?}");
+            let now = kernel.energy(0.0, steps.configuration(), steps.speeds());
+            let allowed = 2.0 * 2.0 * G * report.closure + first * (20.0 * h).powi(3);
+            assert!(now <= energy + allowed, "{seed} {h} {n}: {now} {energy} {report:?}");
+            energy = now;
+        }
+    }
+}

@@ -11,6 +11,18 @@ use crate::rotation::of_quaternion;
 /// The element of defaults.
 const EQUALITY: &[&str] = &["equality"];
 
+/// The force of a tendon by its length and its rate.
+struct TendonLaw {
+    stiffness: f64,
+    damping: f64,
+    nonlinear: Nonlinear,
+    /// The least and the greatest length without force; none where they are those that joints have where their springs
+    /// have no force.
+    rest: Option<[f64; 2]>,
+    /// The least and the greatest length.
+    limits: Option<[f64; 2]>,
+}
+
 impl<'a> File<'a> {
     pub fn equalities(&mut self, section: Node<'a, 'a>) {
         for node in self.reading.elements(section) {
@@ -137,11 +149,10 @@ impl<'a> File<'a> {
         }
     }
 
-    /// The stiffness, the damping, what both do besides, and the lengths without force; none where they are those that
-    /// joints have where their springs have no force. Then the lengths that it can have.
-    fn law(&mut self, node: Node<'a, 'a>) -> ((f64, f64, Nonlinear), [Option<[f64; 2]>; 2]) {
+    /// The law of a tendon.
+    fn law(&mut self, node: Node<'a, 'a>) -> TendonLaw {
         let tags = &["tendon"];
-        let factors = self.springs_of(node, tags, None);
+        let (stiffness, damping, nonlinear) = self.springs_of(node, tags, None);
         let written = self.list(node, tags, "springlength", None).unwrap_or_default();
         let rest = match written.as_slice() {
             // MuJoCo's word for that.
@@ -155,7 +166,7 @@ impl<'a> File<'a> {
         let range = self.numbers::<2>(node, tags, "range", None);
         let word = self.text(node, tags, "limited", None);
         let limits = range.and_then(|range| self.limited(node, range, word));
-        (factors, [rest, limits])
+        TendonLaw { stiffness, damping, nonlinear, rest, limits }
     }
 
     fn fixed(&mut self, node: Node<'a, 'a>) {
@@ -165,7 +176,7 @@ impl<'a> File<'a> {
             let factor = self.reading.required_number(joint, "coef");
             along.extend(name.zip(factor));
         }
-        let ((stiffness, damping, nonlinear), [rest, limits]) = self.law(node);
+        let TendonLaw { stiffness, damping, nonlinear, rest, limits } = self.law(node);
         let joints = &self.description.joints;
         let at_spring = |name: &String| joints.iter().find(|joint| joint.name == *name).map_or(0.0, |joint| joint.rest);
         let at_springs: f64 = along.iter().map(|(name, factor)| factor * at_spring(name)).sum();
@@ -201,7 +212,7 @@ impl<'a> File<'a> {
                 _ => return self.ignored(node, WRAPPED),
             }
         }
-        let ((stiffness, damping, nonlinear), [rest, limits]) = self.law(node);
+        let TendonLaw { stiffness, damping, nonlinear, rest, limits } = self.law(node);
         let name = self.reading.text(node, "name").map(str::to_owned);
         let at = self.reading.at(node);
         self.description.cables.push(Cable { name, at, parts, stiffness, damping, nonlinear, rest, limits });

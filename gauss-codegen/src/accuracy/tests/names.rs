@@ -2,8 +2,11 @@
 
 use crate::expand::derive;
 
-/// What every method costs and loses at the sample states, and what is said of it.
-fn methods(source: &str) -> Vec<(usize, u32, Vec<f64>, Option<[f64; 2]>)> {
+/// The instructions of a method, its operations, its losses at the sample states, and the worst and the median figure.
+type Method = (usize, u32, Vec<f64>, Option<[f64; 2]>);
+
+/// Every method of a scene.
+fn methods(source: &str) -> Vec<Method> {
     let input: syn::DeriveInput = syn::parse_str(source).expect("the source is a struct");
     let of = derive(&input, |derived| {
         let functions = derived.kernel.functions.iter().map(|(_, function)| {

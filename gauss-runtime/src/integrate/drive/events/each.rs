@@ -2,10 +2,10 @@
 
 use alloc::vec::Vec;
 
-use crate::integrate::drive::bounded::{Bound, NoBound, RateBound};
+use crate::integrate::drive::bounded::{NoBound, RateBound};
 use crate::integrate::drive::schedule::Scheduled;
 use crate::integrate::drive::search::{Crossing, Function};
-use crate::integrate::drive::watched::{Events, Mark};
+use crate::integrate::drive::watched::{Events, Mark, Visit};
 use crate::integrate::problem::state::Sample;
 use crate::sealed::Sealed;
 use crate::system::GaussSystem;
@@ -54,7 +54,7 @@ where
         }
     }
 
-    fn each_bounded(&mut self, visit: &mut dyn FnMut(Function<'_, S>, Bound<'_, S>, &mut Mark)) {
+    fn each_bounded(&mut self, visit: &mut Visit<'_, S>) {
         self.others.each_bounded(visit);
         for (function, bound, mark) in &mut self.functions {
             visit(function, bound.as_ref().map(|bound| bound as &dyn RateBound<S>), mark);

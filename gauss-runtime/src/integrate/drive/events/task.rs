@@ -4,10 +4,9 @@ use core::fmt;
 
 use alloc::collections::VecDeque;
 
-use crate::integrate::drive::bounded::Bound;
 use crate::integrate::drive::schedule::Scheduled;
 use crate::integrate::drive::search::Function;
-use crate::integrate::drive::watched::{Events, Mark};
+use crate::integrate::drive::watched::{Events, Mark, Visit};
 use crate::integrate::problem::error::SamplingMistake;
 use crate::integrate::problem::sampled::Controller;
 use crate::integrate::problem::state::Sample;
@@ -176,7 +175,7 @@ impl<S: GaussSystem, E: Events<S>, K: Scheduled<S>> Events<S> for Controlled<E, 
         self.others.each(visit);
     }
 
-    fn each_bounded(&mut self, visit: &mut dyn FnMut(Function<'_, S>, Bound<'_, S>, &mut Mark)) {
+    fn each_bounded(&mut self, visit: &mut Visit<'_, S>) {
         self.others.each_bounded(visit);
     }
 

@@ -80,6 +80,9 @@ impl Mark {
     }
 }
 
+/// A look at an event: its function, the bound of its rate where there is one, its mark.
+pub type Visit<'v, S> = dyn FnMut(Function<'_, S>, Bound<'_, S>, &mut Mark) + 'v;
+
 /// The events of a run, in the order in which they were added to the simulation.
 pub trait Events<S: GaussSystem>: Sealed {
     /// Whether there are any.
@@ -92,7 +95,7 @@ pub trait Events<S: GaussSystem>: Sealed {
     fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark));
 
     /// Shows every one, with what bounds its rate where something does.
-    fn each_bounded(&mut self, visit: &mut dyn FnMut(Function<'_, S>, Bound<'_, S>, &mut Mark)) {
+    fn each_bounded(&mut self, visit: &mut Visit<'_, S>) {
         self.each(&mut |function, mark| visit(function, None, mark));
     }
 
@@ -141,7 +144,7 @@ impl<S: GaussSystem, E: Events<S>> Events<S> for &mut E {
         (**self).each(visit);
     }
 
-    fn each_bounded(&mut self, visit: &mut dyn FnMut(Function<'_, S>, Bound<'_, S>, &mut Mark)) {
+    fn each_bounded(&mut self, visit: &mut Visit<'_, S>) {
         (**self).each_bounded(visit);
     }
 
@@ -200,7 +203,7 @@ where
         visit(&self.function, &mut self.mark);
     }
 
-    fn each_bounded(&mut self, visit: &mut dyn FnMut(Function<'_, S>, Bound<'_, S>, &mut Mark)) {
+    fn each_bounded(&mut self, visit: &mut Visit<'_, S>) {
         self.others.each_bounded(visit);
         visit(&self.function, None, &mut self.mark);
     }
