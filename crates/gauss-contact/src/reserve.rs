@@ -33,6 +33,9 @@ pub(crate) struct Reserve {
     /// Its size beside the forces.
     pub(crate) part: f64,
     pub(crate) forces: Vec<f64>,
+    /// Those on the way from the given forces to the deepest that are twice as far as the bounds: of what is squeezed
+    /// the deepest are as large as the ball lets them be, and would leave the motion few digits.
+    pub(crate) near: Vec<f64>,
     /// How much each margin has to do with it; together 1.
     pub(crate) weights: Vec<f64>,
 }
@@ -167,6 +170,14 @@ pub(crate) fn deepest(given: &[f64], free: &[Vec<f64>], margins: &[Margin], size
     }
     let forces = barrier.forces(&point[..n]);
     let least = barrier.least(&forces);
+    let way = |part: f64| barrier.forces(&point[..n].iter().map(|y| part * y).collect::<Vec<f64>>());
+    // Margins are concave: inside between the bounds and the deepest.
+    let (mut outside, mut within) = if barrier.least(given) < 0.0 { (0.0, 1.0) } else { (0.0, 0.0) };
+    for _ in 0..f64::MANTISSA_DIGITS {
+        let middle = 0.5 * (outside + within);
+        if barrier.least(&way(middle)) < 0.0 { outside = middle } else { within = middle }
+    }
+    let near = way(Real::min(2.0 * within, 1.0));
     let of = |margin: &Margin| {
         let (bound, friction) =
             (margin.bound(&forces) - point[n], margin.scale * norm(&forces[margin.tangents.clone()]));
@@ -175,7 +186,7 @@ pub(crate) fn deepest(given: &[f64], free: &[Vec<f64>], margins: &[Margin], size
     let mut weights: Vec<f64> = margins.iter().map(of).collect();
     let sum: f64 = weights.iter().sum();
     weights.iter_mut().for_each(|weight| *weight /= sum);
-    Reserve { least, part: least / size, forces, weights }
+    Reserve { least, part: least / size, forces, near, weights }
 }
 
 /// The solution of equations that are symmetric and positive definite; none where they are not.

@@ -213,7 +213,7 @@ impl<T: Real> Contacts<T> {
 
 impl Contacts {
     /// The largest friction of a contact under forces.
-    fn largest(&self, i: usize, forces: &[f64]) -> f64 {
+    pub(crate) fn largest(&self, i: usize, forces: &[f64]) -> f64 {
         self.laws[i].friction * self.presses(i).map_or(1.0, |normal| Real::max(forces[normal], 0.0))
     }
 
@@ -233,19 +233,19 @@ impl Contacts {
                 return self.only(contact);
             }
         }
+        // From no forces first: what is squeezed between its contacts could hold itself against any load.
+        let mut best = match self.search(vec![0.0; self.b.len()]) {
+            Ok(found) => return Ok(found),
+            Err(best) => *best,
+        };
         let near = match self.all_hold() {
             Ok(found) => return Ok(found),
             Err(near) => near,
         };
-        let none = vec![0.0; self.b.len()];
-        let mut best: (Residual, Option<Solution>) =
-            (Residual { signorini: f64::INFINITY, ..Residual::default() }, None);
-        for forces in core::iter::once(none).chain(near) {
-            match self.search(forces) {
-                Ok(found) => return Ok(found),
-                Err(found) if found.0.worst() < best.0.worst() => best = *found,
-                Err(_) => {}
-            }
+        match near.map(|forces| self.search(forces)) {
+            Some(Ok(found)) => return Ok(found),
+            Some(Err(found)) if found.0.worst() < best.0.worst() => best = *found,
+            _ => {}
         }
         match self.choices(None).map(|choices| self.all(&choices)) {
             Some(mut found) if !found.is_empty() => Ok(found.swap_remove(0)),
@@ -262,11 +262,14 @@ impl Contacts {
         for (round, exactly) in steps.take(if rows == 2 { 2 } else { 1 } * ROUNDS as usize) {
             (0..8 << round).for_each(|_| self.sweep(&mut forces, exactly));
             let mut states = self.states(&forces, &self.rates(&forces));
-            for _ in 0..20 {
+            for correction in 0..20 {
                 let found = self.in_states(states.clone());
                 let worst = found.residuals.iter().max_by(|a, b| a.worst().total_cmp(&b.worst()));
                 let worst = worst.copied().unwrap_or_default();
                 if found.residuals.iter().all(Residual::holds) {
+                    return Ok(self.shared(found));
+                }
+                if let Some(found) = (correction == 0).then(|| self.swept(&states, &forces)).flatten() {
                     return Ok(self.shared(found));
                 }
                 let next = self.states(&found.forces, &found.rates);

@@ -44,9 +44,33 @@ impl Contacts {
         self.inside(&states).ok_or_else(|| self.reserve(&states).map(|reserve| reserve.forces))
     }
 
+    /// The solution in the states that sweeps end in, where contacts depend on one another and forces of least norm break
+    /// a law: whether others keep it is told by those of the sweeps, which are in their cones.
+    pub(crate) fn swept(&self, states: &[State], forces: &[f64]) -> Option<Solution> {
+        let equations = self.equations(states);
+        if equations.factors.is_regular() {
+            return None;
+        }
+        let mut forces = forces.to_vec();
+        for (i, state) in states.iter().enumerate() {
+            match state {
+                State::Leaves => self.tangents(i).chain(self.normal(i)).for_each(|row| forces[row] = 0.0),
+                State::Slides(along) => {
+                    let largest = self.largest(i, &forces);
+                    self.tangents(i).zip(along).for_each(|(row, part)| forces[row] = -largest * part);
+                }
+                State::Closed | State::Sticks => {}
+            }
+        }
+        (0..2).for_each(|_| self.correct(&equations, &mut forces));
+        let found = self.with_residuals(states.to_vec(), forces);
+        let holds = found.residuals.iter().all(Residual::holds);
+        holds.then(|| self.inside(states).unwrap_or(found))
+    }
+
     /// The solution in these states by forces inside their cones, where there are several and some are.
     pub(crate) fn inside(&self, states: &[State]) -> Option<Solution> {
-        let Reserve { mut forces, least, .. } = self.reserve(states)?;
+        let Reserve { near: mut forces, least, .. } = self.reserve(states)?;
         if least < 0.0 {
             return None;
         }
@@ -102,3 +126,7 @@ impl Contacts {
         })
     }
 }
+
+#[cfg(test)]
+#[path = "sticking_tests.rs"]
+mod tests;

@@ -154,3 +154,37 @@ fn a_box_that_is_pushed_high_tips_over_its_edge_before_it_slides() {
     let closed = run.modes(0.15).unwrap().iter().filter(|mode| mode.is_closed()).count();
     assert_eq!(closed, 2, "{:?}", run.events());
 }
+
+/// A particle in a notch of two walls that lean back by an angle, pushed in or out by gravity.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, z),
+    particle(mass = m, position = [x, 0, z]),
+    contact(left, gap = x * cos(lean) + z * sin(lean), slip = rate(z * cos(lean) - x * sin(lean)), friction = mu),
+    contact(right, gap = z * sin(lean) - x * cos(lean), slip = rate(z * cos(lean) + x * sin(lean)), friction = mu),
+)]
+struct Notch {
+    m: f64,
+    mu: f64,
+    lean: f64,
+    #[gauss(gravity)]
+    g: f64,
+}
+
+#[test]
+fn what_two_walls_could_hold_by_squeezing_moves_unless_it_presses_them() {
+    let at = |lean: f64, g: f64, m: f64| {
+        let kernel = Notch { m, mu: 0.5, lean, g }.kernel().unwrap();
+        let run = ContactRun::new(&kernel).adaptive(1e-10, 1e-10).run(SVector::zeros(), SVector::zeros(), 0.0..1.0);
+        run.map(|run| run.last().unwrap().q)
+    };
+    for m in [1.0, 1e-6, 1e6] {
+        // Upright walls that it touches, and a notch that is steeper than the angle of friction: pulled out.
+        for (lean, g) in [(0.0, G), (0.0, -G), (0.2, -G)] {
+            let q = at(lean, g, m).unwrap();
+            assert!((q[1] + 0.5 * g).abs() < 1e-8 && q[0].abs() < 1e-12, "{lean} {g} {m}: {q}");
+        }
+        // Pushed in it stays, whatever the friction.
+        assert!(at(0.2, G, m).unwrap().amax() < 1e-12);
+    }
+}
