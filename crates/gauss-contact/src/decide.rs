@@ -265,9 +265,10 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         self.record(contacts, &rates, &impulses, (law, made))
     }
 
-    /// The contacts whose gap is zero. Where one has just closed beyond zero, by less than what times are told apart by,
-    /// gaps are brought to zero: else each bounce would be a little lower. In the metric of the energy that moves nothing
-    /// by more than it has to; back along the motion it would be, at a small rate beside a large velocity, a long way.
+    /// The contacts whose gap is zero. Where one has just closed beyond zero, by less than what times are told apart
+    /// by, gaps are brought to zero: else each bounce would be a little lower. In the metric of the energy that moves
+    /// nothing by more than it has to; back along the motion it would be, at a small rate beside a large velocity, a
+    /// long way.
     fn closed(&mut self, scales: &Scales) -> Result<Vec<bool>, ContactError> {
         let gaps = self.kernel.gaps(self.t, &self.q);
         let sizes = self.sizes(scales);

@@ -204,6 +204,11 @@ impl ContactErrorKind {
             Self::TooManySteps { limit } => {
                 write!(f, "{limit} steps do not reach the end; use a larger tolerance, or allow more by `max_steps`")
             }
+            Self::Displacement { gap, moved } => write!(
+                f,
+                "to close gaps of {gap:.1e} a point would move by {moved:.1e}: the planes of contacts contradict one \
+                 another; shorter steps meet them one after the other"
+            ),
             Self::Stiff { speed, step } => write!(
                 f,
                 "forces on speed number {speed} (from 0) change with places or speeds faster than a step can follow, in \
@@ -265,6 +270,7 @@ impl fmt::Display for ContactErrorKind {
             | Self::Lanes { .. }
             | Self::LawWithoutSteps { .. }
             | Self::States { .. }
+            | Self::Displacement { .. }
             | Self::Stiff { .. }
             | Self::TooManySteps { .. } => self.of_steps(f),
             Self::NonFinite => f.write_str("gaps, rates or coefficients are not finite"),
@@ -287,11 +293,6 @@ impl fmt::Display for ContactErrorKind {
             Self::TooManyEvents { limit } => {
                 write!(f, "{limit} events do not reach the end; allow more by `max_events`")
             }
-            Self::Displacement { gap, moved } => write!(
-                f,
-                "to close gaps of {gap:.1e} a point would move by {moved:.1e}: the planes of contacts contradict one \
-                 another; shorter steps meet them one after the other"
-            ),
             Self::Grazes { rate } => {
                 write!(f, "what ends the mode only touches zero (rate {rate:.1e}): its time has no derivative")
             }

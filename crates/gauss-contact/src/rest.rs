@@ -19,8 +19,8 @@ use crate::trajectory::ContactTrajectory;
 
 impl<'k, K: ContactSystem> Instant<'k, K> {
     /// Whether the impacts to come are over where a gap has just been left at a small rate: bounces end after
-    /// 2 ġ/(|g̈| (1 − e)). Where another contact struck and this one leaves, as of what rocks, each impact leaves the same
-    /// part of the rate as this one has.
+    /// 2 ġ/(|g̈| (1 − e)). Where another contact struck and this one leaves, as of what rocks, each impact leaves the
+    /// same part of the rate as this one has.
     pub(crate) fn comes_to_rest(
         &self,
         (i, (struck, approach)): (usize, (usize, f64)),

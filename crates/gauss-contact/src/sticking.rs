@@ -44,8 +44,8 @@ impl Contacts {
         self.inside(&states).ok_or_else(|| self.reserve(&states).map(|reserve| reserve.forces))
     }
 
-    /// The solution in the states that sweeps end in, where contacts depend on one another and forces of least norm break
-    /// a law: whether others keep it is told by those of the sweeps, which are in their cones.
+    /// The solution in the states that sweeps end in, where contacts depend on one another and forces of least norm
+    /// break a law: whether others keep it is told by those of the sweeps, which are in their cones.
     pub(crate) fn swept(&self, states: &[State], forces: &[f64]) -> Option<Solution> {
         let equations = self.equations(states);
         if equations.factors.is_regular() {

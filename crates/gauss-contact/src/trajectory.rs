@@ -147,8 +147,8 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
 
     /// The contact forces at a time, all rows: normal, then tangents, then the spin, contact by contact; of dry
     /// friction and rolling resistance tangents alone. Where contacts depend on one another they are those of least
-    /// `Σ D_ii λ_i²`, or, where these break a law that others keep, those that keep the laws with the most to spare; the
-    /// motion is the same for all.
+    /// `Σ D_ii λ_i²`, or, where these break a law that others keep, those that keep the laws with the most to spare;
+    /// the motion is the same for all.
     ///
     /// # Errors
     /// Where the run does not cover the time.

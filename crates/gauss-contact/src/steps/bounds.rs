@@ -60,8 +60,8 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Bounds<K> {
         -self.pulls.component(i) - done.component(row)
     }
 
-    /// Whether impulses pull a contact by more than its bound, and together move points farther than a gap asks for alone
-    /// and than half of their digits.
+    /// Whether impulses pull a contact by more than its bound, and together move points farther than a gap asks for
+    /// alone and than half of their digits.
     pub(super) fn pulls_too_much(
         &self,
         lockstep: &Lockstep,

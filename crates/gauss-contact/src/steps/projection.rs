@@ -107,11 +107,11 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     /// Gaps of contacts that are closed brought to zero, and no gap below it, from places with their gaps.
     /// `magnitude`: how large numbers of the configuration are.
     ///
-    /// Places move by the least in the metric of the kinetic energy, `Δ = A⁻¹Wᵀπ`. To push a contact open takes what it
-    /// takes. To pull one shut, `π < 0`, there is a bound: its impulse P acted at half of the step in place of its time
-    /// there, and by that places are off by no more than `½h P` does; and where the gap opened before the step its first
-    /// half has opened it farther, by `½h` times that rate. What asks for more,
-    /// and moves points farther than a gap does alone, has not closed and is left open.
+    /// Places move by the least in the metric of the kinetic energy, `Δ = A⁻¹Wᵀπ`. To push a contact open takes what
+    /// it takes. To pull one shut, `π < 0`, there is a bound: its impulse P acted at half of the step in place of its
+    /// time there, and by that places are off by no more than `½h P` does; and where the gap opened before the step its
+    /// first half has opened it farther, by `½h` times that rate. What asks for more, and moves points farther than a
+    /// gap does alone, has not closed and is left open.
     pub(crate) fn close(
         &mut self,
         kernel: &K,
