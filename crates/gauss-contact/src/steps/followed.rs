@@ -171,12 +171,12 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         let e = self.kernel.restitution();
         let size = |row: usize| before.component(row).value.abs().max(free.component(row).value.abs());
         let nothing = tolerance * (0..L::ContactRows::DIM).map(size).fold(0.0, f64::max);
-        let still = motion::still::<L>(before).value;
+        let fastest = motion::fastest::<L>(before).value;
         let of = |(i, contact): (usize, &Contact)| {
             let [before, free] = [before, free].map(|rates| rates.component(contact.normal));
             let end = gaps.component(i).value + 0.5 * self.h * (before.value + free.value);
             let e = e.component(i);
-            let passes = before.value <= nothing || motion::reversed(before.value, end, still) > 0.0;
+            let passes = before.value <= nothing || motion::reversed(before.value, end, fastest) > 0.0;
             (contact.has_gap() && e.value > 0.0 && passes).then_some(-e * before)
         };
         L::CONTACTS.iter().enumerate().map(of).collect()
@@ -214,7 +214,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         let mut memory = vec![Dual::constant(0.0); Projection::<L>::MEMORY];
         let mut projection = Projection::<L>::new(&mut memory);
         let before = kernel.gaps(t, &q);
-        let touched = Touched { closed: &taken.rests, impulses, rates, h: self.h };
+        let touched = Touched { closed: &taken.closed, impulses, rates, h: self.h };
         let closed = projection.close(kernel, (t, q, before), (&dynamics.response, motion::magnitude(&q)), &touched);
         let Closed { mut q, gaps, .. } = closed.map_err(|not_closed| not_closed.kind)?;
         if same.looks && same.at_change.is_none() {

@@ -82,19 +82,23 @@ pub(super) fn free_rates<K: ContactSystem>(
     [*z, *free].map(|z| kernel.contact_rates(middle.t, &middle.q, &z))
 }
 
-/// The rate of a gap below which it does not count as opening: half of the digits of the fastest one before the step.
-pub(super) fn still<K: ContactSystem>(before: &K::ContactRows) -> K::Scalar {
-    let rates = (0..K::ContactRows::DIM).map(|row| before.component(row).abs());
-    rates.fold(K::Scalar::zero(), larger) * K::Scalar::from_f64(Real::sqrt(f64::EPSILON))
+/// The fastest of rates.
+pub(super) fn fastest<K: ContactSystem>(rates: &K::ContactRows) -> K::Scalar {
+    (0..K::ContactRows::DIM).map(|row| rates.component(row).abs()).fold(K::Scalar::zero(), larger)
 }
+
+/// By what part of the fastest rate one that is zero may be off for rounding.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The rate before a step that an impact reverses a part of. It is that of an approach; and of a gap that opens before
 /// the step and that only impulses at other contacts close within it: `end` is with what it would end without these.
 /// What is pressed to zero in place of that takes part in an impact by another law than the others do, and Newton's
 /// law with one e then gives energy (it takes `½(1 − e²) uᵀD⁻¹u` with the rates u before the impact, of either sign).
-pub(super) fn reversed<T: Real>(before: T, end: T, still: T) -> T {
+/// Contacts that depend on one another have rates after it only if all are such parts, so that no more than rounding
+/// of the `fastest` rate is none.
+pub(super) fn reversed<T: Real>(before: T, end: T, fastest: T) -> T {
     let opens = T::select_lt(T::zero(), end, before, T::zero());
-    before.min(T::zero()) + T::select_lt(still, before, opens, T::zero())
+    before.min(T::zero()) + T::select_lt(T::from_f64(ROUNDING) * fastest, before, opens, T::zero())
 }
 
 /// How large numbers of a configuration are.

@@ -49,9 +49,10 @@ pub(super) struct End<K: ContactSystem> {
 impl<K: ContactSystem> End<K> {
     /// With what contacts did.
     pub(super) fn attempted<'a>(&'a self, modes: &'a [Mode]) -> Attempted<'a, K> {
-        let Self { impulses, rests, dependent, struck, .. } = self;
+        let Self { impulses, rests, left, dependent, struck, .. } = self;
         let modes = self.touches.then_some(modes);
-        Attempted { impulses, modes, rests: rests.as_ref(), dependent: *dependent, struck: *struck }
+        let (rests, left) = (rests.as_ref(), left.as_ref());
+        Attempted { impulses, modes, rests, left, dependent: *dependent, struck: *struck }
     }
 }
 

@@ -27,8 +27,8 @@ pub(super) struct Posed<'a, K: ContactSystem> {
     pub(super) gaps: K::Gaps,
     /// Before the step, and at its end without impulses.
     pub(super) rates: [K::ContactRows; 2],
-    /// The rate below which gaps do not count as opening.
-    pub(super) still: K::Scalar,
+    /// The fastest rate before the step.
+    pub(super) fastest: K::Scalar,
     /// Of the step before.
     pub(super) impulses: K::ContactRows,
     pub(super) modes: &'a [Mode],
@@ -40,14 +40,15 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
     /// What an impact passes on: a part of the rate before it.
     pub(super) fn passed_on(&self, i: usize) -> T {
         let [before, free] = [0, 1].map(|k: usize| self.rates[k].component(K::CONTACTS[i].normal));
-        -self.restitution.component(i) * motion::reversed(before, self.gap_at_end(i, free), self.still)
+        -self.restitution.component(i) * motion::reversed(before, self.gap_at_end(i, free), self.fastest)
     }
 
     /// Whether a gap was closed in the step before, and does not lie open since: an impact may leave a gap on its way
     /// to zero.
     fn stays_closed(&self, i: usize, lockstep: &Lockstep) -> bool {
         let [before, free] = [0, 1].map(|k: usize| self.rates[k].component(K::CONTACTS[i].normal));
-        let approaches = |lane: usize| before.lane(lane) < -self.still.lane(lane);
+        // Half of the digits: what is slower lies still.
+        let approaches = |lane: usize| before.lane(lane) < -Real::sqrt(f64::EPSILON) * self.fastest.lane(lane);
         let is_open = |lane: usize| approaches(lane) && self.gap_at_end(i, free).lane(lane) > 0.0;
         self.modes[i].is_closed() && !lockstep.agree::<T>(is_open)
     }

@@ -43,8 +43,9 @@ const ROUGH: f64 = 0.5;
 const FAR: f64 = 0.2;
 /// By what part of a speed before a step forces may change it by changing along half of the step.
 const STEEP: f64 = 0.25;
-/// What is left may be that part of a speed in a step that cannot be shorter, where contacts do one thing at some speeds
-/// and another one at those that follow from it: it comes once, and not from step to step.
+/// What is left may be that part of a speed in a step that has no other end: where it cannot be shorter and contacts do
+/// one thing at some speeds and another one at those that follow from it, or where no impulses are found at these. It
+/// comes once, and not from step to step.
 const MILD: f64 = 1e-2;
 /// How often a step is made again.
 const CORRECTIONS: usize = 24;
@@ -171,6 +172,12 @@ fn relaxation<V: VectorSpace<f64>>(part: f64, before: &V, after: &V) -> f64 {
     if next.is_finite() { next.clamp(LEAST_PART, 1.0) } else { 1.0 }
 }
 
+/// Whether the laws, or places, of an attempt have no solution.
+fn has_no_end(error: &ContactError) -> bool {
+    use ContactErrorKind::{Displacement, Projection, Unsolved};
+    matches!(error.kind, Projection(_) | Displacement { .. } | Unsolved { .. })
+}
+
 impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
     /// A step that is not made in parts. `last`: whether parts would not be shorter.
     pub(super) fn whole<W: Watch<K>>(
@@ -179,13 +186,18 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         input: &K::Input,
         (watch, last): (&mut W, bool),
     ) -> Result<StepReport, ContactError> {
+        let dependent = self.dependent;
         let (middle, mut made) = self.foreseen(h, input, watch)?;
         if !self.agrees(h, &middle, &made, input)? {
             let mean = self.mean(Mean::Ends, h, &made.end, input);
             let at_mean = self.kernel.acceleration(middle.t, &middle.q, &mean, input);
             let is_mild = self.used(h, &middle, &made).is_mild(&at_mean);
             made = match self.corrected(h, (middle, made), input, (watch, last)) {
-                Err(_) if last && is_mild => self.foreseen(h, input, watch)?.1,
+                // What has a solution as it was foreseen is no error for having none with forces that hardly differ.
+                Err(cause) if is_mild && (last || has_no_end(&cause)) => {
+                    self.dependent = dependent;
+                    self.foreseen(h, input, watch)?.1
+                }
                 made => made?,
             };
         }

@@ -530,15 +530,16 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let mut unknowns = Unknowns::<K>::new();
         let Self { law, tolerance, gaps, impulses, dependent, .. } = *self;
         let (restitution, delassus, modes) = (self.kernel.restitution(), &response.delassus, self.modes.as_ref());
-        let still = motion::still::<K>(&rates[0]);
+        let fastest = motion::fastest::<K>(&rates[0]);
         let posed =
-            Posed { h, law, tolerance, laws, delassus, restitution, gaps, rates, still, impulses, modes, dependent };
+            Posed { h, law, tolerance, laws, delassus, restitution, gaps, rates, fastest, impulses, modes, dependent };
         let memory = &mut self.memory.as_mut()[..memory(Self::ROWS)];
         let mut problem = Impulses::new(memory, unknowns.slices());
         let mut cones = posed.pose(&mut problem);
         // A contact that others press closed takes part as well.
         let closes = |i: usize, rate: f64| posed.gap_left_open(i, rate) < 0.0;
-        let found = problem.solve_with_more(cones.as_mut(), tolerance, closes);
+        let before = |row: usize| impulses.component(row) / laws.scales[row];
+        let found = problem.solve_with_more(cones.as_mut(), tolerance, (closes, before));
         self.dependent = problem.dependent;
         if !found.holds {
             let finite = found.residual.worst().is_finite();

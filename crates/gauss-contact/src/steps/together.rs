@@ -109,7 +109,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
             restitution: self.wide.restitution(),
             gaps: state.gaps,
             rates,
-            still: motion::still::<W>(&rates[0]),
+            fastest: motion::fastest::<W>(&rates[0]),
             impulses: state.impulses,
             modes: first.modes.as_ref(),
             dependent,

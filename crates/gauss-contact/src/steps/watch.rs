@@ -14,8 +14,9 @@ pub(super) struct Attempted<'a, K: ContactSystem> {
     pub(super) impulses: &'a K::ContactRows,
     /// What contacts did, where the laws were solved.
     pub(super) modes: Option<&'a [Mode]>,
-    /// Contacts that are closed after the step.
+    /// Contacts that are closed after the step, and those that were to be and are open.
     pub(super) rests: &'a [bool],
+    pub(super) left: &'a [bool],
     /// Whether rates were those of contacts that depend on one another.
     pub(super) dependent: bool,
     /// Whether a gap has closed.
@@ -56,6 +57,8 @@ pub(super) struct Taken {
     pub(super) impulses: Vec<f64>,
     /// Contacts that are closed after the step.
     pub(super) rests: Vec<bool>,
+    /// Contacts that were to be closed.
+    pub(super) closed: Vec<bool>,
     /// Whether rates were those of contacts that depend on one another.
     pub(super) dependent: bool,
     /// Whether a gap has closed.
@@ -84,6 +87,7 @@ impl Taken {
             modes: attempted.modes.map(Into::into),
             impulses: (0..K::ContactRows::DIM).map(|row| attempted.impulses.component(row)).collect(),
             rests: attempted.rests.into(),
+            closed: attempted.rests.iter().zip(attempted.left).map(|(rests, left)| *rests || *left).collect(),
             dependent: attempted.dependent,
             struck: attempted.struck,
         }
