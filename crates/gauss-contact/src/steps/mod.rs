@@ -8,9 +8,10 @@
 //! and goes the other half with the speeds after it. All impacts of a step are solved at once. A contact counts as
 //! closed by the gap that the step would end with. Then positions and speeds are projected: closed gaps are zero, so
 //! are their rates and the slips of what sticks. Positions move by the least that leaves no gap below zero; a gap above
-//! zero is pulled shut by at most what the impulse of the step does at another time of it, and stays open else. No event
-//! is sought, so that dozens of contacts, and impacts that pile up, are no more work than one; the time of an impact is
-//! known to a step. A step whose forces were taken at other speeds than its mean ones is made again (`speeds`).
+//! zero is pulled shut by at most what the impulse of the step does at another time of it, and stays open else. No
+//! event is sought, so that dozens of contacts, and impacts that pile up, are no more work than one; the time of an
+//! impact is known to a step. A step whose forces were taken at other speeds than its mean ones is made again
+//! (`speeds`).
 
 mod active;
 mod adaptive;
