@@ -3,7 +3,9 @@
 //! Where a function is f₀ and f₁ at the ends of a part of a step of length h and changes by no more than L in a unit of
 //! time, it stays above zero in that part if f₀ + f₁ > L h. Else the part is halved, on the curve of the step, up to
 //! [`HALVINGS`] times; near zero the curve is replaced by states that the method itself reaches. In what is left, some
-//! thousandths of a step next to zero, the slopes at its ends decide, as for functions without a bound.
+//! thousandths of a step next to zero, the slopes at its ends decide, as for functions without a bound; at an eighth of
+//! a step already where the function is a parabola there, as the gaps of what bounces low are: else each of its bounces
+//! would be a hundred steps.
 
 use crate::integrate::drive::control::Control;
 use crate::integrate::drive::cubic::Cubic;
@@ -53,6 +55,9 @@ impl<S: GaussSystem> RateBound<S> for NoBound {
 /// A step is halved so often, and a part of that on which the function is not smooth so often again.
 const HALVINGS: u32 = 7;
 const AGAIN: u32 = 3;
+
+/// How many halvings are left where one looks whether the rest is needed: at an eighth of a step.
+const PLAIN: u32 = HALVINGS - 3;
 
 /// So many parts are halved again in a step.
 const MORE: u32 = 1024;
@@ -107,11 +112,27 @@ where
             return self.last(a, b);
         }
         let middle = 0.5 * (a.0 + b.0);
+        if halvings == PLAIN && self.is_plain(a.0, b.0)? {
+            return self.last(a, b);
+        }
         let m = (middle, self.least(middle)?);
         match self.first(a, m, halvings - 1)? {
             None => self.first(m, b, halvings - 1),
             found => Ok(found),
         }
+    }
+
+    /// Whether the function is the parabola between two points that its values and slopes at both make, as the gap of a
+    /// body that bounces is: to a hundredth of what they change it by, in the middle and at the end. Then these decide.
+    fn is_plain(&mut self, from: f64, to: f64) -> Result<bool, IntegrationErrorKind> {
+        let (short, width) = (SHORT * (to - from), to - from);
+        let [first, near, middle, beside, last] =
+            [from, from + short, 0.5 * (from + to), to - short, to].map(&mut self.curve);
+        let (first, last) = (first?, last?);
+        let [leaves, comes] = [width * (near? - first) / short, width * (last - beside?) / short];
+        let off = (last - first - 0.5 * (leaves + comes)).abs();
+        let off_middle = (middle? - 0.5 * (first + last) - 0.125 * (leaves - comes)).abs();
+        Ok(off.max(off_middle) <= 0.01 * leaves.abs().max(comes.abs()) && self.most.is_finite())
     }
 
     /// The zero in a part that is not halved again.
