@@ -72,18 +72,20 @@ pub(super) struct Solved<K: ContactSystem> {
 }
 
 impl<K: ContactSystem<Scalar = f64>> Solved<K> {
-    /// Which contacts have struck and which rest, from modes before and after the step and the rates that impacts pass
-    /// on.
-    pub(super) fn tell(&mut self, law: StepLaw, [before, after]: [&[Mode]; 2], passed_on: impl Fn(usize) -> f64) {
+    /// Which contacts have struck and which rest, from modes before and after the step, and for each contact the rate
+    /// that an impact passes on and whether its gap closes before the step. A gap that only comes to lie on zero, as
+    /// those that press nothing do step by step, is no impact.
+    pub(super) fn tell(&mut self, law: StepLaw, [before, after]: [&[Mode]; 2], of: impl Fn(usize) -> (f64, bool)) {
         for i in 0..K::CONTACTS.len() {
             let (was_open, is_closed) = (!before[i].is_closed(), after[i].is_closed());
             let closes = is_closed && K::CONTACTS[i].has_gap();
             let lifts = lifts::<K>(law, after, i);
             self.struck |= closes && (was_open || lifts);
             let carries = carrier(K::CONTACTS, i);
-            let parts = K::CONTACTS[carries].has_gap() && passed_on(carries) != 0.0;
-            let bounces = passed_on(carries).abs() > self.found.residual.rounding;
-            self.impacts += usize::from(closes && (was_open || bounces));
+            let (passed_on, approaches) = of(carries);
+            let parts = K::CONTACTS[carries].has_gap() && passed_on != 0.0;
+            let bounces = passed_on.abs() > self.found.residual.rounding;
+            self.impacts += usize::from(closes && (was_open && approaches || bounces));
             self.rests[i] = is_closed && !parts && !lifts;
         }
     }

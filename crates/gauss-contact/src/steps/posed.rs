@@ -46,11 +46,15 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
     /// Whether a gap was closed in the step before, and does not lie open since: an impact may leave a gap on its way
     /// to zero.
     fn stays_closed(&self, i: usize, lockstep: &Lockstep) -> bool {
-        let [before, free] = [0, 1].map(|k: usize| self.rates[k].component(K::CONTACTS[i].normal));
-        // Half of the digits: what is slower lies still.
-        let approaches = |lane: usize| before.lane(lane) < -Real::sqrt(f64::EPSILON) * self.fastest.lane(lane);
-        let is_open = |lane: usize| approaches(lane) && self.gap_at_end(i, free).lane(lane) > 0.0;
+        let free = self.rates[1].component(K::CONTACTS[i].normal);
+        let is_open = |lane: usize| self.approaches(i, lane) && self.gap_at_end(i, free).lane(lane) > 0.0;
         self.modes[i].is_closed() && !lockstep.agree::<T>(is_open)
+    }
+
+    /// Whether a gap closes before the step, to half of the digits: what is slower lies still.
+    fn approaches(&self, i: usize, lane: usize) -> bool {
+        let before = self.rates[0].component(K::CONTACTS[i].normal);
+        before.lane(lane) < -Real::sqrt(f64::EPSILON) * self.fastest.lane(lane)
     }
 
     /// The gap with which a contact ends the step, given its rate there.
@@ -145,7 +149,8 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
             (answer.found.lane(lane), answer.from_coulomb.lane(lane), answer.work.lane(lane));
         let rests = Each::from_fn(|_| false);
         let mut solved = Solved { found, from_coulomb, rests, struck: false, impacts: 0, work };
-        solved.tell(self.law, [before, after], |i| self.passed_on(i).lane(lane));
+        let approaches = |i: usize| self.approaches(i, lane);
+        solved.tell(self.law, [before, after], |i| (self.passed_on(i).lane(lane), approaches(i)));
         solved
     }
 }
