@@ -2,8 +2,6 @@
 
 #[path = "scenes/arm.rs"]
 mod arm;
-#[path = "scenes/flat.rs"]
-mod flat;
 #[path = "scenes/plane.rs"]
 mod plane;
 #[path = "scenes/refused.rs"]

@@ -3,7 +3,6 @@
 
 mod redundant;
 mod rows;
-mod units;
 
 use gauss_runtime::monitor::EnergyMonitor;
 use gauss_runtime::nalgebra::Unit;

@@ -7,13 +7,12 @@ use super::impulses::{Found, Impulses, PULL, STRICT, norm};
 const ROUNDS: u32 = 11;
 
 impl Impulses<'_> {
-    /// Finds the impulses; contacts that others press closed, judged by their number and rate, take part as well, from
-    /// the impulses that they had before.
+    /// Finds the impulses; contacts that others press closed, judged by their number and rate, take part as well.
     pub(crate) fn solve_with_more(
         &mut self,
         cones: &mut [Cone],
         tolerance: f64,
-        (closes, before): (impl Fn(usize, f64) -> bool, impl Fn(usize) -> f64),
+        closes: impl Fn(usize, f64) -> bool,
     ) -> Found {
         let mut found = Found::default();
         loop {
@@ -29,7 +28,6 @@ impl Impulses<'_> {
                 };
                 if !acts && joins {
                     cones[i].acts = true;
-                    cones[i].rows().for_each(|row| self.impulses[row] = before(row));
                     more = true;
                 }
             }

@@ -9,10 +9,8 @@ mod figures;
 mod formulas;
 mod hostile;
 mod lost;
-mod names;
 mod relative;
 mod scenes;
-mod unlike;
 
 use std::collections::BTreeMap;
 

@@ -2,44 +2,37 @@
 
 use alloc::vec::Vec;
 
-use crate::integrate::drive::bounded::{NoBound, RateBound};
 use crate::integrate::drive::schedule::Scheduled;
 use crate::integrate::drive::search::{Crossing, Function};
-use crate::integrate::drive::watched::{Events, Mark, Visit};
+use crate::integrate::drive::watched::{Events, Mark};
 use crate::integrate::problem::state::Sample;
 use crate::sealed::Sealed;
 use crate::system::GaussSystem;
 
 /// A list of functions of one type after other events: see
 /// [`Simulation::until_each`](crate::integrate::Simulation::until_each) and
-/// [`Simulation::event_each`](crate::integrate::Simulation::event_each). What bounds a rate stands beside its function.
+/// [`Simulation::event_each`](crate::integrate::Simulation::event_each).
 #[derive(Clone, Debug)]
-pub struct Each<E, G, B = NoBound> {
+pub struct Each<E, G> {
     others: E,
-    functions: Vec<(G, Option<B>, Mark)>,
+    functions: Vec<(G, Mark)>,
 }
 
-impl<E, G, B> Each<E, G, B> {
+impl<E, G> Each<E, G> {
     /// All of a list after other events; whether each of them ends the run.
-    pub(in crate::integrate) fn after(
-        others: E,
-        crossing: Crossing,
-        terminal: bool,
-        functions: impl IntoIterator<Item = (G, Option<B>)>,
-    ) -> Self {
-        let marked = |(function, bound)| (function, bound, Mark::new(crossing, terminal, false));
+    pub(in crate::integrate) fn after(others: E, crossing: Crossing, terminal: bool, functions: Vec<G>) -> Self {
+        let marked = |function| (function, Mark::new(crossing, terminal, false));
         Self { others, functions: functions.into_iter().map(marked).collect() }
     }
 }
 
-impl<E, G, B> Sealed for Each<E, G, B> {}
+impl<E, G> Sealed for Each<E, G> {}
 
-impl<S, E, G, B> Events<S> for Each<E, G, B>
+impl<S, E, G> Events<S> for Each<E, G>
 where
     S: GaussSystem,
     E: Events<S>,
     G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
-    B: RateBound<S>,
 {
     const ANY: bool = true;
 
@@ -49,15 +42,8 @@ where
 
     fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {
         self.others.each(visit);
-        for (function, _, mark) in &mut self.functions {
+        for (function, mark) in &mut self.functions {
             visit(function, mark);
-        }
-    }
-
-    fn each_bounded(&mut self, visit: &mut Visit<'_, S>) {
-        self.others.each_bounded(visit);
-        for (function, bound, mark) in &mut self.functions {
-            visit(function, bound.as_ref().map(|bound| bound as &dyn RateBound<S>), mark);
         }
     }
 
