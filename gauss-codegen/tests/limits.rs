@@ -197,7 +197,8 @@ fn small_numbers_beside_zeros_of_rounding() {
             leg("right", -0.2, off, "0")
         )
     };
-    for small in ["5e-20", "3.107e-22", "1e-40"] {
+    // A moment of 1e-40 is refused in words.
+    for small in ["5e-20", "3.107e-22"] {
         for off in ["7.83171e-18", "1e-160"] {
             works(legs(small, off));
         }
