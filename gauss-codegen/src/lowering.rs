@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use crate::accuracy::{Deciding, Names, States, Trial};
+use crate::accuracy::{Deciding, Numbers, States, Trial};
 use crate::algebra::{Expr, Rational};
 use crate::error::Result;
 use crate::formulation::Formulation;
@@ -86,7 +86,7 @@ fn programs<'g>(formulation: &Formulation<'g>) -> Result<Kernel<'g>> {
 pub fn states<'a, 'g>(formulation: &'a Formulation<'g>) -> States<'a, 'g> {
     let Formulation { given, system, formulas, definitions, units, .. } = formulation;
     let parameters = given.parameters.iter();
-    States {
+    let states = States {
         system,
         momentum: &formulas.momentum[0],
         parameters: parameters.map(|parameter| (parameter.symbol, parameter.name.contains('['))).collect(),
@@ -94,8 +94,9 @@ pub fn states<'a, 'g>(formulation: &'a Formulation<'g>) -> States<'a, 'g> {
         units,
         weights: &formulation.weights,
         definitions,
-        names: Names::default(),
-    }
+        numbers: Numbers::default(),
+    };
+    states.numbered()
 }
 
 /// Literals that are numbers when the code is generated: of a generic scalar it is not known how it rounds them.

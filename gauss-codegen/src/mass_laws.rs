@@ -80,8 +80,10 @@ pub enum InertiaRule {
     Central,
     /// The moment about the third axis alone.
     Planar,
-    /// Of a body that turns about one axis.
+    /// Of a body that turns about one axis: no other moment enters.
     AboutAxis(usize),
+    /// Of a body that does not turn: no moment enters.
+    Still,
     /// Of a body that moves with others.
     InSum,
 }
@@ -173,8 +175,9 @@ impl<'g> Laws<'_, 'g> {
         let twist = body.map(|body| self.scene.twist_of(body.link)).unwrap_or_default();
         let rules = match twist.as_slice() {
             _ if !self.is_charted_body() => vec![self.in_sum(body)],
-            // In the plane only the moment about k₃ enters, but all that is given is that of a body.
-            [0, 1, 5] => vec![InertiaRule::Planar, InertiaRule::AboutAxis(2)],
+            // In the plane only the moment about k₃ enters, whatever else is given.
+            [0, 1, 5] if !self.given.mass_data.attracted => vec![InertiaRule::Planar, InertiaRule::AboutAxis(2)],
+            [0, 1, 5] => vec![InertiaRule::Planar, InertiaRule::InSum],
             _ if is_central => {
                 (mass, center) = (self.datum(Role::Mass), None);
                 vec![InertiaRule::Central]
@@ -185,10 +188,15 @@ impl<'g> Laws<'_, 'g> {
         InertiaRules { rules, tensor, shape, mass, center, is_formal: body.is_some_and(|body| body.is_formal) }
     }
 
-    /// Of a body that moves with others.
+    /// Of a body that moves with others: what enters of its moments depends on the axes about which it turns. A field
+    /// of attraction sees all of them.
     fn in_sum(&self, body: Option<&BodyData<'g>>) -> InertiaRule {
-        let axis = body.and_then(|body| self.scene.tree.links[body.link].only_axis());
-        axis.map_or(InertiaRule::InSum, InertiaRule::AboutAxis)
+        let Some(body) = body.filter(|_| !self.given.mass_data.attracted) else { return InertiaRule::InSum };
+        match self.scene.tree.links[body.link].turns_about()[..] {
+            [] => InertiaRule::Still,
+            [axis] => InertiaRule::AboutAxis(axis),
+            _ => InertiaRule::InSum,
+        }
     }
 
     /// Of a body with a name: mass, centre of mass from O, inertia about O or about the centre of mass (`is_central`),
@@ -319,6 +327,30 @@ mod tests {
         assert_eq!(of_one("fixed_point"), ["m: positive", "c: finite", "i: [Alone] [false, false]"]);
         let planar = ["m: positive", "c: finite", "i: [Planar, AboutAxis(2)] [true, true]", "i: 3 rows"];
         assert_eq!(of_one("planar"), planar);
+    }
+
+    /// The axis is one of the body's, however the turn comes about; a field of attraction sees all moments.
+    #[test]
+    fn of_a_moment_that_does_not_enter_nothing_is_said() {
+        let of_one = |clauses: &str, placed: &str| {
+            laws(&format!(
+                "#[gauss(coordinates(x, s), {clauses} body(rod, position = [x, 0, 0], {placed} mass = m, \
+                 inertia = j))] struct Rod {{ m: f64, j: f64 }}"
+            ))
+            .pop()
+            .expect("a law of the inertia")
+        };
+        assert_eq!(of_one("", "rotation = rotation_z(s),"), "rod.inertia: [AboutAxis(2)] [true, false]");
+        let turned = "rotation = rotation_z(s) * rotation_x(pi / 2),";
+        assert_eq!(of_one("", turned), "rod.inertia: [AboutAxis(1)] [true, false]");
+        assert_eq!(
+            of_one("", "rotation = rotation_x(0.3) * rotation_z(s),"),
+            "rod.inertia: [AboutAxis(2)] [true, false]"
+        );
+        assert_eq!(of_one("", "rotation = rotation_z(s) * rotation_x(0.3),"), "rod.inertia: [InSum] [true, false]");
+        assert_eq!(of_one("particle(mass = m, position = [s, 0, 0]),", ""), "rod.inertia: [Still] [true, false]");
+        let attracted = of_one("central_gravity(mu = m, center = [0, 9, 0]),", "rotation = rotation_z(s),");
+        assert_eq!(attracted, "rod.inertia: [InSum] [true, false]");
     }
 
     #[test]

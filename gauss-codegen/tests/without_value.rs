@@ -142,6 +142,60 @@ fn inertias_that_no_body_has() {
     check(&source, &[("inertia", about_o)]);
 }
 
+/// A spring to its own place has no direction when the joint that holds it is let go, and does nothing before.
+#[test]
+fn elements_between_one_place() {
+    let message = |name: &str| {
+        format!(
+            "`{name}` has no direction at the joint that `reactions` asks about: a distance in it is zero wherever the \
+             system is; remove it, since it does nothing there, or fasten its ends in different places"
+        )
+    };
+    let arm = |clauses: &str| {
+        format!(
+            "#[gauss(coordinates(s), body(arm, position = [1, 2, 0], rotation = rotation_z(s), mass = m, inertia = j), \
+               {clauses})] struct Arm {{ m: f64, j: f64, k: f64, l: f64 }}"
+        )
+    };
+    for clause in [
+        "spring(from = arm.position, to = [1, 2, 0], stiffness = k, length = l)",
+        "spring(hook, from = arm.position, to = [1, 2, 0], stiffness = k, length = l, damping = m)",
+        "potential = k * sqrt(dot(arm.position - [1, 2, 0], arm.position - [1, 2, 0]))",
+    ] {
+        let input: syn::DeriveInput = syn::parse_str(&arm(&format!("{clause}, reactions(arm)"))).expect("a struct");
+        let found = gauss_codegen::expand(&input).expect_err(clause).into_iter().map(|error| error.to_string());
+        let name = ["potential", "hook", "spring"].into_iter().find(|name| clause.contains(name)).unwrap_or("");
+        assert_eq!(found.collect::<Vec<_>>(), [message(name)], "{clause}");
+    }
+    // Without a length the force is k d, which has a value everywhere.
+    let whole = "spring(from = arm.position, to = [1, 2, 0], stiffness = k), reactions(arm)";
+    let input: syn::DeriveInput = syn::parse_str(&arm(whole)).expect("a struct");
+    gauss_codegen::expand(&input).unwrap_or_else(|error| panic!("{error}"));
+}
+
+/// Numbers that are beyond double precision once they are squared are a mistake of units, and no bug.
+#[test]
+fn bodies_beyond_everything() {
+    for (far, mu) in [("1e43", "1"), ("1e43", "k"), ("1e200", "k"), ("1e-60", "k"), ("1e43", "1e80")] {
+        for what in [
+            "particle(mass = m, position = [x, FAR, 0])",
+            "body(b, position = [x, FAR, 0], mass = m, inertia = k)",
+            "body(b, position = [FAR, 0, 0], rotation = rotation_z(x), mass = m, inertia = [k, m, m])",
+            "body(b, position = [FAR, x, 0], rotation = rotation_z(x), mass = m, center_of_mass = [k, 0, k], inertia = k)",
+        ] {
+            let what = what.replace("FAR", far);
+            let source =
+                format!("#[gauss(coordinates(x), {what}, central_gravity(mu = {mu}))] struct Far {{ m: f64, k: f64 }}");
+            let input: syn::DeriveInput = syn::parse_str(&source).expect("a struct");
+            let Err(error) = gauss_codegen::expand(&input) else { continue };
+            for error in error {
+                let message = error.to_string();
+                assert!(!message.contains("bug"), "{source}: {message}");
+            }
+        }
+    }
+}
+
 /// At rest this constraint has no value, elsewhere it has.
 #[test]
 fn constraints_on_ratios_of_speeds() {

@@ -35,7 +35,7 @@ mod kept;
 /// | role | type | meaning |
 /// |---|---|---|
 /// | `mass` | scalar | required |
-/// | `inertia` | scalar (spherical), `Vector3` (principal), `Matrix3` (full) | about O, body axes; required, or the next |
+/// | `inertia` | scalar (spherical), `Vector3` (principal), `Matrix3` (full) | about O, body axes; required, or the next. Of a body that turns about one of its axes alone, in a plane or on a hinge, the moment about that axis is all that is needed and all that is checked |
 /// | `inertia_about_center_of_mass` | the same | about G, body axes, in the place of `inertia`: never carried through that about O, whose m c² would hide its digits where G is far from O |
 /// | `center_of_mass` | `Vector3` | from O, body axes; without it O is the centre of mass |
 /// | `added_mass` | `Vector6` (diagonal), `Matrix6` (full) | order (u, ω), about O, body axes; without it no fluid |
@@ -111,8 +111,8 @@ mod kept;
 /// `kernel()` refuses what no body, spring or stop has: numbers that are not finite; masses, moments of inertia,
 /// displaced masses and stiffness below zero; inertias that are not symmetric, or break the triangle inequality; stops
 /// without width or with exchanged limits. Bodies that others move with can be without mass or without some moment
-/// (rotors, forks, rods, plates) as long as the sum is regular. Of a body that turns about one axis alone the other
-/// moments may be all zero, for "not stated". `waive(triangle_inequality)` waives that rule for all bodies,
+/// (rotors, forks, rods, plates) as long as the sum is regular. Of a body that turns about one of its axes alone no
+/// other moment is looked at. `waive(triangle_inequality)` waives that rule for all bodies,
 /// `waive(triangle_inequality = arm)` for one.
 ///
 /// `warnings()` lists likely mistakes: drag and damping that feed energy, a `gravity` below zero, a center that pushes

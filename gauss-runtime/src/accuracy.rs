@@ -8,9 +8,10 @@ use crate::methods::by_method;
 /// its last place does to the result. A loss of 1 is what no method can do without; of 10 one decimal place more.
 ///
 /// Of a component y of a result that is ε (|y| + c), ε = 2⁻⁵², where ε c is the root mean square of the changes of y
-/// when every parameter, argument and number of the scene that double precision cannot hold is changed by some ε of its
-/// own size at once, independently of the others. The loss of a result is that of its worst component. A component that
-/// vanishes whatever the numbers are has no unit of its own: its error is divided by the largest unit of the result.
+/// when every parameter, argument and number that the scene keeps as a constant is changed by some ε of its own size at
+/// once, independently of the others. What the kernel computes from such numbers is not changed by itself: its rounding
+/// is an error. The loss of a result is that of its worst component. A component that vanishes whatever the numbers are
+/// has no unit of its own: its error is divided by the largest unit of the result.
 ///
 /// Both numbers are rounded up to 1, 2 or 5 times a power of ten, 0.1 at least; 1e16 means that no digit is left, or
 /// that the method divides by zero where there is a value.
@@ -53,11 +54,14 @@ by_method! {
     /// A search of bounded length looks for the states at which each method loses most. It begins at sample states and
     /// moves on by what makes digits cancel: parameters, speeds, rates and inputs of sizes up to 10⁹ apart, coordinates
     /// from 10⁻⁹ to 10⁷, angles near quarter turns, sums of the scene and of momenta as near zero as 10⁻⁹ of their
-    /// terms. Masses are positive and moments of inertia those of a body. A scene of ordinary numbers has a loss of
-    /// about `median`; the kernel's documentation names the numbers that lead to `worst`. Derivatives and `evaluate`
-    /// are tried where the other methods lose most. A figure is an estimate to first order of the largest loss at the
-    /// states that the search tried: right within a factor of ten where it was compared with 106 digits, and other
-    /// states may be worse. The scalar of the crate `gauss-bounded` bounds the loss at a given state.
+    /// terms, masses of links and lengths between them that grow by up to 10⁶ from one to the next, in both directions.
+    /// Masses are positive and moments of inertia those of a body. A scene of ordinary numbers has a loss of about
+    /// `median`; the kernel's documentation names the numbers that lead to `worst`. A function of the scene's own and a
+    /// table are taken for functions that are rounded once: what they lose inside is theirs, and not in the figure.
+    /// Derivatives and `evaluate` are tried where the other methods lose most. A figure is an estimate to first order
+    /// of the largest loss at the states that the search tried: right within a factor of ten where it was compared with
+    /// 106 digits, and other states may be worse. The scalar of the crate `gauss-bounded` bounds the loss at a given
+    /// state.
     ///
     /// Of the arrangements of a method the cheapest is taken that loses little more than the best of them at every
     /// sample state.

@@ -75,7 +75,8 @@ pub trait LinearizedSystem: GaussSystem<Input: VectorSpace<<Self as GaussSystem>
 
     /// (V, ż) and all their derivatives, exact up to rounding; under constraints those of the accelerations that
     /// satisfy them. Contact forces are not in them: of a scene with [contacts](GaussSystem::HAS_CONTACTS) these are
-    /// the derivatives where all gaps are open.
+    /// the derivatives where all gaps are open; `gauss_adapters::linearize` takes an `InMode` of the crate
+    /// `gauss-contact`.
     ///
     /// Where a force has a kink (`abs`, `min`, `max`, `clamp`) the derivative is the mean of those on its two sides;
     /// that of a jump (`signum`) is 0. Where a root is 0 its infinite slope is replaced by a huge one, so that what

@@ -62,7 +62,8 @@ impl fmt::Display for ProjectionError {
             ProjectionFailure::NonFinite => write!(
                 f,
                 "the correction of the {level} is infinite or undefined (residual {given:e}, then {residual:e}); \
-                 the state is, or constraints depend on one another there; `redundant` in the scene allows them to"
+                 the state is, or constraints depend on one another there, which they may in a scene that says \
+                 `redundant`"
             ),
             ProjectionFailure::NotConverged => write!(
                 f,

@@ -86,6 +86,10 @@ pub trait GaussSystem {
 
     /// ż: the velocity form of the equations of motion. It satisfies the constraints, differentiated to `J ż = γ`,
     /// where there are any.
+    ///
+    /// Contact forces are not in it: of a scene with [contacts](Self::HAS_CONTACTS) it is the acceleration where all
+    /// gaps are open, that of free fall for what rests on the ground. `InMode::at` of the crate `gauss-contact` is the
+    /// system in the modes that its contacts have at a state, whose acceleration has them.
     fn acceleration(
         &self,
         t: Self::Scalar,

@@ -212,10 +212,8 @@ fn planar_bodies_need_one_moment() {
     // I₃ = 1 < m c² = 4: about the centre of mass −3 is left, and the mass matrix is indefinite.
     let found = skater(1.0, 2.0, [0.0, 0.0, 1.0]).expect_err("indefinite")[0];
     assert_eq!((found.value, found.rule), (-3.0, Rule::InertiaAboutCenterOfMass));
-    // What is stated of other axes is that of a body, too.
-    assert_eq!(skater(1.0, 0.0, [-1.0, 1.0, 1.0]).expect_err("negative")[0].rule, Rule::PositiveDefiniteInertia);
-    let found = skater(1.0, 0.0, [1.0, 1.0, 3.0]).expect_err("no body")[0].rule;
-    assert!(matches!(found, Rule::TriangleInequality { axis: 2, .. }));
+    // What is stated of other axes does not enter.
+    assert!(skater(1.0, 0.0, [-1.0, 1.0, 1.0]).is_ok() && skater(1.0, 0.0, [1.0, 1.0, 3.0]).is_ok());
 }
 
 everything!(Any AnyKernel, free, [hybrid]);

@@ -339,3 +339,71 @@ proptest! {
         prop_assert!(rate.abs() <= 1e-10 * size, "{rate:e}");
     }
 }
+
+/// A top that sleeps next to the vertical, where the Euler angles have no value: errors of a step are those of the
+/// speeds, whichever variables are integrated. The rates of φ and ψ are momenta over sin²θ.
+#[test]
+fn a_sleeping_top_by_its_momenta() {
+    let top = Top {
+        mass: 1.0,
+        center: Vector3::new(0.0, 0.0, 0.4),
+        inertia: Matrix3::from_diagonal(&Vector3::new(0.5, 0.5, 0.2)),
+        g: 9.81,
+    };
+    let (jet, space): (JetKernel, LeftKernel) = (kernel(top), kernel(top));
+    for tilt in [0.3, 1e-2, 1e-3] {
+        // Upright to a tilt, spinning fast: ω along the axis of the top.
+        let (q, z) = (SVector::from([0.4, tilt, -0.7]), SVector::from([0.0, 0.3 * tilt, 30.0]));
+        let attitude = |q: &SVector<f64, 3>| {
+            UnitQuaternion::from_axis_angle(&Vector3::z_axis(), q[0])
+                * UnitQuaternion::from_axis_angle(&Vector3::x_axis(), q[1])
+                * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), q[2])
+        };
+        let spin = |q: &SVector<f64, 3>, z: &SVector<f64, 3>| {
+            let ((s, c), (st, ct)) = (q[2].sin_cos(), q[1].sin_cos());
+            Vector3::new(z[0] * st * s + z[1] * c, z[0] * st * c - z[1] * s, z[0] * ct + z[2])
+        };
+        let start = (attitude(&q), spin(&q, &z));
+        let exact = Simulation::new(&space).adaptive(1e-14, 1e-14).run_to_end(start.0, start.1, 0.0..5.0).unwrap();
+        let run = Simulation::new(&jet).adaptive(1e-12, 1e-13);
+        let far =
+            |end: &Sample<JetKernel>| (attitude(&end.q).angle_to(&exact.q), (spin(&end.q, &end.z) - exact.z).norm());
+        for end in [run.run_to_end(q, z, 0.0..5.0).unwrap(), run.momentum_form().run_to_end(q, z, 0.0..5.0).unwrap()] {
+            let (turn, spin) = far(&end);
+            // A tolerance for each of some hundred steps, of rates up to 30.
+            assert!(turn <= 1e-10 && spin <= 3e-9, "{tilt:e}: {turn:e} {spin:e}");
+        }
+    }
+}
+
+/// A body whose O is far from it: its momenta are of its motion about O, and small parts of them are much of its spin.
+#[derive(GaussDynamics)]
+#[gauss(chart = hybrid)]
+struct Far {
+    #[gauss(mass)]
+    mass: f64,
+    #[gauss(center_of_mass)]
+    center: Vector3<f64>,
+    #[gauss(inertia_about_center_of_mass)]
+    inertia: Vector3<f64>,
+}
+
+/// How many steps that takes is another question: ∂ṗ/∂p is of the size m |c|² ω/I, and with O far away the momentum
+/// form is stiff.
+#[test]
+fn a_body_far_from_its_origin_by_its_momenta() {
+    for size in [0.0, 0.1, 1.0, 10.0] {
+        let center = Vector3::new(3.0, -2.0, 1.0) * size;
+        let kernel = Far { mass: 2.0, center, inertia: Vector3::new(0.3, 0.5, 0.7) }.kernel().unwrap();
+        let q = Isometry3::rotation(Vector3::new(0.2, -0.3, 0.5));
+        let z = SVector::from([0.3, 0.1, -0.2, 0.7, -1.1, 0.9]);
+        let exact = Simulation::new(&kernel).adaptive(1e-13, 1e-13).run_to_end(q, z, 0.0..10.0).unwrap();
+        for tolerance in [1e-6, 1e-9] {
+            let run = Simulation::new(&kernel).adaptive(tolerance, tolerance).momentum_form();
+            let end = run.run_to_end(q, z, 0.0..10.0).unwrap();
+            let error = (end.z - exact.z).amax();
+            // A tolerance for each of some ten turns.
+            assert!(error <= 10.0 * tolerance * (1.0 + exact.z.amax()), "{size} {tolerance:e}: {error:e}");
+        }
+    }
+}

@@ -197,9 +197,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, C, I> ChangingRun<'k, K, C, I> {
             return (made, Some(error));
         }
         let Self { run, h, scheme, events, span, quiet } = self;
-        let ContactRun { kernel, control, input, law, jams, tolerance, limit } = run;
+        let (run, input) = run.parted();
         let input: InputOf<'k, K> = Rc::new(move |t, q, z| input.input(t, q, z));
-        let run = ContactRun { kernel, control, input: NoInput, law, jams, tolerance, limit };
         let mut driver =
             Driver { run, input, h, scheme, piles: (events, span), quiet, end: interval.end, least: quiet };
         let error = driver.go((interval.start, q0, z0), &mut made.parts).err();
@@ -213,7 +212,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, C, I> ChangingRun<'k, K, C, I> {
                 return stop(ContactErrorKind::InvalidStep { step: length });
             }
         }
-        match self.run.law {
+        match self.run.settings.law {
             Impact::Newton => Ok(()),
             law => stop(ContactErrorKind::LawWithoutSteps { law }),
         }
@@ -267,9 +266,8 @@ where
     /// Events from a state on, to the end or to where they cannot go on.
     fn events(&self, from: &mut At<K>, parts: &mut Vec<RunPart<'k, K>>) -> Option<ContactError> {
         let (t, q, z) = *from;
-        let ContactRun { kernel, law, jams, tolerance, limit, .. } = self.run;
-        let run = ContactRun { kernel, control: self.run.control.clone(), input: NoInput, law, jams, tolerance, limit };
-        let (mut made, error) = run.attempt_with(Rc::clone(&self.input), Some(self.piles), (q, z), t..self.end);
+        let (mut made, error) =
+            self.run.again().attempt_with(Rc::clone(&self.input), Some(self.piles), (q, z), t..self.end);
         if let Some(ContactErrorKind::Penetration { .. }) = error.as_ref().map(|error| &error.kind)
             && let Some(segment) = made.segments.pop()
         {
@@ -286,7 +284,7 @@ where
     }
 
     fn part(&self, trajectory: ContactTrajectory<'k, K>) -> RunPart<'k, K> {
-        let Tolerance { relative, absolute } = self.run.tolerance;
+        let Tolerance { relative, absolute } = self.run.settings.tolerance;
         RunPart::Events(EventPart { trajectory, tolerance: [relative, absolute] })
     }
 

@@ -4,14 +4,14 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::contact::{Contact, ContactSystem};
+use gauss_runtime::contact::{Contact, ContactDynamics, ContactSystem};
 use gauss_runtime::forces::Columns;
 use gauss_runtime::integrate::drive::tolerance::Tolerance;
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::{Real, largest_derivative};
 use gauss_runtime::system::GaussSystem;
 
-use crate::dense::{Matrix, dot, epsilon, norm, size, sum, value};
+use crate::dense::{Matrix, dot, epsilon, norm, size, value};
 use crate::error::{ContactError, ContactErrorKind};
 use crate::friction::{Bounds, invalid};
 use crate::history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
@@ -29,6 +29,8 @@ pub(crate) struct Scales {
     pub(crate) tolerance: Tolerance,
     /// The largest speed at an event so far.
     pub(crate) largest: f64,
+    /// The largest rounding of each row at an event so far: what is left of speeds that end is no less.
+    pub(crate) of_rate: Vec<f64>,
     pub(crate) law: Impact,
     /// The start of the run.
     pub(crate) start: f64,
@@ -37,6 +39,12 @@ pub(crate) struct Scales {
 }
 
 impl Scales {
+    /// The scales of a run in numbers of this kind that starts at that time.
+    pub(crate) fn new<T: Real>(tolerance: Tolerance, law: Impact, start: T) -> Self {
+        let (start, epsilon) = (value(start), epsilon::<T>());
+        Self { tolerance, largest: 0.0, of_rate: Vec::new(), law, start, epsilon }
+    }
+
     /// Speeds below are rest.
     pub(crate) fn rest(&self) -> f64 {
         self.tolerance.relative.fma(self.largest, self.tolerance.absolute)
@@ -71,26 +79,36 @@ pub(crate) struct Instant<'k, K: ContactSystem> {
 }
 
 /// What is known of the contacts while modes are chosen.
-struct Choice<T> {
+pub(crate) struct Choice<T> {
     /// Gap and its rate are zero.
-    resting: Vec<bool>,
-    /// Opens although it is on zero: its force has fallen to zero.
-    leaves: Option<usize>,
-    /// Begins to slide in this direction: friction has reached its bound.
-    slides: Option<(usize, [T; 3])>,
-    /// Slips below are zero.
-    still: Vec<f64>,
+    pub(crate) resting: Vec<bool>,
+    /// Open although they are on zero: their force has fallen to zero.
+    leaves: Vec<usize>,
+    /// Begin to slide in these directions: friction has reached its bound.
+    slides: Vec<(usize, [T; 3])>,
+    /// Rates below are zero.
+    pub(crate) still: Vec<f64>,
+    /// Slips of several rows below are: in which direction they go is less than what steps err.
+    slow: f64,
     /// The slip is zero whatever its number is.
     stuck: Vec<bool>,
 }
 
+/// Impacts at an event.
+pub(crate) struct Strike {
+    /// What the rounding of their impulses makes of rates: impulses that cancel leave no rate to tell it from.
+    noise: Vec<f64>,
+    /// The contact that struck first, and how fast its gap closed.
+    pub(crate) first: (usize, f64),
+}
+
 /// Whether impacts act on it: not on dry friction, whose force is bounded.
-fn takes_impulses(contact: &Contact) -> bool {
+pub(crate) fn takes_impulses(contact: &Contact) -> bool {
     contact.has_gap() || contact.rolls_on().is_some()
 }
 
 /// A contact with the resistance to rolling on it.
-fn with_rolling<K: ContactSystem>(i: usize) -> impl Iterator<Item = usize> {
+pub(crate) fn with_rolling<K: ContactSystem>(i: usize) -> impl Iterator<Item = usize> {
     (0..K::CONTACTS.len()).filter(move |&n| carrier(K::CONTACTS, n) == i)
 }
 
@@ -123,6 +141,9 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             let moved = kernel.gaps(*t, &q.retract(&sigma));
             (0..rounding.len()).for_each(|n| rounding[n] += value(moved.component(n) - here.component(n)).abs());
         }
+        let later = *t * K::Scalar::from_f64(1.0 + 16.0 * epsilon::<K::Scalar>());
+        let moved = kernel.gaps(later, q);
+        (0..rounding.len()).for_each(|n| rounding[n] += value(moved.component(n) - here.component(n)).abs());
         let late = 4.0 * scales.resolution(value(*t));
         let within =
             |(contact, rounding): (&Contact, &f64)| late.fma(value(rates.component(contact.normal)).abs(), *rounding);
@@ -138,14 +159,19 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
     ) -> Result<(), ContactError> {
         scales.largest = scales.largest.max(self.z.max_norm());
         let jammed = self.check_paradox(scales, made)?;
-        let slides = self.begins_to_slide(made);
+        let (leaves, slides) = self.gives_way(made);
         let closed = self.closed(scales)?;
         let before = self.sizes(scales);
-        let noise = self.impacts(&closed, scales, made)?;
-        let struck = noise.is_some();
+        let strike = self.impacts(&closed, scales, made)?;
+        let struck = strike.is_some();
         let now = self.sizes(scales);
         let mut still: Vec<f64> = before.of_rate.iter().zip(&now.of_rate).map(|(a, b)| a.max(*b)).collect();
-        still.iter_mut().zip(noise.iter().flatten()).for_each(|(still, noise)| *still += noise);
+        scales.of_rate.resize(still.len(), 0.0);
+        scales.of_rate.iter_mut().zip(&still).for_each(|(most, still)| *most = most.max(*still));
+        for row in K::CONTACTS.iter().flat_map(tangents) {
+            still[row] = scales.of_rate[row];
+        }
+        still.iter_mut().zip(strike.iter().flat_map(|strike| &strike.noise)).for_each(|(still, noise)| *still += noise);
         let rests = |i: usize| {
             let i = carrier(K::CONTACTS, i);
             let contact = &K::CONTACTS[i];
@@ -161,19 +187,20 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let contacts = 0..K::CONTACTS.len();
         let mut choice = Choice {
             resting: contacts.clone().map(rests).collect(),
-            leaves: self.fired.and_then(|fired| if let Watched::Force(i) = fired { Some(i) } else { None }),
+            leaves,
             slides,
             stuck: contacts.clone().map(|i| !struck && (stuck(i) || jammed == Some(i))).collect(),
             still,
+            slow: scales.rest(),
         };
         let old = self.modes.clone();
         let mut events = Vec::new();
         loop {
             let accelerations = self.choose(&mut choice, scales.law, made)?;
             let next = contacts.clone().find_map(|i| {
-                let candidate = struck && closed[i] && !choice.resting[i] && K::CONTACTS[i].has_gap();
-                let kind = candidate.then(|| self.comes_to_rest(i, &accelerations, scales))??;
-                Some((i, kind))
+                let candidate = closed[i] && !choice.resting[i] && K::CONTACTS[i].has_gap();
+                let first = strike.as_ref().filter(|_| candidate)?.first;
+                Some((i, self.comes_to_rest((i, first), (&accelerations, &choice), scales)?))
             });
             let Some((i, kind)) = next else { break };
             with_rolling::<K>(i).for_each(|n| choice.resting[n] = true);
@@ -238,19 +265,10 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         self.record(contacts, &rates, &impulses, (law, made))
     }
 
-    /// The direction in which a contact that stuck begins to slide: against its friction.
-    fn begins_to_slide(&self, made: &ContactTrajectory<'k, K>) -> Option<(usize, [K::Scalar; 3])> {
-        let Some(Watched::Cone(i)) = self.fired else { return None };
-        let system = InMode::new(self.kernel, &self.modes);
-        let loads = system.loads(self.t, &self.q, &self.z, &(made.input)(self.t, &self.q, &self.z));
-        let contact = &K::CONTACTS[i];
-        let friction = self.kernel.friction(self.t, &self.q, &self.z, &(made.input)(self.t, &self.q, &self.z));
-        let along = Bounds::of(contact, &friction).gives_way(&loads.forces[tangents(contact)])?;
-        Some((i, along))
-    }
-
-    /// The contacts whose gap is zero. Where one has just closed, the state goes back by as much of the time as the gap
-    /// is beyond zero, less than what times are told apart by: else each bounce would be a little lower than zero.
+    /// The contacts whose gap is zero. Where one has just closed beyond zero, by less than what times are told apart
+    /// by, gaps are brought to zero: else each bounce would be a little lower. In the metric of the energy that moves
+    /// nothing by more than it has to; back along the motion it would be, at a small rate beside a large velocity, a
+    /// long way.
     fn closed(&mut self, scales: &Scales) -> Result<Vec<bool>, ContactError> {
         let gaps = self.kernel.gaps(self.t, &self.q);
         let sizes = self.sizes(scales);
@@ -276,18 +294,17 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         if let Some(apart) = apart {
             return Err(self.error(Some(apart), ContactErrorKind::Together));
         }
-        if let Some(i) = landed {
-            let (gap, rate) = (gaps.component(i), sizes.rates.component(K::CONTACTS[i].normal));
-            if value(gap) < 0.0 && value(rate) < -sizes.of_rate[K::CONTACTS[i].normal] {
-                let velocity = self.kernel.kinematics(self.t, &self.q, &self.z);
-                self.q = self.q.retract(&velocity.scale(-gap / rate)).renormalise();
-            }
+        if landed.is_some_and(|i| value(gaps.component(i)) < 0.0) {
+            let zero = |i: usize| if closed[i] { Mode::Closed } else { Mode::Open };
+            let modes: Vec<_> = (0..closed.len()).map(zero).collect();
+            let onto = InMode::new(self.kernel, &modes).close_gaps(self.t, self.q);
+            self.q = onto.map_err(|error| self.error(landed, ContactErrorKind::Projection(error)))?;
         }
         Ok(closed)
     }
 
     /// Friction of all contacts, checked.
-    fn friction(&self, made: &ContactTrajectory<'k, K>) -> Result<K::ContactRows, ContactError> {
+    pub(crate) fn friction(&self, made: &ContactTrajectory<'k, K>) -> Result<K::ContactRows, ContactError> {
         let friction = self.kernel.friction(self.t, &self.q, &self.z, &(made.input)(self.t, &self.q, &self.z));
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             if let Some(friction) = invalid(contact, &friction) {
@@ -297,27 +314,30 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         Ok(friction)
     }
 
-    /// Impacts until no closed gap closes further. Where there were any: what the rounding of their impulses makes of
-    /// rates, since impulses that cancel leave no rate to tell it from.
+    /// Impacts until no closed gap closes further.
     fn impacts(
         &mut self,
         closed: &[bool],
         scales: &Scales,
         made: &mut ContactTrajectory<'k, K>,
-    ) -> Result<Option<Vec<f64>>, ContactError> {
+    ) -> Result<Option<Strike>, ContactError> {
         let friction = self.friction(made)?;
         let mut noise = vec![0.0; K::ContactRows::DIM];
+        let mut first = None;
         let restitution = self.kernel.restitution();
         let most = if scales.law == Impact::Sequential { 10_000 } else { 100 };
         for count in 0..=most {
             let sizes = self.sizes(scales);
             let rate = |i: usize| value(sizes.rates.component(K::CONTACTS[i].normal));
-            let rounding = |row: usize| sizes.of_rate[row] + noise[row];
+            let roundings: Vec<f64> =
+                sizes.of_rate.iter().zip(&noise).map(|(of_rate, noise)| of_rate + noise).collect();
+            let rounding = |row: usize| roundings[row];
             let touches = |&i: &usize| closed[carrier(K::CONTACTS, i)] && takes_impulses(&K::CONTACTS[i]);
             let strikes =
                 |i: &usize| touches(i) && K::CONTACTS[*i].has_gap() && rate(*i) < -rounding(K::CONTACTS[*i].normal);
             let fastest = (0..closed.len()).filter(strikes).min_by(|&a, &b| rate(a).total_cmp(&rate(b)));
-            let Some(fastest) = fastest else { return Ok((count > 0).then_some(noise)) };
+            let Some(fastest) = fastest else { return Ok(first.map(|first| Strike { noise, first })) };
+            first = first.or(Some((fastest, -rate(fastest))));
             if count == most {
                 return Err(self.error(Some(fastest), ContactErrorKind::Zeno { impacts: count }));
             }
@@ -330,6 +350,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
                 contacts: &contacts,
                 response: &response,
                 rates: &sizes.rates,
+                noise: &roundings,
                 friction: &friction,
                 restitution: &restitution,
             };
@@ -343,7 +364,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
                 *noise += 64.0 * epsilon::<K::Scalar>() * each.sum::<f64>();
             }
         }
-        Ok(Some(noise))
+        Ok(first.map(|first| Strike { noise, first }))
     }
 
     /// Records an impact, of which energy must not grow.
@@ -385,54 +406,6 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         Ok(())
     }
 
-    /// Whether the bounces of a gap that has just been left at a small rate are over: they would end after
-    /// 2 ġ/(|g̈| (1 − e)).
-    fn comes_to_rest(&self, i: usize, accelerations: &[f64], scales: &Scales) -> Option<EventKind> {
-        let normal = K::CONTACTS[i].normal;
-        let sizes = self.sizes(scales);
-        let (speed, fall) = (value(sizes.rates.component(normal)), -accelerations[normal]);
-        let e = value(self.kernel.restitution().component(i));
-        if !(fall > 0.0 && e < 1.0) {
-            return None;
-        }
-        let (height, remaining) = (speed * speed / (2.0 * fall), 2.0 * speed / (fall * (1.0 - e)));
-        let over = speed <= scales.rest()
-            || height <= 8.0 * sizes.rounding[i]
-            || remaining <= 16.0 * scales.resolution(value(self.t));
-        over.then_some(EventKind::Rests { speed, height, remaining })
-    }
-
-    /// Takes the rate of a gap away at which bounces are left out. In all of them together the contact passes on what
-    /// it would at rest in that time, less this momentum; so friction of a contact that slides is less by as much.
-    fn leave_out_bounces(
-        &mut self,
-        i: usize,
-        choice: &Choice<K::Scalar>,
-        made: &ContactTrajectory<'k, K>,
-    ) -> Result<(), ContactError> {
-        let (contact, rates) = (&K::CONTACTS[i], self.kernel.contact_rates(self.t, &self.q, &self.z));
-        let response = self.kernel.contact_response(self.t, &self.q);
-        let mut impulses = vec![K::Scalar::zero(); K::ContactRows::DIM];
-        impulses[contact.normal] = K::Scalar::one();
-        for contact in with_rolling::<K>(i).map(|n| &K::CONTACTS[n]) {
-            let along = slip(contact, &rates);
-            if size(&along) > norm(&choice.still[tangents(contact)]) {
-                let length = norm(&along);
-                let against = Bounds::of(contact, &self.friction(made)?).against(along.map(|s| s / length));
-                tangents(contact).zip(against).for_each(|(row, force)| impulses[row] = force);
-            }
-        }
-        let unit = impulses.iter().enumerate().map(|(row, part)| response.delassus[(contact.normal, row)] * *part);
-        let lifted = sum(unit);
-        // Else the gap's rate alone is taken away, with the projection.
-        if value(lifted) > 0.0 {
-            let by = -rates.component(contact.normal) / lifted;
-            impulses.iter_mut().for_each(|part| *part *= by);
-            self.z = after::<K>(&response, &self.z, &impulses);
-        }
-        Ok(())
-    }
-
     /// Chooses the modes of the contacts that rest, brings the state onto them; the accelerations of all rows.
     fn choose(
         &mut self,
@@ -440,18 +413,16 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         law: Impact,
         made: &mut ContactTrajectory<'k, K>,
     ) -> Result<Vec<f64>, ContactError> {
-        // Each time one of the two that are forced is given up.
+        // Each time some of those that are forced are given up.
         loop {
-            let stays = |i: usize| choice.resting[i] && choice.leaves != Some(carrier(K::CONTACTS, i));
+            let stays = |i: usize| choice.resting[i] && !choice.leaves.contains(&carrier(K::CONTACTS, i));
             let contacts: Vec<usize> = (0..K::CONTACTS.len()).filter(|&i| stays(i)).collect();
             let laws = self.bring_to_rest(&contacts, choice, made)?;
             let input = (made.input)(self.t, &self.q, &self.z);
             let dynamics = self.kernel.contact_dynamics(self.t, &self.q, &self.z, &input);
             let rows = rows::<K>(&contacts);
             let delassus = &dynamics.response.delassus;
-            let matrix = Matrix::from_fn(rows.len(), |i, j| delassus[(rows[i], rows[j])]);
-            let bias = rows.iter().map(|&row| dynamics.bias.component(row)).collect();
-            let solver = Contacts::new(laws.clone(), matrix, bias);
+            let solver = self.posed(laws.clone(), &rows, &dynamics);
             let solution = match solver.solve() {
                 // A contact is stopped once: then its slip is not known to go on.
                 Err(Failure::Inconsistent(n)) if self.jams && laws[n].along().is_some() => {
@@ -470,18 +441,19 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
                 (each.fold(free, |sum, term| sum + term), 256.0 * epsilon::<K::Scalar>() * terms)
             };
             let accelerations: Vec<(f64, f64)> = (0..K::ContactRows::DIM).map(rate).collect();
-            let falls_back = choice.leaves.is_some_and(|i| {
-                let (rate, rounding) = accelerations[K::CONTACTS[i].normal];
-                choice.resting[i] && rate < -rounding
-            });
-            let slides_back = choice.slides.is_some_and(|(i, along)| {
-                let each = tangents(&K::CONTACTS[i]).zip(along);
-                each.clone().map(|(row, s)| accelerations[row].0 * value(s)).sum::<f64>()
+            let falls_back = |i: &usize| {
+                let (rate, rounding) = accelerations[K::CONTACTS[*i].normal];
+                choice.resting[*i] && rate < -rounding
+            };
+            let slides_back = |(i, along): &(usize, [K::Scalar; 3])| {
+                let each = tangents(&K::CONTACTS[*i]).zip(along);
+                each.clone().map(|(row, s)| accelerations[row].0 * value(*s)).sum::<f64>()
                     < -each.map(|(row, _)| accelerations[row].1).sum::<f64>()
-            });
-            if falls_back || slides_back {
-                choice.leaves = choice.leaves.filter(|_| !falls_back);
-                choice.slides = choice.slides.filter(|_| !slides_back);
+            };
+            let leaves: Vec<_> = choice.leaves.iter().copied().filter(|i| !falls_back(i)).collect();
+            let slides: Vec<_> = choice.slides.iter().copied().filter(|slide| !slides_back(slide)).collect();
+            if leaves.len() < choice.leaves.len() || slides.len() < choice.slides.len() {
+                (choice.leaves, choice.slides) = (leaves, slides);
                 continue;
             }
             let mut modes = vec![Mode::Open; K::CONTACTS.len()];
@@ -499,6 +471,18 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             made.solves.push(SolveRecord { time: value(self.t), impact: false, residuals });
             return Ok(accelerations.into_iter().map(|(rate, _)| rate).collect());
         }
+    }
+
+    /// The laws of contacts with these rows for the accelerations.
+    fn posed(&self, laws: Vec<Law<K::Scalar>>, rows: &[usize], dynamics: &ContactDynamics<K>) -> Contacts<K::Scalar> {
+        let delassus = &dynamics.response.delassus;
+        let matrix = Matrix::from_fn(rows.len(), |i, j| delassus[(rows[i], rows[j])]);
+        let bias = rows.iter().map(|&row| dynamics.bias.component(row)).collect();
+        // Accelerations are sums as rates are.
+        let jacobian = self.kernel.contact_jacobian(self.t, &self.q);
+        let of_row = |row: usize| jacobian.nth(row).map_or(0.0, |column| terms(&column, &dynamics.acceleration));
+        let noise = rows.iter().map(|&row| 64.0 * epsilon::<K::Scalar>() * of_row(row));
+        Contacts::new(laws, matrix, bias).known_to(noise)
     }
 
     /// Brings gaps of contacts, their rates and slips that have ended to zero; the laws for the accelerations there.
@@ -532,7 +516,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let friction = self.friction(made)?;
         let law = |(&i, slip): (&usize, Option<[K::Scalar; 3]>)| {
             let contact = &K::CONTACTS[i];
-            let forced = choice.slides.filter(|(n, _)| *n == i).map(|(_, along)| along);
+            let forced = choice.slides.iter().find(|(n, _)| *n == i).map(|(_, along)| *along);
             let along = slip.or(forced).filter(|_| !tangents(contact).is_empty());
             Law::new(contact, Bounds::of(contact, &friction), along).among(contact, contacts)
         };
@@ -540,10 +524,11 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
     }
 
     /// The direction in which a contact slides.
-    fn slides(&self, i: usize, choice: &Choice<K::Scalar>) -> Option<[K::Scalar; 3]> {
+    pub(crate) fn slides(&self, i: usize, choice: &Choice<K::Scalar>) -> Option<[K::Scalar; 3]> {
         let contact = &K::CONTACTS[i];
         let along = slip(contact, &self.kernel.contact_rates(self.t, &self.q, &self.z));
-        let moves = !choice.stuck[i] && size(&along) > norm(&choice.still[tangents(contact)]);
+        let slow = if tangents(contact).len() > 1 { choice.slow } else { 0.0 };
+        let moves = !choice.stuck[i] && size(&along) > norm(&choice.still[tangents(contact)]).max(slow);
         moves.then(|| {
             let length = norm(&along);
             along.map(|s| s / length)

@@ -132,6 +132,45 @@ impl<T: Real> Decomposition<T> {
         x
     }
 
+    /// Whether all columns are independent.
+    pub(crate) fn is_regular(&self) -> bool {
+        self.rank() == self.scale.len()
+    }
+
+    /// What x may be changed by without a change of `M x`: directions that are orthonormal in scaled unknowns.
+    pub(crate) fn free(&self) -> Vec<Vec<T>> {
+        let n = self.scale.len();
+        let mut basis: Vec<Vec<T>> = Vec::new();
+        let across = |basis: &[Vec<T>], direction: &mut Vec<T>| {
+            for _ in 0..2 {
+                for q in basis {
+                    let part = dot(q, direction);
+                    add(direction, -part, q);
+                }
+            }
+        };
+        let unit = |mut direction: Vec<T>| {
+            let length = norm(&direction);
+            direction.iter_mut().for_each(|x| *x /= length);
+            direction
+        };
+        for row in &self.rows {
+            let mut direction = row.clone();
+            across(&basis, &mut direction);
+            basis.push(unit(direction));
+        }
+        let axis = |k: usize| (0..n).map(|i| if i == k { T::one() } else { T::zero() }).collect();
+        let mut left: Vec<Vec<T>> = (0..n).map(axis).collect();
+        while basis.len() < n {
+            left.iter_mut().for_each(|direction| across(&basis, direction));
+            let longest = (0..left.len()).max_by(|&a, &b| size(&left[a]).total_cmp(&size(&left[b])));
+            let Some(k) = longest else { break };
+            basis.push(unit(left.swap_remove(k)));
+        }
+        let scaled = |direction: &Vec<T>| direction.iter().zip(&self.scale).map(|(x, scale)| *x * *scale).collect();
+        basis.iter().skip(self.rank()).map(scaled).collect()
+    }
+
     /// All columns are independent.
     fn back(&self, parts: &[T]) -> Vec<T> {
         let mut x = vec![T::zero(); parts.len()];

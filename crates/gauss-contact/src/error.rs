@@ -30,7 +30,7 @@ pub enum ContactErrorKind {
         /// The gap.
         gap: f64,
     },
-    /// A gap that counts as open became negative: it opened and closed again within what the steps show.
+    /// A gap that counts as open became negative without having been seen to close.
     Penetration {
         /// The gap.
         gap: f64,
@@ -79,6 +79,14 @@ pub enum ContactErrorKind {
     States {
         /// How many.
         states: usize,
+    },
+    /// Forces change with places or speeds more than a step can follow, in parts as well: stiff springs and dampers, a
+    /// body that turns by more than a radian in a sixteenth of the step.
+    Stiff {
+        /// The speed for which they do, by its place among the quasi-velocities.
+        speed: usize,
+        /// The length of the part.
+        step: f64,
     },
     /// More steps than the run may have.
     TooManySteps {
@@ -135,6 +143,14 @@ pub enum ContactErrorKind {
     },
     /// The state cannot be brought onto closed gaps.
     Projection(ProjectionError),
+    /// To close gaps, bodies would move much farther than these are from zero: planes of contacts contradict one
+    /// another.
+    Displacement {
+        /// The largest of the gaps, as a positive number.
+        gap: f64,
+        /// How far a point of a contact would move.
+        moved: f64,
+    },
     /// The numbers of the run carry derivatives, and the time of this event has none: the gap, force or slip that ends
     /// the mode of the contact touches zero without passing through it.
     Grazes {
@@ -152,6 +168,11 @@ pub enum ContactErrorKind {
     OtherSystem {
         /// How far its step ends from that in `f64`.
         difference: f64,
+    },
+    /// A closed gap is closing, so that an impact comes before accelerations are finite.
+    Strikes {
+        /// The rate of the gap.
+        rate: f64,
     },
     /// The run does not cover the time.
     OutsideRun,
@@ -183,6 +204,17 @@ impl ContactErrorKind {
             Self::TooManySteps { limit } => {
                 write!(f, "{limit} steps do not reach the end; use a larger tolerance, or allow more by `max_steps`")
             }
+            Self::Displacement { gap, moved } => write!(
+                f,
+                "to close gaps of {gap:.1e} a point would move by {moved:.1e}: the planes of contacts contradict one \
+                 another; shorter steps meet them one after the other"
+            ),
+            Self::Stiff { speed, step } => write!(
+                f,
+                "forces on speed number {speed} (from 0) change with places or speeds faster than a step can follow, in \
+                 a part of {step:e} as well: make steps shorter than that, and write friction that jumps with the \
+                 sign of a speed as `dry_friction`"
+            ),
             Self::States { states } => write!(
                 f,
                 "elements of the scene have {states} states, which steps of one length do not follow; run it from event \
@@ -194,25 +226,43 @@ impl ContactErrorKind {
             _ => Ok(()),
         }
     }
+
+    /// What closed gaps, and those that should be open, are refused for.
+    fn of_gaps(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NegativeGap { gap } => write!(f, "the gap starts at {gap:e}; it must not be negative"),
+            Self::Penetration { gap } => {
+                write!(
+                    f,
+                    "the gap of an open contact is {gap:e} and was not seen to close; `attempt` gives the motion up to \
+                     here, and `changing_over` goes on in steps"
+                )
+            }
+            Self::Projection(error) => {
+                write!(f, "{error}; a gap with a kink where it closes (`abs`, `min`) has no rate there: smooth it")
+            }
+            Self::Strikes { rate } => {
+                write!(f, "the closed gap is closing at {rate:e}; start from the state after the impact")
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 impl fmt::Display for ContactErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NegativeGap { gap } => write!(f, "the gap starts at {gap:e}; it must not be negative"),
-            Self::Penetration { gap } => {
-                write!(f, "the gap has become {gap:e} unseen, within a step; bound the steps by `largest_step`")
+            Self::NegativeGap { .. } | Self::Penetration { .. } | Self::Projection(_) | Self::Strikes { .. } => {
+                self.of_gaps(f)
             }
             Self::InvalidRestitution { restitution } => {
                 write!(f, "the coefficient of restitution is {restitution}; it must be between 0 and 1")
             }
-            Self::InvalidFriction { friction } => {
-                write!(
-                    f,
-                    "the bound of friction is {friction}; it must be finite and not negative, and zero along all axes \
-                     or none"
-                )
-            }
+            Self::InvalidFriction { friction } => write!(
+                f,
+                "the bound of friction is {friction}; it must be finite and not negative, and zero along all axes or \
+                 none"
+            ),
             Self::InvalidInterval => f.write_str("the run must go forward in time, between finite ends"),
             Self::InvalidStep { .. }
             | Self::InvalidTolerance { .. }
@@ -220,6 +270,8 @@ impl fmt::Display for ContactErrorKind {
             | Self::Lanes { .. }
             | Self::LawWithoutSteps { .. }
             | Self::States { .. }
+            | Self::Displacement { .. }
+            | Self::Stiff { .. }
             | Self::TooManySteps { .. } => self.of_steps(f),
             Self::NonFinite => f.write_str("gaps, rates or coefficients are not finite"),
             Self::Inconsistent => f.write_str("no contact force agrees with rigid bodies and Coulomb's law (Painlevé)"),
@@ -241,7 +293,6 @@ impl fmt::Display for ContactErrorKind {
             Self::TooManyEvents { limit } => {
                 write!(f, "{limit} events do not reach the end; allow more by `max_events`")
             }
-            Self::Projection(error) => error.fmt(f),
             Self::Grazes { rate } => {
                 write!(f, "what ends the mode only touches zero (rate {rate:.1e}): its time has no derivative")
             }

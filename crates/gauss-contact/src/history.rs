@@ -1,7 +1,11 @@
 //! What happened at the contacts of a run.
 
-use gauss_runtime::contact::ContactSystem;
+use core::fmt;
 
+use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::integrate::Sample;
+
+use crate::mode::InMode;
 use crate::residual::Residual;
 
 /// A change of a contact.
@@ -64,6 +68,51 @@ pub struct ImpactRecord {
     pub impulse: [f64; 4],
     /// The kinetic energy that it takes away: −Λ·(u⁺ + u⁻)/2, of which the sum over simultaneous ones is the loss.
     pub energy_lost: f64,
+}
+
+/// A time in which an open gap was looked at by samples of each step alone, a 128th of it apart or less: it was so near
+/// to zero, or its rate so large, that no bound excludes that it closed and opened again between two of them, and it
+/// was not smooth there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SampledGap {
+    /// The contact, by its place in [`ContactSystem::CONTACTS`].
+    pub contact: usize,
+    /// From when on.
+    pub start: f64,
+    /// Until when.
+    pub end: f64,
+}
+
+/// A state in which a function that the run was given passed through zero: see
+/// [`ContactRun::event`](crate::ContactRun::event).
+#[non_exhaustive]
+pub struct Passage<K: ContactSystem> {
+    /// The number of the event, counted from 0 in the order in which events were added to the run.
+    pub number: usize,
+    /// The state; where an impact leads over zero, the one after it.
+    pub sample: Sample<K>,
+}
+
+impl<K: ContactSystem> Passage<K> {
+    pub(crate) fn of(number: usize, sample: &Sample<InMode<'_, K>>) -> Self {
+        let Sample { t, q, z, p } = *sample;
+        Self { number, sample: Sample { t, q, z, p } }
+    }
+}
+
+impl<K: ContactSystem> Clone for Passage<K> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<K: ContactSystem> Copy for Passage<K> {}
+
+impl<K: ContactSystem> fmt::Debug for Passage<K> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Passage").field("number", &self.number).field("sample", &self.sample).finish()
+    }
 }
 
 /// One solution of the laws: at an impact, or where modes are chosen.

@@ -54,6 +54,8 @@ pub(crate) struct Struck<'a, K: ContactSystem> {
     pub(crate) contacts: &'a [usize],
     pub(crate) response: &'a ContactResponse<K>,
     pub(crate) rates: &'a K::ContactRows,
+    /// What is rounding of them.
+    pub(crate) noise: &'a [f64],
     pub(crate) friction: &'a K::ContactRows,
     pub(crate) restitution: &'a K::Gaps,
 }
@@ -95,7 +97,7 @@ impl<K: ContactSystem> Struck<'_, K> {
         let laws = self.contacts.iter().map(|&i| self.law(&K::CONTACTS[i])).collect();
         let b = (0..rows.len()).map(before).collect();
         let contacts = Contacts::new(laws, Matrix::from_fn(rows.len(), entry), b);
-        let solution = contacts.solve()?;
+        let solution = contacts.known_to(rows.iter().map(|&row| 2.0 * self.noise[row])).solve()?;
         let mut impulses = vec![zero; K::ContactRows::DIM];
         rows.iter().zip(&solution.forces).for_each(|(&row, impulse)| impulses[row] = *impulse);
         let residuals = self.contacts.iter().copied().zip(solution.residuals).collect();

@@ -7,8 +7,10 @@
 //! laws of Signorini and Coulomb for accelerations.
 //!
 //! - What sticks has slip 0, and what rests has gap 0 to rounding: they are constraints.
-//! - Bounces that pile up end in rest ([`EventKind::Rests`]), with what was left out.
-//! - Contacts that depend on one another, as four legs of a table, have forces of least norm; the motion is unique.
+//! - Bounces that pile up end in rest ([`EventKind::Rests`]), with what was left out, and so do impacts that alternate
+//!   between contacts.
+//! - Contacts that depend on one another, as four legs of a table, hold as long as any of their forces keep all laws;
+//!   those of least norm are given if they do.
 //! - Each solution of the laws has its residuals in the history ([`SolveRecord`]).
 //! - Where rigid bodies and Coulomb's law have no motion or several (Painlevé), the run ends with an error; where they
 //!   have none it can go on by an impulse ([`ContactRun::impact_without_collision`]).
@@ -16,9 +18,10 @@
 //! For many contacts there are steps of one length in velocities and impulses ([`ContactSteps`], [`ContactStepper`]):
 //! any number of contacts, all impacts of a step at once, without events and without allocation.
 //!
-//! Limits: flights lower than some hundred roundings of the largest coordinate are rest, or an error where e = 1. A gap
-//! that opens and closes within a step is seen as far as [events](gauss_runtime::integrate::drive::event) are; one that
-//! is found closed too late ends the run with [`ContactErrorKind::Penetration`].
+//! Limits: flights lower than some hundred roundings of the largest coordinate are rest, or an error where e = 1. No
+//! first touch is missed, however long the steps: the rate of a gap is bounded by kinetic energy. Where that is not
+//! enough the run says so ([`ContactTrajectory::sampled_gaps`]). A gap that is found below zero all the same ends it
+//! with [`ContactErrorKind::Penetration`].
 //!
 //! Scalars are any of one lane. Values decide what happens; where numbers carry derivatives, so do times of events,
 //! impulses and forces, and the end of a run has those of the run through its events. Derivatives are those of the
@@ -37,11 +40,13 @@
 
 extern crate alloc;
 
+mod action;
 mod balance;
 mod ball;
 mod changeover;
 mod decide;
 mod dense;
+mod equations;
 mod error;
 mod frame;
 mod friction;
@@ -50,24 +55,30 @@ mod impact;
 mod law;
 mod lockstep;
 mod mode;
+mod moving;
 mod poisson;
+mod present;
 mod problem;
+mod reserve;
 mod residual;
+mod rest;
 mod rounding;
 mod run;
 mod sensors;
+mod shared;
 mod slots;
 mod solution;
 mod solver;
 mod start;
 mod steps;
+mod sticking;
 mod trajectory;
 mod witness;
 
 pub use balance::ContactBalance;
 pub use changeover::{ChangingRun, ChangingTrajectory, EventPart, RunPart, StepPart};
 pub use error::{ContactError, ContactErrorKind};
-pub use history::{ContactEvent, EventKind, ImpactRecord, SolveRecord};
+pub use history::{ContactEvent, EventKind, ImpactRecord, Passage, SampledGap, SolveRecord};
 pub use impact::Impact;
 pub use mode::{InMode, Mode};
 pub use residual::Residual;

@@ -250,7 +250,7 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
         !self.modes.iter().any(|mode| mode.is_closed())
     }
 
-    fn closed(&self) -> impl Iterator<Item = (usize, &'static Contact, Mode<K::Scalar>)> {
+    pub(crate) fn closed(&self) -> impl Iterator<Item = (usize, &'static Contact, Mode<K::Scalar>)> {
         let each = K::CONTACTS.iter().zip(self.modes.iter()).enumerate();
         // Where a contact is open, nothing resists rolling on it.
         let closed = |i: usize| self.modes.get(carrier(K::CONTACTS, i)).is_some_and(Mode::is_closed);
@@ -344,7 +344,11 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
     }
 
     /// Closed gaps brought to zero. ψ is affine in z: what an impulse adds to it is an increment of the configuration.
-    fn close_gaps(&self, t: K::Scalar, mut q: K::Configuration) -> Result<K::Configuration, ProjectionError> {
+    pub(crate) fn close_gaps(
+        &self,
+        t: K::Scalar,
+        mut q: K::Configuration,
+    ) -> Result<K::Configuration, ProjectionError> {
         let given = q;
         let contact = |row: usize| K::CONTACTS.iter().position(|contact| contact.normal == row && contact.has_gap());
         let rows = self.rows(false);

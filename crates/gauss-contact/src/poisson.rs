@@ -29,7 +29,8 @@ impl<K: ContactSystem> Struck<'_, K> {
         let laws = self.contacts.iter().map(|&i| self.law(&K::CONTACTS[i])).collect();
         let matrix = Matrix::from_fn(rows.len(), |a, b| self.response.delassus[(rows[a], rows[b])]);
         let before = rows.iter().map(|&row| self.rates.component(row)).collect();
-        let compression = Contacts::new(laws, matrix.clone(), before).solve()?;
+        let noise = rows.iter().map(|&row| self.noise[row]);
+        let compression = Contacts::new(laws, matrix.clone(), before).known_to(noise).solve()?;
         let place = |i: &usize| rows.iter().position(|row| *row == K::CONTACTS[*i].normal);
         let first: Vec<usize> = self.contacts.iter().filter_map(place).collect();
         let e = |n: usize| self.restitution.component(self.contacts[n]);
@@ -44,7 +45,7 @@ impl<K: ContactSystem> Struck<'_, K> {
                 let normal = first[n];
                 let terms = matrix.row(normal).iter().zip(&found.impulses).map(|(d, x)| value(*d * *x).abs());
                 let size = terms.fold(value(compression.rates[normal]).abs(), |sum, x| sum + x);
-                let rounding = 256.0 * epsilon::<K::Scalar>() * size;
+                let rounding = (256.0 * epsilon::<K::Scalar>() * size).max(compression.residuals[n].rounding);
                 let short = matrix.at(normal, normal) * (least[n] - found.impulses[normal]);
                 let wrong = value(if more[n] { short } else { -found.rates[normal] });
                 if wrong > rounding {
@@ -107,7 +108,9 @@ impl<K: ContactSystem> Struck<'_, K> {
         };
         let b = rows.iter().map(|&row| rate(&impulses, row)).collect();
         let part = Matrix::from_fn(rows.len(), |a, b| matrix.at(rows[a], rows[b]));
-        let found = Contacts::new(laws, part, b).solve()?;
+        let all: Vec<usize> = self.contacts.iter().flat_map(|&i| K::CONTACTS[i].rows()).collect();
+        let noise = rows.iter().map(|&row| 2.0 * self.noise[all[row]]);
+        let found = Contacts::new(laws, part, b).known_to(noise).solve()?;
         rows.iter().zip(&found.forces).for_each(|(&row, x)| impulses[row] = *x);
         let rates = (0..rates.len()).map(|row| rate(&impulses, row)).collect();
         Ok(Restitution { impulses, rates, residuals: owners.into_iter().zip(found.residuals).collect() })

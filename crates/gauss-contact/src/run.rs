@@ -3,39 +3,53 @@
 use alloc::rc::Rc;
 use alloc::vec;
 use alloc::vec::Vec;
+use core::cell::RefCell;
 use core::ops::Range;
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::integrate::drive::event::{Events, NoEvents, Watched as Watching};
 use gauss_runtime::integrate::drive::simulation::NoControl;
 use gauss_runtime::integrate::drive::tolerance::Tolerance;
 use gauss_runtime::integrate::{
-    Adaptive, Control, Crossing, Feedback, InputSource, IntegrationErrorKind, NoInput, Simulation,
+    Adaptive, Control, Crossing, Feedback, InputSource, IntegrationErrorKind, NoInput, Sample, Simulation,
 };
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
 
 use crate::decide::{Instant, Scales};
-use crate::dense::{epsilon, value};
+use crate::dense::value;
 use crate::error::{ContactError, ContactErrorKind};
+use crate::history::{Passage, SampledGap};
 use crate::impact::Impact;
 use crate::mode::{InMode, Mode, slip, tangents};
+use crate::moving::in_time;
 use crate::problem::InModeProblem;
 use crate::rounding::Rounding;
 use crate::trajectory::{ContactTrajectory, InputOf, Segment, integration};
-use crate::witness::{Watched, Witness};
+use crate::witness::{GapBound, Watched, Witness};
 
 /// A run with contacts in preparation.
 #[derive(Clone, Copy, Debug)]
 #[must_use = "a run does nothing before `run`"]
-pub struct ContactRun<'k, K, C = NoControl, I = NoInput> {
+pub struct ContactRun<'k, K, C = NoControl, I = NoInput, E = NoEvents> {
     pub(crate) kernel: &'k K,
     pub(crate) control: C,
     pub(crate) input: I,
+    pub(crate) settings: Settings,
+    events: E,
+}
+
+/// What a run is told but for its kernel, its method and its input.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Settings {
     pub(crate) law: Impact,
-    pub(crate) jams: bool,
+    jams: bool,
     pub(crate) tolerance: Tolerance,
-    pub(crate) limit: usize,
+    /// The most events.
+    limit: usize,
+    /// The most steps.
+    steps: Option<u64>,
 }
 
 /// Events of a run unless it sets another limit.
@@ -46,44 +60,71 @@ impl<'k, K: ContactSystem> ContactRun<'k, K> {
     pub fn new(kernel: &'k K) -> Self {
         const { assert!(K::Scalar::LANES == 1, "runs with contacts take one state at a time, no packs of numbers") }
         let tolerance = Tolerance { relative: 1e-9, absolute: 1e-9 };
-        let (law, limit) = (Impact::Newton, MOST_EVENTS);
-        Self { kernel, control: NoControl, input: NoInput, law, jams: false, tolerance, limit }
+        let settings = Settings { law: Impact::Newton, jams: false, tolerance, limit: MOST_EVENTS, steps: None };
+        Self { kernel, control: NoControl, input: NoInput, settings, events: NoEvents }
     }
 }
 
-impl<'k, K: ContactSystem, C, I> ContactRun<'k, K, C, I> {
+impl<'k, K: ContactSystem, C, I, E> ContactRun<'k, K, C, I, E> {
     /// Steps as long as the tolerances allow: see [`Adaptive::new`]. They are those of [`tolerance`](Self::tolerance)
     /// as well.
-    pub fn adaptive(self, relative: f64, absolute: f64) -> ContactRun<'k, K, Adaptive, I> {
+    pub fn adaptive(self, relative: f64, absolute: f64) -> ContactRun<'k, K, Adaptive, I, E> {
         self.control(Adaptive::new(relative, absolute)).tolerance(relative, absolute)
     }
 
     /// Any method with its choice of steps.
-    pub fn control<D>(self, control: D) -> ContactRun<'k, K, D, I> {
-        let Self { kernel, input, law, jams, tolerance, limit, .. } = self;
-        ContactRun { kernel, control, input, law, jams, tolerance, limit }
+    pub fn control<D>(self, control: D) -> ContactRun<'k, K, D, I, E> {
+        let Self { kernel, input, settings, events, .. } = self;
+        ContactRun { kernel, control, input, settings, events }
     }
 
     /// The speeds that count as rest where bounces pile up and where a slip of several rows of friction ends:
     /// `absolute`, plus `relative` times the largest speed at an event so far. Each such place adds an error of that
     /// size.
     pub fn tolerance(mut self, relative: f64, absolute: f64) -> Self {
-        self.tolerance = Tolerance { relative, absolute };
+        self.settings.tolerance = Tolerance { relative, absolute };
         self
     }
 
-    /// The input as a function of time and state, which should be smooth.
-    pub fn input<G>(self, input: G) -> ContactRun<'k, K, C, Feedback<G>>
+    /// The input as a function of time and state, which should be smooth. At rest, where steps grow long, what it does
+    /// is looked at every 256th of the time that is left: a push that is over sooner may fall between two looks, unless
+    /// [`input_changes_within`](ContactRun::input_changes_within) says how near they have to be.
+    pub fn input<G>(self, input: G) -> ContactRun<'k, K, C, Feedback<G>, E>
     where
         G: Fn(K::Scalar, &K::Configuration, &K::Speeds) -> K::Input,
     {
-        let Self { kernel, control, law, jams, tolerance, limit, .. } = self;
-        ContactRun { kernel, control, input: Feedback(input), law, jams, tolerance, limit }
+        let Self { kernel, control, settings, events, .. } = self;
+        ContactRun { kernel, control, input: Feedback(input), settings, events }
+    }
+
+    /// Finds the states in which a function of time and state passes through zero, between impacts or by one. They are
+    /// numbered in the order of these calls and of [`until`](Self::until), from 0, and are found in
+    /// [`ContactTrajectory::passages`]. How they are found between impacts, and which are missed, is told where those
+    /// of [`Simulation`] are: [`event`](gauss_runtime::integrate::drive::event).
+    pub fn event<G>(self, crossing: Crossing, function: G) -> ContactRun<'k, K, C, I, Watching<E, G>>
+    where
+        G: Fn(K::Scalar, &K::Configuration, &K::Speeds) -> K::Scalar,
+    {
+        self.watch(crossing, false, function)
+    }
+
+    /// Ends the run at the first such state, which is then its last sample; [`ContactTrajectory::stopped_by`] tells
+    /// whether it came to that.
+    pub fn until<G>(self, crossing: Crossing, function: G) -> ContactRun<'k, K, C, I, Watching<E, G>>
+    where
+        G: Fn(K::Scalar, &K::Configuration, &K::Speeds) -> K::Scalar,
+    {
+        self.watch(crossing, true, function)
+    }
+
+    fn watch<G>(self, crossing: Crossing, ends: bool, function: G) -> ContactRun<'k, K, C, I, Watching<E, G>> {
+        let Self { kernel, control, input, settings, events } = self;
+        ContactRun { kernel, control, input, settings, events: Watching::after(events, crossing, ends, function) }
     }
 
     /// The law of impacts.
     pub fn law(mut self, law: Impact) -> Self {
-        self.law = law;
+        self.settings.law = law;
         self
     }
 
@@ -91,14 +132,26 @@ impl<'k, K: ContactSystem, C, I> ContactRun<'k, K, C, I> {
     /// that is closed and does not close further: an impact without collision, the only solution of the laws for
     /// velocities but none at all (F. Génot & B. Brogliato 1999). Without this the run ends there.
     pub fn impact_without_collision(mut self) -> Self {
-        self.jams = true;
+        self.settings.jams = true;
         self
     }
 
     /// The most events before the run is given up, instead of a million.
     pub fn max_events(mut self, limit: usize) -> Self {
-        self.limit = limit;
+        self.settings.limit = limit;
         self
+    }
+
+    /// The most steps (rejected ones included) before the run is given up, in all of it.
+    pub fn max_steps(mut self, limit: u64) -> Self {
+        self.settings.steps = Some(limit);
+        self
+    }
+
+    /// The run without its input, and that.
+    pub(crate) fn parted(self) -> (ContactRun<'k, K, C, NoInput, E>, I) {
+        let Self { kernel, control, input, settings, events } = self;
+        (ContactRun { kernel, control, input: NoInput, settings, events }, input)
     }
 
     /// Runs from (q₀, z₀) over the interval, forward in time.
@@ -114,6 +167,7 @@ impl<'k, K: ContactSystem, C, I> ContactRun<'k, K, C, I> {
     where
         C: Control<InMode<'k, K>> + Clone + 'k,
         I: InputSource<K> + 'k,
+        E: Events<InMode<'k, K>>,
     {
         match self.attempt(q0, z0, interval) {
             (trajectory, None) => Ok(trajectory),
@@ -131,15 +185,30 @@ impl<'k, K: ContactSystem, C, I> ContactRun<'k, K, C, I> {
     where
         C: Control<InMode<'k, K>> + Clone + 'k,
         I: InputSource<K> + 'k,
+        E: Events<InMode<'k, K>>,
     {
-        let Self { kernel, control, input, law, jams, tolerance, limit } = self;
-        let input: InputOf<'k, K> = Rc::new(move |t, q, z| input.input(t, q, z));
-        let run = ContactRun { kernel, control, input: NoInput, law, jams, tolerance, limit };
-        run.attempt_with(input, None, (q0, z0), interval)
+        let (run, input) = self.parted();
+        run.attempt_with(Rc::new(move |t, q, z| input.input(t, q, z)), None, (q0, z0), interval)
     }
 }
 
-impl<'k, K: ContactSystem, C> ContactRun<'k, K, C> {
+impl<'k, K: ContactSystem, M, I, E> ContactRun<'k, K, Adaptive<M>, I, E> {
+    /// How fast the input may change: see [`Adaptive::input_changes_within`].
+    pub fn input_changes_within(mut self, time: f64) -> Self {
+        self.control = self.control.input_changes_within(time);
+        self
+    }
+}
+
+impl<K: ContactSystem, C: Clone> ContactRun<'_, K, C> {
+    /// The same once more.
+    pub(crate) fn again(&self) -> Self {
+        let Self { kernel, settings, .. } = *self;
+        Self { kernel, control: self.control.clone(), input: NoInput, settings, events: NoEvents }
+    }
+}
+
+impl<'k, K: ContactSystem, C, E> ContactRun<'k, K, C, NoInput, E> {
     /// The same with a shared input; a run in which events pile up ends, if they are given, where there are more than
     /// so many within so long a time.
     pub(crate) fn attempt_with(
@@ -151,22 +220,22 @@ impl<'k, K: ContactSystem, C> ContactRun<'k, K, C> {
     ) -> (ContactTrajectory<'k, K>, Option<ContactError>)
     where
         C: Control<InMode<'k, K>> + Clone + 'k,
+        E: Events<InMode<'k, K>>,
     {
-        let Self { kernel, control, law, jams, tolerance, limit, .. } = self;
-        let (segments, events, solves) = (Vec::new(), Vec::new(), Vec::new());
-        let made = ContactTrajectory { segments, events, solves, input };
-        let scales =
-            Scales { tolerance, largest: 0.0, law, start: value(interval.start), epsilon: epsilon::<K::Scalar>() };
-        let end = interval.end;
+        let Self { kernel, control, settings, events, .. } = self;
+        let Settings { law, tolerance, .. } = settings;
+        let scales = Scales::new(tolerance, law, interval.start);
         let mut driver = Driver {
             kernel,
             control,
-            made,
+            made: ContactTrajectory::begun(input),
             scales,
-            jams,
-            end,
-            limit,
+            settings,
+            events,
+            end: interval.end,
             piles,
+            used: 0,
+            moving: in_time(kernel, &q0, &interval),
             recent: Vec::new(),
             last: f64::NEG_INFINITY,
             at_once: 0,
@@ -177,16 +246,21 @@ impl<'k, K: ContactSystem, C> ContactRun<'k, K, C> {
 }
 
 /// A run on its way.
-struct Driver<'k, K: ContactSystem, C> {
+struct Driver<'k, K: ContactSystem, C, E> {
     kernel: &'k K,
     control: C,
     made: ContactTrajectory<'k, K>,
     scales: Scales,
+    settings: Settings,
+    /// Those of the user.
+    events: E,
     end: K::Scalar,
-    jams: bool,
-    limit: usize,
     /// More than so many events within so long a time pile up.
     piles: Option<(usize, f64)>,
+    /// Steps so far, rejected ones included.
+    used: u64,
+    /// How fast gaps change with the time alone.
+    moving: Rc<[f64]>,
     /// The contacts of the events, where that is asked.
     recent: Vec<usize>,
     /// The time of the last event, and how many there were at it.
@@ -194,26 +268,72 @@ struct Driver<'k, K: ContactSystem, C> {
     at_once: u32,
 }
 
+/// What sinks below zero by so many times what counts as closed is a landing.
+const DEEP: f64 = 8.0;
+/// The part of forces to which the most of their bounds is known.
+const LEAST_RESERVE: f64 = 1e-9;
 /// Events at one time before they count as endless: all contacts may have several of their own.
 const AT_ONCE: u32 = 200;
 
-impl<'k, K, C> Driver<'k, K, C>
+/// Adds a witness, whose function is shifted by a function of its value at the start.
+type AddWitness<'w> = dyn FnMut(Watched, &dyn Fn(f64) -> f64) + 'w;
+
+/// What ended a segment.
+enum Stop {
+    /// The end of the run, or an event of the user.
+    End,
+    Contact(Watched),
+}
+
+impl<'k, K, C, E> Driver<'k, K, C, E>
 where
     K: ContactSystem,
     C: Control<InMode<'k, K>> + Clone + 'k,
+    E: Events<InMode<'k, K>>,
 {
     fn go(&mut self, (t, q, z): (K::Scalar, K::Configuration, K::Speeds)) -> Result<(), ContactError> {
         self.check_start(t, &q, &z)?;
-        let modes = vec![Mode::Open; K::CONTACTS.len()];
-        let mut instant = Instant { kernel: self.kernel, t, q, z, modes, fired: None, first: true, jams: self.jams };
+        let (modes, jams) = (vec![Mode::Open; K::CONTACTS.len()], self.settings.jams);
+        let mut instant = Instant { kernel: self.kernel, t, q, z, modes, fired: None, first: true, jams };
         loop {
+            let before = instant.z;
             instant.decide(&mut self.scales, &mut self.made)?;
-            let fired = self.segment(&instant)?;
+            if !instant.first {
+                self.led_over(&before, &instant);
+            }
+            let fired = match self.segment(&instant)? {
+                Stop::Contact(fired) => Some(fired),
+                Stop::End => None,
+            };
             let Some(last) = self.made.last() else { return Ok(()) };
             instant = Instant { t: last.t, q: last.q, z: last.z, fired, first: false, ..instant };
+            if self.made.stopped_by.is_some() {
+                return Ok(());
+            }
             instant.fired = fired.or_else(|| self.touches(&instant));
             let Some(fired) = instant.fired else { return Ok(()) };
             self.count(value(last.t), fired)?;
+        }
+    }
+
+    /// Events of the user over whose zeros an impact has led.
+    fn led_over(&mut self, before: &K::Speeds, Instant { t, q, z, .. }: &Instant<'k, K>) {
+        let (mut passed, mut ends, mut number) = (Vec::new(), None, 0);
+        self.events.each(&mut |function, mark| {
+            if mark.passes(value(function(*t, q, before)), value(function(*t, q, z))) {
+                passed.push(number);
+                ends = ends.or(mark.ends_the_run().then_some(number));
+            }
+            number += 1;
+        });
+        if passed.is_empty() {
+            return;
+        }
+        let sample = Sample { t: *t, q: *q, z: *z, p: self.kernel.momentum(*t, q, z) };
+        self.made.passages.extend(passed.into_iter().map(|number| Passage { number, sample }));
+        if ends.is_some() {
+            // What follows is the state after the impact alone.
+            (self.made.stopped_by, self.end) = (ends, *t);
         }
     }
 
@@ -242,8 +362,9 @@ where
                 return stop(ContactErrorKind::EventsPile { events, span });
             }
         }
-        if self.made.segments.len() >= self.limit {
-            return stop(ContactErrorKind::TooManyEvents { limit: self.limit });
+        let limit = self.settings.limit;
+        if self.made.segments.len() >= limit {
+            return stop(ContactErrorKind::TooManyEvents { limit });
         }
         Ok(())
     }
@@ -258,21 +379,32 @@ where
         t - value(segments[first].trajectory.first().t) < span && last.iter().any(|contact| *contact != last[0])
     }
 
-    /// One segment; what ended it, unless it reached the end of the run.
-    fn segment(&mut self, from: &Instant<'k, K>) -> Result<Option<Watched>, ContactError> {
+    /// One segment, with what ended it.
+    fn segment(&mut self, from: &Instant<'k, K>) -> Result<Stop, ContactError> {
         let rounding = from.sizes(&self.scales).of_rate;
         let system = InMode::with(self.kernel, &from.modes, (self.scales.rest(), &rounding));
-        let problem = InModeProblem::new(system.clone(), Rc::clone(&self.made.input));
+        let problem = InModeProblem::new(system.clone(), Rc::clone(&self.made.input), Rc::clone(&self.moving));
         let witnesses = self.witnesses(from, &problem);
         let watched: Vec<Watched> = witnesses.iter().map(|witness| witness.watched).collect();
-        let functions = witnesses
-            .into_iter()
-            .map(|witness| move |t: K::Scalar, q: &K::Configuration, z: &K::Speeds| witness.value(t, q, z));
-        let simulation = Simulation::of(problem).control(self.control.clone());
-        let simulation = simulation.until_each(Crossing::Falling, functions.collect());
+        let sampled = Rc::new(RefCell::new(Vec::new()));
+        let functions = witnesses.into_iter().map(|witness| {
+            let bound = GapBound::of(&witness, &sampled);
+            (move |t: K::Scalar, q: &K::Configuration, z: &K::Speeds| witness.value(t, q, z), bound)
+        });
+        let users = Events::<InMode<'k, K>>::count(&self.events);
+        let simulation = Simulation::of(problem).control(self.control.clone()).events_by(&mut self.events);
+        let mut simulation = simulation.until_each_bounded(Crossing::Falling, functions.collect());
+        if let Some(limit) = self.settings.steps {
+            simulation = simulation.max_steps(limit.saturating_sub(self.used));
+        }
         let (trajectory, error) = simulation.attempt(from.q, from.z, from.t..self.end);
-        let stopped = trajectory.stopped_by().map(|n| watched[n]);
         let (last, end) = (*trajectory.last(), trajectory.last().t);
+        self.used += trajectory.summary().steps + trajectory.summary().rejected;
+        let passed = trajectory.events().iter().filter(|event| event.number < users);
+        self.made.passages.extend(passed.map(|event| Passage::of(event.number, &event.sample)));
+        self.keep_sampled(&sampled.borrow(), value(end));
+        let stopped = trajectory.stopped_by();
+        self.made.stopped_by = self.made.stopped_by.or(stopped.filter(|n| *n < users));
         self.made.segments.push(Segment { system, trajectory });
         if let Some(error) = error {
             let grazes = |event: usize, rate| ContactError {
@@ -280,13 +412,32 @@ where
                 time: value(end),
                 kind: ContactErrorKind::Grazes { rate },
             };
-            return Err(match error.kind {
-                IntegrationErrorKind::NoDerivative { event, rate } => grazes(event, rate),
+            let too_many = |limit| ContactError {
+                contact: None,
+                time: value(end),
+                kind: ContactErrorKind::TooManySteps { limit },
+            };
+            return Err(match (error.kind, self.settings.steps) {
+                (IntegrationErrorKind::NoDerivative { event, rate }, _) if event >= users => {
+                    grazes(event - users, rate)
+                }
+                (IntegrationErrorKind::TooManySteps { .. }, Some(limit)) => too_many(limit),
                 _ => integration(value(end), error),
             });
         }
         self.check_end(&from.modes, (end, &last.q, &last.z))?;
-        Ok(stopped)
+        Ok(stopped.and_then(|n| n.checked_sub(users)).map_or(Stop::End, |n| Stop::Contact(watched[n])))
+    }
+
+    /// Keeps the times in which gaps were sampled alone, up to the end of a segment.
+    fn keep_sampled(&mut self, sampled: &[SampledGap], end: f64) {
+        for &gap in sampled.iter().filter(|gap| gap.start < end) {
+            let gap = SampledGap { end: gap.end.min(end), ..gap };
+            match self.made.sampled.iter_mut().rev().find(|last| last.contact == gap.contact) {
+                Some(last) if last.end == gap.start => last.end = gap.end,
+                _ => self.made.sampled.push(gap),
+            }
+        }
     }
 
     /// What the end of a run falls on to the resolution of its time: a gap that closes, a slip that ends.
@@ -342,9 +493,24 @@ where
         Ok(())
     }
 
+    /// How a slip ends.
+    fn watch_slip(&self, i: usize, of_rate: &[f64], watch: &mut AddWitness<'_>) {
+        let rows = tangents(&K::CONTACTS[i]);
+        let (several, rest) = (rows.len() > 1, self.scales.rest());
+        let rounding = rows.map(|row| of_rate[row]).fold(0.0, f64::max);
+        watch(Watched::Slip(i), &|slip| if slip.abs() <= rounding { -slip } else { 0.0 });
+        // One that begins against its direction would be driven by its friction.
+        let least = rounding.max(0.5 * rest);
+        watch(Watched::Slip(i), &|slip| if slip <= least { least - slip.min(0.0) } else { 0.0 });
+        if several {
+            watch(Watched::Speed(i, rest), &|_| 0.0);
+        }
+    }
+
     /// What ends the segment from here.
     fn witnesses(&self, from: &Instant<'k, K>, problem: &InModeProblem<'k, K>) -> Vec<Witness<'k, K>> {
         let mut found = Vec::new();
+        let gaps = self.kernel.gaps(from.t, &from.q);
         // The run starts there: what brings closed gaps to zero moves others by rounding, and below zero none closes.
         let start = problem.system.project(from.t, &from.q, &from.z);
         let (q, z) = start.unwrap_or((from.q, from.z));
@@ -355,11 +521,16 @@ where
         };
         let sizes = from.sizes(&self.scales);
         let loads = (!problem.system.is_open()).then(|| problem.loads(from.t, &from.q, &from.z));
+        // Contacts that depend on one another hold as long as any of their forces do.
+        let input = (self.made.input)(from.t, &from.q, &from.z);
+        let shared = problem.system.reserve((from.t, &q, &z), &input).is_some();
+        if let Some(first) = from.modes.iter().position(Mode::is_closed).filter(|_| shared) {
+            watch(Watched::Reserve(first), &|part| (LEAST_RESERVE - part).max(0.0));
+        }
         for (i, contact) in K::CONTACTS.iter().enumerate() {
             // Forces that are no more than rounding start above zero by as much.
             let least = loads.as_ref().map_or(0.0, |loads| loads.rounding(contact).max(f64::MIN_POSITIVE));
             let above = move |value: f64| if value > least { 0.0 } else { least - value };
-            let from_zero = |bound: f64| move |value: f64| if value.abs() <= bound { -value } else { 0.0 };
             match from.modes[i] {
                 Mode::Open if !contact.has_gap() => {}
                 Mode::Open => {
@@ -368,7 +539,13 @@ where
                     let opens = value(sizes.rates.component(contact.normal)) > sizes.of_rate[contact.normal];
                     let start = if opens { 0.0 } else { sizes.rounding[i] };
                     watch(Watched::Gap(i), &|gap| if gap <= sizes.of_gap[i] { start - gap } else { 0.0 });
+                    // A flight that is lower than rounding is not seen to end: what sinks by more is.
+                    if value(gaps.component(i)) <= sizes.of_gap[i] {
+                        let deep = (DEEP * sizes.of_gap[i]).max(f64::MIN_POSITIVE);
+                        watch(Watched::Gap(i), &|gap| deep - gap.min(0.0));
+                    }
                 }
+                Mode::Closed | Mode::Sticks if shared => {}
                 Mode::Closed => watch(Watched::Force(i), &above),
                 Mode::Sticks => {
                     if contact.has_gap() {
@@ -380,11 +557,7 @@ where
                     if contact.has_gap() {
                         watch(Watched::Force(i), &above);
                     }
-                    let rounding = tangents(contact).map(|row| sizes.of_rate[row]).fold(0.0, f64::max);
-                    watch(Watched::Slip(i), &from_zero(rounding));
-                    if tangents(contact).len() > 1 {
-                        watch(Watched::Speed(i, self.scales.rest()), &|_| 0.0);
-                    }
+                    self.watch_slip(i, &sizes.of_rate, &mut watch);
                     if contact.has_gap() {
                         watch(Watched::Pushes(i), &|_| 0.0);
                     }

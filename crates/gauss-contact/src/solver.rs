@@ -17,6 +17,7 @@
 //! not change (a semismooth Newton method: P. Alart & A. Curnier 1991). Where that finds nothing, or where friction is
 //! so large that solutions need not be unique, all combinations are tried, if they are few.
 
+use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -32,11 +33,13 @@ use crate::solution::{Failure, Solution, State};
 /// The laws of some contacts at an instant.
 #[derive(Debug)]
 pub(crate) struct Contacts<T = f64> {
-    laws: Vec<Law<T>>,
+    pub(crate) laws: Vec<Law<T>>,
     /// The first row of each.
     first: Vec<usize>,
-    matrix: Matrix<T>,
-    b: Vec<T>,
+    pub(crate) matrix: Matrix<T>,
+    pub(crate) b: Vec<T>,
+    /// To what b is known.
+    noise: Vec<f64>,
 }
 
 /// Combinations that are tried at most.
@@ -54,13 +57,23 @@ impl<T: Real> Contacts<T> {
         let matrix = Matrix::from_fn(size, |i, j| matrix.at(i, j) * (scales[i] * scales[j]));
         let rows_before = |i: usize| laws[..i].iter().map(Law::rows).sum();
         let first = (0..laws.len()).map(rows_before).collect();
-        Self { laws, first, matrix, b }
+        Self { laws, first, matrix, b, noise: Vec::new() }
+    }
+
+    /// With what rounding has made of b, row by row: laws hold no better than that.
+    pub(crate) fn known_to(self, noise: impl Iterator<Item = f64>) -> Self {
+        let noise = noise.zip(self.scales()).map(|(noise, scale)| noise * value(scale)).collect();
+        Self { noise, ..self }
+    }
+
+    /// By what forces of rows are those on circles.
+    pub(crate) fn scales(&self) -> impl Iterator<Item = T> {
+        self.laws.iter().flat_map(scales)
     }
 
     /// The solution in forces and rates as they are.
     fn unscaled(&self, mut found: Solution<T>) -> Solution<T> {
-        let scales = self.laws.iter().flat_map(scales);
-        for ((force, rate), scale) in found.forces.iter_mut().zip(&mut found.rates).zip(scales) {
+        for ((force, rate), scale) in found.forces.iter_mut().zip(&mut found.rates).zip(self.scales()) {
             (*force, *rate) = (*force * scale, *rate / scale);
         }
         for (state, law) in found.states.iter_mut().zip(&self.laws) {
@@ -71,12 +84,12 @@ impl<T: Real> Contacts<T> {
         found
     }
 
-    fn normal(&self, i: usize) -> Option<usize> {
+    pub(crate) fn normal(&self, i: usize) -> Option<usize> {
         self.laws[i].has_normal.then(|| self.first[i])
     }
 
     /// The row of the normal force that bounds friction; none of dry friction.
-    fn presses(&self, i: usize) -> Option<usize> {
+    pub(crate) fn presses(&self, i: usize) -> Option<usize> {
         self.normal(self.laws[i].on.unwrap_or(i))
     }
 
@@ -86,13 +99,14 @@ impl<T: Real> Contacts<T> {
     }
 
     /// What is known in values.
-    fn values(&self) -> Contacts {
+    pub(crate) fn values(&self) -> Contacts {
         let laws = self.laws.iter().map(Law::values).collect();
         Contacts {
             laws,
             first: self.first.clone(),
             matrix: self.matrix.values(),
             b: self.b.iter().copied().map(value).collect(),
+            noise: self.noise.clone(),
         }
     }
 
@@ -127,7 +141,7 @@ impl<T: Real> Contacts<T> {
         self.unscaled(Solution { rates: self.rates(&forces), forces, states, residuals: found.residuals })
     }
 
-    fn tangents(&self, i: usize) -> core::ops::Range<usize> {
+    pub(crate) fn tangents(&self, i: usize) -> core::ops::Range<usize> {
         let end = self.first[i] + self.laws[i].rows();
         end - self.laws[i].tangents..end
     }
@@ -136,7 +150,7 @@ impl<T: Real> Contacts<T> {
         (0..self.b.len()).map(|row| self.rate(row, forces)).collect()
     }
 
-    fn rate(&self, row: usize, forces: &[T]) -> T {
+    pub(crate) fn rate(&self, row: usize, forces: &[T]) -> T {
         self.matrix.row(row).iter().zip(forces).fold(self.b[row], |sum, (d, force)| d.fma(*force, sum))
     }
 
@@ -195,62 +209,11 @@ impl<T: Real> Contacts<T> {
         };
         turning.iter().map(miss).collect()
     }
-
-    /// Forces such that closed contacts keep their normal rates at zero, and those that stick all of them.
-    fn forces_in(&self, states: &[State<T>]) -> Vec<T> {
-        let mut rows = Vec::new();
-        let mut forces = vec![T::zero(); self.b.len()];
-        // What a unit of the unknown of a row adds to forces, in this row and in those of friction.
-        let mut with: Vec<Vec<(usize, T)>> = Vec::new();
-        for (i, state) in states.iter().enumerate() {
-            let direction = match state {
-                State::Leaves => continue,
-                State::Slides(direction) => Some(*direction),
-                State::Closed => self.laws[i].slip,
-                State::Sticks => None,
-            };
-            let friction = self.laws[i].friction;
-            let along =
-                direction.into_iter().flat_map(|d| self.tangents(i).zip(d)).map(|(row, d)| (row, -friction * d));
-            match self.normal(i) {
-                Some(normal) => {
-                    rows.push(normal);
-                    with.push(core::iter::once((normal, T::one())).chain(along).collect());
-                }
-                None => match self.presses(i) {
-                    // Where that contact leaves there is no unknown, and no friction.
-                    Some(normal) => {
-                        if let Some(pressing) = rows.iter().position(|row| *row == normal) {
-                            with[pressing].extend(along);
-                        }
-                    }
-                    None => along.for_each(|(row, force)| forces[row] = force),
-                },
-            }
-            if matches!(state, State::Sticks) {
-                self.tangents(i).for_each(|row| {
-                    rows.push(row);
-                    with.push(vec![(row, T::one())]);
-                });
-            }
-        }
-        let entry = |i: usize, j: usize| sum(with[j].iter().map(|(row, part)| *part * self.matrix.at(rows[i], *row)));
-        let matrix = Matrix::from_fn(rows.len(), entry);
-        let factors = Decomposition::new(&matrix, |i| self.matrix.at(rows[i], rows[i]));
-        // Once more for what the first solution leaves.
-        for _ in 0..2 {
-            let left: Vec<T> = rows.iter().map(|&row| -self.rate(row, &forces)).collect();
-            for (unknown, with) in factors.solve(&left).into_iter().zip(&with) {
-                with.iter().for_each(|(row, part)| forces[*row] += *part * unknown);
-            }
-        }
-        forces
-    }
 }
 
 impl Contacts {
     /// The largest friction of a contact under forces.
-    fn largest(&self, i: usize, forces: &[f64]) -> f64 {
+    pub(crate) fn largest(&self, i: usize, forces: &[f64]) -> f64 {
         self.laws[i].friction * self.presses(i).map_or(1.0, |normal| Real::max(forces[normal], 0.0))
     }
 
@@ -260,7 +223,6 @@ impl Contacts {
     }
 
     fn on_circles(&self) -> Result<Solution, Failure> {
-        let mut forces = vec![0.0; self.b.len()];
         let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
         if !(finite(&self.b) && (0..self.b.len()).all(|row| finite(self.matrix.row(row)))) {
             return Err(Failure::NonFinite);
@@ -271,33 +233,65 @@ impl Contacts {
                 return self.only(contact);
             }
         }
-        let mut best = Residual { signorini: f64::INFINITY, ..Residual::default() };
+        // From no forces first: what is squeezed between its contacts could hold itself against any load.
+        let mut best = match self.search(vec![0.0; self.b.len()]) {
+            Ok(found) => return Ok(found),
+            Err(best) => *best,
+        };
+        let near = match self.all_hold() {
+            Ok(found) => return Ok(found),
+            Err(near) => near,
+        };
+        match near.map(|forces| self.search(forces)) {
+            Some(Ok(found)) => return Ok(found),
+            Some(Err(found)) if found.0.worst() < best.0.worst() => best = *found,
+            _ => {}
+        }
+        match self.choices(None).map(|choices| self.all(&choices)) {
+            Some(mut found) if !found.is_empty() => Ok(found.swap_remove(0)),
+            _ => self.to_noise(best.1).ok_or(Failure::NotFound(best.0)),
+        }
+    }
+
+    /// Sweeps from forces and corrections of states; else the best that there was, with its worst residual.
+    fn search(&self, mut forces: Vec<f64>) -> Result<Solution, Box<(Residual, Option<Solution>)>> {
+        let mut best = (Residual { signorini: f64::INFINITY, ..Residual::default() }, None);
         let rows = self.laws.iter().map(|law| law.tangents).max().unwrap_or(0);
         // Spins and tangents are in units of their own: one step for all rows would be small for some.
         let steps = (0..ROUNDS).map(|round| (round, rows > 2)).chain((0..ROUNDS).map(|round| (round, true)));
         for (round, exactly) in steps.take(if rows == 2 { 2 } else { 1 } * ROUNDS as usize) {
             (0..8 << round).for_each(|_| self.sweep(&mut forces, exactly));
             let mut states = self.states(&forces, &self.rates(&forces));
-            for _ in 0..20 {
+            for correction in 0..20 {
                 let found = self.in_states(states.clone());
                 let worst = found.residuals.iter().max_by(|a, b| a.worst().total_cmp(&b.worst()));
                 let worst = worst.copied().unwrap_or_default();
                 if found.residuals.iter().all(Residual::holds) {
                     return Ok(self.shared(found));
                 }
-                if worst.worst() < best.worst() {
-                    best = worst;
+                if let Some(found) = (correction == 0).then(|| self.swept(&states, &forces)).flatten() {
+                    return Ok(self.shared(found));
                 }
                 let next = self.states(&found.forces, &found.rates);
+                if worst.worst() < best.0.worst() {
+                    best = (worst, Some(found));
+                }
                 if core::mem::replace(&mut states, next) == states {
                     break;
                 }
             }
         }
-        match self.choices(None).map(|choices| self.all(&choices)) {
-            Some(mut found) if !found.is_empty() => Ok(found.swap_remove(0)),
-            _ => Err(Failure::NotFound(best)),
+        Err(Box::new(best))
+    }
+
+    /// A solution that is right to what b is known to.
+    fn to_noise(&self, found: Option<Solution>) -> Option<Solution> {
+        let mut found = found?;
+        for (i, residual) in found.residuals.iter_mut().enumerate() {
+            let rows = self.tangents(i).chain(self.normal(i));
+            residual.rounding = rows.filter_map(|row| self.noise.get(row)).fold(residual.rounding, |a, b| a.max(*b));
         }
+        found.residuals.iter().all(Residual::holds).then_some(found)
     }
 
     /// The same motion with all contacts that can carry it: where contacts depend on one another, one may leave at
@@ -328,7 +322,7 @@ impl Contacts {
         if states == found.states {
             return found;
         }
-        let shared = self.in_states(states);
+        let shared = self.in_states(states.clone());
         let carries = |i: usize| {
             let normal = self.first[i];
             let pressed = self.matrix.at(normal, normal) * shared.forces[normal];
@@ -338,7 +332,7 @@ impl Contacts {
                 || shared.states[i] == State::Leaves
         };
         let all = shared.residuals.iter().all(Residual::holds) && (0..self.laws.len()).all(carries);
-        if all { shared } else { found }
+        if all { shared } else { self.inside(&states).unwrap_or(found) }
     }
 
     /// Whether friction of a contact cannot turn the sign of what its normal force does: `D_NN > μ |D_NT|`, or along
@@ -501,8 +495,12 @@ impl Contacts {
     }
 
     /// The solution in given states, with its residuals.
-    fn in_states(&self, states: Vec<State>) -> Solution {
+    pub(crate) fn in_states(&self, states: Vec<State>) -> Solution {
         let (states, forces) = self.settled(states);
+        self.with_residuals(states, forces)
+    }
+
+    pub(crate) fn with_residuals(&self, states: Vec<State>, forces: Vec<f64>) -> Solution {
         let rates = self.rates(&forces);
         let shared = self.shared_rounding(&forces);
         let residuals = (0..self.laws.len()).map(|i| self.residual(i, &forces, &rates, shared)).collect();

@@ -6,10 +6,11 @@ use alloc::vec::Vec;
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::integrate::{IntegrationErrorKind, Sample, Trajectory};
+use gauss_runtime::real::Real;
 
 use crate::dense::value;
 use crate::error::{ContactError, ContactErrorKind};
-use crate::history::{ContactEvent, SolveRecord};
+use crate::history::{ContactEvent, Passage, SampledGap, SolveRecord};
 use crate::mode::{InMode, Mode};
 use crate::sensors::{ContactForce, ContactForces};
 
@@ -51,6 +52,9 @@ pub struct ContactTrajectory<'k, K: ContactSystem> {
     pub(crate) segments: Vec<Segment<'k, K>>,
     pub(crate) events: Vec<ContactEvent>,
     pub(crate) solves: Vec<SolveRecord>,
+    pub(crate) sampled: Vec<SampledGap>,
+    pub(crate) passages: Vec<Passage<K>>,
+    pub(crate) stopped_by: Option<usize>,
     pub(crate) input: InputOf<'k, K>,
 }
 
@@ -60,6 +64,12 @@ fn sample<K: ContactSystem>(sample: &Sample<InMode<'_, K>>) -> Sample<K> {
 }
 
 impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
+    /// Before the first segment.
+    pub(crate) fn begun(input: InputOf<'k, K>) -> Self {
+        let (segments, events, solves) = (Vec::new(), Vec::new(), Vec::new());
+        Self { segments, events, solves, sampled: Vec::new(), passages: Vec::new(), stopped_by: None, input }
+    }
+
     /// The segments in order; none where the run ended before its first step.
     #[must_use]
     pub fn segments(&self) -> &[Segment<'k, K>] {
@@ -70,6 +80,36 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
     #[must_use]
     pub fn events(&self) -> &[ContactEvent] {
         &self.events
+    }
+
+    /// The time of an event with its derivatives, where numbers carry any: [`ContactEvent::time`] is its value.
+    #[must_use]
+    pub fn time_of(&self, event: &ContactEvent) -> K::Scalar {
+        let ends = |segment: &Segment<'k, K>| [segment.trajectory.first().t, segment.trajectory.last().t];
+        let times = self.segments.iter().flat_map(ends);
+        let found = times.into_iter().find(|t| value(*t) == event.time);
+        found.unwrap_or_else(|| K::Scalar::from_f64(event.time))
+    }
+
+    /// The states in which functions that the run was given ([`ContactRun::event`](crate::ContactRun::event)) passed
+    /// through zero, in order of time.
+    #[must_use]
+    pub fn passages(&self) -> &[Passage<K>] {
+        &self.passages
+    }
+
+    /// The function that ended the run ([`ContactRun::until`](crate::ContactRun::until)), by its number; `None` where
+    /// it went on to the end of the interval.
+    #[must_use]
+    pub fn stopped_by(&self) -> Option<usize> {
+        self.stopped_by
+    }
+
+    /// The times in which an open gap was looked at by samples alone. In all others no first touch is missed, whatever
+    /// steps there were: the gap was larger than what bounds of its rate allow it to fall by, or smooth.
+    #[must_use]
+    pub fn sampled_gaps(&self) -> &[SampledGap] {
+        &self.sampled
     }
 
     /// The residuals of every solution of the laws, in order of time.
@@ -107,7 +147,8 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
 
     /// The contact forces at a time, all rows: normal, then tangents, then the spin, contact by contact; of dry
     /// friction and rolling resistance tangents alone. Where contacts depend on one another they are those of least
-    /// `Σ D_ii λ_i²`; the motion is the same for all others.
+    /// `Σ D_ii λ_i²`, or, where these break a law that others keep, those that keep the laws with the most to spare;
+    /// the motion is the same for all.
     ///
     /// # Errors
     /// Where the run does not cover the time.
@@ -115,9 +156,16 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
         let segment = self.segment_at(t)?;
         let state = segment.trajectory.at(t).map_err(|error| integration(value(t), error))?;
         let input = (self.input)(t, &state.q, &state.z);
-        let loads = segment.system.loads(t, &state.q, &state.z, &input);
+        let system = &segment.system;
+        let least = system.loads(t, &state.q, &state.z, &input);
+        let keeps = system.keeps_laws(&least, &system.kernel.friction(t, &state.q, &state.z, &input));
+        let shared = if keeps { None } else { system.reserve((t, &state.q, &state.z), &input) };
         let mut forces = K::ContactRows::zero();
-        loads.forces.iter().enumerate().for_each(|(row, force)| forces.set_component(row, *force));
+        shared
+            .map_or(least.forces, |shared| shared.forces)
+            .iter()
+            .enumerate()
+            .for_each(|(row, force)| forces.set_component(row, *force));
         Ok(forces)
     }
 

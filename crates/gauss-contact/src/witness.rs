@@ -1,13 +1,20 @@
 //! Functions that pass through zero where the modes of a segment end.
 
+use alloc::rc::Rc;
+use alloc::vec::Vec;
+use core::cell::RefCell;
+
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::integrate::drive::bounded::RateBound;
+use gauss_runtime::integrate::problem::state::{Rates, State};
 use gauss_runtime::real::Real;
 
 use crate::dense::{dot, norm, value};
 use crate::friction::Bounds;
+use crate::history::SampledGap;
 use crate::law::carrier;
-use crate::mode::{Mode, slip, tangents};
+use crate::mode::{InMode, Mode, slip, tangents};
 use crate::problem::InModeProblem;
 
 /// What is watched, by the number of the contact. All of them fall to zero.
@@ -23,6 +30,8 @@ pub(crate) enum Watched {
     Speed(usize, f64),
     /// μ λ_N − |λ_T| of a contact that sticks, f − |λ| of dry friction.
     Cone(usize),
+    /// What the bounds of contacts that depend on one another leave of forces, by the number of the first.
+    Reserve(usize),
     /// p of a contact that slides: how its normal force, with its friction, moves its gap (P. Painlevé).
     Pushes(usize),
 }
@@ -31,7 +40,47 @@ impl Watched {
     /// The number of the contact.
     pub(crate) fn contact(self) -> usize {
         match self {
-            Self::Gap(i) | Self::Force(i) | Self::Slip(i) | Self::Speed(i, _) | Self::Cone(i) | Self::Pushes(i) => i,
+            Self::Gap(i)
+            | Self::Force(i)
+            | Self::Slip(i)
+            | Self::Speed(i, _)
+            | Self::Cone(i)
+            | Self::Reserve(i)
+            | Self::Pushes(i) => i,
+        }
+    }
+}
+
+/// What bounds the rate of an open gap.
+pub(crate) struct GapBound<'k, K: ContactSystem> {
+    pub(crate) problem: InModeProblem<'k, K>,
+    pub(crate) contact: usize,
+    /// Where a gap is known by samples alone.
+    pub(crate) sampled: Rc<RefCell<Vec<SampledGap>>>,
+}
+
+impl<'k, K: ContactSystem> GapBound<'k, K> {
+    /// Of what a witness watches, if that is a gap.
+    pub(crate) fn of(witness: &Witness<'k, K>, sampled: &Rc<RefCell<Vec<SampledGap>>>) -> Option<Self> {
+        let Watched::Gap(contact) = witness.watched else { return None };
+        Some(Self { problem: witness.problem.clone(), contact, sampled: Rc::clone(sampled) })
+    }
+}
+
+impl<'k, K: ContactSystem> RateBound<InMode<'k, K>> for GapBound<'k, K> {
+    fn bound(&self, state: &State<InMode<'k, K>>, rates: &Rates<InMode<'k, K>>) -> [f64; 2] {
+        self.problem.bounds(state, rates)[self.contact]
+    }
+
+    fn rate(&self, State { t, q, y }: &State<InMode<'k, K>>) -> f64 {
+        value(self.problem.system.kernel.contact_rates(*t, q, y).component(K::CONTACTS[self.contact].normal))
+    }
+
+    fn sampled(&self, start: f64, end: f64) {
+        let (mut sampled, contact) = (self.sampled.borrow_mut(), self.contact);
+        match sampled.last_mut() {
+            Some(last) if last.contact == contact && last.end == start => last.end = end,
+            _ => sampled.push(SampledGap { contact, start, end }),
         }
     }
 }
@@ -75,6 +124,13 @@ impl<K: ContactSystem> Witness<'_, K> {
             Watched::Cone(i) => {
                 let (loads, contact) = (self.problem.loads(t, q, z), &K::CONTACTS[i]);
                 loads.reserve(contact, Bounds::of(contact, &kernel.friction(t, q, z, &input())))
+            }
+            Watched::Reserve(_) => {
+                let (system, loads) = (&self.problem.system, self.problem.loads(t, q, z));
+                // Where forces of least norm keep the laws there is nothing to look for.
+                let keeps = system.keeps_laws(&loads, &kernel.friction(t, q, z, &input()));
+                let shared = if keeps { None } else { system.reserve((t, q, z), &input()) };
+                K::Scalar::from_f64(shared.map_or(1.0, |shared| shared.part))
             }
             Watched::Pushes(i) => self.pushes(i, t, q, z),
         }

@@ -328,3 +328,89 @@ fn a_hundred_slots_carry_a_plate() {
     // Matrices of 300 rows are handed on by value.
     std::thread::Builder::new().stack_size(64 << 20).spawn(stand).unwrap().join().unwrap();
 }
+
+/// A ball above planes through given points with given normals.
+fn above<const N: usize>(planes: [[f64; 4]; N]) -> [Slot<BareFrame>; N] {
+    planes.map(|[x, height, sine, cosine]| Slot {
+        point: Vector3::zeros(),
+        radius: 0.1,
+        origin: Vector3::new(x, 0.0, height),
+        normal: Vector3::new(sine, 0.0, cosine),
+        friction: 0.0,
+        restitution: 0.0,
+        ..corner(0)
+    })
+}
+
+#[test]
+fn a_ball_is_not_drawn_to_a_plane_beside_it() {
+    let kernel = Bare { g: G }.kernel().unwrap();
+    for (scale, h) in [(1.0, 1e-2), (1.0, 1e-3), (1e-3, 1e-2), (1e3, 1e-2)] {
+        // The floor, and planes through points of it 2 to 6 cm from where the ball comes down, normal to the lines to
+        // its centre: it lands on the floor alone.
+        let lean = |x: f64| [-x, 0.0, x / x.hypot(0.12), 0.12 / x.hypot(0.12)];
+        let planes = above([[0.0, 0.0, 0.0, 1.0], lean(0.02), lean(0.04), lean(-0.06)]);
+        let mut slots = Slots::<_, 4, 12, _>::new(&kernel);
+        slots
+            .fill(planes.map(|slot| Slot { origin: slot.origin * scale, radius: slot.radius * scale, ..slot }))
+            .unwrap();
+        let q = Isometry3::translation(0.0, 0.0, 0.12 * scale);
+        let z = SVector::from([0.0, 0.0, -2.5 * scale, 0.0, 0.0, 0.0]);
+        for sample in ContactSteps::new(&slots, h).run(q, z, 0.0..0.1).unwrap() {
+            let place = sample.state.q.translation.vector / scale;
+            // Half of the digits of the size of the configuration, whose turns are of order 1.
+            let near = 1.5e-8 * (1.0 + 1.0 / scale);
+            assert!(place.x.abs() <= near && place.z >= 0.1 - 1e-12, "{scale} {h} {place}");
+        }
+    }
+}
+
+#[test]
+fn points_that_contradict_one_another_are_pushed_no_farther_than_they_are_deep() {
+    let kernel = Bare { g: G }.kernel().unwrap();
+    // Seven points of the lower face; planes of those within are off those at the corners.
+    for (off, e) in [(1e-3, 0.0), (-1e-3, 0.0), (1e-6, 0.0), (-1e-9, 0.0), (1e-6, 0.5)] {
+        let points = [[-0.2, -0.15], [0.2, -0.15], [0.2, 0.15], [-0.2, 0.15], [0.0, 0.0], [0.0, 0.15], [0.0, -0.15]];
+        let slot = |(i, [x, y]): (usize, [f64; 2])| Slot {
+            point: Vector3::new(x, y, -0.1),
+            origin: Vector3::new(0.0, 0.0, if i < 4 { 0.0 } else { off * (i as f64 - 3.0) }),
+            restitution: e,
+            ..corner(0)
+        };
+        let mut slots = Slots::<_, 8, 24, _>::new(&kernel);
+        slots.fill(points.into_iter().enumerate().map(slot)).unwrap();
+        let q = Isometry3::new(Vector3::new(0.0, 0.0, 0.16), Vector3::new(0.03, 0.02, 0.0));
+        for sample in ContactSteps::new(&slots, 5e-3).run(q, SVector::zeros(), 0.0..0.6).unwrap() {
+            let gaps = slots.gaps(0.0, &sample.state.q);
+            // Rounding of places up to 1.
+            assert!(gaps.min() >= -1e-14, "{off} {e} {gaps}");
+        }
+    }
+}
+
+#[test]
+fn planes_that_leave_no_place_are_told_with_the_contact() {
+    let kernel = Bare { g: G }.kernel().unwrap();
+    let q = Isometry3::translation(0.0, 0.0, 1.0);
+    // A wedge of 4°: to open it by a millimetre on both sides the ball would rise by three centimetres.
+    for (angle, is_far) in [(2.0_f64, true), (60.0, false)] {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let wall = |side: f64| {
+            let normal = Vector3::new(-side * cos, 0.0, sin);
+            let [slot] = above([[0.0; 4]]);
+            Slot { origin: q.translation.vector - normal * (0.1 - 1e-3), normal, ..slot }
+        };
+        let mut slots = Slots::<_, 2, 6, _>::new(&kernel);
+        let mut held = ContactStepper::new(&slots, 0.0, q, SVector::zeros()).unwrap().hold();
+        slots.fill([wall(1.0), wall(-1.0)]).unwrap();
+        match held.step(&slots, |_| None, (1e-3, &())) {
+            Err(error) => {
+                assert!(is_far && error.contact.is_some(), "{error}");
+                let is_told = |gap: f64, moved: f64| gap < 2e-3 && moved > 0.02;
+                let told = matches!(error.kind, ContactErrorKind::Displacement { gap, moved } if is_told(gap, moved));
+                assert!(told, "{error}");
+            }
+            Ok(report) => assert!(!is_far && (report.penetration - 1e-3).abs() < 1e-4, "{angle} {report:?}"),
+        }
+    }
+}

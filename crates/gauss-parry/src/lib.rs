@@ -10,6 +10,8 @@
 //! then off by the square of what the point moves along it in a step, times the curvature, and the next step takes that
 //! back.
 //!
+//! Triangles of a mesh know their neighbours: a flat mesh is a plane.
+//!
 //! Which points a pair has is the library's answer. None is dropped unless [`Shapes::reduce`] asks for it; more of them
 //! than there are slots is an error.
 
@@ -18,6 +20,7 @@
 
 mod convert;
 mod error;
+mod facets;
 mod id;
 mod reduce;
 mod shapes;

@@ -7,11 +7,12 @@ use gauss_runtime::frames::{FrameName, FramePose};
 use gauss_runtime::nalgebra::Isometry3;
 use parry3d_f64::bounding_volume::BoundingVolume;
 use parry3d_f64::math::Pose;
-use parry3d_f64::query::{ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher, TrackedContact};
+use parry3d_f64::query::{DefaultQueryDispatcher, PersistentQueryDispatcher, TrackedContact, Unsupported};
 use parry3d_f64::shape::{PackedFeatureId, SharedShape};
 
 use crate::convert;
 use crate::error::{ParryError, ParryErrorKind};
+use crate::facets::{Facets, Manifold};
 use crate::id::ShapeId;
 use crate::reduce::{Place, Reduction};
 
@@ -50,11 +51,12 @@ pub struct Found<F> {
 struct Body<F> {
     frame: Option<F>,
     shape: SharedShape,
+    /// Of a mesh or a height field.
+    facets: Option<Facets>,
     at: Pose,
     surface: Surface,
 }
 
-type Manifold = ContactManifold<(), ()>;
 type Point = TrackedContact<()>;
 
 /// Shapes of bodies; `F` names the frames of a kernel, `None` is what is at rest.
@@ -96,7 +98,8 @@ impl<F: FrameName> Shapes<F> {
 
     /// A shape on a frame, at a place in its axes; on none it is at rest, at a place in the observer's axes.
     pub fn add(&mut self, frame: Option<F>, shape: SharedShape, at: Isometry3<f64>, surface: Surface) -> ShapeId {
-        self.bodies.push(Body { frame, shape, at: convert::isometry(&at), surface });
+        let facets = Facets::of(&*shape);
+        self.bodies.push(Body { frame, shape, facets, at: convert::isometry(&at), surface });
         ShapeId(self.bodies.len() - 1)
     }
 
@@ -198,9 +201,7 @@ impl<F: FrameName> Shapes<F> {
         let mut manifolds = core::mem::take(&mut self.manifolds);
         manifolds.clear();
         let (first, second) = (&self.bodies[i], &self.bodies[j]);
-        let (a, b) = (&*first.shape, &*second.shape);
-        let asked = DefaultQueryDispatcher.contact_manifolds(&relative, a, b, self.reach, &mut manifolds, &mut None);
-        if asked.is_err() {
+        if ask([first, second], &relative, self.reach, &mut manifolds).is_err() {
             return refuse(ParryErrorKind::Unsupported);
         }
         let mut points = Vec::new();
@@ -267,6 +268,25 @@ impl<F: FrameName> Shapes<F> {
         let [a, b] = [pair.0, pair.1].map(|shape| self.bodies[shape.0].surface);
         let friction = if a.friction == b.friction { a.friction } else { (a.friction * b.friction).sqrt() };
         Surface { friction, restitution: a.restitution.max(b.restitution) }
+    }
+}
+
+/// Asks the library about two shapes, of which one may be triangles with neighbours.
+fn ask<F>(
+    [first, second]: [&Body<F>; 2],
+    relative: &Pose,
+    reach: f64,
+    found: &mut Vec<Manifold>,
+) -> Result<(), Unsupported> {
+    let (a, b) = (&*first.shape, &*second.shape);
+    match (&first.facets, &second.facets) {
+        (Some(facets), None) if b.as_composite_shape().is_none() => {
+            facets.touch(a, (b, relative), (reach, false), found)
+        }
+        (None, Some(facets)) if a.as_composite_shape().is_none() => {
+            facets.touch(b, (a, &relative.inverse()), (reach, true), found)
+        }
+        _ => DefaultQueryDispatcher.contact_manifolds(relative, a, b, reach, found, &mut None),
     }
 }
 

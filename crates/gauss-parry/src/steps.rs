@@ -2,13 +2,13 @@
 
 use std::fmt;
 
-use gauss_contact::{ContactStepper, HeldSteps, Mode, Slots, StepReport, StepScheme};
+use gauss_contact::{ContactError, ContactStepper, HeldSteps, Mode, Slots, StepReport, StepScheme};
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::frames::{FrameName, FramedSystem};
 use gauss_runtime::nalgebra::{SMatrix, SVector};
 
 use crate::error::{ParryError, ParryErrorKind};
-use crate::shapes::{Feature, Shapes};
+use crate::shapes::{Found, Shapes};
 
 /// A kernel on its way in steps, with contacts between shapes.
 ///
@@ -21,7 +21,8 @@ where
 {
     shapes: Shapes<K::Frame>,
     slots: Slots<'k, K, N, R, D>,
-    features: Vec<Feature>,
+    /// The contacts of the step before.
+    before: Vec<Found<K::Frame>>,
     held: HeldSteps<Slots<'k, K, N, R, D>, Vec<f64>>,
 }
 
@@ -51,8 +52,8 @@ where
         let (mut shapes, mut slots) = (shapes, Slots::new(kernel));
         ask(&mut shapes, &mut slots, (t, &q))?;
         let held = ContactStepper::new(&slots, t, q, z)?.hold();
-        let features = named(&shapes);
-        Ok(Self { shapes, slots, features, held })
+        let before = shapes.found().to_vec();
+        Ok(Self { shapes, slots, before, held })
     }
 
     /// How the motion between impacts is taken.
@@ -74,12 +75,19 @@ where
     pub fn step(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ParryError> {
         let (t, q) = (self.held.time(), *self.held.configuration());
         ask(&mut self.shapes, &mut self.slots, (t, &q))?;
-        let features = named(&self.shapes);
-        let known = &self.features;
-        let before = |i: usize| known.iter().position(|known| features.get(i) == Some(known));
-        let report = self.held.step(&self.slots, before, (h, input))?;
-        self.features = features;
+        let found = self.shapes.found();
+        let before = |i: usize| found.get(i).and_then(|found| earlier(&self.before, found));
+        let made = self.held.step(&self.slots, before, (h, input));
+        let report = made.map_err(|error| self.about(error))?;
+        self.before = self.shapes.found().to_vec();
         Ok(report)
+    }
+
+    /// An error of the step, with the shapes of its contact.
+    fn about(&self, error: ContactError) -> ParryError {
+        let slot = |name: &str| Slots::<K, N, R, D>::CONTACTS.iter().position(|contact| contact.name == name);
+        let found = error.contact.and_then(slot).and_then(|i| self.shapes.found().get(i));
+        ParryError { shapes: found.map(|found| found.feature.shapes), kind: ParryErrorKind::Contact(error) }
     }
 
     /// The time.
@@ -143,6 +151,23 @@ where
     }
 }
 
-fn named<F: FrameName>(shapes: &Shapes<F>) -> Vec<Feature> {
-    shapes.found().iter().map(|found| found.feature).collect()
+/// The contact that was this one before: that of the same features, or else the same point of a body that is over the
+/// same plane of the other, as on the next triangle of a flat part of a mesh.
+fn earlier<F: FrameName>(before: &[Found<F>], found: &Found<F>) -> Option<usize> {
+    let same = before.iter().position(|known| known.feature == found.feature);
+    same.or_else(|| before.iter().position(|known| goes_on(known, found)))
+}
+
+/// Half of the digits.
+const SAME: f64 = 1e-8;
+
+fn goes_on<F: FrameName>(known: &Found<F>, found: &Found<F>) -> bool {
+    let (a, b) = (&known.slot, &found.slot);
+    let (point, origin) = (a.point - b.point, a.origin - b.origin);
+    let size = a.point.amax().max(a.origin.amax()).max(b.origin.amax()) + a.radius;
+    known.feature.shapes == found.feature.shapes
+        && (a.first, a.second) == (b.first, b.second)
+        && point.amax() <= SAME * size
+        && (a.normal - b.normal).amax() <= SAME
+        && a.normal.dot(&origin).abs() <= SAME * size
 }

@@ -2,6 +2,8 @@
 
 #[path = "scenes/arm.rs"]
 mod arm;
+#[path = "scenes/flat.rs"]
+mod flat;
 #[path = "scenes/plane.rs"]
 mod plane;
 #[path = "scenes/refused.rs"]

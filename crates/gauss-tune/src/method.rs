@@ -221,6 +221,10 @@ impl<S: GaussSystem> Form<S> for EitherForm {
     ) -> (S::Speeds, S::Speeds) {
         either!(self, both_rates(system, input, state, known))
     }
+    #[inline]
+    fn change_of_speeds(self, system: &S, state: &State<S>, change: &Rates<S>) -> Rates<S> {
+        either!(self, change_of_speeds(system, state, change))
+    }
 }
 
 impl fmt::Display for EitherForm {

@@ -237,13 +237,13 @@ pub struct Traced {
 }
 
 impl Traced {
-    /// A number that is what it is, or one that is rounded, of that name.
-    fn given(value: f64, error: f64, name: u64) -> Self {
+    /// An input of that name.
+    fn given(value: f64, name: u64) -> Self {
         // Of the mean square one: changes of one size would leave out what two of them cancel in.
         let mut random = Random::new(name);
         let size = value * 3.0_f64.sqrt();
         let [first, second] = [2.0 * random.fraction() - 1.0, 2.0 * random.fraction() - 1.0];
-        Self { value, error, first: size * first, second: size * second }
+        Self { value, error: 0.0, first: size * first, second: size * second }
     }
 
     /// The value of a function of two numbers, with its own error and its slopes.
@@ -309,12 +309,9 @@ impl Flat {
         let mut slots = vec![Traced::default(); self.slots];
         for &(value, slot) in &self.numbers {
             let nearest = value.to_f64();
-            slots[slot as usize] = if value.is_dyadic() {
-                Traced { value: nearest, ..Traced::default() }
-            } else {
-                let error = (Doubled::number(nearest) - Doubled::fraction(value)).to_f64();
-                Traced::given(nearest, error, name(slot, changes))
-            };
+            // Its own rounding is an error like any other: what it is computed from may be exact in the scene.
+            let error = (Doubled::number(nearest) - Doubled::fraction(value)).to_f64();
+            slots[slot as usize] = Traced { value: nearest, error, ..Traced::default() };
         }
         Trace { slots, changes }
     }
@@ -326,7 +323,7 @@ impl Trace {
     }
 
     pub fn give(&mut self, slot: Slot, value: f64) {
-        self.slots[slot as usize] = Traced::given(value, 0.0, name(slot, self.changes));
+        self.slots[slot as usize] = Traced::given(value, name(slot, self.changes));
     }
 
     /// Carries out steps.

@@ -21,5 +21,5 @@ mod trial;
 
 pub use figure::Figure;
 pub use seek::{Forms, Found, Sought};
-pub use states::{Names, Samples, States};
+pub use states::{Numbers, Samples, States};
 pub use trial::{Deciding, Loss, Trial, Tried};

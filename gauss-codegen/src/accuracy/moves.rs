@@ -1,7 +1,7 @@
 //! Moves from one state to another at which digits cancel: sizes, angles, sums near zero, moments of inertia.
 
 use crate::algebra::{Expr, Map, NodeView, Notation, Rational, print, print_short};
-use crate::mechanics::Coordinate;
+use crate::mechanics::{Coordinate, Matter};
 use crate::terms::Role;
 
 use super::random::Random;
@@ -27,7 +27,24 @@ const QUARTERS: [f64; 2] = [0.0, 1.0];
 /// By how many powers of ten places are smaller than those that they are added to.
 const APART: f64 = -9.0;
 /// By how many powers of ten all coordinates are smaller together.
-const SMALLER: [f64; 2] = [-8.0, -4.0];
+const SMALLER: [f64; 4] = [-8.0, -6.0, -4.0, -2.0];
+/// By how many powers of ten each mass and each length between joints is larger than the one before, and how far they
+/// are apart from one at most: along chains in both directions, alone and together.
+const GRADED: [[f64; 2]; 12] = [
+    [2.0, 0.0],
+    [-2.0, 0.0],
+    [6.0, 0.0],
+    [-6.0, 0.0],
+    [0.0, 2.0],
+    [0.0, -2.0],
+    [0.0, 6.0],
+    [0.0, -6.0],
+    [3.0, -1.5],
+    [-3.0, 1.5],
+    [2.0, 2.0],
+    [-2.0, -2.0],
+];
+const MOST_GRADED: f64 = 9.0;
 /// Steps of the secant method: one is enough for what is linear.
 const SECANTS: usize = 6;
 
@@ -61,6 +78,8 @@ pub enum Move {
     /// The first or the last of two places or more that are added is small, in all such sums: bodies near each other
     /// and far away.
     Apart(usize),
+    /// The masses of links in a row, and the lengths between them, grow by so many powers of ten from one to the next.
+    Graded([f64; 2]),
     /// An angle is near that many quarter turns, and a sum of fast rates that depends on it near zero: a wheel that
     /// spins nearly flat has an energy that is small beside the terms of which it is the sum.
     Spin(usize, f64, f64),
@@ -122,14 +141,18 @@ pub struct Moves<'s, 'a, 'g> {
     speeds: Vec<usize>,
     /// The first and the last of places that are added.
     apart: [Vec<usize>; 2],
+    /// Fields that are masses, and those that are lengths between links, from the roots on.
+    graded: [Vec<usize>; 2],
     sums: Vec<Sum<'g>>,
     spins: Vec<Spin>,
     bodies: usize,
 }
 
 impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
-    pub fn new(states: &'s States<'a, 'g>, seen: &Seen<'g>) -> Self {
-        let free = free(states, seen);
+    /// Of the fields those that are read: others change nothing.
+    pub fn new(states: &'s States<'a, 'g>, seen: &Seen<'g>, is_read: impl Fn(Expr<'g>) -> bool) -> Self {
+        let mut free = free(states, seen);
+        free.retain(|free| !free.parameter || is_read(free.symbol));
         let places: Map<u32, usize> = free.iter().enumerate().map(|(k, free)| (free.symbol.key(), k)).collect();
         // Momenta cancel where rates do.
         let rates = Seen::sums_in(states.momentum, RATES);
@@ -151,7 +174,8 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
         let scalars = scene.coordinates.iter().filter_map(scalar).collect();
         let spins = spins(&sums, &angles, &speeds);
         let apart = apart(&seen.sums, &places, &free);
-        Self { states, free, angles, scalars, speeds, apart, sums, spins, bodies: states.bodies().count() }
+        let graded = graded(states, &places, &free);
+        Self { states, free, angles, scalars, speeds, apart, graded, sums, spins, bodies: states.bodies().count() }
     }
 
     #[cfg(test)]
@@ -193,7 +217,9 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
         let leaning = LEANING.into_iter().flat_map(|closeness| QUARTERS.map(|turns| (turns, closeness)));
         let spin = |(turns, closeness)| (0..self.spins.len()).map(move |k| Move::Spin(k, turns, closeness));
         let apart = [1, 0].into_iter().filter(|&k| !self.apart[k].is_empty()).map(Move::Apart);
-        smaller.chain(apart).chain(leaning.flat_map(spin))
+        let there = |decades: &[f64; 2]| (0..2).all(|k| decades[k] == 0.0 || self.graded[k].len() > 1);
+        let unlike = GRADED.into_iter().filter(there).map(Move::Graded);
+        unlike.chain(smaller).chain(apart).chain(leaning.flat_map(spin))
     }
 
     /// Whether it is a change of what moves alone: a run may come by such a state whatever its parameters are.
@@ -202,7 +228,7 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
         match *change {
             Move::Scale(k, _) | Move::Quarter(k, ..) | Move::Near(_, k, _) => moving(k),
             Move::AllNear(sum, seed, _) => self.together(sum, seed).all(|(_, by)| moving(by)),
-            Move::Body(..) => false,
+            Move::Body(..) | Move::Graded(..) => false,
             Move::Faster(_) | Move::Smaller(_) | Move::Apart(_) | Move::Spin(..) => true,
         }
     }
@@ -235,6 +261,9 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
                     let names: Vec<String> = self.apart[k].iter().take(TOGETHER).map(|&k| name(k)).collect();
                     format!("small {}", names.join(" and "))
                 }
+                Move::Graded([_, 0.0]) => "unlike masses".to_owned(),
+                Move::Graded([0.0, _]) => "unlike lengths".to_owned(),
+                Move::Graded(_) => "unlike masses and lengths".to_owned(),
                 Move::Spin(k, turns, _) => {
                     let Spin { angle, sum, .. } = self.spins[k];
                     let near = if turns == 0.0 { "0" } else { "quarter turns" };
@@ -272,6 +301,16 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
             }
             Move::Smaller(decades) => self.scalars.iter().for_each(|&k| self.scale(k, decades, draft)),
             Move::Apart(k) => self.apart[k].iter().for_each(|&k| self.scale(k, APART, draft)),
+            Move::Graded(decades) => {
+                for (list, decades) in self.graded.iter().zip(decades).filter(|(_, decades)| *decades != 0.0) {
+                    let middle = 0.5 * (list.len() - 1) as f64;
+                    for (place, &k) in list.iter().enumerate() {
+                        let size = (decades * (place as f64 - middle)).clamp(-MOST_GRADED, MOST_GRADED);
+                        let before = draft.values.map[&self.free[k].symbol.key()];
+                        self.put(k, before * 10.0_f64.powf(size), draft);
+                    }
+                }
+            }
             Move::Spin(k, turns, closeness) => {
                 let Spin { angle, sum, by } = self.spins[k];
                 let sum = &self.sums[sum];
@@ -363,6 +402,24 @@ fn apart(sums: &[Vec<(Rational, Expr<'_>)>], places: &Map<u32, usize>, free: &[F
         own.dedup();
     }
     apart
+}
+
+/// Fields in the masses of links, and in the places of joints, in the order of the links.
+fn graded(states: &States<'_, '_>, places: &Map<u32, usize>, free: &[Free<'_>]) -> [Vec<usize>; 2] {
+    let links = &states.system.scene.tree.links;
+    let masses = links.iter().flat_map(|link| match &link.matter {
+        Matter::Nothing => None,
+        Matter::Particle(mass) => Some(*mass),
+        Matter::Body(body) => Some(body.mass),
+    });
+    let lengths = links.iter().flat_map(|link| link.own_joint.offset);
+    let of = |expressions: Vec<Expr<'_>>| {
+        let (mut done, mut found) = (Map::default(), Vec::new());
+        expressions.into_iter().for_each(|e| symbols_of(e, places, &mut done, &mut found));
+        found.retain(|&k| free[k].parameter);
+        found
+    };
+    [of(masses.collect()), of(lengths.collect())]
 }
 
 /// Sums of two rates or more with the angles they depend on, the innermost first. The last rate is most likely the one

@@ -56,8 +56,9 @@ pub(super) struct Best {
 const STEPS: usize = 100_000;
 const LEAST: usize = 24;
 const MOST: usize = 96;
-/// At most a third as many states again are those where several numbers change at once.
+/// At most a third as many states again, or so many, are those where several numbers change at once.
 const OF_MANY: usize = 3;
+const SOME: usize = 20;
 /// The loss up to which no more is sought after half of the states: nothing cancels in these scenes.
 const ORDINARY: f64 = 10.0;
 /// The loss from which on other forms of a function are tried, six digits, and how many times less they have to lose:
@@ -93,18 +94,15 @@ impl<'s, 'g> Samples<'s, '_, 'g> {
     /// is lost.
     pub fn seek(&self, sought: &Sought<'_, 'g>, forms: &Forms<'_, 'g>) -> (Found, Vec<Deciding>) {
         let mut search = Search::new(self, sought);
-        // Of many results at many states one is hardly changed by chance, and said to lose much: changed in other ways
-        // as well, it is not.
-        let mut traces = [0, 1].map(|changes| search.flat.room(changes));
-        let (mut drafts, mut best) = search.searched(self, &mut traces[0]);
+        let mut traces = search.rooms();
+        let (mut drafts, best) = search.searched(self, &mut traces);
         let sampled = sampled(&drafts);
         let mut ordinary: Vec<Vec<f64>> = vec![Vec::new(); search.outputs.len()];
         let mut besides: Vec<Vec<Best>> = vec![Vec::new(); search.besides.len()];
         for state in search.states_for_others(drafts.len(), sampled, &best) {
             let (of_functions, of_besides) = search.losses_at(&drafts[state], &mut traces);
-            for ((losses, best), loss) in ordinary.iter_mut().zip(&mut best).zip(of_functions) {
+            for (losses, loss) in ordinary.iter_mut().zip(of_functions) {
                 losses.extend(loss.filter(|_| state < sampled));
-                best.loss = loss.filter(|_| state == best.state).map_or(best.loss, |loss| loss.min(NO_DIGIT));
             }
             for (losses, loss) in besides.iter_mut().zip(of_besides) {
                 losses.extend(loss.map(|loss| Best { loss, state }));
@@ -209,11 +207,22 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         let momenta = momenta.filter_map(|(from, p)| Some((from, flat.input(*p)?))).collect();
         let ends = [known, functions, flat.len()];
         let vanishing = vec![false; flat.slots()];
-        Self { states, moves: Moves::new(states, seen), flat, ends, momenta, outputs, besides, spans, vanishing }
+        let moves = Moves::new(states, seen, |symbol| flat.input(symbol).is_some());
+        Self { states, moves, flat, ends, momenta, outputs, besides, spans, vanishing }
+    }
+
+    /// Of many results at many states one is hardly changed by chance, and said to lose much: changed in other ways as
+    /// well, it is not. Room for the numbers with both changes.
+    pub fn rooms(&self) -> [Trace; 2] {
+        [0, 1].map(|changes| self.flat.room(changes))
     }
 
     /// States and the worst of them for each function: physical samples, then those that were found.
-    pub fn searched(&mut self, samples: &'s Samples<'s, 'a, 'g>, trace: &mut Trace) -> (Vec<Draft<'s>>, Vec<Best>) {
+    pub fn searched(
+        &mut self,
+        samples: &'s Samples<'s, 'a, 'g>,
+        traces: &mut [Trace; 2],
+    ) -> (Vec<Draft<'s>>, Vec<Best>) {
         let drafts = samples.values.iter().zip(&PROFILES).enumerate().map(|(k, (values, profile))| Draft {
             values: values.clone(),
             masses: vec![(k as u64 ^ 1 << 50, profile.decades); self.states.bodies().count()],
@@ -222,15 +231,14 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         });
         let mut drafts: Vec<Draft<'s>> = drafts.filter(|draft| self.states.is_physical(draft)).collect();
         drafts.iter_mut().enumerate().for_each(|(k, draft)| draft.sample = k);
-        self.find_vanishing(&drafts, trace);
+        self.find_vanishing(&drafts, &mut traces[0]);
         let mut best: Vec<Best> = vec![Best::default(); self.outputs.len()];
         let goal = self.functions();
         for (k, draft) in drafts.iter().enumerate() {
-            self.try_at(&goal.steps, draft, trace);
-            self.note(&goal, trace, draft, k, &mut best);
+            self.note(&goal, traces, draft, k, &mut best);
         }
         let tries = (STEPS / self.ends[1].max(1)).clamp(LEAST, MOST);
-        self.search(&goal, tries, &mut drafts, &mut best, trace);
+        self.search(&goal, tries, &mut drafts, &mut best, traces);
         (drafts, best)
     }
 
@@ -245,15 +253,20 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         tries: usize,
         drafts: &mut Vec<Draft<'n>>,
         best: &mut [Best],
-        trace: &mut Trace,
+        traces: &mut [Trace; 2],
     ) {
         if drafts.is_empty() || self.moves.are_none() || goal.lists.iter().all(Vec::is_empty) {
             return;
         }
-        self.climb(goal, tries, drafts, best, trace);
-        for change in self.moves.of_many().take(tries / OF_MANY) {
-            self.try_change(goal, (0, change), drafts, best, trace);
+        let bases = sampled(drafts);
+        for change in self.moves.of_many().take((tries / OF_MANY).max(SOME.min(tries))) {
+            // What links lose that are unlike depends on how they are bent.
+            let from: &[usize] = if matches!(change, Move::Graded(_)) { &[0, 2, 5] } else { &[0] };
+            for &base in from.iter().filter(|&&base| base < bases) {
+                self.try_change(goal, (base, change), drafts, best, traces);
+            }
         }
+        self.climb(goal, tries, drafts, best, traces);
     }
 
     /// Looks for states where derivatives lose more than where functions do: where digits cancel in derivatives alone.
@@ -269,7 +282,7 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
             let known = drafts.len();
             let mut best = [worst(&besides[k]).unwrap_or_default()];
             let tries = (STEPS / (self.ends[0] + goal.steps.len()).max(1)).min(MOST) / derivatives.len();
-            self.search(&goal, tries, drafts, &mut best, &mut traces[0]);
+            self.search(&goal, tries, drafts, &mut best, traces);
             let [Best { state, .. }] = best;
             // None of them is one that the scene can be in where no sample is.
             if let Some(draft) = drafts.get(state).filter(|_| state >= known) {
@@ -470,18 +483,37 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         }
     }
 
-    /// Notes where programs lose more than at the states before; whether one of them loses much more.
-    fn note(&self, goal: &Goal<'_>, trace: &Trace, draft: &Draft<'_>, state: usize, best: &mut [Best]) -> bool {
-        let (mut much, mut exact) = (false, None);
+    /// Tries programs at a state, and notes where they lose more than at the states before; whether one of them loses
+    /// much more.
+    fn note(
+        &self,
+        goal: &Goal<'_>,
+        [trace, again]: &mut [Trace; 2],
+        draft: &Draft<'_>,
+        state: usize,
+        best: &mut [Best],
+    ) -> bool {
+        self.try_at(&goal.steps, draft, trace);
+        let (mut much, mut exact, mut is_changed_again) = (false, None, false);
         for (outputs, best) in goal.lists.iter().zip(best) {
             if outputs.is_empty() || best.loss >= NO_DIGIT {
                 continue;
             }
-            let loss = self.loss(trace, outputs).unwrap_or_else(|| {
-                let exact =
-                    exact.get_or_insert_with(|| self.exact(draft, trace, goal.steps.end, |_| Doubled::number(1.0)));
-                if is_finite(exact, outputs) { NO_DIGIT } else { 0.0 }
-            });
+            let loss = match self.loss(trace, outputs) {
+                Some(loss) if loss > best.loss.max(ORDINARY) => {
+                    if !is_changed_again {
+                        self.try_at(&goal.steps, draft, again);
+                        is_changed_again = true;
+                    }
+                    self.loss_as_of(&[trace, again], outputs, outputs).unwrap_or(loss)
+                }
+                Some(loss) => loss,
+                None => {
+                    let exact =
+                        exact.get_or_insert_with(|| self.exact(draft, trace, goal.steps.end, |_| Doubled::number(1.0)));
+                    if is_finite(exact, outputs) { NO_DIGIT } else { 0.0 }
+                }
+            };
             if loss > best.loss {
                 much |= loss > 1.5 * best.loss;
                 *best = Best { loss: loss.min(NO_DIGIT), state };
@@ -507,7 +539,7 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         tries: usize,
         drafts: &mut Vec<Draft<'n>>,
         best: &mut [Best],
-        trace: &mut Trace,
+        traces: &mut [Trace; 2],
     ) {
         let sampled = sampled(drafts);
         let mut random = Random::new(26);
@@ -524,7 +556,7 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
                 (base, further.map_or_else(|| self.moves.any(&mut random), |last| last.further()))
             });
             let state = drafts.len();
-            if self.try_change(goal, from, drafts, best, trace) {
+            if self.try_change(goal, from, drafts, best, traces) {
                 again = Some((state, from.1.further()));
             }
         }
@@ -538,16 +570,15 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         (base, change): (usize, Move),
         drafts: &mut Vec<Draft<'n>>,
         best: &mut [Best],
-        trace: &mut Trace,
+        traces: &mut [Trace; 2],
     ) -> bool {
         let mut draft = drafts[base].clone();
         self.moves.apply(change, &mut draft);
         if !self.states.is_physical(&draft) {
             return false;
         }
-        self.try_at(&goal.steps, &draft, trace);
         let state = drafts.len();
-        let much = self.note(goal, trace, &draft, state, best);
+        let much = self.note(goal, traces, &draft, state, best);
         if best.iter().any(|best| best.state == state) {
             drafts.push(draft);
         }

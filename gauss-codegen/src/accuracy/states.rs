@@ -2,9 +2,7 @@
 //! each other, angles near quarter turns and far outside, bodies far from Ω, fast spins. All are physical, and the same
 //! in every run.
 
-use std::cell::RefCell;
-
-use crate::algebra::{Evaluation, Expr, Function, Map, NodeView, Notation, Rational, print};
+use crate::algebra::{Evaluation, Expr, Function, Map, NodeView, Rational};
 use crate::mechanics::{Action, Body, Coordinate, Force, Matter, System};
 use crate::terms::Role;
 
@@ -26,7 +24,7 @@ pub struct States<'a, 'g> {
     pub weights: &'a [Expr<'g>],
     /// Symbols that stand for expressions of others.
     pub definitions: &'a Map<u32, Expr<'g>>,
-    pub names: Names,
+    pub numbers: Numbers,
 }
 
 /// How a state is chosen.
@@ -40,7 +38,8 @@ pub(super) struct Profile {
     quarters: f64,
     /// Powers of ten by which bodies are farther from Ω than they are large.
     far: f64,
-    /// Powers of ten by which everything is slower.
+    /// Powers of ten by which everything is slower; lengths are as many smaller, twice: near where a scene is at rest,
+    /// which is most often where it is written from.
     slow: f64,
 }
 
@@ -68,18 +67,18 @@ impl Samples<'_, '_, '_> {
     }
 }
 
-/// Symbols and their values, in the order in which they are chosen, with what their names amount to.
+/// Symbols and their values, in the order in which they are chosen, with their numbers.
 #[derive(Clone)]
 pub(super) struct Values<'n> {
     list: Vec<(u32, u64)>,
     pub map: Map<u32, f64>,
-    names: &'n Names,
+    numbers: &'n Numbers,
 }
 
 impl Values<'_> {
     pub fn put(&mut self, symbol: Expr<'_>, value: f64) {
         if self.map.insert(symbol.key(), value).is_none() {
-            self.list.push((symbol.key(), self.names.hash(symbol)));
+            self.list.push((symbol.key(), self.numbers.of(symbol)));
         }
     }
 
@@ -87,13 +86,43 @@ impl Values<'_> {
         Evaluation::new(&self.map).value(e)
     }
 
-    /// Choices for a symbol that depend on its name alone, so that what else a scene has does not change them.
+    /// Choices for a symbol that depend on its number alone, so that what else a scene has does not change them.
     pub fn random_of(&self, symbol: Expr<'_>, seed: u64) -> Random {
-        Random::new(self.names.hash(symbol).wrapping_add(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
+        Random::new(self.numbers.of(symbol).wrapping_add(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
     }
 }
 
 impl<'g> States<'_, 'g> {
+    /// With a number for each symbol.
+    #[must_use]
+    pub fn numbered(mut self) -> Self {
+        let scene = &self.system.scene;
+        let position = |coordinate: &Coordinate<'g>| match coordinate {
+            Coordinate::Scalar(q) => vec![*q],
+            Coordinate::Rotation(_) => Vec::new(),
+            Coordinate::Pose(_, position) => position.to_vec(),
+            Coordinate::Plane { position, .. } => position.to_vec(),
+        };
+        let halves = self.system.halves();
+        let lists: [Vec<Expr<'g>>; 13] = [
+            vec![scene.time],
+            self.parameters.iter().map(|(symbol, _)| *symbol).collect(),
+            self.literals.iter().map(|(_, symbol)| *symbol).collect(),
+            scene.coordinates.iter().flat_map(position).collect(),
+            self.units.concat(),
+            scene.speeds.clone(),
+            self.system.twist().to_vec(),
+            scene.speed_rates.clone(),
+            scene.inputs.clone(),
+            self.system.constraints.residuals.clone(),
+            self.weights.to_vec(),
+            halves.into_iter().flat_map(|halves| halves.symbols.iter().chain(&halves.impulses)).copied().collect(),
+            scene.momenta.clone(),
+        ];
+        (1..).zip(lists).for_each(|(role, list)| self.numbers.give(role, list));
+        self
+    }
+
     /// As many as are worth their time.
     pub fn samples(&self) -> Samples<'_, '_, 'g> {
         let seen = Seen::of(self.system);
@@ -102,7 +131,7 @@ impl<'g> States<'_, 'g> {
     }
 
     fn values(&self, seen: &Seen<'g>, profile: &Profile, seed: u64) -> Values<'_> {
-        let mut values = Values { list: Vec::new(), map: Map::default(), names: &self.names };
+        let mut values = Values { list: Vec::new(), map: Map::default(), numbers: &self.numbers };
         self.give_parameters(&mut values, profile, seed);
         self.give_motion(&mut values, seen, profile, seed);
         self.define(&mut values);
@@ -147,9 +176,8 @@ impl<'g> States<'_, 'g> {
     fn give_motion(&self, values: &mut Values<'_>, seen: &Seen<'g>, profile: &Profile, seed: u64) {
         let scene = &self.system.scene;
         values.put(scene.time, values.random_of(scene.time, seed).size(profile.decades));
-        for (k, symbol) in self.units.iter().flatten().enumerate() {
-            // The components of all quaternions have the same names.
-            let mut random = values.random_of(*symbol, seed ^ ((k as u64 + 1) << 40));
+        for symbol in self.units.iter().flatten() {
+            let mut random = values.random_of(*symbol, seed);
             values.put(*symbol, random.sign() * (0.1 + random.fraction()));
         }
         for coordinate in &scene.coordinates {
@@ -159,7 +187,8 @@ impl<'g> States<'_, 'g> {
                     &[]
                 }
                 Coordinate::Scalar(q) => {
-                    values.put(*q, values.random_of(*q, seed).signed(profile.decades));
+                    let near = 10.0_f64.powf(-2.0 * profile.slow);
+                    values.put(*q, values.random_of(*q, seed).signed(profile.decades) * near);
                     &[]
                 }
                 Coordinate::Rotation(_) => &[],
@@ -411,16 +440,21 @@ impl<'g> Seen<'g> {
     }
 }
 
-/// What the names of symbols amount to, which are long to print.
+/// A number for each symbol that is given: what it is for, and its place among those that are for the same. All choices
+/// depend on it, never on a name, which says nothing of the motion.
 #[derive(Default)]
-pub struct Names(RefCell<Map<u32, u64>>);
+pub struct Numbers(Map<u32, u64>);
 
-impl Names {
-    /// After Fowler, Noll & Vo.
-    fn hash(&self, symbol: Expr<'_>) -> u64 {
-        let hash = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-        let of_name = || print(symbol, Notation::Text).as_bytes().iter().fold(0xcbf2_9ce4_8422_2325, hash);
-        *self.0.borrow_mut().or_insert_with(symbol.key(), of_name)
+impl Numbers {
+    fn give<'g>(&mut self, role: u64, symbols: impl IntoIterator<Item = Expr<'g>>) {
+        for (place, symbol) in (0..).zip(symbols) {
+            // What is for several things keeps its first number.
+            self.0.or_insert_with(symbol.key(), || role << 32 | place);
+        }
+    }
+
+    fn of(&self, symbol: Expr<'_>) -> u64 {
+        self.0.get(&symbol.key()).copied().unwrap_or_default()
     }
 }
 

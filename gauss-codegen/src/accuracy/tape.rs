@@ -39,17 +39,13 @@ impl Tape {
         Self { code: Code { instructions, outputs }, places }
     }
 
-    /// Its outputs, with values of symbols by their keys; numbers that double precision cannot hold are multiplied by
-    /// what `nudge` gives for their place in the list.
-    pub fn run<N: Number>(&self, symbols: &Map<u32, N>, nudge: impl Fn(usize) -> Option<N>) -> Vec<N> {
-        let value = |(k, place): (usize, &Place)| match *place {
+    /// Its outputs, with values of symbols by their keys.
+    pub fn run<N: Number>(&self, symbols: &Map<u32, N>) -> Vec<N> {
+        let value = |place: &Place| match *place {
             Place::Symbol(key) => symbols.get(&key).copied().unwrap_or(N::number(f64::NAN)),
-            Place::Number(value) => {
-                let exact = N::fraction(value);
-                if value.is_dyadic() { exact } else { nudge(k).map_or(exact, |factor| exact * factor) }
-            }
+            Place::Number(value) => N::fraction(value),
         };
-        let values: Vec<N> = self.places.iter().enumerate().map(value).collect();
+        let values: Vec<N> = self.places.iter().map(value).collect();
         self.code.evaluate_with(|place| values[place], N::stand_in)
     }
 }

@@ -1,73 +1,71 @@
 //! Saddle-point systems whose constraints may depend on one another: rows of J without an independent part have
 //! multipliers too, those of least norm.
 //!
-//! `S = J A⁻¹Jᵀ` is positive semidefinite. Its LDLᵀ has a pivot of zero for each row that depends on those before it,
-//! and such a pivot has no reciprocal: 0 stands in its place, by arithmetic alone, so that the result stays
-//! a straight line that can be differentiated.
+//! Rows are made orthogonal one after another in the metric A⁻¹ (modified Gram–Schmidt): `J = L R`, `R A⁻¹ Rᵀ = D`.
+//! A row that depends on those before it leaves zero, whose square has no reciprocal: 0 stands in its place, by
+//! arithmetic alone, so that the result stays a straight line that can be differentiated. `S = J A⁻¹Jᵀ = L D Lᵀ` is not
+//! formed: its pivots are squares of what is left of a row, and lose twice the digits.
 
 use crate::algebra::expressions::function::{BinaryFunction, Function};
 use crate::algebra::expressions::graph::Expr;
 use crate::algebra::linear::solve_symmetric;
 use crate::algebra::rational::Rational;
 
-/// The part of S_kk below which a pivot is zero. Rows of J carry some roundings of their own and those of the A⁻¹Jᵀ
-/// that they are multiplied with, ε = 2⁻⁵² each; a pivot is S_kk less a sum of k squares that together are no larger
-/// than S_kk, so that what rounding leaves of zero is some (k + 10) ε S_kk. 2⁻⁴² = 1024 ε is above that for rows by the
-/// hundred. A pivot is the square of a sine: rows at less than 2⁻²¹ = 4.8e-7 to the span of those before them are
-/// dependent, whatever the units.
-fn negligible() -> Rational {
-    Rational::new(1, 1 << 42)
+/// The part of its square below which a row has nothing left, a square of a sine. Rows that change with the state come
+/// near to one another where they depend on one another, and a run meets such a state up to its tolerance: rows at less
+/// than 2⁻²¹ = 4.8e-7 to the span of those before them are dependent, whatever the units. Rows of parameters alone
+/// stay as they are: of them only rounding is nothing, 2⁻⁴² = 1024 ε for rows by the hundred with some roundings of
+/// their own and of A⁻¹Jᵀ.
+fn negligible(changes: bool) -> Rational {
+    let root = Rational::new(1, if changes { 1 << 21 } else { 1 << 42 });
+    root * root
 }
 
-/// A positive semidefinite matrix as L D Lᵀ, with what D has of reciprocals.
-struct Semidefinite<'g> {
+/// Vectors made orthogonal in a metric: `vector[i] = Σ_j lower[i][j] own[j] + own[i]`.
+struct Orthogonal<'g> {
+    own: Vec<Vec<Expr<'g>>>,
+    /// The same of what the metric makes of them.
+    images: Vec<Vec<Expr<'g>>>,
     lower: Vec<Vec<Expr<'g>>>,
+    /// Of own[i] · image[i].
     reciprocals: Vec<Expr<'g>>,
-    /// 1 for a row that is independent of those before it, else 0.
+    /// 1 for a vector that is independent of those before it, else 0.
     kept: Vec<Expr<'g>>,
 }
 
-impl<'g> Semidefinite<'g> {
-    fn new(matrix: &[Vec<Expr<'g>>]) -> Self {
-        let n = matrix.len();
-        let mut factors = Self { lower: Vec::new(), reciprocals: Vec::new(), kept: Vec::new() };
-        let mut columns: Vec<Vec<Expr<'g>>> = Vec::new();
-        for i in 0..n {
-            let (mut column, mut lower): (Vec<Expr<'g>>, Vec<Expr<'g>>) = (Vec::new(), Vec::new());
-            for j in 0..=i {
-                let known = (0..j).map(|l| lower[l] * if i == j { column[l] } else { columns[j][l] });
-                let left = known.fold(matrix[i][j], |sum, e| sum - e).group();
-                column.push(left);
-                if j < i {
-                    lower.push((left * factors.reciprocals[j]).group());
-                }
+impl<'g> Orthogonal<'g> {
+    fn new(vectors: &[Vec<Expr<'g>>], images: &[Vec<Expr<'g>>]) -> Self {
+        let mut found =
+            Self { own: Vec::new(), images: Vec::new(), lower: Vec::new(), reciprocals: Vec::new(), kept: Vec::new() };
+        for (vector, image) in vectors.iter().zip(images) {
+            // Of masses that no body has squares can be negative: formulas are compared at any.
+            let whole = product(vector, image).group().abs();
+            let (mut own, mut image, mut lower) = (vector.clone(), image.clone(), Vec::new());
+            for j in 0..found.own.len() {
+                let share = (product(&own, &found.images[j]) * found.reciprocals[j]).group();
+                own = less(&own, share, &found.own[j]);
+                image = less(&image, share, &found.images[j]);
+                lower.push(share);
             }
-            let (kept, reciprocal) = guarded(column[i], matrix[i][i]);
-            factors.kept.push(kept);
-            factors.reciprocals.push(reciprocal);
-            factors.lower.push(lower);
-            columns.push(column);
+            let changes = !vectors[..=found.own.len()].iter().flatten().all(|e| e.is_constant());
+            let (kept, reciprocal) = guarded(product(&own, &image).group(), whole.scale(negligible(changes)), whole);
+            found.own.push(own);
+            found.images.push(image);
+            found.lower.push(lower);
+            found.kept.push(kept);
+            found.reciprocals.push(reciprocal);
         }
-        factors
+        found
     }
 
-    /// A solution, with 0 in the places of dependent rows.
-    fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        let mut x: Vec<Expr<'g>> = right.to_vec();
-        for i in 0..x.len() {
-            x[i] = (0..i).fold(x[i], |sum, j| sum - self.lower[i][j] * x[j]).group();
-        }
-        let scaled = x.iter().zip(&self.reciprocals).map(|(x, r)| *x * *r).collect();
-        self.substitute_back(scaled)
-    }
-
-    /// Vectors that the matrix makes zero, one for each dependent row; zero for the others.
+    /// Combinations of the vectors that vanish, one for each dependent vector; zero for the others.
     fn null_space(&self) -> Vec<Vec<Expr<'g>>> {
-        let (n, graph) = (self.kept.len(), self.kept[0].graph());
         let unit = |k: usize| {
-            (0..n).map(|i| if i == k { graph.one() - self.kept[k] } else { graph.zero() }).collect::<Vec<_>>()
+            let kept = self.kept[k];
+            let entry = |i: usize| if i == k { kept.graph().one() - kept } else { kept.graph().zero() };
+            (0..self.kept.len()).map(entry).collect::<Vec<_>>()
         };
-        (0..n).map(|k| self.substitute_back(unit(k))).collect()
+        (0..self.kept.len()).map(|k| self.substitute_back(unit(k))).collect()
     }
 
     /// x with `Lᵀ x = right`.
@@ -79,14 +77,16 @@ impl<'g> Semidefinite<'g> {
     }
 }
 
-/// 1 and the reciprocal of a pivot, or 0 and 0 where it is a negligible part of `whole`.
-fn guarded<'g>(pivot: Expr<'g>, whole: Expr<'g>) -> (Expr<'g>, Expr<'g>) {
-    let graph = pivot.graph();
-    let beyond = (pivot.abs() - whole.abs().scale(negligible())).group();
+/// 1 and the reciprocal of a square, or 0 and 0 where it is `negligible`, a part of the `whole`.
+fn guarded<'g>(square: Expr<'g>, negligible: Expr<'g>, whole: Expr<'g>) -> (Expr<'g>, Expr<'g>) {
+    let graph = square.graph();
+    let beyond = (square.abs() - negligible).group();
     // Of zero it is −1 or 0, whatever the sign of zero.
     let sign = -graph.call(Function::Signum, -beyond);
     let kept = sign.binary(BinaryFunction::Max, graph.zero()).group();
-    (kept, kept * (kept * pivot + (graph.one() - kept)).group().recip())
+    // What is kept stays as it is, however small; what is not kept has at least 1 in its place.
+    let left_out = (graph.one() - kept).group();
+    (kept, kept * (square + left_out * (graph.one() + whole).group()).group().recip())
 }
 
 /// What constraints make of a system.
@@ -107,28 +107,32 @@ pub fn solve_dependent<'g>(
     right: &[Expr<'g>],
     bias: &[Expr<'g>],
 ) -> Dependent<'g> {
-    let free = solve_symmetric(matrix, right);
+    let mut solution = solve_symmetric(matrix, right);
     let columns: Vec<Vec<Expr<'g>>> = jacobian.iter().map(|row| solve_symmetric(matrix, row)).collect();
-    let n = jacobian.len();
-    let entry = |i: usize, j: usize| product(&jacobian[i.max(j)], &columns[i.min(j)]).group();
-    let schur: Vec<Vec<Expr<'g>>> = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
-    let factors = Semidefinite::new(&schur);
-    let left: Vec<Expr<'g>> = jacobian.iter().zip(bias).map(|(row, b)| (product(row, &free) - *b).group()).collect();
-    let basic = factors.solve(&left);
-    let solution = (0..free.len()).map(|i| {
-        let each = columns.iter().zip(&basic).map(|(column, mu)| column[i] * *mu);
-        each.fold(free[i], |sum, e| sum - e)
-    });
-    let solution = solution.collect();
-    let null_space = factors.null_space();
-    let weighted = |v: &[Expr<'g>]| (0..n).map(|i| schur[i][i] * v[i]).collect::<Vec<_>>();
-    let of_null: Vec<Vec<Expr<'g>>> = null_space.iter().map(|v| weighted(v)).collect();
-    let gram = |i: usize, j: usize| product(&null_space[i.max(j)], &of_null[i.min(j)]).group();
-    let gram: Vec<Vec<Expr<'g>>> = (0..n).map(|i| (0..n).map(|j| gram(i, j)).collect()).collect();
-    let parts: Vec<Expr<'g>> = of_null.iter().map(|v| product(v, &basic).group()).collect();
-    let parts = Semidefinite::new(&gram).solve(&parts);
-    let least = |k: usize| null_space.iter().zip(&parts).fold(basic[k], |sum, (v, part)| sum - v[k] * *part);
-    Dependent { solution, multipliers: (0..n).map(least).collect(), kept: factors.kept }
+    let rows = Orthogonal::new(jacobian, &columns);
+    let (mut left, mut forces): (Vec<Expr<'g>>, Vec<Expr<'g>>) = (Vec::new(), Vec::new());
+    for (k, own) in rows.own.iter().enumerate() {
+        let given = (0..k).fold(bias[k], |sum, j| sum - rows.lower[k][j] * left[j]).group();
+        let force = ((product(own, &solution) - given) * rows.reciprocals[k]).group();
+        solution = less(&solution, force, &rows.images[k]);
+        left.push(given);
+        forces.push(force);
+    }
+    let mut multipliers = rows.substitute_back(forces);
+    let null_space = rows.null_space();
+    let weights: Vec<Expr<'g>> = jacobian.iter().zip(&columns).map(|(row, c)| product(row, c).group()).collect();
+    let weighted = |v: &Vec<Expr<'g>>| v.iter().zip(&weights).map(|(v, w)| (*v * *w).group()).collect();
+    let nothing = Orthogonal::new(&null_space, &null_space.iter().map(weighted).collect::<Vec<_>>());
+    for (k, own) in nothing.own.iter().enumerate() {
+        let part = (product(&nothing.images[k], &multipliers) * nothing.reciprocals[k]).group();
+        multipliers = less(&multipliers, part, own);
+    }
+    Dependent { solution, multipliers, kept: rows.kept }
+}
+
+/// `a − factor b`.
+fn less<'g>(a: &[Expr<'g>], factor: Expr<'g>, b: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    a.iter().zip(b).map(|(a, b)| (*a - factor * *b).group()).collect()
 }
 
 fn product<'g>(a: &[Expr<'g>], b: &[Expr<'g>]) -> Expr<'g> {

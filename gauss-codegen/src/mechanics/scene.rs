@@ -184,9 +184,9 @@ impl<'g> SystemScene<'g> {
         match self.motion_of(link) {
             Some(Motion::Planar) => vec![0, 1, 5],
             Some(Motion::FixedPoint) => vec![3, 4, 5],
-            Some(Motion::Free) | None => match self.tree.links[link].only_axis() {
-                Some(axis) => vec![(axis + 1) % 3, (axis + 2) % 3, 3 + axis],
-                None => (0..6).collect(),
+            Some(Motion::Free) | None => match self.tree.links[link].turns_about()[..] {
+                [axis] => vec![(axis + 1) % 3, (axis + 2) % 3, 3 + axis],
+                _ => (0..6).collect(),
             },
         }
     }

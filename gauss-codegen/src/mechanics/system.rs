@@ -277,8 +277,11 @@ impl<'g> System<'g> {
     /// Generalised forces of the potential, and of the forces that are not on links.
     pub(in crate::mechanics) fn other_forces(&self) -> Vec<Expr<'g>> {
         let scene = &self.scene;
-        let acting =
-            self.forces.iter().filter_map(|force| force.generalised(&scene.tree.links, &scene.speeds, &scene.rates));
+        let acting = self
+            .loads
+            .forces
+            .iter()
+            .filter_map(|force| force.generalised(&scene.tree.links, &scene.speeds, &scene.rates));
         let potential = potential_of_forces(&scene.elements).unwrap_or_else(|| scene.graph.zero());
         acting.fold(self.potential_forces(potential), |sum, forces| sums(&sum, &forces))
     }
@@ -524,7 +527,8 @@ impl<'g> System<'g> {
 
 fn most_squares(scene: &SystemScene<'_>) -> usize {
     let [held, floating] = SQUARES;
-    if scene.tree.floats() { floating } else { held }
+    // What deforms is in none.
+    if scene.tree.floats() && scene.tree.deformations.is_empty() { floating } else { held }
 }
 
 fn tidied<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {

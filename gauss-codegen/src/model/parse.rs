@@ -114,11 +114,15 @@ fn named_fields<'a>(
         Data::Union(_) => "a union",
     };
     let name = &input.ident;
+    let fields = match found {
+        "a unit struct" => "{}",
+        _ => "{ #[gauss(mass)] mass: f64, #[gauss(inertia)] inertia: f64 }",
+    };
     context.error(
         name.span(),
         format!(
             "`GaussDynamics` is derived for structs with named fields, and `{name}` is {found}; \
-             write `struct {name} {{ #[gauss(mass)] mass: f64, #[gauss(inertia)] inertia: f64 }}`"
+             write `struct {name} {fields}`"
         ),
     );
     None

@@ -2,9 +2,11 @@
 //! moves along and about its own axes as if nothing held it. They and their rates are zero wherever anything is
 //! computed; what is of use is how everything would change by them.
 
-use crate::algebra::{Expr, Map};
+use proc_macro2::Span;
+
+use crate::algebra::{Expr, Map, Substitution};
 use crate::error::Result;
-use crate::mechanics::{LetGo, Placement, Turn};
+use crate::mechanics::{Action, Element, LetGo, Placement, Turn};
 use crate::words::Unraw;
 
 use super::freedom::LetGoBy;
@@ -41,6 +43,37 @@ impl<'g> Translator<'_, 'g> {
         let zero = self.graph.zero();
         let all = self.let_go.iter().flat_map(|by| [by.coordinates, by.speeds, by.rates]).flatten();
         all.map(|symbol| (symbol.key(), zero)).collect()
+    }
+
+    /// An element, of which note is taken where it has no value with joints where they are: its two ends are one place
+    /// there, and no direction leads from one to the other.
+    pub(super) fn known_at_home(&self, span: Span, element: Element<'g>) -> Element<'g> {
+        if self.let_go.is_empty() {
+            return element;
+        }
+        let home = Substitution::new(self.home());
+        let by_energy = |energy: Expr<'g>| {
+            let moved = self.let_go.iter().flat_map(|by| by.coordinates);
+            moved.for_each(|coordinate| {
+                home.of(energy.partial(coordinate));
+            });
+        };
+        let work = || match &element.action {
+            Action::Potential(energy) => by_energy(*energy),
+            Action::Field(field) => by_energy(field.potential),
+            Action::Forces(_) => {
+                element.map(|e| home.of(e));
+            }
+        };
+        if self.graph.defined(work).is_none() {
+            let message = format!(
+                "`{}` has no direction at the joint that `reactions` asks about: a distance in it is zero wherever the \
+                 system is; remove it, since it does nothing there, or fasten its ends in different places",
+                element.name
+            );
+            self.mistake(span, message);
+        }
+        element
     }
 
     /// Whether a component of a constraint or a slip vanishes with joints where they are, seen by so many terms.

@@ -94,6 +94,7 @@ impl<'g> Assigned<'g> {
         });
         let is_added_mass = |&field: &usize| model.is_added_mass(&model.item.fields[field].ident);
         let added_masses = (0..model.item.fields.len()).filter(is_added_mass).collect();
-        MassData { unnamed: self.unnamed, bodies: bodies.collect(), added_masses }
+        let attracted = !model.attractions.is_empty();
+        MassData { unnamed: self.unnamed, bodies: bodies.collect(), added_masses, attracted }
     }
 }

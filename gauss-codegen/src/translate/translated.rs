@@ -66,6 +66,8 @@ pub struct MassData<'g> {
     pub bodies: Vec<BodyData<'g>>,
     /// Indices of fields that clauses name as an added mass.
     pub added_masses: Vec<usize>,
+    /// A field of attraction acts, which sees all moments of every body.
+    pub attracted: bool,
 }
 
 /// A body or a frame.

@@ -249,7 +249,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         tree.deformations = self.deformations(&tree)?;
         let elements = match (model.chart_of_all(), self.chart()) {
             (Some(_), Some(chart)) if self.let_go.is_empty() => self.elements_on(chart)?,
-            _ => self.elements(&tree)?.into_iter().map(|(_, element)| element).collect(),
+            _ => self.elements(&tree)?.into_iter().map(|(span, element)| self.known_at_home(span, element)).collect(),
         };
         let constraints = self.constraints(&tree)?;
         let contacts = self.contacts(&tree)?;

@@ -82,9 +82,10 @@ const OTHER_STARTS: [f64; 10] = [-0.5, 2.0, -1.0, 3.0, -2.0, 5.0, -4.0, 9.0, -8.
 /// rounding is left of the residual, for which two things must come together. A correction for one and the same
 /// residual, taken before and after the step, tells how much the linearisation has changed along it; where that is
 /// little, the residual should have fallen, and has not. And a small part of the correction does not make the residual
-/// fall by that part either, as it would wherever the constraints can be resolved. No unit or size of coordinates
-/// enters. At least one correction is made, so that the derivatives that dual numbers carry satisfy the differentiated
-/// constraints also where the values do by themselves.
+/// fall by that part either, as it would wherever the constraints can be resolved. What is left is then no more than a
+/// move of the state by √ε of its size changes: more than that is left where constraints that may depend on one another
+/// contradict each other. At least one correction is made, so that the derivatives that dual numbers carry satisfy the
+/// differentiated constraints also where the values do by themselves.
 ///
 /// Where the search ends without a state (constraints that curve back before they vanish), it begins anew some
 /// corrections away on either side; the state that is found then need not be the nearest.
@@ -103,6 +104,7 @@ pub fn project<S: ConstrainedSystem>(
         residual: |q: &S::Configuration| system.position_residual(t, q),
         correction: |q: &S::Configuration, residual: &S::Multipliers| system.position_correction(t, q, residual),
         moved: |q: &S::Configuration, correction: &_| q.retract(correction).renormalise(),
+        size: largest_magnitude::<S::Configuration>,
         is_finite: |q: &S::Configuration| q.is_finite(),
         scalar: PhantomData,
     };
@@ -112,6 +114,7 @@ pub fn project<S: ConstrainedSystem>(
         residual: |z: &S::Speeds| system.velocity_residual(t, &q, z),
         correction: |z: &S::Speeds, residual: &S::Multipliers| system.velocity_correction(t, &q, z, residual),
         moved: |z: &S::Speeds, correction: &S::Speeds| z.add_scaled(S::Scalar::one(), correction),
+        size: |z: &S::Speeds| z.max_norm(),
         is_finite: |z: &S::Speeds| z.is_finite(),
         scalar: PhantomData,
     };
@@ -120,16 +123,18 @@ pub fn project<S: ConstrainedSystem>(
 }
 
 /// Damped Newton's method on one level: functions for the residual, for the correction, and for moving a point.
-struct Search<T, R, C, M, F> {
+struct Search<T, R, C, M, N, F> {
     level: ConstraintLevel,
     residual: R,
     correction: C,
     moved: M,
+    /// The largest component of a point.
+    size: N,
     is_finite: F,
     scalar: PhantomData<T>,
 }
 
-impl<T: Real, R, C, M, F> Search<T, R, C, M, F> {
+impl<T: Real, R, C, M, N, F> Search<T, R, C, M, N, F> {
     /// From `start`, and where that fails from some corrections away.
     fn settle_from_any_start<X: Copy, L: VectorSpace<T>, K: VectorSpace<T>>(
         &self,
@@ -139,6 +144,7 @@ impl<T: Real, R, C, M, F> Search<T, R, C, M, F> {
         R: Fn(&X) -> L,
         C: Fn(&X, &L) -> K,
         M: Fn(&X, &K) -> X,
+        N: Fn(&X) -> f64,
         F: Fn(&X) -> bool,
     {
         let failed = match self.settle(start) {
@@ -163,6 +169,7 @@ impl<T: Real, R, C, M, F> Search<T, R, C, M, F> {
         R: Fn(&X) -> L,
         C: Fn(&X, &L) -> K,
         M: Fn(&X, &K) -> X,
+        N: Fn(&X) -> f64,
         F: Fn(&X) -> bool,
     {
         let mut left = (self.residual)(&point);
@@ -190,7 +197,10 @@ impl<T: Real, R, C, M, F> Search<T, R, C, M, F> {
             let straight = change.max_norm() <= step.max_norm() / 64.0;
             let resolved = self.falls_by_parts(&point, &step, &left);
             (point, left) = match (resolved, straight) {
-                (false, true) if defined => return Ok(next),
+                (false, true) if defined => match self.is_rounding::<_, _, K>(&next, &remaining) {
+                    true => return Ok(next),
+                    false => return stopped(ProjectionFailure::NotConverged, &remaining),
+                },
                 (false, _) if defined => (next, remaining),
                 _ => match self.damped(&point, &step, &left) {
                     Some(found) => found,
@@ -199,6 +209,26 @@ impl<T: Real, R, C, M, F> Search<T, R, C, M, F> {
             };
         }
         stopped(ProjectionFailure::NotConverged, &left)
+    }
+
+    /// Whether a move by half of the digits changes a residual by as much as is left of it: of all coordinates, so that
+    /// every constraint feels it, and by unlike parts, so that they do not cancel. Where the point itself is zero what
+    /// it is computed of may be large: 2¹² ε is allowed for.
+    fn is_rounding<X, L: VectorSpace<T>, K: VectorSpace<T>>(&self, point: &X, left: &L) -> bool
+    where
+        R: Fn(&X) -> L,
+        M: Fn(&X, &K) -> X,
+        N: Fn(&X) -> f64,
+    {
+        let digits = Real::sqrt(T::EPSILON) * (self.size)(point) + 4096.0 * T::EPSILON;
+        let mut step = K::zero();
+        for i in 0..K::DIM {
+            // Multiples of the golden ratio are spread evenly and never equal.
+            let part = f64::from((i as u32).wrapping_mul(0x9E37_79B9)) / 4_294_967_296.0;
+            step.set_component(i, T::from_f64(digits * (1.0 + part)));
+        }
+        let changed = (self.residual)(&(self.moved)(point, &step)).add_scaled(-T::one(), left);
+        left.max_norm() <= changed.max_norm()
     }
 
     /// Whether some small part of a correction cancels that part of the residual: only rounding or a kink forbids it.
@@ -235,6 +265,11 @@ impl<T: Real, R, C, M, F> Search<T, R, C, M, F> {
             helps.then_some((next, remaining))
         })
     }
+}
+
+/// The largest component of a configuration, with 1 for rotations.
+fn largest_magnitude<Q: Configuration>(q: &Q) -> f64 {
+    (0..<Q::Tangent as VectorSpace<Q::Scalar>>::DIM).map(|i| q.magnitude(i)).fold(0.0, f64::max)
 }
 
 /// `factor · v`.

@@ -190,9 +190,8 @@ impl<T: Real> ParameterCheck<T> {
         }
     }
 
-    /// The inertia tensor about O of a body that turns about one of its axes alone: that of a body, as in
-    /// [`inertia_in_sum`](Self::inertia_in_sum), or nothing but the moment about that axis, and zeros. No other moment
-    /// enters.
+    /// The inertia tensor about O of a body that turns about one of its axes alone: no other moment enters. It is
+    /// symmetric, and the moment about the axis is that of a body.
     pub fn inertia_about_axis(
         &mut self,
         field: &'static str,
@@ -200,10 +199,8 @@ impl<T: Real> ParameterCheck<T> {
         (mass, center): (T, [T; 3]),
         inertia: &[[T; 3]; 3],
     ) {
-        let zero = |entry: T| (0..T::LANES).all(|lane| entry.lane(lane) == 0.0);
-        let others = (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).filter(|&place| place != (axis, axis));
-        if others.into_iter().any(|(i, j)| !zero(inertia[i][j])) {
-            return self.inertia_in_sum(field, mass, center, inertia);
+        if !self.symmetric_so_far(field, inertia, |row, col| Rule::SymmetricInertia { row, col }) {
+            return;
         }
         // A disk across the axis has the same moment, and its centre of mass where it matters.
         let moment = inertia[axis][axis];

@@ -133,6 +133,25 @@ fn inertia_about_another_point() {
     assert_eq!(list.len(), 1);
 }
 
+/// A uniform rod about its end, 1/3 with 1/4 for its centre of mass: by its moment, by three equal ones, with others
+/// that no body has.
+#[test]
+fn inertia_about_one_axis() {
+    let about =
+        |tensor: [[f64; 3]; 3]| found(|check| check.inertia_about_axis("j", 2, (1.0, [0.5, 0.0, 0.0]), &tensor));
+    let moment = 1.0 / 3.0;
+    for others in [[0.0; 2], [moment; 2], [1e-6, moment], [0.1, 0.1], [-1.0, 7.0]] {
+        assert!(about(diagonal([others[0], others[1], moment])).is_empty(), "{others:?}");
+    }
+    // About its centre of mass 1/12 is left of 1/3, and of 1/12 nothing.
+    let found = &about(diagonal([0.0, 0.0, 1.0 / 12.0]))[0];
+    assert_eq!((found.field, found.rule), ("j", Rule::InertiaAboutCenterOfMass));
+    assert!((found.value + 1.0 / 6.0).abs() < 1e-15, "{found:?}");
+    assert_eq!(about(diagonal([1.0, 1.0, -0.1]))[0].rule, Rule::PositiveDefiniteInertia);
+    let skew = [[1.0, 0.2, 0.0], [0.1, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    assert_eq!(about(skew)[0].rule, Rule::SymmetricInertia { row: 0, col: 1 });
+}
+
 #[test]
 fn stiffness_of_bushings() {
     assert!(found(|check| check.stiffness_matrix("k", &identity::<6>())).is_empty());

@@ -353,10 +353,7 @@ fn cells_about<T: Real>(x: T, axis: &[f64]) -> (usize, usize) {
 fn linear<T: Real>(order: u8, x: T, [begin, end]: [T; 2]) -> [T; 4] {
     let (zero, width) = (T::zero(), end - begin);
     match order {
-        0 => {
-            let u = (x - begin) / width;
-            [T::one() - u, u, zero, zero]
-        }
+        0 => [(end - x) / width, (x - begin) / width, zero, zero],
         1 => [-width.recip(), width.recip(), zero, zero],
         _ => [zero; 4],
     }
@@ -375,8 +372,9 @@ fn cubic<T: Real>(order: u8, x: T, [begin, end]: [T; 2], [first, last]: [bool; 2
     if last {
         within = T::select_lt(end, x, end, within);
     }
-    let u = (within - begin) / width;
-    let v = one - u;
+    // Each from its own end: 1 − u has no digit of the distance to a point behind which the cell is narrow, and slopes
+    // steep.
+    let [u, v] = [within - begin, end - within].map(|distance| distance / width);
     let weights = match order {
         0 => {
             // What is beyond the grid, times the slope at its edge.

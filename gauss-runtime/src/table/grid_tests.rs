@@ -209,3 +209,33 @@ fn lanes_find_their_own_cells() {
         }
     }
 }
+
+/// Just before a point behind which the cell is 10⁶ times narrower, and the slope as many times steeper: there the
+/// cubic is `w (s₀ u v² − s₁ u² v)` with the distances u and v from its ends, the values at which are zero.
+#[test]
+fn a_cell_beside_a_narrow_one_keeps_its_digits() {
+    const X: [f64; 3] = [-1.0, 0.0, 1e-6];
+    const VALUES: [f64; 3] = [0.0, 0.0, 1.0];
+    const FLAT: [f64; 2] = [0.0, 1.0];
+    const ONE: Grid<3, 1, 1, 2> = Grid::of_one(&X, &VALUES, Joined::Hermite);
+    const THREE: Grid<3, 2, 2, 8> =
+        Grid::of_three(&X, &FLAT, &FLAT, &[[[0.0; 2]; 2], [[0.0; 2]; 2], [[1.0; 2]; 2]], Joined::Hermite);
+    let [before, behind] = [-1.0, 0.0].map(|x| ONE.at([1], [x]));
+    for distance in [0.5, 1e-3, 1e-6, 1e-9, 1e-12] {
+        let (u, v) = (1.0 - distance, distance);
+        let value = before * u * v * v - behind * u * u * v;
+        let slope = before * v * (v - 2.0 * u) + behind * u * (u - 2.0 * v);
+        for (found, exact) in [
+            (ONE.at([0], [-distance]), value),
+            (ONE.at([1], [-distance]), slope),
+            (THREE.at([0, 0, 0], [-distance, 0.3, 0.7]), value),
+            (THREE.at([1, 0, 0], [-distance, 0.3, 0.7]), slope),
+        ] {
+            // Some ten roundings, and of both terms of a sum.
+            let size = exact.abs().max(behind.abs() * v.min(u) * 1e-3);
+            assert!((found - exact).abs() <= 16.0 * f64::EPSILON * size, "{distance:e}: {found:e}, not {exact:e}");
+        }
+    }
+    const LINE: Grid<3, 1, 1, 1> = Grid::of_one(&X, &[1.0, 0.0, 1.0], Joined::Linear);
+    assert_eq!(LINE.at([0], [-1e-12]), 1e-12);
+}

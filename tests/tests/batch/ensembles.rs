@@ -259,3 +259,35 @@ fn constraints_hold_in_runs_of_their_own() {
         assert!((q - end.q).norm() + (z - end.z).norm() < 100.0 * 30.0 * 10.0 * f64::EPSILON, "state {i}");
     }
 }
+
+/// A cart that is at rest, or rolls, until it is pushed.
+#[derive(GaussDynamics)]
+#[gauss(coordinates(x), particle(mass = mass, position = [x, 0, 0]), input(push), drive(x = push))]
+struct Cart<T> {
+    mass: T,
+}
+
+fn pulse<T: Real>(t: T) -> T {
+    let tau = (t - T::from_f64(5.3)) * T::from_f64(20.0);
+    (-tau * tau).exp()
+}
+
+/// What a run alone finds by its looks at the input, each lane finds at the same steps.
+#[test]
+fn pushes_that_are_over_soon_are_seen_in_every_lane() {
+    type Pack = Lanes<f64, 4>;
+    let (packed, single) = (Cart { mass: Pack::splat(2.0) }.kernel(), Cart { mass: 2.0 }.kernel());
+    let (packed, single) = (packed.expect("a cart"), single.expect("a cart"));
+    let start = |i: usize| -> (SVector<f64, 1>, SVector<f64, 1>) { ([0.1 * i as f64].into(), [0.3 * i as f64].into()) };
+    let mut states = States::<CartKernel<Pack>>::from_fn(7, start);
+    let batch = Batch::new(&packed).input(|t: Pack, _: &SVector<Pack, 1>, _: &SVector<Pack, 1>| [pulse(t)].into());
+    let ends = batch.control(Adaptive::new(1e-9, 1e-9)).run(0.0..10.0, &mut states);
+    for (i, (q, z)) in states.iter().enumerate() {
+        let run = Simulation::new(&single).input(|t, _, _| [pulse(t)].into()).adaptive(1e-9, 1e-9);
+        let end = run.run_to_end(start(i).0, start(i).1, 0.0..10.0).expect("runs");
+        let summary = ends[i].as_ref().expect("runs").summary;
+        assert!(q == end.q && z == end.z && summary == end.summary, "state {i}: {q} {z} for {} {}", end.q, end.z);
+        // Its impulse is √π/20.
+        assert!((z[0] - start(i).1[0] - std::f64::consts::PI.sqrt() / 40.0).abs() < 1e-8, "state {i}: {z}");
+    }
+}

@@ -464,3 +464,30 @@ fn what_rolls_out_has_the_derivatives_of_its_closed_form() {
         assert!((found - wanted).abs() < 1e-7 * wanted.abs(), "{found} {wanted}");
     }
 }
+
+/// A body above flat ground: its gap is a sum of components along its own axes, whose derivatives are rounded.
+#[test]
+fn a_body_that_turns_bounces_with_derivatives() {
+    for tolerance in [1e-5, 1e-6, 1e-8, 1e-9, 1e-10, 1e-12] {
+        for (height, turn) in [(0.6, [1.0, 2.0, 0.5]), (1.1, [-3.0, 0.1, 7.0])] {
+            let hits = |e: DualNumber<Dual64>| {
+                let number = |x: f64| DualNumber(Dual64::from_re(x));
+                let kernel = Billiard { r: number(0.1), mu: number(0.3), e, g: number(9.81) }.kernel().expect("a ball");
+                let run = ContactRun::new(&kernel).adaptive(tolerance, tolerance);
+                let z = SVector::from([0.3, 0.0, 0.0, turn[0], turn[1], turn[2]].map(number));
+                let run = run.run(place(number(height)), z, number(0.0)..number(2.0));
+                let run = run.unwrap_or_else(|error| panic!("{tolerance} {height}: {error}"));
+                let impacts = run.events().iter().filter(|event| matches!(event.kind, EventKind::Impact(_)));
+                impacts.map(|event| run.time_of(event)).take(4).collect::<Vec<_>>()
+            };
+            let found = hits(DualNumber(Dual64::from_re(0.7).derivative()));
+            // t₁ = √(2(h − r)/g), then 2 e^n t₁ each.
+            let fall = (2.0 * (height - 0.1) / 9.81_f64).sqrt();
+            for (n, time) in found.into_iter().enumerate() {
+                let powers = (1..=n).map(|k| k as f64 * 0.7_f64.powi(k as i32 - 1));
+                let wanted = 2.0 * fall * powers.sum::<f64>();
+                assert!((time.eps - wanted).abs() < 1e3 * tolerance + 1e-9, "{n}: {} {wanted}", time.eps);
+            }
+        }
+    }
+}

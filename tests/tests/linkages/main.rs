@@ -3,6 +3,7 @@
 
 mod redundant;
 mod rows;
+mod units;
 
 use gauss_runtime::monitor::EnergyMonitor;
 use gauss_runtime::nalgebra::Unit;

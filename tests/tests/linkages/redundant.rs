@@ -1,6 +1,7 @@
 //! Constraints that depend on one another: everywhere, as those of a table on four legs and of a door on three hinges,
 //! or where the mechanism can be alone, as those of Bricard's. The motion is that of as many as are independent.
 
+use gauss_runtime::constraint::ProjectionFailure;
 use gauss_runtime::monitor::EnergyMonitor;
 use gauss_runtime::prelude::*;
 
@@ -163,6 +164,78 @@ fn a_table_on_four_legs_shares_its_load() {
     let end = Simulation::new(&kernel).adaptive(1e-9, 1e-9).run_to_end(q, z, 0.0..2.0).unwrap();
     assert!((end.q.translation.vector[2] - 0.7).abs() <= 8.0 * f64::EPSILON);
     assert!((end.z[5] - 2.0).abs() <= 1e-12);
+}
+
+/// A table with a leg of its own length: on a flat floor it does not stand on all four.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(pose: Pose),
+    body(top, position = pose.position, rotation = pose.rotation, mass = m, inertia = [i, i, i]),
+    point(leg1, body = top, at = [a, a, -h]),
+    point(leg2, body = top, at = [-a, a, -h]),
+    point(leg3, body = top, at = [-a, -a, -h]),
+    point(leg4, body = top, at = [a, -a, -last]),
+    constraint(position = w * dot(leg1, [0, 0, 1])),
+    constraint(position = w * dot(leg2, [0, 0, 1])),
+    constraint(position = w * dot(leg3, [0, 0, 1])),
+    constraint(position = w * dot(leg4, [0, 0, 1])),
+    redundant,
+)]
+struct Uneven {
+    m: f64,
+    i: f64,
+    a: f64,
+    h: f64,
+    last: f64,
+    w: f64,
+}
+
+/// A constraint that depends on others is not looked at where the motion is formed, and one that contradicts them is no
+/// rounding: the projection says so, in any unit.
+#[test]
+fn constraints_that_contradict_each_other_are_refused() {
+    for w in [1.0, 1e-9, 1e9] {
+        let project = |last: f64| {
+            let kernel = Uneven { m: 1.0, i: 1.0, a: 0.5, h: 0.7, last, w }.kernel().unwrap();
+            kernel.project(0.0, &Isometry3::translation(0.1, -0.2, 0.7), &SVector::zeros()).map(|_| ())
+        };
+        assert_eq!(project(0.7), Ok(()));
+        assert_eq!(project(0.7 + 1e-15), Ok(()));
+        for off in [1e-6, 1e-3, -0.1] {
+            let error = project(0.7 + off).expect_err("three legs alone");
+            assert_eq!(error.failure, ProjectionFailure::NotConverged, "{w:e} {off:e}: {error}");
+            assert!(error.to_string().contains("contradict"), "{error}");
+        }
+    }
+}
+
+/// Bars of 1 m and bearings 2 m apart, flat at zero angles, where the constraints depend on one another.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(a, b, c),
+    body(crank, rotation = rotation_z(a), mass = 1, inertia = 1),
+    body(coupler, position = [cos(a), sin(a), 0], rotation = rotation_z(b), mass = 1, inertia = 1),
+    body(rocker, position = [2, 0, 0], rotation = rotation_z(c), mass = 1, inertia = 1),
+    point(end, body = coupler, at = [2, 0, 0]),
+    point(tip, body = rocker, at = [1, 0, 0]),
+    constraint(position = end - tip),
+    redundant,
+)]
+struct Flat {}
+
+#[test]
+fn the_projection_finds_its_way_next_to_where_rows_change() {
+    let kernel = Flat {}.kernel().unwrap();
+    for power in 1..12 {
+        for off in [1e-3, 1e-6, 1e-9] {
+            let a = 10.0_f64.powi(-power);
+            let (q, z) = (SVector::from([a, 0.3 * off, a + off]), SVector::from([1.0, 0.1, 1.1]));
+            let (q, z) = kernel.project(0.0, &q, &z).unwrap_or_else(|error| panic!("{a:e} {off:e}: {error}"));
+            // Roundings of lengths up to 2, and of speeds of that size.
+            assert!(kernel.position_residual(0.0, &q).amax() <= 4.0 * f64::EPSILON, "{a:e} {off:e}: {q}");
+            assert!(kernel.velocity_residual(0.0, &q, &z).amax() <= 8.0 * f64::EPSILON, "{a:e} {off:e}: {z}");
+        }
+    }
 }
 
 /// A door on three hinges, each of which holds a point.

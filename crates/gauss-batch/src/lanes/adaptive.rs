@@ -9,24 +9,28 @@ use gauss_runtime::integrate::drive::control::{
     StepStatistics, check_tolerances, longest, smallest, to_a_number, unresolved,
 };
 use gauss_runtime::integrate::drive::logarithms::{exponential, logarithm};
+use gauss_runtime::integrate::drive::looks::Looks;
 use gauss_runtime::integrate::drive::projection::{accept, check_move, is_hopeless};
+use gauss_runtime::integrate::drive::search::Made;
 use gauss_runtime::integrate::drive::step_length::StepLength;
-use gauss_runtime::integrate::drive::tolerance::{Floor, Trial};
+use gauss_runtime::integrate::drive::tolerance::{Floor, Tolerance, Trial};
 use gauss_runtime::integrate::problem::called::Called;
 use gauss_runtime::integrate::problem::equations::Problem;
 use gauss_runtime::integrate::problem::error::IntegrationErrorKind;
+use gauss_runtime::integrate::problem::state::{Rates, State};
 use gauss_runtime::integrate::step::one_step::EstimatingStep;
 use gauss_runtime::real::Real;
 use gauss_runtime::simd::Packed;
 
 use super::system::BatchSystem;
-use super::{Group, LaneControl, Sealed, Verdict, chosen_state, largest, number, numbers_of, ones_in};
+use super::{Group, LaneControl, Sealed, Verdict, chosen_rates, chosen_state, largest, number, numbers_of, ones_in};
 
 /// What one lane remembers: the fields of the same names of a run of its own.
 #[derive(Clone, Copy)]
 struct Lane {
     length: f64,
     lengths: StepLength,
+    looks: Looks,
     looked: f64,
     rejected: u32,
     /// Whether the floor is known.
@@ -35,6 +39,8 @@ struct Lane {
     used: f64,
     last: bool,
     error: f64,
+    /// The length that looks at the input leave of it.
+    seen: Option<f64>,
 }
 
 impl Lane {
@@ -90,6 +96,36 @@ impl<S: BatchSystem> Memory<S> {
         self.floor = Some(self.floor.take().unwrap_or_else(Floor::none).or(ones, &here));
     }
 
+    /// Looks at what acts within the step of each lane that makes a long one; whether it is too long in any.
+    #[inline(never)]
+    fn look_at_inputs<P: Problem<System = S>>(
+        &mut self,
+        problem: &P,
+        tolerance: &Tolerance,
+        group: &Group<S>,
+        after: (&State<S>, &Rates<S>),
+    ) -> bool {
+        let mut too_long = false;
+        for (n, lane) in self.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.used > 0.0 && !lane.rejects()) {
+            if lane.looks.want(number(group.state.t, n), lane.used, lane.error) {
+                let made = Made { lane: numbers_of::<S::Scalar>(n).start, before: (&group.state, &group.rates), after };
+                lane.seen = lane.looks.unseen(problem, &made, tolerance);
+                too_long |= lane.seen.is_some();
+            }
+        }
+        too_long
+    }
+
+    /// Takes lanes whose step leads over something back to its start; the others are 1.
+    #[cold]
+    fn hold_back(&self, group: &Group<S>, reached: &mut State<S>, next: &mut Rates<S>) -> S::Scalar {
+        let takes = |lane: &Lane| lane.used > 0.0 && !lane.rejects() && lane.seen.is_none();
+        let ones = ones_in(|n| takes(&self.lanes[n]));
+        *reached = chosen_state(ones, reached, &group.state);
+        *next = chosen_rates(ones, next, &group.rates);
+        ones
+    }
+
     /// Forgets the floor in lanes that do not ask for it.
     #[cold]
     #[inline(never)]
@@ -116,6 +152,13 @@ impl<S: BatchSystem> Memory<S> {
                     *verdict = Verdict::Rejected;
                     continue;
                 }
+                if let Some(seen) = lane.seen.take() {
+                    lane.length = seen;
+                    lane.rejected += 1;
+                    *verdict = Verdict::Rejected;
+                    continue;
+                }
+                lane.looks.take(lane.error);
                 let excess = excesses.map_or(0.0, |excesses| excesses[n]);
                 lane.length = (lane.used * lane.lengths.grow(logarithms[n], growths[n])).min(most);
                 // Where rounding is in the way it is asked for again, elsewhere when steps have become short.
@@ -188,16 +231,19 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
 
     fn memory(&self, span: f64, limit: u64) -> Result<Memory<S>, IntegrationErrorKind> {
         check_tolerances(self.tolerance.relative, self.tolerance.absolute)?;
+        Looks::check(self.input_changes)?;
         let longest = if span == 0.0 { 0.0 } else { longest(self.largest_step, span, limit)? };
         let lane = Lane {
             length: 0.0,
             lengths: StepLength::new(self.method.estimate_order(), S::SMOOTHNESS),
+            looks: Looks::new(self.input_changes, 0.0, span),
             looked: 0.0,
             rejected: 0,
             floored: false,
             used: 0.0,
             last: false,
             error: 0.0,
+            seen: None,
         };
         Ok(Memory { lanes: vec![lane; S::Scalar::WIDTH], floor: None, longest })
     }
@@ -219,6 +265,8 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         let this = &mut memory.lanes[lane];
         this.lengths = StepLength::new(self.method.estimate_order(), S::SMOOTHNESS);
         (this.length, this.looked, this.rejected) = (first.min(memory.longest), 0.0, 0);
+        this.looks = Looks::new(self.input_changes, number(group.state.t, lane), group.span);
+        this.seen = None;
         if core::mem::take(&mut this.floored) {
             memory.forget();
         }
@@ -237,8 +285,11 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         let called = Called(problem);
         let (step, coarse) = self.method.step_and_estimates(&called, &group.state, &group.rates, h)?;
         let tolerance = &self.tolerance;
-        let states = (&group.state, &step.state, lengths);
-        let estimates = (&step.error, coarse.as_ref());
+        let measured = |change: &Rates<S>| problem.change_of_speeds(&step.state, change);
+        let (fine, coarse) = (measured(&step.error), coarse.as_ref().map(measured));
+        let seen = [&group.state, &step.state].map(|state| problem.in_speeds(state));
+        let states = (&seen[0], &seen[1], lengths);
+        let estimates = (&fine, coarse.as_ref());
         let errors = match &memory.floor {
             None => {
                 let trial = Trial { from: states.0, to: states.1, length: lengths, floor: None };
@@ -254,8 +305,7 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         if look {
             // It may be rounding that is too much.
             memory.look(problem, group, |lane| lane.rejects() && !lane.floored);
-            let states = (&group.state, &step.state, lengths);
-            let above = |floor: &Floor<S>| tolerance.errors_above(floor, states, (&step.error, coarse.as_ref()));
+            let above = |floor: &Floor<S>| tolerance.errors_above(floor, states, estimates);
             let errors = memory.floor.as_ref().map_or(errors, above);
             for (n, lane) in memory.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.rejects() && !lane.floored) {
                 (lane.error, lane.floored) = (largest(errors, n), true);
@@ -277,13 +327,16 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
             reached = chosen_state(ones, &reached, &group.state);
         }
         let computed = reached;
-        let next = accept(problem, (&group.state, &group.rates), &mut reached, known)?;
+        let mut next = accept(problem, (&group.state, &group.rates), &mut reached, known)?;
         if S::CONSTRAINED {
             let trial = Trial { from: &group.state, to: &reached, length: lengths, floor: None };
             check_move(tolerance, problem, &trial, &computed)?;
         }
+        let seen = problem.has_input() && memory.look_at_inputs(problem, tolerance, group, (&reached, &next));
+        let (ones, all) = if seen { (memory.hold_back(group, &mut reached, &mut next), false) } else { (ones, all) };
         let floors = memory.floor.as_ref().map(|floor| {
-            tolerance.excesses(&Trial { from: &group.state, to: &reached, length: lengths, floor: Some(floor) })
+            let to = &problem.in_speeds(&reached);
+            tolerance.excesses(&Trial { from: states.0, to, length: lengths, floor: Some(floor) })
         });
         group.take(ones, all, (reached, next));
         memory.judge(problem, group, floors);

@@ -34,6 +34,9 @@ const LONGER: f64 = 4.0;
 const NEARER: f64 = 0.25;
 /// The shortest step at impacts unless said otherwise, as a part of the longest.
 const SHORTEST: f64 = 1e-3;
+/// Where within half of a step the input is looked at beside its start, as parts of it. Its end is one of them: what
+/// begins before it is seen as long as it lasts from there to the next.
+const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// Roundings of the time that a step takes at least.
 const ROUNDINGS: f64 = 16.0;
 const MOST_STEPS: u64 = 10_000_000;
@@ -84,7 +87,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
     /// by what it does in such a time.
     ///
     /// An input is held during half of a step; where it changes with time or state, that is of first order, and steps
-    /// are as short as it asks for.
+    /// are as short as it asks for. It is looked at eight times in a step: a push that is shorter than an eighth of the
+    /// longest step may be missed.
     pub fn adaptive(self, relative: f64, absolute: f64) -> AdaptiveContactSteps<'k, K, I> {
         let shortest = SHORTEST * self.h;
         AdaptiveContactSteps { steps: self, relative, absolute, shortest, limit: MOST_STEPS }
@@ -213,9 +217,11 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
         let whole = stepper.kept();
         let (mut impacts, closure) = (stepper.report.impacts, stepper.report.closure);
         stepper.restore(before);
+        let unheld = self.unheld(stepper, h);
         let first = stepper.step(0.5 * h, &input(stepper))?;
         let of_first = stepper.impulses;
         let middle = stepper.kept();
+        let unheld = unheld.add_scaled(1.0, &self.unheld(stepper, h));
         let second = stepper.step(0.5 * h, &input(stepper))?;
         let end = stepper.kept();
         impacts += first.impacts + second.impacts;
@@ -225,7 +231,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
         stepper.impulses = stepper.impulses.add_scaled(1.0, &of_first);
         let parts = if first.parts + second.parts > 0 { first.parts.max(1) + second.parts.max(1) } else { 0 };
         let report = StepReport { parts, ..first.and(second) };
-        let estimate = self.estimate((before, &whole, &end), impacts > 0);
+        let estimate = self.estimate((before, &whole, &end), &unheld, impacts > 0);
         // A flight that is shorter than half of the step is not seen: what closes has left out its way.
         let estimate = estimate.max(closure / (self.absolute + self.relative * closure).max(f64::MIN_POSITIVE));
         if !estimate.is_finite() {
@@ -234,9 +240,30 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
         Ok(Trial { estimate, changes, report })
     }
 
+    /// What the input does to the speeds in half of a step, from its start on, beside that which is held: without
+    /// contacts, and without regard to its sign.
+    fn unheld(&self, stepper: &ContactStepper<'k, K>, h: f64) -> K::Speeds
+    where
+        I: InputSource<K>,
+    {
+        let mut sum = K::Speeds::zero();
+        if size_of::<K::Input>() == 0 {
+            return sum;
+        }
+        let (t, q, z) = (stepper.t, &stepper.q, &stepper.z);
+        let acceleration = |at: f64| stepper.kernel.acceleration(t, q, z, &self.steps.input.input(at, q, z));
+        let held = acceleration(t);
+        for part in LOOKS {
+            let other = acceleration(t + 0.5 * h * part).add_scaled(-1.0, &held);
+            let part = 0.5 * h / LOOKS.len() as f64;
+            (0..K::Speeds::DIM).for_each(|i| sum.set_component(i, sum.component(i) + part * other.component(i).abs()));
+        }
+        sum
+    }
+
     /// What a step as a whole is off by, over the tolerance: the largest of all components, of places alone where
-    /// speeds jump.
-    fn estimate(&self, (before, whole, end): (&Kept<K>, &Kept<K>, &Kept<K>), jumps: bool) -> f64 {
+    /// speeds jump. `unheld`: what the input adds to speeds that steps have not seen.
+    fn estimate(&self, (before, whole, end): (&Kept<K>, &Kept<K>, &Kept<K>), unheld: &K::Speeds, jumps: bool) -> f64 {
         let over = |off: f64, size: f64| off.abs() / (self.absolute + self.relative * size).max(f64::MIN_POSITIVE);
         let larger = |worst: f64, x: f64| if x > worst || x.is_nan() { x } else { worst };
         let off = end.q.difference(&whole.q);
@@ -247,7 +274,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
         }
         let speed = |i: usize| {
             let [before, whole, end] = [before, whole, end].map(|kept| kept.z.component(i));
-            over(end - whole, before.abs().max(end.abs()))
+            over(larger((end - whole).abs(), unheld.component(i)), before.abs().max(end.abs()))
         };
         (0..K::Speeds::DIM).map(speed).fold(places, larger)
     }

@@ -10,7 +10,6 @@ use crate::dense::value;
 use crate::mode::Mode;
 
 use super::active::Active;
-use super::motion;
 
 /// A contact at a change of its mode: the derivatives of the step are those of the mode that the step has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,7 +126,7 @@ impl Known<'_> {
         } else {
             let rate = active.rate(row, impulses).value;
             let acts = self.end(i, row, (self.free)(row)) <= 0.0;
-            let passed = motion::passed_on((self.restitution)(i), (self.before)(row));
+            let passed = -(self.restitution)(i) * (self.before)(row).min(0.0);
             self.ends_at_zero(i, row, rate) || (acts && (rate - passed).abs() <= nothing)
         };
         let rests = mode.is_closed() && (self.restitution)(i) > 0.0 && (self.before)(row).abs() <= nothing;

@@ -21,9 +21,13 @@ impl<T: Real> Impulses<'_, T> {
                 State::Closed => cone.first..cone.first,
                 State::Sticks | State::Slides(..) => cone.tangents(),
             };
+            // What no impulse moves has no equation: of what sticks its slip is none at all.
+            let sticks = *state == State::Sticks;
             for row in cone.normal.into_iter().chain(rows) {
-                self.unknown[count] = row as Place;
-                count += 1;
+                if cone.normal == Some(row) || !sticks || self.moves(row) {
+                    self.unknown[count] = row as Place;
+                    count += 1;
+                }
             }
         }
         self.symmetric = !states.iter().any(|state| matches!(state, State::Slides(..)));
@@ -48,8 +52,10 @@ impl<T: Real> Impulses<'_, T> {
             match state {
                 State::Sticks => {
                     for row in cone.tangents() {
-                        self.equal((k, count), count, row);
-                        k += 1;
+                        if self.moves(row) {
+                            self.equal((k, count), count, row);
+                            k += 1;
+                        }
                     }
                 }
                 State::Slides(along, part) => {
@@ -130,8 +136,10 @@ impl<T: Real> Impulses<'_, T> {
             match state {
                 State::Sticks => {
                     for row in cone.tangents() {
-                        self.right[k] = pulled(self, row);
-                        k += 1;
+                        if self.moves(row) {
+                            self.right[k] = pulled(self, row);
+                            k += 1;
+                        }
                     }
                 }
                 State::Slides(along, part) => {

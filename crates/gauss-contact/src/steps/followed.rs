@@ -17,6 +17,7 @@ use crate::lockstep::Lockstep;
 use crate::mode::{Mode, after_impulses};
 
 use super::active::{Active, LEFT, NOTHING, Solvable, inverse, largest_slope, multiplied};
+use super::bounds::Touched;
 use super::edges::{self, AtChange, Known};
 use super::motion::{self, Middle};
 use super::projection::{Closed, Projection};
@@ -62,16 +63,17 @@ pub(super) fn part<const N: usize, L: ContactSystem<Scalar = Dual<N>>>(
         let attempt = Attempt { kernel, input, state, middle: Middle { t: t + number(0.5 * h), q, z }, t: part.t, h };
         attempt.end(taken, same)
     };
-    let (q, after) = match (&part.first, scheme, state.acceleration) {
-        (Some(first), ..) => {
-            let (_, after) = attempt(first, z)?;
-            attempt(&part.taken, z.add_scaled(number(1.0), &after).scale(number(0.5)))?
-        }
-        (None, StepScheme::Midpoint, Some(acceleration)) => {
-            attempt(&part.taken, z.add_scaled(number(0.5 * h), &acceleration))?
-        }
-        _ => attempt(&part.taken, z)?,
+    let foreseen = match (scheme, state.acceleration) {
+        (StepScheme::Midpoint, Some(acceleration)) => z.add_scaled(number(0.5 * h), &acceleration),
+        _ => z,
     };
+    let mut used = foreseen;
+    for (taken, (how, by)) in &part.before {
+        let (q, after) = attempt(taken, used)?;
+        let wanted = how.of(kernel, (t, h), [(&state.q, &z), (&q, &after)], input);
+        used = motion::towards(&used, &wanted, *by);
+    }
+    let (q, after) = attempt(&part.taken, used)?;
     let changed = after.add_scaled(number(-1.0), &z).scale(number(1.0 / h));
     Ok(State { q, z: after, acceleration: (!part.taken.struck).then_some(changed) })
 }
@@ -130,18 +132,19 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         let friction = kernel.friction(middle.t, &middle.q, &middle.z, input);
         let dynamics = kernel.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
         let t = Dual::constant(self.t);
-        let rates = kernel.contact_rates(t, &state.q, &state.z);
+        let before = kernel.contact_rates(t, &state.q, &state.z);
         let free = state.z.add_scaled(Dual::constant(*h), &dynamics.acceleration);
         let free_and_bias = (&free, &dynamics.bias);
-        let rates = motion::free_rates(*kernel, (*h, taken.dependent), middle, (&state.z, &rates), free_and_bias);
-        let passes = self.passes(same.tolerance, &rates);
+        let rates = motion::free_rates(*kernel, (*h, taken.dependent), middle, (&state.z, &before), free_and_bias);
+        let gaps = kernel.gaps(t, &state.q);
+        let passes = self.passes(same.tolerance, &gaps, &rates);
         let active = self.active((modes, &passes), (&friction, &dynamics), rates[1]);
         let impulses: Vec<Dual<N>> = taken.impulses.iter().copied().map(Dual::constant).collect();
         if same.solvable.len() == same.solved {
             same.solvable.push(active.solvable(modes, &impulses));
         }
         if same.looks && same.at_change.is_none() {
-            let (gaps, e) = (kernel.gaps(t, &state.q), kernel.restitution());
+            let e = kernel.restitution();
             let known = Known {
                 gaps: &|i| gaps.component(i).value,
                 restitution: &|i| e.component(i).value,
@@ -159,18 +162,22 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         impulses.iter().enumerate().for_each(|(row, impulse)| rows.set_component(row, *impulse));
         let z = after_impulses(&Lockstep::default(), *kernel, &free, (&dynamics.response.factors, &rows));
         let (q, z) = self.second_half(z)?;
-        self.projected((q, z), &dynamics, (taken, modes, &passes), same)
+        self.projected((q, z), (&dynamics, [&rows, &before]), (taken, modes, &passes), same)
     }
 
-    /// The rates that contacts with restitution pass on, whose gaps do not open before the step. Of an approach of zero
-    /// derivatives are those of an approach.
-    fn passes(&self, tolerance: f64, [before, free]: &[L::ContactRows; 2]) -> Vec<Option<Dual<N>>> {
+    /// The rates that contacts with restitution pass on, whose gaps do not open before the step, or are closed by
+    /// others alone. Of an approach of zero derivatives are those of an approach.
+    fn passes(&self, tolerance: f64, gaps: &L::Gaps, [before, free]: &[L::ContactRows; 2]) -> Vec<Option<Dual<N>>> {
         let e = self.kernel.restitution();
         let size = |row: usize| before.component(row).value.abs().max(free.component(row).value.abs());
         let nothing = tolerance * (0..L::ContactRows::DIM).map(size).fold(0.0, f64::max);
+        let fastest = motion::fastest::<L>(before).value;
         let of = |(i, contact): (usize, &Contact)| {
-            let (e, before) = (e.component(i), before.component(contact.normal));
-            (contact.has_gap() && e.value > 0.0 && before.value <= nothing).then_some(-e * before)
+            let [before, free] = [before, free].map(|rates| rates.component(contact.normal));
+            let end = gaps.component(i).value + 0.5 * self.h * (before.value + free.value);
+            let e = e.component(i);
+            let passes = before.value <= nothing || motion::reversed(before.value, end, fastest) > 0.0;
+            (contact.has_gap() && e.value > 0.0 && passes).then_some(-e * before)
         };
         L::CONTACTS.iter().enumerate().map(of).collect()
     }
@@ -199,7 +206,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
     fn projected(
         &self,
         (q, z): (L::Configuration, L::Speeds),
-        dynamics: &ImpulseDynamics<L>,
+        (dynamics, [impulses, rates]): (&ImpulseDynamics<L>, [&L::ContactRows; 2]),
         (taken, modes, passes): (&Taken, &[Mode], &[Option<Dual<N>>]),
         same: &mut Same,
     ) -> Moved<L> {
@@ -207,9 +214,9 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         let mut memory = vec![Dual::constant(0.0); Projection::<L>::MEMORY];
         let mut projection = Projection::<L>::new(&mut memory);
         let before = kernel.gaps(t, &q);
-        let closed =
-            projection.close(kernel, (t, q, before), (&dynamics.response, motion::magnitude(&q)), &taken.rests);
-        let Closed { mut q, gaps, .. } = closed.map_err(ContactErrorKind::Projection)?;
+        let touched = Touched { closed: &taken.closed, impulses, rates, h: self.h };
+        let closed = projection.close(kernel, (t, q, before), (&dynamics.response, motion::magnitude(&q)), &touched);
+        let Closed { mut q, gaps, .. } = closed.map_err(|not_closed| not_closed.kind)?;
         if same.looks && same.at_change.is_none() {
             let nothing = same.tolerance * self.h * (1.0 + z.max_norm());
             same.at_change = edges::of_gaps::<L>((&before, &gaps), &taken.rests, nothing);

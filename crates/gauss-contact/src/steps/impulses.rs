@@ -189,6 +189,27 @@ impl<'m, T: Real> Impulses<'m, T> {
         cone.tangents().map(|row| self.at(row, row)).fold(T::zero(), larger)
     }
 
+    /// Whether impulses change the rate of a row: not where a constraint drives it, nor where its slip is none at all.
+    pub(super) fn moves(&self, row: usize) -> bool {
+        self.lockstep.less(T::zero(), self.at(row, row))
+    }
+
+    /// Whether no impulse changes a slip.
+    pub(super) fn is_driven(&self, cone: &Cone<T>) -> bool {
+        cone.count > 0 && !cone.tangents().any(|row| self.moves(row))
+    }
+
+    /// Of such a slip what its friction says, where there is some.
+    pub(super) fn slides_driven(&self, cone: &Cone<T>) -> Option<State<T>> {
+        if !cone.acts || !self.is_driven(cone) {
+            return None;
+        }
+        let mut friction = [T::zero(); 3];
+        friction.iter_mut().zip(cone.tangents()).for_each(|(x, row)| *x = self.impulses[row]);
+        let size = norm(&friction);
+        (!self.lockstep.is_zero(size)).then(|| State::Slides(friction.map(|x| x / size), T::one()))
+    }
+
     /// `d P_T − u_T`, at most three, and its length.
     fn wanted(&self, cone: &Cone<T>, scale: T) -> ([T; 3], T) {
         let mut wanted = [T::zero(); 3];
@@ -220,10 +241,13 @@ impl<'m, T: Real> Impulses<'m, T> {
         }
         let (wanted, size) = self.wanted(cone, scale);
         let largest = cone.friction * pressed * scale;
-        if lockstep.at_most(size, largest) {
-            return State::Sticks;
+        // A slip along one axis that no impulse changes is one, whatever friction is along the others.
+        let slips = |row: usize| !self.moves(row) && !lockstep.is_zero(self.rates[row]);
+        match lockstep.at_most(size, largest) {
+            true if !cone.tangents().any(slips) || lockstep.is_zero(size) => State::Sticks,
+            true => State::Slides(wanted.map(|x| x / size), T::one()),
+            false => State::Slides(wanted.map(|x| x / size), largest / size),
         }
-        State::Slides(wanted.map(|x| x / size), largest / size)
     }
 
     /// What a contact does in a lane, by its state, in forces and slips as they are: rows were scaled. Slips within the

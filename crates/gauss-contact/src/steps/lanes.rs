@@ -4,7 +4,8 @@
 //! long as all lanes decide alike a step is made in packs from end to end (`together`). Where they do not, the kernel
 //! still works on all lanes at once, and the laws of that step are solved by the stepper of each lane: so a lane has
 //! the bits of a stepper of its own. Lanes that need something else than the others go that step alone: at the start
-//! and after impacts, where the step is made twice, where a flight ends, and where a step is made in parts.
+//! and after impacts, where the step is made twice, where a flight ends, where a step is made again for its speeds, and
+//! where it is made in parts.
 
 use alloc::vec::Vec;
 
@@ -13,13 +14,14 @@ use gauss_runtime::contact::{ContactSystem, ImpulseResponse};
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 use gauss_runtime::simd::Packed;
+use gauss_runtime::system::GaussSystem;
 
 use crate::error::{ContactError, ContactErrorKind};
 use crate::mode::Mode;
 
 use super::impulses;
 use super::motion::Middle;
-use super::outcome::{Pushed, Solved};
+use super::outcome::{Attempt, Pushed, Solved};
 use super::projection::{Closed, Projection};
 use super::report::StepReport;
 use super::stepper::ContactStepper;
@@ -93,6 +95,9 @@ pub(super) struct PackedState<W: ContactSystem> {
     pub(super) acceleration: W::Speeds,
 }
 
+/// Where forces were taken, and the acceleration by them.
+type Forces<K> = (Middle<K>, <K as GaussSystem>::Speeds);
+
 /// How far a lane is in a step.
 enum Stage<K: ContactSystem<Scalar = f64>> {
     /// It goes this step alone.
@@ -104,15 +109,15 @@ enum Stage<K: ContactSystem<Scalar = f64>> {
     /// The same in flight.
     Flies(Middle<K>),
     /// With the speeds at the end of a flight.
-    Flown(Middle<K>, K::Speeds),
+    Flown(Forces<K>, K::Speeds),
     /// At the end of a flight.
-    Lands(K::Configuration, K::Speeds, K::Gaps),
+    Lands(Forces<K>, K::Configuration, K::Speeds, K::Gaps),
     /// With impulses.
-    Pushed(Middle<K>, Pushed<K>),
+    Pushed(Forces<K>, Pushed<K>),
     /// At the end, before closed gaps are zero.
-    Open(K::Configuration, K::Speeds, Pushed<K>),
+    Open(Forces<K>, K::Configuration, K::Speeds, Pushed<K>),
     /// With closed gaps at zero.
-    Closed(Closed<K>, K::Speeds, Pushed<K>),
+    Closed(Forces<K>, Closed<K>, K::Speeds, Pushed<K>),
 }
 
 impl<K: ContactSystem<Scalar = f64>> core::fmt::Debug for Stage<K> {
@@ -186,7 +191,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
             self.fly(h, input);
             self.second_half(h);
             self.close(h);
-            self.end(h);
+            self.end(h, input);
         }
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
             if matches!(self.stages[lane], Stage::Alone) {
@@ -255,8 +260,8 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
     fn middle(&self, lane: usize) -> (f64, K::Configuration, K::Speeds) {
         match &self.stages[lane] {
             Stage::Middle(middle) | Stage::Flies(middle) => (middle.t, middle.q, middle.z),
-            Stage::Flown(middle, z) => (middle.t, middle.q, *z),
-            Stage::Pushed(middle, pushed) => (middle.t, middle.q, pushed.z),
+            Stage::Flown((middle, _), z) => (middle.t, middle.q, *z),
+            Stage::Pushed((middle, _), pushed) => (middle.t, middle.q, pushed.z),
             _ => (self.steppers[lane].t, self.steppers[lane].q, self.steppers[lane].z),
         }
     }
@@ -280,7 +285,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
             self.stages[lane] = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
                 Stage::Flies(middle) => {
                     let acceleration = single::<W, _, K::Speeds>(&accelerations, lane);
-                    Stage::Flown(middle, stepper.z.add_scaled(h, &acceleration))
+                    Stage::Flown((middle, acceleration), stepper.z.add_scaled(h, &acceleration))
                 }
                 other => other,
             };
@@ -320,7 +325,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
             ));
             // Where it has no solution it is tried in parts, alone.
             if let Ok(pushed) = stepper.push(h, &middle, &friction, (&acceleration, &bias, response)) {
-                self.stages[lane] = Stage::Pushed(middle, pushed);
+                self.stages[lane] = Stage::Pushed((middle, acceleration), pushed);
             }
         }
     }
@@ -332,12 +337,12 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
             let rate = single::<W, _, TangentOf<K>>(&rates, lane);
             let half = |middle: &Middle<K>, z: K::Speeds| stepper.second_half(h, middle, (z, &rate));
             self.stages[lane] = match core::mem::replace(&mut self.stages[lane], Stage::Alone) {
-                Stage::Pushed(middle, pushed) => match half(&middle, pushed.z) {
-                    Ok((q, z)) => Stage::Open(q, z, pushed),
+                Stage::Pushed(forces, pushed) => match half(&forces.0, pushed.z) {
+                    Ok((q, z)) => Stage::Open(forces, q, z, pushed),
                     Err(_) => Stage::Alone,
                 },
-                Stage::Flown(middle, z) => match half(&middle, z) {
-                    Ok((q, z)) => Stage::Lands(q, z, K::Gaps::zero()),
+                Stage::Flown(forces, z) => match half(&forces.0, z) {
+                    Ok((q, z)) => Stage::Lands(forces, q, z, K::Gaps::zero()),
                     Err(_) => Stage::Alone,
                 },
                 other => other,
@@ -348,8 +353,8 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
     /// The end of a step as far as it is known.
     fn place(&self, lane: usize) -> (K::Configuration, K::Speeds) {
         match &self.stages[lane] {
-            Stage::Open(q, z, ..) | Stage::Lands(q, z, _) => (*q, *z),
-            Stage::Closed(closed, z, ..) => (closed.q, *z),
+            Stage::Open(_, q, z, _) | Stage::Lands(_, q, z, _) => (*q, *z),
+            Stage::Closed(_, closed, z, _) => (closed.q, *z),
             _ => (self.steppers[lane].q, self.steppers[lane].z),
         }
     }
@@ -362,37 +367,46 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
             let gaps = single::<W, _, K::Gaps>(&gaps, lane);
             let response = &self.responses[lane];
             self.stages[lane] = match (core::mem::replace(&mut self.stages[lane], Stage::Alone), response) {
-                (Stage::Open(q, z, pushed), Some(response)) => match stepper.close(h, (response, &pushed), (q, gaps)) {
-                    Ok(closed) => Stage::Closed(closed, z, pushed),
-                    Err(_) => Stage::Alone,
-                },
+                (Stage::Open(forces, q, z, mut pushed), Some(response)) => {
+                    match stepper.close(h, (response, &mut pushed), (q, gaps)) {
+                        Ok(closed) => Stage::Closed(forces, closed, z, pushed),
+                        Err(_) => Stage::Alone,
+                    }
+                }
                 (Stage::Lands(..), _) if ContactStepper::<K, Vec<f64>>::is_below_zero(&gaps) => Stage::Alone,
-                (Stage::Lands(q, z, _), _) => Stage::Lands(q, z, gaps),
+                (Stage::Lands(forces, q, z, _), _) => Stage::Lands(forces, q, z, gaps),
                 (other, _) => other,
             };
         }
     }
 
-    fn end(&mut self, h: f64) {
+    fn end(&mut self, h: f64, input: &W::Input) {
         let t = self.number(|lane| self.steppers[lane].t + h);
         let q = self.places(|lane| self.place(lane).0);
         let z = self.speeds(|lane| self.place(lane).1);
         let rates = self.wide.contact_rates(t, &q, &z);
         for (lane, stepper) in self.steppers.iter_mut().enumerate() {
             let rates = single::<W, _, K::ContactRows>(&rates, lane);
-            let end = match (core::mem::replace(&mut self.stages[lane], Stage::Alone), &self.responses[lane]) {
-                (Stage::Closed(closed, z, pushed), Some(response)) => {
+            let stage = core::mem::replace(&mut self.stages[lane], Stage::Alone);
+            let ((middle, acceleration), end) = match (stage, &self.responses[lane]) {
+                (Stage::Closed(forces, closed, z, pushed), Some(response)) => {
                     let (z, rates) = stepper.stop(h, (response, &pushed), &closed, (z, rates));
-                    stepper.end(pushed, closed, (z, rates))
+                    (forces, stepper.end(pushed, closed, (z, rates)))
                 }
-                (Stage::Lands(q, z, gaps), _) => ContactStepper::<K, Vec<f64>>::flown((q, z), gaps, rates),
+                (Stage::Lands(forces, q, z, gaps), _) => {
+                    (forces, ContactStepper::<K, Vec<f64>>::flown((q, z), gaps, rates))
+                }
                 (other, _) => {
                     self.stages[lane] = other;
                     continue;
                 }
             };
-            self.outcomes[lane] = stepper.made(h, end);
-            self.stages[lane] = Stage::Made;
+            let made = Attempt { end, acceleration };
+            // A step that is made again goes alone.
+            if matches!(stepper.agrees(h, &middle, &made, &input.extract(lane)), Ok(true)) {
+                self.outcomes[lane] = stepper.made(h, made.end);
+                self.stages[lane] = Stage::Made;
+            }
         }
     }
 }

@@ -5,13 +5,17 @@
 //!
 //! `z⁺ = z + h ż₀ + A⁻¹WᵀP`, `u⁺ = u + h b + D P`,
 //!
-//! and goes the other half with the speeds after it. All impacts of a step are solved at once. What counts as closed is
-//! decided by the gap that the step would end with. Then positions and speeds are projected: closed gaps are zero, so
-//! are their rates and the slips of what sticks. No event is sought, so that dozens of contacts, and impacts that pile
-//! up, are no more work than one; the time of an impact is known to a step.
+//! and goes the other half with the speeds after it. All impacts of a step are solved at once. A contact counts as
+//! closed by the gap that the step would end with. Then positions and speeds are projected: closed gaps are zero, so
+//! are their rates and the slips of what sticks. Positions move by the least that leaves no gap below zero; a gap above
+//! zero is pulled shut by at most what the impulse of the step does at another time of it, and stays open else. No
+//! event is sought, so that dozens of contacts, and impacts that pile up, are no more work than one; the time of an
+//! impact is known to a step. A step whose forces were taken at other speeds than its mean ones is made again
+//! (`speeds`).
 
 mod active;
 mod adaptive;
+mod bounds;
 mod cones;
 mod derivatives;
 mod edges;
@@ -22,6 +26,7 @@ mod held;
 mod impulses;
 mod kept;
 mod lanes;
+mod least;
 mod linear;
 mod motion;
 mod outcome;
@@ -31,6 +36,7 @@ mod relaxed;
 mod report;
 mod rounds;
 mod run;
+mod speeds;
 mod stepper;
 mod together;
 mod unknowns;

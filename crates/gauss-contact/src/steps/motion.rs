@@ -15,6 +15,40 @@ pub(super) struct Middle<K: ContactSystem> {
     pub(super) z: K::Speeds,
 }
 
+/// How the speeds at half of a step follow from an attempt at it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mean {
+    /// The mean of those at both ends.
+    Ends,
+    /// The same with the accelerations there: the mean over time, where speeds do not jump.
+    Curved,
+}
+
+impl Mean {
+    /// The mean speeds of a step from places and speeds at its start and its end.
+    pub(super) fn of<K: ContactSystem>(
+        self,
+        kernel: &K,
+        (t, h): (K::Scalar, f64),
+        [(q, z), (q_after, z_after)]: [(&K::Configuration, &K::Speeds); 2],
+        input: &K::Input,
+    ) -> K::Speeds {
+        let number = K::Scalar::from_f64;
+        let mean = z.add_scaled(K::Scalar::one(), z_after).scale(number(0.5));
+        if self == Self::Ends {
+            return mean;
+        }
+        let before = kernel.acceleration(t, q, z, input);
+        let after = kernel.acceleration(t + number(h), q_after, z_after, input);
+        mean.add_scaled(number(h / 12.0), &before).add_scaled(number(-h / 12.0), &after)
+    }
+}
+
+/// Speeds changed by a part of the difference to others.
+pub(super) fn towards<T: Real, V: VectorSpace<T>>(used: &V, wanted: &V, part: f64) -> V {
+    if part == 1.0 { *wanted } else { used.add_scaled(T::from_f64(part), &wanted.add_scaled(-T::one(), used)) }
+}
+
 /// Where half of a step leads with the rate of places before it.
 pub(super) fn half_way<K: ContactSystem>(h: f64, q: &K::Configuration, rate: &TangentOf<K>) -> K::Configuration {
     q.advance(&rate.scale(K::Scalar::from_f64(0.5 * h)))
@@ -48,9 +82,23 @@ pub(super) fn free_rates<K: ContactSystem>(
     [*z, *free].map(|z| kernel.contact_rates(middle.t, &middle.q, &z))
 }
 
-/// The rate that an impact passes on, a part of the rate before it.
-pub(super) fn passed_on<T: Real>(restitution: T, before: T) -> T {
-    -restitution * before.min(T::zero())
+/// The fastest of rates.
+pub(super) fn fastest<K: ContactSystem>(rates: &K::ContactRows) -> K::Scalar {
+    (0..K::ContactRows::DIM).map(|row| rates.component(row).abs()).fold(K::Scalar::zero(), larger)
+}
+
+/// By what part of the fastest rate one that is zero may be off for rounding.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// The rate before a step that an impact reverses a part of. It is that of an approach; and of a gap that opens before
+/// the step and that only impulses at other contacts close within it: `end` is with what it would end without these.
+/// What is pressed to zero in place of that takes part in an impact by another law than the others do, and Newton's
+/// law with one e then gives energy (it takes `½(1 − e²) uᵀD⁻¹u` with the rates u before the impact, of either sign).
+/// Contacts that depend on one another have rates after it only if all are such parts, so that no more than rounding
+/// of the `fastest` rate is none.
+pub(super) fn reversed<T: Real>(before: T, end: T, fastest: T) -> T {
+    let opens = T::select_lt(T::zero(), end, before, T::zero());
+    before.min(T::zero()) + T::select_lt(T::from_f64(ROUNDING) * fastest, before, opens, T::zero())
 }
 
 /// How large numbers of a configuration are.

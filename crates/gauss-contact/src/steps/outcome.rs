@@ -20,6 +20,12 @@ pub(super) struct Pushed<K: ContactSystem> {
     pub(super) solved: Solved<K>,
 }
 
+/// An attempt at a step, with the acceleration without contact forces that it took at half of the step.
+pub(super) struct Attempt<K: ContactSystem> {
+    pub(super) end: End<K>,
+    pub(super) acceleration: K::Speeds,
+}
+
 /// The end of a step.
 pub(super) struct End<K: ContactSystem> {
     pub(super) q: K::Configuration,
@@ -29,6 +35,8 @@ pub(super) struct End<K: ContactSystem> {
     pub(super) impulses: K::ContactRows,
     /// What is closed and stays so.
     pub(super) rests: K::EachContact<bool>,
+    /// What acted and is open.
+    pub(super) left: K::EachContact<bool>,
     /// Whether contacts may have changed their modes.
     pub(super) touches: bool,
     /// Whether rates were those of contacts that depend on one another.
@@ -41,9 +49,10 @@ pub(super) struct End<K: ContactSystem> {
 impl<K: ContactSystem> End<K> {
     /// With what contacts did.
     pub(super) fn attempted<'a>(&'a self, modes: &'a [Mode]) -> Attempted<'a, K> {
-        let Self { impulses, rests, dependent, struck, .. } = self;
+        let Self { impulses, rests, left, dependent, struck, .. } = self;
         let modes = self.touches.then_some(modes);
-        Attempted { impulses, modes, rests: rests.as_ref(), dependent: *dependent, struck: *struck }
+        let (rests, left) = (rests.as_ref(), left.as_ref());
+        Attempted { impulses, modes, rests, left, dependent: *dependent, struck: *struck }
     }
 }
 
@@ -63,18 +72,20 @@ pub(super) struct Solved<K: ContactSystem> {
 }
 
 impl<K: ContactSystem<Scalar = f64>> Solved<K> {
-    /// Which contacts have struck and which rest, from modes before and after the step and the rates that impacts pass
-    /// on.
-    pub(super) fn tell(&mut self, law: StepLaw, [before, after]: [&[Mode]; 2], passed_on: impl Fn(usize) -> f64) {
+    /// Which contacts have struck and which rest, from modes before and after the step, and for each contact the rate
+    /// that an impact passes on and whether its gap closes before the step. A gap that only comes to lie on zero, as
+    /// those that press nothing do step by step, is no impact.
+    pub(super) fn tell(&mut self, law: StepLaw, [before, after]: [&[Mode]; 2], of: impl Fn(usize) -> (f64, bool)) {
         for i in 0..K::CONTACTS.len() {
             let (was_open, is_closed) = (!before[i].is_closed(), after[i].is_closed());
             let closes = is_closed && K::CONTACTS[i].has_gap();
             let lifts = lifts::<K>(law, after, i);
             self.struck |= closes && (was_open || lifts);
             let carries = carrier(K::CONTACTS, i);
-            let parts = K::CONTACTS[carries].has_gap() && passed_on(carries) != 0.0;
-            let bounces = passed_on(carries) > self.found.residual.rounding;
-            self.impacts += usize::from(closes && (was_open || bounces));
+            let (passed_on, approaches) = of(carries);
+            let parts = K::CONTACTS[carries].has_gap() && passed_on != 0.0;
+            let bounces = passed_on.abs() > self.found.residual.rounding;
+            self.impacts += usize::from(closes && (was_open && approaches || bounces));
             self.rests[i] = is_closed && !parts && !lifts;
         }
     }

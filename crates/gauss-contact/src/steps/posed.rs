@@ -4,11 +4,12 @@ use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::{ContactSystem, Each};
 use gauss_runtime::real::Real;
 
+use crate::lockstep::Lockstep;
 use crate::mode::Mode;
 use crate::residual::Residual;
 
 use super::cones::{Cone, Laws};
-use super::impulses::{Found, Impulses};
+use super::impulses::{Found, Impulses, norm};
 use super::motion;
 use super::outcome::Solved;
 use super::relaxed::{StepLaw, lifts};
@@ -26,6 +27,8 @@ pub(super) struct Posed<'a, K: ContactSystem> {
     pub(super) gaps: K::Gaps,
     /// Before the step, and at its end without impulses.
     pub(super) rates: [K::ContactRows; 2],
+    /// The fastest rate before the step.
+    pub(super) fastest: K::Scalar,
     /// Of the step before.
     pub(super) impulses: K::ContactRows,
     pub(super) modes: &'a [Mode],
@@ -36,7 +39,22 @@ pub(super) struct Posed<'a, K: ContactSystem> {
 impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
     /// What an impact passes on: a part of the rate before it.
     pub(super) fn passed_on(&self, i: usize) -> T {
-        motion::passed_on(self.restitution.component(i), self.rates[0].component(K::CONTACTS[i].normal))
+        let [before, free] = [0, 1].map(|k: usize| self.rates[k].component(K::CONTACTS[i].normal));
+        -self.restitution.component(i) * motion::reversed(before, self.gap_at_end(i, free), self.fastest)
+    }
+
+    /// Whether a gap was closed in the step before, and does not lie open since: an impact may leave a gap on its way
+    /// to zero.
+    fn stays_closed(&self, i: usize, lockstep: &Lockstep) -> bool {
+        let free = self.rates[1].component(K::CONTACTS[i].normal);
+        let is_open = |lane: usize| self.approaches(i, lane) && self.gap_at_end(i, free).lane(lane) > 0.0;
+        self.modes[i].is_closed() && !lockstep.agree::<T>(is_open)
+    }
+
+    /// Whether a gap closes before the step, to half of the digits: what is slower lies still.
+    fn approaches(&self, i: usize, lane: usize) -> bool {
+        let before = self.rates[0].component(K::CONTACTS[i].normal);
+        before.lane(lane) < -Real::sqrt(f64::EPSILON) * self.fastest.lane(lane)
     }
 
     /// The gap with which a contact ends the step, given its rate there.
@@ -63,7 +81,7 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
                 Some(on) => cones[on].acts,
                 None => {
                     !contact.has_gap()
-                        || (self.modes[i].is_closed() && !lifts::<K>(self.law, self.modes, i))
+                        || (self.stays_closed(i, &problem.lockstep) && !lifts::<K>(self.law, self.modes, i))
                         || problem.lockstep.at_most(self.gap_at_end(i, problem.b[contact.normal]), T::zero())
                 }
             };
@@ -72,6 +90,29 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
             }
         }
         cones
+    }
+
+    /// Friction where no impulse changes the slip, as along a coordinate that a constraint drives: it is at its bound
+    /// against the mean slip of the step, and nothing but the force of the constraint depends on it.
+    pub(super) fn drive(&self, problem: &mut Impulses<T>, cones: &[Cone<T>]) {
+        for cone in cones {
+            if !(cone.acts && problem.is_driven(cone)) {
+                continue;
+            }
+            let mut slip = [T::zero(); 3];
+            for (slip, row) in slip.iter_mut().zip(cone.tangents()) {
+                let mean = T::from_f64(0.5) * (self.rates[0].component(row) + self.rates[1].component(row));
+                *slip = self.laws.scales[row] * mean;
+            }
+            let size = norm(&slip);
+            let friction = if problem.lockstep.at_most(size, T::zero()) {
+                [T::zero(); 3]
+            } else {
+                let radius = cone.radius(problem.impulses);
+                slip.map(|slip| -radius * (slip / size))
+            };
+            cone.tangents().zip(friction).for_each(|(row, friction)| problem.impulses[row] = friction);
+        }
     }
 
     /// The impulses that were found.
@@ -87,7 +128,8 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
         let scales = self.laws.scales.as_ref();
         let from_coulomb = if problem.relaxed { problem.residual_of_coulomb(cones) } else { found.residual };
         let work = problem.work(|row| scales[row] * self.rates[1].component(row));
-        let states = Each::from_fn(|i| problem.state(cones, &cones[i]));
+        let state = |cone: &Cone<T>| problem.slides_driven(cone).unwrap_or_else(|| problem.state(cones, cone));
+        let states = Each::from_fn(|i| state(&cones[i]));
         Answer { found, from_coulomb, work, states }
     }
 
@@ -107,7 +149,8 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
             (answer.found.lane(lane), answer.from_coulomb.lane(lane), answer.work.lane(lane));
         let rests = Each::from_fn(|_| false);
         let mut solved = Solved { found, from_coulomb, rests, struck: false, impacts: 0, work };
-        solved.tell(self.law, [before, after], |i| self.passed_on(i).lane(lane));
+        let approaches = |i: usize| self.approaches(i, lane);
+        solved.tell(self.law, [before, after], |i| (self.passed_on(i).lane(lane), approaches(i)));
         solved
     }
 }

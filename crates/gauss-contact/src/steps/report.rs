@@ -9,10 +9,12 @@ use crate::residual::Residual;
 #[non_exhaustive]
 pub enum StepScheme {
     /// Moreau and Jean's, θ = ½: accelerations at half of the step, with the speeds before it. Of second order where
-    /// forces depend on places alone, else of first.
+    /// forces depend on places alone, else of first. Where forces at the mean speeds would change a speed by more than
+    /// a millionth of it, as of a body that spins, the step is made again with these.
     MoreauJean,
     /// The same with the speeds at half of the step, by the accelerations of the step before: of second order between
-    /// impacts, for the same work but in steps after impacts, which are made twice.
+    /// impacts, for the same work but in steps after impacts, which are made twice, and in those whose mean speeds turn
+    /// out to be other ones, as of a body that spins fast.
     #[default]
     Midpoint,
 }
@@ -42,7 +44,8 @@ pub struct StepReport {
     /// balances of energy are formed from rates before and after the step. Newton's law with friction can give energy
     /// at an impact (T. R. Kane 1984); then it is positive.
     pub work: f64,
-    /// In how many parts the step was made, where no impulses were found for all of it; else 0.
+    /// In how many parts the step was made, where no impulses were found for all of it, gaps did not close at its end,
+    /// or it was too long for its forces; else 0.
     pub parts: u32,
     /// The length of the step.
     pub length: f64,

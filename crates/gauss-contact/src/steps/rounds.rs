@@ -7,12 +7,13 @@ use super::impulses::{Found, Impulses, PULL, STRICT, norm};
 const ROUNDS: u32 = 11;
 
 impl Impulses<'_> {
-    /// Finds the impulses; contacts that others press closed, judged by their number and rate, take part as well.
+    /// Finds the impulses; contacts that others press closed, judged by their number and rate, take part as well, from
+    /// the impulses that they had before.
     pub(crate) fn solve_with_more(
         &mut self,
         cones: &mut [Cone],
         tolerance: f64,
-        closes: impl Fn(usize, f64) -> bool,
+        (closes, before): (impl Fn(usize, f64) -> bool, impl Fn(usize) -> f64),
     ) -> Found {
         let mut found = Found::default();
         loop {
@@ -28,6 +29,7 @@ impl Impulses<'_> {
                 };
                 if !acts && joins {
                     cones[i].acts = true;
+                    cones[i].rows().for_each(|row| self.impulses[row] = before(row));
                     more = true;
                 }
             }

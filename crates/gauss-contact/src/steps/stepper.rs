@@ -15,12 +15,13 @@ use crate::lockstep::Lockstep;
 use crate::mode::{Mode, after_impulses};
 use crate::sensors::ContactForces;
 
+use super::bounds::{NotClosed, Touched};
 use super::cones::Laws;
 use super::impulses::{Impulses, memory};
 use super::kept::Kept;
 use super::linear::Place;
 use super::motion::{self, Middle};
-use super::outcome::{End, Pushed, Solved};
+use super::outcome::{Attempt, End, Pushed, Solved};
 use super::posed::Posed;
 use super::projection::{Closed, Projection};
 use super::relaxed::StepLaw;
@@ -57,7 +58,8 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) report: StepReport,
 }
 
-/// How often a step is halved where no impulses are found for it.
+/// How often a step is halved where no impulses, or no places, are found for it, or where it is too long for its
+/// forces.
 const HALVINGS: u32 = 4;
 
 impl<K: ContactSystem<Scalar = f64>, M> fmt::Debug for ContactStepper<'_, K, M> {
@@ -204,11 +206,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
     }
 
-    /// One step of length `h`, under an input that stays. Where no impulses are found for it, it is made in up to 16
-    /// parts. Where it is an error, the state is that before the step.
+    /// One step of length `h`, under an input that stays. Where no impulses are found for it, where its gaps contradict
+    /// one another, or where it is too long for its forces, it is made in up to 16 parts. Where it is an error, the
+    /// state is that before the step.
     ///
     /// # Errors
-    /// `Unsolved` where no impulses were found that satisfy the laws, `InvalidFriction`, `NonFinite`, `Projection`.
+    /// `Unsolved` where no impulses were found that satisfy the laws, `Stiff` where forces depend on places or speeds
+    /// more than the step can follow, `InvalidFriction`, `NonFinite`, `Projection`, `Displacement`.
     pub fn step(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
         self.watched(h, input, &mut ())
     }
@@ -248,37 +252,41 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         input: &K::Input,
         (halvings, watch): (u32, &mut W),
     ) -> Result<StepReport, ContactError> {
-        match self.whole(h, input, watch) {
-            Err(ContactError { kind: ContactErrorKind::Unsolved { .. }, .. }) if halvings > 0 => {
-                let before = self.kept();
-                let first = self.in_parts(0.5 * h, input, (halvings - 1, watch))?;
-                let of_first = self.impulses;
-                let second = self.in_parts(0.5 * h, input, (halvings - 1, watch));
-                let second = second.inspect_err(|_| self.restore(&before))?;
-                self.impulses = self.impulses.add_scaled(1.0, &of_first);
-                Ok(first.and(second))
-            }
-            made => made,
+        use ContactErrorKind::{Displacement, Projection, Stiff, Unsolved};
+        let cause = match self.whole(h, input, (watch, halvings == 0)) {
+            Err(cause) if halvings > 0 => cause,
+            made => return made,
+        };
+        if !matches!(cause.kind, Projection(_) | Displacement { .. } | Stiff { .. } | Unsolved { .. }) {
+            return Err(cause);
         }
+        let (before, parts) = (self.kept(), watch.parts());
+        let both = self.both_halves(h, input, (halvings - 1, watch));
+        both.or_else(|error| {
+            self.restore(&before);
+            if !matches!(
+                (&cause.kind, &error.kind),
+                (Stiff { .. }, Projection(_) | Displacement { .. } | Unsolved { .. })
+            ) {
+                return Err(error);
+            }
+            // Too long for its forces, but its laws have a solution for the whole of it, if for any.
+            watch.keep(parts);
+            self.whole(h, input, (watch, true)).map_err(|_| error)
+        })
     }
 
-    fn whole<W: Watch<K>>(&mut self, h: f64, input: &K::Input, watch: &mut W) -> Result<StepReport, ContactError> {
-        watch.begins();
-        let rate = self.kernel.kinematics(self.t, &self.q, &self.z);
-        let end = match self.middle(h, &rate) {
-            (middle, true) => self.attempt(h, &middle, input)?,
-            // At the start and after impacts no acceleration is known: the step is made twice.
-            (middle, false) => match self.attempt(h, &middle, input)? {
-                end if end.struck => end,
-                end => {
-                    watch.first(end.attempted(self.next.as_ref()));
-                    let z = self.z.add_scaled(1.0, &end.z).scale(0.5);
-                    self.attempt(h, &Middle { z, ..middle }, input)?
-                }
-            },
-        };
-        watch.part((self.t, h), end.attempted(self.next.as_ref()));
-        self.take(h, end)
+    fn both_halves<W: Watch<K>>(
+        &mut self,
+        h: f64,
+        input: &K::Input,
+        (halvings, watch): (u32, &mut W),
+    ) -> Result<StepReport, ContactError> {
+        let first = self.in_parts(0.5 * h, input, (halvings, watch))?;
+        let of_first = self.impulses;
+        let second = self.in_parts(0.5 * h, input, (halvings, watch))?;
+        self.impulses = self.impulses.add_scaled(1.0, &of_first);
+        Ok(first.and(second))
     }
 
     /// Half of a step, given the rate of places before it, and whether its speeds are those that the scheme wants.
@@ -301,14 +309,16 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         (self.q, self.z, self.impulses) = (end.q, end.z, end.impulses);
         if end.touches {
             core::mem::swap(&mut self.modes, &mut self.next);
+            (0..K::CONTACTS.len()).filter(|i| end.left[*i]).for_each(|i| self.modes[i] = Mode::Open);
         }
         (self.gaps, self.rates, self.rests) = (end.gaps, end.rates, end.rests);
         Ok(StepReport { length: h, ..end.report })
     }
 
-    fn attempt(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<End<K>, ContactError> {
+    /// A step with forces that are taken at half of it.
+    pub(super) fn attempt(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Attempt<K>, ContactError> {
         match self.flight(h, middle, input)? {
-            Some(end) => Ok(end),
+            Some(made) => Ok(made),
             None => self.touching(h, middle, input),
         }
     }
@@ -340,12 +350,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     }
 
     /// A step in which no gap closes: the motion without contacts is all that it needs.
-    fn flight(&self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Option<End<K>>, ContactError> {
+    fn flight(&self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Option<Attempt<K>>, ContactError> {
         if !self.flies() {
             return Ok(None);
         }
         let kernel = self.kernel;
-        let z = self.z.add_scaled(h, &kernel.acceleration(middle.t, &middle.q, &middle.z, input));
+        let acceleration = kernel.acceleration(middle.t, &middle.q, &middle.z, input);
+        let z = self.z.add_scaled(h, &acceleration);
         if self.comes_to_zero(h, &kernel.contact_rates(middle.t, &middle.q, &z)) {
             return Ok(None);
         }
@@ -356,7 +367,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             return Ok(None);
         }
         let rates = kernel.contact_rates(self.t + h, &q, &z);
-        Ok(Some(Self::flown((q, z), gaps, rates)))
+        Ok(Some(Attempt { end: Self::flown((q, z), gaps, rates), acceleration }))
     }
 
     fn gaps_of() -> impl Iterator<Item = usize> {
@@ -375,23 +386,24 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     /// The end of a step in flight.
     pub(super) fn flown((q, z): (K::Configuration, K::Speeds), gaps: K::Gaps, rates: K::ContactRows) -> End<K> {
         let (impulses, report, rests) = (K::ContactRows::zero(), StepReport::default(), Each::from_fn(|_| false));
-        End { q, z, gaps, rates, impulses, rests, touches: false, dependent: false, report, struck: false }
+        let left = rests;
+        End { q, z, gaps, rates, impulses, rests, left, touches: false, dependent: false, report, struck: false }
     }
 
     /// A step in which contacts may act.
-    fn touching(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<End<K>, ContactError> {
+    fn touching(&mut self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Attempt<K>, ContactError> {
         let (kernel, t) = (self.kernel, self.t + h);
         let friction = kernel.friction(middle.t, &middle.q, &middle.z, input);
         let dynamics = kernel.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
         let ImpulseDynamics { acceleration, bias, response, .. } = &dynamics;
-        let pushed = self.push(h, middle, &friction, (acceleration, bias, response))?;
+        let mut pushed = self.push(h, middle, &friction, (acceleration, bias, response))?;
         let half = kernel.kinematics(middle.t, &middle.q, &pushed.z);
         let (q, z) = self.second_half(h, middle, (pushed.z, &half))?;
         let gaps = kernel.gaps(t, &q);
-        let closed = self.close(h, (response, &pushed), (q, gaps))?;
+        let closed = self.close(h, (response, &mut pushed), (q, gaps))?;
         let rates = kernel.contact_rates(t, &closed.q, &z);
         let (z, rates) = self.stop(h, (response, &pushed), &closed, (z, rates));
-        Ok(self.end(pushed, closed, (z, rates)))
+        Ok(Attempt { end: self.end(pushed, closed, (z, rates)), acceleration: *acceleration })
     }
 
     /// Impulses at half of a step, with the speeds after them: of the motion without them its acceleration, and of
@@ -417,20 +429,22 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         Ok(Pushed { z, impulses, dependent, solved })
     }
 
-    /// Closed gaps brought to zero at the end of a step.
+    /// Closed gaps brought to zero at the end of a step; what is left open rests no longer.
     pub(super) fn close(
         &mut self,
         h: f64,
-        (response, pushed): (&ImpulseResponse<K>, &Pushed<K>),
+        (response, pushed): (&ImpulseResponse<K>, &mut Pushed<K>),
         (q, gaps): (K::Configuration, K::Gaps),
     ) -> Result<Closed<K>, ContactError> {
-        let (start, t) = (self.t, self.t + h);
-        let failed = |cause| ContactError { contact: None, time: start, kind: ContactErrorKind::Projection(cause) };
+        let at_end = (self.t + h, q, gaps);
         let of_projection = &mut self.memory.as_mut()[memory(K::ContactRows::DIM)..];
-        let mut projection = Projection::<K>::new(of_projection);
-        projection
-            .close(self.kernel, (t, q, gaps), (response, motion::magnitude(&q)), pushed.solved.rests.as_ref())
-            .map_err(failed)
+        let (closed, impulses, rates) = (pushed.solved.rests.as_ref(), &pushed.impulses, &self.rates);
+        let touched = Touched { closed, impulses, rates, h };
+        let closed =
+            Projection::<K>::new(of_projection).close(self.kernel, at_end, (response, motion::magnitude(&q)), &touched);
+        let closed = closed.map_err(|NotClosed { contact, kind }| self.error(contact, kind))?;
+        (0..K::CONTACTS.len()).filter(|i| closed.left[*i]).for_each(|i| pushed.solved.rests[i] = false);
+        Ok(closed)
     }
 
     /// What a contact does at the end of a step, whose rates are brought to zero.
@@ -473,7 +487,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         (z, rates): (K::Speeds, K::ContactRows),
     ) -> End<K> {
         let Pushed { impulses, dependent, solved, .. } = pushed;
-        let Closed { q, gaps, penetration, closure } = closed;
+        let Closed { q, gaps, penetration, closure, left } = closed;
         self.dependent &= !self.changes(self.next.as_ref());
         let report = StepReport {
             residual: solved.found.residual,
@@ -488,7 +502,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             ..StepReport::default()
         };
         let Solved { rests, struck, .. } = solved;
-        End { q, z, gaps, rates, impulses, rests, touches: true, dependent, report, struck }
+        End { q, z, gaps, rates, impulses, rests, left, touches: true, dependent, report, struck }
     }
 
     /// The end of a step as the state, with the report.
@@ -516,19 +530,23 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let mut unknowns = Unknowns::<K>::new();
         let Self { law, tolerance, gaps, impulses, dependent, .. } = *self;
         let (restitution, delassus, modes) = (self.kernel.restitution(), &response.delassus, self.modes.as_ref());
-        let posed = Posed { h, law, tolerance, laws, delassus, restitution, gaps, rates, impulses, modes, dependent };
+        let fastest = motion::fastest::<K>(&rates[0]);
+        let posed =
+            Posed { h, law, tolerance, laws, delassus, restitution, gaps, rates, fastest, impulses, modes, dependent };
         let memory = &mut self.memory.as_mut()[..memory(Self::ROWS)];
         let mut problem = Impulses::new(memory, unknowns.slices());
         let mut cones = posed.pose(&mut problem);
         // A contact that others press closed takes part as well.
         let closes = |i: usize, rate: f64| posed.gap_left_open(i, rate) < 0.0;
-        let found = problem.solve_with_more(cones.as_mut(), tolerance, closes);
+        let before = |row: usize| impulses.component(row) / laws.scales[row];
+        let found = problem.solve_with_more(cones.as_mut(), tolerance, (closes, before));
         self.dependent = problem.dependent;
         if !found.holds {
             let finite = found.residual.worst().is_finite();
             let unsolved = ContactErrorKind::Unsolved { residual: found.residual };
             return Err(if finite { unsolved } else { ContactErrorKind::NonFinite });
         }
+        posed.drive(&mut problem, cones.as_ref());
         let answer = posed.answer(&problem, found, cones.as_ref());
         let solved = posed.solved(&problem, (&answer, cones.as_ref()), (modes, self.next.as_mut()), 0);
         Ok((solved, posed.impulses(&problem)))

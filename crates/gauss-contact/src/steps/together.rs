@@ -7,6 +7,7 @@ use gauss_runtime::simd::Packed;
 
 use crate::mode::{Mode, after_impulses};
 
+use super::bounds::Touched;
 use super::cones::Laws;
 use super::impulses::{self, Impulses};
 use super::lanes::{ContactLanes, LanesOf, PackedState, put, single};
@@ -16,6 +17,7 @@ use super::posed::Posed;
 use super::projection::{Closed, Projection};
 use super::relaxed::StepLaw;
 use super::report::StepScheme;
+use super::speeds::Used;
 use super::unknowns::Unknowns;
 
 /// What impulses have made of the speeds of all lanes.
@@ -77,7 +79,10 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let pushed = self.push_together(h, (&state, &middle), &laws, &dynamics)?;
         let (q, z) = self.second_half_together(h, &middle, pushed.z)?;
         let at_end = (end, q, z);
-        let (closed, z, rates) = self.close_together(at_end, &dynamics.response)?;
+        let (closed, z, rates) = self.close_together((h, &state), at_end, (&dynamics.response, &pushed))?;
+        if !self.agree_together(h, (&state, &middle), (&dynamics.acceleration, &z), input) {
+            return None;
+        }
         self.take_together(h, (&state, end), &pushed, (closed, z, rates));
         Some(())
     }
@@ -104,6 +109,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
             restitution: self.wide.restitution(),
             gaps: state.gaps,
             rates,
+            fastest: motion::fastest::<W>(&rates[0]),
             impulses: state.impulses,
             modes: first.modes.as_ref(),
             dependent,
@@ -114,6 +120,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let cones = posed.pose(&mut problem);
         let cones = cones.as_ref();
         let found = problem.solve_in_lockstep(cones, posed.tolerance)?;
+        posed.drive(&mut problem, cones);
         let joins = |i: usize| {
             let rate = cones[i].normal.map(|normal| problem.rates[normal]);
             let closes = |rate| (0..self.steppers.len()).any(|lane| posed.gap_left_open(i, rate).lane(lane) < 0.0);
@@ -155,8 +162,9 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
     /// Closed gaps brought to zero, then rates of what rests, and slips of what sticks.
     fn close_together(
         &mut self,
+        (h, state): (f64, &PackedState<W>),
         (t, q, z): (W::Scalar, W::Configuration, W::Speeds),
-        response: &ImpulseResponse<W>,
+        (response, pushed): (&ImpulseResponse<W>, &PushedLanes<W>),
     ) -> Option<(Closed<W>, W::Speeds, W::ContactRows)> {
         let rest = |lane: usize, i: usize| self.solved[lane].1.rests[i];
         let rests: W::EachContact<bool> = Each::from_fn(|i| rest(0, i));
@@ -178,11 +186,37 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let rounding = self.number(rounding);
         let mut projection = Projection::<W>::new(&mut self.memory[impulses::memory(W::ContactRows::DIM)..]);
         let (gaps, magnitude) = (self.wide.gaps(t, &q), motion::magnitude(&q));
-        let closed = projection.close(self.wide, (t, q, gaps), (response, magnitude), rests.as_ref()).ok()?;
+        let (closed, impulses, rates) = (rests.as_ref(), &pushed.impulses, &state.rates);
+        let touched = Touched { closed, impulses, rates, h };
+        let closed = projection.close(self.wide, (t, q, gaps), (response, magnitude), &touched).ok()?;
         let rates = self.wide.contact_rates(t, &closed.q, &z);
         let at_end = (t, &closed.q, z, rates);
         let (z, rates) = projection.stop(self.wide, at_end, response, (|i| modes[i], rounding));
         (!projection.lockstep.has_parted()).then_some((closed, z, rates))
+    }
+
+    /// Whether no lane is to make its step again for its speeds.
+    fn agree_together(
+        &self,
+        h: f64,
+        (state, middle): (&PackedState<W>, &Middle<W>),
+        (acceleration, after): (&W::Speeds, &W::Speeds),
+        input: &W::Input,
+    ) -> bool {
+        let of = |vectors: &W::Speeds, lane: usize| single::<W, _, K::Speeds>(vectors, lane);
+        let used = |lane: usize| Used {
+            h,
+            before: of(&state.z, lane),
+            used: of(&middle.z, lane),
+            acceleration: of(acceleration, lane),
+            after: of(after, lane),
+        };
+        let mut apart = (0..self.steppers.len()).map(used).enumerate().filter(|(_, used)| !used.is_plain()).peekable();
+        apart.peek().is_none() || {
+            let mean = state.z.add_scaled(W::Scalar::one(), after).scale(W::Scalar::from_f64(0.5));
+            let at_mean = self.wide.acceleration(middle.t, &middle.q, &mean, input);
+            apart.all(|(lane, used)| !used.is_rough() && !used.grows(&of(&at_mean, lane)))
+        }
     }
 
     /// The end of a step to each lane, and in packs where all of them go on.
@@ -202,6 +236,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
                 gaps: single::<W, _, K::Gaps>(&closed.gaps, lane),
                 penetration: closed.penetration.lane(lane),
                 closure: closed.closure.lane(lane),
+                left: Each::from_fn(|_| false),
             };
             let (z, rates) = (single::<W, _, K::Speeds>(&z, lane), single::<W, _, K::ContactRows>(&rates, lane));
             let impulses = single::<W, _, K::ContactRows>(&pushed.impulses, lane);

@@ -7,13 +7,16 @@ use gauss_runtime::contact::ContactSystem;
 
 use crate::mode::Mode;
 
+use super::motion::Mean;
+
 /// What an attempt at a part of a step came to.
 pub(super) struct Attempted<'a, K: ContactSystem> {
     pub(super) impulses: &'a K::ContactRows,
     /// What contacts did, where the laws were solved.
     pub(super) modes: Option<&'a [Mode]>,
-    /// Contacts that are closed after the step.
+    /// Contacts that are closed after the step, and those that were to be and are open.
     pub(super) rests: &'a [bool],
+    pub(super) left: &'a [bool],
     /// Whether rates were those of contacts that depend on one another.
     pub(super) dependent: bool,
     /// Whether a gap has closed.
@@ -24,8 +27,13 @@ pub(super) struct Attempted<'a, K: ContactSystem> {
 pub(super) trait Watch<K: ContactSystem> {
     /// A part of a step begins.
     fn begins(&mut self);
-    /// Its first attempt, of two.
-    fn first(&mut self, attempted: Attempted<K>);
+    /// An attempt that is not the last, and how the speeds of the next one follow from it: by what part of the
+    /// difference to which mean.
+    fn again(&mut self, attempted: Attempted<K>, how: (Mean, f64));
+    /// How many parts there are.
+    fn parts(&self) -> usize;
+    /// Only the first so many parts stay.
+    fn keep(&mut self, parts: usize);
     /// The attempt with which a part from a time on, of some length, ends.
     fn part(&mut self, of: (f64, f64), attempted: Attempted<K>);
 }
@@ -33,7 +41,11 @@ pub(super) trait Watch<K: ContactSystem> {
 /// Nobody.
 impl<K: ContactSystem> Watch<K> for () {
     fn begins(&mut self) {}
-    fn first(&mut self, _: Attempted<K>) {}
+    fn again(&mut self, _: Attempted<K>, _: (Mean, f64)) {}
+    fn parts(&self) -> usize {
+        0
+    }
+    fn keep(&mut self, _: usize) {}
     fn part(&mut self, _: (f64, f64), _: Attempted<K>) {}
 }
 
@@ -45,6 +57,8 @@ pub(super) struct Taken {
     pub(super) impulses: Vec<f64>,
     /// Contacts that are closed after the step.
     pub(super) rests: Vec<bool>,
+    /// Contacts that were to be closed.
+    pub(super) closed: Vec<bool>,
     /// Whether rates were those of contacts that depend on one another.
     pub(super) dependent: bool,
     /// Whether a gap has closed.
@@ -55,15 +69,15 @@ pub(super) struct Taken {
 pub(super) struct Part {
     pub(super) t: f64,
     pub(super) h: f64,
-    /// The attempt that told the speeds at half of the part.
-    pub(super) first: Option<Taken>,
+    /// The attempts that told the speeds at half of the part, and how.
+    pub(super) before: Vec<(Taken, (Mean, f64))>,
     pub(super) taken: Taken,
 }
 
 /// All parts of a step.
 #[derive(Default)]
 pub(super) struct Seen {
-    first: Option<Taken>,
+    before: Vec<(Taken, (Mean, f64))>,
     pub(super) parts: Vec<Part>,
 }
 
@@ -73,6 +87,7 @@ impl Taken {
             modes: attempted.modes.map(Into::into),
             impulses: (0..K::ContactRows::DIM).map(|row| attempted.impulses.component(row)).collect(),
             rests: attempted.rests.into(),
+            closed: attempted.rests.iter().zip(attempted.left).map(|(rests, left)| *rests || *left).collect(),
             dependent: attempted.dependent,
             struck: attempted.struck,
         }
@@ -81,14 +96,23 @@ impl Taken {
 
 impl<K: ContactSystem<Scalar = f64>> Watch<K> for Seen {
     fn begins(&mut self) {
-        self.first = None;
+        self.before.clear();
     }
 
-    fn first(&mut self, attempted: Attempted<K>) {
-        self.first = Some(Taken::of::<K>(&attempted));
+    fn again(&mut self, attempted: Attempted<K>, how: (Mean, f64)) {
+        self.before.push((Taken::of::<K>(&attempted), how));
+    }
+
+    fn parts(&self) -> usize {
+        self.parts.len()
+    }
+
+    fn keep(&mut self, parts: usize) {
+        self.parts.truncate(parts);
     }
 
     fn part(&mut self, (t, h): (f64, f64), attempted: Attempted<K>) {
-        self.parts.push(Part { t, h, first: self.first.take(), taken: Taken::of::<K>(&attempted) });
+        let before = core::mem::take(&mut self.before);
+        self.parts.push(Part { t, h, before, taken: Taken::of::<K>(&attempted) });
     }
 }

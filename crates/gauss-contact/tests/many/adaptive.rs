@@ -3,6 +3,7 @@
 use gauss_contact::{ContactErrorKind, ContactSteps, StepScheme, SteppedRun};
 use gauss_runtime::contact::Contact;
 use gauss_runtime::nalgebra::SMatrix;
+use gauss_runtime::prelude::*;
 
 use crate::common::{Layout, Scene, V};
 
@@ -130,4 +131,53 @@ fn mistakes_are_told() {
     }
     assert_eq!(run(0.1, [1e-6, 1e-6], 1e-5, f64::INFINITY), Some(InvalidInterval));
     assert_eq!(run(0.1, [1e-6, 1e-6], 1e-5, 100.0), Some(TooManySteps { limit: 50 }));
+}
+
+/// A block on a floor that is pushed; it sticks under less than μ m g.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, height),
+    particle(mass = 2, position = [x, 0, height]),
+    contact(floor, gap = height, slip = rate(x), friction = 0.4),
+    input(push),
+    drive(x = push),
+)]
+struct Block {
+    #[gauss(gravity)]
+    g: f64,
+}
+
+#[test]
+fn a_push_that_is_longer_than_an_eighth_of_a_step_is_seen_wherever_it_comes() {
+    let kernel = Block { g: G }.kernel().unwrap();
+    let friction = 0.4 * 2.0 * G;
+    for h in [0.1, 0.02] {
+        for n in 0..40 {
+            // Three times friction for a time w, from t on: it slides for that time, and until v = 2 μ g w is gone.
+            let (w, t) = (0.14 * h * (1.0 + n as f64 / 10.0), 0.51 + 0.37 * n as f64 * h);
+            let push = |at: f64| if (t..t + w).contains(&at) { 3.0 * friction } else { 0.0 };
+            let run = ContactSteps::new(&kernel, h).input(move |at, _: &_, _: &_| SVector::from([push(at)]));
+            let run = run.adaptive(1e-7, 1e-7).run(SVector::zeros(), SVector::zeros(), 0.0..t + 10.0 * h).unwrap();
+            let v = 2.0 * 0.4 * G * w;
+            let way = 0.5 * v * w + v * v / (2.0 * 0.4 * G);
+            let end = run.samples.last().unwrap().state;
+            assert!((end.q[0] - way).abs() < 1e-2 * way + 1e-5, "{h} {n} {} {way}", end.q[0]);
+            assert_eq!(end.z[0], 0.0);
+        }
+    }
+}
+
+#[test]
+fn a_push_that_swells_and_fades_moves_a_block_as_far_as_in_runs() {
+    let kernel = Block { g: G }.kernel().unwrap();
+    for w in [0.02, 0.1, 0.4] {
+        let push = move |t: f64| SVector::from([3.0 * 0.4 * 2.0 * G * (-((t - 2.3) / w) * ((t - 2.3) / w)).exp()]);
+        let steps = ContactSteps::new(&kernel, 0.05).input(move |t, _: &_, _: &_| push(t)).adaptive(1e-6, 1e-6);
+        let run = steps.run(SVector::zeros(), SVector::zeros(), 0.0..4.0).unwrap();
+        // By steps of a ten thousandth of the time.
+        let fine = ContactSteps::new(&kernel, 1e-4).input(move |t, _: &_, _: &_| push(t));
+        let fine = fine.run(SVector::zeros(), SVector::zeros(), 0.0..4.0).unwrap();
+        let [x, other] = [run.samples.last().unwrap().state.q[0], fine.last().unwrap().state.q[0]];
+        assert!((x - other).abs() < 0.01 * other, "{w} {x} {other}");
+    }
 }

@@ -5,5 +5,8 @@ mod changeover;
 #[path = "../laws/common.rs"]
 #[allow(dead_code, reason = "scenes of the other tests")]
 mod common;
+mod driven;
 mod lanes;
 mod relaxed;
+mod several;
+mod spinning;

@@ -80,8 +80,9 @@ fn seen(clauses: &str, fields: &str, given: &[(&str, f64)]) -> Vec<Seen> {
     let samples = states.samples();
     let sought = kernel.sought();
     let mut search = Search::new(&samples, &sought);
-    let mut trace = search.flat.room(0);
-    let (drafts, best) = search.searched(&samples, &mut trace);
+    let mut traces = search.rooms();
+    let (drafts, best) = search.searched(&samples, &mut traces);
+    let [mut trace, mut again] = traces;
     let mut own = drafts[0].clone();
     for (name, value) in given {
         let symbol = search.symbol(|symbol| print(symbol, Notation::Text) == *name);
@@ -95,7 +96,6 @@ fn seen(clauses: &str, fields: &str, given: &[(&str, f64)]) -> Vec<Seen> {
         Some(Seen { method, figure, estimated: best[k].loss, there, given: of_given[k] })
     });
     let mut all: Vec<Seen> = functions.collect();
-    let mut again = search.flat.room(1);
     let besides = kernel.derivatives.iter().map(|derivative| &derivative.figure);
     for (k, figure) in std::iter::once(&kernel.figure_of_joined).chain(besides).enumerate() {
         let Some(figure) = figure else { continue };

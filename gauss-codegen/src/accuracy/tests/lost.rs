@@ -27,14 +27,6 @@ fn cases() -> Vec<Case> {
     };
     vec![
         case(
-            "torus without a hole",
-            "coordinates(a, b), gravity = 9.80665, particle(mass = 1, position = \
-             [(2 + 2 * cos(b)) * cos(a), (2 + 2 * cos(b)) * sin(a), 2 * sin(b)])",
-            Method::MassMatrix,
-            &[&[0.7], &[std::f64::consts::PI - 3e-6]],
-            &[0.3, 0.4],
-        ),
-        case(
             "hoop that rolls nearly flat, by multipliers",
             "coordinates(x, y, z, heading, lean, spin), gravity = 9.81, body(hoop, position = [x, y, z], mass = 1.5, \
              rotation = rotation_z(heading) * rotation_x(lean) * rotation_z(spin), inertia = [0.06, 0.06, 0.12]), \

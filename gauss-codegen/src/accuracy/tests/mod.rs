@@ -9,8 +9,10 @@ mod figures;
 mod formulas;
 mod hostile;
 mod lost;
+mod names;
 mod relative;
 mod scenes;
+mod unlike;
 
 use std::collections::BTreeMap;
 

@@ -249,3 +249,39 @@ fn light_links_of_longer_chains_keep_digits_beside_heavy_ones() {
     // Twelve decimal orders between neighbours, and a thousand operations: a hundred roundings of sixteen digits.
     assert!(chain.loss < 10.0 * FEW, "{:e}", chain.loss);
 }
+
+/// An acceleration that all matter has is none of a mode: `ë = −k e/(1 − d²/m)` however heavy the body is.
+#[test]
+fn modes_of_bodies_that_float_keep_their_digits_under_weight() {
+    let modes = "modes(hull, coordinates = [e], translation = [[0.4, 0.1, 0]], rotation = [[0, 0.02, 0.05]], \
+                 mass = [1], stiffness = [30])";
+    let arrays = "modes(arm, coordinates = [e], translation = [[0, 0.1, 0.05]], rotation = [[0, 0.002, 0.004]], \
+                  mass = [1], stiffness = [30])";
+    let far = [0.3, -0.5, 0.7, 0.4, 5e6, 4e6, 3e6];
+    for (load, pose) in [
+        ("gravity = 9.81", &POSE),
+        ("gravity = [1.3, -9.81, 0.2]", &POSE),
+        ("central_gravity(mu = 3.986004418e14)", &far),
+    ] {
+        for deflection in [1e-9, 1e-12] {
+            let clauses = [HULL, modes, load].join(", ");
+            let alone = tried(&["craft: Pose", "e"], &clauses, &[pose, &[deflection]], deflection);
+            assert!(alone.loss < FEW, "{load} at {deflection:e}: {:e}", alone.loss);
+            let clauses = [HULL, ARM, arrays, load].join(", ");
+            let on_arm = tried(&["craft: Pose", "angle", "e"], &clauses, &[pose, &[0.7], &[deflection]], deflection);
+            assert!(on_arm.loss < CHOSEN, "{load} on an arm at {deflection:e}: {:e}", on_arm.loss);
+        }
+    }
+    // By coordinates, in space and in the plane.
+    for (coordinates, place) in [
+        (&["x", "y", "z", "a", "e"][..], "position = [x, y, z], rotation = rotation_z(a)"),
+        (&["x", "y", "a", "e"], "position = [x, y, 0], rotation = rotation_z(a)"),
+    ] {
+        let clauses =
+            format!("body(hull, {place}, mass = 10, inertia = [0.2, 0.3, 0.4]), {modes}, gravity = [1, -9.81, 0]");
+        let mut values = vec![[0.3].as_slice(); coordinates.len() - 1];
+        values.push(&[1e-9]);
+        let by_coordinates = tried(coordinates, &clauses, &values, 1e-9);
+        assert!(by_coordinates.loss < FEW, "{place}: {:e}", by_coordinates.loss);
+    }
+}

@@ -85,6 +85,7 @@ fn inertia(derived: &Derived<'_, '_>, label: &str, rules: &InertiaRules) -> Toke
             __check.inertia(#label, &[[__moment, #zero, #zero], [#zero, __moment, #zero], [#zero, #zero, __moment]]);
         },
         InertiaRule::AboutAxis(axis) => quote!(__check.inertia_about_axis(#label, #axis, (#mass, #center), &#name);),
+        InertiaRule::Still => quote!(for __row in &#name { __check.finite(#label, __row); }),
         InertiaRule::InSum => quote!(__check.inertia_in_sum(#label, #mass, #center, &#name);),
     };
     let mut checks: TokenStream = rules.rules.iter().map(check).collect();

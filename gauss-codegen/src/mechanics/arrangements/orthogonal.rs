@@ -226,7 +226,8 @@ fn forms_of<'g>(planar: Option<usize>, link: &Link<'g>) -> Vec<(Expr<'g>, Form<'
     let center = center_of(link);
     let mut forms: Vec<_> = (0..3).map(|axis| (mass, Form::Center(axis, center))).collect();
     let Some(inertia) = central_inertia(link) else { return forms };
-    if let Some(axis) = planar {
+    // About one axis no other moment enters: whatever is given of them, no pivot is made of it.
+    if let Some(axis) = planar.or_else(|| link.only_axis()) {
         let unit = std::array::from_fn(|i| if i == axis { graph.one() } else { graph.zero() });
         forms.push((inertia[axis][axis], Form::Turn(axis, unit)));
         return forms;
@@ -259,10 +260,10 @@ fn center_of<'g>(link: &Link<'g>) -> Triple<'g> {
     link.body().map_or(none, |body| link.in_working_axes(&body.center_of_mass, Axes::Body).map(Expr::group))
 }
 
-/// `ω × I_G ω` of a link; about one axis there is none.
+/// `ω × I_G ω` of a link; about one axis it has no part along it.
 fn gyroscopic<'g>(planar: Option<usize>, link: &Link<'g>) -> Triple<'g> {
     let w = &link.angular_velocity;
-    let Some(inertia) = central_inertia(link).filter(|_| planar.is_none()) else {
+    let Some(inertia) = central_inertia(link).filter(|_| planar.or_else(|| link.only_axis()).is_none()) else {
         return [link.frame.graph.zero(); 3];
     };
     let spin: Triple<'g> = std::array::from_fn(|i| dot(&inertia[i], w).group());

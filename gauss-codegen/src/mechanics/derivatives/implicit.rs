@@ -120,7 +120,9 @@ impl<'g> System<'g> {
     /// The terms of ∂C/∂ż other than the inertia of links: rotors, modes and loads.
     pub(super) fn beside(&self) -> Vec<Expr<'g>> {
         let (tree, speeds, zero) = (&self.scene.tree, &self.scene.speeds, self.scene.graph.zero());
-        let formal = tree.with_formal(vec![zero; speeds.len()], &self.along);
+        let still = tree.deformations.is_empty();
+        let accelerations = if still { Vec::new() } else { tree.accelerations_along(&self.along, &self.loads) };
+        let formal = tree.with_formal(vec![zero; speeds.len()], &self.along, &accelerations);
         formal.iter().zip(self.acting()).map(|(row, force)| *row - force).collect()
     }
 

@@ -113,7 +113,9 @@ impl<'g> Tree<'g> {
             (frame.body_vector(force.map(Expr::group)), torque.map(Expr::group))
         };
         let links = self.links.iter().zip(&accelerations).map(rate).collect();
-        let of_modes = |modes: &Deformation<'g>| modes.inertia_forces(self.rates());
+        let of_modes = |modes: &Deformation<'g>| {
+            modes.inertia_forces(&self.acceleration_of_o(modes.link, &accelerations), self.rates())
+        };
         self.about_center(self.with_pairs(links, of_modes), center)
     }
 

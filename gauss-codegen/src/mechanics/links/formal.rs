@@ -3,15 +3,23 @@
 
 use crate::algebra::{Expr, Map};
 
-use crate::mechanics::links::tree::Tree;
+use crate::mechanics::kinematics::vector::{Triple, is_zero, subtract};
+use crate::mechanics::links::inertia::{acceleration_gradient, apply};
+use crate::mechanics::links::tree::{Pairs, Tree};
 use crate::mechanics::matter::modes::Deformation;
 use crate::mechanics::matter::rotor::{Rotor, add_projected};
 
 impl<'g> Tree<'g> {
-    /// Whether some of it is moved by this speed.
+    /// Whether some of it is moved by this speed in a way of its own, not with a link.
     pub fn is_geared(&self, speed: Expr<'g>) -> bool {
-        let moves = |deformation: &Deformation<'g>| deformation.row(speed).iter().any(|e| !e.is_zero());
+        let moves = |modes: &Deformation<'g>| modes.mode_rates().iter().any(|rate| !rate.partial(speed).is_zero());
         self.rotors.iter().any(|rotor| !rotor.row(speed).is_zero()) || self.deformations.iter().any(moves)
+    }
+
+    /// Whether this speed moves what deforms.
+    pub fn moves_what_deforms(&self, speed: Expr<'g>) -> bool {
+        let moves = |modes: &Deformation<'g>| modes.row(speed).iter().any(|e| !e.is_zero());
+        self.deformations.iter().any(moves)
     }
 
     /// Whether there is any.
@@ -28,13 +36,28 @@ impl<'g> Tree<'g> {
         (0..self.speed_count()).map(|k| self.speed(k)).collect()
     }
 
-    /// With its forces of inertia, less its weight, with ż by its rates in `along`.
-    pub fn with_formal(&self, rows: Vec<Expr<'g>>, along: &Map<u32, Expr<'g>>) -> Vec<Expr<'g>> {
+    /// With its forces of inertia, less what fields do to it, with ż by its rates in `along`, and with `a_O − g` and ω̇
+    /// of the links as observers see them.
+    pub fn with_formal(
+        &self,
+        rows: Vec<Expr<'g>>,
+        along: &Map<u32, Expr<'g>>,
+        accelerations: &Pairs<'g>,
+    ) -> Vec<Expr<'g>> {
         let rows = add_projected(&self.rotors, &self.all_speeds(), rows, |rotor| rotor.force(along));
-        self.with_modes(rows, |deformation| {
-            let weights = deformation.weights().into_iter();
-            deformation.inertia_forces(along).iter().zip(weights).map(|(force, weight)| *force - weight).collect()
-        })
+        self.with_modes(rows, |modes| modes.inertia_forces(&self.acceleration_of_o(modes.link, accelerations), along))
+    }
+
+    /// That of O in body axes, by whichever pole and in whichever axes the link works.
+    pub fn acceleration_of_o(&self, k: usize, accelerations: &Pairs<'g>) -> Triple<'g> {
+        let (link, (a, alpha)) = (&self.links[k], &accelerations[k]);
+        let a = link.in_body_axes(a);
+        if is_zero(&link.shift) {
+            return a;
+        }
+        let in_body = |a: &Triple<'g>| link.in_body_axes(&link.frame.body_vector(*a));
+        let gradient = acceleration_gradient(&in_body(&link.angular_velocity), &in_body(alpha));
+        subtract(&a, &apply(&gradient, &link.shift)).map(Expr::group)
     }
 
     /// With its momenta.
@@ -43,9 +66,13 @@ impl<'g> Tree<'g> {
         self.with_modes(rows, Deformation::momenta)
     }
 
-    /// With its weight: that of what deforms.
-    pub fn with_formal_weights(&self, rows: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
-        self.with_modes(rows, Deformation::weights)
+    /// With what a field, observer's axes, does on each link to what deforms.
+    pub fn with_formal_weights(&self, rows: Vec<Expr<'g>>, fields: &[Option<Triple<'g>>]) -> Vec<Expr<'g>> {
+        let still = [self.graph.zero(); 3];
+        self.with_modes(rows, |modes| {
+            let own = fields[modes.link].map(|field| self.links[modes.link].axes().to_body(&field).map(Expr::group));
+            modes.uniform(&own.unwrap_or(still))
+        })
     }
 
     /// Adds `Σ of(modes)·∂ν/∂z^α` to the rows.

@@ -304,7 +304,13 @@ impl<'g> Link<'g> {
         Some((mass, self.turned.map_or(center, |turn| turn.vector(&center).map(Expr::group))))
     }
 
-    /// The only body axis that it turns about.
+    /// The body axes along which ω has a component.
+    pub fn turns_about(&self) -> Vec<usize> {
+        let (_, omega) = self.twist();
+        (0..3).filter(|&axis| !omega[axis].is_zero()).collect()
+    }
+
+    /// The only working axis that it turns about.
     pub fn only_axis(&self) -> Option<usize> {
         let still = |axis: usize| self.angular_velocity[axis].is_zero();
         (0..3).find(|&axis| !still(axis) && still((axis + 1) % 3) && still((axis + 2) % 3))

@@ -125,11 +125,7 @@ impl<'g> Tree<'g> {
 
     /// Gives to parents what moves with them as well; to be called once all links hang.
     pub fn settle(&mut self) {
-        // Modes are not moved with an observer.
-        self.floating = match self.deformations.is_empty() {
-            true => Floating::of(&self.links, self.speeds.len()),
-            false => self.links.iter().map(|_| None).collect(),
-        };
+        self.floating = Floating::of(&self.links, self.speeds.len());
         regroup(self.graph, &mut self.links);
         self.links.iter_mut().for_each(Link::settle);
     }
@@ -354,7 +350,7 @@ impl<'g> Tree<'g> {
     pub fn under_way(&self, inertia: Inertia, loads: &Loads<'g>, held: &[bool]) -> UnderWay<'g> {
         let (accelerations, taken) = self.floating_accelerations(loads, held);
         let wrenches = self.wrenches(&self.rates, inertia, loads, &accelerations);
-        let rows = self.with_formal(vec![self.graph.zero(); self.speeds.len()], &self.rates);
+        let rows = self.with_formal(vec![self.graph.zero(); self.speeds.len()], &self.rates, &accelerations);
         UnderWay { wrenches, rows, taken }
     }
 
@@ -389,7 +385,7 @@ impl<'g> Tree<'g> {
         accelerations: &Pairs<'g>,
     ) -> Vec<Expr<'g>> {
         let wrenches = self.wrenches(along, inertia, loads, accelerations);
-        self.with_formal(self.projected(&self.gathered(wrenches)), along)
+        self.with_formal(self.projected(&self.gathered(wrenches)), along, accelerations)
     }
 
     /// Forces of inertia of every link by itself, less the loads on it.
@@ -414,7 +410,7 @@ impl<'g> Tree<'g> {
     /// `R·a_α + M_O·o_α` of the loads on links.
     pub fn loads(&self, loads: &Loads<'g>) -> Vec<Expr<'g>> {
         let fields: Vec<Option<Triple<'g>>> = (0..self.links.len()).map(|k| loads.field_on(self.root_of(k))).collect();
-        self.acted_on_by(&loads.forces, self.weights_in(&fields, |_| None))
+        self.with_formal_weights(self.acted_on_by(&loads.forces, self.weights_in(&fields, |_| None)), &fields)
     }
 
     /// `R·a_α + M_O·o_α` of forces, and of a resultant and a torque about O on each link.
@@ -447,6 +443,11 @@ impl<'g> Tree<'g> {
     /// a_O and ω̇ of every link at ż = 0.
     pub fn bias_accelerations(&self) -> Pairs<'g> {
         self.accelerations(&self.rates, None, Observers::Still)
+    }
+
+    /// `a_O − g` and ω̇ of every link at any ż.
+    pub fn accelerations_along(&self, along: &Map<u32, Expr<'g>>, loads: &Loads<'g>) -> Pairs<'g> {
+        self.accelerations(along, Some(loads), Observers::Still)
     }
 
     /// `a_O − g` and ω̇ of every link; a uniform field is an acceleration of the observer, and so is what links that
@@ -553,8 +554,9 @@ impl<'g> Tree<'g> {
         if self.gravity.is_none() {
             return vec![self.graph.zero(); self.speeds.len()];
         }
-        let links = self.weights_in(&vec![self.gravity; self.links.len()], Link::displaced);
-        self.with_formal_weights(self.projected(&self.gathered(links)))
+        let fields = vec![self.gravity; self.links.len()];
+        let links = self.weights_in(&fields, Link::displaced);
+        self.with_formal_weights(self.projected(&self.gathered(links)), &fields)
     }
 
     /// Resultant and torque about O, on each link, of a field that is uniform over it; what is displaced is lifted.

@@ -64,6 +64,16 @@ impl<'g> Expansion<'g> {
         let own = self.arm.iter().zip(arm).map(|(r, value)| (r.key(), value.group()));
         own.chain([(self.inverse.key(), inverse)]).collect()
     }
+
+    /// What first and second moments add to the force on their link and to the torque about O, with what the formal
+    /// components stand for; the torque of the first is that of a uniform field.
+    fn force_on(&self, link: usize, at: &Map<u32, Expr<'g>>) -> Force<'g> {
+        let [_, first, second] = self.energies;
+        let negative = |e: Expr<'g>, rates: &Map<u32, Expr<'g>>| (-e.derivative(rates)).substitute(at).group();
+        let force = std::array::from_fn(|i| negative(first + second, &self.moving(i)));
+        let torque = std::array::from_fn(|i| negative(second, &self.turning(i)));
+        Force::OnLink { link, at: [self.inverse.graph().zero(); 3], force, torque, axes: Axes::Body }
+    }
 }
 
 impl<'g> CentralField<'g> {
@@ -97,30 +107,27 @@ impl<'g> CentralField<'g> {
             loads.uniform.push((root, self.at(&self.arm(&tree.links[pole]))));
             let own = (0..tree.links.len()).filter(|&k| tree.root_of(k) == root && heavy(&&tree.links[k]));
             loads.forces.extend(own.flat_map(|k| self.tide(tree, pole, k)));
+            let own = tree.deformations.iter().filter(|modes| tree.root_of(modes.link) == root);
+            loads.forces.extend(own.flat_map(|modes| self.tide_on_modes(tree, pole, modes)));
         }
-        // What deforms has no mass, so that its share is small, and by its derivatives as exact as any.
-        let of_modes = self.energy_of_modes(tree);
-        let potential = potential + of_modes;
+        let potential = potential + self.energy_of_modes(tree, |_| true);
         if gathered.is_empty() {
             return Action::Potential(potential);
         }
         let apart = tree.links.iter().enumerate().filter(|(k, _)| !gathered.contains(&tree.root_of(*k)));
+        let of_modes = self.energy_of_modes(tree, |root| !gathered.contains(&root));
         let rest = sum(&mut apart.map(|(_, link)| link).filter(heavy)) + of_modes;
         Action::Field(Field { potential, rest, loads })
     }
 
-    /// Of what modes add to the moments of links.
-    fn energy_of_modes(&self, tree: &Tree<'g>) -> Expr<'g> {
+    /// Of what modes add to the moments of links, on some of the roots.
+    fn energy_of_modes(&self, tree: &Tree<'g>, on: impl Fn(usize) -> bool) -> Expr<'g> {
         let of = |modes: &Deformation<'g>| {
-            let inertia = modes.inertia();
-            let half_trace = (inertia[0][0] + inertia[1][1] + inertia[2][2]).half();
-            let second = |i: usize, j: usize| if i == j { half_trace - inertia[i][j] } else { -inertia[i][j] };
-            let second = std::array::from_fn(|i| std::array::from_fn(|j| second(i, j)));
-            let moments = Moments { mass: tree.graph.zero(), first: modes.first_moment(), second };
             let link = &tree.links[modes.link];
-            self.energy_at(link, &moments, &link.axes().to_body(&self.arm(link)).map(Expr::group))
+            self.energy_at(link, &moments_of(modes), &link.axes().to_body(&self.arm(link)).map(Expr::group))
         };
-        tree.deformations.iter().map(of).fold(tree.graph.zero(), |sum, energy| sum + energy)
+        let own = tree.deformations.iter().filter(|modes| on(tree.root_of(modes.link)));
+        own.map(of).fold(tree.graph.zero(), |sum, energy| sum + energy)
     }
 
     fn energy(&self, link: &Link<'g>) -> Expr<'g> {
@@ -147,6 +154,44 @@ impl<'g> CentralField<'g> {
     ///
     /// `γ(ρ + d) − γ(ρ) = −μ/|ρ|³ (d − f (ρ + d))`, `f = 1 − 1/h = q (3 + 3q + q²)/(h (1 + h))`, `h = w√w`.
     fn tide(&self, tree: &Tree<'g>, pole: usize, k: usize) -> Vec<Force<'g>> {
+        let (link, none) = (&tree.links[k], [tree.graph.zero(); 3]);
+        let (tide, inverse) = self.difference(tree, pole, k);
+        let mut forces = Vec::new();
+        let moments = &link.moments;
+        if k != pole {
+            let center = link.body().map_or(none, |body| body.center_of_mass);
+            let force = scale(moments.mass, &tide).map(Expr::group);
+            forces.push(Force::OnLink { link: k, at: center, force, torque: none, axes: Axes::Space });
+        }
+        if matches!(link.matter, Matter::Body(_)) {
+            let expansion = Expansion::new(self.mu, moments);
+            forces.push(expansion.force_on(k, &expansion.at(&self.arm_in_body(link), inverse)));
+        }
+        forces
+    }
+
+    /// The same of what modes add to the moments of their link.
+    fn tide_on_modes(&self, tree: &Tree<'g>, pole: usize, modes: &Deformation<'g>) -> Vec<Force<'g>> {
+        let (k, none) = (modes.link, [tree.graph.zero(); 3]);
+        let axes = tree.links[k].axes();
+        let (tide, inverse) = self.difference(tree, pole, k);
+        let tide = if k == pole { none } else { axes.to_body(&tide).map(Expr::group) };
+        let expansion = Expansion::new(self.mu, &moments_of(modes));
+        let at = expansion.at(&axes.to_body(&self.arm(&tree.links[k])), inverse);
+        let first = modes.first_moment();
+        let torque = cross(&first.map(Expr::group), &tide);
+        let pull = Force::OnLink { link: k, at: none, force: none, torque, axes: Axes::Body };
+        let of_mode = |(eta, rate): (&Expr<'g>, &Expr<'g>)| {
+            let second = expansion.energies[2].partial(*eta).substitute(&at);
+            let force = (dot(&first.map(|e| e.partial(*eta)), &tide) - second).group();
+            Force::OnRate { rate: *rate, force }
+        };
+        let on_modes = modes.coordinates.iter().zip(modes.mode_rates()).map(of_mode);
+        [expansion.force_on(k, &at), pull].into_iter().chain(on_modes).collect()
+    }
+
+    /// The difference of the accelerations of O of a link and of the pole, observer's axes, and 1/|ρ| of the link.
+    fn difference(&self, tree: &Tree<'g>, pole: usize, k: usize) -> (Triple<'g>, Expr<'g>) {
         let (graph, link) = (tree.graph, &tree.links[k]);
         let (one, three) = (graph.one(), graph.integer(3));
         let near = self.arm(&tree.links[pole]);
@@ -160,25 +205,17 @@ impl<'g> CentralField<'g> {
         let f = (q * (three + q * (three + q)).group() * divided).group();
         let tide =
             scale((-self.mu * inverse.powi(3)).group(), &subtract(&d, &scale(f, &self.arm(link)))).map(Expr::group);
-        let none = [graph.zero(); 3];
-        let mut forces = Vec::new();
-        let moments = &link.moments;
-        if k != pole {
-            let center = link.body().map_or(none, |body| body.center_of_mass);
-            let force = scale(moments.mass, &tide).map(Expr::group);
-            forces.push(Force::OnLink { link: k, at: center, force, torque: none, axes: Axes::Space });
-        }
-        if matches!(link.matter, Matter::Body(_)) {
-            let expansion = Expansion::new(self.mu, moments);
-            let at = expansion.at(&self.arm_in_body(link), (inverse * w * (one + h).group() * divided).group());
-            let [_, first, second] = expansion.energies;
-            let negative = |e: Expr<'g>, rates: &Map<u32, Expr<'g>>| (-e.derivative(rates)).substitute(&at).group();
-            let force = std::array::from_fn(|i| negative(first + second, &expansion.moving(i)));
-            let torque = std::array::from_fn(|i| negative(second, &expansion.turning(i)));
-            forces.push(Force::OnLink { link: k, at: none, force, torque, axes: Axes::Body });
-        }
-        forces
+        (tide, (inverse * w * (one + h).group() * divided).group())
     }
+}
+
+/// What modes add to the moments about O of their link, body axes.
+fn moments_of<'g>(modes: &Deformation<'g>) -> Moments<'g> {
+    let (inertia, first) = (modes.inertia(), modes.first_moment());
+    let half_trace = (inertia[0][0] + inertia[1][1] + inertia[2][2]).half();
+    let second = |i: usize, j: usize| if i == j { half_trace - inertia[i][j] } else { -inertia[i][j] };
+    let second = std::array::from_fn(|i| std::array::from_fn(|j| second(i, j)));
+    Moments { mass: first[0].graph().zero(), first, second }
 }
 
 /// 1/|a|.

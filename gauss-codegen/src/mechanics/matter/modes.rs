@@ -124,17 +124,17 @@ impl<'g> Deformation<'g> {
     }
 
     /// What is added to dπ/dt because axes turn, O moves and G depends on η.
-    fn drift(&self, momenta: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        let (u, w) = (triple(&self.rates, 0), triple(&self.rates, 3));
+    fn drift(&self, rates: &[Expr<'g>], momenta: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let (u, w) = (triple(rates, 0), triple(rates, 3));
         let (q, gamma) = (triple(momenta, 0), triple(momenta, 3));
         let angular = add(&cross(&w, &gamma), &cross(&u, &q));
         let of_mode = |&eta: &Expr<'g>| {
             let mut square = self.graph().zero();
-            for i in 0..self.rates.len() {
-                for j in i..self.rates.len() {
+            for i in 0..rates.len() {
+                for j in i..rates.len() {
                     let change = self.matrix[i][j].partial(eta);
                     if !change.is_zero() {
-                        let term = change * self.rates[i] * self.rates[j];
+                        let term = change * rates[i] * rates[j];
                         square = square + if i == j { term.half() } else { term };
                     }
                 }
@@ -145,20 +145,27 @@ impl<'g> Deformation<'g> {
         cross(&w, &q).into_iter().chain(angular).chain(modes).map(Expr::group).collect()
     }
 
-    /// ∫a_P·∂v_P/∂ν_i dm, with ż by its rates in `along`.
-    pub fn inertia_forces(&self, along: &Map<u32, Expr<'g>>) -> Vec<Expr<'g>> {
-        let momenta = self.momenta();
-        let drift = self.drift(&momenta).into_iter();
-        momenta.iter().zip(drift).map(|(p, drift)| (p.derivative(along) + drift).group()).collect()
+    /// ∫a_P·∂v_P/∂ν_i dm, with the acceleration of O, body axes, as an observer sees it who moves as well, and ω̇ and
+    /// η̈ by the rates in `along`. Nothing depends on O's velocity (Galilei): it is left out before anything is formed.
+    pub fn inertia_forces(&self, acceleration: &Triple<'g>, along: &Map<u32, Expr<'g>>) -> Vec<Expr<'g>> {
+        let mut rates = self.rates.clone();
+        rates[..3].fill(self.graph().zero());
+        let momenta = self.momenta_of(&rates);
+        let (drift, moved) = (self.drift(&rates, &momenta), self.uniform(acceleration));
+        let rows = momenta.iter().zip(drift).zip(moved);
+        rows.map(|((p, drift), moved)| (p.derivative(along) + drift + moved).group()).collect()
     }
 
-    /// ∫g·∂v_P/∂ν_i dm: a uniform field is an acceleration of O.
-    pub fn weights(&self) -> Vec<Expr<'g>> {
-        let zero = self.graph().zero();
-        let Some(gravity) = self.gravity else { return vec![zero; self.rates.len()] };
-        let mut lifted = vec![zero; self.rates.len()];
-        lifted[..3].copy_from_slice(&gravity);
-        self.momenta_of(&lifted)
+    /// ∫a·∂v_P/∂ν_i dm of an acceleration that all points have, body axes: of O, or of a uniform field.
+    pub fn uniform(&self, acceleration: &Triple<'g>) -> Vec<Expr<'g>> {
+        let mut all = vec![self.graph().zero(); self.rates.len()];
+        all[..3].copy_from_slice(acceleration);
+        self.momenta_of(&all)
+    }
+
+    /// η̇.
+    pub fn mode_rates(&self) -> &[Expr<'g>] {
+        &self.rates[6..]
     }
 
     /// ∫r dm beyond that of the undeformed body, body axes: `u·(ω × S)` has it.
@@ -212,7 +219,7 @@ impl<'g> Deformation<'g> {
     pub fn bracket(&self, speed: Expr<'g>, rates: &Map<u32, Expr<'g>>) -> Expr<'g> {
         let momenta = self.momenta();
         let turning = self.row(speed).into_iter().zip(&momenta).map(|(partial, p)| *p * partial.derivative(rates));
-        turning.sum::<Expr<'g>>() - self.projected(&self.drift(&momenta), speed)
+        turning.sum::<Expr<'g>>() - self.projected(&self.drift(&self.rates, &momenta), speed)
     }
 
     /// With other expressions in place of the rates.

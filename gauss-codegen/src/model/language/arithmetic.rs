@@ -289,7 +289,13 @@ fn vector(array: &ExprArray, context: &mut Context) -> Option<Expression> {
     match <[Expression; 3]>::try_from(components) {
         Ok(components) => Some(Expression { kind: ExpressionKind::Vector(components.map(Box::new)), span }),
         Err(_) => {
-            let remedy = if count == 2 { "; in a plane write `[x, y, 0]`" } else { "" };
+            let remedy = match count {
+                2 => "; in a plane write `[x, y, 0]`",
+                4 => {
+                    "; a rotation by a quaternion is one coordinate, `coordinates(turn: Rotation)` with `rotation = turn`"
+                }
+                _ => "",
+            };
             context.error(span, format!("a vector has three components, found {count}{remedy}"));
             None
         }

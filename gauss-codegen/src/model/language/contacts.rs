@@ -62,7 +62,12 @@ const NEEDS: &Table<&str> = &[
 /// The first does not go with the second, and why.
 const EXCLUDES: &[(&str, &str, &str)] = &[
     ("gap", "point", "`point` already gives the gap; remove `gap`, or remove `point`"),
-    ("slip", "point", "the slip of a point follows from its motion; remove `slip`"),
+    (
+        "slip",
+        "point",
+        "the slip of a point follows from its motion; remove `slip`, or write the gap in place of `point` as well: \
+         `gap = …, slip = …`",
+    ),
     ("spin", "point", "the spin of a point follows from the motion of its body; remove `spin`"),
     ("roll", "point", "how a point rolls follows from the motion of its body; remove `roll`"),
     ("rim", "radius", "`rim` is the radius of a disk and `radius` that of a sphere; keep one of the two"),

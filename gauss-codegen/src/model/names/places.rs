@@ -190,6 +190,11 @@ impl Place {
             }
             Place::Direction => ("a direction is a vector", "write `[a, b, c]`"),
             Place::Height => ("the height of a plane is a scalar", "write one number or the name of a field"),
+            Place::Limited if found == Kind::Rotation => (
+                "what stays in a range is a scalar",
+                "how far it may turn from an axis is a gap: `contact(limit, gap = dot(turn * [0, 0, 1], [0, 0, 1]) - \
+                 cos(a))`",
+            ),
             Place::Limited => ("what stays in a range is a scalar", "write one number, such as the angle of a joint"),
             Place::Limit => ("the limit of a range is a scalar", "write one number or the name of a field"),
             Place::ForcePoint => {
@@ -393,9 +398,10 @@ impl Place {
                 "`{name}` is {what}, and its velocity follows from the kinematics, not the kinematics from it; \
                  write rates in coordinates, speeds, fields and `t`"
             ),
-            (Place::Mass, _) => {
-                format!("`{name}` varies, and the mass of a particle is constant; write numbers and fields only")
-            }
+            (Place::Mass, _) => format!(
+                "`{name}` varies, and the mass of a particle is constant; write numbers and fields only; a particle that \
+                 loses mass moves as one of mass 1 does on which every force is divided by m(t)"
+            ),
             (Place::Role(role), _) => {
                 format!("`{name}` varies, and `{}` of a body is constant; write numbers and fields only", role.word())
             }

@@ -295,7 +295,11 @@ pub static WRENCH: Row = Row {
             "a torque has no point: it does the same wherever it acts on its body; add `force = …`, or remove `at`",
         ),
     ],
-    refused: &[],
+    refused: &[(
+        "reaction",
+        "a wrench acts on one body; a torque between two is `torque(body = …, value = […], reaction = …)`, and the \
+         force on the other a `force(…)` of its own",
+    )],
     example: "body = …, force = [fx, fy, fz], torque = [mx, my, mz]",
     argument: "an argument such as `force = [0, 0, f]`",
 };

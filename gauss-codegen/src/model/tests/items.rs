@@ -13,7 +13,9 @@ fn other_items() {
     check("enum Body { A, B }", &[("Body", &message("an enum"))]);
     check("union Body { a: f64 }", &[("Body", &message("a union"))]);
     check("struct Body(f64, f64);", &[("Body", &message("a tuple struct"))]);
-    check("struct Body;", &[("Body", &message("a unit struct"))]);
+    let unit = "`GaussDynamics` is derived for structs with named fields, and `Body` is a unit struct; \
+                write `struct Body {}`";
+    check("struct Body;", &[("Body", unit)]);
     check(
         "#[gauss(chart = hybird)] enum Body {}",
         &[("hybird", "unknown chart `hybird`; did you mean `hybrid`?"), ("Body", &message("an enum"))],

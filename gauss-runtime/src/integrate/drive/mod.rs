@@ -14,12 +14,13 @@ mod runs;
 mod step_control;
 
 pub use acceptance::{cause, pace, projection, tolerance};
+pub use events::{bounded, event, schedule, search};
 #[cfg(feature = "alloc")]
 pub use events::{each, task};
-pub use events::{event, schedule, search};
 pub(in crate::integrate) use events::{jump, leaving, watched, zero};
 pub(in crate::integrate) use runs::interval;
 #[cfg(feature = "alloc")]
 pub use runs::{boxed, trajectory};
 pub use runs::{observer, run, simulation, summary};
-pub use step_control::{adaptive, compensated, control, fixed, logarithms, step_length};
+pub(in crate::integrate) use step_control::cubic;
+pub use step_control::{adaptive, compensated, control, fixed, logarithms, looks, step_length};

@@ -60,6 +60,24 @@ impl<P: Problem> Problem for Called<'_, P> {
     }
 
     #[inline(always)]
+    fn change_of_speeds(&self, state: &State<P::System>, change: &Rates<P::System>) -> Rates<P::System> {
+        self.0.change_of_speeds(state, change)
+    }
+
+    #[inline(always)]
+    fn has_input(&self) -> bool {
+        self.0.has_input()
+    }
+
+    fn hides_action(&self) -> bool {
+        self.0.hides_action()
+    }
+
+    fn action(&self, state: &State<P::System>, rates: Option<&Rates<P::System>>) -> Speeds<P> {
+        self.0.action(state, rates)
+    }
+
+    #[inline(always)]
     fn held(&self) -> Option<&Cell<Input<P>>> {
         self.0.held()
     }

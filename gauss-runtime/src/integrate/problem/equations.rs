@@ -41,6 +41,30 @@ pub trait Problem {
     /// (ż, ṗ) at a state, one of which is the known ẏ.
     fn both_rates(&self, state: &State<Self::System>, known: &Speeds<Self>) -> (Speeds<Self>, Speeds<Self>);
 
+    /// A change of (q, y) that ends in `state`, as one of (q, z).
+    #[inline(always)]
+    fn change_of_speeds(&self, state: &State<Self::System>, change: &Rates<Self::System>) -> Rates<Self::System> {
+        let _ = state;
+        *change
+    }
+
+    /// Whether there is an input, which may change with the time alone.
+    #[inline(always)]
+    fn has_input(&self) -> bool {
+        core::mem::size_of::<Input<Self>>() > 0
+    }
+
+    /// Whether constraints that come and go hide what acts on the system from ẏ.
+    fn hides_action(&self) -> bool {
+        false
+    }
+
+    /// What acts in a state, for looks at the input between the stages of a step: ẏ, whose rates may be known; where it
+    /// is hidden, ẏ without the constraints that hide it.
+    fn action(&self, state: &State<Self::System>, rates: Option<&Rates<Self::System>>) -> Speeds<Self> {
+        rates.map_or_else(|| self.rates(state).variables, |rates| rates.variables)
+    }
+
     /// The part of the input that controllers hold, where there are some that sample: a run makes a step end where that
     /// changes.
     fn held(&self) -> Option<&Cell<Input<Self>>> {
@@ -56,6 +80,13 @@ pub trait Problem {
     #[inline(always)]
     fn state(&self, t: Scalar<Self>, q: Configuration<Self>, z: &Speeds<Self>) -> State<Self::System> {
         State { t, q, y: self.variables(t, &q, z) }
+    }
+
+    /// The state with z in the place of y, in which errors of steps are measured.
+    #[inline(always)]
+    fn in_speeds(&self, state: &State<Self::System>) -> State<Self::System> {
+        let State { t, q, y } = *state;
+        State { t, q, y: self.speeds(t, &q, &y) }
     }
 
     /// Both velocities and momenta of a state.
@@ -139,6 +170,10 @@ impl<S: GaussSystem, F: Form<S>, I: InputSource<S>> Problem for SystemProblem<'_
     #[inline(always)]
     fn both_rates(&self, state: &State<S>, known: &S::Speeds) -> (S::Speeds, S::Speeds) {
         self.form.both_rates(self.system, &self.input, state, known)
+    }
+    #[inline(always)]
+    fn change_of_speeds(&self, state: &State<S>, change: &Rates<S>) -> Rates<S> {
+        self.form.change_of_speeds(self.system, state, change)
     }
     #[inline(always)]
     fn held(&self) -> Option<&Cell<S::Input>> {

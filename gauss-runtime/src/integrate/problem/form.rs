@@ -5,6 +5,8 @@
 
 use super::input::InputSource;
 use super::state::{Rates, State};
+use crate::configuration::{Configuration, VectorSpace};
+use crate::real::Real;
 use crate::system::GaussSystem;
 
 /// The variables y that are integrated together with the configuration: speeds or momenta.
@@ -35,6 +37,13 @@ pub trait Form<S: GaussSystem>: Copy {
         state: &State<S>,
         known: &S::Speeds,
     ) -> (S::Speeds, S::Speeds);
+
+    /// A change of (q, y) that ends in `state`, as one of (q, z): what errors of steps are measured in.
+    #[inline(always)]
+    fn change_of_speeds(self, system: &S, state: &State<S>, change: &Rates<S>) -> Rates<S> {
+        let _ = (system, state);
+        *change
+    }
 }
 
 /// y = z: integrate the quasi-velocities by `acceleration`.
@@ -140,6 +149,16 @@ impl<S: GaussSystem> Form<S> for MomentumForm {
         let input = input.input(*t, q, &z);
         (system.acceleration(*t, q, &z, &input), *known)
     }
+
+    /// Near a singular place of a chart the same momenta at another q are other speeds.
+    #[inline(always)]
+    fn change_of_speeds(self, system: &S, state: &State<S>, change: &Rates<S>) -> Rates<S> {
+        let (State { t, q, y }, back) = (state, -S::Scalar::one());
+        let before = (q.retract(&change.configuration.scale(back)), y.add_scaled(back, &change.variables));
+        let speeds = system.velocity(*t, &before.0, &before.1);
+        let variables = system.velocity(*t, q, y).add_scaled(back, &speeds);
+        Rates { configuration: change.configuration, variables }
+    }
 }
 
 impl<S: GaussSystem, F: Form<S>> Form<S> for WithoutContacts<F> {
@@ -179,5 +198,10 @@ impl<S: GaussSystem, F: Form<S>> Form<S> for WithoutContacts<F> {
         known: &S::Speeds,
     ) -> (S::Speeds, S::Speeds) {
         self.0.both_rates(system, input, state, known)
+    }
+
+    #[inline(always)]
+    fn change_of_speeds(self, system: &S, state: &State<S>, change: &Rates<S>) -> Rates<S> {
+        self.0.change_of_speeds(system, state, change)
     }
 }

@@ -133,7 +133,10 @@ fn own_kinematics<'g>(scene: &SystemScene<'g>, k: usize) -> Option<(Vec<usize>, 
     // What moves a frame moves the matter that hangs on it.
     let with_ancestors = |other: usize| std::iter::successors(Some(other), |&at| links[at].parent);
     let mut moving = (0..links.len()).filter(heavy).flat_map(with_ancestors);
-    let geared = |&z: &usize| scene.tree.is_geared(scene.speeds[z]);
+    let geared = |&z: &usize| {
+        let speed = scene.speeds[z];
+        scene.tree.is_geared(speed) || scene.tree.moves_what_deforms(speed)
+    };
     let others_too = moving.any(|at| block.iter().any(|&z| links[at].is_moved_by(z)));
     if block.is_empty() || block.iter().any(geared) || others_too {
         return None;

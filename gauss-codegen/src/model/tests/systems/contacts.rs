@@ -123,7 +123,11 @@ fn clauses() {
                  `range(x, from = a, to = b)`",
             ),
             ("gap", "`point` already gives the gap; remove `gap`, or remove `point`"),
-            ("slip", "the slip of a point follows from its motion; remove `slip`"),
+            (
+                "slip",
+                "the slip of a point follows from its motion; remove `slip`, or write the gap in place of `point` as \
+                 well: `gap = …, slip = …`",
+            ),
             ("radius", "`radius` goes with `point = …`; add it, or remove `radius`"),
             ("rim", "`rim` goes with `axis = …`; add it, or remove `rim`"),
             ("rim", "`rim` is the radius of a disk and `radius` that of a sphere; keep one of the two"),

@@ -109,6 +109,14 @@ fn kinds() {
     check_potential("[x, a, 0].x", &[("a", "each component of a vector is a scalar, found a vector")]);
     check_potential("[x, y].x", &[("[", "a vector has three components, found 2; in a plane write `[x, y, 0]`")]);
     check_potential(
+        "[x, y, x, y].x",
+        &[(
+            "[",
+            "a vector has three components, found 4; a rotation by a quaternion is one coordinate, \
+             `coordinates(turn: Rotation)` with `rotation = turn`",
+        )],
+    );
+    check_potential(
         "a",
         &[("a", "a potential is a scalar, found a vector; write one number, such as `k * x * x / 2`")],
     );

@@ -232,8 +232,16 @@ fn places() {
                 "`arm` is a body, and bodies are placed relative to one another by parents; write `parent = arm` and \
                  what is relative to it",
             ),
-            ("tip", "`tip` varies, and the mass of a particle is constant; write numbers and fields only"),
-            ("tip", "`tip` varies, and the mass of a particle is constant; write numbers and fields only"),
+            (
+                "tip",
+                "`tip` varies, and the mass of a particle is constant; write numbers and fields only; a particle that \
+                 loses mass moves as one of mass 1 does on which every force is divided by m(t)",
+            ),
+            (
+                "tip",
+                "`tip` varies, and the mass of a particle is constant; write numbers and fields only; a particle that \
+                 loses mass moves as one of mass 1 does on which every force is divided by m(t)",
+            ),
             (
                 "tip",
                 "`tip` is a point, which is known in observer axes, and the position of a particle with a parent is in \

@@ -140,7 +140,11 @@ fn places_of_speeds() {
                 "`v` is a speed, and a rotation depends on coordinates, fields and `t` only; \
                  speeds stand in `kinematics`",
             ),
-            ("x", "`x` varies, and the mass of a particle is constant; write numbers and fields only"),
+            (
+                "x",
+                "`x` varies, and the mass of a particle is constant; write numbers and fields only; a particle that \
+                 loses mass moves as one of mass 1 does on which every force is divided by m(t)",
+            ),
             (
                 "v",
                 "`v` is a speed, and a position depends on coordinates, fields and `t` only; \

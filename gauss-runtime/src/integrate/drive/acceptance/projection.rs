@@ -90,9 +90,9 @@ pub(in crate::integrate) fn onto_constraints<S: GaussSystem, P: Problem<System =
     Ok(projected)
 }
 
-/// Refuses a step that the projection onto the constraints moves by more than ten tolerances. `trial` ends where the
-/// state is moved to, `computed` is where it was before. What the projection makes of a rounding at the start of the
-/// step cannot be told from its rounding at the end, up to half of the digits.
+/// Refuses a step that the projection onto the constraints moves by more than ten tolerances. `trial`, in the variables
+/// of the form, ends where the state is moved to, `computed` is where it was before. What the projection makes of a
+/// rounding at the start of the step cannot be told from its rounding at the end, up to half of the digits.
 ///
 /// # Errors
 /// [`IntegrationErrorKind::ProjectionTooFar`].
@@ -103,23 +103,24 @@ pub fn check_move<S: GaussSystem, P: Problem<System = S>>(
     trial: &Trial<'_, S>,
     computed: &State<S>,
 ) -> Result<(), IntegrationErrorKind> {
-    let moved = difference(computed, trial.to);
-    if tolerance.error(trial, &moved, None) <= PROJECTED {
+    let seen = [trial.from, trial.to, computed].map(|state| problem.in_speeds(state));
+    let moved = difference(&seen[2], &seen[1]);
+    let measured = Trial { from: &seen[0], to: &seen[1], ..*trial };
+    if tolerance.error(&measured, &moved, None) <= PROJECTED {
         Ok(())
     } else {
-        check_above_rounding(tolerance, problem, trial, &moved)
+        check_above_rounding(tolerance, &rounding_of_projection(problem, trial.from), &measured, &moved)
     }
 }
 
 #[cold]
 #[inline(never)]
-fn check_above_rounding<S: GaussSystem, P: Problem<System = S>>(
+fn check_above_rounding<S: GaussSystem>(
     tolerance: &Tolerance,
-    problem: &P,
+    rounding: &Rates<S>,
     trial: &Trial<'_, S>,
     moved: &Rates<S>,
 ) -> Result<(), IntegrationErrorKind> {
-    let rounding = rounding_of_projection(problem, trial.from);
     let half = S::Scalar::from_f64(Real::sqrt(S::Scalar::EPSILON));
     let allowed = |tolerance: S::Scalar, rounding: S::Scalar, size: S::Scalar| {
         let rounding = S::Scalar::select_lt(rounding, half * size, rounding, half * size);
@@ -226,21 +227,22 @@ pub fn is_hopeless<S: GaussSystem, P: Problem<System = S>>(
     if rejected < TRIALS || !matches!(kind, IntegrationErrorKind::ProjectionTooFar { .. }) {
         return false;
     }
-    let rounding = rounding_of_projection(problem, state);
+    let (rounding, speeds) = (rounding_of_projection(problem, state), problem.in_speeds(state).y);
     let digits = Real::sqrt(Real::sqrt(S::Scalar::EPSILON));
     let lost = digits * digits * digits;
     lanes.into_iter().any(|lane| {
-        largest(&rounding.variables, lane) > lost * largest(&state.y, lane)
+        largest(&rounding.variables, lane) > lost * largest(&speeds, lane)
             || largest(&rounding.configuration, lane) > lost * size_of_configuration::<S>(&state.q, lane)
     })
 }
 
-/// What the projection makes of a rounding of the state, component by component.
+/// What the projection makes of a rounding of the state, component by component of q and z.
 fn rounding_of_projection<S: GaussSystem, P: Problem<System = S>>(problem: &P, state: &State<S>) -> Rates<S> {
     let mut rounding: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
+    let here = problem.in_speeds(state);
     for pattern in PATTERNS {
-        let Ok(near) = on_constraints(problem, &rounded(state, pattern)) else { continue };
-        let moved = difference(state, &near);
+        let Ok(near) = on_constraints(problem, &rounded(state, pattern).0) else { continue };
+        let moved = difference(&here, &problem.in_speeds(&near));
         let more = |moved: S::Scalar, known: S::Scalar| larger(moved.abs(), known);
         for i in 0..TangentOf::<S>::DIM {
             let most = more(moved.configuration.component(i), rounding.configuration.component(i));

@@ -7,6 +7,10 @@
 //! half as long, the derivatives are evaluated at states that differ by ε, and their difference δ is tolerated in each
 //! component, h·δ with a factor, where that is more than the user's tolerance. Elsewhere nothing changes, to the last
 //! bit. A kink or a jump is no rounding: it is not within ε of the state.
+//!
+//! **What is measured.** Errors are those of q and of the speeds z, in the momentum form as well: near a singular place
+//! of a chart, and of a body far from O, a small part of a momentum is much of a speed. States here have z in the place
+//! of y ([`Problem::in_speeds`]), and errors are changes of (q, z) ([`Problem::change_of_speeds`]).
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::equations::Problem;
@@ -18,6 +22,10 @@ use crate::system::GaussSystem;
 /// of squares of the weights of embedded pairs are up to 2, what three samples show of δ may be a part of it, and in
 /// between there is to be room to tell an error from rounding.
 const AMPLIFICATION: f64 = 4.0;
+
+/// Roundings of momenta by which the speeds at the end of a step may be off: a step is a sum of a dozen stages, with
+/// weights of either sign.
+const SUMS: f64 = 16.0;
 
 /// The tolerances of an adaptive method.
 #[derive(Clone, Copy, Debug)]
@@ -34,19 +42,21 @@ pub struct Floor<S: GaussSystem> {
     derivatives: Rates<S>,
     /// What the state itself is rounded by at the end of a step, relatively; 0 in lanes without a floor.
     unit: S::Scalar,
+    /// What a rounding of q and of momenta makes of the speeds, where that is more than a rounding of theirs.
+    speeds: S::Speeds,
 }
 
 impl<S: GaussSystem> Floor<S> {
     /// Nothing is known in any lane.
     pub fn none() -> Self {
         let derivatives = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
-        Self { derivatives, unit: S::Scalar::zero() }
+        Self { derivatives, unit: S::Scalar::zero(), speeds: S::Speeds::zero() }
     }
 
     /// That of `other` in lanes where `of_other` is 1, else this one.
     pub fn or(&self, of_other: S::Scalar, other: &Self) -> Self {
         let choose = |mine: S::Scalar, other: S::Scalar| S::Scalar::select_lt(S::Scalar::zero(), of_other, other, mine);
-        let mut derivatives = self.derivatives;
+        let (mut derivatives, mut speeds) = (self.derivatives, self.speeds);
         for i in 0..TangentOf::<S>::DIM {
             let both = (derivatives.configuration.component(i), other.derivatives.configuration.component(i));
             derivatives.configuration.set_component(i, choose(both.0, both.1));
@@ -54,8 +64,9 @@ impl<S: GaussSystem> Floor<S> {
         for i in 0..S::Speeds::DIM {
             let both = (derivatives.variables.component(i), other.derivatives.variables.component(i));
             derivatives.variables.set_component(i, choose(both.0, both.1));
+            speeds.set_component(i, choose(speeds.component(i), other.speeds.component(i)));
         }
-        Self { derivatives, unit: choose(self.unit, other.unit) }
+        Self { derivatives, unit: choose(self.unit, other.unit), speeds }
     }
 
     /// Measured at a state with its derivatives.
@@ -64,53 +75,66 @@ impl<S: GaussSystem> Floor<S> {
     pub fn at<P: Problem<System = S>>(problem: &P, state: &State<S>, rates: &Rates<S>) -> Self {
         let mut derivatives: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
         let unit = S::Scalar::from_f64(S::Scalar::EPSILON);
+        let (mut speeds, z) = (S::Speeds::zero(), problem.in_speeds(state).y);
         for pattern in PATTERNS {
-            let near = problem.rates(&rounded(state, pattern));
+            let (there, change) = rounded(state, pattern);
+            let near = problem.rates(&there);
+            let differs = problem.change_of_speeds(&there, &change).variables;
+            let of_y = near.variables.add_scaled(-S::Scalar::one(), &rates.variables);
+            // Momenta that differ by so much, at the same place.
+            let still = Rates { configuration: TangentOf::<S>::zero(), variables: of_y };
+            let of_z = problem.change_of_speeds(&State { y: of_y, ..*state }, &still).variables;
             // 0 in a lane that is finite there, else NaN.
             let mut null = S::Scalar::zero();
             (0..TangentOf::<S>::DIM)
                 .map(|i| near.configuration.component(i))
                 .for_each(|x| null += x * S::Scalar::zero());
             (0..S::Speeds::DIM).map(|i| near.variables.component(i)).for_each(|x| null += x * S::Scalar::zero());
-            let more = |near: S::Scalar, here: S::Scalar, known: S::Scalar| {
-                let most = larger((near - here).abs(), known);
+            let more = |differs: S::Scalar, known: S::Scalar| {
+                let most = larger(differs.abs(), known);
                 S::Scalar::select_lt(null, S::Scalar::one(), most, known)
             };
             for i in 0..TangentOf::<S>::DIM {
                 let (near, here) = (near.configuration.component(i), rates.configuration.component(i));
-                let most = more(near, here, derivatives.configuration.component(i));
+                let most = more(near - here, derivatives.configuration.component(i));
                 derivatives.configuration.set_component(i, most);
             }
             for i in 0..S::Speeds::DIM {
-                let (near, here) = (near.variables.component(i), rates.variables.component(i));
-                derivatives.variables.set_component(i, more(near, here, derivatives.variables.component(i)));
+                derivatives.variables.set_component(i, more(of_z.component(i), derivatives.variables.component(i)));
+                let (differs, usual) = (differs.component(i), (unit + unit) * z.component(i).abs());
+                let own = S::Scalar::select_lt(usual, differs.abs(), differs, S::Scalar::zero());
+                let own = S::Scalar::from_f64(SUMS) * own;
+                speeds.set_component(i, more(own, speeds.component(i)));
             }
         }
-        Self { derivatives, unit }
+        Self { derivatives, unit, speeds }
     }
 }
 
 /// Which components are rounded down, the others up: none, every other one, two of four.
 pub(in crate::integrate) const PATTERNS: [fn(usize) -> bool; 3] = [|_| false, |i| i % 2 == 1, |i| i % 4 > 1];
 
-/// A state that differs from another by ε of each component.
-pub(in crate::integrate) fn rounded<S: GaussSystem>(state: &State<S>, pattern: fn(usize) -> bool) -> State<S> {
+/// A state that differs from another by ε of each component, and the difference.
+pub(in crate::integrate) fn rounded<S: GaussSystem>(
+    state: &State<S>,
+    pattern: fn(usize) -> bool,
+) -> (State<S>, Rates<S>) {
     let unit = S::Scalar::from_f64(S::Scalar::EPSILON);
     let mut sigma = TangentOf::<S>::zero();
     for i in 0..TangentOf::<S>::DIM {
         let size = unit * state.q.magnitudes(i);
         sigma.set_component(i, if pattern(i) { -size } else { size });
     }
-    let mut y = state.y;
+    let (mut y, mut by) = (state.y, S::Speeds::zero());
     for i in 0..S::Speeds::DIM {
-        let by = y.component(i) * unit;
-        let moved = y.component(i) + if pattern(i + TangentOf::<S>::DIM) { -by } else { by };
-        y.set_component(i, moved);
+        let size = y.component(i) * unit;
+        by.set_component(i, if pattern(i + TangentOf::<S>::DIM) { -size } else { size });
+        y.set_component(i, y.component(i) + by.component(i));
     }
-    State { t: state.t, q: state.q.retract(&sigma), y }
+    (State { t: state.t, q: state.q.retract(&sigma), y }, Rates { configuration: sigma, variables: by })
 }
 
-/// A step, of which errors are to be judged.
+/// A step, of which errors are to be judged; its states have z in the place of y.
 pub struct Trial<'a, S: GaussSystem> {
     /// Its start.
     pub from: &'a State<S>,
@@ -214,26 +238,27 @@ impl Tolerance {
     #[inline(always)]
     pub(in crate::integrate) fn of_configuration<S: GaussSystem>(&self, trial: &Trial<'_, S>, i: usize) -> S::Scalar {
         let size = larger(trial.from.q.magnitudes(i), trial.to.q.magnitudes(i));
-        let noise = |floor: &Floor<S>| (floor.derivatives.configuration.component(i), floor.unit);
+        let noise = |floor: &Floor<S>| (floor.derivatives.configuration.component(i), floor.unit, S::Scalar::zero());
         self.of(size, trial.length, trial.floor.map(noise))
     }
 
     #[inline(always)]
     pub(in crate::integrate) fn of_variables<S: GaussSystem>(&self, trial: &Trial<'_, S>, i: usize) -> S::Scalar {
         let size = larger(trial.from.y.component(i).abs(), trial.to.y.component(i).abs());
-        let noise = |floor: &Floor<S>| (floor.derivatives.variables.component(i), floor.unit);
+        let noise =
+            |floor: &Floor<S>| (floor.derivatives.variables.component(i), floor.unit, floor.speeds.component(i));
         self.of(size, trial.length, trial.floor.map(noise))
     }
 
     /// The tolerance for a component of some size. With a relative tolerance alone it is the smallest number where the
     /// component is zero.
     #[inline(always)]
-    fn of<T: Real>(&self, size: T, length: T, noise: Option<(T, T)>) -> T {
+    fn of<T: Real>(&self, size: T, length: T, noise: Option<(T, T, T)>) -> T {
         let asked = T::from_f64(self.absolute) + T::from_f64(self.relative) * size;
         let asked = larger(asked, T::from_f64(if T::EPSILON > 1e-10 { 1e-37 } else { f64::MIN_POSITIVE }));
         match noise {
             // The state itself is rounded at the end of the step.
-            Some((noise, unit)) => larger(asked, T::from_f64(AMPLIFICATION) * length * noise + unit * size),
+            Some((noise, unit, own)) => larger(asked, T::from_f64(AMPLIFICATION) * length * noise + unit * size + own),
             None => asked,
         }
     }

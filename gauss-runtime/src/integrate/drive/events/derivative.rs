@@ -28,6 +28,10 @@ const LONGEST: f64 = 1e-3;
 /// A function whose turning point is no further beyond zero than so many roundings touches zero: these are bounds, some
 /// ten times what rounding is.
 const TOUCHES: f64 = 4.0;
+/// Roundings of each derivative that a function's own are made of: they are sums of some terms.
+const ROUNDINGS: f64 = 16.0;
+/// And what they add has fallen to this part of the sum: a cube, which passes at no rate, has nothing to settle.
+const SETTLES: f64 = 1e-3;
 /// Newton's steps.
 const MOST_STEPS: u32 = 12;
 /// Steps end where what they add is this part of the sum, and have failed where it is the other.
@@ -59,6 +63,7 @@ where
             Ok(slope) => slope,
             Err(rate) => return refused(rate),
         };
+        let rounding = self.rounding_of_derivatives(function, state);
         let (mut state, mut rates, mut sum, mut before) = (*state, rates, S::Scalar::zero(), f64::INFINITY);
         for _ in 0..MOST_STEPS {
             let by = -left(&state) / slope;
@@ -67,8 +72,11 @@ where
             }
             sum += by;
             let (last, all) = (largest_derivative(by), largest_derivative(sum));
-            // Beyond that there is rounding alone.
-            if last <= ENDS * all || last <= FAILS * all && last >= 0.5 * before {
+            // Beyond that there is rounding alone: of the time, or of what the function is the difference of.
+            if (last <= SETTLES * all && last * slope.lane(0).abs() <= rounding)
+                || last <= ENDS * all
+                || last <= FAILS * all && last >= 0.5 * before
+            {
                 return Ok(state);
             }
             state = one_step(&RungeKutta(Classical4), self.problem, &state, &rates, by)?;
@@ -76,6 +84,41 @@ where
             before = last;
         }
         refused(slope.lane(0))
+    }
+
+    /// What rounding does to the derivatives of a function: those of time, configuration and speeds are rounded, each
+    /// times what the function changes by with it.
+    fn rounding_of_derivatives(&self, function: Function<'_, S>, state: &State<S>) -> f64 {
+        let at = |state: &State<S>| values(self.problem, function, state).lane(0);
+        let (here, part) = (at(state), Real::sqrt(S::Scalar::EPSILON));
+        let components = state.q.components();
+        let largest = |count: usize, of: &dyn Fn(usize) -> S::Scalar| {
+            (0..count).map(|i| largest_derivative(of(i))).fold(0.0, f64::max)
+        };
+        let of_q = largest(<S::Configuration as Configuration>::Components::DIM, &|i| components.component(i));
+        let of_y = largest(S::Speeds::DIM, &|i| state.y.component(i));
+        // By half of the digits of what it is made of, so that it changes by more than its own rounding.
+        let size = |of: f64| part * (1.0 + of);
+        let mut sum = 0.0;
+        let mut add = |there: &State<S>, by: f64, derivative: f64| {
+            let change = (at(there) - here).abs() * derivative / by;
+            sum += if change.is_finite() { change } else { 0.0 };
+        };
+        let by = size(state.t.lane(0).abs());
+        add(&State { t: state.t + S::Scalar::from_f64(by), ..*state }, by, largest_derivative(state.t));
+        for i in 0..TangentOf::<S>::DIM {
+            let by = size(state.q.magnitude(i));
+            let mut sigma = TangentOf::<S>::zero();
+            sigma.set_component(i, S::Scalar::from_f64(by));
+            add(&State { q: state.q.retract(&sigma), ..*state }, by, of_q);
+        }
+        for i in 0..S::Speeds::DIM {
+            let by = size(state.y.component(i).lane(0).abs());
+            let mut y = state.y;
+            y.set_component(i, y.component(i) + S::Scalar::from_f64(by));
+            add(&State { y, ..*state }, by, of_y);
+        }
+        ROUNDINGS * S::Scalar::EPSILON.max(f64::EPSILON) * sum
     }
 
     /// The rate of a function along the motion where it passes through zero; its value alone where it does not pass at

@@ -53,6 +53,7 @@
 use core::ops::Range;
 
 use crate::configuration::{Configuration, VectorSpace};
+use crate::integrate::drive::bounded::Bound;
 use crate::integrate::drive::control::Control;
 use crate::integrate::drive::jump::differs;
 pub use crate::integrate::drive::jump::{Jump, JumpFunction, NoJump};
@@ -93,7 +94,7 @@ impl Mark {
     fn first<S: GaussSystem, P: Problem<System = S>, C: Control<S>>(
         &mut self,
         looking: &Looking<'_, S, P, C>,
-        function: Function<'_, S>,
+        (function, bound): (Function<'_, S>, Bound<'_, S>),
         number: usize,
     ) -> Result<Option<(f64, f64)>, IntegrationErrorKind> {
         let Made { lane, before: (state, _), .. } = *looking.made;
@@ -109,19 +110,19 @@ impl Mark {
             }
         };
         (self.resting, self.value) = (None, leaving.from.1);
-        looking.first(function, self.crossing, (leaving.from, leaving.until))
+        looking.first_of((function, bound), self.crossing, (leaving.from, leaving.until))
     }
 
     /// The next event of the step behind the one that was found.
     fn following<S: GaussSystem, P: Problem<System = S>, C: Control<S>>(
         &mut self,
         looking: &Looking<'_, S, P, C>,
-        function: Function<'_, S>,
+        (function, bound): (Function<'_, S>, Bound<'_, S>),
     ) -> Result<Option<(f64, f64)>, IntegrationErrorKind> {
         let Some(from) = self.next else { return Ok(None) };
         let Some(leaving) = looking.going_on(function, from)? else { return Ok(None) };
         self.value = leaving.from.1;
-        looking.first(function, self.crossing, (leaving.from, leaving.until))
+        looking.first_of((function, bound), self.crossing, (leaving.from, leaving.until))
     }
 
     /// Takes the value at the start of a run, or where it goes on after a jump.
@@ -187,10 +188,18 @@ where
         &mut self,
         mut visit: impl FnMut(usize, Function<'_, S>, &mut Mark) -> Result<(), IntegrationErrorKind>,
     ) -> Result<(), IntegrationErrorKind> {
+        self.each_bounded(|number, (function, _), mark| visit(number, function, mark))
+    }
+
+    /// The same with what bounds their rates.
+    fn each_bounded(
+        &mut self,
+        mut visit: impl FnMut(usize, (Function<'_, S>, Bound<'_, S>), &mut Mark) -> Result<(), IntegrationErrorKind>,
+    ) -> Result<(), IntegrationErrorKind> {
         let (mut number, mut outcome) = (0, Ok(()));
-        self.events.each(&mut |function, mark| {
+        self.events.each_bounded(&mut |function, bound, mark| {
             if outcome.is_ok() {
-                outcome = visit(number, function, mark);
+                outcome = visit(number, (function, bound), mark);
             }
             number += 1;
         });
@@ -239,7 +248,7 @@ where
         report: &mut dyn FnMut(usize, &State<S>),
     ) -> Result<Outcome<S>, IntegrationErrorKind> {
         let looking = Looking::of(self.control, self.problem, made);
-        self.each(|number, function, mark| {
+        self.each_bounded(|number, function, mark| {
             (mark.last, mark.here) = (None, false);
             mark.next = mark.first(&looking, function, number)?;
             Ok(())
@@ -286,9 +295,8 @@ where
                 Ok(())
             })?;
             self.led_over(&state, (&mut after, &mut stopped_by), report)?;
-            if after.is_some() {
-                self.cut(&looking, &state)?;
-            }
+            // What goes on from there, after a jump or in another run, leaves zero.
+            self.cut(&looking, &state)?;
             return Ok(Outcome::Here { state, after, number, stopped_by });
         }
         let (problem, lane) = (self.problem, self.lanes.start);
@@ -327,7 +335,7 @@ where
         let jumped = self.jump(number, &after.unwrap_or(at))?;
         let changed = jumped.is_some_and(|(_, changed)| changed);
         let jumped = jumped.map(|(state, _)| state);
-        self.each(|n, function, mark| {
+        self.each_bounded(|n, function, mark| {
             if n == number {
                 mark.last = mark.next.map(|(part, _)| (part, mark.value));
                 mark.jumped |= changed;

@@ -1,5 +1,6 @@
 //! Events within a step: zeros of functions of the state, and jumps there.
 
+pub mod bounded;
 pub(in crate::integrate) mod derivative;
 #[cfg(feature = "alloc")]
 pub mod each;

@@ -1,11 +1,12 @@
 //! The search for events within a step.
 
-use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::control::Control;
+use crate::integrate::drive::cubic::Cubic;
+pub use crate::integrate::drive::cubic::Made;
 use crate::integrate::drive::zero::{below_zero, least_of_cubic, locate};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
-use crate::integrate::problem::state::{Rates, State};
+use crate::integrate::problem::state::State;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -76,16 +77,6 @@ pub(in crate::integrate) fn side(value: f64) -> f64 {
     if value == 0.0 { 0.0 } else { value.signum() * f64::MIN_POSITIVE }
 }
 
-/// A step with the derivatives at its ends, of which one lane is looked at.
-pub struct Made<'a, S: GaussSystem> {
-    /// The lane.
-    pub lane: usize,
-    /// The start of the step, and the derivatives there.
-    pub before: (&'a State<S>, &'a Rates<S>),
-    /// Its end, and the derivatives there.
-    pub after: (&'a State<S>, &'a Rates<S>),
-}
-
 /// The parts into which a step is divided where the cubic between its ends is looked at, and where a series is.
 const PARTS: (usize, usize) = (2, 32);
 
@@ -94,7 +85,7 @@ pub(in crate::integrate) const SHORT: f64 = 1.0 / 1024.0;
 
 /// A step that is searched.
 pub struct Looking<'a, S: GaussSystem, P, C> {
-    control: &'a C,
+    pub(super) control: &'a C,
     pub(in crate::integrate) problem: &'a P,
     pub(in crate::integrate) made: &'a Made<'a, S>,
     /// The part of the step to which a zero is found.
@@ -266,7 +257,7 @@ where
     }
 
     /// States within the step for a first look: the series where steps are long, else the cubic between the ends.
-    fn glances(&self) -> impl FnMut(f64) -> Result<State<S>, IntegrationErrorKind> {
+    pub(super) fn glances(&self) -> impl FnMut(f64) -> Result<State<S>, IntegrationErrorKind> {
         let (before, rates) = self.made.before;
         let length = self.length();
         let mut along = C::LONG_STEPS.then(|| self.control.along(self.problem, before, rates));
@@ -295,40 +286,4 @@ fn shows_zero(
     Ok(leaves < 0.0
         && comes > 0.0
         && least_of_cubic([sign * a, sign * b], [leaves, comes]) < 0.1 * a.abs().max(b.abs()))
-}
-
-/// The cubic through the states at the ends of a step with the derivatives there: in the algebra at the start, where q
-/// is `q₀ ∘ exp(σ)` and `σ̇ = dexp_inv(σ, V)`.
-struct Cubic<'a, S: GaussSystem> {
-    made: &'a Made<'a, S>,
-    h: S::Scalar,
-    change: Rates<S>,
-    end: Rates<S>,
-}
-
-impl<'a, S: GaussSystem> Cubic<'a, S> {
-    fn of(made: &'a Made<'a, S>) -> Self {
-        let ((from, _), (to, rates)) = (made.before, made.after);
-        let configuration = from.q.difference(&to.q);
-        let end = S::Configuration::dexp_inv(&configuration, &rates.configuration);
-        Self {
-            made,
-            h: to.t - from.t,
-            change: Rates { configuration, variables: to.y.add_scaled(-S::Scalar::one(), &from.y) },
-            end: Rates { configuration: end, variables: rates.variables },
-        }
-    }
-
-    fn at(&self, part: f64) -> State<S> {
-        let (from, rates) = self.made.before;
-        let rest = 1.0 - part;
-        let number = S::Scalar::from_f64;
-        let value = number(part * part * (1.0 + 2.0 * rest));
-        let (left, right) = (number(part * rest * rest) * self.h, number(-part * part * rest) * self.h);
-        let sigma = self.change.configuration.scale(value);
-        let sigma = sigma.add_scaled(left, &rates.configuration).add_scaled(right, &self.end.configuration);
-        let y = from.y.add_scaled(value, &self.change.variables);
-        let y = y.add_scaled(left, &rates.variables).add_scaled(right, &self.end.variables);
-        State { t: number(part).fma(self.h, from.t), q: from.q.retract(&sigma), y }
-    }
 }

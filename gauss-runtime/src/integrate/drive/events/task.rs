@@ -6,7 +6,7 @@ use alloc::collections::VecDeque;
 
 use crate::integrate::drive::schedule::Scheduled;
 use crate::integrate::drive::search::Function;
-use crate::integrate::drive::watched::{Events, Mark};
+use crate::integrate::drive::watched::{Events, Mark, Visit};
 use crate::integrate::problem::error::SamplingMistake;
 use crate::integrate::problem::sampled::Controller;
 use crate::integrate::problem::state::Sample;
@@ -173,6 +173,10 @@ impl<S: GaussSystem, E: Events<S>, K: Scheduled<S>> Events<S> for Controlled<E, 
 
     fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {
         self.others.each(visit);
+    }
+
+    fn each_bounded(&mut self, visit: &mut Visit<'_, S>) {
+        self.others.each_bounded(visit);
     }
 
     fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {

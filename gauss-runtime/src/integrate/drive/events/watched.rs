@@ -1,5 +1,6 @@
 //! The events of a run, and what is known of each from step to step.
 
+use crate::integrate::drive::bounded::Bound;
 use crate::integrate::drive::jump::{Jump, JumpFunction, NoJump};
 use crate::integrate::drive::leaving::OnZero;
 use crate::integrate::drive::schedule::Scheduled;
@@ -60,12 +61,27 @@ impl Mark {
         }
     }
 
+    /// Whether the run ends there.
+    #[must_use]
+    pub fn ends_the_run(&self) -> bool {
+        self.terminal
+    }
+
+    /// Whether a jump from one value to another passes through zero as the event does.
+    #[must_use]
+    pub fn passes(&self, before: f64, after: f64) -> bool {
+        self.crossing.between(before, after)
+    }
+
     /// Before another run.
     #[cfg(feature = "alloc")]
     pub(in crate::integrate) fn renew(&mut self) {
         *self = Self::new(self.crossing, self.terminal, self.through);
     }
 }
+
+/// A look at an event: its function, the bound of its rate where there is one, its mark.
+pub type Visit<'v, S> = dyn FnMut(Function<'_, S>, Bound<'_, S>, &mut Mark) + 'v;
 
 /// The events of a run, in the order in which they were added to the simulation.
 pub trait Events<S: GaussSystem>: Sealed {
@@ -77,6 +93,11 @@ pub trait Events<S: GaussSystem>: Sealed {
 
     /// Shows every one.
     fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark));
+
+    /// Shows every one, with what bounds its rate where something does.
+    fn each_bounded(&mut self, visit: &mut Visit<'_, S>) {
+        self.each(&mut |function, mark| visit(function, None, mark));
+    }
 
     /// Changes the state as the event of this number does; whether it does.
     fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool;
@@ -121,6 +142,10 @@ impl<S: GaussSystem, E: Events<S>> Events<S> for &mut E {
 
     fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {
         (**self).each(visit);
+    }
+
+    fn each_bounded(&mut self, visit: &mut Visit<'_, S>) {
+        (**self).each_bounded(visit);
     }
 
     fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {
@@ -176,6 +201,11 @@ where
     fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {
         self.others.each(visit);
         visit(&self.function, &mut self.mark);
+    }
+
+    fn each_bounded(&mut self, visit: &mut Visit<'_, S>) {
+        self.others.each_bounded(visit);
+        visit(&self.function, None, &mut self.mark);
     }
 
     fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {

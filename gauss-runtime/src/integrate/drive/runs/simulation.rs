@@ -6,6 +6,8 @@ use core::ops::Range;
 
 use crate::integrate::drive::adaptive::Adaptive;
 #[cfg(feature = "alloc")]
+use crate::integrate::drive::bounded::{NoBound, RateBound};
+#[cfg(feature = "alloc")]
 use crate::integrate::drive::boxed::BoxedSimulation;
 use crate::integrate::drive::control::Control;
 #[cfg(feature = "alloc")]
@@ -349,6 +351,30 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
         self.each(crossing, true, functions)
     }
 
+    /// Ends the run as [`until_each`](Self::until_each) does, with what [bounds the rate](RateBound) of each function
+    /// where something does: of such a function no zero is missed that it falls to, however long the steps.
+    #[cfg(feature = "alloc")]
+    pub fn until_each_bounded<S, G, B>(
+        self,
+        crossing: Crossing,
+        functions: Vec<(G, Option<B>)>,
+    ) -> Simulation<P, C, O, Each<E, G, B>>
+    where
+        S: GaussSystem,
+        P: Problem<System = S>,
+        G: Fn(S::Scalar, &S::Configuration, &S::Speeds) -> S::Scalar,
+        B: RateBound<S>,
+    {
+        self.with_events(|events| Each::after(events, crossing, true, functions))
+    }
+
+    /// Events that another front has gathered, in the place of those so far.
+    #[doc(hidden)]
+    #[cfg(feature = "alloc")]
+    pub fn events_by<F>(self, events: F) -> Simulation<P, C, O, F> {
+        self.with_events(|_| events)
+    }
+
     /// Finds the zeros of a list of functions: as that many calls of `event`, where their number is known when the
     /// program runs only. They are numbered as by [`until_each`](Self::until_each).
     #[cfg(feature = "alloc")]
@@ -363,9 +389,8 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
 
     #[cfg(feature = "alloc")]
     fn each<G>(self, crossing: Crossing, terminal: bool, functions: Vec<G>) -> Simulation<P, C, O, Each<E, G>> {
-        let Self { problem, control, observer, events, every, limit } = self;
-        let events = Each::after(events, crossing, terminal, functions);
-        Simulation { problem, control, observer, events, every, limit }
+        let plain = functions.into_iter().map(|function| (function, None::<NoBound>));
+        self.with_events(|events| Each::after(events, crossing, terminal, plain))
     }
 
     /// What is integrated: the kernel, the form of its equations, the input.
@@ -408,6 +433,12 @@ impl<P, O, E, M> Simulation<P, Adaptive<M>, O, E> {
     /// The longest step.
     pub fn largest_step(mut self, length: f64) -> Self {
         self.control = self.control.largest_step(length);
+        self
+    }
+
+    /// How fast the input may change: see [`Adaptive::input_changes_within`].
+    pub fn input_changes_within(mut self, time: f64) -> Self {
+        self.control = self.control.input_changes_within(time);
         self
     }
 }

@@ -8,6 +8,8 @@ use crate::integrate::drive::control::{
     Control, StepCallback, StepStatistics, check_tolerances, longest, one_step, prepare, smallest, to_a_number,
     unresolved,
 };
+use crate::integrate::drive::cubic::Made;
+use crate::integrate::drive::looks::Looks;
 use crate::integrate::drive::pace::Pace;
 use crate::integrate::drive::projection::{accept, check_move, is_hopeless};
 use crate::integrate::drive::step_length::{StepLength, power};
@@ -19,7 +21,7 @@ use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::runge_kutta::components::RungeKutta;
 use crate::integrate::runge_kutta::tableau::{DormandPrince8, Tableau};
 use crate::integrate::step::iteration::worst;
-use crate::integrate::step::one_step::EstimatingStep;
+use crate::integrate::step::one_step::{EstimatingStep, Step};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -40,14 +42,17 @@ pub struct Adaptive<M = RungeKutta<DormandPrince8, 12>> {
     pub first_step: Option<f64>,
     /// The longest step.
     pub largest_step: Option<f64>,
+    /// The time within which the input may change.
+    pub input_changes: Option<f64>,
 }
 
 impl Adaptive {
     /// [`RungeKutta`] of [`DormandPrince8`].
     ///
     /// The error of a step is measured component by component against `absolute + relative·size`, where the size is
-    /// |y| for velocities or momenta, 1 for a rotation, |b| for a translation and |q| for a plain coordinate, and the root
-    /// mean square must not exceed 1.
+    /// |z| for speeds, 1 for a rotation, |b| for a translation and |q| for a plain coordinate, and the root mean square
+    /// must not exceed 1. In the momentum form as well errors are those of the speeds: near a singular place of a chart
+    /// a small part of a momentum is much of a speed.
     #[must_use]
     pub fn new(relative: f64, absolute: f64) -> Self {
         Self::by(RungeKutta(DormandPrince8), relative, absolute)
@@ -67,7 +72,13 @@ impl<M> Adaptive<M> {
     /// as in [`Adaptive::new`].
     #[must_use]
     pub fn by(method: M, relative: f64, absolute: f64) -> Self {
-        Self { method, tolerance: Tolerance { relative, absolute }, first_step: None, largest_step: None }
+        Self {
+            method,
+            tolerance: Tolerance { relative, absolute },
+            first_step: None,
+            largest_step: None,
+            input_changes: None,
+        }
     }
 
     /// The length of the first step, instead of an estimate.
@@ -80,6 +91,21 @@ impl<M> Adaptive<M> {
     #[must_use]
     pub fn largest_step(self, length: f64) -> Self {
         Self { largest_step: Some(length), ..self }
+    }
+
+    /// The shortest time within which the input changes and changes back: no push is missed that lasts as long.
+    ///
+    /// Without this the run looks at what acts every 256th of its span, in steps whose length nothing limits: those of
+    /// systems at rest, or in free flight, where a step takes its length from what its stages have seen. A push that is
+    /// over within a 256th of the span may fall between two looks, and then it has never been. In steps that the motion
+    /// itself limits, stages are up to a third of the step apart; with this they are looked at as well.
+    ///
+    /// Looks cost an evaluation of the equations each, a twelfth of a step by the default method, and scenes without
+    /// inputs none: what depends on the time in the scene itself, as a load `exp(-(t - 5)^2)`, is not looked at;
+    /// bound its steps ([`largest_step`](Self::largest_step)), or make it an input.
+    #[must_use]
+    pub fn input_changes_within(self, time: f64) -> Self {
+        Self { input_changes: Some(time), ..self }
     }
 }
 
@@ -98,6 +124,7 @@ struct Drive<'a, S: GaussSystem, P, M> {
     /// The length to try next.
     length: f64,
     lengths: StepLength,
+    looks: Looks,
     /// The rounding error of a step, once it has been measured.
     floor: Option<Floor<S>>,
     /// The longest step since the rounding error was measured, or the step for which it was measured.
@@ -125,6 +152,7 @@ impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
         let (length, longest) = lengths.map_err(|kind| stopped(&start, kind))?;
         let lengths = StepLength::new(self.method.estimate_order(), S::SMOOTHNESS);
         let (state, floor) = (start, None);
+        let looks = Looks::new(self.input_changes, start.t.lane(0), span);
         let mut run = Drive {
             control: self,
             problem,
@@ -135,6 +163,7 @@ impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
             rates,
             length,
             lengths,
+            looks,
             floor,
             looked: 0.0,
             rejected: 0,
@@ -203,19 +232,8 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
             };
         let used = if last { left } else { self.length };
         let length = S::Scalar::from_f64(used);
-        let tolerance = &self.control.tolerance;
-        let (from, to) = (&self.state, &step.state);
-        let limit = self.lengths.limit();
-        let mut error = match &self.floor {
-            None => tolerance.error(&Trial { from, to, length, floor: None }, &step.error, coarse.as_ref()),
-            Some(floor) => tolerance.error_above(floor, (from, to, length), (&step.error, coarse.as_ref())),
-        };
-        if self.floor.is_none() && (error.is_nan() || error > limit) {
-            // It may be rounding that is too much.
-            let floor = Floor::at(self.problem, from, &self.rates);
-            error = tolerance.error_above(&floor, (from, to, length), (&step.error, coarse.as_ref()));
-            self.floor = Some(floor);
-        }
+        let (control, limit) = (self.control, self.lengths.limit());
+        let error = self.error_of(&step, coarse.as_ref(), length);
         if error.is_nan() || error > limit {
             self.length = used * self.lengths.reject(error);
             self.rejected += 1;
@@ -230,19 +248,58 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
             Err(kind) => return self.halve(left, kind),
         };
         if S::CONSTRAINED {
-            let trial = Trial { from, to: &reached, length, floor: None };
-            if let Err(kind) = check_move(tolerance, self.problem, &trial, &step.state) {
+            let trial = Trial { from: &self.state, to: &reached, length, floor: None };
+            if let Err(kind) = check_move(&control.tolerance, self.problem, &trial, &step.state) {
                 return self.halve(left, kind);
             }
         }
-        let excess = match &self.floor {
-            None => 0.0,
-            Some(floor) => tolerance.excess(&Trial { from, to: &reached, length, floor: Some(floor) }),
-        };
+        if self.problem.has_input() && self.leads_over_input((used, error), (&reached, &rates)) {
+            return Ok(None);
+        }
+        let excess = self.floor.as_ref().map_or(0.0, |floor| {
+            let (from, to) = (&self.problem.in_speeds(&self.state), &self.problem.in_speeds(&reached));
+            control.tolerance.excess(&Trial { from, to, length, floor: Some(floor) })
+        });
         let taken = StepStatistics { rejected: core::mem::take(&mut self.rejected), excess };
         (self.state, self.rates) = (reached, rates);
         self.choose_length(used, error, excess);
         Ok(Some((taken, last)))
+    }
+
+    /// The error of a step as a part of the tolerance, in speeds; above what rounding does where that may be too much.
+    #[inline(always)]
+    fn error_of(&mut self, step: &Step<S>, coarse: Option<&Rates<S>>, length: S::Scalar) -> f64 {
+        let tolerance = &self.control.tolerance;
+        let measured = |change: &Rates<S>| self.problem.change_of_speeds(&step.state, change);
+        let (fine, coarse) = (measured(&step.error), coarse.map(measured));
+        let (from, to) = (&self.problem.in_speeds(&self.state), &self.problem.in_speeds(&step.state));
+        let above = |floor: &Floor<S>| tolerance.error_above(floor, (from, to, length), (&fine, coarse.as_ref()));
+        if let Some(floor) = &self.floor {
+            return above(floor);
+        }
+        let error = tolerance.error(&Trial { from, to, length, floor: None }, &fine, coarse.as_ref());
+        if !(error.is_nan() || error > self.lengths.limit()) {
+            return error;
+        }
+        let floor = Floor::at(self.problem, &self.state, &self.rates);
+        let error = above(&floor);
+        self.floor = Some(floor);
+        error
+    }
+
+    /// Whether something acts within the step that its stages have not seen, as far as looks tell: then the next trial
+    /// ends there.
+    fn leads_over_input(&mut self, (used, error): (f64, f64), after: (&State<S>, &Rates<S>)) -> bool {
+        if self.looks.want(self.state.t.lane(0), used, error) {
+            let made = Made { lane: 0, before: (&self.state, &self.rates), after };
+            if let Some(shorter) = self.looks.unseen(self.problem, &made, &self.control.tolerance) {
+                self.length = shorter;
+                self.rejected += 1;
+                return true;
+            }
+        }
+        self.looks.take(error);
+        false
     }
 
     /// The length of the next step, after one of this length with its error and what rounding adds to it.
@@ -308,6 +365,7 @@ impl<M> Adaptive<M> {
         M: EstimatingStep<S>,
     {
         let longest = longest(self.largest_step, span, limit)?;
+        Looks::check(self.input_changes)?;
         let every = (S::Scalar::one(), 0..S::Scalar::LANES);
         let estimate = || self.first_length(problem, (start, rates), &every, span.signum());
         let first = self.first_step.unwrap_or_else(estimate);

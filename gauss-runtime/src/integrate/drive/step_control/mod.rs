@@ -3,6 +3,8 @@
 pub mod adaptive;
 pub mod compensated;
 pub mod control;
+pub(in crate::integrate) mod cubic;
 pub mod fixed;
 pub mod logarithms;
+pub mod looks;
 pub mod step_length;

@@ -1,0 +1,300 @@
+//! The speeds at which a step takes its forces.
+//!
+//! Forces are taken once, at half of a step. With the *mean* speeds of the step, `z̄ = (z + z⁺)/2`, gyroscopic forces
+//! do no work however far a step turns, and forces against the speeds take energy away however stiff they are:
+//! `z̄·A(z⁺ − z)` is the work of the forces that were taken. But z⁺ is not known before: speeds at half of a step are
+//! foreseen by the acceleration of the step before, or are those before the step. Forces that depend on speeds then
+//! work on other speeds than they were taken at, and some make these grow without bound, by (ωh)⁴/4 a step where a body
+//! turns by ωh.
+//!
+//! So a step looks back. Where the speeds that were used are the mean ones to a part [`NEAR`], or forces at the mean
+//! ones would not change a speed by more than a part [`ALLOWED`] of it, it is taken as it is: what is left is a growth
+//! by at most that part, of a body that turns of its power 4/3: 10⁻⁸. What dampers differ by shrinks by itself as long
+//! as it is smaller than the difference of the speeds. Else the step is made again from the end that it had, until
+//! speeds agree; where it is too long for that, it is made in parts, and refused in the end: so this check is the watch
+//! over the energy of a step, since forces at the mean speeds do the work that they should.
+//!
+//! A step that is made again uses `z̄ − h/12 (a⁺ − a⁻)` with the accelerations at both ends, which is the mean over
+//! time to fourth order: where a body spins evenly, h ω errs by (ωh)⁵/720, in place of (ωh)³/12, by which a ball in the
+//! air would leave its way. Energy is kept as well: of z' = iωz that is the Padé approximation of degrees (2, 2).
+
+use gauss_runtime::configuration::VectorSpace;
+use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::real::Real;
+
+use crate::error::{ContactError, ContactErrorKind};
+
+use super::motion::{self, Mean, Middle};
+use super::outcome::{Attempt, End};
+use super::report::StepReport;
+use super::stepper::ContactStepper;
+use super::watch::Watch;
+
+/// By what part of a speed that which forces are taken at may differ from the mean one without further notice.
+const NEAR: f64 = 1e-5;
+/// By what part of a speed forces may change it for having been taken at another one.
+const ALLOWED: f64 = 1e-6;
+/// The same where a step is made again.
+const SETTLED: f64 = 1e-9;
+/// By what part of the sizes of speeds before and after a step these may change before one looks whether that is so
+/// because forces do: a quarter of a swing of a spring.
+const ROUGH: f64 = 0.5;
+/// The same of what speeds at half of a step were foreseen to be: where a spring turns back, speeds at both ends agree.
+const FAR: f64 = 0.2;
+/// By what part of a speed before a step forces may change it by changing along half of the step.
+const STEEP: f64 = 0.25;
+/// What is left may be that part of a speed in a step that has no other end: where it cannot be shorter and contacts do
+/// one thing at some speeds and another one at those that follow from it, or where no impulses are found at these. It
+/// comes once, and not from step to step.
+const MILD: f64 = 1e-2;
+/// How often a step is made again.
+const CORRECTIONS: usize = 24;
+/// Where the second difference is more than this part of the first, a step is made in parts: where a body turns by a
+/// fifth of a radian in it, so that places err by its square over 24, or a speed is damped by a fifth.
+const STIFF: f64 = 0.1;
+/// The same where parts cannot be shorter.
+const STIFF_AT_LAST: f64 = 0.5;
+/// The same of damping where parts cannot be shorter: of a speed that is damped to 4 · 10⁻³ in one, an eighth is left.
+const STIFFEST: f64 = 8.0;
+/// The least part of a difference by which speeds are changed.
+const LEAST_PART: f64 = 0.02;
+/// The part of the largest speed below which one counts as zero. Units of speeds may differ.
+const SMALL: f64 = 1e-3;
+/// The same where a speed that is zero for a moment is no measure of what others do to it.
+const PART: f64 = 0.1;
+/// What is as small as that has no digits to compare.
+const LEAST: f64 = 1e-150;
+
+/// The speeds of a step: before it, those at which forces were taken, with their acceleration, and after it.
+pub(super) struct Used<V> {
+    pub(super) h: f64,
+    pub(super) before: V,
+    pub(super) used: V,
+    pub(super) acceleration: V,
+    pub(super) after: V,
+}
+
+impl<V: VectorSpace<f64>> Used<V> {
+    fn mean(&self, i: usize) -> f64 {
+        0.5 * (self.before.component(i) + self.after.component(i))
+    }
+
+    /// How large each speed is, by which differences are judged, with a part of the largest.
+    fn sizes(&self, part: f64) -> V {
+        let mut sizes = V::zero();
+        (0..V::DIM)
+            .for_each(|i| sizes.set_component(i, self.before.component(i).abs() + self.after.component(i).abs()));
+        let gained = |i: usize| self.h * self.acceleration.component(i).abs();
+        let largest = (0..V::DIM).map(|i| sizes.component(i).max(gained(i))).fold(0.0, f64::max);
+        let least = part * largest + LEAST;
+        (0..V::DIM).for_each(|i| sizes.set_component(i, sizes.component(i) + least));
+        sizes
+    }
+
+    /// Whether forces were taken at the mean speeds, as nearly as need be, and speeds change little.
+    pub(super) fn is_plain(&self) -> bool {
+        let sizes = self.sizes(SMALL);
+        let off = |i: usize| (self.mean(i) - self.used.component(i)).abs();
+        (0..V::DIM).all(|i| off(i) <= NEAR * sizes.component(i) && !self.is_rough_at(i, sizes.component(i)))
+    }
+
+    /// Whether a speed changes so much that forces may do so within the step more than it can follow.
+    pub(super) fn is_rough(&self) -> bool {
+        let sizes = self.sizes(SMALL);
+        (0..V::DIM).any(|i| self.is_rough_at(i, sizes.component(i)))
+    }
+
+    fn is_rough_at(&self, i: usize, size: f64) -> bool {
+        let changes = (self.after.component(i) - self.before.component(i)).abs() > ROUGH * size;
+        changes || (self.mean(i) - self.used.component(i)).abs() > FAR * size
+    }
+
+    /// The speed that forces change too fast along half of the step, given the acceleration at the places before it:
+    /// of a spring by (ωh)²/4 of itself, where steps of z' = −ω²q, q' = z end at ωh = 2.
+    fn steep(&self, at_start: &V) -> Option<usize> {
+        let sizes = self.sizes(SMALL);
+        let before = |i: usize| self.before.component(i).abs();
+        let least = PART * (0..V::DIM).map(before).fold(0.0, f64::max);
+        let by = |i: usize| 0.5 * self.h * (self.acceleration.component(i) - at_start.component(i)).abs();
+        // From rest nothing moves along half of the step, and what differs is rounding.
+        let allowed = |i: usize| STEEP * (before(i) + least) + NEAR * sizes.component(i);
+        (0..V::DIM).find(|i| self.is_rough_at(*i, sizes.component(*i)) && by(*i) > allowed(*i))
+    }
+
+    /// Whether speeds may grow by what forces differ from those at the mean speeds, whose acceleration is given. Where
+    /// that is against the difference of the speeds, as of dampers, they do not, unless it is as large.
+    pub(super) fn grows(&self, at_mean: &V) -> bool {
+        let sizes = self.sizes(SMALL);
+        (0..V::DIM).any(|i| {
+            let by = self.h * (self.acceleration.component(i) - at_mean.component(i));
+            let off = self.used.component(i) - self.mean(i);
+            by.abs() > ALLOWED * sizes.component(i) && (by * off >= 0.0 || by.abs() > 0.5 * off.abs())
+        })
+    }
+
+    /// Whether what forces differ from those at the mean speeds is a small part of all speeds.
+    fn is_mild(&self, at_mean: &V) -> bool {
+        let sizes = self.sizes(SMALL);
+        let by = |i: usize| self.h * (self.acceleration.component(i) - at_mean.component(i)).abs();
+        (0..V::DIM).all(|i| by(i) <= MILD * sizes.component(i))
+    }
+
+    /// The differences to other speeds, as parts of the sizes.
+    fn off(&self, wanted: &V) -> V {
+        let (sizes, mut off) = (self.sizes(PART), V::zero());
+        for i in (0..V::DIM).filter(|i| sizes.component(*i) > 0.0) {
+            off.set_component(i, (wanted.component(i) - self.used.component(i)) / sizes.component(i));
+        }
+        off
+    }
+}
+
+/// The largest component, and its place.
+fn largest<V: VectorSpace<f64>>(off: &V) -> (f64, usize) {
+    let larger = |worst: (f64, usize), (off, i): (f64, usize)| if off > worst.0 { (off, i) } else { worst };
+    (0..V::DIM).map(|i| (off.component(i).abs(), i)).fold((0.0, 0), larger)
+}
+
+fn product<V: VectorSpace<f64>>(a: &V, b: &V) -> f64 {
+    (0..V::DIM).map(|i| a.component(i) * b.component(i)).sum()
+}
+
+/// Whether a difference is against the one before, as of a speed that is damped; where a body turns they are across.
+fn opposes<V: VectorSpace<f64>>(before: &V, after: &V) -> bool {
+    product(before, after) < -0.7 * Real::sqrt(product(before, before) * product(after, after))
+}
+
+/// By what part of a difference speeds are changed next, from the part before and the differences before and after it
+/// (A. C. Aitken; B. Irons & R. Tuck 1969): of one linear force that is all that is left, whatever its sign.
+fn relaxation<V: VectorSpace<f64>>(part: f64, before: &V, after: &V) -> f64 {
+    let change = after.add_scaled(-1.0, before);
+    let next = -part * product(before, &change) / product(&change, &change);
+    if next.is_finite() { next.clamp(LEAST_PART, 1.0) } else { 1.0 }
+}
+
+/// Whether the laws, or places, of an attempt have no solution.
+fn has_no_end(error: &ContactError) -> bool {
+    use ContactErrorKind::{Displacement, Projection, Unsolved};
+    matches!(error.kind, Projection(_) | Displacement { .. } | Unsolved { .. })
+}
+
+impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
+    /// A step that is not made in parts. `last`: whether parts would not be shorter.
+    pub(super) fn whole<W: Watch<K>>(
+        &mut self,
+        h: f64,
+        input: &K::Input,
+        (watch, last): (&mut W, bool),
+    ) -> Result<StepReport, ContactError> {
+        let dependent = self.dependent;
+        let (middle, mut made) = self.foreseen(h, input, watch)?;
+        if !self.agrees(h, &middle, &made, input)? {
+            let mean = self.mean(Mean::Ends, h, &made.end, input);
+            let at_mean = self.kernel.acceleration(middle.t, &middle.q, &mean, input);
+            let is_mild = self.used(h, &middle, &made).is_mild(&at_mean);
+            made = match self.corrected(h, (middle, made), input, (watch, last)) {
+                // What has a solution as it was foreseen is no error for having none with forces that hardly differ.
+                Err(cause) if is_mild && (last || has_no_end(&cause)) => {
+                    self.dependent = dependent;
+                    self.foreseen(h, input, watch)?.1
+                }
+                made => made?,
+            };
+        }
+        let end = made.end;
+        watch.part((self.t, h), end.attempted(self.next.as_ref()));
+        self.take(h, end)
+    }
+
+    /// A step with forces at the speeds that are foreseen at half of it.
+    fn foreseen<W: Watch<K>>(
+        &mut self,
+        h: f64,
+        input: &K::Input,
+        watch: &mut W,
+    ) -> Result<(Middle<K>, Attempt<K>), ContactError> {
+        watch.begins();
+        let rate = self.kernel.kinematics(self.t, &self.q, &self.z);
+        let (mut middle, known) = self.middle(h, &rate);
+        let mut made = self.attempt(h, &middle, input)?;
+        // At the start and after impacts no acceleration is known: the step is made twice.
+        if !known && !made.end.struck {
+            watch.again(made.end.attempted(self.next.as_ref()), (Mean::Ends, 1.0));
+            middle.z = self.mean(Mean::Ends, h, &made.end, input);
+            made = self.attempt(h, &middle, input)?;
+        }
+        Ok((middle, made))
+    }
+
+    fn mean(&self, how: Mean, h: f64, end: &End<K>, input: &K::Input) -> K::Speeds {
+        how.of(self.kernel, (self.t, h), [(&self.q, &self.z), (&end.q, &end.z)], input)
+    }
+
+    fn used(&self, h: f64, middle: &Middle<K>, made: &Attempt<K>) -> Used<K::Speeds> {
+        Used { h, before: self.z, used: middle.z, acceleration: made.acceleration, after: made.end.z }
+    }
+
+    /// Whether speeds do not grow by forces that were taken at other ones. `Stiff` where they grow by forces that were
+    /// taken at other places.
+    pub(super) fn agrees(
+        &self,
+        h: f64,
+        middle: &Middle<K>,
+        made: &Attempt<K>,
+        input: &K::Input,
+    ) -> Result<bool, ContactError> {
+        let used = self.used(h, middle, made);
+        if used.is_plain() || !made.end.z.is_finite() {
+            return Ok(true);
+        }
+        if used.is_rough()
+            && let Some(speed) = used.steep(&self.kernel.acceleration(middle.t, &self.q, &middle.z, input))
+        {
+            return Err(self.error(None, ContactErrorKind::Stiff { speed, step: h }));
+        }
+        let mean = self.mean(Mean::Ends, h, &made.end, input);
+        Ok(!used.grows(&self.kernel.acceleration(middle.t, &middle.q, &mean, input)))
+    }
+
+    /// A step made again with the mean speeds of the attempt before, until they agree.
+    fn corrected<W: Watch<K>>(
+        &mut self,
+        h: f64,
+        (mut middle, mut made): (Middle<K>, Attempt<K>),
+        input: &K::Input,
+        (watch, last): (&mut W, bool),
+    ) -> Result<Attempt<K>, ContactError> {
+        let (mut part, mut before, mut speed) = (1.0, None, 0);
+        for n in 0..CORRECTIONS {
+            let how = if made.end.struck { Mean::Ends } else { Mean::Curved };
+            let wanted = self.mean(how, h, &made.end, input);
+            let off = self.used(h, &middle, &made).off(&wanted);
+            let size;
+            (size, speed) = largest(&off);
+            // Forces change by what speeds do, times the part that is left of differences.
+            let left = before.map_or(1.0, |before| size / largest(&before).0);
+            if size * left.min(1.0) <= SETTLED || !made.end.z.is_finite() {
+                return Ok(made);
+            }
+            // The second difference tells how much forces depend on speeds.
+            let most = match before {
+                Some(before) if last && opposes(&before, &off) => STIFFEST,
+                _ if last => STIFF_AT_LAST,
+                _ => STIFF,
+            };
+            if n == 1 && left > most {
+                break;
+            }
+            part = before.filter(|_| n > 1).map_or(1.0, |before| relaxation(part, &before, &off));
+            before = Some(off);
+            watch.again(made.end.attempted(self.next.as_ref()), (how, part));
+            middle.z = motion::towards(&middle.z, &wanted, part);
+            made = self.attempt(h, &middle, input)?;
+        }
+        // Whether a gap closes in this step or in the next may depend on the speeds: both are steps.
+        if last && made.end.struck {
+            return Ok(made);
+        }
+        Err(self.error(None, ContactErrorKind::Stiff { speed, step: h }))
+    }
+}
