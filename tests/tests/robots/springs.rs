@@ -138,3 +138,24 @@ fn small_turns() {
         assert!((found + 3.0 * turn).amax() <= 8.0 * EPSILON * 6.0 * size, "{size:e}: {found}");
     }
 }
+
+/// Springs and dampers of joints, tendons and cords that are not linear, and what motors add to them.
+#[derive(GaussDynamics)]
+#[gauss(mjcf = "robots/laws.xml")]
+struct Laws;
+
+/// `qacc` of MuJoCo 4.0.0 at both keyframes, as above.
+#[test]
+fn laws_that_are_not_linear() {
+    let kernel = Laws.kernel().unwrap();
+    let states = [
+        (LawsState::near(), [13.428235294117648, -7.775005072404319, -19.81236565871548]),
+        (LawsState::far(), [110.45858823529414, 29.261918061929524, -185.40970317656883]),
+    ];
+    for (state, expected) in states {
+        let (found, expected) =
+            (kernel.acceleration(0.0, &state.q(), &state.z(), &SVector::zeros()), SVector::from(expected));
+        // Sums of ten terms of products of five numbers, of a size of a few hundred.
+        assert!((found - expected).amax() <= 100.0 * EPSILON * expected.amax(), "{found} {expected}");
+    }
+}
