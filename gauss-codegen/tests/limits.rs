@@ -130,7 +130,7 @@ fn many_bodies() {
              particle(mass = m, parent = f{last}, position = [k, 0, 0]))] struct Scene {{ m: f64, k: f64 }}"
         )
     };
-    works(frames(20));
+    works(frames(17));
     let message = format!("the equations are made of more expressions than {FEW} operations can come of");
     refused(frames(300), &message);
     let apart = |k: usize| format!("particle(mass = m, position = [q{k}, 0, 0])");

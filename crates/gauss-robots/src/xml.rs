@@ -123,7 +123,7 @@ impl<'a> Reading<'a> {
     }
 
     /// Notes what is wrong with the value of an attribute.
-    fn fault_of_value(&mut self, node: Node<'a, 'a>, name: &str, message: impl std::fmt::Display) {
+    pub fn fault_of_value(&mut self, node: Node<'a, 'a>, name: &str, message: impl std::fmt::Display) {
         let at = node.attribute_node(name).map_or_else(|| node.range(), |attribute| attribute.range_value());
         self.fault_at(self.place(at), format!("{}: {message}", shown(node)));
     }

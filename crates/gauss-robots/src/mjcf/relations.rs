@@ -113,7 +113,7 @@ impl<'a> File<'a> {
     fn coefficients(&mut self, node: Node<'a, 'a>) -> [f64; 5] {
         let written = self.list(node, EQUALITY, "polycoef", None).unwrap_or_default();
         if written.len() > 5 {
-            self.reading.fault(node, "`polycoef` is five numbers at most");
+            self.reading.fault_of_value(node, "polycoef", "`polycoef` is five numbers at most");
         }
         let usual = [0.0, 1.0, 0.0, 0.0, 0.0];
         std::array::from_fn(|k| written.get(k).copied().unwrap_or(usual[k]))

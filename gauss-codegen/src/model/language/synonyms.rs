@@ -284,6 +284,7 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("event_each", EVENT),
     ("until", EVENT),
     ("until_each", EVENT),
+    ("until_each_bounded", EVENT),
     ("then", EVENT),
     ("then_through", EVENT),
     ("jump", EVENT),
