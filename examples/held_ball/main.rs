@@ -17,7 +17,7 @@ use hand::{Hand, HandKernel, STEP, hold};
 
 /// s: how long it holds, and from when on the ball should not move.
 const LENGTH: f64 = 8.0;
-const SETTLED: f64 = 4.0;
+const SETTLED: f64 = 5.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let hand = Hand::around_a_ball(0.8);

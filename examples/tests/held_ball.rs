@@ -20,7 +20,9 @@ fn a_held_ball_does_not_creep() -> Result<(), Box<dyn Error>> {
         // rounded at the size of coordinates, 0.1 m, a few times for each joint of a finger.
         let worst = report.signorini.max(report.coulomb).max(report.dissipation);
         assert!(worst < 1e-11 && kernel.gaps(0.0, q).min() > -1e-14, "{worst} m/s at {t} s");
-        if t > 4.0 {
+        // Speeds of 1e-13 m/s are brought to rest by roundings of accelerations, ε g h = 1e-18 m/s a few dozen times in
+        // each step: that takes some thousand steps.
+        if t > 5.0 {
             let place = q.0.translation.vector;
             assert_eq!(place, *settled.get_or_insert(place), "it creeps at {t} s");
             let forces = (0..4).filter_map(|i| {

@@ -57,7 +57,8 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
     checker.places(statements);
     for (index, clause) in statements.forces.iter().enumerate() {
         // Numbers of a file are in units of the SI: they need not say so.
-        let has_numbers = matches!(clause.row.kind, ElementKind::Dissipation | ElementKind::Drive | ElementKind::Wrench);
+        let has_numbers =
+            matches!(clause.row.kind, ElementKind::Dissipation | ElementKind::Drive | ElementKind::Wrench);
         if index < statements.forces_of_file && has_numbers {
             continue;
         }
