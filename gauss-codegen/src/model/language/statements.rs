@@ -49,8 +49,9 @@ pub struct Statements {
     pub potential: Option<(Ident, Option<Expression>)>,
     pub inputs: Option<Names<InputName>>,
     pub forces: Vec<ForceClause>,
-    /// So many of these, the first, are those of a robot's file.
+    /// Numbers of these, and of constraints, that come from a robot's file: the first ones.
     pub forces_of_file: usize,
+    pub constraints_of_file: usize,
     /// Names of joints of a robot's file, by which their reactions are asked for, too.
     pub joints_of_file: Vec<String>,
     /// Links that are not called as in the file, by both names.

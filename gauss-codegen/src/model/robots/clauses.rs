@@ -293,7 +293,9 @@ impl<'a> Robot<'a> {
         let bodies: Vec<BodyClause> = (0..self.links.len()).map(|link| self.body(link)).collect();
         statements.bodies.splice(0..0, bodies);
         self.add_armatures(statements);
-        statements.constraints.splice(0..0, self.constraints(&text.names()));
+        let constraints = self.constraints(&text.names());
+        statements.constraints_of_file = constraints.len();
+        statements.constraints.splice(0..0, constraints);
         let made = self.touching(context);
         let links = self.links.len();
         statements.bodies.splice(links..links, made.frames);

@@ -90,6 +90,8 @@ pub struct Checker<'a> {
     /// Units as they are written, of names.
     pub units: Vec<(&'a Ident, &'a str)>,
     pub names: HashMap<String, Dimensions>,
+    /// The dimension of a number that is written: those of a file are in units of the SI, which need not be said.
+    pub number: Found,
     pub context: &'a mut Context,
 }
 
@@ -173,7 +175,7 @@ impl Checker<'_> {
         let span = expression.span;
         match &expression.kind {
             ExpressionKind::Number { .. } if expression.is_zero() => Dimensions::all(Found::Zero),
-            ExpressionKind::Number { .. } => Dimensions::all(Found::Number),
+            ExpressionKind::Number { .. } => Dimensions::all(self.number),
             ExpressionKind::Name(name) => self.name(name),
             ExpressionKind::Input(_) => Dimensions::UNKNOWN,
             ExpressionKind::Horizontal(..) => Dimensions::of(LENGTH.1),

@@ -11,7 +11,7 @@ use crate::model::language::units::{self, Dimension, read};
 use crate::model::language::words::{self, PI, TIME, same};
 use crate::model::scene::clauses::CoordinateKind;
 use crate::model::scene::contacts::{ContactClause, Touching};
-use crate::model::scene::elements::{Argument, ElementKind, Takes, Unit};
+use crate::model::scene::elements::{Argument, Takes, Unit};
 use crate::model::scene::expression::{Expression, ExpressionKind, FunctionName};
 use crate::model::scene::forces::ForceClause;
 use crate::terms::Role;
@@ -28,7 +28,7 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
     if units.is_empty() {
         return;
     }
-    let mut checker = Checker { units, names: HashMap::new(), context };
+    let mut checker = Checker { units, names: HashMap::new(), number: Found::Number, context };
     checker.name_as(TIME.into(), Dimensions::of(Dimension::TIME));
     checker.name_as(PI.into(), Dimensions::of(Dimension::NONE));
     for field in fields {
@@ -55,18 +55,16 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
         checker.add(&definition.name, value);
     }
     checker.places(statements);
+    let number = |of_file: bool| if of_file { Found::Unknown } else { Found::Number };
     for (index, clause) in statements.forces.iter().enumerate() {
-        // Numbers of a file are in units of the SI: they need not say so.
-        let has_numbers =
-            matches!(clause.row.kind, ElementKind::Dissipation | ElementKind::Drive | ElementKind::Wrench);
-        if index < statements.forces_of_file && has_numbers {
-            continue;
-        }
+        checker.number = number(index < statements.forces_of_file);
         checker.element(clause);
     }
-    for constraint in &statements.constraints {
+    for (index, constraint) in statements.constraints.iter().enumerate() {
+        checker.number = number(index < statements.constraints_of_file);
         checker.value(&constraint.expression);
     }
+    checker.number = Found::Number;
     statements.contacts.iter().for_each(|clause| checker.contact(clause));
 }
 

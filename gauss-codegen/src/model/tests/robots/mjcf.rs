@@ -196,6 +196,26 @@ fn equalities() {
     assert!(welded.constraints.iter().all(|constraint| constraint.kind == ConstraintKind::Position));
 }
 
+/// Numbers of a file are in units of the SI: its polynomials of metres are sums whose terms have one unit.
+#[test]
+fn numbers_of_files_have_units() {
+    let text = format!(
+        "<mujoco>\n<worldbody><body name=\"arm\">{INERTIAL}<joint name=\"a\" type=\"slide\" stiffness=\"10 4\"/>\
+         <joint name=\"b\" type=\"slide\" axis=\"0 1 0\"/></body></worldbody>\
+         <equality><joint joint1=\"b\" joint2=\"a\" polycoef=\"0 1 2\"/></equality></mujoco>"
+    );
+    let file = Scratch::called(&text, "xml");
+    let load = "#[gauss(unit = \"kg\")] load: f64";
+    let loaded = |more: &str| {
+        read(&file.of(&format!(", particle(mass = load, parent = arm, position = [0, 0, 0]){more}"), load))
+    };
+    let model = loaded("").unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(model.constraints.len(), 1);
+    // Those of the struct are checked as ever.
+    let mistakes = loaded(", drive(a = load + 2 * load * load)").err().expect("a sum of kg and of kg²");
+    assert_eq!(mistakes.into_iter().count(), 1);
+}
+
 /// The place of a free body, references of joints, and keyframes.
 #[test]
 fn states_with_names() {
