@@ -80,9 +80,9 @@ pub enum InertiaRule {
     Central,
     /// The moment about the third axis alone.
     Planar,
-    /// Of a body that turns about one axis: no other moment enters.
+    /// The moment of a body about the one axis about which it turns: no other moment enters.
     AboutAxis(usize),
-    /// Of a body that does not turn: no moment enters.
+    /// No moment enters: the body does not turn.
     Still,
     /// Of a body that moves with others.
     InSum,
@@ -188,8 +188,8 @@ impl<'g> Laws<'_, 'g> {
         InertiaRules { rules, tensor, shape, mass, center, is_formal: body.is_some_and(|body| body.is_formal) }
     }
 
-    /// Of a body that moves with others: what enters of its moments depends on the axes about which it turns. A field
-    /// of attraction sees all of them.
+    /// The rule of a body that moves with others: what enters of its moments depends on the axes about which it turns.
+    /// A field of attraction sees all of them.
     fn in_sum(&self, body: Option<&BodyData<'g>>) -> InertiaRule {
         let Some(body) = body.filter(|_| !self.given.mass_data.attracted) else { return InertiaRule::InSum };
         match self.scene.tree.links[body.link].turns_about()[..] {

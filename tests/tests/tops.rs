@@ -388,8 +388,8 @@ struct Far {
     inertia: Vector3<f64>,
 }
 
-/// How many steps that takes is another question: ∂ṗ/∂p is of the size m |c|² ω/I, and with O far away the momentum
-/// form is stiff.
+/// The number of steps is another question: ∂ṗ/∂p is of the size m |c|² ω/I, and with O far away the momentum form is
+/// stiff.
 #[test]
 fn a_body_far_from_its_origin_by_its_momenta() {
     for size in [0.0, 0.1, 1.0, 10.0] {

@@ -1,4 +1,4 @@
-//! What acts on a system whatever its contacts hold: for looks at inputs.
+//! Accelerations of a system whatever its contacts hold: for looks at inputs.
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::{Contact, ContactKind, ContactSystem};

@@ -96,7 +96,7 @@ pub(crate) struct Choice<T> {
 
 /// Impacts at an event.
 pub(crate) struct Strike {
-    /// What the rounding of their impulses makes of rates: impulses that cancel leave no rate to tell it from.
+    /// Errors of rates by the rounding of the impulses: impulses that cancel leave no rate to tell them from.
     noise: Vec<f64>,
     /// The contact that struck first, and how fast its gap closed.
     pub(crate) first: (usize, f64),

@@ -137,7 +137,7 @@ impl<T: Real> Decomposition<T> {
         self.rank() == self.scale.len()
     }
 
-    /// What x may be changed by without a change of `M x`: directions that are orthonormal in scaled unknowns.
+    /// Directions in which x may change without a change of `M x`, orthonormal in scaled unknowns.
     pub(crate) fn free(&self) -> Vec<Vec<T>> {
         let n = self.scale.len();
         let mut basis: Vec<Vec<T>> = Vec::new();

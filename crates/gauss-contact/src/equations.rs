@@ -12,7 +12,7 @@ use crate::solver::Contacts;
 /// The equations of contacts in given states: these rates are zero.
 pub(crate) struct Equations<T> {
     pub(crate) rows: Vec<usize>,
-    /// What a unit of the unknown of a row adds to forces, in this row and in those of friction.
+    /// Forces by a unit of the unknown of a row, in this row and in those of friction.
     pub(crate) with: Vec<Vec<(usize, T)>>,
     /// Forces that are known.
     forces: Vec<T>,

@@ -148,7 +148,7 @@ pub enum ContactErrorKind {
     Displacement {
         /// The largest of the gaps, as a positive number.
         gap: f64,
-        /// How far a point of a contact would move.
+        /// The distance by which a point of a contact would move.
         moved: f64,
     },
     /// The numbers of the run carry derivatives, and the time of this event has none: the gap, force or slip that ends
@@ -227,7 +227,7 @@ impl ContactErrorKind {
         }
     }
 
-    /// What closed gaps, and those that should be open, are refused for.
+    /// Writes why closed gaps, and those that should be open, are refused.
     fn of_gaps(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NegativeGap { gap } => write!(f, "the gap starts at {gap:e}; it must not be negative"),

@@ -54,7 +54,7 @@ pub(crate) struct Struck<'a, K: ContactSystem> {
     pub(crate) contacts: &'a [usize],
     pub(crate) response: &'a ContactResponse<K>,
     pub(crate) rates: &'a K::ContactRows,
-    /// What is rounding of them.
+    /// The rounding of the rates.
     pub(crate) noise: &'a [f64],
     pub(crate) friction: &'a K::ContactRows,
     pub(crate) restitution: &'a K::Gaps,

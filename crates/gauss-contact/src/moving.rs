@@ -1,4 +1,4 @@
-//! How fast gaps change with the time alone: walls and grounds that move as the scene says.
+//! Rates at which gaps change with the time alone: walls and grounds that move as the scene says.
 
 use alloc::rc::Rc;
 use alloc::vec;

@@ -23,15 +23,15 @@ pub(crate) struct InModeProblem<'k, K: ContactSystem> {
     pub(crate) input: InputOf<'k, K>,
     /// The state at which contact forces were asked for last, and they: each witness needs those at the end of a step.
     last: Rc<RefCell<Memo<K, Loads<K>>>>,
-    /// What bounds the rates of the gaps at the last two states that were asked for: the ends of a step.
+    /// Bounds of the rates of the gaps at the last two states that were asked for: the ends of a step.
     fast: Rc<RefCell<[Memo<K, Fastest>; 2]>>,
     /// The largest entry of D of each normal so far.
     light: Rc<RefCell<Vec<f64>>>,
-    /// How fast each gap changes with the time alone.
+    /// The largest rate at which each gap changes with the time alone.
     moving: Rc<[f64]>,
 }
 
-/// How fast each gap can change, and how fast that can change.
+/// Bounds of the rate of each gap, and of how fast that can change.
 type Fastest = Vec<[f64; 2]>;
 
 /// A quantity at the last state at which it was asked for.
@@ -82,8 +82,8 @@ impl<'k, K: ContactSystem> InModeProblem<'k, K> {
         loads
     }
 
-    /// How fast each open gap can change at the speeds of a state, whatever way its normal turns, and how fast that can
-    /// grow.
+    /// Bounds of the rate of each open gap at the speeds of a state, whatever way its normal turns, and of how fast
+    /// that can grow.
     ///
     /// `ġ = G z + g_t`, and `|G z|² ≤ D·zᵀA z` with `D = G A⁻¹Gᵀ`: no motion of that kinetic energy changes the gap
     /// faster, so that a gap between two bodies is bounded by the speeds of both, along the normal or across it. Of the
@@ -134,7 +134,7 @@ impl<K: ContactSystem> Twice<K> {
         Self { z, p }
     }
 
-    /// Of the speeds with a part in a gap, given by its column of A⁻¹Gᵀ.
+    /// `zᵀA z` of the speeds with a part in a gap, given by its column of A⁻¹Gᵀ.
     fn of(&self, column: &K::Speeds, momentum: &impl Fn(&K::Speeds) -> K::Speeds) -> f64 {
         let takes_part = |j: &usize| value(column.component(*j)) != 0.0;
         let sum = |of: &mut dyn Iterator<Item = usize>| -> f64 {

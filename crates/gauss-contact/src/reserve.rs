@@ -1,4 +1,4 @@
-//! How far inside the bounds of their laws forces can be that balance.
+//! Forces that balance, as far inside the bounds of their laws as they can be.
 //!
 //! Contacts that depend on one another, as four corners of a box, have many forces with the same motion. Whether they
 //! hold is not a question of the ones of least norm: it is whether any of them are inside all cones. Those that are
@@ -13,7 +13,7 @@ use gauss_runtime::real::Real;
 
 use crate::dense::{dot, norm};
 
-/// What a law leaves a force: `constant + part λ_n − |λ_T|`, in a unit.
+/// The margin that a law leaves a force: `constant + part λ_n − |λ_T|`, in a unit.
 #[derive(Clone, Debug)]
 pub(crate) struct Margin {
     pub(crate) constant: f64,
@@ -21,7 +21,7 @@ pub(crate) struct Margin {
     pub(crate) presses: Option<(usize, f64)>,
     /// The unknowns of friction.
     pub(crate) tangents: Range<usize>,
-    /// What makes numbers of one unit of forces of different rows.
+    /// The factor that brings forces of different rows to one unit.
     pub(crate) scale: f64,
 }
 
@@ -33,10 +33,10 @@ pub(crate) struct Reserve {
     /// Its size beside the forces.
     pub(crate) part: f64,
     pub(crate) forces: Vec<f64>,
-    /// Those on the way from the given forces to the deepest that are twice as far as the bounds: of what is squeezed
+    /// Forces on the way from the given ones to the deepest that are twice as far as the bounds: of what is squeezed
     /// the deepest are as large as the ball lets them be, and would leave the motion few digits.
     pub(crate) near: Vec<f64>,
-    /// How much each margin has to do with it; together 1.
+    /// The weight of each margin in the least one; together 1.
     pub(crate) weights: Vec<f64>,
 }
 

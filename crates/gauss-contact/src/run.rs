@@ -40,7 +40,7 @@ pub struct ContactRun<'k, K, C = NoControl, I = NoInput, E = NoEvents> {
     events: E,
 }
 
-/// What a run is told but for its kernel, its method and its input.
+/// The settings of a run but for its kernel, its method and its input.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Settings {
     pub(crate) law: Impact,
@@ -193,7 +193,7 @@ impl<'k, K: ContactSystem, C, I, E> ContactRun<'k, K, C, I, E> {
 }
 
 impl<'k, K: ContactSystem, M, I, E> ContactRun<'k, K, Adaptive<M>, I, E> {
-    /// How fast the input may change: see [`Adaptive::input_changes_within`].
+    /// The shortest time within which the input changes: see [`Adaptive::input_changes_within`].
     pub fn input_changes_within(mut self, time: f64) -> Self {
         self.control = self.control.input_changes_within(time);
         self
@@ -252,14 +252,14 @@ struct Driver<'k, K: ContactSystem, C, E> {
     made: ContactTrajectory<'k, K>,
     scales: Scales,
     settings: Settings,
-    /// Those of the user.
+    /// The events of the user.
     events: E,
     end: K::Scalar,
     /// More than so many events within so long a time pile up.
     piles: Option<(usize, f64)>,
     /// Steps so far, rejected ones included.
     used: u64,
-    /// How fast gaps change with the time alone.
+    /// The largest rate at which each gap changes with the time alone.
     moving: Rc<[f64]>,
     /// The contacts of the events, where that is asked.
     recent: Vec<usize>,
@@ -268,7 +268,7 @@ struct Driver<'k, K: ContactSystem, C, E> {
     at_once: u32,
 }
 
-/// What sinks below zero by so many times what counts as closed is a landing.
+/// A gap that sinks below zero by so many times what counts as closed is a landing.
 const DEEP: f64 = 8.0;
 /// The part of forces to which the most of their bounds is known.
 const LEAST_RESERVE: f64 = 1e-9;
@@ -278,7 +278,7 @@ const AT_ONCE: u32 = 200;
 /// Adds a witness, whose function is shifted by a function of its value at the start.
 type AddWitness<'w> = dyn FnMut(Watched, &dyn Fn(f64) -> f64) + 'w;
 
-/// What ended a segment.
+/// The cause of the end of a segment.
 enum Stop {
     /// The end of the run, or an event of the user.
     End,
@@ -493,7 +493,7 @@ where
         Ok(())
     }
 
-    /// How a slip ends.
+    /// Watches for the end of a slip.
     fn watch_slip(&self, i: usize, of_rate: &[f64], watch: &mut AddWitness<'_>) {
         let rows = tangents(&K::CONTACTS[i]);
         let (several, rest) = (rows.len() > 1, self.scales.rest());

@@ -18,13 +18,13 @@ use crate::solver::Contacts;
 use crate::trajectory::ContactTrajectory;
 use crate::witness::Watched;
 
-/// Of all forces that make one motion those that are deepest inside the bounds of their laws.
+/// The forces that are deepest inside the bounds of their laws, of all that make one motion.
 pub(crate) struct Shared<K: ContactSystem> {
     /// The least of what the bounds leave, as a part of the forces; negative where no forces are inside.
     pub(crate) part: f64,
     /// λ, all rows.
     pub(crate) forces: Vec<K::Scalar>,
-    /// How much the bounds of each contact have to do with it; together 1.
+    /// The weight of the bounds of each contact in that part; together 1.
     weights: Vec<f64>,
 }
 

@@ -30,7 +30,7 @@ pub(crate) enum Watched {
     Speed(usize, f64),
     /// μ λ_N − |λ_T| of a contact that sticks, f − |λ| of dry friction.
     Cone(usize),
-    /// What the bounds of contacts that depend on one another leave of forces, by the number of the first.
+    /// The reserve of forces to the bounds of contacts that depend on one another, by the number of the first.
     Reserve(usize),
     /// p of a contact that slides: how its normal force, with its friction, moves its gap (P. Painlevé).
     Pushes(usize),
@@ -51,7 +51,7 @@ impl Watched {
     }
 }
 
-/// What bounds the rate of an open gap.
+/// A bound of the rate of an open gap.
 pub(crate) struct GapBound<'k, K: ContactSystem> {
     pub(crate) problem: InModeProblem<'k, K>,
     pub(crate) contact: usize,
@@ -60,7 +60,7 @@ pub(crate) struct GapBound<'k, K: ContactSystem> {
 }
 
 impl<'k, K: ContactSystem> GapBound<'k, K> {
-    /// Of what a witness watches, if that is a gap.
+    /// The bound of the gap that a witness watches, if it watches one.
     pub(crate) fn of(witness: &Witness<'k, K>, sampled: &Rc<RefCell<Vec<SampledGap>>>) -> Option<Self> {
         let Watched::Gap(contact) = witness.watched else { return None };
         Some(Self { problem: witness.problem.clone(), contact, sampled: Rc::clone(sampled) })

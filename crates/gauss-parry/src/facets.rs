@@ -37,7 +37,7 @@ struct Facet {
 struct Edge {
     /// In the plane of the triangle, normal to the edge.
     outward: Vector,
-    /// How far normals may lean over it, in radians: those in front of the triangle, and those behind it.
+    /// Angles by which normals may lean over it, in radians: those in front of the triangle, and those behind it.
     leans: [f64; 2],
 }
 
@@ -50,7 +50,7 @@ type Neighbours = HashMap<Ends, Vec<(usize, Vector)>>;
 const CORNERS: [[usize; 3]; 3] = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
 
 impl Facets {
-    /// Of a mesh or a height field.
+    /// The facets of a mesh or a height field.
     pub(crate) fn of(shape: &dyn Shape) -> Option<Self> {
         let triangles: Vec<Option<Triangle>> = match (shape.as_trimesh(), shape.as_heightfield()) {
             (Some(mesh), _) => mesh.triangles().map(Some).collect(),

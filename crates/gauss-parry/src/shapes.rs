@@ -51,7 +51,7 @@ pub struct Found<F> {
 struct Body<F> {
     frame: Option<F>,
     shape: SharedShape,
-    /// Of a mesh or a height field.
+    /// The facets of a mesh or a height field.
     facets: Option<Facets>,
     at: Pose,
     surface: Surface,

@@ -161,7 +161,7 @@ impl Inertial {
     }
 }
 
-/// What a spring and a damper do beyond what is linear.
+/// Nonlinear terms of a spring and a damper.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Nonlinear {
     /// Force by x² and by x³, of the coordinate or length x beyond the rest.
@@ -199,7 +199,7 @@ pub struct Joint {
     pub friction: f64,
     /// Force by coordinate beyond the rest of a spring.
     pub stiffness: f64,
-    /// What both do besides.
+    /// The nonlinear terms of both.
     pub nonlinear: Nonlinear,
     /// The coordinate at which the spring has no force.
     pub rest: f64,
@@ -285,7 +285,7 @@ pub struct Tendon {
     pub stiffness: f64,
     /// Force by rate.
     pub damping: f64,
-    /// What both do besides.
+    /// The nonlinear terms of both.
     pub nonlinear: Nonlinear,
     /// The least and the most length without force.
     pub rest: [f64; 2],
@@ -306,7 +306,7 @@ pub struct Cable {
     pub stiffness: f64,
     /// Force by rate.
     pub damping: f64,
-    /// What both do besides.
+    /// The nonlinear terms of both.
     pub nonlinear: Nonlinear,
     /// The least and the most length without force; where there are none, the length while all joints are where their
     /// springs have no force.

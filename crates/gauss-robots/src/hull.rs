@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use super::rotation::Triple;
 
-/// What is in front of a face by less, as part of the size of all, is taken as in its plane where the first face is
-/// sought.
+/// The distance in front of a face, as part of the size of all, below which a point is taken as in its plane where the
+/// first face is sought.
 const FLAT: f64 = 1e-10;
 
 /// Points by integers that are the size of all over 2⁴⁰: determinants of these are exact, and so is what is in front of
@@ -83,7 +83,7 @@ impl Hull {
         Some(())
     }
 
-    /// How far a point is in front of a face, times the length of its normal.
+    /// The distance of a point in front of a face, times the length of its normal.
     fn height(&self, face: usize, point: usize) -> i128 {
         let Face { corners, normal, .. } = &self.faces[face];
         let over = self.apart(corners[0], point);

@@ -19,7 +19,7 @@ const MOST: u64 = 64 << 20;
 pub struct Mesh {
     pub vertices: Vec<Triple>,
     pub faces: Vec<[usize; 3]>,
-    /// How much of the volume depends on how faces with more than four corners, in no plane, were cut.
+    /// The volume that depends on how faces with more than four corners, in no plane, were cut.
     pub unsure: f64,
 }
 

@@ -149,7 +149,7 @@ pub struct Moves<'s, 'a, 'g> {
 }
 
 impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
-    /// Of the fields those that are read: others change nothing.
+    /// The moves of a scene, with those of its fields that are read: others change nothing.
     pub fn new(states: &'s States<'a, 'g>, seen: &Seen<'g>, is_read: impl Fn(Expr<'g>) -> bool) -> Self {
         let mut free = free(states, seen);
         free.retain(|free| !free.parameter || is_read(free.symbol));

@@ -211,8 +211,8 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         Self { states, moves, flat, ends, momenta, outputs, besides, spans, vanishing }
     }
 
-    /// Of many results at many states one is hardly changed by chance, and said to lose much: changed in other ways as
-    /// well, it is not. Room for the numbers with both changes.
+    /// Room for the numbers with both changes. Of many results at many states one is hardly changed by chance, and said
+    /// to lose much: changed in other ways as well, it is not.
     pub fn rooms(&self) -> [Trace; 2] {
         [0, 1].map(|changes| self.flat.room(changes))
     }

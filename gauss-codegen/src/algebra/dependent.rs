@@ -27,7 +27,7 @@ struct Orthogonal<'g> {
     /// The same of what the metric makes of them.
     images: Vec<Vec<Expr<'g>>>,
     lower: Vec<Vec<Expr<'g>>>,
-    /// Of own[i] · image[i].
+    /// Reciprocals of `own[i] · image[i]`.
     reciprocals: Vec<Expr<'g>>,
     /// 1 for a vector that is independent of those before it, else 0.
     kept: Vec<Expr<'g>>,

@@ -272,7 +272,7 @@ fn pulse<T: Real>(t: T) -> T {
     (-tau * tau).exp()
 }
 
-/// What a run alone finds by its looks at the input, each lane finds at the same steps.
+/// Each lane finds at the same steps what a run alone finds by its looks at the input.
 #[test]
 fn pushes_that_are_over_soon_are_seen_in_every_lane() {
     type Pack = Lanes<f64, 4>;

@@ -51,7 +51,7 @@ fn section(shown: &Shown) -> String {
     )
 }
 
-/// What there is to know of a robot's file.
+/// The remarks on a robot's file, as a list.
 fn remarks(remarks: &[String]) -> String {
     let items: String = remarks.iter().map(|remark| format!("<li>{}</li>\n", escaped(remark))).collect();
     if items.is_empty() { items } else { format!("<h2>The file</h2>\n<ul class=\"note\">\n{items}</ul>\n") }

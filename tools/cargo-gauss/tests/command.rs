@@ -168,7 +168,7 @@ fn a_package_for_python_is_made() {
     assert!(refused(&arguments).contains("robots are read from files of URDF"));
 }
 
-/// What cannot be imported, or would hide what it needs, is no name.
+/// A word that cannot be imported, or would hide what a package needs, is no name.
 #[test]
 fn names_of_packages_are_names_in_python() {
     let create = |name: &str| refused(&["create", "--python", &format!("{}/{name}", env!("CARGO_TARGET_TMPDIR"))]);
@@ -188,7 +188,8 @@ fn names_of_packages_are_names_in_python() {
     printed(&["new", folder.to_str().expect("UTF-8")]);
 }
 
-/// What the compiler would say of a robot's file is said before anything is made, and what of it does not act.
+/// A robot's file is checked before anything is made: what the compiler would say of it is said, and what of it does
+/// not act.
 #[test]
 fn robots_are_checked_before_a_package_is_made() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("checked_robot");

@@ -25,7 +25,7 @@ use super::report::StepReport;
 use super::run::{ContactSteps, StepSample};
 use super::stepper::ContactStepper;
 
-/// Of steps in which contacts stay as they are.
+/// The order of steps in which contacts stay as they are.
 const ORDER: f64 = 2.0;
 /// The part of the length that a tolerance allows which is tried.
 const SAFETY: f64 = 0.9;
@@ -242,7 +242,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
         Ok(Trial { estimate, changes, report })
     }
 
-    /// What the input does to the speeds in half of a step, from its start on, beside that which is held: without
+    /// The change of the speeds by the input in half of a step, from its start on, beside that which is held: without
     /// contacts, and without regard to its sign.
     fn unheld(&self, stepper: &ContactStepper<'k, K>, h: f64) -> K::Speeds
     where

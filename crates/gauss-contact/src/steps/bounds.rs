@@ -1,4 +1,4 @@
-//! How far closing gaps may move places.
+//! Bounds of how far closing gaps may move places.
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::constraint::{ConstraintLevel, ProjectionError, ProjectionFailure};
@@ -9,14 +9,14 @@ use crate::dense::value;
 use crate::error::ContactErrorKind;
 use crate::lockstep::{Lockstep, larger};
 
-/// How much farther points of contacts may move than the sum of what each gap would move them alone: two planes that
-/// meet at an angle β move a point by 1/sin(β/2) of its depth, so that β is at least 14°.
+/// The factor by which points of contacts may move farther than the sum of what each gap would move them alone: two
+/// planes that meet at an angle β move a point by 1/sin(β/2) of its depth, so that β is at least 14°.
 const TOGETHER: f64 = 8.0;
 
-/// How much farther they may move where contacts are pulled shut by more than the step has done: not much.
+/// The factor by which points may move farther where contacts are pulled shut by more than the step has done: not much.
 const ALONE: f64 = 1.5;
 
-/// What a step did to contacts whose gaps are to be zero at its end.
+/// Contacts whose gaps are to be zero at the end of a step, with what it did to them.
 pub(super) struct Touched<'a, K: ContactSystem> {
     pub(super) closed: &'a [bool],
     pub(super) impulses: &'a K::ContactRows,
@@ -31,7 +31,7 @@ pub(super) struct NotClosed {
     pub(super) kind: ContactErrorKind,
 }
 
-/// How far a projection may go.
+/// The bounds of a projection.
 pub(super) struct Bounds<K: ContactSystem> {
     /// The impulses of pulls, at most.
     pulls: K::Gaps,
@@ -112,14 +112,14 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Bounds<K> {
     }
 }
 
-/// How far points move where a gap is closed alone.
+/// The largest distance by which a point moves where a gap is closed alone.
 fn alone<K: ContactSystem>(delassus: &K::Delassus, gap: K::Scalar, row: usize) -> K::Scalar {
     let (zero, least) = (K::Scalar::zero(), K::Scalar::from_f64(f64::MIN_POSITIVE));
     let most = (0..K::ContactRows::DIM).map(|other| delassus[(other, row)].abs()).fold(zero, larger);
     gap * most / larger(delassus[(row, row)], least)
 }
 
-/// How far impulses move points of contacts.
+/// The largest distance by which impulses move a point of a contact.
 fn farthest<K: ContactSystem>(delassus: &K::Delassus, moves: &K::ContactRows) -> K::Scalar {
     let zero = K::Scalar::zero();
     let moved = |row: usize| gap_after::<K>(delassus, zero, row, moves).abs();

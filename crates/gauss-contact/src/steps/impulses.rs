@@ -199,7 +199,7 @@ impl<'m, T: Real> Impulses<'m, T> {
         cone.count > 0 && !cone.tangents().any(|row| self.moves(row))
     }
 
-    /// Of such a slip what its friction says, where there is some.
+    /// The state of a slip that no impulse changes, by its friction, where there is some.
     pub(super) fn slides_driven(&self, cone: &Cone<T>) -> Option<State<T>> {
         if !cone.acts || !self.is_driven(cone) {
             return None;

@@ -15,7 +15,7 @@ pub(super) struct Middle<K: ContactSystem> {
     pub(super) z: K::Speeds,
 }
 
-/// How the speeds at half of a step follow from an attempt at it.
+/// The rule by which the speeds at half of a step follow from an attempt at it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mean {
     /// The mean of those at both ends.

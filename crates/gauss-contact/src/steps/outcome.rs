@@ -35,7 +35,7 @@ pub(super) struct End<K: ContactSystem> {
     pub(super) impulses: K::ContactRows,
     /// What is closed and stays so.
     pub(super) rests: K::EachContact<bool>,
-    /// What acted and is open.
+    /// Contacts that acted and are open.
     pub(super) left: K::EachContact<bool>,
     /// Whether contacts may have changed their modes.
     pub(super) touches: bool,

@@ -16,7 +16,7 @@ use super::linear::{Place, factorise_symmetric, solve_symmetric, stride};
 const PULLS: [f64; 3] = [1e-10, 1e-8, 1e-6];
 /// Corrections at most. With the matrix of half of the step each leaves a part of the order of the step.
 const CORRECTIONS: usize = 12;
-/// How many roundings of places a gap may be below zero where corrections no longer halve it.
+/// The most roundings of places by which a gap may be below zero where corrections no longer halve it.
 const BELOW: f64 = 64.0;
 /// Memory for projections.
 pub(crate) struct Projection<'m, K: ContactSystem> {

@@ -48,11 +48,11 @@ const ROUGH: f64 = 0.5;
 const FAR: f64 = 0.2;
 /// By what part of a speed before a step forces may change it by changing along half of the step.
 const STEEP: f64 = 0.25;
-/// What is left may be that part of a speed in a step that has no other end: where it cannot be shorter and contacts do
-/// one thing at some speeds and another one at those that follow from it, or where no impulses are found at these. It
-/// comes once, and not from step to step.
+/// The part of a speed that may be left of a difference in a step that has no other end: where it cannot be shorter and
+/// contacts do one thing at some speeds and another one at those that follow from it, or where no impulses are found at
+/// these. It comes once, and not from step to step.
 const MILD: f64 = 1e-2;
-/// How often a step is made again.
+/// The number of times a step is made again, at most.
 const CORRECTIONS: usize = 24;
 /// Where the second difference is more than this part of the first, a step is made in parts: where a body turns by a
 /// fifth of a radian in it, so that places err by its square over 24, or a speed is damped by a fifth.
@@ -67,7 +67,7 @@ const LEAST_PART: f64 = 0.02;
 const SMALL: f64 = 1e-3;
 /// The same where a speed that is zero for a moment is no measure of what others do to it.
 const PART: f64 = 0.1;
-/// What is as small as that has no digits to compare.
+/// A speed as small as that has no digits to compare.
 const LEAST: f64 = 1e-150;
 
 /// The speeds of a step: before it, those at which forces were taken, with their acceleration, and after it.
@@ -84,7 +84,7 @@ impl<V: VectorSpace<f64>> Used<V> {
         0.5 * (self.before.component(i) + self.after.component(i))
     }
 
-    /// How large each speed is, by which differences are judged, with a part of the largest.
+    /// The size of each speed, by which differences are judged, with a part of the largest.
     fn sizes(&self, part: f64) -> V {
         let mut sizes = V::zero();
         (0..V::DIM)

@@ -58,8 +58,8 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) report: StepReport,
 }
 
-/// How often a step is halved where no impulses, or no places, are found for it, or where it is too long for its
-/// forces.
+/// The number of times a step is halved, at most, where no impulses, or no places, are found for it, or where it is too
+/// long for its forces.
 const HALVINGS: u32 = 4;
 
 impl<K: ContactSystem<Scalar = f64>, M> fmt::Debug for ContactStepper<'_, K, M> {

@@ -30,7 +30,7 @@ pub(super) trait Watch<K: ContactSystem> {
     /// An attempt that is not the last, and how the speeds of the next one follow from it: by what part of the
     /// difference to which mean.
     fn again(&mut self, attempted: Attempted<K>, how: (Mean, f64));
-    /// How many parts there are.
+    /// The number of parts.
     fn parts(&self) -> usize;
     /// Only the first so many parts stay.
     fn keep(&mut self, parts: usize);

@@ -74,7 +74,7 @@ struct Rotor {
 const DISTANCES: [f64; 5] = [0.4, 1.5, 5.0, 40.0, 300.0];
 const SPEEDS: [f64; 4] = [0.02, 3.0, 10.0, 250.0];
 const TOLERANCES: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
-/// How far the line of the flight passes by the centre, over the distance at which it touches.
+/// Distances at which the line of the flight passes by the centre, over the distance at which it touches.
 const ASIDE: [f64; 7] = [0.0, 0.3, 0.9, 0.999, 1.001, 1.1, 3.0];
 
 /// The time at which something first comes as near as `reach` to a line's foot `aside` of it, from so far away.

@@ -44,8 +44,8 @@ const M: f64 = 2.0;
 const MU: f64 = 0.4;
 const G: f64 = 9.81;
 
-/// How far a block comes that is pushed with `3 exp(−τ²)` times its friction, τ = (t − t₀)/w, in units of μ g w²: it
-/// sets off where the push is as large as friction, and its speed is an integral, up to where that has come to 0.
+/// The way of a block that is pushed with `3 exp(−τ²)` times its friction, τ = (t − t₀)/w, in units of μ g w²: it sets
+/// off where the push is as large as friction, and its speed is an integral, up to where that has come to 0.
 fn way() -> f64 {
     let sets_off = -(3.0_f64.ln()).sqrt();
     let rate = |tau: f64| 3.0 * (-tau * tau).exp() - 1.0;

@@ -106,7 +106,7 @@ impl Units {
         SharedShape::cuboid(a, b, c)
     }
 
-    /// How far a box slides on the mesh, in metres, and what its end is off its way.
+    /// The distance that a box slides on the mesh, in metres, and what its end is off its way.
     fn slide(self, ground: (SharedShape, Isometry3<f64>), (yaw, h): (f64, f64), (mu, speed): (f64, f64)) -> (f64, f64) {
         let kernel = self.cuboid();
         let shapes = self.shapes_at(ground, self.block(), mu).reduce(Reduction::Quadrilateral);

@@ -191,7 +191,7 @@ mod tests {
         described_beside(PRISM, compiler, mesh, geom)
     }
 
-    /// Of a file in a folder with a mesh.
+    /// The description by a file in a folder with a mesh.
     fn described_beside(solid: &str, compiler: &str, mesh: &str, geom: &str) -> Result<Description, Vec<Fault>> {
         let folder = std::env::temp_dir().join(format!("gauss-meshes-{}-{:p}", std::process::id(), mesh));
         std::fs::create_dir_all(folder.join("parts")).expect("a folder for files that do not stay");
@@ -301,7 +301,7 @@ mod tests {
         check(&prism(3.0, -7.0), &walls, [14000.0, 21306.259349732052, 58000.0, 29000.0]);
     }
 
-    /// Of a face that is in no plane the file does not say what is below it.
+    /// A file does not say what is below a face that is in no plane.
     #[test]
     fn faces_in_no_plane() {
         let corners = [[1.0, 0.0], [0.3, 1.0], [-0.8, 0.6], [-0.8, -0.6], [0.3, -1.0]];

@@ -109,7 +109,7 @@ impl<'a> File<'a> {
         }
     }
 
-    /// Of 1, x, x², x³, x⁴; what is not written is as in x.
+    /// The coefficients of 1, x, x², x³, x⁴; those that are not written are as in x.
     fn coefficients(&mut self, node: Node<'a, 'a>) -> [f64; 5] {
         let written = self.list(node, EQUALITY, "polycoef", None).unwrap_or_default();
         if written.len() > 5 {

@@ -38,7 +38,7 @@ impl Format {
         })
     }
 
-    /// What is wrong with an element whose attribute has another value.
+    /// The faults of an element whose attribute has another value.
     pub fn faults(&self, place: &str, name: &str, value: &str) -> Vec<String> {
         let usual = self.usual(place);
         let start = format!(" {name}=\"");

@@ -17,7 +17,7 @@ struct Case {
     fields: Vec<(String, f64)>,
 }
 
-/// What accelerations lose at states by seeds, the most first, and what is said.
+/// The losses of accelerations at states by seeds, the most first, and what is said.
 struct Lost {
     losses: Vec<f64>,
     said: f64,
@@ -56,7 +56,7 @@ fn loss_at(derived: &Derived<'_, '_>, fields: &[(String, f64)], bend: f64, seed:
     loss_beside(derived, &values, exact, &found, seed).map(|(loss, _)| loss)
 }
 
-/// How a link hangs on the one before it: by a hinge about an axis, or along the first axis.
+/// The joint of a link with the one before it: a hinge about an axis, or a slide along the first axis.
 enum Joint {
     Hinge(char),
     Slide,
@@ -86,7 +86,7 @@ fn numbers(numbers: &[f64]) -> Vec<String> {
     numbers.iter().map(|number| format!("{number:.12e}")).collect()
 }
 
-/// Those of a name by their places, as the fields of a struct.
+/// Fields of a struct for numbers, by a name and their places.
 fn fields(name: &str, numbers: &[f64]) -> (Vec<String>, Vec<(String, f64)>) {
     let names: Vec<String> = (0..numbers.len()).map(|k| format!("{name}{k}")).collect();
     (names.clone(), names.into_iter().zip(numbers.iter().copied()).collect())
@@ -188,7 +188,7 @@ fn random_chain(seed: u64) -> Case {
 
 #[test]
 fn what_random_chains_of_unlike_links_lose_is_said() {
-    /// How many by default.
+    /// The number of scenes by default.
     const SCENES: u64 = 400;
     let (first, count) = (number_from("FIRST", 0), number_from("SCENES", SCENES));
     let threads = std::thread::available_parallelism().map_or(1, usize::from) as u64;

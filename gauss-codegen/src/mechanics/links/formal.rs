@@ -48,7 +48,7 @@ impl<'g> Tree<'g> {
         self.with_modes(rows, |modes| modes.inertia_forces(&self.acceleration_of_o(modes.link, accelerations), along))
     }
 
-    /// That of O in body axes, by whichever pole and in whichever axes the link works.
+    /// The acceleration of O in body axes, by whichever pole and in whichever axes the link works.
     pub fn acceleration_of_o(&self, k: usize, accelerations: &Pairs<'g>) -> Triple<'g> {
         let (link, (a, alpha)) = (&self.links[k], &accelerations[k]);
         let a = link.in_body_axes(a);

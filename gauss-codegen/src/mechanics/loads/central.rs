@@ -65,8 +65,8 @@ impl<'g> Expansion<'g> {
         own.chain([(self.inverse.key(), inverse)]).collect()
     }
 
-    /// What first and second moments add to the force on their link and to the torque about O, with what the formal
-    /// components stand for; the torque of the first is that of a uniform field.
+    /// The force on a link and the torque about O that first and second moments add, with what the formal components
+    /// stand for; the torque of the first is that of a uniform field.
     fn force_on(&self, link: usize, at: &Map<u32, Expr<'g>>) -> Force<'g> {
         let [_, first, second] = self.energies;
         let negative = |e: Expr<'g>, rates: &Map<u32, Expr<'g>>| (-e.derivative(rates)).substitute(at).group();
@@ -120,7 +120,7 @@ impl<'g> CentralField<'g> {
         Action::Field(Field { potential, rest, loads })
     }
 
-    /// Of what modes add to the moments of links, on some of the roots.
+    /// The energy of what modes add to the moments of links, on some of the roots.
     fn energy_of_modes(&self, tree: &Tree<'g>, on: impl Fn(usize) -> bool) -> Expr<'g> {
         let of = |modes: &Deformation<'g>| {
             let link = &tree.links[modes.link];
@@ -209,7 +209,7 @@ impl<'g> CentralField<'g> {
     }
 }
 
-/// What modes add to the moments about O of their link, body axes.
+/// The moments about O that modes add to those of their link, body axes.
 fn moments_of<'g>(modes: &Deformation<'g>) -> Moments<'g> {
     let (inertia, first) = (modes.inertia(), modes.first_moment());
     let half_trace = (inertia[0][0] + inertia[1][1] + inertia[2][2]).half();

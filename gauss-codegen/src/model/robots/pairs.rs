@@ -138,8 +138,8 @@ impl Robot<'_> {
             && (above[0] == Some(owners[1]) || above[1] == Some(owners[0]))
     }
 
-    /// What a link hangs on, past those that stand between the joints of one body. They are where their joints are,
-    /// which move; a body whose last joint has a place of its own is mounted where it is itself.
+    /// The link on which another one hangs, past those that stand between the joints of one body. They are where their
+    /// joints are, which move; a body whose last joint has a place of its own is mounted where it is itself.
     fn above(&self, owner: usize) -> Option<usize> {
         let Description { links, joints, .. } = self.description;
         let mut parent = self.structure.parent_of[owner]?;

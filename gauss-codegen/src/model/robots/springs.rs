@@ -127,7 +127,7 @@ impl Robot<'_> {
         (forces, notes)
     }
 
-    /// What springs and dampers of joints and tendons do beyond what is linear.
+    /// The nonlinear forces of springs and dampers of joints and tendons.
     pub fn nonlinear_springs(&self) -> (Vec<ForceClause>, Vec<Note>) {
         let (mut rates, mut forces, mut notes) = (Vec::new(), Vec::new(), Vec::new());
         for (index, joint, q, multiplier) in self.scalar_joints() {
@@ -307,7 +307,7 @@ impl Robot<'_> {
     }
 }
 
-/// That the work of a spring is left out of the energy.
+/// A note that the work of a spring is left out of the energy.
 fn told_of_energy(at: At, law: Nonlinear) -> Option<Note> {
     let text = "a spring that is not linear acts as a force: its energy is not in the potential energy";
     (law.stiffness != [0.0; 2]).then(|| Note::told(at, text).about("springs"))

@@ -26,7 +26,7 @@ const STATES: u32 = 4;
 const SLACK: f64 = 1e-12;
 
 impl Robot<'_> {
-    /// How a plane sees a link, if what holds the file stays where it is.
+    /// A link as a plane sees it, if what holds the file stays where it is.
     pub fn seen(&self, link: usize, level: Level) -> Option<Seen> {
         let held = !self.is_floating() && self.clauses.mount.is_none();
         let mut chain = std::iter::successors(Some(link), |&link| self.structure.parent_of[link]);
@@ -60,7 +60,7 @@ impl Seen {
         self.same(over)
     }
 
-    /// How far a direction of length one points out of the plane, if that stays.
+    /// The part of a direction of length one that points out of the plane, if that stays.
     fn slope(&self, direction: &Triple) -> Option<f64> {
         self.same(|(_, matrix)| {
             let turned = turned(matrix, direction);

@@ -59,8 +59,8 @@ pub trait Problem {
         false
     }
 
-    /// What acts in a state, for looks at the input between the stages of a step: ẏ, whose rates may be known; where it
-    /// is hidden, ẏ without the constraints that hide it.
+    /// The action on the system in a state, for looks at the input between the stages of a step: ẏ, whose rates may be
+    /// known; where it is hidden, ẏ without the constraints that hide it.
     fn action(&self, state: &State<Self::System>, rates: Option<&Rates<Self::System>>) -> Speeds<Self> {
         rates.map_or_else(|| self.rates(state).variables, |rates| rates.variables)
     }

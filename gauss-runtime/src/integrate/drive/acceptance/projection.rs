@@ -236,7 +236,7 @@ pub fn is_hopeless<S: GaussSystem, P: Problem<System = S>>(
     })
 }
 
-/// What the projection makes of a rounding of the state, component by component of q and z.
+/// The change of the projection by a rounding of the state, component by component of q and z.
 fn rounding_of_projection<S: GaussSystem, P: Problem<System = S>>(problem: &P, state: &State<S>) -> Rates<S> {
     let mut rounding: Rates<S> = Rates { configuration: TangentOf::<S>::zero(), variables: S::Speeds::zero() };
     let here = problem.in_speeds(state);

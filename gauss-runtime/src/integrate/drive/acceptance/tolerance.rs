@@ -42,7 +42,7 @@ pub struct Floor<S: GaussSystem> {
     derivatives: Rates<S>,
     /// What the state itself is rounded by at the end of a step, relatively; 0 in lanes without a floor.
     unit: S::Scalar,
-    /// What a rounding of q and of momenta makes of the speeds, where that is more than a rounding of theirs.
+    /// The errors of the speeds by a rounding of q and of momenta, where they are more than a rounding of theirs.
     speeds: S::Speeds,
 }
 

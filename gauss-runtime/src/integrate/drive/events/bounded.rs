@@ -18,10 +18,10 @@ use crate::integrate::problem::state::{Rates, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// What bounds the rate of an event's function along the motion.
+/// A bound of the rate of an event's function along the motion.
 pub trait RateBound<S: GaussSystem> {
-    /// How fast the function can change at the speeds of a state, whatever way its gradient turns, and how fast that
-    /// can grow.
+    /// Bounds of the rate of the function at the speeds of a state, whatever way its gradient turns, and of how fast
+    /// that can grow.
     fn bound(&self, state: &State<S>, rates: &Rates<S>) -> [f64; 2];
 
     /// Its rate in a state.
@@ -31,7 +31,7 @@ pub trait RateBound<S: GaussSystem> {
     fn sampled(&self, from: f64, to: f64);
 }
 
-/// What bounds the rate of a function, if anything does.
+/// A bound of the rate of a function, if there is one.
 pub type Bound<'a, S> = Option<&'a dyn RateBound<S>>;
 
 /// No bound.
@@ -56,7 +56,7 @@ impl<S: GaussSystem> RateBound<S> for NoBound {
 const HALVINGS: u32 = 7;
 const AGAIN: u32 = 3;
 
-/// How many halvings are left where one looks whether the rest is needed: at an eighth of a step.
+/// The number of halvings that are left where one looks whether the rest is needed: at an eighth of a step.
 const PLAIN: u32 = HALVINGS - 3;
 
 /// So many parts are halved again in a step.
@@ -75,11 +75,11 @@ struct Followed<'a, S: GaussSystem, G, A> {
     start: (f64, f64),
     /// By how much it changes at most in a step.
     most: f64,
-    /// How far the curve is off.
+    /// The error of the function on the curve.
     off: f64,
     rounding: f64,
     resolution: f64,
-    /// How many parts may be halved again.
+    /// The number of parts that may be halved again.
     more: u32,
     /// The time at the start, and the length.
     times: [f64; 2],
@@ -224,7 +224,7 @@ where
         Ok(followed.first(from, until, HALVINGS)?.or(known))
     }
 
-    /// How far a function is off on the curve of the step. Its slope there is that of the motion at the ends and in the
+    /// The error of a function on the curve of the step. Its slope there is that of the motion at the ends and in the
     /// middle; a quarter of the way from an end it is off by most, in a part of the step by three times as much as the
     /// function in the middle.
     fn off(&self, function: Function<'_, S>, bound: &dyn RateBound<S>) -> Result<f64, IntegrationErrorKind> {

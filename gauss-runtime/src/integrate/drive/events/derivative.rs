@@ -86,8 +86,8 @@ where
         refused(slope.lane(0))
     }
 
-    /// What rounding does to the derivatives of a function: those of time, configuration and speeds are rounded, each
-    /// times what the function changes by with it.
+    /// The rounding of the derivatives of a function: those of time, configuration and speeds are rounded, each times
+    /// what the function changes by with it.
     fn rounding_of_derivatives(&self, function: Function<'_, S>, state: &State<S>) -> f64 {
         let at = |state: &State<S>| values(self.problem, function, state).lane(0);
         let (here, part) = (at(state), Real::sqrt(S::Scalar::EPSILON));

@@ -436,7 +436,7 @@ impl<P, O, E, M> Simulation<P, Adaptive<M>, O, E> {
         self
     }
 
-    /// How fast the input may change: see [`Adaptive::input_changes_within`].
+    /// The shortest time within which the input changes: see [`Adaptive::input_changes_within`].
     pub fn input_changes_within(mut self, time: f64) -> Self {
         self.control = self.control.input_changes_within(time);
         self

@@ -54,7 +54,7 @@ impl Looks {
         }
     }
 
-    /// Of a run over a span.
+    /// The looks of a run over a span.
     #[must_use]
     pub fn new(given: Option<f64>, start: f64, span: f64) -> Self {
         let distance = given.unwrap_or(span.abs() / LOOKS);
