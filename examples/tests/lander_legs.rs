@@ -35,7 +35,7 @@ fn it_tips_over_above_the_speed_that_energy_allows() -> Result<(), Box<dyn Error
         let critical = lander.tips_above(at_touch);
         let turn = mass * (height * critical - lander.a * at_touch) / inertia;
         // In the step of the touch forces are those at the mean of the speeds before it and after it. What turns the
-        // velocity with the lander is so off by up to half of the turn in the second half of that step, before or after.
+        // velocity with the lander is so off by up to half of the turn in the second half of that step.
         let margin = 0.5 * critical * turn * h;
         assert!(margin < 2e-3 * critical, "a criterion that says something: {margin} of {critical} m/s");
         assert_ne!(outcome(&lander, critical - margin, fall, h)?, Outcome::Tips, "{fall} m/s down, steps of {h} s");

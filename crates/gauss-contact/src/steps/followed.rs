@@ -167,11 +167,11 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
 
     /// The rates that contacts with restitution pass on, whose gaps do not open before the step, or are closed by
     /// others alone. Of an approach of zero derivatives are those of an approach.
-    fn passes(&self, tolerance: f64, gaps: &L::Gaps, [before, free]: &[L::ContactRows; 2]) -> Vec<Option<Dual<N>>> {
-        let e = self.kernel.restitution();
+    fn passes(&self, tolerance: f64, gaps: &L::Gaps, rates: &[L::ContactRows; 2]) -> Vec<Option<Dual<N>>> {
+        let (e, [before, free]) = (self.kernel.restitution(), rates);
         let size = |row: usize| before.component(row).value.abs().max(free.component(row).value.abs());
         let nothing = tolerance * (0..L::ContactRows::DIM).map(size).fold(0.0, f64::max);
-        let fastest = motion::fastest::<L>(before).value;
+        let fastest = motion::fastest::<L>(rates).value;
         let of = |(i, contact): (usize, &Contact)| {
             let [before, free] = [before, free].map(|rates| rates.component(contact.normal));
             let end = gaps.component(i).value + 0.5 * self.h * (before.value + free.value);

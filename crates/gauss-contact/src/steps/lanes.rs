@@ -24,7 +24,6 @@ use super::motion::Middle;
 use super::outcome::{Attempt, Pushed, Solved};
 use super::projection::{Closed, Projection};
 use super::report::StepReport;
-use super::speeds::ALLOWED;
 use super::stepper::ContactStepper;
 
 /// A system in packs, each lane of which is the system `K`: `Kernel<wide::f64x8>` of a struct that is generic in its
@@ -404,7 +403,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
             };
             let made = Attempt { end, acceleration };
             // A step that is made again goes alone.
-            if matches!(stepper.agrees(h, &middle, &made, (&input.extract(lane), ALLOWED)), Ok(true)) {
+            if matches!(stepper.agrees(h, &middle, &made, &input.extract(lane)), Ok(true)) {
                 self.outcomes[lane] = stepper.made(h, made.end);
                 self.stages[lane] = Stage::Made;
             }

@@ -82,9 +82,10 @@ pub(super) fn free_rates<K: ContactSystem>(
     [*z, *free].map(|z| kernel.contact_rates(middle.t, &middle.q, &z))
 }
 
-/// The fastest of rates.
-pub(super) fn fastest<K: ContactSystem>(rates: &K::ContactRows) -> K::Scalar {
-    (0..K::ContactRows::DIM).map(|row| rates.component(row).abs()).fold(K::Scalar::zero(), larger)
+/// The fastest of rates before a step, and at its end without impulses: what lies still has only rounding before it.
+pub(super) fn fastest<K: ContactSystem>(rates: &[K::ContactRows; 2]) -> K::Scalar {
+    let each = rates.iter().flat_map(|rates| (0..K::ContactRows::DIM).map(|row| rates.component(row).abs()));
+    each.fold(K::Scalar::zero(), larger)
 }
 
 /// By what part of the fastest rate one that is zero may be off for rounding.

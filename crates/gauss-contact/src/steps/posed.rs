@@ -27,7 +27,7 @@ pub(super) struct Posed<'a, K: ContactSystem> {
     pub(super) gaps: K::Gaps,
     /// Before the step, and at its end without impulses.
     pub(super) rates: [K::ContactRows; 2],
-    /// The fastest rate before the step.
+    /// The fastest of them.
     pub(super) fastest: K::Scalar,
     /// Of the step before.
     pub(super) impulses: K::ContactRows,

@@ -3,17 +3,16 @@
 //! Forces are taken once, at half of a step. With the *mean* speeds of the step, `z̄ = (z + z⁺)/2`, gyroscopic forces
 //! do no work however far a step turns, and forces against the speeds take energy away however stiff they are:
 //! `z̄·A(z⁺ − z)` is the work of the forces that were taken. But z⁺ is not known before: speeds at half of a step are
-//! foreseen by the acceleration of the step before; where none is known, or kept, a first attempt with those before the
-//! step tells the mean ones for the second. Forces that depend on speeds then work on other speeds than they were taken
-//! at, and some make these grow without bound, by (ωh)⁴/4 a step where a body turns by ωh, or half of that.
+//! foreseen by the acceleration of the step before, or are those before the step. Forces that depend on speeds then
+//! work on other speeds than they were taken at, and some make these grow without bound, by (ωh)⁴/4 a step where a body
+//! turns by ωh.
 //!
 //! So a step looks back. Where the speeds that were used are the mean ones to a part [`NEAR`], or forces at the mean
-//! ones would not change a speed by more than a part [`ALLOWED`] of it ([`ALLOWED_TWICE`] in a step that was made
-//! twice), it is taken as it is: what is left is a growth by at most that part, of a body that turns of its power
-//! 4/3. What dampers differ by shrinks by itself as long as it is smaller than the difference of the speeds. Else the
-//! step is made again from the end that it had, until speeds agree; where it is too long for that, it is made in
-//! parts, and refused in the end: so this check is the watch over the energy of a step, since forces at the mean
-//! speeds do the work that they should.
+//! ones would not change a speed by more than a part [`ALLOWED`] of it, it is taken as it is: what is left is a growth
+//! by at most that part, of a body that turns of its power 4/3: 10⁻⁸. What dampers differ by shrinks by itself as long
+//! as it is smaller than the difference of the speeds. Else the step is made again from the end that it had, until
+//! speeds agree; where it is too long for that, it is made in parts, and refused in the end: so this check is the watch
+//! over the energy of a step, since forces at the mean speeds do the work that they should.
 //!
 //! A step that is made again uses `z̄ − h/12 (a⁺ − a⁻)` with the accelerations at both ends, which is the mean over
 //! time to fourth order: where a body spins evenly, h ω errs by (ωh)⁵/720, in place of (ωh)³/12, by which a ball in the
@@ -33,12 +32,8 @@ use super::watch::Watch;
 
 /// By what part of a speed that which forces are taken at may differ from the mean one without further notice.
 const NEAR: f64 = 1e-5;
-/// By what part of a speed forces may change it for having been taken at another one that was foreseen.
-pub(super) const ALLOWED: f64 = 1e-6;
-/// The same where the step was made twice. What it ends at depends on its start without jumps, as whoever asks for its
-/// derivatives needs, but where more than that is left: of a body that turns by 0.07 rad in the step. Speeds of one
-/// that turns by less grow by less than 4 · 10⁻⁶ in each.
-const ALLOWED_TWICE: f64 = 1e-4;
+/// By what part of a speed forces may change it for having been taken at another one.
+const ALLOWED: f64 = 1e-6;
 /// The same where a step is made again.
 const SETTLED: f64 = 1e-9;
 /// By what part of the sizes of speeds before and after a step these may change before one looks whether that is so
@@ -128,12 +123,12 @@ impl<V: VectorSpace<f64>> Used<V> {
 
     /// Whether speeds may grow by what forces differ from those at the mean speeds, whose acceleration is given. Where
     /// that is against the difference of the speeds, as of dampers, they do not, unless it is as large.
-    pub(super) fn grows(&self, at_mean: &V, allowed: f64) -> bool {
+    pub(super) fn grows(&self, at_mean: &V) -> bool {
         let sizes = self.sizes(SMALL);
         (0..V::DIM).any(|i| {
             let by = self.h * (self.acceleration.component(i) - at_mean.component(i));
             let off = self.used.component(i) - self.mean(i);
-            by.abs() > allowed * sizes.component(i) && (by * off >= 0.0 || by.abs() > 0.5 * off.abs())
+            by.abs() > ALLOWED * sizes.component(i) && (by * off >= 0.0 || by.abs() > 0.5 * off.abs())
         })
     }
 
@@ -192,8 +187,8 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         (watch, last): (&mut W, bool),
     ) -> Result<StepReport, ContactError> {
         let dependent = self.dependent;
-        let (middle, mut made, allowed) = self.foreseen(h, input, watch)?;
-        if !self.agrees(h, &middle, &made, (input, allowed))? {
+        let (middle, mut made) = self.foreseen(h, input, watch)?;
+        if !self.agrees(h, &middle, &made, input)? {
             let mean = self.mean(Mean::Ends, h, &made.end, input);
             let at_mean = self.kernel.acceleration(middle.t, &middle.q, &mean, input);
             let is_mild = self.used(h, &middle, &made).is_mild(&at_mean);
@@ -211,25 +206,24 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         self.take(h, end)
     }
 
-    /// A step with forces at the speeds that are foreseen at half of it, and by what part of a speed forces may change
-    /// it then for having been taken at another one.
+    /// A step with forces at the speeds that are foreseen at half of it.
     fn foreseen<W: Watch<K>>(
         &mut self,
         h: f64,
         input: &K::Input,
         watch: &mut W,
-    ) -> Result<(Middle<K>, Attempt<K>, f64), ContactError> {
+    ) -> Result<(Middle<K>, Attempt<K>), ContactError> {
         watch.begins();
         let rate = self.kernel.kinematics(self.t, &self.q, &self.z);
         let (mut middle, known) = self.middle(h, &rate);
         let mut made = self.attempt(h, &middle, input)?;
         // At the start and after impacts no acceleration is known: the step is made twice.
-        if !known {
+        if !known && !made.end.struck {
             watch.again(made.end.attempted(self.next.as_ref()), (Mean::Ends, 1.0));
             middle.z = self.mean(Mean::Ends, h, &made.end, input);
             made = self.attempt(h, &middle, input)?;
         }
-        Ok((middle, made, if known { ALLOWED } else { ALLOWED_TWICE }))
+        Ok((middle, made))
     }
 
     fn mean(&self, how: Mean, h: f64, end: &End<K>, input: &K::Input) -> K::Speeds {
@@ -247,7 +241,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         h: f64,
         middle: &Middle<K>,
         made: &Attempt<K>,
-        (input, allowed): (&K::Input, f64),
+        input: &K::Input,
     ) -> Result<bool, ContactError> {
         let used = self.used(h, middle, made);
         if used.is_plain() || !made.end.z.is_finite() {
@@ -259,8 +253,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
             return Err(self.error(None, ContactErrorKind::Stiff { speed, step: h }));
         }
         let mean = self.mean(Mean::Ends, h, &made.end, input);
-        let at_mean = self.kernel.acceleration(middle.t, &middle.q, &mean, input);
-        Ok(!used.grows(&at_mean, allowed))
+        Ok(!used.grows(&self.kernel.acceleration(middle.t, &middle.q, &mean, input)))
     }
 
     /// A step made again with the mean speeds of the attempt before, until they agree.

@@ -289,12 +289,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         Ok(first.and(second))
     }
 
-    /// Half of a step, given the rate of places before it, and whether its speeds are foreseen, not those before it.
+    /// Half of a step, given the rate of places before it, and whether its speeds are those that the scheme wants.
     pub(super) fn middle(&self, h: f64, rate: &TangentOf<K>) -> (Middle<K>, bool) {
         let (t, q) = (self.t + 0.5 * h, motion::half_way::<K>(h, &self.q, rate));
         match (self.scheme, self.acceleration) {
+            (StepScheme::MoreauJean, _) => (Middle { t, q, z: self.z }, true),
             (StepScheme::Midpoint, Some(rate)) => (Middle { t, q, z: self.z.add_scaled(0.5 * h, &rate) }, true),
-            _ => (Middle { t, q, z: self.z }, false),
+            (StepScheme::Midpoint, None) => (Middle { t, q, z: self.z }, false),
         }
     }
 
@@ -529,7 +530,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let mut unknowns = Unknowns::<K>::new();
         let Self { law, tolerance, gaps, impulses, dependent, .. } = *self;
         let (restitution, delassus, modes) = (self.kernel.restitution(), &response.delassus, self.modes.as_ref());
-        let fastest = motion::fastest::<K>(&rates[0]);
+        let fastest = motion::fastest::<K>(&rates);
         let posed =
             Posed { h, law, tolerance, laws, delassus, restitution, gaps, rates, fastest, impulses, modes, dependent };
         let memory = &mut self.memory.as_mut()[..memory(Self::ROWS)];

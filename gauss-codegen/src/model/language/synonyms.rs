@@ -242,6 +242,7 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("tolerances", INTEGRATOR),
     ("first_step", INTEGRATOR),
     ("largest_step", INTEGRATOR),
+    ("input_changes_within", INTEGRATOR),
     ("max_steps", INTEGRATOR),
     ("runge_kutta", INTEGRATOR),
     ("run", RUN),
