@@ -12,7 +12,7 @@ use crate::model::{LENGTH, STEP, State, Torques, Walker};
 const HEIGHT: f64 = 0.54;
 const STRIDE: f64 = 0.12;
 /// By which parts of the time the right leg swings in the first guess, and how high, m.
-const SWING: (f64, f64) = (0.35, 0.8);
+const SWING: (f64, f64) = (0.35, 0.85);
 const LIFT: f64 = 0.06;
 /// How many steps in time there are.
 pub const STEPS: usize = 180;

@@ -21,10 +21,12 @@ use crate::error::{ContactError, ContactErrorKind};
 use crate::mode::Mode;
 
 use super::kept::Kept;
-use super::report::{StepReport, StepScheme};
+use super::report::StepReport;
 use super::run::{ContactSteps, StepSample};
 use super::stepper::ContactStepper;
 
+/// The order of steps in which contacts stay as they are.
+const ORDER: f64 = 2.0;
 /// The part of the length that a tolerance allows which is tried.
 const SAFETY: f64 = 0.9;
 /// How much shorter or longer the next step may be.
@@ -169,7 +171,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
     {
         self.check(&interval)?;
         let mut stepper = self.steps.stepper(interval.start, q0, z0)?;
-        let mut lengths = Lengths::new(self.steps.h, self.shortest, stepper.scheme);
+        let mut lengths = Lengths::new(self.steps.h, self.shortest);
         while stepper.t < interval.end {
             let (before, statistics) = (stepper.kept(), &mut made.statistics);
             if statistics.accepted + statistics.rejected >= self.limit {
@@ -240,7 +242,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
         Ok(Trial { estimate, changes, report })
     }
 
-    /// What the input does to the speeds in half of a step, from its start on, beside that which is held: without
+    /// The change of the speeds by the input in half of a step, from its start on, beside that which is held: without
     /// contacts, and without regard to its sign.
     fn unheld(&self, stepper: &ContactStepper<'k, K>, h: f64) -> K::Speeds
     where
@@ -322,16 +324,14 @@ enum Verdict {
 struct Lengths {
     longest: f64,
     shortest: f64,
-    order: f64,
     next: f64,
     /// While a change of contacts is looked for: the length before, and how much time is left until it is passed.
     sought: Option<(f64, f64)>,
 }
 
 impl Lengths {
-    fn new(longest: f64, shortest: f64, scheme: StepScheme) -> Self {
-        let order = if scheme == StepScheme::Midpoint { 2.0 } else { 1.0 };
-        Self { longest, shortest, order, next: longest, sought: None }
+    fn new(longest: f64, shortest: f64) -> Self {
+        Self { longest, shortest, next: longest, sought: None }
     }
 
     /// The next length where so much time is left, and whether it is the last: two steps share what is less than two.
@@ -361,7 +361,7 @@ impl Lengths {
                 Verdict::Keep
             }
             (false, holds) => {
-                let power = -1.0 / (self.order + 1.0);
+                let power = -1.0 / (ORDER + 1.0);
                 let wanted = SAFETY * Real::powf(trial.estimate.max(1e-9), power);
                 self.smooth(h, wanted, holds)
             }

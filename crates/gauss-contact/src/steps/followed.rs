@@ -65,7 +65,10 @@ pub(super) fn part<const N: usize, L: ContactSystem<Scalar = Dual<N>>>(
     };
     let foreseen = match (scheme, state.acceleration) {
         (StepScheme::Midpoint, Some(acceleration)) => z.add_scaled(number(0.5 * h), &acceleration),
-        _ => z,
+        (StepScheme::Midpoint, None) => z,
+        (StepScheme::MoreauJean, _) => {
+            z.add_scaled(number(0.5 * h), &kernel.acceleration(t + number(0.5 * h), &q, &z, input))
+        }
     };
     let mut used = foreseen;
     for (taken, (how, by)) in &part.before {

@@ -8,13 +8,12 @@ use crate::residual::Residual;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum StepScheme {
-    /// Moreau and Jean's, θ = ½: accelerations at half of the step, with the speeds before it. Of second order where
-    /// forces depend on places alone, else of first. Where forces at the mean speeds would change a speed by more than
-    /// a millionth of it, as of a body that spins, the step is made again with these.
+    /// Moreau and Jean's, θ = ½: accelerations at half of the step, with the mean of the speeds before it and after it,
+    /// from attempts with foreseen ones. A step is a smooth function of its start alone, and is made three times.
     MoreauJean,
-    /// The same with the speeds at half of the step, by the accelerations of the step before: of second order between
-    /// impacts, for the same work but in steps after impacts, which are made twice, and in those whose mean speeds turn
-    /// out to be other ones, as of a body that spins fast.
+    /// The same with the speeds at half of the step that the acceleration of the step before foresees, for a third of the
+    /// work: only the first step and those after impacts are made twice, and those whose mean speeds turn out to be
+    /// other ones, as of a body that spins fast.
     #[default]
     Midpoint,
 }

@@ -289,13 +289,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         Ok(first.and(second))
     }
 
-    /// Half of a step, given the rate of places before it, and whether its speeds are those that the scheme wants.
+    /// Half of a step, given the rate of places before it, and whether its speeds are foreseen, not those before it.
     pub(super) fn middle(&self, h: f64, rate: &TangentOf<K>) -> (Middle<K>, bool) {
         let (t, q) = (self.t + 0.5 * h, motion::half_way::<K>(h, &self.q, rate));
         match (self.scheme, self.acceleration) {
-            (StepScheme::MoreauJean, _) => (Middle { t, q, z: self.z }, true),
             (StepScheme::Midpoint, Some(rate)) => (Middle { t, q, z: self.z.add_scaled(0.5 * h, &rate) }, true),
-            (StepScheme::Midpoint, None) => (Middle { t, q, z: self.z }, false),
+            _ => (Middle { t, q, z: self.z }, false),
         }
     }
 

@@ -38,7 +38,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
     fn begin_alike(&self, h: f64) -> bool {
         let of = |lane: usize| &self.steppers[lane];
         let law = |lane: usize| (of(lane).law, of(lane).tolerance.to_bits(), of(lane).dependent, of(lane).scheme);
-        let known = |lane: usize| of(lane).scheme == StepScheme::MoreauJean || of(lane).acceleration.is_some();
+        let known = |lane: usize| of(lane).scheme == StepScheme::Midpoint && of(lane).acceleration.is_some();
         let closed = |i: usize| self.alike(|lane| of(lane).modes[i].is_closed());
         let goes_on = |lane: usize| !self.halted[lane] && known(lane);
         (h > 0.0 && h.is_finite() && of(0).law == StepLaw::Coulomb && !of(0).flies())
@@ -68,10 +68,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let state = self.packed.take().unwrap_or_else(|| self.pack());
         let (half, end) = (W::Scalar::from_f64(0.5 * h), state.t + W::Scalar::from_f64(h));
         let rate = self.wide.kinematics(state.t, &state.q, &state.z);
-        let z = match self.steppers[0].scheme {
-            StepScheme::MoreauJean => state.z,
-            StepScheme::Midpoint => state.z.add_scaled(half, &state.acceleration),
-        };
+        let z = state.z.add_scaled(half, &state.acceleration);
         let middle = Middle::<W> { t: state.t + half, q: motion::half_way::<W>(h, &state.q, &rate), z };
         let friction = self.wide.friction(middle.t, &middle.q, &middle.z, input);
         let laws = Laws::<W>::new(h, &friction).ok()?;

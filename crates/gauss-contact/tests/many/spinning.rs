@@ -95,12 +95,10 @@ fn a_ball_that_spins_in_the_air_flies_straight() {
             let before = kernel.kinetic_energy(0.0, &start, &z);
             for step in &run {
                 let energy = kernel.kinetic_energy(0.0, &step.state.q, &step.state.z);
-                assert!(
-                    (energy / before - 1.0).abs() < 2e-5,
-                    "{scheme:?} {omega} {} {}",
-                    step.state.t,
-                    energy / before
-                );
+                let (gain, t) = (energy / before - 1.0, step.state.t);
+                // Without a memory x⁶/32 of what turns by x goes, in parts of up to a fifth of a radian.
+                let lost = if scheme == StepScheme::MoreauJean { 0.2_f64.powi(5) / 32.0 * omega * t } else { 0.0 };
+                assert!((-2e-5 - lost..2e-5).contains(&gain), "{scheme:?} {omega} {t} {gain:e}");
             }
             let end = run.last().unwrap().state.q.translation.vector;
             let off = (end - Vector3::new(v, 0.0, 50.0)).norm();
@@ -139,7 +137,9 @@ fn a_ball_that_rolls_keeps_its_speed() {
             let run = run.unwrap();
             for step in &run {
                 let u = SVector::<f64, 3>::from_fn(|i, _| step.state.z[i]);
-                assert!((u.norm() / v - 1.0).abs() < 1e-3, "{scheme:?} {r} {} {}", step.state.t, u.norm());
+                // By a millionth of it in each step at most.
+                let allowed = 1e-3_f64.max(1e-6 * step.state.t / h);
+                assert!((u.norm() / v - 1.0).abs() < allowed, "{scheme:?} {r} {} {}", step.state.t, u.norm());
             }
             let end = run.last().unwrap().state.q.translation.vector;
             // Of parts in which it turns by ωh places err by (ωh)²/24, at most (1/5)²/24.
