@@ -98,7 +98,11 @@ impl Loss {
 
     /// Whether nobody needs to pay for more.
     pub fn is_tolerable(&self) -> bool {
-        self.worst() <= TOLERABLE && self.median() <= ORDINARY
+        self.is_within(TOLERABLE)
+    }
+
+    fn is_within(&self, tolerable: f64) -> bool {
+        self.worst() <= tolerable && self.median() <= ORDINARY
     }
 }
 
@@ -265,22 +269,26 @@ const VANISHING: f64 = 1.0 / 1024.0;
 
 /// Three decimal places may go at an extreme state where keeping them costs a quarter more: nobody pays for them who
 /// has ordinary numbers. One may at half of the states: where more do, it is the scene that is extreme, not the state.
+/// Where keeping them costs [`DEAR`] times as much, some more may go.
 const TOLERABLE: f64 = 1e3;
+const TOLERABLE_WHERE_DEAR: f64 = 1e5;
 const ORDINARY: f64 = 10.0;
 
 /// What a form may cost at the most that keeps digits at a state that was sought, where nearly all are lost otherwise.
 const DEAR: u32 = 2;
 
-/// Of programs with their costs the one that is taken: the cheapest that keeps the digits; or, where that is dear, the
+/// The program that is taken of those with these costs: the cheapest that keeps the digits; or, where that is dear, the
 /// cheapest whose loss is tolerable.
 fn taken(losses: &[Loss], costs: &[u32]) -> usize {
     let cheapest = |flags: Vec<bool>| {
         let allowed = costs.iter().zip(flags).enumerate().filter(|(_, (_, allowed))| *allowed);
         allowed.map(|(k, (cost, _))| (k, *cost)).min_by_key(|(_, cost)| *cost)
     };
+    let within = |tolerable: f64| cheapest(losses.iter().map(|loss| loss.is_within(tolerable)).collect());
     let (best, cost) = cheapest(accurate(losses)).expect("a function has at least one arrangement");
-    match cheapest(losses.iter().map(Loss::is_tolerable).collect()) {
-        Some((other, less)) if 5 * less < 4 * cost => other,
+    match (within(TOLERABLE), within(TOLERABLE_WHERE_DEAR)) {
+        (Some((other, less)), _) if 5 * less < 4 * cost => other,
+        (_, Some((other, less))) if DEAR * less < cost => other,
         _ => best,
     }
 }

@@ -11,9 +11,9 @@ pub enum StepScheme {
     /// Moreau and Jean's, θ = ½: accelerations at half of the step, with the mean of the speeds before it and after it,
     /// from attempts with foreseen ones. A step is a smooth function of its start alone, and is made three times.
     MoreauJean,
-    /// The same with the speeds at half of the step that the acceleration of the step before foresees, for a third of the
-    /// work: only the first step and those after impacts are made twice, and those whose mean speeds turn out to be
-    /// other ones, as of a body that spins fast.
+    /// The same with the speeds at half of the step that the acceleration of the step before foresees, for a third of
+    /// the work: only the first step and those after impacts are made twice, and those whose mean speeds turn out to
+    /// be other ones, as of a body that spins fast.
     #[default]
     Midpoint,
 }

@@ -334,7 +334,7 @@ impl<'a> File<'a> {
         self.reading.numbers(carrier, name)
     }
 
-    /// The same of any count.
+    /// The same of any count. An element with fewer numbers than the defaults of its class keeps the rest of theirs.
     fn list(
         &mut self,
         node: Node<'a, 'a>,
@@ -342,8 +342,15 @@ impl<'a> File<'a> {
         name: &'static str,
         class: Option<&'a str>,
     ) -> Option<Vec<f64>> {
-        let carrier = self.classes.carrier((node, tags), name, class, &self.reading)?;
-        self.reading.list(carrier, name)
+        let carriers = self.classes.nearest((node, tags), class, &self.reading);
+        let carriers: Vec<_> = carriers.filter(|element| element.attribute(name).is_some()).collect();
+        let mut numbers: Option<Vec<f64>> = None;
+        for carrier in carriers {
+            let own = self.reading.list(carrier, name)?;
+            let numbers = numbers.get_or_insert_default();
+            numbers.extend(own.into_iter().skip(numbers.len()));
+        }
+        numbers
     }
 
     fn text(&self, node: Node<'a, 'a>, tags: &[&str], name: &'static str, class: Option<&'a str>) -> Option<&'a str> {

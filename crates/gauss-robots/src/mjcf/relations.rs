@@ -153,7 +153,9 @@ impl<'a> File<'a> {
     fn law(&mut self, node: Node<'a, 'a>) -> TendonLaw {
         let tags = &["tendon"];
         let (stiffness, damping, nonlinear) = self.springs_of(node, tags, None);
-        let written = self.list(node, tags, "springlength", None).unwrap_or_default();
+        // One number is both, whatever defaults have.
+        let carrier = self.classes.carrier((node, tags), "springlength", None, &self.reading);
+        let written = carrier.and_then(|carrier| self.reading.list(carrier, "springlength")).unwrap_or_default();
         let rest = match written.as_slice() {
             // MuJoCo's word for that.
             [] | [-1.0] | [-1.0, -1.0, ..] => None,

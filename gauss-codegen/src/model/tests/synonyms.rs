@@ -94,7 +94,7 @@ fn methods_for_clauses() {
 #[test]
 fn all_methods_of_runs() {
     const RUNS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../gauss-runtime/src/integrate/drive/runs");
-    // Those that nobody takes for a clause of a scene: constructors, what is asked of a simulation, what fronts hand on.
+    // Those that nobody takes for a clause of a scene: constructors, questions to a simulation, what fronts hand on.
     let others = ["new", "of", "problem", "boxed", "control", "events_by"];
     let mut found = Vec::new();
     for file in ["simulation.rs", "sampling.rs"] {
