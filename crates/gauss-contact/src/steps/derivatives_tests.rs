@@ -51,6 +51,8 @@ struct Tally {
     slides: usize,
     closed: usize,
     impacts: usize,
+    /// Runs that end where a step was not solved to [`TIGHT`].
+    unsolved: usize,
 }
 
 fn kinds(modes: &[Mode]) -> Vec<core::mem::Discriminant<Mode>> {
@@ -148,7 +150,7 @@ fn compare<S, const P: usize, const N: usize, const D: usize, const U: usize>(
     let kept = stepper.kept();
     let found = match stepper.step_with_derivatives::<S::InDuals, N, D, U, P>(h, input, &dual) {
         Ok(found) => found,
-        Err(ContactError { kind: ContactErrorKind::NoDerivative, .. }) => {
+        Err(ContactError { kind: ContactErrorKind::NoDerivative | ContactErrorKind::Unsolved { .. }, .. }) => {
             tally.none += 1;
             return;
         }
@@ -212,10 +214,20 @@ where
             if n % 5 == 4 {
                 compare::<S, P, N, D, U>(&mut stepper, h, &input, &mut tally);
             } else {
-                stepper.step(h, &input).unwrap();
+                match stepper.step(h, &input) {
+                    // Within 1e-8, as laws are solved unless said otherwise, it is.
+                    Err(ContactError { kind: ContactErrorKind::Unsolved { residual }, .. }) => {
+                        assert!(residual.worst() < 1e-8, "{residual:?}");
+                        tally.unsolved += 1;
+                        break;
+                    }
+                    made => drop(made.unwrap()),
+                }
             }
         }
     }
+    // Of corners that jam the solver leaves 1e-10 now and then.
+    assert!(3 * tally.unsolved <= runs, "{tally:?}");
     tally
 }
 

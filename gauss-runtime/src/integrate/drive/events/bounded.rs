@@ -2,7 +2,7 @@
 //!
 //! Where a function is f₀ and f₁ at the ends of a part of a step of length h and changes by no more than L in a unit of
 //! time, it stays above zero in that part if f₀ + f₁ > L h. Else the part is halved, on the curve of the step, up to
-//! [`HALVINGS`] times; near zero the curve is replaced by states that the method itself reaches. In what is left, some
+//! seven times; near zero the curve is replaced by states that the method itself reaches. In what is left, some
 //! thousandths of a step next to zero, the slopes at its ends decide, as for functions without a bound; at an eighth of
 //! a step already where the function is a parabola there, as the gaps of what bounces low are: else each of its bounces
 //! would be a hundred steps.
