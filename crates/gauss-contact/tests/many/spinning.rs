@@ -102,7 +102,9 @@ fn a_ball_that_spins_in_the_air_flies_straight() {
             }
             let end = run.last().unwrap().state.q.translation.vector;
             let off = (end - Vector3::new(v, 0.0, 50.0)).norm();
-            assert!(off < 0.01 * v, "{scheme:?} {omega} {off}");
+            // Without a memory what turns by x lags by x³/12, and the way leans by half of what it lags by in the end.
+            let lags = if scheme == StepScheme::MoreauJean { omega * (omega * h).min(0.2).powi(2) / 24.0 } else { 0.0 };
+            assert!(off < (0.01 + lags) * v, "{scheme:?} {omega} {off}");
         }
     }
 }
@@ -142,8 +144,10 @@ fn a_ball_that_rolls_keeps_its_speed() {
                 assert!((u.norm() / v - 1.0).abs() < allowed, "{scheme:?} {r} {} {}", step.state.t, u.norm());
             }
             let end = run.last().unwrap().state.q.translation.vector;
-            // Of parts in which it turns by ωh places err by (ωh)²/24, at most (1/5)²/24.
-            assert!((end - Vector3::new(5.0 * v, 0.0, r)).norm() < 5.0 * v / 500.0, "{scheme:?} {r} {end}");
+            // Of parts in which it turns by x = ωh places err by x²/24, without a memory speeds by x²/12. x is 1/5 at
+            // most, and speeds may have changed by what is allowed.
+            let off = if scheme == StepScheme::MoreauJean { 1.0 / 200.0 + 5e-6 / h } else { 1.0 / 500.0 };
+            assert!((end - Vector3::new(5.0 * v, 0.0, r)).norm() < 5.0 * v * off, "{scheme:?} {r} {end}");
         }
     }
 }
