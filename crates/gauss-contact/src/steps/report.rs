@@ -9,7 +9,8 @@ use crate::residual::Residual;
 #[non_exhaustive]
 pub enum StepScheme {
     /// Moreau and Jean's, θ = ½: accelerations at half of the step, with the mean of the speeds before it and after it,
-    /// from attempts with foreseen ones. A step is a smooth function of its start alone, and is made three times.
+    /// from attempts with foreseen ones. A step is a function of its start alone, and is made three times; it is smooth
+    /// in its start but where it is made again, as of a body that turns by more than a tenth of a radian.
     MoreauJean,
     /// The same with the speeds at half of the step that the acceleration of the step before foresees, for a third of
     /// the work: only the first step and those after impacts are made twice, and those whose mean speeds turn out to
