@@ -513,4 +513,8 @@ impl<K: ContactSystem> GaussSystem for InMode<'_, K> {
         let q = self.close_gaps(t, q)?;
         Ok((q, self.stop_rates(t, &q, z)))
     }
+
+    fn dependence(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> K::Speeds {
+        self.kernel.dependence(t, q, z)
+    }
 }

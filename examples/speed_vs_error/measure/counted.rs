@@ -103,6 +103,11 @@ impl<S: GaussSystem> GaussSystem for Counted<S> {
         self.kernel.project(t, q, z)
     }
 
+    #[inline(always)]
+    fn dependence(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Speeds {
+        self.kernel.dependence(t, q, z)
+    }
+
     fn mass_matrix(&self, t: S::Scalar, q: &S::Configuration) -> S::MassMatrix {
         self.kernel.mass_matrix(t, q)
     }

@@ -188,6 +188,10 @@ impl<'g> Subject<'_, 'g> {
             ) -> ::core::result::Result<(Self::Configuration, Self::Speeds), #private::ProjectionError> {
                 #private::project(self, __t, __q, __z)
             }
+            #[inline]
+            fn dependence(&self, __t: Self::Scalar, __q: &Self::Configuration, __z: &Self::Speeds) -> Self::Speeds {
+                #private::dependence(self, __t, __q, __z)
+            }
         }
     }
 

@@ -122,6 +122,19 @@ pub fn project<S: ConstrainedSystem>(
     Ok((q, z))
 }
 
+/// The least speeds that change rates of the constraints by unlike parts: [`GaussSystem::dependence`] of constrained
+/// systems.
+pub fn dependence<S: ConstrainedSystem>(system: &S, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Speeds {
+    let mut rates = S::Multipliers::zero();
+    (0..S::Multipliers::DIM).for_each(|i| rates.set_component(i, S::Scalar::from_f64(unlike(i))));
+    system.velocity_correction(t, q, z, &rates)
+}
+
+/// A number from 1 to 2 for each component: multiples of the golden ratio are spread evenly and never equal.
+fn unlike(i: usize) -> f64 {
+    1.0 + f64::from((i as u32).wrapping_mul(0x9E37_79B9)) / 4_294_967_296.0
+}
+
 /// Damped Newton's method on one level: functions for the residual, for the correction, and for moving a point.
 struct Search<T, R, C, M, N, F> {
     level: ConstraintLevel,
@@ -223,9 +236,7 @@ impl<T: Real, R, C, M, N, F> Search<T, R, C, M, N, F> {
         let digits = Real::sqrt(T::EPSILON) * (self.size)(point) + 4096.0 * T::EPSILON;
         let mut step = K::zero();
         for i in 0..K::DIM {
-            // Multiples of the golden ratio are spread evenly and never equal.
-            let part = f64::from((i as u32).wrapping_mul(0x9E37_79B9)) / 4_294_967_296.0;
-            step.set_component(i, T::from_f64(digits * (1.0 + part)));
+            step.set_component(i, T::from_f64(digits * unlike(i)));
         }
         let changed = (self.residual)(&(self.moved)(point, &step)).add_scaled(-T::one(), left);
         left.max_norm() <= changed.max_norm()

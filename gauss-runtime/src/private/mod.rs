@@ -26,7 +26,7 @@ pub use crate::accuracy::{Accuracy, Loss};
 pub use crate::centroidal::{CentroidalSystem, GravityTorques};
 pub use crate::chart::{Chart, ChartError, EulerSequence, RotationChart};
 pub use crate::configuration::Configuration;
-pub use crate::constraint::{ConstrainedSystem, ProjectionError, project};
+pub use crate::constraint::{ConstrainedSystem, ProjectionError, dependence, project};
 pub use crate::contact::{
     Contact, ContactFrame, ContactSystem, ImpulseDynamics, ImpulseResponse, impulse_terms, impulse_velocities,
 };

@@ -4,228 +4,74 @@ use gauss_batch::{Batch, RunOutcome, States};
 use gauss_runtime::integrate::{Control, Fixed};
 use gauss_runtime::prelude::*;
 
-/// Two four-bar linkages in a row (IFToMM benchmark A02, with N = 2): every rod has a length of 1 m and a mass of 1 kg,
-/// and when all lie on the line through the bearings the constraints depend on one another.
-#[derive(GaussDynamics)]
-#[gauss(
-    coordinates(a0, a1, a2, b0, b1),
-    body(first, rotation = rotation_z(a0)),
-    body(second, position = [1, 0, 0], rotation = rotation_z(a1)),
-    body(third, position = [2, 0, 0], rotation = rotation_z(a2)),
-    body(left, position = [cos(a0), sin(a0), 0], rotation = rotation_z(b0)),
-    body(right, position = [1 + cos(a1), sin(a1), 0], rotation = rotation_z(b1)),
-    point(top, body = second, at = [1, 0, 0]),
-    point(last, body = third, at = [1, 0, 0]),
-    point(end_of_left, body = left, at = [1, 0, 0]),
-    point(end_of_right, body = right, at = [1, 0, 0]),
-    constraint(position = end_of_left - top),
-    constraint(position = end_of_right - last),
-    taylor
-)]
-struct Row<T> {
-    #[gauss(body)]
-    first: RigidBody<T>,
-    #[gauss(body)]
-    second: RigidBody<T>,
-    #[gauss(body)]
-    third: RigidBody<T>,
-    #[gauss(body)]
-    left: RigidBody<T>,
-    #[gauss(body)]
-    right: RigidBody<T>,
-    #[gauss(gravity)]
-    g: Vector3<T>,
-}
-
-/// The same with N = 5.
-#[derive(GaussDynamics)]
-#[gauss(
-    coordinates(a0, a1, a2, a3, a4, a5, b0, b1, b2, b3, b4),
-    body(post0, position = [0, 0, 0], rotation = rotation_z(a0)),
-    body(post1, position = [1, 0, 0], rotation = rotation_z(a1)),
-    body(post2, position = [2, 0, 0], rotation = rotation_z(a2)),
-    body(post3, position = [3, 0, 0], rotation = rotation_z(a3)),
-    body(post4, position = [4, 0, 0], rotation = rotation_z(a4)),
-    body(post5, position = [5, 0, 0], rotation = rotation_z(a5)),
-    body(beam0, position = [cos(a0), sin(a0), 0], rotation = rotation_z(b0)),
-    body(beam1, position = [1 + cos(a1), sin(a1), 0], rotation = rotation_z(b1)),
-    body(beam2, position = [2 + cos(a2), sin(a2), 0], rotation = rotation_z(b2)),
-    body(beam3, position = [3 + cos(a3), sin(a3), 0], rotation = rotation_z(b3)),
-    body(beam4, position = [4 + cos(a4), sin(a4), 0], rotation = rotation_z(b4)),
-    point(top1, body = post1, at = [1, 0, 0]),
-    point(end1, body = beam0, at = [1, 0, 0]),
-    constraint(position = end1 - top1),
-    point(top2, body = post2, at = [1, 0, 0]),
-    point(end2, body = beam1, at = [1, 0, 0]),
-    constraint(position = end2 - top2),
-    point(top3, body = post3, at = [1, 0, 0]),
-    point(end3, body = beam2, at = [1, 0, 0]),
-    constraint(position = end3 - top3),
-    point(top4, body = post4, at = [1, 0, 0]),
-    point(end4, body = beam3, at = [1, 0, 0]),
-    constraint(position = end4 - top4),
-    point(top5, body = post5, at = [1, 0, 0]),
-    point(end5, body = beam4, at = [1, 0, 0]),
-    constraint(position = end5 - top5)
-)]
-struct Five {
-    #[gauss(body)]
-    post0: RigidBody<f64>,
-    #[gauss(body)]
-    post1: RigidBody<f64>,
-    #[gauss(body)]
-    post2: RigidBody<f64>,
-    #[gauss(body)]
-    post3: RigidBody<f64>,
-    #[gauss(body)]
-    post4: RigidBody<f64>,
-    #[gauss(body)]
-    post5: RigidBody<f64>,
-    #[gauss(body)]
-    beam0: RigidBody<f64>,
-    #[gauss(body)]
-    beam1: RigidBody<f64>,
-    #[gauss(body)]
-    beam2: RigidBody<f64>,
-    #[gauss(body)]
-    beam3: RigidBody<f64>,
-    #[gauss(body)]
-    beam4: RigidBody<f64>,
-    #[gauss(gravity)]
-    g: Vector3<f64>,
-}
-
-/// The same with N = 10.
-#[derive(GaussDynamics)]
-#[gauss(
-    coordinates(a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, b0, b1, b2, b3, b4, b5, b6, b7, b8, b9),
-    body(post0, position = [0, 0, 0], rotation = rotation_z(a0)),
-    body(post1, position = [1, 0, 0], rotation = rotation_z(a1)),
-    body(post2, position = [2, 0, 0], rotation = rotation_z(a2)),
-    body(post3, position = [3, 0, 0], rotation = rotation_z(a3)),
-    body(post4, position = [4, 0, 0], rotation = rotation_z(a4)),
-    body(post5, position = [5, 0, 0], rotation = rotation_z(a5)),
-    body(post6, position = [6, 0, 0], rotation = rotation_z(a6)),
-    body(post7, position = [7, 0, 0], rotation = rotation_z(a7)),
-    body(post8, position = [8, 0, 0], rotation = rotation_z(a8)),
-    body(post9, position = [9, 0, 0], rotation = rotation_z(a9)),
-    body(post10, position = [10, 0, 0], rotation = rotation_z(a10)),
-    body(beam0, position = [cos(a0), sin(a0), 0], rotation = rotation_z(b0)),
-    body(beam1, position = [1 + cos(a1), sin(a1), 0], rotation = rotation_z(b1)),
-    body(beam2, position = [2 + cos(a2), sin(a2), 0], rotation = rotation_z(b2)),
-    body(beam3, position = [3 + cos(a3), sin(a3), 0], rotation = rotation_z(b3)),
-    body(beam4, position = [4 + cos(a4), sin(a4), 0], rotation = rotation_z(b4)),
-    body(beam5, position = [5 + cos(a5), sin(a5), 0], rotation = rotation_z(b5)),
-    body(beam6, position = [6 + cos(a6), sin(a6), 0], rotation = rotation_z(b6)),
-    body(beam7, position = [7 + cos(a7), sin(a7), 0], rotation = rotation_z(b7)),
-    body(beam8, position = [8 + cos(a8), sin(a8), 0], rotation = rotation_z(b8)),
-    body(beam9, position = [9 + cos(a9), sin(a9), 0], rotation = rotation_z(b9)),
-    point(top1, body = post1, at = [1, 0, 0]),
-    point(end1, body = beam0, at = [1, 0, 0]),
-    constraint(position = end1 - top1),
-    point(top2, body = post2, at = [1, 0, 0]),
-    point(end2, body = beam1, at = [1, 0, 0]),
-    constraint(position = end2 - top2),
-    point(top3, body = post3, at = [1, 0, 0]),
-    point(end3, body = beam2, at = [1, 0, 0]),
-    constraint(position = end3 - top3),
-    point(top4, body = post4, at = [1, 0, 0]),
-    point(end4, body = beam3, at = [1, 0, 0]),
-    constraint(position = end4 - top4),
-    point(top5, body = post5, at = [1, 0, 0]),
-    point(end5, body = beam4, at = [1, 0, 0]),
-    constraint(position = end5 - top5),
-    point(top6, body = post6, at = [1, 0, 0]),
-    point(end6, body = beam5, at = [1, 0, 0]),
-    constraint(position = end6 - top6),
-    point(top7, body = post7, at = [1, 0, 0]),
-    point(end7, body = beam6, at = [1, 0, 0]),
-    constraint(position = end7 - top7),
-    point(top8, body = post8, at = [1, 0, 0]),
-    point(end8, body = beam7, at = [1, 0, 0]),
-    constraint(position = end8 - top8),
-    point(top9, body = post9, at = [1, 0, 0]),
-    point(end9, body = beam8, at = [1, 0, 0]),
-    constraint(position = end9 - top9),
-    point(top10, body = post10, at = [1, 0, 0]),
-    point(end10, body = beam9, at = [1, 0, 0]),
-    constraint(position = end10 - top10)
-)]
-struct Ten {
-    #[gauss(body)]
-    post0: RigidBody<f64>,
-    #[gauss(body)]
-    post1: RigidBody<f64>,
-    #[gauss(body)]
-    post2: RigidBody<f64>,
-    #[gauss(body)]
-    post3: RigidBody<f64>,
-    #[gauss(body)]
-    post4: RigidBody<f64>,
-    #[gauss(body)]
-    post5: RigidBody<f64>,
-    #[gauss(body)]
-    post6: RigidBody<f64>,
-    #[gauss(body)]
-    post7: RigidBody<f64>,
-    #[gauss(body)]
-    post8: RigidBody<f64>,
-    #[gauss(body)]
-    post9: RigidBody<f64>,
-    #[gauss(body)]
-    post10: RigidBody<f64>,
-    #[gauss(body)]
-    beam0: RigidBody<f64>,
-    #[gauss(body)]
-    beam1: RigidBody<f64>,
-    #[gauss(body)]
-    beam2: RigidBody<f64>,
-    #[gauss(body)]
-    beam3: RigidBody<f64>,
-    #[gauss(body)]
-    beam4: RigidBody<f64>,
-    #[gauss(body)]
-    beam5: RigidBody<f64>,
-    #[gauss(body)]
-    beam6: RigidBody<f64>,
-    #[gauss(body)]
-    beam7: RigidBody<f64>,
-    #[gauss(body)]
-    beam8: RigidBody<f64>,
-    #[gauss(body)]
-    beam9: RigidBody<f64>,
-    #[gauss(gravity)]
-    g: Vector3<f64>,
-}
-
-fn rod<T: Real>() -> RigidBody<T> {
-    let number = T::from_f64;
-    RigidBody {
-        mass: number(1.0),
-        center_of_mass: Vector3::new(0.5, 0.0, 0.0).map(number),
-        inertia: Matrix3::from_diagonal(&Vector3::new(1e-6, 1.0 / 3.0, 1.0 / 3.0)).map(number),
-    }
-}
-
-fn row<T: Real>() -> RowKernel<T> {
-    let g = Vector3::new(0.0, -9.81, 0.0).map(T::from_f64);
-    Row { first: rod(), second: rod(), third: rod(), left: rod(), right: rod(), g }.kernel().unwrap()
-}
-
-/// A row of rods, by the names of the fields.
-macro_rules! rods {
-    ($name:ident: $($field:ident)+) => {
-        $name { $($field: rod(),)+ g: Vector3::new(0.0, -9.81, 0.0) }.kernel().unwrap()
+/// Four-bar linkages in a row (IFToMM benchmark A02): every rod has a length of 1 m and a mass of 1 kg, and when all lie
+/// on the line through the bearings the constraints depend on one another. In brackets each post with its place and its
+/// angle, the beam from its top, and the angle of the next post.
+macro_rules! row {
+    ($(#[$note:meta])* $name:ident, $last:ident $place:literal $angle:ident $(, $clause:ident)?:
+     $(($post:ident $x:literal $a:ident $beam:ident $b:ident $next:ident))+) => {
+        $(#[$note])*
+        #[derive(GaussDynamics)]
+        #[gauss(
+            coordinates($($a,)+ $angle, $($b),+),
+            $(body($post, position = [$x, 0, 0], rotation = rotation_z($a), mass = 1, center_of_mass = [0.5, 0, 0],
+                   inertia_about_center_of_mass = [0, 1 / 12, 1 / 12]),)+
+            body($last, position = [$place, 0, 0], rotation = rotation_z($angle), mass = 1,
+                 center_of_mass = [0.5, 0, 0], inertia_about_center_of_mass = [0, 1 / 12, 1 / 12]),
+            $(body($beam, position = [$x + cos($a), sin($a), 0], rotation = rotation_z($b), mass = 1,
+                   center_of_mass = [0.5, 0, 0], inertia_about_center_of_mass = [0, 1 / 12, 1 / 12]),)+
+            $(constraint(position = [cos($a) + cos($b) - 1 - cos($next), sin($a) + sin($b) - sin($next), 0]),)+
+            $($clause)?
+        )]
+        struct $name<T> {
+            #[gauss(gravity)]
+            g: Vector3<T>,
+        }
     };
 }
 
-fn five() -> FiveKernel {
-    rods!(Five: post0 post1 post2 post3 post4 post5 beam0 beam1 beam2 beam3 beam4)
+row!(One, p1 1 a1: (p0 0 a0 c0 b0 a1));
+row!(OneRedundant, p1 1 a1, redundant: (p0 0 a0 c0 b0 a1));
+row!(Two, p2 2 a2, taylor: (p0 0 a0 c0 b0 a1) (p1 1 a1 c1 b1 a2));
+row!(
+    Five, p5 5 a5: (p0 0 a0 c0 b0 a1) (p1 1 a1 c1 b1 a2) (p2 2 a2 c2 b2 a3) (p3 3 a3 c3 b3 a4) (p4 4 a4 c4 b4 a5)
+);
+row!(
+    Ten, p10 10 a10:
+    (p0 0 a0 c0 b0 a1) (p1 1 a1 c1 b1 a2) (p2 2 a2 c2 b2 a3) (p3 3 a3 c3 b3 a4) (p4 4 a4 c4 b4 a5)
+    (p5 5 a5 c5 b5 a6) (p6 6 a6 c6 b6 a7) (p7 7 a7 c7 b7 a8) (p8 8 a8 c8 b8 a9) (p9 9 a9 c9 b9 a10)
+);
+
+/// Weight of each rod, over its mass.
+const G: f64 = 9.81;
+
+/// A kernel of a row.
+macro_rules! kernel {
+    ($name:ident<$scalar:ty>) => {
+        $name { g: Vector3::new(0.0, -G, 0.0).map(<$scalar>::from_f64) }.kernel().unwrap()
+    };
 }
 
-fn ten() -> TenKernel {
-    rods!(Ten: post0 post1 post2 post3 post4 post5 post6 post7 post8 post9 post10
-               beam0 beam1 beam2 beam3 beam4 beam5 beam6 beam7 beam8 beam9)
+/// On the branch by which it comes a row of n four-bars is a pendulum upside down: all posts are parallel, and beams
+/// keep their direction, so that `((n + 1)/3 + n) θ'' = g ((n + 1)/2 + n) sin θ` with rods of unit mass and length.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(angle),
+    particle(mass = 1, position = [length * cos(angle), length * sin(angle), 0])
+)]
+struct Swing {
+    length: f64,
+    #[gauss(gravity)]
+    g: Vector3<f64>,
+}
+
+/// The angle and the rate of posts after some time.
+fn swung(four_bars: f64, end: f64) -> (f64, f64) {
+    let length = ((four_bars + 1.0) / 3.0 + four_bars) / ((four_bars + 1.0) / 2.0 + four_bars);
+    let swing = Swing { length, g: Vector3::new(0.0, -G, 0.0) }.kernel().unwrap();
+    let (angle, rate) = (SVector::from([std::f64::consts::FRAC_PI_2]), SVector::from([-1.0]));
+    let end = Simulation::new(&swing).adaptive(1e-13, 1e-13).run_to_end(angle, rate, 0.0..end).unwrap();
+    (end.q[0], end.z[0])
 }
 
 /// A row of four-bars upright, with Ḃ₀ₓ = 1 m/s: as many angles of posts as there are, and one fewer of beams.
@@ -234,9 +80,18 @@ fn upright<const N: usize>() -> (SVector<f64, N>, SVector<f64, N>) {
     (of_posts(std::f64::consts::FRAC_PI_2), of_posts(-1.0))
 }
 
-/// What a run kept of its energy, and how it ended; 10 s hold nine passages of the singular position for one that gets
-/// through.
-fn passages<const N: usize, K, C>(kernel: &K, control: C, end: f64) -> (f64, usize, Option<IntegrationErrorKind>)
+/// How far a run is off at its end.
+struct Passage {
+    /// Its energy.
+    energy: f64,
+    /// The angles of posts and beams, and their rates, from those of the pendulum.
+    motion: f64,
+    steps: usize,
+    ended: Option<IntegrationErrorKind>,
+}
+
+/// A run, of which 10 s hold nine passages of the singular position for one that gets through.
+fn passages<const N: usize, K, C>(kernel: &K, control: C, end: f64) -> Passage
 where
     K: GaussSystem<Scalar = f64, Configuration = SVector<f64, N>, Speeds = SVector<f64, N>, Input = ()>,
     C: Control<K>,
@@ -249,43 +104,70 @@ where
     let (posts, beams) = ((N + 1) as f64 / 2.0, (N - 1) as f64 / 2.0);
     let expected = posts / 6.0 + 0.5 * beams + 9.81 * (0.5 * posts + beams);
     assert!((before - expected).abs() < 1e-9, "{before}");
-    (kernel.energy(last.t, &last.q, &last.z) - before, trajectory.len(), error.map(|error| error.kind))
+    let (angle, rate) = swung((N - 1) as f64 / 2.0, last.t);
+    let (at, with) = upright::<N>();
+    let off = |i: usize| (last.q[i] - angle * at[i] / at[0]).abs().max((last.z[i] + rate * with[i]).abs());
+    Passage {
+        energy: kernel.energy(last.t, &last.q, &last.z) - before,
+        motion: (0..N).map(off).fold(0.0, f64::max),
+        steps: trajectory.len(),
+        ended: error.map(|error| error.kind),
+    }
 }
 
-/// Whether a run has kept its energy within its tolerance and ended as it may; whether it got through.
+/// Whether a run has kept its energy within its tolerance and ended as it may; whether it got through, on the branch by
+/// which it came.
 ///
 /// In each step a component of the state is off by √N tolerances at most, the mean over N being one, and the projection
 /// moves it by no more than ten times that. The energy changes with the components by what its gradient is: momenta,
 /// whose sum is 0.7 m of each rod at 5 m/s at most, and weights with levers, 9.81 N at 1 m and less for each.
-fn keeps<const N: usize>(
-    name: &str,
-    tolerance: f64,
-    (change, steps, ended): (f64, usize, Option<IntegrationErrorKind>),
-) -> bool {
-    let rods = N as f64;
-    let bound = 11.0 * (2.0 * rods).sqrt() * tolerance * steps as f64 * rods * (0.7 * 5.0 + 9.81);
-    assert!(change.abs() <= bound, "{name}, {tolerance:e}: {change:e} J in {steps} steps, {ended:?}");
+fn keeps<const N: usize>(name: &str, tolerance: f64, passage: Passage) -> bool {
+    let (rods, Passage { energy, motion, steps, ended }) = (N as f64, passage);
+    let off = 11.0 * (2.0 * rods).sqrt() * tolerance * steps as f64;
     let told = matches!(ended, None | Some(IntegrationErrorKind::ProjectionTooFar { .. }));
     assert!(told, "{name}, {tolerance:e}: {ended:?}");
+    let bound = off * rods * (0.7 * 5.0 + 9.81);
+    assert!(energy.abs() <= bound, "{name}, {tolerance:e}: {energy:e} J in {steps} steps, {ended:?}");
+    // A rate that is off adds up over 10 s; next to the place where a run ends rates are not known as well.
+    assert!(ended.is_some() || motion <= 11.0 * off, "{name}, {tolerance:e}: {motion:e} in {steps} steps");
     ended.is_none()
 }
 
-/// Where constraints become dependent the projection once took all of the energy away, and the run was `Ok`.
+/// Where constraints become dependent the projection once took all of the energy away, and the run was `Ok`; then it
+/// was refused.
 #[test]
-fn energy_is_kept_at_singular_positions_or_the_run_ends_with_the_reason() {
-    let (two, five, ten) = (row::<f64>(), five(), ten());
-    let mut through = 0;
-    for power in 6..=12 {
+fn singular_positions_are_passed_on_the_branch_by_which_a_motion_comes() {
+    let (one, two, five, ten) = (kernel!(One<f64>), kernel!(Two<f64>), kernel!(Five<f64>), kernel!(Ten<f64>));
+    let redundant = kernel!(OneRedundant<f64>);
+    for power in 6..=9 {
         for tolerance in [1.0, 2.0, 5.0].map(|factor| factor * 10_f64.powi(-power)) {
-            let run = passages(&two, Adaptive::new(tolerance, tolerance), 10.0);
-            through += usize::from(keeps::<5>("two", tolerance, run));
+            let control = Adaptive::new(tolerance, tolerance);
+            assert!(keeps::<3>("one", tolerance, passages(&one, control, 10.0)), "one, {tolerance:e}");
+            assert!(keeps::<5>("two", tolerance, passages(&two, control, 10.0)), "two, {tolerance:e}");
+            // Whose steps are those of a motion that may jump, as rows that come and go make it look.
+            let through = keeps::<3>("one, redundant", tolerance, passages(&redundant, control, 10.0));
+            assert!(through || power == 9, "one, redundant, {tolerance:e}");
+            assert!(keeps::<11>("five", tolerance, passages(&five, control, 10.0)), "five, {tolerance:e}");
+            assert!(keeps::<21>("ten", tolerance, passages(&ten, control, 10.0)), "ten, {tolerance:e}");
         }
+    }
+}
+
+/// Roundings grow by (h/δ)ᵖ in a step of length h from a distance δ, of ε/δ² in speeds to begin with: where that is more
+/// than the tolerance a run ends with the reason.
+#[test]
+fn energy_is_kept_where_digits_are_lost_or_the_run_ends_with_the_reason() {
+    let (one, two, five) = (kernel!(One<f64>), kernel!(Two<f64>), kernel!(Five<f64>));
+    for power in 6..=13 {
         let tolerance = 10_f64.powi(-power);
         keeps::<5>("two, Taylor", tolerance, passages(&two, Taylor::new(tolerance, tolerance), 10.0));
-        keeps::<11>("five", tolerance, passages(&five, Adaptive::new(tolerance, tolerance), 4.0));
-        keeps::<21>("ten", tolerance, passages(&ten, Adaptive::new(tolerance, tolerance), 1.0));
+        if power > 9 {
+            let control = Adaptive::new(tolerance, tolerance);
+            keeps::<3>("one", tolerance, passages(&one, control, 10.0));
+            keeps::<5>("two", tolerance, passages(&two, control, 10.0));
+            keeps::<11>("five", tolerance, passages(&five, control, 4.0));
+        }
     }
-    assert!(through >= 10, "{through} of 21 runs pass");
 }
 
 /// At a singular position lanes keep their energy or end with the reason, each by itself, and nearly always as they do
@@ -293,7 +175,7 @@ fn energy_is_kept_at_singular_positions_or_the_run_ends_with_the_reason() {
 /// these count.
 #[test]
 fn lanes_pass_singular_positions_as_alone() {
-    let (single, packs) = (row::<f64>(), row::<Lanes<f64, 4>>());
+    let (single, packs) = (kernel!(Two<f64>), kernel!(Two<Lanes<f64, 4>>));
     let start = |n: usize| {
         let (q, z) = upright::<5>();
         (q, z * (1.0 + 0.01 * n as f64))
@@ -302,7 +184,7 @@ fn lanes_pass_singular_positions_as_alone() {
     for tolerance in [1e-6, 1e-8, 1e-10] {
         let mut states = States::from_fn(6, start);
         let mut check = |name: &str,
-                         ends: Vec<RunOutcome<RowKernel<Lanes<f64, 4>>>>,
+                         ends: Vec<RunOutcome<TwoKernel<Lanes<f64, 4>>>>,
                          states: &States<_>,
                          alone: &dyn Fn(usize) -> bool| {
             for (n, end) in ends.into_iter().enumerate() {
@@ -312,7 +194,8 @@ fn lanes_pass_singular_positions_as_alone() {
                     Ok(end) => (end.summary.steps as usize, None),
                     Err(error) => (1000, Some(error.kind)),
                 };
-                let through = keeps::<5>(&format!("{name}, {n}"), tolerance, (change, steps, kind));
+                let passage = Passage { energy: change, motion: 0.0, steps, ended: kind };
+                let through = keeps::<5>(&format!("{name}, {n}"), tolerance, passage);
                 ended += usize::from(!through);
                 alike += usize::from(through == alone(n));
             }
@@ -334,8 +217,8 @@ fn lanes_pass_singular_positions_as_alone() {
 /// lose.
 #[test]
 fn steps_that_cannot_be_shortened_end_at_singular_positions() {
-    let two = row::<f64>();
-    let check = |name: &str, (change, _, ended): (f64, usize, Option<IntegrationErrorKind>)| {
+    let two = kernel!(Two<f64>);
+    let check = |name: &str, Passage { energy: change, ended, .. }: Passage| {
         assert!(change.abs() <= 0.358, "{name}: {change:e} J, {ended:?}");
         let told = matches!(
             ended,

@@ -10,7 +10,7 @@ use gauss_runtime::integrate::drive::control::{
 };
 use gauss_runtime::integrate::drive::logarithms::{exponential, logarithm};
 use gauss_runtime::integrate::drive::looks::Looks;
-use gauss_runtime::integrate::drive::projection::{accept, check_move, is_hopeless};
+use gauss_runtime::integrate::drive::projection::{AVOIDED, accept, check_move, clear_part, is_hopeless};
 use gauss_runtime::integrate::drive::search::Made;
 use gauss_runtime::integrate::drive::step_length::StepLength;
 use gauss_runtime::integrate::drive::tolerance::{Floor, Tolerance, Trial};
@@ -39,8 +39,8 @@ struct Lane {
     used: f64,
     last: bool,
     error: f64,
-    /// The length that looks at the input leave of it.
-    seen: Option<f64>,
+    /// The length to try in its place, for what acts within it or for where it ends.
+    shorter: Option<f64>,
 }
 
 impl Lane {
@@ -107,19 +107,32 @@ impl<S: BatchSystem> Memory<S> {
     ) -> bool {
         let mut too_long = false;
         for (n, lane) in self.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.used > 0.0 && !lane.rejects()) {
-            if lane.looks.want(number(group.state.t, n), lane.used, lane.error) {
+            if lane.shorter.is_none() && lane.looks.want(number(group.state.t, n), lane.used, lane.error) {
                 let made = Made { lane: numbers_of::<S::Scalar>(n).start, before: (&group.state, &group.rates), after };
-                lane.seen = lane.looks.unseen(problem, &made, tolerance);
-                too_long |= lane.seen.is_some();
+                lane.shorter = lane.looks.unseen(problem, &made, tolerance);
+                too_long |= lane.shorter.is_some();
             }
         }
         too_long
     }
 
-    /// Takes lanes whose step leads over something back to its start; the others are 1.
+    /// Looks at where the step of each lane ends; whether it is to end elsewhere in any.
+    fn look_at_ends<P: Problem<System = S>>(&mut self, problem: &P, trial: &Trial<'_, S>, moved: &Rates<S>) -> bool {
+        let mut too_long = false;
+        for (n, lane) in self.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.used > 0.0 && !lane.rejects()) {
+            if !lane.last && lane.rejected < AVOIDED {
+                let part = clear_part(problem, trial, moved, numbers_of::<S::Scalar>(n).start);
+                lane.shorter = part.map(|part| lane.used * lane.lengths.stop_before(part));
+                too_long |= part.is_some();
+            }
+        }
+        too_long
+    }
+
+    /// Takes lanes whose step is not taken back to its start; the others are 1.
     #[cold]
     fn hold_back(&self, group: &Group<S>, reached: &mut State<S>, next: &mut Rates<S>) -> S::Scalar {
-        let takes = |lane: &Lane| lane.used > 0.0 && !lane.rejects() && lane.seen.is_none();
+        let takes = |lane: &Lane| lane.used > 0.0 && !lane.rejects() && lane.shorter.is_none();
         let ones = ones_in(|n| takes(&self.lanes[n]));
         *reached = chosen_state(ones, reached, &group.state);
         *next = chosen_rates(ones, next, &group.rates);
@@ -152,8 +165,8 @@ impl<S: BatchSystem> Memory<S> {
                     *verdict = Verdict::Rejected;
                     continue;
                 }
-                if let Some(seen) = lane.seen.take() {
-                    lane.length = seen;
+                if let Some(shorter) = lane.shorter.take() {
+                    lane.length = shorter;
                     lane.rejected += 1;
                     *verdict = Verdict::Rejected;
                     continue;
@@ -243,7 +256,7 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
             used: 0.0,
             last: false,
             error: 0.0,
-            seen: None,
+            shorter: None,
         };
         Ok(Memory { lanes: vec![lane; S::Scalar::WIDTH], floor: None, longest })
     }
@@ -266,7 +279,7 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         this.lengths = StepLength::new(self.method.estimate_order(), S::SMOOTHNESS);
         (this.length, this.looked, this.rejected) = (first.min(memory.longest), 0.0, 0);
         this.looks = Looks::new(self.input_changes, number(group.state.t, lane), group.span);
-        this.seen = None;
+        this.shorter = None;
         if core::mem::take(&mut this.floored) {
             memory.forget();
         }
@@ -328,12 +341,14 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         }
         let computed = reached;
         let mut next = accept(problem, (&group.state, &group.rates), &mut reached, known)?;
+        let mut shorter = false;
         if S::CONSTRAINED {
             let trial = Trial { from: &group.state, to: &reached, length: lengths, floor: None };
-            check_move(tolerance, problem, &trial, &computed)?;
+            let moved = check_move(tolerance, problem, &trial, &computed)?;
+            shorter = memory.look_at_ends(problem, &trial, &moved);
         }
-        let seen = problem.has_input() && memory.look_at_inputs(problem, tolerance, group, (&reached, &next));
-        let (ones, all) = if seen { (memory.hold_back(group, &mut reached, &mut next), false) } else { (ones, all) };
+        shorter |= problem.has_input() && memory.look_at_inputs(problem, tolerance, group, (&reached, &next));
+        let (ones, all) = if shorter { (memory.hold_back(group, &mut reached, &mut next), false) } else { (ones, all) };
         let floors = memory.floor.as_ref().map(|floor| {
             let to = &problem.in_speeds(&reached);
             tolerance.excesses(&Trial { from: states.0, to, length: lengths, floor: Some(floor) })

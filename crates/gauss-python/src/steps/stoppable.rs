@@ -109,6 +109,10 @@ impl<S: GaussSystem> GaussSystem for Stoppable<'_, S> {
     ) -> Result<(S::Configuration, S::Speeds), ProjectionError> {
         self.system.project(t, q, z)
     }
+
+    fn dependence(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Speeds {
+        self.system.dependence(t, q, z)
+    }
 }
 
 impl<S: LinearizedSystem> LinearizedSystem for Stoppable<'_, S> {

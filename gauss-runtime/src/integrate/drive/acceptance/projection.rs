@@ -11,7 +11,8 @@
 //! energy then takes away whatever it finds across, up to all of it. So what the projection moves is an error of the
 //! step like others, and bounded: by half of the way that the step makes, and for a tolerance by
 //! a multiple of it ([`check_move`]). A step that is moved farther is rejected: a shorter one has a smaller error, or
-//! ends elsewhere. Where none will do, the run ends.
+//! ends elsewhere. Where none will do, the run ends. Adaptive steps keep away from such places, and lead over them from
+//! one side to the other ([`clear_part`]).
 
 use core::ops::Range;
 
@@ -30,6 +31,12 @@ use crate::system::GaussSystem;
 /// the kinetic energy: a light body on a short lever moves farther than the heavy one whose error it takes up. Ordinary
 /// scenes are moved by a hundredth of a tolerance and less, because estimates are those of a method of lower order.
 const PROJECTED: f64 = 10.0;
+
+/// The part of a step that is to be left between its end and a place where constraints become dependent.
+const CLEARANCE: f64 = 0.4;
+
+/// A step that was rejected so often may end beside such a place.
+pub const AVOIDED: u32 = 4;
 
 /// Brings the end of an accepted step, of which the start is given with the derivatives there, onto the constraints,
 /// where there are any, and gives the derivatives at the end; refuses speeds whose squares overflow. Derivatives that
@@ -92,7 +99,8 @@ pub(in crate::integrate) fn onto_constraints<S: GaussSystem, P: Problem<System =
 
 /// Refuses a step that the projection onto the constraints moves by more than ten tolerances. `trial`, in the variables
 /// of the form, ends where the state is moved to, `computed` is where it was before. What the projection makes of a
-/// rounding at the start of the step cannot be told from its rounding at the end, up to half of the digits.
+/// rounding at the start of the step cannot be told from its rounding at the end, up to half of the digits. Gives the
+/// move, in speeds.
 ///
 /// # Errors
 /// [`IntegrationErrorKind::ProjectionTooFar`].
@@ -102,15 +110,50 @@ pub fn check_move<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     trial: &Trial<'_, S>,
     computed: &State<S>,
-) -> Result<(), IntegrationErrorKind> {
+) -> Result<Rates<S>, IntegrationErrorKind> {
     let seen = [trial.from, trial.to, computed].map(|state| problem.in_speeds(state));
     let moved = difference(&seen[2], &seen[1]);
     let measured = Trial { from: &seen[0], to: &seen[1], ..*trial };
     if tolerance.error(&measured, &moved, None) <= PROJECTED {
-        Ok(())
+        Ok(moved)
     } else {
-        check_above_rounding(tolerance, &rounding_of_projection(problem, trial.from), &measured, &moved)
+        check_above_rounding(tolerance, &rounding_of_projection(problem, trial.from), &measured, &moved).map(|()| moved)
     }
+}
+
+/// The part of a step to try in place of all of it, in one lane, where it ends beside a place at which constraints become
+/// dependent.
+///
+/// The motion goes through such a place on the branch by which it comes. But what a state is off the constraints, be it
+/// a rounding, makes another motion of it there: from a distance δ a step of length h and order p makes (h/δ)^p of that.
+/// So a step is to lead over the place from about as far before it as behind it, and the one before ends half of a step
+/// before it. Distances are told by [`dependence`](GaussSystem::dependence), which is asked where the projection changes
+/// velocities by more than twice places over the time of the step: next to such a place they turn by 1/δ of what places move.
+#[inline(always)]
+pub fn clear_part<S: GaussSystem, P: Problem<System = S>>(
+    problem: &P,
+    trial: &Trial<'_, S>,
+    moved: &Rates<S>,
+    lane: usize,
+) -> Option<f64> {
+    let turned = largest(&moved.variables, lane) * trial.length.lane(lane);
+    let turns = turned > 2.0 * largest(&moved.configuration, lane);
+    turns.then(|| part_before(problem, trial, lane)).flatten()
+}
+
+#[cold]
+#[inline(never)]
+fn part_before<S: GaussSystem, P: Problem<System = S>>(problem: &P, trial: &Trial<'_, S>, lane: usize) -> Option<f64> {
+    let [before, after] = [trial.from, trial.to].map(|state| {
+        let State { t, q, y } = problem.in_speeds(state);
+        problem.system().dependence(t, &q, &y)
+    });
+    let along = (0..S::Speeds::DIM).map(|i| (before.component(i) * after.component(i)).lane(lane)).sum::<f64>();
+    // From the start, and from the end: negative behind the place.
+    let (near, far) = (1.0 / largest(&before, lane), (1.0 / largest(&after, lane)).copysign(along));
+    let place = near / (near - far);
+    // Where the place is ahead, in steps.
+    ((1.0 - CLEARANCE..1.0 + CLEARANCE).contains(&place)).then_some(place - 0.5)
 }
 
 #[cold]

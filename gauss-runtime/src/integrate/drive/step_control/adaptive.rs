@@ -11,7 +11,7 @@ use crate::integrate::drive::control::{
 use crate::integrate::drive::cubic::Made;
 use crate::integrate::drive::looks::Looks;
 use crate::integrate::drive::pace::Pace;
-use crate::integrate::drive::projection::{accept, check_move, is_hopeless};
+use crate::integrate::drive::projection::{AVOIDED, accept, check_move, clear_part, is_hopeless};
 use crate::integrate::drive::step_length::{StepLength, power};
 use crate::integrate::drive::tolerance::{Floor, Tolerance, Trial};
 use crate::integrate::lie_group::rkmk::Rkmk;
@@ -249,8 +249,18 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         };
         if S::CONSTRAINED {
             let trial = Trial { from: &self.state, to: &reached, length, floor: None };
-            if let Err(kind) = check_move(&control.tolerance, self.problem, &trial, &step.state) {
-                return self.halve(left, kind);
+            let moved = match check_move(&control.tolerance, self.problem, &trial, &step.state) {
+                Ok(moved) => moved,
+                Err(kind) => return self.halve(left, kind),
+            };
+            let part = || clear_part(self.problem, &trial, &moved, 0);
+            if !last
+                && self.rejected < AVOIDED
+                && let Some(part) = part()
+            {
+                self.length = used * self.lengths.stop_before(part);
+                self.rejected += 1;
+                return Ok(None);
             }
         }
         if self.problem.has_input() && self.leads_over_input((used, error), (&reached, &rates)) {

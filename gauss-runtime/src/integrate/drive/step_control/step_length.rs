@@ -38,6 +38,8 @@ pub struct StepLength {
     /// Logarithm of the error of the last accepted step; none when that is not to be relied on.
     previous: Option<f64>,
     rejected: bool,
+    /// The part of a step that was made after which the present one is to end; else 1.
+    stopped: f64,
     /// Steps still to be accepted before a kink or a jump is left behind.
     across: u32,
 }
@@ -45,7 +47,7 @@ pub struct StepLength {
 impl StepLength {
     /// Before the first step, of a method whose error estimate goes with this power of the step.
     pub fn new(estimate_order: f64, smoothness: Smoothness) -> Self {
-        Self { estimate_order, smoothness, previous: Some(LEAST_REMEMBERED), rejected: false, across: 0 }
+        Self { estimate_order, smoothness, previous: Some(LEAST_REMEMBERED), rejected: false, stopped: 1.0, across: 0 }
     }
 
     /// The largest error, in tolerances, with which a step is accepted.
@@ -65,9 +67,15 @@ impl StepLength {
         (0.9 * power(excess, -1.0 / order)).max(0.2)
     }
 
+    /// A step that was made is to end elsewhere, after this part of it: the next one may be as long as it was.
+    pub fn stop_before(&mut self, part: f64) -> f64 {
+        self.stopped *= part;
+        part
+    }
+
     /// A step could not be made at all and is tried again.
     pub fn fail(&mut self) {
-        self.rejected = true;
+        (self.rejected, self.stopped) = (true, 1.0);
         if self.smoothness != Smoothness::Smooth {
             self.previous = None;
             self.across = STEPS_ACROSS;
@@ -114,7 +122,8 @@ impl StepLength {
         self.previous = Some(logarithm.max(LEAST_REMEMBERED));
         self.rejected = false;
         self.across = self.across.saturating_sub(1);
-        factor.clamp(0.2, most)
+        let as_before = 1.0 / core::mem::replace(&mut self.stopped, 1.0);
+        factor.clamp(0.2, most).max(as_before)
     }
 }
 
@@ -149,6 +158,20 @@ mod tests {
                 assert!(same(length.accept(error), factor.clamp(0.2, if rejected { 1.0 } else { 10.0 })));
                 (previous, rejected) = (floor.max(1e-4), false);
             }
+        }
+    }
+
+    #[test]
+    fn a_step_that_stops_before_a_place_is_followed_by_one_as_long_as_it_would_have_been() {
+        for smoothness in [Smoothness::Smooth, Smoothness::Jumps] {
+            let mut length = StepLength::new(8.0, smoothness);
+            assert_eq!(length.stop_before(0.5) * length.stop_before(0.5), 0.25);
+            assert!(length.accept(0.9) >= 4.0);
+            assert!(length.accept(0.9) < 1.0);
+            // What the error shortens is no longer the step that was made.
+            length.stop_before(0.5);
+            length.reject(2.0);
+            assert!(length.accept(1e-8) <= 1.0);
         }
     }
 
