@@ -37,6 +37,8 @@ pub(super) struct End<K: ContactSystem> {
     pub(super) rests: K::EachContact<bool>,
     /// Contacts that acted and are open.
     pub(super) left: K::EachContact<bool>,
+    /// Contacts that were open before it.
+    pub(super) opened: K::EachContact<bool>,
     /// Whether contacts may have changed their modes.
     pub(super) touches: bool,
     /// Whether rates were those of contacts that depend on one another.
@@ -49,10 +51,10 @@ pub(super) struct End<K: ContactSystem> {
 impl<K: ContactSystem> End<K> {
     /// With what contacts did.
     pub(super) fn attempted<'a>(&'a self, modes: &'a [Mode]) -> Attempted<'a, K> {
-        let Self { impulses, rests, left, dependent, struck, .. } = self;
+        let Self { impulses, rests, left, opened, dependent, struck, .. } = self;
         let modes = self.touches.then_some(modes);
-        let (rests, left) = (rests.as_ref(), left.as_ref());
-        Attempted { impulses, modes, rests, left, dependent: *dependent, struck: *struck }
+        let (rests, left, opened) = (rests.as_ref(), left.as_ref(), opened.as_ref());
+        Attempted { impulses, modes, rests, left, opened, dependent: *dependent, struck: *struck }
     }
 }
 

@@ -96,7 +96,9 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let dependent = first.dependent;
         let free = state.z.add_scaled(W::Scalar::from_f64(h), &dynamics.acceleration);
         let before = (&state.z, &state.rates);
-        let rates = motion::free_rates(self.wide, (h, dependent), middle, before, (&free, &dynamics.bias));
+        let is_open = |i: usize| !first.modes[i].is_closed();
+        let at = (&free, &dynamics.bias);
+        let rates = motion::free_rates(self.wide, h, middle, before, at, (dependent, is_open));
         let posed = Posed::<W> {
             h,
             law: StepLaw::Coulomb,
@@ -136,7 +138,9 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
             let solved = posed.solved::<K>(&problem, (&answer, cones), modes, lane);
             (after, solved)
         }));
-        Some(PushedLanes { z, impulses, dependent })
+        // An impact keeps an account of its energy, alone.
+        let struck = self.solved.iter().any(|(_, solved)| solved.struck);
+        (!struck).then_some(PushedLanes { z, impulses, dependent })
     }
 
     /// The second half of a step. What keeps bilateral constraints goes lane by lane: its iterations end where they do.
@@ -237,7 +241,6 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
             };
             let (z, rates) = (single::<W, _, K::Speeds>(&z, lane), single::<W, _, K::ContactRows>(&rates, lane));
             let impulses = single::<W, _, K::ContactRows>(&pushed.impulses, lane);
-            goes_on &= !solved.struck;
             let of_lane_pushed = Pushed { z, impulses, dependent: pushed.dependent, solved };
             let end = stepper.end(of_lane_pushed, of_lane, (z, rates));
             self.outcomes[lane] = stepper.made(h, end);
