@@ -68,14 +68,15 @@ const BETWEEN: f64 = 1.5;
 /// A function that is followed on the curve of a step, by parts of it.
 struct Followed<'a, S: GaussSystem, G, A> {
     bound: &'a dyn RateBound<S>,
-    /// Its values on the curve, and in states that the method reaches.
+    /// Its values on the curve with its rates there for the whole step, and its values in states that the method
+    /// reaches.
     curve: G,
     along: A,
     crossing: Crossing,
     start: (f64, f64),
     /// By how much it changes at most in a step.
     most: f64,
-    /// The error of the function on the curve.
+    /// The error of the function on the curve in the middle of the step.
     off: f64,
     rounding: f64,
     resolution: f64,
@@ -93,13 +94,16 @@ type Found = Result<Option<Point>, IntegrationErrorKind>;
 impl<S, G, A> Followed<'_, S, G, A>
 where
     S: GaussSystem,
-    G: FnMut(f64) -> Result<f64, IntegrationErrorKind>,
+    G: FnMut(f64) -> Result<[f64; 2], IntegrationErrorKind>,
     A: FnMut(f64) -> Result<f64, IntegrationErrorKind>,
 {
-    /// No more than the value at a part of the step.
+    /// No more than the value at a part of the step. The curve meets the motion at both ends with its slope: near them
+    /// it is off by the square of how far they are.
     fn least(&mut self, part: f64) -> Result<f64, IntegrationErrorKind> {
-        let seen = (self.curve)(part)?;
-        if seen > 2.0 * self.off { Ok(seen - self.off) } else { (self.along)(part) }
+        let [seen, _] = (self.curve)(part)?;
+        let near = 4.0 * part * (1.0 - part);
+        let off = self.off * near * near + self.rounding;
+        if seen > 2.0 * off { Ok(seen - off) } else { (self.along)(part) }
     }
 
     /// The first zero between two points.
@@ -123,16 +127,16 @@ where
     }
 
     /// Whether the function is the parabola between two points that its values and slopes at both make, as the gap of a
-    /// body that bounces is: to a hundredth of what they change it by, in the middle and at the end. Then these decide.
+    /// body that bounces is: to a hundredth of what they change it by, or to rounding, in the middle and at the end.
+    /// Then these decide. Slopes are those of the motion: differences of values that are some roundings have none.
     fn is_plain(&mut self, from: f64, to: f64) -> Result<bool, IntegrationErrorKind> {
-        let (short, width) = (SHORT * (to - from), to - from);
-        let [first, near, middle, beside, last] =
-            [from, from + short, 0.5 * (from + to), to - short, to].map(&mut self.curve);
-        let (first, last) = (first?, last?);
-        let [leaves, comes] = [width * (near? - first) / short, width * (last - beside?) / short];
+        let [first, middle, last] = [from, 0.5 * (from + to), to].map(&mut self.curve);
+        let ([first, leaves], [middle, _], [last, comes]) = (first?, middle?, last?);
+        let [leaves, comes] = [leaves, comes].map(|slope| (to - from) * slope);
         let off = (last - first - 0.5 * (leaves + comes)).abs();
-        let off_middle = (middle? - 0.5 * (first + last) - 0.125 * (leaves - comes)).abs();
-        Ok(off.max(off_middle) <= 0.01 * leaves.abs().max(comes.abs()) && self.most.is_finite())
+        let off_middle = (middle - 0.5 * (first + last) - 0.125 * (leaves - comes)).abs();
+        let plain = 0.01 * leaves.abs().max(comes.abs()) + self.rounding;
+        Ok(off.max(off_middle) <= plain && self.most.is_finite())
     }
 
     /// The zero in a part that is not halved again.
@@ -144,10 +148,8 @@ where
         if b.1 <= 0.0 {
             return self.between(start, b);
         }
-        let (short, width) = (SHORT * (b.0 - a.0), b.0 - a.0);
-        let [first, near, beside, last] = [a.0, a.0 + short, b.0 - short, b.0].map(&mut self.curve);
-        let (first, last) = (first?, last?);
-        let [leaves, comes] = [(near? - first) / short, (last - beside?) / short];
+        let width = b.0 - a.0;
+        let ([first, leaves], [last, comes]) = ((self.curve)(a.0)?, (self.curve)(b.0)?);
         if leaves < 0.0 && comes > 0.0 {
             let Some(dip) = below_zero(&mut self.along, a.0, b.0)? else { return Ok(None) };
             return self.between(start, dip);
@@ -213,7 +215,11 @@ where
             value(self.problem, function, lane, &state)
         };
         let mut glance = self.glances();
-        let curve = |part: f64| value(self.problem, function, lane, &glance(part)?);
+        let length = self.length().lane(lane);
+        let curve = |part: f64| {
+            let state = glance(part)?;
+            Ok([value(self.problem, function, lane, &state)?, length * bound.rate(&state)])
+        };
         let times = [self.made.before.0.t, self.length()].map(|t| t.lane(lane));
         let rounding = rounding(self.problem, function, lane, self.made.before.0);
         let off = if C::LONG_STEPS { 0.0 } else { self.off(function, bound)? };
