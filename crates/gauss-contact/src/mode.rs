@@ -51,8 +51,24 @@ impl<T> Mode<T> {
 pub struct InMode<'k, K: ContactSystem> {
     pub(crate) kernel: &'k K,
     pub(crate) modes: Rc<[Mode<K::Scalar>]>,
-    /// Slips that count as rest, and the rounding of each row at the start.
-    least: (f64, Rc<[f64]>),
+    least: Least,
+}
+
+/// The slips that have no direction of their own.
+#[derive(Clone)]
+pub(crate) struct Least {
+    /// Slips that count as rest.
+    pub(crate) rest: f64,
+    /// The rounding of each row at the start, and what its acceleration, a sum as well, adds to it in a unit of time.
+    pub(crate) rounding: Rc<[[f64; 2]]>,
+    pub(crate) start: f64,
+}
+
+impl Least {
+    /// The rounding of a row at a time. None is known of systems that are not those of a run.
+    fn rounding(&self, row: usize, t: f64) -> f64 {
+        self.rounding.get(row).map_or(0.0, |[at_start, grows]| (t - self.start).max(0.0).fma(*grows, *at_start))
+    }
 }
 
 impl<K: ContactSystem> fmt::Debug for InMode<'_, K> {
@@ -231,12 +247,12 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
     /// [`project`](GaussSystem::project) brings a state onto them.
     #[must_use]
     pub fn new(kernel: &'k K, modes: &[Mode<K::Scalar>]) -> Self {
-        Self::with(kernel, modes, (0.0, &[]))
+        Self::with(kernel, modes, Least { rest: 0.0, rounding: Rc::new([]), start: 0.0 })
     }
 
-    /// With the slips that count as rest, and the rounding of each row at the start.
-    pub(crate) fn with(kernel: &'k K, modes: &[Mode<K::Scalar>], (rest, rounding): (f64, &[f64])) -> Self {
-        Self { kernel, modes: modes.into(), least: (rest, rounding.into()) }
+    /// With slips that have no direction of their own.
+    pub(crate) fn with(kernel: &'k K, modes: &[Mode<K::Scalar>], least: Least) -> Self {
+        Self { kernel, modes: modes.into(), least }
     }
 
     /// The mode of each contact.
@@ -280,9 +296,25 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
         let jacobian = self.kernel.contact_jacobian(t, q);
         let size: f64 = tangents(contact).filter_map(|row| jacobian.nth(row)).map(|column| terms(&column, z)).sum();
         let slip = slip(contact, &self.kernel.contact_rates(t, q, z));
-        let (rest, at_start) = &self.least;
-        let at_start = tangents(contact).filter_map(|row| at_start.get(row)).sum();
-        direction(reference, slip, (64.0 * epsilon::<K::Scalar>() * size).max(at_start), *rest)
+        // Explicit steps would feed what is rounding across a slow slip until it is an error of the size of the
+        // tolerance, and friction that leads to and fro is too small along the slip.
+        let so_far: f64 = tangents(contact).map(|row| self.least.rounding(row, value(t))).sum();
+        direction(reference, slip, (64.0 * epsilon::<K::Scalar>() * size).max(so_far), self.least.rest)
+    }
+
+    /// The rounding of the acceleration of each row at a state.
+    pub(crate) fn rounding_of_accelerations(
+        &self,
+        loads: &Loads<K>,
+        (t, q): (K::Scalar, &K::Configuration),
+    ) -> Vec<f64> {
+        let (jacobian, d) = (self.kernel.contact_jacobian(t, q), &loads.dynamics.response.delassus);
+        let of_row = |row: usize| {
+            let free = jacobian.nth(row).map_or(0.0, |column| terms(&column, &loads.dynamics.acceleration));
+            let each = loads.forces.iter().enumerate();
+            64.0 * epsilon::<K::Scalar>() * each.fold(free, |sum, (j, force)| sum + value(d[(row, j)] * *force).abs())
+        };
+        (0..K::ContactRows::DIM).map(of_row).collect()
     }
 
     /// λ at a state.

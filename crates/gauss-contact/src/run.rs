@@ -22,7 +22,7 @@ use crate::dense::value;
 use crate::error::{ContactError, ContactErrorKind};
 use crate::history::{Passage, SampledGap};
 use crate::impact::Impact;
-use crate::mode::{InMode, Mode, slip, tangents};
+use crate::mode::{InMode, Least, Mode, slip, tangents};
 use crate::moving::in_time;
 use crate::problem::InModeProblem;
 use crate::rounding::Rounding;
@@ -381,8 +381,7 @@ where
 
     /// One segment, with what ended it.
     fn segment(&mut self, from: &Instant<'k, K>) -> Result<Stop, ContactError> {
-        let rounding = from.sizes(&self.scales).of_rate;
-        let system = InMode::with(self.kernel, &from.modes, (self.scales.rest(), &rounding));
+        let system = InMode::with(self.kernel, &from.modes, self.least(from));
         let problem = InModeProblem::new(system.clone(), Rc::clone(&self.made.input), Rc::clone(&self.moving));
         let witnesses = self.witnesses(from, &problem);
         let watched: Vec<Watched> = witnesses.iter().map(|witness| witness.watched).collect();
@@ -427,6 +426,20 @@ where
         }
         self.check_end(&from.modes, (end, &last.q, &last.z))?;
         Ok(stopped.and_then(|n| n.checked_sub(users)).map_or(Stop::End, |n| Stop::Contact(watched[n])))
+    }
+
+    /// The slips that have no direction of their own in a segment from here.
+    fn least(&self, from: &Instant<'k, K>) -> Least {
+        let Instant { t, q, z, modes, .. } = from;
+        let system = InMode::new(self.kernel, modes);
+        let mut grows = vec![0.0; K::ContactRows::DIM];
+        if modes.iter().any(|mode| matches!(mode, Mode::Slides(_))) {
+            let loads = system.loads(*t, q, z, &(self.made.input)(*t, q, z));
+            grows = system.rounding_of_accelerations(&loads, (*t, q));
+        }
+        let rounding =
+            from.sizes(&self.scales).of_rate.into_iter().zip(grows).map(|(at_start, grows)| [at_start, grows]);
+        Least { rest: self.scales.rest(), rounding: rounding.collect(), start: value(*t) }
     }
 
     /// Keeps the times in which gaps were sampled alone, up to the end of a segment.

@@ -17,16 +17,16 @@ const G: f64 = 9.81;
     contact(floor, point = hull.position, edges = [a, b, c], friction = mu, restitution = e),
 )]
 #[derive(Clone, Copy)]
-struct Crate {
-    m: f64,
-    a: f64,
-    b: f64,
-    c: f64,
-    mu: f64,
-    e: f64,
-    growth: f64,
+pub struct Crate {
+    pub m: f64,
+    pub a: f64,
+    pub b: f64,
+    pub c: f64,
+    pub mu: f64,
+    pub e: f64,
+    pub growth: f64,
     #[gauss(gravity)]
-    g: Vector3<f64>,
+    pub g: Vector3<f64>,
 }
 
 /// A box that lies flat, turned about the vertical.
@@ -111,17 +111,100 @@ fn boxes_stay_on_slopes_up_to_the_angle_of_friction() {
     }
 }
 
+/// The tolerances of runs over slopes.
+const TOLERANCES: [f64; 4] = [1e-3, 1e-4, 1e-7, 1e-10];
+
+/// Places down the slope, some roundings off what the weight makes of them.
+#[track_caller]
+fn slid(found: f64, wanted: f64, end: f64, name: &str) {
+    let rounding = 64.0 * f64::EPSILON * 0.5 * G * end * end;
+    assert!((found - wanted).abs() < rounding, "{name}: {found:e} {wanted:e}");
+}
+
 #[test]
-fn boxes_slide_on_slopes_beyond_the_angle_of_friction() {
-    for off in [1e-4, 1e-2] {
-        for yaw in [0.0, 0.3, 1.2] {
+fn boxes_slide_on_slopes_beyond_the_angle_of_friction_by_the_law_at_any_tolerance() {
+    for off in [1e-7, 1e-5, 1e-3, 1e-2] {
+        for tolerance in TOLERANCES {
+            for (yaw, m, size) in [(0.0, 1.0, 1.0), (0.3, 1e6, 1.0), (1.2, 1e-6, 1.0), (0.785, 1.0, 0.1)] {
+                let angle = 0.5_f64.atan() + off;
+                let slope = on_slope(angle);
+                let [a, b, c] = [slope.a, slope.b, slope.c].map(|edge| size * edge);
+                let kernel = Crate { m, a, b, c, ..slope }.kernel().unwrap();
+                let run = ContactRun::new(&kernel).adaptive(tolerance, tolerance);
+                let run = run.run(flat(c, yaw), SVector::zeros(), 0.0..5.0).unwrap();
+                let wanted = 0.5 * G * (angle.sin() - 0.5 * angle.cos()) * 25.0;
+                let last = run.last().unwrap();
+                let name = format!("{off:e} {yaw} {m:e} {size} {tolerance:e}");
+                slid(last.q.translation.x, wanted, 5.0, &name);
+                assert!(last.q.translation.y.abs() < 1e-12 && run.segments().len() == 1, "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn boxes_stop_on_slopes_below_the_angle_of_friction_by_the_law_at_any_tolerance() {
+    // From 0.1 m/s to the speeds that count as rest.
+    for off in [-1e-1, -3e-3, -1e-4] {
+        for tolerance in TOLERANCES {
+            for (m, yaw) in [(1.0, 0.0), (1e6, 0.3), (1e-6, 1.2)] {
+                let angle = 0.5_f64.atan() + off;
+                let kernel = Crate { m, ..on_slope(angle) }.kernel().unwrap();
+                let run = ContactRun::new(&kernel).adaptive(tolerance, tolerance);
+                // Velocities are along the axes of the box.
+                let z = SVector::from([0.1 * f64::cos(yaw), -0.1 * f64::sin(yaw), 0.0, 0.0, 0.0, 0.0]);
+                let slows = G * (0.5 * angle.cos() - angle.sin());
+                let (stop, path) = (0.1 / slows, 0.005 / slows);
+                let run = run.run(flat(BOX.c, yaw), z, 0.0..1.1 * stop).unwrap();
+                let name = format!("{off:e} {m:e} {yaw} {tolerance:e}");
+                let stops = run.events().first().unwrap_or_else(|| panic!("{name}"));
+                let rest = 1.2 * tolerance + 1e-13;
+                assert!((stops.time - stop).abs() < rest / slows, "{name}: {stops:?} {stop}");
+                let last = run.last().unwrap();
+                let off = (last.q.translation.x - path).abs();
+                assert!(off < 0.5 * rest * rest / slows + 1e-13 * (1.0 + stop * stop), "{name}: {off:e}");
+                assert!(last.z.amax() < 1e-60, "{name}");
+            }
+        }
+    }
+}
+
+/// A box on eight points, and a rod with round ends beside it.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(pose: Pose, rod: Pose),
+    body(hull, position = pose.position, rotation = pose.rotation, mass = m, inertia = m * a * a),
+    body(bar, position = rod.position, rotation = rod.rotation, mass = m, inertia = m * a * a),
+    point(head, body = bar, at = [a, 0, 0]),
+    point(foot, body = bar, at = [-a, 0, 0]),
+    contact(outer, point = hull.position, edges = [a, a, b], friction = mu),
+    contact(inner, point = hull.position, edges = [0.5 * a, 0.7 * a, b], friction = mu),
+    contact(caps, point = head, end = foot, radius = 0.5 * b, friction = mu),
+)]
+struct Yard {
+    m: f64,
+    a: f64,
+    b: f64,
+    mu: f64,
+    #[gauss(gravity)]
+    g: Vector3<f64>,
+}
+
+#[test]
+fn boxes_on_many_points_and_rods_slide_by_the_law_too() {
+    let (end, b) = (2.0, 0.2);
+    for (off, m) in [(1e-6, 1.0), (1e-3, 1e-6), (1e-2, 1e6)] {
+        for tolerance in TOLERANCES {
             let angle = 0.5_f64.atan() + off;
-            let kernel = on_slope(angle).kernel().unwrap();
-            let run = ContactRun::new(&kernel).adaptive(1e-8, 1e-8);
-            let run = run.run(flat(BOX.c, yaw), SVector::zeros(), 0.0..1.0).unwrap();
-            let wanted = 0.5 * G * (angle.sin() - 0.5 * angle.cos());
-            let last = run.last().unwrap();
-            assert!((last.q.translation.x - wanted).abs() < 1e-6, "{off:e} {yaw}: {} {wanted}", last.q.translation);
+            let kernel = Yard { m, a: 0.5, b, mu: 0.5, g: on_slope(angle).g }.kernel().unwrap();
+            let run = ContactRun::new(&kernel).adaptive(tolerance, tolerance);
+            let start = (flat(b, 0.4), Isometry3::translation(0.0, 3.0, 0.5 * b));
+            let run = run.run(start, SVector::zeros(), 0.0..end).unwrap();
+            let wanted = 0.5 * G * (angle.sin() - 0.5 * angle.cos()) * end * end;
+            let (hull, rod) = run.last().unwrap().q;
+            for (name, place) in [("box", hull), ("rod", rod)] {
+                slid(place.translation.x, wanted, end, &format!("{name} {off:e} {m:e} {tolerance:e}"));
+            }
         }
     }
 }
