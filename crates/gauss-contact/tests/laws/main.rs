@@ -1,5 +1,6 @@
 //! The laws of contact, friction and impact in runs, scene by scene, against closed forms.
 
+mod accounts;
 mod bounces;
 mod common;
 mod dry;

@@ -12,16 +12,16 @@ use gauss_runtime::prelude::*;
     contact(table, point = ball.position, radius = r, friction = mu, drilling = patch, rolling = rho,
         restitution = e),
 )]
-struct Ball {
-    m: f64,
-    r: f64,
-    mu: f64,
-    patch: f64,
-    rho: f64,
-    e: f64,
-    lean: f64,
+pub struct Ball {
+    pub m: f64,
+    pub r: f64,
+    pub mu: f64,
+    pub patch: f64,
+    pub rho: f64,
+    pub e: f64,
+    pub lean: f64,
     #[gauss(gravity)]
-    g: f64,
+    pub g: f64,
 }
 
 const BALL: Ball = Ball { m: 0.17, r: 0.03, mu: 0.2, patch: 0.004, rho: 0.0006, e: 0.0, lean: 0.0, g: 9.81 };
