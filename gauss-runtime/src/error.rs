@@ -44,8 +44,9 @@ pub enum Rule {
     Direction,
     /// A coefficient of restitution is from 0 to 1: an impact takes energy, and does not draw together.
     Restitution,
-    /// Bodies without mass, or without some moment of inertia, move together with others that make up for it. The value
-    /// is the smallest eigenvalue of their mass matrix scaled to a unit diagonal, 0.
+    /// Bodies without mass, or without some moment of inertia, move together with others that make up for it; so do
+    /// coordinates with an armature of zero. The value is the smallest eigenvalue of their mass matrix scaled to a unit
+    /// diagonal, 0.
     RegularSum,
     /// An inertia tensor is positive definite; of a body that others move with, no moment is negative. The value is its
     /// smallest principal moment.
@@ -169,7 +170,8 @@ impl fmt::Display for Violation {
             Rule::RegularSum => write!(
                 f,
                 "`{field}` is zero, and nothing that moves with it makes up for that: the mass matrix is singular in \
-                 every configuration; give the body mass or inertia, or take away the speed that nothing resists"
+                 every configuration; give the body mass or inertia, the coordinate an armature, or take away the speed \
+                 that nothing resists"
             ),
             Rule::SymmetricInertia { row, col } => write!(
                 f,

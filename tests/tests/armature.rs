@@ -7,6 +7,7 @@ use common::Bounded;
 use common::agreement::equal;
 use common::groups::Random;
 use common::kernels::same;
+use gauss_runtime::error::Rule;
 use gauss_runtime::prelude::*;
 
 macro_rules! pair {
@@ -79,6 +80,77 @@ pair!(of_what_floats: GearedCart BesideCart, SVector::from([0.3, 1.0, -0.4]), [
     body(cart, position = [x, 0, y], mass = 2, inertia = [0, 0, 0]),
     body(pole, parent = cart, rotation = rotation_y(turn), mass = 1, center_of_mass = [0, 0, 0.3], inertia = [0.5, 0.5, 0.2])
 ] [armature(x = a)] [particle(mass = a, position = [x, 0, 0])]);
+
+// Inertia of its own is all that some coordinates have.
+pair!(of_rotors_alone: GearedRotor BesideRotor, SVector::from([0.3, -0.4, 0.2]), [
+    linearize, regressor,
+    coordinates(x, y, turn),
+    body(b0, rotation = rotation_z(x), mass = 2, center_of_mass = [0.1, 0, 0.2], inertia = [1, 1, 0.5]),
+    spring(shaft, along = y - x, stiffness = 3, damping = 0.1),
+    constraint(velocity = rate(turn) + y * rate(y))
+] [armature(y = a, turn = 0.1)] [
+    particle(mass = a, position = [y, 0, 0]), particle(mass = 0.1, position = [turn, 0, 0])
+]);
+
+pair!(of_balls_alone: GearedSphere BesideSphere,
+    (UnitQuaternion::<f64>::identity(), SVector::from([0.3])), [
+    coordinates(ball: Rotation, x),
+    particle(mass = 2, position = [x, 0, 0]),
+    damping = 0.5 * x * x * dot(ball.body_angular_velocity, ball.body_angular_velocity)
+] [armature(ball = a)] [body(ring, rotation = ball, mass = 0, inertia = [a, a, a])]);
+
+/// A shaft between two rotors: nothing here has a place.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(motor, wheel),
+    armature(motor = a, wheel = b),
+    spring(shaft, along = wheel - motor, stiffness = 3, damping = 0.1),
+    input(torque),
+    drive(motor = torque),
+)]
+struct Drive {
+    a: f64,
+    b: f64,
+}
+
+/// An armature of a coordinate beside those of a chart.
+#[derive(GaussDynamics)]
+#[gauss(motion = free, chart = left_invariant, coordinates(wheel), armature(wheel = a))]
+struct Craft {
+    #[gauss(mass)]
+    m: f64,
+    #[gauss(inertia)]
+    i: Vector3<f64>,
+    a: f64,
+}
+
+#[test]
+fn rotors_without_bodies() {
+    let drive = Drive { a: 2.0, b: 0.5 }.kernel().unwrap();
+    let (q, z, u) = (SVector::from([0.25, 0.5]), SVector::from([1.0, -1.0]), SVector::from([4.0]));
+    let shaft = 3.0 * 0.25 - 0.1 * 2.0;
+    let expected = SVector::from([(4.0 + shaft) / 2.0, -shaft / 0.5]);
+    // A few roundings of numbers of order 1.
+    assert!((drive.acceleration(0.0, &q, &z, &u) - expected).amax() < 4e-15);
+    let energy = 0.5 * (2.0 + 0.5) + 0.5 * 3.0 * 0.0625;
+    assert!((drive.energy(0.0, &q, &z) - energy).abs() < 4e-15);
+    let refused = Drive { a: 2.0, b: 0.0 }.kernel().unwrap_err();
+    let found = refused.violations()[0];
+    assert_eq!((found.field, found.rule), ("b", Rule::RegularSum));
+    assert!(refused.to_string().contains("the mass matrix is singular"), "{refused}");
+    assert_eq!(Drive { a: -2.0, b: 0.0 }.kernel().unwrap_err().violations()[0].rule, Rule::NonNegative);
+    let craft = |a: f64| Craft { m: 1.0, i: Vector3::new(1.0, 1.0, 1.0), a }.kernel();
+    assert!(craft(0.1).is_ok());
+    assert_eq!(craft(0.0).unwrap_err().violations()[0].rule, Rule::RegularSum);
+}
+
+/// Where a body turns as well, an armature of zero is none.
+#[test]
+fn armatures_of_zero() {
+    let [a, g] = [Bounded::from_f64(0.0), Bounded::from_f64(9.81)];
+    assert!(GearedPlane { a, g }.kernel().is_ok());
+    assert!(GearedRotor { a, g }.kernel().is_err());
+}
 
 // So many joints that they are eliminated link by link.
 pair!(of_a_long_chain: GearedChain BesideChain, SVector::from([0.3, -0.4, 0.2, 0.1, 0.5, -0.3]), [

@@ -11,8 +11,10 @@ pub enum LawKind {
     Limits,
     /// A coefficient of a spring or a stop.
     Damping,
-    /// An armature, or the level of dry friction.
+    /// The level of dry friction.
     NonNegative,
+    /// An armature.
+    Armature,
     /// A semi-axis of an ellipsoid.
     Length,
     /// The mass of a particle.

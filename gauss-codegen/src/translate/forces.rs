@@ -515,7 +515,7 @@ impl<'g> Translator<'_, 'g> {
         for (coordinate, inertia) in &self.model.armatures {
             let label = coordinate.unraw().to_string();
             let value = self.scalar(inertia, tree)?;
-            self.note(LawKind::NonNegative, ("armature", &label), inertia, vec![value]);
+            self.note(LawKind::Armature, ("armature", &label), inertia, vec![value]);
             let rates = match self.coordinate(coordinate)?.1 {
                 CoordinateKind::Scalar => vec![self.rate_of_coordinate(coordinate)?],
                 CoordinateKind::Rotation => self.turning(&label, coordinate)?.to_vec(),

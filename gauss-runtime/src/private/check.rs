@@ -12,7 +12,7 @@ use crate::real::Real;
 /// For packs of numbers every lane is checked; the first lane that breaks a rule speaks for the others.
 pub struct ParameterCheck<T> {
     violations: BoundedList<Violation>,
-    /// The first field with a mass or a principal moment of zero: others must make up for it.
+    /// The first field with a mass, a principal moment or an armature of zero: others must make up for it.
     massless: Option<&'static str>,
     /// Principal moments need not satisfy the triangle inequality.
     formal: bool,
@@ -107,6 +107,15 @@ impl<T: Real> ParameterCheck<T> {
                 let value = value.lane(lane);
                 (value < 0.0).then_some((value, Rule::NonNegative))
             });
+        }
+    }
+
+    /// The inertia of a rate: finite and zero or greater; zero where bodies make up for it, which
+    /// [`regular`](Self::regular) finds out.
+    pub fn armature(&mut self, field: &'static str, inertia: T) {
+        self.non_negative(field, inertia);
+        if (0..T::LANES).any(|lane| inertia.lane(lane) == 0.0) {
+            self.massless.get_or_insert(field);
         }
     }
 

@@ -38,6 +38,7 @@ fn written(
             LawKind::Width => quote!(width),
             LawKind::Limits => quote!(limits),
             LawKind::NonNegative | LawKind::Friction => quote!(non_negative),
+            LawKind::Armature => quote!(armature),
             LawKind::Length => quote!(positive_length),
             LawKind::Restitution => quote!(restitution),
             LawKind::Direction => quote!(direction),
@@ -54,6 +55,7 @@ fn written(
             LawKind::Stiffness
             | LawKind::Width
             | LawKind::NonNegative
+            | LawKind::Armature
             | LawKind::Length
             | LawKind::Friction
             | LawKind::Restitution
@@ -128,6 +130,7 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
             | LawKind::Width
             | LawKind::Limits
             | LawKind::NonNegative
+            | LawKind::Armature
             | LawKind::Length
             | LawKind::StiffnessMatrix
             | LawKind::Modes

@@ -49,7 +49,7 @@ pub fn check_roles(
     if uncertain || statements.missed_any(&[Statement::Body, Statement::Particle]) {
         return;
     }
-    if statements.massive().count() == 0 && statements.particles.is_empty() {
+    if statements.massive().count() == 0 && statements.particles.is_empty() && statements.armatures.is_empty() {
         refuse_massless(input, statements, reader, context);
     } else {
         refuse_ownerless(statements, reader, context);

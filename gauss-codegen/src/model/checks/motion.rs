@@ -164,14 +164,15 @@ pub fn check_dependence(statements: &Statements, all: &[(Place, &Expression)], c
             let named = named(&|place: Place| {
                 matches!(place, Place::Position | Place::Rotation | Place::Particle { .. } | Place::Constraint(_))
             });
-            let modal: HashSet<String> = statements.modal_coordinates().map(word).collect();
-            let idle = |ident: &Ident| !named.contains(&word(ident)) && !modal.contains(&word(ident));
+            let geared = statements.armatures.iter().map(|(name, _)| word(name));
+            let heavy: HashSet<String> = statements.modal_coordinates().map(word).chain(geared).collect();
+            let idle = |ident: &Ident| !named.contains(&word(ident)) && !heavy.contains(&word(ident));
             for Coordinate { ident, .. } in coordinates.names.iter().filter(|name| idle(&name.ident)) {
                 context.error(
                     ident.span(),
                     format!(
                         "no position and no rotation depends on the coordinate `{ident}`, so nothing determines its \
-                         acceleration; name it in one of them or remove it"
+                         acceleration; name it in one of them, give it an `armature`, or remove it"
                     ),
                 );
             }

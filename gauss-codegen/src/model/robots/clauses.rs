@@ -1,5 +1,7 @@
 //! A description → the clauses that say the same, before those of the struct.
 
+use std::collections::HashSet;
+
 use proc_macro2::Ident;
 use quote::format_ident;
 use syn::ext::IdentExt;
@@ -51,7 +53,7 @@ pub fn compose(
         statements.joints_of_file = robot.names_of_joints();
         statements.links_of_file = robot.renamed_links();
         robot.refuse_mount(file, context);
-        let idle = robot.without_inertia();
+        let idle = robot.without_inertia(&statements.armatures);
         let moves = statements.coordinates.is_some() || statements.in_chart;
         let idle = if idle.is_empty() && !moves { robot.without_motion(file) } else { idle };
         let idle = if idle.is_empty() { robot.impossible(&statements.formal) } else { idle };
@@ -228,8 +230,9 @@ impl<'a> Robot<'a> {
         }
     }
 
-    /// Links that move where nothing beyond their joint has mass or inertia.
-    fn without_inertia(&self) -> Vec<Fault> {
+    /// Links that move where nothing beyond their joint has mass or inertia, nor the joint an armature, of the file or
+    /// among these of the struct.
+    fn without_inertia(&self, of_struct: &[(Ident, Expression)]) -> Vec<Fault> {
         let has = |link: usize| {
             let some = |own: &Inertial| own.mass > 0.0 || own.inertia.iter().flatten().any(|entry| *entry != 0.0);
             self.in_field[link] || self.description.links[link].inertial.as_ref().is_some_and(some)
@@ -242,14 +245,28 @@ impl<'a> Robot<'a> {
                 next = self.structure.parent_of[link];
             }
         }
+        let of_file = self.armatures();
+        let geared: HashSet<&Ident> = of_file
+            .iter()
+            .filter(|(_, own)| *own > 0.0)
+            .map(|(q, _)| q)
+            .chain(of_struct.iter().map(|(q, _)| q))
+            .collect();
+        let is_geared = |link: usize| match self.structure.joint_of[link] {
+            Some(joint) => {
+                self.coordinates[self.structure.coupling_of[joint].joint].iter().all(|q| geared.contains(&q.ident))
+            }
+            None => self.base.iter().all(|base| geared.contains(base)),
+        };
         let idle = |&(link, carries): &(usize, bool)| {
             let moves_itself = self.structure.owner_of[link] == link && self.moves(link);
-            !carries && moves_itself
+            !carries && moves_itself && !is_geared(link)
         };
         let fault = |(link, _): (usize, bool)| {
             let link = &self.description.links[link];
             let message = format!(
-                "the link `{}` moves, and neither it nor what hangs on it has an <inertial>; add one, or fix its joint",
+                "the link `{}` moves, and neither it nor what hangs on it has an <inertial>; add one, give its joint an \
+                 `armature`, or fix it",
                 link.name
             );
             Fault { at: link.at, message }

@@ -332,8 +332,8 @@ fn mistakes_of_structure() {
         (
             joint("a", "revolute", "base", "one", "") + "<link name=\"one\"/>",
             vec![
-                "4:1: the link `one` moves, and neither it nor what hangs on it has an <inertial>; add one, or fix \
-                 its joint",
+                "4:1: the link `one` moves, and neither it nor what hangs on it has an <inertial>; add one, give \
+                 its joint an `armature`, or fix it",
             ],
         ),
     ];

@@ -27,6 +27,23 @@ fn motors_behind_gears() {
     assert!(remarks(&text, ", inputs = actuators").iter().all(|(text, _)| text.contains("is called")));
 }
 
+/// The inertia of a rotor, of the file or of the struct, is enough for a joint that nothing hangs on.
+#[test]
+fn rotors_without_links() {
+    let bare = |inside: &str| robot(&(joint("elbow", "revolute", "base", "arm", "") + "<link name=\"arm\"/>" + inside));
+    let refused = "4:1: the link `arm` moves, and neither it nor what hangs on it has an <inertial>; add one, give its \
+                   joint an `armature`, or fix it";
+    assert_eq!(mistakes(&bare(""), "", ""), [refused]);
+    assert_eq!(model(&bare(TRANSMISSION), "", "").armatures.len(), 1);
+    assert_eq!(model(&bare(""), ", armature(elbow = j)", "j: f64").armatures.len(), 1);
+    let still = TRANSMISSION.replace("1e-4", "0");
+    assert_eq!(mistakes(&bare(&still), "", ""), [refused]);
+    // Of the joint that carries it, nothing is said.
+    let both = joint("elbow", "revolute", "base", "arm", "") + &joint("wrist", "revolute", "arm", "hand", "");
+    let both = robot(&(both + "<link name=\"arm\"/><link name=\"hand\"/>" + TRANSMISSION));
+    assert_eq!(mistakes(&both, "", ""), [refused.replace("4:1", "5:19").replace("`arm`", "`hand`")]);
+}
+
 #[test]
 fn what_transmissions_say_besides() {
     let velocity = "<transmission name=\"t\"><joint name=\"elbow\"><hardwareInterface>VelocityJointInterface\

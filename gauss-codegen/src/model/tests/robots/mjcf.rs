@@ -126,7 +126,7 @@ fn what_is_told_and_refused() {
             "",
             Some(
                 "3:9: the link `body_2` moves, and neither it nor what hangs on it has an <inertial>; add one, \
-                 or fix its joint",
+                 give its joint an `armature`, or fix it",
             ),
         ),
     ];

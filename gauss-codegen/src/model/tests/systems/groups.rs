@@ -147,7 +147,7 @@ fn dependence() {
         &[(
             "r",
             "no position and no rotation depends on the coordinate `r`, so nothing determines its acceleration; \
-             name it in one of them or remove it",
+             name it in one of them, give it an `armature`, or remove it",
         )],
     );
     check(

@@ -1,7 +1,7 @@
 //! Coordinates, speeds and kinematics; clauses that contradict a system or are written wrongly.
 
 use super::super::{ALL_CLAUSES, check};
-use super::particle;
+use super::{particle, system};
 
 /// A particle on a line, with other clauses of motion.
 fn moving(clauses: &str) -> String {
@@ -118,7 +118,26 @@ fn kinematics() {
         &[(
             "theta",
             "no position and no rotation depends on the coordinate `theta`, so nothing determines its acceleration; \
-             name it in one of them or remove it",
+             name it in one of them, give it an `armature`, or remove it",
+        )],
+    );
+}
+
+/// An armature is inertia of its own: what has one needs no body, and the others still do.
+#[test]
+fn armatures_are_inertia() {
+    let clauses =
+        "coordinates(x, y, ball: Rotation), armature(y = m, ball = 2), particle(mass = m, position = [x, 0, 0])";
+    assert_eq!(system(&format!("#[gauss({clauses})] struct Scene {{ m: f64 }}")).armatures.len(), 2);
+    let alone = "#[gauss(coordinates(y), armature(y = m))] struct Scene { m: f64 }";
+    assert_eq!(system(alone).coordinates.len(), 1);
+    check(
+        "#[gauss(coordinates(x, y, w), armature(y = m), particle(mass = m, position = [x, 0, 0]))] \
+         struct Scene { m: f64 }",
+        &[(
+            "w",
+            "no position and no rotation depends on the coordinate `w`, so nothing determines its acceleration; \
+             name it in one of them, give it an `armature`, or remove it",
         )],
     );
 }
