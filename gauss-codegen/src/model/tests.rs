@@ -5,6 +5,7 @@ mod acting;
 mod charts;
 mod clauses;
 mod items;
+mod misleading;
 mod modes;
 #[cfg(feature = "urdf")]
 mod robots;

@@ -122,6 +122,8 @@ impl Written {
                 }
             } else if let Some((_, message)) = row.refused.iter().find(|(refused, _)| *refused == word) {
                 context.error(argument.name.span(), *message);
+                // What it lacks is what that says.
+                read.complete = false;
             } else if known(&argument, row.word, &table, &mut given, context) {
                 read.arguments.push(argument);
             } else {

@@ -294,6 +294,9 @@ fn vector(array: &ExprArray, context: &mut Context) -> Option<Expression> {
                 4 => {
                     "; a rotation by a quaternion is one coordinate, `coordinates(turn: Rotation)` with `rotation = turn`"
                 }
+                6 => {
+                    "; six of a wrench are two vectors, `wrench(body = …, force = [fx, fy, fz], torque = [mx, my, mz])`"
+                }
                 _ => "",
             };
             context.error(span, format!("a vector has three components, found {count}{remedy}"));

@@ -299,6 +299,11 @@ fn read_kind<K: Copy>(
         context.error(colon, format!("a scalar {noun} has no type; write `{ident}`"));
         return Some(*scalar);
     }
+    let is_quaternion = ["Quaternion", "UnitQuaternion", "Rotation3", "Matrix3"].contains(&word);
+    if let Some((rotation, kind)) = kinds.iter().find(|(name, _)| is_quaternion && *name == "Rotation") {
+        context.error(span, format!("unknown kind of {noun} `{word}`; a rotation is `{ident}: {rotation}`"));
+        return Some(*kind);
+    }
     if let Some((near, kind)) = words::nearest(word, kinds) {
         let message = if near == word {
             format!("`{written}` is written as one word; write `{ident}: {near}`")

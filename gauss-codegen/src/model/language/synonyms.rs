@@ -333,6 +333,22 @@ pub const FOR_CLAUSES: &Table<&'static str> = &[
     ("observer", REFERENCE),
 ];
 
+const TURN: &str = "a rotation by a quaternion, or by a vector, is one coordinate: `coordinates(turn: Rotation)` with \
+                    `rotation = turn`; turns by angles are `rotation_x(a)`, `rotation_y(b)` and `rotation_z(c)`";
+
+/// In the place of a function.
+pub const FOR_FUNCTIONS: &Table<&'static str> = &[
+    ("quaternion", TURN),
+    ("quat", TURN),
+    ("unit_quaternion", TURN),
+    ("rotation", TURN),
+    ("rotation_quaternion", TURN),
+    ("rotation_from_quaternion", TURN),
+    ("from_quaternion", TURN),
+    ("rotation_vector", TURN),
+    ("axis_angle", TURN),
+];
+
 /// Laws of friction that neither a clause nor an argument of one has: in the place of both.
 pub const LAWS: &Table<&'static str> = &[
     ("lugre", BRISTLES),

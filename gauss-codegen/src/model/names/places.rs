@@ -4,7 +4,7 @@ use super::scope::Meaning;
 use crate::model::language::kind::Kind;
 use crate::model::language::words;
 use crate::model::scene::clauses::{ConstraintKind, CoordinateKind};
-use crate::model::scene::elements::Row;
+use crate::model::scene::elements::{ElementKind, Row};
 use crate::model::scene::expression::FunctionName;
 use crate::terms::{Role, Shape};
 use proc_macro2::Ident;
@@ -211,6 +211,17 @@ impl Place {
                     "the end of {} is a vector, found {}; write the name of a point, `arm.position` or `[x, y, z]`",
                     holder.noun(),
                     found.noun()
+                );
+            }
+            Place::Along(Holder::Element(row)) if found == Kind::Rotation && row.kind == ElementKind::Friction => (
+                "the extent of a friction law is a scalar",
+                "what brakes a turn is `damping = c * dot(turn.body_angular_velocity, turn.body_angular_velocity) / 2`",
+            ),
+            Place::Along(holder) if found == Kind::Rotation => {
+                return format!(
+                    "the extent of {} is a scalar, found a rotation; how far it may turn from an axis is the cosine \
+                     `along = dot(turn * [0, 0, 1], [0, 0, 1])`",
+                    holder.noun()
                 );
             }
             Place::Along(holder) => {

@@ -1,6 +1,7 @@
 //! What the names in expressions mean.
 
 use crate::model::language::functions::FUNCTIONS;
+use crate::model::language::synonyms::{FOR_FUNCTIONS, instead};
 use crate::model::language::words::{self, PI, TIME};
 use crate::model::scene::clauses::{CoordinateKind, SpeedKind};
 use crate::model::scene::expression::{Expression, Property};
@@ -185,6 +186,9 @@ impl Scope {
             _ => None,
         });
         let table: Vec<(&str, ())> = own.chain(FUNCTIONS.iter().map(|(word, _)| (*word, ()))).collect();
+        if let Some(told) = instead(&word, FOR_FUNCTIONS) {
+            return Err(Some(format!("unknown function `{word}`; {told}")));
+        }
         Err(Some(match words::nearest(&word, &table) {
             Some((near, ())) => format!("unknown function `{word}`; did you mean `{near}`?"),
             None => format!(

@@ -252,7 +252,15 @@ pub static FORCE: Row = Row {
         IN_AXES,
     ],
     rules: &[Rule::Somewhere],
-    refused: &[],
+    refused: &[
+        ("force", "the components of a force are its value; write `value = [fx, fy, fz]`"),
+        ("torque", "a force with a torque is a wrench; write `wrench(body = …, at = …, force = […], torque = […])`"),
+        (
+            "reaction",
+            "a force acts on one body; the other side is a `force(…)` of its own at the same point, with the opposite \
+             value",
+        ),
+    ],
     example: "at = …, value = [fx, fy, fz]",
     argument: "an argument such as `value = [0, 0, f]`",
 };
@@ -270,10 +278,21 @@ pub static TORQUE: Row = Row {
         Argument::optional(REACTION, Takes::Other, "…"),
     ],
     rules: &[],
-    refused: &[("at", "a torque has no point: it does the same wherever it acts on its body; remove `at`")],
+    refused: &[
+        ("at", "a torque has no point: it does the same wherever it acts on its body; remove `at`"),
+        ("torque", "the components of a torque are its value; write `value = [mx, my, mz]`"),
+        (
+            "force",
+            "a force with a torque is a wrench, `wrench(body = …, force = […], torque = […])`; a reaction has the torque \
+             alone, `torque(body = …, value = […], reaction = …)`",
+        ),
+    ],
     example: "body = …, value = [mx, my, mz]",
     argument: "an argument such as `value = [0, 0, f]`",
 };
+
+const PARTS: &str =
+    "a wrench has two parts; write `force = […], torque = […]`, of an input `push.force` and `push.torque`";
 
 /// A force at a point of a body, a torque on it, or both.
 pub static WRENCH: Row = Row {
@@ -295,11 +314,15 @@ pub static WRENCH: Row = Row {
             "a torque has no point: it does the same wherever it acts on its body; add `force = …`, or remove `at`",
         ),
     ],
-    refused: &[(
-        "reaction",
-        "a wrench acts on one body; a torque between two is `torque(body = …, value = […], reaction = …)`, and the \
-         force on the other a `force(…)` of its own",
-    )],
+    refused: &[
+        (
+            "reaction",
+            "a wrench acts on one body; a torque between two is `torque(body = …, value = […], reaction = …)`, and the \
+             force on the other a `force(…)` of its own",
+        ),
+        ("value", PARTS),
+        ("wrench", PARTS),
+    ],
     example: "body = …, force = [fx, fy, fz], torque = [mx, my, mz]",
     argument: "an argument such as `force = [0, 0, f]`",
 };

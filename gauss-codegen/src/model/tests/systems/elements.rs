@@ -134,7 +134,10 @@ fn wrenches() {
                  `at`",
             ),
             ("forse", "unknown argument of `wrench`: `forse`; did you mean `force`?"),
-            ("value", "unknown argument of `wrench`: `value`; expected `body`, `at`, `force`, `torque` or `axes`"),
+            (
+                "value",
+                "a wrench has two parts; write `force = […], torque = […]`, of an input `push.force` and `push.torque`",
+            ),
             (
                 "moment",
                 "there is no `.moment`; the components of a vector are `.x`, `.y` and `.z`, bodies have \

@@ -60,10 +60,7 @@ fn kinds_of_declarations() {
         &[
             ("Pos", "unknown kind of coordinate `Pos`; did you mean `Pose`?"),
             ("Rotaton", "unknown kind of coordinate `Rotaton`; did you mean `Rotation`?"),
-            (
-                "Quaternion",
-                "unknown kind of coordinate `Quaternion`; expected `Pose` or `Rotation`, or `b` alone for a scalar",
-            ),
+            ("Quaternion", "unknown kind of coordinate `Quaternion`; a rotation is `b: Rotation`"),
             (":", "a scalar coordinate has no type; write `c`"),
             (
                 "Vector3",
