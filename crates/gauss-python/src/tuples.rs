@@ -39,9 +39,13 @@ pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     Ok(())
 }
 
+/// The class of that name.
+pub fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    let class = CLASSES.get(py).map(|classes| classes.bind(py).get_item(name)).transpose()?.flatten();
+    class.ok_or_else(|| pyo3::exceptions::PyRuntimeError::new_err(format!("the package has no {name}")))
+}
+
 /// A tuple of a class.
 pub fn new<'py>(py: Python<'py>, name: &str, fields: Bound<'py, PyTuple>) -> PyResult<Bound<'py, PyAny>> {
-    let class = CLASSES.get(py).map(|classes| classes.bind(py).get_item(name)).transpose()?.flatten();
-    let class = class.ok_or_else(|| pyo3::exceptions::PyRuntimeError::new_err(format!("the package has no {name}")))?;
-    class.call1(fields)
+    class(py, name)?.call1(fields)
 }

@@ -1,5 +1,6 @@
 """The functions of JAX: against those of arrays, and their derivatives against differences."""
 
+import pickle
 import subprocess
 import sys
 
@@ -42,6 +43,10 @@ def test_results_with_names_and_frames(pendulum, arm, random):
     found, expected = scenes.jax(pendulum).linearize(q, z, [0.3]), pendulum.linearize(q, z, [0.3])
     assert found._fields == expected._fields
     assert all(np.array_equal(a, b) for a, b in zip(found, expected))
+    # One class for both, which pickles find in the package.
+    again = pickle.loads(pickle.dumps(found))
+    assert type(again) is type(found) is type(expected)
+    assert all(np.array_equal(a, b) for a, b in zip(again, expected))
     q, z = states(arm, random, (20,))
     functions = scenes.jax(arm)
     assert np.array_equal(functions.pose("tool", q), arm.pose("tool", q))

@@ -1,7 +1,5 @@
 """The methods of a kernel as functions of JAX, for `jit`, `vmap`, `jvp`, `grad`."""
 
-import collections
-
 import jax
 import jax.ffi
 import jax.numpy as jnp
@@ -24,11 +22,9 @@ class Method:
     """One method: arrays in, arrays out."""
 
     def __init__(self, target, number, spec):
-        name, method, self.names, self.arguments, self.results, class_name = spec
+        name, method, self.names, self.arguments, self.results, self.tuple = spec
         self.target, self.name = target, name
         self.attributes = {"kernel": np.int64(number), "method": np.int64(method)}
-        several = [result for result, _ in self.results]
-        self.tuple = collections.namedtuple(class_name, several) if len(several) > 1 else None
 
     def frame(self, name):
         if self.names is None:

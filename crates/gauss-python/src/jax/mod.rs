@@ -16,6 +16,7 @@ use crate::kernels::AnyKernel;
 use crate::memory::{Source, Target};
 use crate::methods::{Id, SPECS, Work};
 use crate::steps::off_group_words;
+use crate::tuples;
 use abi::{Buffer, F32, F64, Frame};
 
 /// Kernels of which JAX was given functions: compiled programs name them by their place here, and nobody tells when the
@@ -180,7 +181,8 @@ fn capsule(py: Python<'_>, address: *mut c_void) -> PyResult<Bound<'_, PyCapsule
     }
 }
 
-/// The methods that the kernel has: name, number, what names come first, arguments and results with their sizes.
+/// The methods that the kernel has: name, number, what names come first, arguments and results with their sizes, and
+/// the class of several results.
 fn specs<'py>(py: Python<'py>, kernel: &dyn AnyKernel) -> PyResult<Bound<'py, PyList>> {
     let scene = kernel.scene();
     let sizes = scene.sizes();
@@ -199,7 +201,9 @@ fn specs<'py>(py: Python<'py>, kernel: &dyn AnyKernel) -> PyResult<Bound<'py, Py
             .iter()
             .map(|result| (result.name, result.axes.iter().map(|axis| sizes.get(*axis)).collect()))
             .collect();
-        all.append((spec.name, id as usize, names, arguments, results, spec.class_name()))?;
+        // That of the package, so that pickles find it.
+        let class = (results.len() > 1).then(|| tuples::class(py, &spec.class_name())).transpose()?;
+        all.append((spec.name, id as usize, names, arguments, results, class))?;
     }
     Ok(all)
 }
