@@ -236,15 +236,19 @@ mod kept;
 /// common and welds as
 /// constraints; springs and dampers of tendons, fixed ones and spatial ones through sites and pulleys, slack over a
 /// range; actuators along joints and fixed tendons that are linear in their control, with gains that may depend on
-/// length and rate, and at sites, without `refsite`: those are wrenches, each with its control for an input whatever
-/// `inputs` asks for. A ball is a `Rotation`, a free joint a `Pose`; armature, damping and springs act in both. The
-/// spring of a turn is a torque −k φ n, MuJoCo's: no potential energy counts it, and it jumps where φ is half a
+/// length and rate, in balls and free joints, and at sites, without `refsite`: those are torques and wrenches, each
+/// with its control for an input whatever `inputs` asks for. A ball is driven by a torque of the first three numbers of
+/// its gear, in the axes of its child, with `jointinparent` in those that these have where nothing is turned, and its
+/// parent by the opposite one. A ball is a `Rotation`, a free joint a `Pose`; armature, damping and springs act in
+/// both. The range of a ball is that of the angle φ of its turn about whatever direction: what stays below its limit is
+/// −cos φ/sin φ₀, which is smooth also where φ is 0, and beyond φ₀ by as much as φ while both are near. The spring of a
+/// turn is a torque −k φ n, MuJoCo's: no potential energy counts it, and it jumps where φ is half a
 /// revolution. Keyframes are functions `ArmState::home()`, by their names, and `ArmInput::home()` where inputs are
 /// controls; `ArmState::start()` is where the file has everything at first, if that is not zero. `<include>` puts what
 /// is in the root of another file in its place: its path is relative to the folder of the first, or else to that of the
 /// file that includes it, and no file is included twice. `<replicate>` copies what is in it, and what refers to that;
-/// `<attach>` hangs a body of another model, with what refers to it. An edit of any of these files, and of meshes,
-/// compiles the struct anew; mistakes are shown where they are written.
+/// `<attach>` hangs a body of another model, or another like one that stands before it, with what refers to it. An edit
+/// of any of these files, and of meshes, compiles the struct anew; mistakes are shown where they are written.
 ///
 /// Files may be anywhere, also behind links, as for `include_str!`. They are regular files, of 16 MiB at most with all
 /// that they include, a mesh of 64 MiB; elements are nested 256 deep at most, includes 32; a file attaches 32 models,

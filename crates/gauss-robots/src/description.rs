@@ -241,7 +241,7 @@ impl Joint {
 }
 
 /// What drives joints by a control u: along the length l = Σ c q the force (g₀ + g₁ l + g₂ l̇) u + b₀ + b₁ l + b₂ l̇;
-/// or by a wrench on a frame, whose l stays zero.
+/// or by a wrench on a frame, whose l stays zero, or at a joint with several coordinates.
 #[derive(Clone, Debug)]
 pub struct Drive {
     /// As the file has it.
@@ -252,6 +252,8 @@ pub struct Drive {
     pub along: Vec<(String, f64)>,
     /// A link, and the force and torque at it, in its axes, of a unit of force of the drive; `along` is empty then.
     pub at_link: Option<(String, [Triple; 2])>,
+    /// A ball or a floating joint, on whose child it acts; `along` is empty then.
+    pub at_joint: Option<Turned>,
     /// g₀, g₁, g₂.
     pub gain: Triple,
     /// b₀, b₁, b₂.
@@ -262,7 +264,24 @@ pub struct Drive {
     pub forces: Option<[f64; 2]>,
 }
 
+/// A drive of a joint with several coordinates. Its l̇ is the power of a unit of its force; its l is zero, of a ball
+/// the component of the rotation vector along the torque.
+#[derive(Clone, Debug)]
+pub struct Turned {
+    /// The joint.
+    pub name: String,
+    /// The force, in observer's axes, and the torque of a unit of force of the drive; of a ball the torque alone.
+    pub wrench: [Triple; 2],
+    /// The torque keeps its direction where the child turns; otherwise it is in the axes of the child.
+    pub in_parent: bool,
+}
+
 impl Drive {
+    /// It acts as a wrench, on no coordinate alone.
+    pub fn is_wrench(&self) -> bool {
+        self.at_link.is_some() || self.at_joint.is_some()
+    }
+
     /// Its force is its control.
     pub fn is_plain(&self) -> bool {
         self.gain == Drive::DIRECT && self.bias == [0.0; 3]

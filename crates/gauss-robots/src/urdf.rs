@@ -328,6 +328,7 @@ fn transmission<'a>(node: Node<'a, 'a>, description: &mut Description, reading: 
             at,
             along: vec![(joint.clone(), gear)],
             at_link: None,
+            at_joint: None,
             gain: Drive::DIRECT,
             bias: [0.0; 3],
             controls: None,

@@ -128,6 +128,16 @@ impl<'a> Reading<'a> {
         self.fault_at(self.place(at), format!("{}: {message}", shown(node)));
     }
 
+    /// The same, unless something is said of it already.
+    pub fn other_fault_of_value(&mut self, node: Node<'a, 'a>, name: &str, message: impl std::fmt::Display) {
+        let at = node.attribute_node(name).map_or_else(|| node.range(), |attribute| attribute.range_value());
+        let places = [self.at(node), self.place(at)];
+        let quoted = format!("`{name}`");
+        if !self.faults.iter().any(|fault| places.contains(&fault.at) && fault.message.contains(&quoted)) {
+            self.fault_of_value(node, name, message);
+        }
+    }
+
     /// Notes what a reader of the equations should know.
     pub fn note(&mut self, node: Node<'a, 'a>, text: impl std::fmt::Display) {
         self.notes.push(Note::told(self.at(node), text.to_string()));
@@ -153,6 +163,11 @@ impl<'a> Reading<'a> {
         let models = &self.text.models;
         let names = || models.iter().map(|(name, _)| name.as_str());
         models.iter().find(|(own, _)| own == name).map(|(_, text)| text).ok_or_else(|| unknown("model", name, names()))
+    }
+
+    /// The whole text.
+    pub fn whole(&self) -> &'a Text {
+        self.text
     }
 
     /// The folder of the first file.

@@ -2,6 +2,7 @@
 //! that are summed link by link from the numbers of the file.
 
 mod asked;
+mod balls;
 mod mechanisms;
 mod quadrotor;
 mod springs;

@@ -4,7 +4,7 @@ use roxmltree::Node;
 
 use super::File;
 use super::gains::{ACTUATOR, Gains};
-use crate::description::{Description, Drive};
+use crate::description::{Description, Drive, JointKind, Turned};
 use crate::names::unknown;
 use crate::rotation::Triple;
 use crate::xml::shown;
@@ -15,6 +15,8 @@ enum ActsOn {
     Joints(Vec<(String, f64)>),
     /// With the force and the torque there.
     Link(String, [Triple; 2]),
+    /// A ball or a joint that moves freely.
+    Turned(Turned),
 }
 
 impl<'a> File<'a> {
@@ -41,19 +43,22 @@ impl<'a> File<'a> {
             self.ignored(node, "it is not linear in its control, or has a state of its own");
             return None;
         }
-        let (along, at_link) = match self.acts_on(node, &gains.gear)? {
-            ActsOn::Joints(along) => (along, None),
-            ActsOn::Link(link, wrench) => (Vec::new(), Some((link, wrench))),
-        };
+        let (mut along, mut at_link, mut at_joint) = (Vec::new(), None, None);
+        match self.acts_on(node, &gains.gear)? {
+            ActsOn::Joints(joints) => along = joints,
+            ActsOn::Link(link, wrench) => at_link = Some((link, wrench)),
+            ActsOn::Turned(turned) => at_joint = Some(turned),
+        }
         let named = self.reading.text(node, "name").map(str::to_owned);
-        let first = along.first().map(|(joint, _)| joint).or(at_link.as_ref().map(|(link, _)| link)).cloned();
+        let of_wrench = at_link.as_ref().map(|(link, _)| link).or(at_joint.as_ref().map(|turned| &turned.name));
+        let first = along.first().map(|(joint, _)| joint).or(of_wrench).cloned();
         let [gain, mut bias] = gains.acting();
         if let Some(ratio) = gains.ratio() {
             bias[2] = -self.damping(node, &along, (gain[0], ratio))?;
         }
         let [controls, forces] = self.ranges(node, &gains, &along);
         let at = self.reading.at(node);
-        Some(Drive { name: named.or(first)?, at, along, at_link, gain, bias, controls, forces })
+        Some(Drive { name: named.or(first)?, at, along, at_link, at_joint, gain, bias, controls, forces })
     }
 
     /// Adds what an actuator has of damping and inertia of its own to its joint or tendon, by the square of its gear,
@@ -161,8 +166,12 @@ impl<'a> File<'a> {
 
     fn acts_on(&mut self, node: Node<'a, 'a>, gear: &[f64; 6]) -> Option<ActsOn> {
         let Some(site) = self.reading.text(node, "site") else {
-            return self.along(node, gear[0]).map(ActsOn::Joints);
+            return match self.turned(node, gear) {
+                Some(turned) => Some(ActsOn::Turned(turned)),
+                None => self.along(node, gear[0]).map(ActsOn::Joints),
+            };
         };
+        let wrench = [[0, 1, 2], [3, 4, 5]].map(|part| part.map(|k| gear[k]));
         if self.reading.text(node, "refsite").is_some() {
             self.ignored(node, "a `refsite` is not read; of sites alone the wrench at `site` is");
             return None;
@@ -172,7 +181,22 @@ impl<'a> File<'a> {
             self.reading.fault(node, format!("it acts at {message}"));
             return None;
         };
-        Some(ActsOn::Link(link, [[0, 1, 2], [3, 4, 5]].map(|part| part.map(|k| gear[k]))))
+        Some(ActsOn::Link(link, wrench))
+    }
+
+    /// What acts on a ball, by a torque of the first three numbers of its gear, or on a joint that moves freely, by a
+    /// force and a torque, as `mj_transmission` of MuJoCo's `src/engine/engine_core_smooth.c` has it.
+    fn turned(&mut self, node: Node<'a, 'a>, gear: &[f64; 6]) -> Option<Turned> {
+        let own = self.reading.text(node, "joint");
+        let name = own.or(self.reading.text(node, "jointinparent"))?;
+        let joint = self.description.joints.iter().find(|joint| joint.name == name)?;
+        let [first, second] = [[0, 1, 2], [3, 4, 5]].map(|part| part.map(|k| gear[k]));
+        let wrench = match joint.kind {
+            JointKind::Ball => [[0.0; 3], first],
+            JointKind::Floating => [first, second],
+            _ => return None,
+        };
+        Some(Turned { name: name.to_owned(), wrench, in_parent: own.is_none() })
     }
 
     /// What a site is called among links.
@@ -198,7 +222,7 @@ impl<'a> File<'a> {
         let several =
             |joint: &str| self.description.joints.iter().any(|other| other.name == joint && !other.kind.is_scalar());
         if along.iter().any(|(joint, _)| several(joint)) {
-            self.ignored(node, "its joint has not one coordinate; `wrench(…)` of the struct can act on the body");
+            self.ignored(node, "a joint of its tendon has not one coordinate");
             return None;
         }
         Some(along)

@@ -1,5 +1,7 @@
 //! `<attach model="…" body="…" prefix="…"/>`: a body of another model, or its world, hangs here.
 //!
+//! Without `model` the body is one of the same model that stands before: another like it hangs here.
+//!
 //! The other model is read by its own settings and classes; what comes of it has the prefix before its names
 //! (<https://mujoco.readthedocs.io/en/stable/XMLreference.html#body-attach>). Of its tendons, equalities and actuators
 //! those come along that refer to nothing but what does; its gravity and its keyframes do not.
@@ -10,7 +12,7 @@ use std::ops::Range;
 use roxmltree::Node;
 
 use super::labels::{Affix, Named, SECTIONS, name_of, references};
-use super::{File, Place, WORLD, model};
+use super::{File, Model, Place, WORLD, model};
 use crate::collision::{Collision, Pair};
 use crate::description::{Fault, Joint, JointKind};
 use crate::names::unknown;
@@ -32,10 +34,13 @@ impl<'a> File<'a> {
         if self.reading.text(node, "frame").is_some() {
             return Err("frames are not attached; make a <body> of it".to_owned());
         }
-        let name = name.ok_or("parts of the model itself are not attached; name another `model`")?;
         let prefix = prefix.ok_or("the attribute `prefix` is missing")?;
-        let text = self.reading.model(name).map_err(|which| format!("it attaches {which}"))?;
-        let read = part(text, body, prefix)?;
+        let (text, before) = match (name, body) {
+            (Some(name), _) => (self.reading.model(name).map_err(|which| format!("it attaches {which}"))?, usize::MAX),
+            (None, Some(_)) => (self.reading.whole(), node.range().start),
+            (None, None) => return Err("without a `model` it is to name a `body` of its own".to_owned()),
+        };
+        let read = part(text, (body, before), prefix)?;
         let read = read.and_then(|(part, keys)| Ok((model(&part, Some((prefix, &*self)))?, keys)));
         let (other, has_keys) = match read {
             Ok(read) => read,
@@ -47,8 +52,14 @@ impl<'a> File<'a> {
             }
         };
         if has_keys {
-            self.reading.note(node, format!("keyframes of the model `{name}` are not attached"));
+            let whose = name.map_or_else(|| "the model itself".to_owned(), |name| format!("the model `{name}`"));
+            self.reading.note(node, format!("keyframes of {whose} are not attached"));
         }
+        self.hung(other, parent, place)
+    }
+
+    /// What is in another model, put at a place in a body of this one.
+    fn hung(&mut self, other: Model, parent: &str, place: &Place) -> Result<(), String> {
         let is_free = |joint: &Joint| joint.kind == JointKind::Floating;
         if parent != WORLD && other.description.joints.iter().any(is_free) {
             return Err("a body that moves freely hangs in the world, not on another body".to_owned());
@@ -115,12 +126,16 @@ enum Becomes<'a> {
     World(Node<'a, 'a>, Option<&'a str>),
 }
 
-/// The text with the body alone, or all of its world, and what refers to nothing else, with a prefix before names, and
-/// whether keyframes were taken out of it; the faults of what is no XML.
+/// The text with the body alone, which ends before a place in it, or all of its world, and what refers to nothing else,
+/// with a prefix before names, and whether keyframes were taken out of it; the faults of what is no XML.
 ///
 /// # Errors
 /// Why there is no such body.
-fn part(text: &Text, body: Option<&str>, prefix: &str) -> Result<Result<(Text, bool), Vec<Fault>>, String> {
+fn part(
+    text: &Text,
+    (body, before): (Option<&str>, usize),
+    prefix: &str,
+) -> Result<Result<(Text, bool), Vec<Fault>>, String> {
     let document = match parse(&text.whole) {
         Ok(document) => document,
         Err(fault) => return Ok(Err(vec![fault])),
@@ -136,6 +151,12 @@ fn part(text: &Text, body: Option<&str>, prefix: &str) -> Result<Result<(Text, b
         }
         Some(body) => {
             let node = found(&worlds, body)?;
+            if node.range().end > before {
+                return Err(format!("`{body}` does not end before it; what is attached stands before"));
+            }
+            if before < usize::MAX && own_descendants(node).any(|inner| inner.has_tag_name("attach")) {
+                return Err(format!("`{body}` attaches others itself; name another `model`"));
+            }
             let class = node.ancestors().skip(1).find_map(|around| around.attribute("childclass"));
             for (index, world) in worlds.iter().enumerate() {
                 edits.push((world.range(), if index == 0 { Becomes::World(node, class) } else { Becomes::Nothing }));
@@ -378,6 +399,42 @@ mod tests {
         assert_eq!(found.joints[1].at.file, 2);
     }
 
+    /// Bodies, joints, places, actuators of MuJoCo 4.0.0, and what it refuses.
+    #[test]
+    fn a_body_of_the_model_itself() {
+        let arm = "<frame childclass=\"c\"><body name=\"arm\" pos=\"0 0 1\"><geom size=\"1\"/><joint name=\"j\"/></body></frame>";
+        let text = |before: &str, attach: &str, after: &str| {
+            format!(
+                "<default><default class=\"c\"><joint damping=\"3\"/></default></default><worldbody>{before}\
+                 <body name=\"h\" pos=\"1 0 0\"><geom size=\"1\"/><joint name=\"k\"/><frame pos=\"1 2 3\">\
+                 <attach {attach} prefix=\"l-\"/></frame></body>{after}</worldbody><actuator>\
+                 <motor name=\"m\" joint=\"j\"/><motor name=\"n\" joint=\"k\"/></actuator>"
+            )
+        };
+        let bare = arm.replace("<frame childclass=\"c\">", "").replace("</frame>", "");
+        let bare = bare.replace("pos=", "childclass=\"c\" pos=");
+        let found = described(&text(&bare, "body=\"arm\"", "")).expect("one model");
+        assert_eq!(names(found.links.iter().map(|link| &link.name)), "world arm h l-arm");
+        assert_eq!(names(found.joints.iter().map(|joint| &joint.name)), "j k l-j");
+        assert_eq!(names(found.drives.iter().map(|drive| &drive.name)), "m n l-m");
+        let [own, _, other] = found.joints.as_slice() else { panic!("{:?}", found.joints) };
+        assert_eq!((other.position, other.damping, own.damping), ([1.0, 2.0, 4.0], 3.0, 3.0));
+        assert_eq!((other.parent.as_str(), found.notes.len()), ("h", 0));
+        let refused = |text: String| described(&text).map(|_| ()).expect_err("a fault")[0].message.clone();
+        let later = "<attach>: `arm` does not end before it; what is attached stands before";
+        assert_eq!(refused(text("", "body=\"arm\"", &bare)), later);
+        assert_eq!(refused(text("", "body=\"h\"", "")), later.replace("arm", "h"));
+        let nested = text(&bare, "body=\"arm\"", "<body><attach body=\"h\" prefix=\"x\"/></body>");
+        assert_eq!(refused(nested), "<attach>: `h` attaches others itself; name another `model`");
+        let framed = "<attach>: `arm` stands in a <frame> of its model, and is not attached without it";
+        assert_eq!(refused(text(arm, "body=\"arm\"", "")), framed);
+    }
+
+    fn described(inside: &str) -> Result<Description, Vec<Fault>> {
+        let text = format!("<mujoco>{inside}</mujoco>");
+        read(&Text::of(Written::new(String::new(), PathBuf::new(), text)))
+    }
+
     #[test]
     fn what_is_refused() {
         let folder = Folder::new("refused", LEG);
@@ -393,7 +450,8 @@ mod tests {
             ),
             ("model=\"log\" prefix=\"a\"", "<attach>: it attaches `log`, which is no model; did you mean `leg`?"),
             ("model=\"leg\"", "<attach>: the attribute `prefix` is missing"),
-            ("body=\"hip\" prefix=\"a\"", "<attach>: parts of the model itself are not attached; name another `model`"),
+            ("prefix=\"a\"", "<attach>: without a `model` it is to name a `body` of its own"),
+            ("body=\"hip\" prefix=\"a\"", "<attach>: it attaches `hip`, which is no body of this file"),
             ("model=\"leg\" frame=\"f\" prefix=\"a\"", "<attach>: frames are not attached; make a <body> of it"),
         ] {
             assert_eq!(world(attach), expected);

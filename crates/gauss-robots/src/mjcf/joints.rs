@@ -1,5 +1,7 @@
 //! The joints of a body.
 
+use std::f64::consts::PI;
+
 use roxmltree::Node;
 
 use super::{File, WORLD};
@@ -131,12 +133,13 @@ impl<'a> File<'a> {
         let joint = Joint { position, rotation, axis, ..joint };
         let joint = if kind == JointKind::Ball {
             let (damping, armature, stiffness) = self.laws_of_group(node, class);
-            let range = self.numbers::<2>(node, JOINT, "range", class);
-            let word = self.text(node, JOINT, "limited", class);
-            if range.and_then(|range| self.limited(node, range, word)).is_some() {
-                self.reading.ignored(node, format!("the limit of the ball joint {} does not act", shown(node)));
+            let range = self.range_of(node, self.angles.unit, class);
+            if range.is_some_and(|[least, _]| least != 0.0) {
+                self.reading.fault(node, "the range of a ball is that of the angle of its turn, from 0");
             }
-            Joint { damping, armature, stiffness, ..joint }
+            // No turn is by more than half a revolution.
+            let most = range.map(|[_, most]| most).filter(|most| *most < PI);
+            Joint { damping, armature, stiffness, limits: [None, most], ..joint }
         } else {
             self.with_laws(node, joint, class)
         };
@@ -145,6 +148,13 @@ impl<'a> File<'a> {
             self.tuned.push((node, joint.name.clone(), tuned));
         }
         self.description.joints.push(joint);
+    }
+
+    /// The range of a joint, if it limits.
+    fn range_of(&mut self, node: Node<'a, 'a>, unit: f64, class: Option<&'a str>) -> Option<[f64; 2]> {
+        let range = self.numbers::<2>(node, JOINT, "range", class).unwrap_or_default();
+        let word = self.text(node, JOINT, "limited", class);
+        self.limited(node, range.map(|limit| limit * unit), word)
     }
 
     fn amount(&mut self, node: Node<'a, 'a>, name: &'static str, class: Option<&'a str>) -> f64 {
@@ -161,10 +171,7 @@ impl<'a> File<'a> {
         let unit = if joint.kind == JointKind::Turning { self.angles.unit } else { 1.0 };
         let [reference, rest] = ["ref", "springref"]
             .map(|name| self.numbers::<1>(node, JOINT, name, class).map_or(0.0, |[number]| number * unit));
-        let range = self.numbers::<2>(node, JOINT, "range", class).map(|range| range.map(|limit| limit * unit));
-        let word = self.text(node, JOINT, "limited", class);
-        let range = range.and_then(|range| self.limited(node, range, word));
-        let limits = range.map_or([None; 2], |range| range.map(Some));
+        let limits = self.range_of(node, unit, class).map_or([None; 2], |range| range.map(Some));
         let efforts = self.numbers::<2>(node, JOINT, "actuatorfrcrange", class);
         let word = self.text(node, JOINT, "actuatorfrclimited", class);
         let efforts = efforts.and_then(|range| self.limited(node, range, word));

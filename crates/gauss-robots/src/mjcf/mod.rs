@@ -9,7 +9,7 @@
 //! | `options`, `disabled` | gravity, what is switched off |
 //! | `reference` | of every attribute what becomes of it |
 //! | `relations` | equalities and tendons |
-//! | `attach` | parts of other models |
+//! | `attach` | parts of other models, and of the same |
 //! | `include`, `replicate`, `labels` | the text of several files, and with copies, which have names of their own |
 //! | `actuators`, `gains`, `ratios` | what drives joints, and by how much |
 //! | `keys` | states with names |
@@ -24,8 +24,11 @@ mod classes;
 mod collisions;
 mod disabled;
 mod gains;
+mod grammar;
 mod include;
 mod joints;
+#[cfg(test)]
+mod joints_tests;
 mod keys;
 mod labels;
 mod masses;
@@ -47,6 +50,7 @@ use roxmltree::Node;
 use self::bounds::Bounds;
 use self::classes::Classes;
 use self::disabled::Disabled;
+use self::grammar::refuse_other_types;
 use self::reference::ELEMENTS;
 use self::rotations::{Angles, ORIENTATION};
 use super::description::{Description, Drive, Fault, Inertial, Joint, JointKind, Link};
@@ -132,6 +136,7 @@ fn model(text: &Text, around: Option<(&str, &File<'_>)>) -> Result<Model, Vec<Fa
         }
     }
     file.contacts(root);
+    refuse_other_types(root, &mut file.reading);
     file.reading.note_unread();
     let File { mut description, reading, sites, controls, .. } = file;
     description.notes = reading.notes;

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use super::reference::ELEMENTS;
-use super::{included, read};
+use super::{grammar, included, read};
 use crate::description::{Description, Fault, Joint};
 use crate::reference::checks::Format;
 use crate::reference::{Element, Verdict};
@@ -35,14 +35,12 @@ fn every_attribute_has_a_verdict() {
 #[test]
 fn numbers_of_the_grammar_are_read() {
     let format = Format { elements: ELEMENTS, read: beside_others, file: FILE, samples: SAMPLES };
-    let joined = include_str!("tests/types.txt").replace("\n    ", " ");
-    let is_place = |place: &str| place.contains('/') && !place.contains(' ');
-    let rows = joined.lines().filter_map(|line| line.split_once(": ")).filter(|(place, _)| is_place(place));
+    let joined = grammar::joined();
     let (mut known, mut tried, mut wrong) = (0, 0, Vec::new());
-    for (place, attributes) in rows {
+    for (place, attributes) in grammar::rows(&joined) {
         let (parent, name) = place.split_once('/').expect("an element in another");
         let element = Element::find(ELEMENTS, parent, name).unwrap_or_else(|| panic!("{place} has no verdict"));
-        for (attribute, kind) in attributes.split_whitespace().filter_map(|own| own.split_once(':')) {
+        for (attribute, kind) in attributes {
             if element.verdict != Verdict::Acts {
                 continue;
             }
@@ -67,34 +65,55 @@ fn numbers_of_the_grammar_are_read() {
     assert!(known > 700 && tried > 100, "{known} attributes are known, {tried} counts tried");
 }
 
-/// `jnt_stiffness`, `jnt_stiffnesspoly`, `dof_damping` and the like of MuJoCo 4.0.0: what actuators add counts by the
-/// square of their gears, also where they are switched off.
+/// What is of another type than the grammar says is a mistake that names the attribute: a word where numbers are, more
+/// or fewer numbers, a fraction where one counts, a word that is none of those.
 #[test]
-fn springs_and_dampers_of_three_numbers() {
-    let text = |joint: &str, more: &str| {
-        described(&format!(
-            r#"<default><default class="c"><joint stiffness="10 4 50" damping="1 -2"/></default></default><worldbody><body>
-            <joint name="a" {joint}/><geom size="1"/></body></worldbody>{more}"#
-        ))
-    };
-    let of = |joint: &Joint| (joint.stiffness, joint.damping, joint.nonlinear.stiffness, joint.nonlinear.damping);
-    let ignored = |read: &Description| read.notes.iter().filter(|note| note.ignored.is_some()).count();
-    assert_eq!(of(&text(r#"class="c""#, "").joints[0]), (10.0, 1.0, [4.0, 50.0], [-2.0, 0.0]));
-    let ball = text(r#"class="c" type="ball" range="0 90""#, "");
-    assert_eq!((of(&ball.joints[0]), ignored(&ball)), ((10.0, 1.0, [0.0; 2], [0.0; 2]), 2));
-    let motors = r#"<tendon><fixed name="t" damping="3"><joint joint="a" coef="2"/></fixed></tendon><actuator>
-        <motor joint="a" gear="3" damping="1 2 0.5" armature="0.25" group="1"/><motor joint="a" gear="-2" damping="0.5"/>
-        <motor tendon="t" gear="0.5" damping="1 2"/></actuator>"#;
-    for more in ["", r#"<option actuatorgroupdisable="1"><flag actuation="disable"/></option>"#] {
-        let read = text("", &format!("{motors}{more}"));
-        assert_eq!((of(&read.joints[0]), read.joints[0].armature), ((0.0, 11.0, [0.0; 2], [18.0, 4.5]), 2.25));
-        assert_eq!((read.tendons[0].damping, read.tendons[0].nonlinear.damping), (3.25, [0.5, 0.0]));
-        assert_eq!(ignored(&read), 0, "{:?}", read.notes);
+fn values_of_other_types_are_mistakes() {
+    let format = Format { elements: ELEMENTS, read: beside_others, file: FILE, samples: SAMPLES };
+    let joined = grammar::joined();
+    let (mut tried, mut wrong) = (0, Vec::new());
+    for (place, attributes) in grammar::rows(&joined).filter(|(place, _)| format.has(place)) {
+        let (parent, name) = place.split_once('/').expect("an element in another");
+        let element = Element::find(ELEMENTS, parent, name).unwrap_or_else(|| panic!("{place} has no verdict"));
+        for (attribute, kind) in attributes {
+            // Of gains and biases other words are warned of.
+            let is_warned = matches!(attribute, "gaintype" | "biastype");
+            if element.verdict != Verdict::Acts || element.of(attribute) != Some(Verdict::Acts) || is_warned {
+                continue;
+            }
+            for value in of_another_type(kind) {
+                tried += 1;
+                let found = format.faults(place, attribute, &value);
+                let is_named = |message: &String| {
+                    message.contains(&format!("`{attribute}")) || message.contains(&format!("found `{value}`"))
+                };
+                let named = found.iter().any(is_named);
+                wrong.extend((!named).then(|| format!("{place} {attribute}=\"{value}\" ({kind}): {found:?}")));
+            }
+        }
     }
-    let off = text(r#"class="c""#, &format!(r#"{motors}<option><flag damper="disable" spring="disable"/></option>"#));
-    assert_eq!((of(&off.joints[0]), off.joints[0].armature), ((0.0, 0.0, [0.0; 2], [0.0; 2]), 2.25));
-    let heavy = text("", &motors.replace("damping=\"1 2\"", "armature=\"1\""));
-    assert_eq!(ignored(&heavy), 1, "{:?}", heavy.notes);
+    assert!(wrong.is_empty(), "{} of {tried}:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// Values that are not of a type of the grammar, `real(1..3)`.
+fn of_another_type(kind: &str) -> Vec<String> {
+    let (word, counts) = kind.split_once('(').unwrap_or((kind, ""));
+    let counts = counts.trim_end_matches(')');
+    let (least, most) = counts.split_once("..").unwrap_or((counts, counts));
+    let many = |count: usize| vec!["1"; count].join(" ");
+    let mut all = Vec::new();
+    if matches!(word, "real" | "int") {
+        all.push(vec!["x"; least.parse().unwrap_or(1)].join(" "));
+        all.extend(most.parse().ok().map(|most: usize| many(most + 1)));
+        all.extend(least.parse().ok().filter(|least| *least > 1).map(|least: usize| many(least - 1)));
+    }
+    if word == "int" && most == "1" {
+        all.push("1.5".to_owned());
+    }
+    if matches!(word, "enum" | "bool") {
+        all.push("perhaps".to_owned());
+    }
+    all
 }
 
 #[test]
@@ -110,13 +129,13 @@ fn beside_others(text: &Text) -> Result<Description, Vec<Fault>> {
     if faults.is_empty() { read(&text) } else { Err(faults) }
 }
 
-fn described(inside: &str) -> Description {
+pub fn described(inside: &str) -> Description {
     let text = format!("<mujoco>{inside}</mujoco>");
     let written = Written::new(String::new(), PathBuf::new(), text);
     read(&Text::of(written)).unwrap_or_else(|faults| panic!("{inside}: {faults:?}"))
 }
 
-fn near(a: f64, b: f64) -> bool {
+pub fn near(a: f64, b: f64) -> bool {
     // MuJoCo's numbers are printed with nine digits and more.
     (a - b).abs() <= 1e-8 * b.abs()
 }
@@ -154,52 +173,6 @@ fn classes_have_names_of_their_own() {
         found,
         [r#"<default>: a class in another has a name; write `class="…"`"#, "<default>: a second class is called `a`"]
     );
-}
-
-/// `jnt_pos`, `jnt_axis`, `dof_damping`, `body_ipos` and `body_mass` of MuJoCo 4.0; 3.3 leaves out the frame of
-/// <inertial>.
-#[test]
-fn joints_and_masses_in_frames() {
-    let read = described(
-        r#"<default><default class="c"><joint damping="5"/></default></default><worldbody><body name="b" pos="1 0 0">
-        <frame pos="0 1 0" euler="0 90 0" childclass="c"><joint name="a" pos="0 0 1"/><frame euler="90 0 0">
-        <joint name="s" type="slide"/></frame><inertial mass="2" pos="1 0 0" diaginertia="1 2 3"/></frame>
-        <joint name="z"/></body></worldbody>"#,
-    );
-    let joint = |name: &str| read.joints.iter().find(|joint| joint.name == name).unwrap();
-    assert_eq!((joint("a").position, joint("a").axis, joint("a").damping), ([2.0, 1.0, 0.0], [1.0, 0.0, 0.0], 5.0));
-    assert_eq!((joint("s").axis, joint("s").damping), ([0.0, -1.0, 0.0], 5.0));
-    assert_eq!((joint("z").axis, joint("z").damping), ([0.0, 0.0, 1.0], 0.0));
-    let own = read.links.iter().find_map(|link| link.inertial).unwrap();
-    assert!((0..3).all(|i| (own.center[i] - [0.0, 1.0, -1.0][i]).abs() < 1e-15), "{:?}", own.center);
-    assert_eq!((own.mass, own.inertia[0][0], own.inertia[2][2]), (2.0, 3.0, 1.0));
-    let told: Vec<&str> = read.notes.iter().filter(|note| note.ignored.is_some()).map(|note| &*note.text).collect();
-    assert_eq!(told, ["<inertial> is placed by the <frame> that it is in, as of MuJoCo 4, not of 3"]);
-}
-
-/// `tendon_lengthspring`, `jnt_stiffness`, `dof_damping` and `jnt_limited` of MuJoCo 3.3 and 4.0.
-#[test]
-fn rests_times_and_ranges() {
-    let body =
-        |joint: &str| format!(r#"<worldbody><body><joint name="a" {joint}/><geom size="1"/></body></worldbody>"#);
-    let tendon = r#"<tendon><fixed stiffness="3"><joint joint="a" coef="2"/></fixed></tendon>"#;
-    let rest = |joint: &str| described(&format!("{}{tendon}", body(joint))).tendons[0].rest[0];
-    assert!(near(rest(r#"ref="90" springref="30""#), 1.0471975511965976));
-    assert_eq!(rest(r#"ref="90""#), 0.0);
-    let geom = r#"<geom size="0.1" mass="3" pos="0 1 0"/>"#;
-    let tuned = |total: &str| {
-        let joint = r#"<joint springdamper="0.5 0.7" stiffness="9" armature="2"/>"#;
-        let read = described(&format!("{total}<worldbody><body>{joint}{geom}</body></worldbody>"));
-        [read.joints[0].stiffness, read.joints[0].damping]
-    };
-    let expected = [("", [40.91428571, 20.048]), (r#"<compiler settotalmass="30"/>"#, [262.20408163, 128.48])];
-    for (total, [stiffness, damping]) in expected {
-        let found = tuned(total);
-        assert!(near(found[0], stiffness) && near(found[1], damping), "{found:?}");
-    }
-    for range in ["0 0", "1 1"] {
-        assert_eq!(described(&body(&format!(r#"range="{range}""#))).joints[0].limits, [None; 2]);
-    }
 }
 
 #[test]

@@ -47,8 +47,8 @@ pub fn inputs(
                     input(ident, &word, Some(unit(joint.kind)), Driven::Joint(index))
                 })
                 .collect();
-            // A drive at a frame has no joint whose effort it could be.
-            let others = controls(description, |drive| drive.at_link.is_some(), names);
+            // A wrench is no effort of a joint.
+            let others = controls(description, Drive::is_wrench, names);
             efforts.into_iter().chain(others).collect()
         }
     }
@@ -86,11 +86,10 @@ fn input(ident: Ident, field: &str, unit: Option<&str>, of: Driven) -> Input {
 
 /// What drives with gears or gains and has an effort for an input.
 pub fn notes(description: &Description, inputs: &[Input]) -> Vec<Note> {
-    let is_drive =
-        |input: &Input| matches!(input.of, Driven::Drive(drive) if description.drives[drive].at_link.is_none());
+    let is_drive = |input: &Input| matches!(input.of, Driven::Drive(drive) if !description.drives[drive].is_wrench());
     let plain = |drive: &&Drive| {
         let geared = drive.along.iter().any(|(_, factor)| *factor != 1.0);
-        drive.at_link.is_none() && (geared || !drive.is_plain())
+        !drive.is_wrench() && (geared || !drive.is_plain())
     };
     let told = |drive: &Drive| {
         let text = format!(

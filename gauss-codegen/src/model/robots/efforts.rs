@@ -89,7 +89,7 @@ impl Robot<'_> {
 
     /// The same of these values, each with the place of its factors. What is beyond ranges is cut off where that is
     /// said.
-    fn law(&self, drive: &Drive, control: Expression, values: &[(usize, Expression)]) -> Expression {
+    pub fn law(&self, drive: &Drive, control: Expression, values: &[(usize, Expression)]) -> Expression {
         let writer = self.writer;
         let scaled = |factor: f64, value: Expression| match factor == 1.0 {
             true => value,

@@ -22,6 +22,7 @@ impl Robot<'_> {
             forces.push(ForceClause::drive(name("efforts"), efforts, span));
         }
         forces.extend(self.thrusts());
+        forces.extend(self.turning());
         let damping = self.damping();
         forces.extend(damping.map(|function| ForceClause::dissipation(name("joint_damping"), function, span)));
         forces.extend(self.springs());

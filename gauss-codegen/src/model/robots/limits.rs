@@ -15,6 +15,7 @@ use crate::model::scene::elements::argument::{ALONG, DAMPING, LEAST, MOST, STIFF
 use crate::model::scene::expression::Expression;
 use crate::model::scene::forces::ForceClause;
 use gauss_robots::description::{At, Note};
+use gauss_robots::rotation::Rotation;
 
 /// What has limits.
 struct Limited {
@@ -28,8 +29,10 @@ struct Limited {
 }
 
 impl Robot<'_> {
-    /// Joints, then tendons along joints, then tendons through sites.
+    /// Joints, then tendons along joints, then tendons through sites. Of balls what has a limit is −cos φ/sin φ₀, which
+    /// is smooth also where they are not turned, and near φ₀ beyond it by as much as the angle φ.
     fn limited(&self) -> Vec<Limited> {
+        let writer = self.writer;
         let mut limited = Vec::new();
         for (index, joint, ..) in self.scalar_joints().filter(|(_, joint, ..)| joint.limits != [None; 2]) {
             let own = self.structure.coupling_of[index].joint == index;
@@ -37,6 +40,13 @@ impl Robot<'_> {
             let along = self.values(index, 0.0).into_iter().next();
             let (at, limits, called) = (joint.at, joint.limits, joint.name.clone());
             limited.extend(along.map(|along| Limited { at, along, limits, coordinate, called }));
+        }
+        for (joint, q) in self.groups() {
+            let [None, Some(most)] = joint.limits else { continue };
+            let turn = self.turn(&writer.name(q), &Rotation::none());
+            let along = writer.times(writer.number(-1.0 / most.sin()), turn.cosine);
+            let (at, limits, called) = (joint.at, [None, Some(-1.0 / most.tan())], joint.name.clone());
+            limited.push(Limited { at, along, limits, coordinate: Some(q.clone()), called });
         }
         let named = |name: &Option<String>| name.clone().unwrap_or_else(|| "tendon".to_owned());
         let mut add = |at: At, along: Option<Expression>, limits: Option<[f64; 2]>, called: String| {

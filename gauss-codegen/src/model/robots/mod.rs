@@ -7,7 +7,7 @@
 //! | `names` | names of the file → identifiers |
 //! | `joints` | a joint → position and rotation of its link |
 //! | `clauses` | a description → clauses, before those of the struct |
-//! | `drives`, `efforts`, `ranges` | inputs; what they do; how much of it at most |
+//! | `drives`, `efforts`, `turning`, `ranges` | inputs; what they do; in balls and free joints; how much of it at most |
 //! | `limits` | those of joints and tendons; dry friction of joints |
 //! | `ground`, `pairs`, `touching` | planes and what touches them; links that touch each other; contacts of shapes |
 //! | `still` | what stays clear of a plane, whatever moves |
@@ -32,5 +32,6 @@ mod springs;
 mod states;
 mod still;
 mod touching;
+mod turning;
 
 pub use clauses::compose;

@@ -17,6 +17,13 @@ use gauss_robots::rotation::{Rotation, Triple};
 /// The square of the sine of an angle below which the angle is its sine, in double precision.
 const SMALL: f64 = 1e-32;
 
+/// A turn by an angle φ about a direction n: both are smooth where φ is zero, and φ is not.
+pub struct Turn {
+    /// sin φ n.
+    sines: [Expression; 3],
+    pub cosine: Expression,
+}
+
 impl Robot<'_> {
     /// Of joints with one coordinate.
     pub fn springs(&self) -> Vec<ForceClause> {
@@ -41,8 +48,7 @@ impl Robot<'_> {
         let (mut forces, mut notes) = (Vec::new(), Vec::new());
         let name = |q: &Ident, end: &str| Some(format_ident!("{}_{}", q.unraw(), end, span = writer.span));
         for (joint, q) in self.groups().filter(|(joint, _)| joint.stiffness > 0.0) {
-            let index = |name: &String| self.description.links.iter().position(|link| link.name == *name);
-            let (Some(child), Some(parent)) = (index(&joint.child), index(&joint.parent)) else { continue };
+            let [body, reaction] = self.ends(joint);
             let is_free = joint.kind == JointKind::Floating;
             let (place, turn) = joint.start;
             if is_free {
@@ -54,10 +60,8 @@ impl Robot<'_> {
             }
             let rotation = if is_free { writer.property(q, Property::Rotation) } else { writer.name(q) };
             let value = writer.times(writer.number(-joint.stiffness), self.rotation_vector(&rotation, &turn));
-            let reaction = Some(parent).filter(|&parent| self.moves(parent)).map(|parent| self.links[parent].clone());
-            let body = self.links[child].clone();
             let torque = ForceClause::new(&TORQUE, name(q, "spring"), writer.span)
-                .with(BODY, Some(body))
+                .with(BODY, body)
                 .with(VALUE, Some(value))
                 .with(REACTION, reaction);
             forces.push(torque);
@@ -71,9 +75,28 @@ impl Robot<'_> {
         (forces, notes)
     }
 
+    /// The link of a joint, and that which it hangs on, if this moves.
+    pub fn ends(&self, joint: &Joint) -> [Option<Ident>; 2] {
+        let index = |name: &String| self.description.links.iter().position(|link| link.name == *name);
+        let parent = index(&joint.parent).filter(|&parent| self.moves(parent));
+        [index(&joint.child), parent].map(|link| link.map(|link| self.links[link].clone()))
+    }
+
     /// φ n of the turn R₀ᵀR, in the axes that it turns: φ from atan2 of its sine and cosine, so that it keeps its
     /// digits where it is small.
-    fn rotation_vector(&self, rotation: &Expression, from: &Rotation) -> Expression {
+    pub fn rotation_vector(&self, rotation: &Expression, from: &Rotation) -> Expression {
+        let writer = self.writer;
+        let Turn { sines, cosine } = self.turn(rotation, from);
+        let [x, y, z] = sines.clone().map(|e| writer.times(e.clone(), e));
+        let square = writer.plus(writer.plus(x, y), z);
+        let square = writer.call(FunctionName::Max, vec![square, writer.number(SMALL)]);
+        let sine = writer.call(FunctionName::Sqrt, vec![square]);
+        let angle = writer.call(FunctionName::Atan2, vec![sine.clone(), cosine]);
+        writer.times(writer.binary(BinaryOperator::Divide, angle, sine), writer.vector(sines))
+    }
+
+    /// Of the turn R₀ᵀR by the angle φ ≤ π about n.
+    pub fn turn(&self, rotation: &Expression, from: &Rotation) -> Turn {
         let writer = self.writer;
         let unit: [Triple; 3] = Rotation::none().matrix;
         let vector = |v: Triple| writer.vector(v.map(|c| writer.number(c)));
@@ -89,12 +112,7 @@ impl Robot<'_> {
         });
         let trace = writer.plus(writer.plus(entry(0, 0), entry(1, 1)), entry(2, 2));
         let cosine = half(minus(trace, writer.number(1.0)));
-        let [x, y, z] = sines.clone().map(|e| writer.times(e.clone(), e));
-        let square = writer.plus(writer.plus(x, y), z);
-        let square = writer.call(FunctionName::Max, vec![square, writer.number(SMALL)]);
-        let sine = writer.call(FunctionName::Sqrt, vec![square]);
-        let angle = writer.call(FunctionName::Atan2, vec![sine.clone(), cosine]);
-        writer.times(writer.binary(BinaryOperator::Divide, angle, sine), writer.vector(sines))
+        Turn { sines, cosine }
     }
 
     pub fn tendons(&self) -> (Vec<ForceClause>, Vec<Note>) {

@@ -3,7 +3,7 @@
 use super::{Scratch, read};
 use crate::model::argument::{AT, FORCE, TORQUE, VALUE};
 use crate::model::scene::clauses::{RoleClause, RoleValue};
-use crate::model::tests::systems::show;
+use crate::model::tests::systems::{show, shown};
 use crate::model::{ConstraintKind, ElementKind, ForceClause, Model};
 use crate::terms::{Role, ValueOfState};
 
@@ -399,6 +399,28 @@ fn laws_of_balls_and_free_joints() {
     assert_eq!(read.armatures.iter().map(|(q, _)| q.to_string()).collect::<Vec<_>>(), ["a", "f"]);
     assert!(read.forces.iter().any(|force| force.row.kind == ElementKind::Dissipation));
     assert!(read.item.described.unwrap().remarks.iter().all(|remark| !remark.ignored));
+}
+
+/// What their drives are called, also where a gear is zero; a ball in a chain has a reaction.
+#[test]
+fn drives_of_balls_and_free_joints() {
+    let inside = "<joint name=\"h\"/><body name=\"b\"><joint name=\"a\" type=\"ball\" range=\"0 60\"/><geom size=\"1\"/></body></body>\
+                  <body name=\"c\"><freejoint name=\"f\"/><geom size=\"1\"/></body></worldbody><actuator>\
+                  <motor name=\"turn\" joint=\"a\" gear=\"1 2 3\"/><motor name=\"none\" joint=\"a\" gear=\"0\"/>\
+                  <motor name=\"push\" joint=\"f\"/><motor name=\"still\" joint=\"f\" gear=\"0\"/></actuator>";
+    let read = model(inside, ", limits = range");
+    let expected = [
+        "torque turn: value (Multiply turn [1 2 3]), body b, reaction arm",
+        "torque none: value (Multiply none [0 0 0]), body b, reaction arm",
+        "wrench push: force (Multiply push [1 0 0]), axes observer, body c",
+        "wrench still: force (Multiply still [0 0 0]), axes observer, body c",
+    ];
+    assert_eq!(read.forces.iter().map(shown).collect::<Vec<_>>(), expected);
+    let range = read.contacts.iter().flat_map(|contact| &contact.names).map(ToString::to_string);
+    assert_eq!(range.collect::<Vec<_>>(), ["a_to"]);
+    assert!(read.item.described.unwrap().remarks.iter().all(|remark| !remark.ignored));
+    let warned = reported(inside, "");
+    assert!(warned[0].contains("the limits of joints and tendons do not act"), "{warned:?}");
 }
 
 /// What is in the root of an included file stands where it is included; mistakes are in the file where they are
