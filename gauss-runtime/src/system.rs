@@ -232,8 +232,8 @@ pub trait GaussSystem {
     }
 
     /// The least speeds, in the metric A, that change rates of the constraints by −ρ, `−A⁻¹Jᵀ (J A⁻¹Jᵀ)⁻¹ ρ`, for a ρ
-    /// of unlike components between 1 and 2. They grow as 1/δ towards a place, at a distance δ, where constraints depend
-    /// on one another, and point the other way behind it; zero where there are no constraints.
+    /// of unlike components between 1 and 2. They grow as 1/δ towards a place, at a distance δ, where constraints
+    /// depend on one another, and point the other way behind it; zero where there are no constraints.
     #[inline]
     fn dependence(&self, t: Self::Scalar, q: &Self::Configuration, z: &Self::Speeds) -> Self::Speeds {
         let _ = (t, q, z);

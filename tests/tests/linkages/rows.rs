@@ -4,9 +4,9 @@ use gauss_batch::{Batch, RunOutcome, States};
 use gauss_runtime::integrate::{Control, Fixed};
 use gauss_runtime::prelude::*;
 
-/// Four-bar linkages in a row (IFToMM benchmark A02): every rod has a length of 1 m and a mass of 1 kg, and when all lie
-/// on the line through the bearings the constraints depend on one another. In brackets each post with its place and its
-/// angle, the beam from its top, and the angle of the next post.
+/// Four-bar linkages in a row (IFToMM benchmark A02): every rod has a length of 1 m and a mass of 1 kg, and when all
+/// lie on the line through the bearings the constraints depend on one another. In brackets each post with its place and
+/// its angle, the beam from its top, and the angle of the next post.
 macro_rules! row {
     ($(#[$note:meta])* $name:ident, $last:ident $place:literal $angle:ident $(, $clause:ident)?:
      $(($post:ident $x:literal $a:ident $beam:ident $b:ident $next:ident))+) => {
@@ -153,8 +153,8 @@ fn singular_positions_are_passed_on_the_branch_by_which_a_motion_comes() {
     }
 }
 
-/// Roundings grow by (h/δ)ᵖ in a step of length h from a distance δ, of ε/δ² in speeds to begin with: where that is more
-/// than the tolerance a run ends with the reason.
+/// Roundings grow by (h/δ)ᵖ in a step of length h from a distance δ, of ε/δ² in speeds to begin with: where that is
+/// more than the tolerance a run ends with the reason.
 #[test]
 fn energy_is_kept_where_digits_are_lost_or_the_run_ends_with_the_reason() {
     let (one, two, five) = (kernel!(One<f64>), kernel!(Two<f64>), kernel!(Five<f64>));

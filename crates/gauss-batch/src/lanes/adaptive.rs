@@ -335,18 +335,16 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
                 reached.t.replace(n, &group.end.extract(n));
             }
         }
-        let known = step.rates;
         if !all {
             reached = chosen_state(ones, &reached, &group.state);
         }
         let computed = reached;
-        let mut next = accept(problem, (&group.state, &group.rates), &mut reached, known)?;
-        let mut shorter = false;
-        if S::CONSTRAINED {
+        let mut next = accept(problem, (&group.state, &group.rates), &mut reached, step.rates)?;
+        let ends = |memory: &mut Memory<S>| {
             let trial = Trial { from: &group.state, to: &reached, length: lengths, floor: None };
-            let moved = check_move(tolerance, problem, &trial, &computed)?;
-            shorter = memory.look_at_ends(problem, &trial, &moved);
-        }
+            check_move(tolerance, problem, &trial, &computed).map(|moved| memory.look_at_ends(problem, &trial, &moved))
+        };
+        let mut shorter = S::CONSTRAINED && ends(memory)?;
         shorter |= problem.has_input() && memory.look_at_inputs(problem, tolerance, group, (&reached, &next));
         let (ones, all) = if shorter { (memory.hold_back(group, &mut reached, &mut next), false) } else { (ones, all) };
         let floors = memory.floor.as_ref().map(|floor| {

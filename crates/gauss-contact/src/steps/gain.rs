@@ -12,27 +12,12 @@
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;
 
-use crate::error::ContactError;
-
 use super::motion;
 use super::outcome::{Attempt, End};
 use super::stepper::ContactStepper;
 
 /// The part of the kinetic energy that an impact may gain without being made in shorter parts.
 const UNEXPLAINED: f64 = 1e-3;
-
-/// Why a step is not made as a whole.
-pub(super) enum Refused {
-    /// An impact in it gains energy.
-    Gains,
-    Error(ContactError),
-}
-
-impl From<ContactError> for Refused {
-    fn from(error: ContactError) -> Self {
-        Self::Error(error)
-    }
-}
 
 /// By what part of itself energy is rounded: some hundred terms.
 const ROUNDING: f64 = 128.0 * f64::EPSILON;

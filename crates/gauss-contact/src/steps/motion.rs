@@ -67,10 +67,10 @@ pub(super) fn second_half<K: ContactSystem>(
     if K::CONSTRAINED { kernel.project(t + K::Scalar::from_f64(h), &q, &z) } else { Ok((q, z)) }
 }
 
-/// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that were open,
-/// and of all where some depend on one another, both are taken at half of the step: there dependent ones agree with one
-/// another to rounding, and `½ P (u + u⁺)` is the work of an impulse P. `free` are the speeds without contact impulses,
-/// `bias` the b of their accelerations.
+/// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that were
+/// open, and of all where some depend on one another, both are taken at half of the step: there dependent ones agree
+/// with one another to rounding, and `½ P (u + u⁺)` is the work of an impulse P. `free` are the speeds without contact
+/// impulses, `bias` the b of their accelerations.
 pub(super) fn free_rates<K: ContactSystem>(
     kernel: &K,
     h: f64,

@@ -2,6 +2,7 @@
 
 use gauss_runtime::contact::ContactSystem;
 
+use crate::error::{ContactError, ContactErrorKind};
 use crate::law::carrier;
 use crate::mode::Mode;
 use crate::residual::Residual;
@@ -91,4 +92,28 @@ impl<K: ContactSystem<Scalar = f64>> Solved<K> {
             self.rests[i] = is_closed && !parts && !lifts;
         }
     }
+}
+
+/// Why a step is not made as a whole.
+pub(super) enum Refused {
+    /// An impact in it gains energy.
+    Gains,
+    Error(ContactError),
+}
+
+impl From<ContactError> for Refused {
+    fn from(error: ContactError) -> Self {
+        Self::Error(error)
+    }
+}
+
+/// Whether a step is too long for its forces.
+pub(super) fn is_stiff(error: &ContactError) -> bool {
+    matches!(error.kind, ContactErrorKind::Stiff { .. })
+}
+
+/// Whether the laws, or places, of an attempt have no solution.
+pub(super) fn has_no_end(error: &ContactError) -> bool {
+    use ContactErrorKind::{Displacement, Projection, Unsolved};
+    matches!(error.kind, Projection(_) | Displacement { .. } | Unsolved { .. })
 }

@@ -25,9 +25,8 @@ use gauss_runtime::real::Real;
 
 use crate::error::{ContactError, ContactErrorKind};
 
-use super::gain::Refused;
 use super::motion::{self, Mean, Middle};
-use super::outcome::{Attempt, End};
+use super::outcome::{Attempt, End, Refused, has_no_end};
 use super::report::{StepReport, StepScheme};
 use super::stepper::ContactStepper;
 use super::watch::Watch;
@@ -172,17 +171,6 @@ fn relaxation<V: VectorSpace<f64>>(part: f64, before: &V, after: &V) -> f64 {
     let change = after.add_scaled(-1.0, before);
     let next = -part * product(before, &change) / product(&change, &change);
     if next.is_finite() { next.clamp(LEAST_PART, 1.0) } else { 1.0 }
-}
-
-/// Whether a step is too long for its forces.
-pub(super) fn is_stiff(error: &ContactError) -> bool {
-    matches!(error.kind, ContactErrorKind::Stiff { .. })
-}
-
-/// Whether the laws, or places, of an attempt have no solution.
-pub(super) fn has_no_end(error: &ContactError) -> bool {
-    use ContactErrorKind::{Displacement, Projection, Unsolved};
-    matches!(error.kind, Projection(_) | Displacement { .. } | Unsolved { .. })
 }
 
 impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {

@@ -17,17 +17,15 @@ use crate::sensors::ContactForces;
 
 use super::bounds::{NotClosed, Touched};
 use super::cones::Laws;
-use super::gain::Refused;
 use super::impulses::{Impulses, memory};
 use super::kept::Kept;
 use super::linear::Place;
 use super::motion::{self, Middle};
-use super::outcome::{Attempt, End, Pushed, Solved};
+use super::outcome::{Attempt, End, Pushed, Refused, Solved, has_no_end, is_stiff};
 use super::posed::Posed;
 use super::projection::{Closed, Projection};
 use super::relaxed::StepLaw;
 use super::report::{StepReport, StepScheme};
-use super::speeds::{has_no_end, is_stiff};
 use super::unknowns::Unknowns;
 use super::watch::Watch;
 

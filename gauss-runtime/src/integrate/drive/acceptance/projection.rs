@@ -121,14 +121,15 @@ pub fn check_move<S: GaussSystem, P: Problem<System = S>>(
     }
 }
 
-/// The part of a step to try in place of all of it, in one lane, where it ends beside a place at which constraints become
-/// dependent.
+/// The part of a step to try in place of all of it, in one lane, where it ends beside a place at which constraints
+/// become dependent.
 ///
-/// The motion goes through such a place on the branch by which it comes. But what a state is off the constraints, be it
-/// a rounding, makes another motion of it there: from a distance δ a step of length h and order p makes (h/δ)^p of that.
-/// So a step is to lead over the place from about as far before it as behind it, and the one before ends half of a step
-/// before it. Distances are told by [`dependence`](GaussSystem::dependence), which is asked where the projection changes
-/// velocities by more than twice places over the time of the step: next to such a place they turn by 1/δ of what places move.
+/// The motion goes through such a place on the branch by which it comes. But an error of the constraints, be it a
+/// rounding, makes another motion of it there: from a distance δ a step of length h and order p makes (h/δ)^p of it. So
+/// a step is to lead over the place from about as far before it as behind it, and the one before ends half of a step
+/// before it. [`dependence`](GaussSystem::dependence) tells distances; it is asked where the projection changes
+/// velocities by more than twice places over the time of the step: next to such a place they turn by 1/δ of what
+/// places move.
 #[inline(always)]
 pub fn clear_part<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,

@@ -253,13 +253,7 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
                 Ok(moved) => moved,
                 Err(kind) => return self.halve(left, kind),
             };
-            let part = || clear_part(self.problem, &trial, &moved, 0);
-            if !last
-                && self.rejected < AVOIDED
-                && let Some(part) = part()
-            {
-                self.length = used * self.lengths.stop_before(part);
-                self.rejected += 1;
+            if !last && self.ends_beside(used, &reached, &moved) {
                 return Ok(None);
             }
         }
@@ -295,6 +289,20 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         let error = above(&floor);
         self.floor = Some(floor);
         error
+    }
+
+    /// Whether a step ends beside a place where constraints become dependent: then the next trial ends before it.
+    #[inline(always)]
+    fn ends_beside(&mut self, used: f64, reached: &State<S>, moved: &Rates<S>) -> bool {
+        let length = S::Scalar::from_f64(used);
+        let trial = Trial { from: &self.state, to: reached, length, floor: None };
+        let Some(part) = clear_part(self.problem, &trial, moved, 0) else { return false };
+        if self.rejected >= AVOIDED {
+            return false;
+        }
+        self.length = used * self.lengths.stop_before(part);
+        self.rejected += 1;
+        true
     }
 
     /// Whether something acts within the step that its stages have not seen, as far as looks tell: then the next trial
