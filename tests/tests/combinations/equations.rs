@@ -1,0 +1,273 @@
+//! What the equations of a scene may hold: smooth forces, constraints, states, modes, tables.
+
+use crate::cells::{Row, moot, refused, shown, unshown};
+
+const NO_CONTACTS: &str =
+    "a scene without contacts has no event or impulse of contact: a compile error, no `ContactSystem`";
+const TABLES_HAVE_NO_SERIES: &str = "from cell to cell a table is another polynomial, so that no series holds over a \
+                                     step: a compile error at `taylor`, which calls it `a function of your own`";
+
+pub const SMOOTH: Row = Row {
+    name: "Smooth forces",
+    clause: "bodies, springs, dampers, potentials, media",
+    cells: &[
+        ("fix", shown("tests/tests/integrators.rs", "orders_on_a_heavy_top_against_its_reference")),
+        ("ada", shown("gauss-runtime/src/integrate/tests.rs", "adaptive_steps_keep_the_tolerance_and_save_work")),
+        ("tay", shown("tests/tests/taylor/runs.rs", "tops_reach_their_references_at_every_tolerance")),
+        ("ros", shown("tests/tests/rosenbrock.rs", "what_decays_fast_is_gone_after_a_step")),
+        ("imp", shown("tests/long_runs/tests/energy_momentum.rs", "orders_against_a_reference")),
+        ("evt", refused(NO_CONTACTS)),
+        ("stp", refused(NO_CONTACTS)),
+        ("one", shown("tests/tests/rosenbrock.rs", "order_4_of_systems")),
+        ("lan", shown("tests/tests/batch/main.rs", "every_state_gets_the_bits_of_a_run_of_its_own")),
+        ("thr", shown("tests/tests/batch/ensembles.rs", "every_run_takes_the_steps_that_it_would_take_alone")),
+        ("at", shown("tests/tests/between.rs", "states_between_samples_have_their_error")),
+        ("tab", shown("crates/gauss-tables/tests/files.rs", "csv_reads_back")),
+        ("plt", shown("crates/gauss-tables/tests/files.rs", "a_panel_for_each_unit")),
+        (
+            "pag",
+            shown(
+                "crates/gauss-playback/tests/page.rs",
+                "poses_are_those_of_the_kernel_and_nothing_comes_from_elsewhere",
+            ),
+        ),
+        ("mon", shown("examples/tests/thrown_robot.rs", "a_thrown_robot_keeps_its_spin")),
+        (
+            "fwd",
+            shown("crates/gauss-sensitivity/tests/derivatives/groups.rs", "poses_have_increments_of_six_components"),
+        ),
+        (
+            "adj",
+            shown(
+                "crates/gauss-sensitivity/tests/derivatives/ensembles.rs",
+                "the_gradient_of_an_ensemble_is_the_sum_of_gradients",
+            ),
+        ),
+        ("lin", shown("tests/tests/linearize.rs", "a_body_in_a_fluid")),
+        ("dst", shown("tests/tests/discrete.rs", "groups_and_scalars")),
+        ("run", shown("tests/tests/discrete.rs", "steps_after_one_another")),
+        ("stu", shown("crates/gauss-study/tests/lanes.rs", "rows_of_lanes_are_those_of_single_runs")),
+        ("py", shown("examples/python/tests/test_methods.py", "test_methods_agree")),
+    ],
+};
+
+pub const CONSTRAINTS: Row = Row {
+    name: "Constraints",
+    clause: "`constraint(position = …)`, `constraint(velocity = …)`",
+    cells: &[
+        ("fix", shown("tests/tests/linkages/main.rs", "the_loop_stays_closed_for_a_hundred_thousand_steps")),
+        (
+            "ada",
+            shown(
+                "tests/tests/linkages/rows.rs",
+                "singular_positions_are_passed_on_the_branch_by_which_a_motion_comes",
+            ),
+        ),
+        (
+            "tay",
+            shown(
+                "tests/tests/linkages/rows.rs",
+                "energy_is_kept_where_digits_are_lost_or_the_run_ends_with_the_reason",
+            ),
+        ),
+        ("ros", shown("tests/tests/rosenbrock.rs", "constraints_are_kept")),
+        (
+            "imp",
+            shown("gauss-runtime/src/integrate/structure/collocation_tests.rs", "constraints_hold_and_the_order_stays"),
+        ),
+        ("evt", shown("tests/tests/touching.rs", "impacts_under_constraints_are_those_of_the_solved_system")),
+        (
+            "stp",
+            shown("crates/gauss-contact/tests/many/driven.rs", "friction_along_a_driven_coordinate_is_at_its_bound")
+                .but("slots refuse a kernel with constraints that its speeds do not solve, while it compiles"),
+        ),
+        (
+            "one",
+            shown("tests/tests/rosenbrock.rs", "order_4_of_systems")
+                .but("nothing brings the state back onto the constraints: `project` does, when it is called"),
+        ),
+        ("lan", shown("tests/tests/batch/main.rs", "constraints_hold_in_every_lane")),
+        (
+            "at",
+            shown("gauss-runtime/src/integrate/drive/runs/between_tests.rs", "what_is_between_satisfies_constraints"),
+        ),
+        ("pag", unshown("the example `rolling_disk` writes one")),
+        (
+            "mon",
+            shown(
+                "gauss-runtime/src/integrate/drive/acceptance/projection_tests.rs",
+                "momenta_are_kept_on_the_constraints_as_well",
+            )
+            .but("of a constraint that moves with time the work is left in the residual"),
+        ),
+        (
+            "fwd",
+            shown(
+                "crates/gauss-sensitivity/tests/derivatives/linkages.rs",
+                "a_loop_has_the_derivatives_of_the_motion_without_it",
+            ),
+        ),
+        ("adj", shown("crates/gauss-sensitivity/tests/derivatives/linkages.rs", "gradients_pass_through_projections")),
+        ("lin", shown("tests/tests/linearize.rs", "constraints_with_multipliers")),
+        (
+            "dst",
+            shown("tests/tests/discrete.rs", "constraints_with_multipliers")
+                .but("before the state is brought back onto the constraints"),
+        ),
+        ("run", unshown("what `project` does between two steps has no part in the product")),
+        ("py", shown("examples/python/tests/test_runs.py", "test_causes_are_told_in_words_of_python")),
+    ],
+};
+
+pub const REDUNDANT: Row = Row {
+    name: "Constraints that depend on one another",
+    clause: "`redundant`",
+    cells: &[
+        ("ada", shown("tests/tests/linkages/redundant.rs", "a_door_on_three_hinges_swings_as_about_an_axle")),
+        ("mon", shown("tests/tests/linkages/redundant.rs", "bricards_mechanism_moves_as_in_closed_form")),
+    ],
+};
+
+pub const STATES: Row = Row {
+    name: "States of elements",
+    clause: "`states(thrust = (command - thrust) / lag)`",
+    cells: &[
+        (
+            "fix",
+            shown("tests/tests/elements_with_states/closed.rs", "an_oscillator_with_a_filter_is_a_matrix_exponential")
+                .but("by `Adams`"),
+        ),
+        ("ada", shown("tests/tests/elements_with_states/beside.rs", "a_body_in_a_chart_has_states")),
+        ("tay", shown("tests/tests/elements_with_states/closed.rs", "a_lag_of_first_order_is_exact")),
+        (
+            "ros",
+            shown("tests/tests/elements_with_states/closed.rs", "an_oscillator_with_a_filter_is_a_matrix_exponential"),
+        ),
+        (
+            "imp",
+            shown("tests/tests/elements_with_states/closed.rs", "an_oscillator_with_a_filter_is_a_matrix_exponential"),
+        ),
+        ("evt", shown("tests/tests/elements_with_states/beside.rs", "states_go_on_through_impacts")),
+        (
+            "stp",
+            refused(
+                "a step takes forces once, at its half; rates of states have no such rule: `ContactErrorKind::States`",
+            )
+            .by("tests/tests/elements_with_states/beside.rs", "steps_of_one_length_refuse_states"),
+        ),
+        ("lan", shown("tests/tests/elements_with_states/beside.rs", "packs_have_states")),
+        ("at", shown("examples/tests/hull_memory.rs", "states_are_the_convolution_over_the_run")),
+        ("pag", unshown("the example `hull_memory` writes one")),
+        (
+            "mon",
+            shown(
+                "tests/tests/elements_with_states/derivatives.rs",
+                "energy_is_balanced_and_forces_are_those_of_the_elements",
+            ),
+        ),
+        ("lin", shown("tests/tests/elements_with_states/derivatives.rs", "linearize_is_the_matrix")),
+    ],
+};
+
+pub const MODES: Row = Row {
+    name: "Bodies that bend",
+    clause: "`modes(panel, …)`",
+    cells: &[
+        ("ada", shown("tests/tests/flexible/beam.rs", "what_no_force_acts_on_keeps_its_momenta")),
+        ("at", shown("tests/tests/flexible/spin.rs", "a_beam_that_spins_up_lags_and_comes_back")),
+        ("pag", unshown("the example `solar_arrays` writes one")),
+        ("lin", shown("tests/tests/flexible/beam.rs", "a_free_spacecraft_has_the_frequencies_of_its_beams")),
+    ],
+};
+
+pub const TABLE_OF_ONE: Row = Row {
+    name: "Tables of one number",
+    clause: "`table(lift, points = LIFT)`",
+    cells: &[
+        ("tay", refused(TABLES_HAVE_NO_SERIES)),
+        ("lin", shown("tests/tests/functions.rs", "values_and_derivatives")),
+    ],
+};
+
+pub const TABLES: Row = Row {
+    name: "Tables of two and three numbers",
+    clause: "`table(lift, axes = [ALPHA, MACH], values = LIFT)`",
+    cells: &[
+        ("ada", shown("tests/tests/tables.rs", "a_run_by_a_table")),
+        ("tay", refused(TABLES_HAVE_NO_SERIES)),
+        ("lan", unshown("accelerations and derivatives of the kernel in packs are those of single numbers; no run is")),
+        ("lin", shown("tests/tests/tables.rs", "a_table_is_its_formula")),
+    ],
+};
+
+const NO_SERIES: &str =
+    "inputs arrive at run time, so that no power series is known beforehand: a compile error at `taylor`";
+
+pub const INPUTS: Row = Row {
+    name: "Inputs by a function",
+    clause: "`input(thrust)` and `Simulation::input(|t, q, z| …)`",
+    cells: &[
+        (
+            "fix",
+            shown("gauss-runtime/src/monitor/balance.rs", "energy_is_what_was_supplied_up_to_the_quadrature")
+                .but("a push that is shorter than the distance of stages is not seen; no message tells"),
+        ),
+        ("ada", shown("crates/gauss-contact/tests/laws/pushes.rs", "a_body_at_rest_without_contacts_is_pushed_too")),
+        ("tay", refused(NO_SERIES).by("tests/compile_fail/taylor.rs", "main")),
+        ("ros", shown("tests/tests/rosenbrock.rs", "order_4_in_every_chart_with_feedback")),
+        ("imp", shown("gauss-runtime/src/integrate/structure/collocation_tests.rs", "orders_in_both_forms")),
+        ("evt", shown("tests/tests/touching.rs", "a_motor_holds_a_pendulum_at_its_stop")),
+        (
+            "stp",
+            shown("crates/gauss-contact/tests/many/spinning.rs", "gains_of_a_controller_are_held_for_a_step")
+                .but("held for a step"),
+        ),
+        ("one", shown("tests/tests/rosenbrock.rs", "order_4_in_every_chart_with_feedback")),
+        ("lan", shown("tests/tests/batch/ensembles.rs", "pushes_that_are_over_soon_are_seen_in_every_lane")),
+        (
+            "at",
+            shown(
+                "gauss-runtime/src/integrate/drive/runs/between_tests.rs",
+                "between_samples_the_order_is_that_of_the_method",
+            ),
+        ),
+        ("tab", shown("crates/gauss-tables/tests/table.rs", "columns_have_names_and_csv_reads_back")),
+        ("mon", shown("gauss-runtime/src/monitor/balance.rs", "energy_is_what_was_supplied_up_to_the_quadrature")),
+        ("fwd", shown("crates/gauss-sensitivity/tests/derivatives/groups.rs", "backward_is_forward")),
+        ("adj", shown("crates/gauss-sensitivity/tests/derivatives/groups.rs", "backward_is_forward")),
+        ("lin", shown("tests/tests/linearize.rs", "groups_and_scalars")),
+        ("dst", shown("tests/tests/discrete.rs", "groups_and_scalars").but("held for the step")),
+        ("run", shown("tests/tests/discrete.rs", "steps_after_one_another").but("held for each step")),
+        ("py", shown("examples/python/tests/test_runs.py", "test_inputs")),
+    ],
+};
+
+pub const RECORDED: Row = Row {
+    name: "Inputs by a table of samples",
+    clause: "a recording behind `InputSource`; in Python a pair (times, values)",
+    cells: &[
+        (
+            "ada",
+            shown(
+                "examples/tests/recorded_inputs.rs",
+                "a_replay_agrees_with_equations_by_hand_and_with_the_closed_form",
+            )
+            .but("a run for each interval between two rows, where the input has its corners"),
+        ),
+        ("tay", refused(NO_SERIES).by("tests/compile_fail/taylor.rs", "main")),
+        (
+            "stp",
+            shown("examples/tests/trotting.rs", "it_trots_and_recorded_torques_give_the_same_bits")
+                .but("a row for each step"),
+        ),
+        ("lan", unshown("`Batch::input` is a function of a pack: a recording for each lane is written by hand")),
+        (
+            "adj",
+            shown("crates/gauss-sensitivity/tests/derivatives/memory.rs", "the_number_of_checkpoints_changes_no_bit")
+                .but("samples that are held, a number for each interval"),
+        ),
+        ("lin", moot("it takes the value of the input, wherever that comes from")),
+        ("dst", moot("it takes the value that is held, wherever that comes from")),
+        ("py", shown("examples/python/tests/test_runs.py", "test_inputs")),
+    ],
+};

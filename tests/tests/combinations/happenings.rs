@@ -1,0 +1,289 @@
+//! What happens in a run: samples of controllers, events, jumps, stops, contacts, slots.
+
+use crate::cells::{Row, missing, moot, refused, shown, unshown};
+
+const AT_A_STATE: &str = "it happens in a run; the equations at a state have no part of it";
+const NOT_IN_RUNS: &str = "`ContactRun` has `input`, `event` and `until`, and no such method";
+const BETWEEN_STEPS: &str = "what is done between two steps is the caller's";
+
+pub const SAMPLED: Row = Row {
+    name: "Controllers that sample",
+    clause: "`Simulation::sampled(period, |t, q, z| …)`",
+    cells: &[
+        ("fix", shown("tests/tests/sampled.rs", "one_run_has_the_bits_of_a_loop_of_runs")),
+        ("ada", shown("tests/tests/sampled.rs", "one_run_has_the_bits_of_a_loop_of_runs")),
+        (
+            "tay",
+            refused("it needs an input, and inputs have no power series: a compile error at `taylor`")
+                .by("tests/compile_fail/taylor.rs", "main"),
+        ),
+        ("evt", missing(NOT_IN_RUNS)),
+        ("stp", missing("`ContactSteps::input` is asked in each step; another period is a loop over `ContactStepper`")),
+        ("one", moot(BETWEEN_STEPS)),
+        ("lan", missing("`Batch` and `Ensemble` have no such method")),
+        ("thr", missing("`Batch` and `Ensemble` have no such method")),
+        ("at", shown("tests/tests/sampled.rs", "states_between_have_the_input_that_was_held")),
+        ("tab", shown("tests/tests/sampled.rs", "tables_tell_what_was_held")),
+        ("pag", unshown("the example `mpc_step` writes one")),
+        ("mon", shown("tests/tests/sampled.rs", "the_balance_of_energy_is_that_of_what_was_held")),
+        ("fwd", shown("tests/tests/sampled.rs", "derivatives_pass_through_samples").but("in dual numbers")),
+        (
+            "adj",
+            missing("`Run::input` may hold a number over each interval; a controller that samples states has no place"),
+        ),
+        ("lin", moot(AT_A_STATE)),
+        (
+            "dst",
+            shown("tests/tests/discrete.rs", "differences_of_the_same_step").but("the step of an input that is held"),
+        ),
+        ("run", shown("tests/tests/discrete.rs", "steps_after_one_another")),
+        (
+            "py",
+            shown("examples/python/tests/test_methods.py", "test_controllers_hold_from_instant_to_instant")
+                .but("`ensemble` has none"),
+        ),
+    ],
+};
+
+pub const EVENTS: Row = Row {
+    name: "Events",
+    clause: "`event(…)`, `until(…)`",
+    cells: &[
+        (
+            "fix",
+            shown(
+                "gauss-runtime/src/integrate/drive/events/event_tests.rs",
+                "events_are_as_accurate_as_the_method_and_lie_on_zero",
+            ),
+        ),
+        (
+            "ada",
+            shown(
+                "gauss-runtime/src/integrate/drive/events/event_tests.rs",
+                "events_are_as_accurate_as_the_method_and_lie_on_zero",
+            ),
+        ),
+        (
+            "tay",
+            shown("tests/tests/taylor/runs.rs", "events_and_states_between_samples_have_the_accuracy_of_the_method"),
+        ),
+        ("imp", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
+        (
+            "evt",
+            shown(
+                "crates/gauss-contact/tests/laws/marks.rs",
+                "functions_of_the_user_are_found_between_impacts_and_at_them",
+            ),
+        ),
+        ("stp", missing("steps have no `event` or `until`: look at the state after each of them")),
+        ("one", missing("a step knows no events: the search belongs to `Simulation`")),
+        ("lan", shown("tests/tests/batch/ensembles.rs", "events_are_those_of_each_run")),
+        (
+            "thr",
+            shown("examples/python/tests/test_runs.py", "test_ensembles_have_parameters_and_ends_of_their_own")
+                .but("an end, through Python; `ContactEnsemble` has none"),
+        ),
+        (
+            "at",
+            shown(
+                "gauss-runtime/src/integrate/drive/runs/between_tests.rs",
+                "samples_apart_events_and_both_directions",
+            ),
+        ),
+        (
+            "fwd",
+            shown(
+                "crates/gauss-sensitivity/tests/derivatives/events.rs",
+                "the_period_of_a_pendulum_has_derivatives_by_length_gravity_and_amplitude",
+            ),
+        ),
+        (
+            "adj",
+            shown(
+                "crates/gauss-sensitivity/tests/derivatives/events.rs",
+                "the_period_of_a_pendulum_has_derivatives_by_length_gravity_and_amplitude",
+            )
+            .but("the event that ends the run"),
+        ),
+        ("lin", moot(AT_A_STATE)),
+        ("dst", missing("a step ends at the time that it is given; an event within it is not looked for")),
+        ("run", missing("as for a step: the time of an event has no part in the product")),
+        ("stu", shown("guide/src/studies.md", "main")),
+        ("py", shown("examples/python/tests/test_methods.py", "test_events_do_not_end_a_run")),
+    ],
+};
+
+pub const JUMPS: Row = Row {
+    name: "Jumps of the state",
+    clause: "`event(…).then(|state| …)`, `then_through`",
+    cells: &[
+        ("fix", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
+        ("ada", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
+        ("tay", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
+        ("imp", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
+        ("evt", missing(NOT_IN_RUNS)),
+        ("stp", missing("steps have no events: begin another `ContactStepper` at the state after a jump")),
+        ("one", moot(BETWEEN_STEPS)),
+        ("lan", shown("tests/tests/events.rs", "runs_in_lanes_pile_up_and_are_told_as_alone")),
+        ("at", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
+        (
+            "pag",
+            unshown("pictures are even in time")
+                .silent("a page draws straight on from picture to picture, also where the state jumps between two"),
+        ),
+        ("mon", missing("`power_balance` leaves what jumps take in its residual, where errors of the run are, too")),
+        (
+            "fwd",
+            shown("tests/tests/duals/events.rs", "times_of_impacts_and_the_flight_after_them_have_derivatives")
+                .but("in dual numbers; `Run` of `gauss-sensitivity` has no jumps"),
+        ),
+        ("adj", missing("`Run` has `until`, and no jumps")),
+        ("lin", moot(AT_A_STATE)),
+        ("dst", missing("a step ends at the time that it is given; no jump is within it")),
+        ("run", missing("derivatives of a jump and of its time have no place in the product")),
+        ("py", missing("`simulate` has no argument for it")),
+    ],
+};
+
+const FALLS_THROUGH: &str = "without the forces of its contacts bodies would fall through floors and joints pass their \
+                             stops: `IntegrationErrorKind::Contacts`, or `without_contacts()` on purpose";
+const FREE_STEP: &str = "`step` takes `acceleration`, that with all gaps open; so do the adapters (`FlatSystem`) and \
+                         `Batch::accelerations`";
+const FREE_DERIVATIVES: &str = "`linearize` of the kernel is that with all gaps open, also of what rests";
+const FREE_STEP_DERIVATIVES: &str = "`CommutatorFree4::step_linearized` is that of the motion with all gaps open";
+const FROM_PYTHON: &str = "`simulate` and `ensemble` raise";
+const METHODS_OF_PYTHON: &str =
+    "`acceleration`, `rates`, `linearize` and functions of JAX are those with all gaps open";
+
+pub const RANGES: Row = Row {
+    name: "Ranges and dry friction",
+    clause: "`range(knee, from = 0, to = 2.4)`, `dry_friction(hinge, bound = f)`",
+    cells: &[
+        ("fix", refused(FALLS_THROUGH)),
+        ("ada", refused(FALLS_THROUGH)),
+        ("tay", refused(FALLS_THROUGH)),
+        ("ros", refused(FALLS_THROUGH)),
+        ("imp", refused(FALLS_THROUGH)),
+        ("evt", shown("tests/tests/touching.rs", "a_motor_holds_a_pendulum_at_its_stop")),
+        ("stp", shown("crates/gauss-contact/tests/many/several.rs", "a_leg_between_its_stops_gains_little")),
+        ("one", missing("a step by hand has no forces of stops or dry joints").silent(FREE_STEP)),
+        (
+            "lan",
+            shown(
+                "crates/gauss-contact/tests/many/driven.rs",
+                "lanes_and_derivatives_have_friction_along_driven_coordinates",
+            ),
+        ),
+        ("at", shown("tests/tests/touching.rs", "a_motor_holds_a_pendulum_at_its_stop").but("of `ContactRun`")),
+        ("pag", unshown("the example `dry_friction` writes one")),
+        ("adj", refused(FALLS_THROUGH)),
+        ("lin", unshown("`InMode` with `gauss_adapters::linearize` is the way").silent(FREE_DERIVATIVES)),
+        (
+            "dst",
+            shown(
+                "crates/gauss-contact/src/steps/derivatives_tests.rs",
+                "stops_dry_joints_and_rods_have_the_derivatives_of_differences",
+            )
+            .silent(FREE_STEP_DERIVATIVES),
+        ),
+        ("run", shown("examples/tests/hop_mpc.rs", "plans_hop_on_after_a_blow_and_thrusts_alone_do_not")),
+        ("stu", unshown("the examples `lander_legs` and `study` are such studies")),
+        ("py", refused(FROM_PYTHON).silent(METHODS_OF_PYTHON)),
+    ],
+};
+
+pub const CONTACTS: Row = Row {
+    name: "Contacts",
+    clause: "`contact(foot, point = tip, friction = mu)`, `ground(…)`, `self_contact(…)`",
+    cells: &[
+        ("fix", refused(FALLS_THROUGH).by("tests/tests/touching.rs", "runs_without_contact_forces_refuse_contacts")),
+        ("ada", refused(FALLS_THROUGH).by("tests/tests/touching.rs", "runs_without_contact_forces_refuse_contacts")),
+        ("tay", refused(FALLS_THROUGH)),
+        ("ros", refused(FALLS_THROUGH)),
+        ("imp", refused(FALLS_THROUGH).by("tests/tests/touching.rs", "runs_without_contact_forces_refuse_contacts")),
+        ("evt", shown("tests/tests/touching.rs", "a_sliding_ball_begins_to_roll")),
+        ("stp", shown("crates/gauss-contact/tests/laws/steps.rs", "a_box_falls_on_a_corner_and_lies_down")),
+        ("one", missing("a step by hand has no contact forces; `ContactStepper` has").silent(FREE_STEP)),
+        (
+            "lan",
+            shown("crates/gauss-contact/tests/many/lanes.rs", "a_lane_has_the_bits_of_a_stepper_of_its_own")
+                .but("`Batch` refuses: `ensembles_refuse_contacts` in `tests/tests/touching.rs`"),
+        ),
+        (
+            "thr",
+            shown(
+                "crates/gauss-contact/tests/many/lanes.rs",
+                "an_ensemble_has_the_bits_of_single_runs_on_one_thread_and_on_all",
+            ),
+        ),
+        (
+            "at",
+            shown(
+                "crates/gauss-contact/tests/laws/turning.rs",
+                "a_ball_that_spins_on_its_place_stops_when_drilling_has_taken_its_momentum",
+            )
+            .but("of `ContactRun`; steps have no `at`"),
+        ),
+        ("tab", shown("tests/tests/touching/history.rs", "a_table_has_the_columns_of_its_contacts")),
+        ("plt", unshown("the example `hopping` draws such a table")),
+        ("pag", shown("crates/gauss-playback/tests/contact.rs", "contacts_have_places_modes_and_forces")),
+        (
+            "mon",
+            shown("tests/tests/touching/history.rs", "what_friction_and_impacts_take_is_what_is_lost")
+                .but("of `ContactRun`; of steps `report.work` and `unexplained`"),
+        ),
+        (
+            "fwd",
+            shown("tests/tests/duals/contacts.rs", "bounces_have_the_derivatives_of_their_closed_form")
+                .but("`ContactRun` in dual numbers; `gauss-sensitivity` refuses, `contacts_are_refused`"),
+        ),
+        ("adj", refused(FALLS_THROUGH).but("as forward; `contacts_are_refused` asks `run` alone, not `gradient`")),
+        (
+            "lin",
+            shown("tests/tests/duals/contacts.rs", "a_system_is_linearised_in_its_mode")
+                .but("`InMode` with `gauss_adapters::linearize`")
+                .silent(FREE_DERIVATIVES),
+        ),
+        (
+            "dst",
+            shown(
+                "crates/gauss-contact/src/steps/derivatives_tests.rs",
+                "a_tossed_crate_has_the_derivatives_of_differences",
+            )
+            .silent(FREE_STEP_DERIVATIVES),
+        ),
+        ("run", shown("examples/tests/trot_regulator.rs", "gains_from_derivatives_of_steps_hold_a_trot")),
+        ("stu", unshown("the examples `lander_legs` and `study` are such studies")),
+        ("py", refused(FROM_PYTHON).silent(METHODS_OF_PYTHON)),
+    ],
+};
+
+const ONE_SCALAR: &str = "`Slots` are in `f64` alone";
+const OF_SLOTS: &str = "`Slots` have no such trait: a compile error";
+
+pub const SLOTS: Row = Row {
+    name: "Slots",
+    clause: "`Slots`, shapes of `gauss-parry`: contacts that come at run time",
+    cells: &[
+        ("fix", refused(FALLS_THROUGH)),
+        ("ada", refused(FALLS_THROUGH)),
+        ("tay", refused(OF_SLOTS)),
+        ("ros", refused(OF_SLOTS)),
+        ("imp", refused(FALLS_THROUGH)),
+        ("evt", shown("crates/gauss-contact/tests/slots.rs", "exact_runs_and_steps_move_as_with_the_clause")),
+        ("stp", shown("crates/gauss-parry/tests/scenes/arm.rs", "an_arm_pushes_a_box_over_a_table")),
+        (
+            "one",
+            missing("a step by hand has no contact forces; `ParrySteps` and `ContactStepper` have").silent(FREE_STEP),
+        ),
+        ("lan", missing(ONE_SCALAR)),
+        ("thr", missing("`ContactEnsemble` takes packs, and slots are in `f64` alone")),
+        ("mon", missing("`Slots` have no powers, so that `energy_balance` is not there; `report.work` is")),
+        ("fwd", missing(ONE_SCALAR)),
+        ("adj", missing(ONE_SCALAR)),
+        ("lin", missing(OF_SLOTS)),
+        ("dst", missing(ONE_SCALAR)),
+        ("run", missing(ONE_SCALAR)),
+        ("py", missing("there is no class for them")),
+    ],
+};

@@ -1,0 +1,163 @@
+//! What a scene may hold, and what is done with it: `docs/combinations.md` is written from here
+//! (`UPDATE_COMBINATIONS=1`) and compared. Each test that the table names is where it says.
+
+mod cells;
+mod equations;
+mod happenings;
+
+use std::fmt::Write;
+use std::fs;
+
+use gauss_tests::pages::repository;
+
+use cells::{COLUMNS, Cell, Kind, Row, Test, UNSHOWN};
+use equations::{CONSTRAINTS, INPUTS, MODES, RECORDED, REDUNDANT, SMOOTH, STATES, TABLE_OF_ONE, TABLES};
+use happenings::{CONTACTS, EVENTS, JUMPS, RANGES, SAMPLED, SLOTS};
+
+const ROWS: [Row; 15] = [
+    SMOOTH,
+    CONSTRAINTS,
+    REDUNDANT,
+    STATES,
+    MODES,
+    TABLE_OF_ONE,
+    TABLES,
+    INPUTS,
+    RECORDED,
+    SAMPLED,
+    EVENTS,
+    JUMPS,
+    RANGES,
+    CONTACTS,
+    SLOTS,
+];
+
+fn cell(row: &Row, column: &str) -> Cell {
+    row.cells.iter().find(|(name, _)| *name == column).map_or(UNSHOWN, |(_, cell)| *cell)
+}
+
+fn cells() -> impl Iterator<Item = Cell> {
+    ROWS.iter().flat_map(|row| COLUMNS.iter().map(move |(column, ..)| cell(row, column)))
+}
+
+fn symbol(cell: &Cell) -> String {
+    format!("{}{}", cell.kind.symbol(), if cell.silent.is_empty() { "" } else { "!" })
+}
+
+const HEAD: &str = "\
+# What goes together
+
+What a scene may hold, in rows, and what is done with it, in columns, as it is today: what a test runs, what is refused
+and why, what no test tells, what is not built. `tests/tests/combinations` has the table, sees that every test it names
+is there, and writes this page: `UPDATE_COMBINATIONS=1 cargo test -p gauss-tests --test combinations`.
+
+";
+
+/// How many cells of each kind there are.
+fn counts() -> String {
+    let mut out = String::from("| | cells | |\n|---|---|---|\n");
+    for kind in Kind::ALL {
+        let count = cells().filter(|cell| cell.kind == kind).count();
+        writeln!(out, "| {} | {count} | {} |", kind.symbol(), kind.words()).expect("a string");
+    }
+    let silent = cells().filter(|cell| !cell.silent.is_empty()).count();
+    writeln!(out, "| ! | {silent} of them | some way to ask gives an answer that leaves it out, without notice |")
+        .expect("a string");
+    out
+}
+
+fn matrix() -> String {
+    let columns = COLUMNS.map(|(letters, ..)| letters).join(" | ");
+    let mut out = format!("\n| | {columns} |\n|---|{}\n", "---|".repeat(COLUMNS.len()));
+    for row in &ROWS {
+        let symbols = COLUMNS.map(|(column, ..)| symbol(&cell(row, column))).join(" | ");
+        writeln!(out, "| [{}](#{}) | {symbols} |", row.name, row.name.to_lowercase().replace(' ', "-"))
+            .expect("a string");
+    }
+    out.push_str("\n| | what is done | |\n|---|---|---|\n");
+    for (letters, name, words) in COLUMNS {
+        writeln!(out, "| {letters} | {name} | {words} |").expect("a string");
+    }
+    out
+}
+
+/// What is left out without notice, alike ones together.
+fn silent() -> String {
+    let mut found: Vec<(&str, Vec<String>)> = Vec::new();
+    for row in &ROWS {
+        for (column, Cell { silent, .. }) in row.cells.iter().filter(|(_, cell)| !cell.silent.is_empty()) {
+            let place = format!("{} ({column})", row.name);
+            match found.iter_mut().find(|(words, _)| words == silent) {
+                Some((_, places)) => places.push(place),
+                None => found.push((silent, vec![place])),
+            }
+        }
+    }
+    let mut out = String::from("\n## Left out without notice\n\n| where | what is met |\n|---|---|\n");
+    for (words, places) in found {
+        writeln!(out, "| {} | {words} |", places.join(", ")).expect("a string");
+    }
+    out
+}
+
+/// What shows a cell, with a link.
+fn evidence(cell: &Cell) -> String {
+    match cell.test {
+        Some(Test { file, name: "main" }) => format!("[{file}](../{file})"),
+        Some(Test { file, name }) => format!("[`{name}`](../{file})"),
+        None if cell.kind == Kind::Refused => "no test".to_owned(),
+        None => String::new(),
+    }
+}
+
+/// The reasons and tests of a row, alike ones together.
+fn section(row: &Row) -> String {
+    let mut told: Vec<(Cell, Vec<&str>)> = Vec::new();
+    for (column, name, _) in COLUMNS {
+        let cell = cell(row, column);
+        match told.iter_mut().find(|(other, _)| *other == cell) {
+            Some((_, names)) => names.push(name),
+            None => told.push((cell, vec![name])),
+        }
+    }
+    let mut out = format!("\n## {}\n\n{}\n\n| | | shown by | |\n|---|---|---|---|\n", row.name, row.clause);
+    told.sort_by_key(|(cell, _)| *cell == UNSHOWN);
+    for (cell, names) in told {
+        writeln!(out, "| {} | {} | {} | {} |", symbol(&cell), names.join(", "), evidence(&cell), cell.why)
+            .expect("a string");
+    }
+    out
+}
+
+#[test]
+fn the_table_is_as_it_is_told() {
+    let page = [HEAD.to_owned(), counts(), matrix(), silent()].concat() + &ROWS.iter().map(section).collect::<String>();
+    let path = repository().join("docs/combinations.md");
+    if std::env::var_os("UPDATE_COMBINATIONS").is_some() {
+        fs::write(&path, &page).expect("docs can be written");
+    }
+    assert_eq!(fs::read_to_string(path).unwrap_or_default(), page, "UPDATE_COMBINATIONS=1 writes it anew");
+}
+
+#[test]
+fn tests_are_where_the_table_says() {
+    let mut wrong = String::new();
+    for Test { file, name } in cells().filter_map(|cell| cell.test) {
+        let text = fs::read_to_string(repository().join(file)).unwrap_or_default();
+        let there = ["fn", "def"].iter().any(|word| text.contains(&format!("{word} {name}(")));
+        if !there {
+            writeln!(wrong, "{file} has no `{name}`").expect("a string");
+        }
+    }
+    assert!(wrong.is_empty(), "\n{wrong}");
+}
+
+#[test]
+fn every_cell_is_one_cell_of_the_table() {
+    for row in &ROWS {
+        let places: Vec<_> =
+            row.cells.iter().map(|(name, _)| COLUMNS.iter().position(|(column, ..)| column == name)).collect();
+        assert!(places.iter().all(Option::is_some) && places.is_sorted_by(|a, b| a < b), "{}: {places:?}", row.name);
+    }
+    assert!(cells().all(|cell| cell.kind != Kind::Shown || cell.test.is_some()));
+}
