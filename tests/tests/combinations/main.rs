@@ -45,7 +45,7 @@ fn symbol(cell: &Cell) -> String {
 }
 
 const HEAD: &str = "\
-# What goes together
+# Combinations
 
 What a scene may hold, in rows, and what is done with it, in columns, as it is today: what a test runs, what is refused
 and why, what no test tells, what is not built. `tests/tests/combinations` has the table, sees that every test it names
