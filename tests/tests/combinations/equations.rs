@@ -1,6 +1,6 @@
 //! What the equations of a scene may hold: smooth forces, constraints, states, modes, tables.
 
-use crate::cells::{Row, moot, refused, shown, unshown};
+use super::cells::{Row, moot, refused, shown, unshown};
 
 const NO_CONTACTS: &str =
     "a scene without contacts has no event or impulse of contact: a compile error, no `ContactSystem`";

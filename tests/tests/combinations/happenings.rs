@@ -1,6 +1,6 @@
 //! What happens in a run: samples of controllers, events, jumps, stops, contacts, slots.
 
-use crate::cells::{Row, missing, moot, refused, shown, unshown};
+use super::cells::{Row, missing, moot, refused, shown, unshown};
 
 const AT_A_STATE: &str = "it happens in a run; the equations at a state have no part of it";
 const NOT_IN_RUNS: &str = "`ContactRun` has `input`, `event` and `until`, and no such method";

@@ -153,6 +153,31 @@ fn singular_positions_are_passed_on_the_branch_by_which_a_motion_comes() {
     }
 }
 
+/// Between samples as well, at the singular positions themselves: without weight posts turn evenly.
+#[test]
+fn states_between_samples_are_on_the_branch() {
+    let one = One { g: Vector3::zeros() }.kernel().unwrap();
+    let start = SVector::from([1.0, 1.0, 0.0]);
+    for power in 6..=10 {
+        let tolerance = 10_f64.powi(-power);
+        for w in [0.7, 1.0, 5.0] {
+            let rates = SVector::from([w, w, 0.0]);
+            let run = Simulation::new(&one).adaptive(tolerance, tolerance).run(start, rates, 0.0..10.0 / w).unwrap();
+            let singular = (1..=3).flat_map(|n| [-1e-2, -1e-4, -1e-6, 0.0, 1e-6, 1e-3].map(|off| (n, off)));
+            let near = singular.map(|(n, off)| (f64::from(n) * std::f64::consts::PI - 1.0 + off) / w);
+            for t in near.chain((0..100).map(|n| 0.1 * f64::from(n) / w)) {
+                let state = run.at(t).unwrap();
+                let (turned, bound) = (1.0 + w * t, 11.0 * 6.0_f64.sqrt() * tolerance * run.len() as f64);
+                let off = [state.q[0] - turned, state.q[1] - turned, state.q[2]];
+                let slow = [state.z[0] - w, state.z[1] - w, state.z[2]];
+                let worst = |of: [f64; 3]| of.iter().fold(0.0_f64, |worst, x| worst.max(x.abs()));
+                assert!(worst(off) <= 11.0 * bound, "{tolerance:e}, {w}, {t}: {off:?}");
+                assert!(worst(slow) <= w.max(1.0) * bound, "{tolerance:e}, {w}, {t}: {slow:?}");
+            }
+        }
+    }
+}
+
 /// Roundings grow by (h/δ)ᵖ in a step of length h from a distance δ, of ε/δ² in speeds to begin with: where that is
 /// more than the tolerance a run ends with the reason.
 #[test]

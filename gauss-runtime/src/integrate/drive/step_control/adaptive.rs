@@ -5,13 +5,12 @@ use core::ops::Range;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::cause::{Gave, Place, cause, change};
 use crate::integrate::drive::control::{
-    Control, StepCallback, StepStatistics, check_tolerances, longest, one_step, prepare, smallest, to_a_number,
-    unresolved,
+    Control, StepCallback, StepStatistics, check_tolerances, longest, prepare, smallest, to_a_number, unresolved,
 };
 use crate::integrate::drive::cubic::Made;
 use crate::integrate::drive::looks::Looks;
 use crate::integrate::drive::pace::Pace;
-use crate::integrate::drive::projection::{AVOIDED, accept, check_move, clear_part, is_hopeless};
+use crate::integrate::drive::projection::{AVOIDED, accept, check_move, clear_part, is_hopeless, onto_constraints};
 use crate::integrate::drive::step_length::{StepLength, power};
 use crate::integrate::drive::tolerance::{Floor, Tolerance, Trial};
 use crate::integrate::lie_group::rkmk::Rkmk;
@@ -192,7 +191,22 @@ impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
         rates: &Rates<S>,
         h: S::Scalar,
     ) -> Result<State<S>, IntegrationErrorKind> {
-        one_step(&self.method, problem, state, rates, h)
+        if !S::CONSTRAINED {
+            return Ok(self.method.step(problem, state, rates, h)?.state);
+        }
+        let at = |part: f64| self.on_constraints(problem, (state, rates), h * S::Scalar::from_f64(part));
+        at(1.0).or_else(|kind| {
+            // By a cubic through states on both sides, of which the error is η⁴/6 of a fourth derivative.
+            let mut q = TangentOf::<S>::zero();
+            let mut y = S::Speeds::zero();
+            let base = at(1.0 - BESIDE).map_err(|_| kind)?;
+            for (node, weight) in [(-2.0, -1.0 / 6.0), (-1.0, 2.0 / 3.0), (1.0, 2.0 / 3.0), (2.0, -1.0 / 6.0)] {
+                let node = at(1.0 + BESIDE * node).map_err(|_| kind)?;
+                q = q.add_scaled(S::Scalar::from_f64(weight), &base.q.difference(&node.q));
+                y = y.add_scaled(S::Scalar::from_f64(weight), &node.y);
+            }
+            Ok(State { t: state.t + h, q: base.q.retract(&q).renormalise(), y })
+        })
     }
 }
 
@@ -364,6 +378,41 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
 
     fn vanishes(&self, length: f64) -> bool {
         length <= smallest::<S::Scalar>(self.state.t.lane(0), self.span)
+    }
+}
+
+/// The part of a step by which states on both sides of a place where constraints become dependent are apart from it.
+const BESIDE: f64 = 0.03;
+
+impl<M> Adaptive<M> {
+    /// A step brought onto the constraints, or where it is where that would move it too far and its error is no more
+    /// than the tolerance: beside a place where constraints become dependent the nearest state on them has other
+    /// speeds.
+    ///
+    /// # Errors
+    /// Where a stage is at such a place.
+    fn on_constraints<S: GaussSystem, P: Problem<System = S>>(
+        &self,
+        problem: &P,
+        (state, rates): (&State<S>, &Rates<S>),
+        h: S::Scalar,
+    ) -> Result<State<S>, IntegrationErrorKind>
+    where
+        M: EstimatingStep<S>,
+    {
+        let (step, coarse) = self.method.step_and_estimates(problem, state, rates, h)?;
+        let projected = onto_constraints(problem, (state, rates), &step.state).and_then(|projected| {
+            let trial = Trial { from: state, to: &projected, length: h.abs(), floor: None };
+            check_move(&self.tolerance, problem, &trial, &step.state).map(|_| projected)
+        });
+        projected.or_else(|kind| {
+            let measured = |change: &Rates<S>| problem.change_of_speeds(&step.state, change);
+            let (fine, coarse) = (measured(&step.error), coarse.as_ref().map(measured));
+            let (from, to) = (&problem.in_speeds(state), &problem.in_speeds(&step.state));
+            let trial = Trial { from, to, length: h.abs(), floor: None };
+            let error = self.tolerance.error(&trial, &fine, coarse.as_ref());
+            if error <= 1.0 { Ok(step.state) } else { Err(kind) }
+        })
     }
 }
 
