@@ -36,7 +36,7 @@ fn cell(row: &Row, column: &str) -> Cell {
     row.cells.iter().find(|(name, _)| *name == column).map_or(UNSHOWN, |(_, cell)| *cell)
 }
 
-fn cells() -> impl Iterator<Item = Cell> {
+fn every_cell() -> impl Iterator<Item = Cell> {
     ROWS.iter().flat_map(|row| COLUMNS.iter().map(move |(column, ..)| cell(row, column)))
 }
 
@@ -57,10 +57,10 @@ is there, and writes this page: `UPDATE_COMBINATIONS=1 cargo test -p gauss-tests
 fn counts() -> String {
     let mut out = String::from("| | cells | |\n|---|---|---|\n");
     for kind in Kind::ALL {
-        let count = cells().filter(|cell| cell.kind == kind).count();
+        let count = every_cell().filter(|cell| cell.kind == kind).count();
         writeln!(out, "| {} | {count} | {} |", kind.symbol(), kind.words()).expect("a string");
     }
-    let silent = cells().filter(|cell| !cell.silent.is_empty()).count();
+    let silent = every_cell().filter(|cell| !cell.silent.is_empty()).count();
     writeln!(out, "| ! | {silent} of them | some way to ask gives an answer that leaves it out, without notice |")
         .expect("a string");
     out
@@ -142,7 +142,7 @@ fn the_table_is_as_it_is_told() {
 #[test]
 fn tests_are_where_the_table_says() {
     let mut wrong = String::new();
-    for Test { file, name } in cells().filter_map(|cell| cell.test) {
+    for Test { file, name } in every_cell().filter_map(|cell| cell.test) {
         let text = fs::read_to_string(repository().join(file)).unwrap_or_default();
         let there = ["fn", "def"].iter().any(|word| text.contains(&format!("{word} {name}(")));
         if !there {
@@ -159,5 +159,5 @@ fn every_cell_is_one_cell_of_the_table() {
             row.cells.iter().map(|(name, _)| COLUMNS.iter().position(|(column, ..)| column == name)).collect();
         assert!(places.iter().all(Option::is_some) && places.is_sorted_by(|a, b| a < b), "{}: {places:?}", row.name);
     }
-    assert!(cells().all(|cell| cell.kind != Kind::Shown || cell.test.is_some()));
+    assert!(every_cell().all(|cell| cell.kind != Kind::Shown || cell.test.is_some()));
 }
