@@ -7,7 +7,8 @@
 //!
 //! So a step with an impact keeps an account: what it gains beyond the work of its impulses and beyond what the motion
 //! without contacts supplies at both ends. Where that is more than [`UNEXPLAINED`] it is made in parts, by which the
-//! impact is confined to a sixteenth of the step; what is left is told by the report.
+//! impact is confined to a sixteenth of the step; what is left is told by the report. Steps without a memory are told
+//! of alone: where a step is made in parts its end jumps, and these are to be smooth.
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;

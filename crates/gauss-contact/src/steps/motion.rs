@@ -67,8 +67,8 @@ pub(super) fn second_half<K: ContactSystem>(
     if K::CONSTRAINED { kernel.project(t + K::Scalar::from_f64(h), &q, &z) } else { Ok((q, z)) }
 }
 
-/// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that were
-/// open, and of all where some depend on one another, both are taken at half of the step: there dependent ones agree
+/// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that may
+/// bounce, and of all where some depend on one another, both are taken at half of the step: there dependent ones agree
 /// with one another to rounding, and `½ P (u + u⁺)` is the work of an impulse P. `free` are the speeds without contact
 /// impulses, `bias` the b of their accelerations.
 pub(super) fn free_rates<K: ContactSystem>(
@@ -77,12 +77,9 @@ pub(super) fn free_rates<K: ContactSystem>(
     middle: &Middle<K>,
     (z, rates): (&K::Speeds, &K::ContactRows),
     (free, bias): (&K::Speeds, &K::ContactRows),
-    (dependent, is_open): (bool, impl Fn(usize) -> bool),
+    (dependent, bounces): (bool, impl Fn(usize) -> bool),
 ) -> [K::ContactRows; 2] {
-    let at_half = |i: usize| {
-        let on = carrier(K::CONTACTS, i);
-        dependent || K::CONTACTS[on].has_gap() && is_open(on)
-    };
+    let at_half = |i: usize| dependent || bounces(carrier(K::CONTACTS, i));
     let mut taken = [*rates, rates.add_scaled(K::Scalar::from_f64(h), bias)];
     if !(0..K::CONTACTS.len()).any(at_half) {
         return taken;

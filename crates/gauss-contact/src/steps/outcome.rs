@@ -38,7 +38,7 @@ pub(super) struct End<K: ContactSystem> {
     pub(super) rests: K::EachContact<bool>,
     /// Contacts that acted and are open.
     pub(super) left: K::EachContact<bool>,
-    /// Contacts that were open before it.
+    /// Contacts that were open before it and may bounce.
     pub(super) opened: K::EachContact<bool>,
     /// Whether contacts may have changed their modes.
     pub(super) touches: bool,

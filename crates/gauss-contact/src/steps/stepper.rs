@@ -255,7 +255,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         input: &K::Input,
         (halvings, watch): (u32, &mut W),
     ) -> Result<StepReport, ContactError> {
-        let accounts = self.accounts && halvings > 0;
+        // Where a step is made in parts its end jumps: without a memory it is to be smooth in its start.
+        let accounts = self.accounts && halvings > 0 && self.scheme == StepScheme::Midpoint;
         let cause = match self.whole(h, input, (watch, halvings == 0, accounts)) {
             Ok(report) => return Ok(report),
             Err(Refused::Error(cause)) if halvings == 0 || !(has_no_end(&cause) || is_stiff(&cause)) => {
@@ -337,6 +338,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     ) -> Result<(K::Configuration, K::Speeds), ContactError> {
         let end = motion::second_half(self.kernel, (self.t, h), middle, (z, rate));
         end.map_err(|cause| self.error(None, ContactErrorKind::Projection(cause)))
+    }
+
+    /// Whether a contact is open and passes on a part of an approach. What has no restitution may come to lie on zero
+    /// and leave it by a rounding from step to step: its rates are those of what rests, so that this is no jump.
+    pub(super) fn may_bounce(&self, i: usize) -> bool {
+        K::CONTACTS[i].has_gap() && !self.modes[i].is_closed() && self.kernel.restitution().component(i) > 0.0
     }
 
     /// Whether all contacts are open.
@@ -517,7 +524,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             ..StepReport::default()
         };
         let Solved { rests, struck, .. } = solved;
-        let opened = Each::from_fn(|i| !self.modes[i].is_closed());
+        let opened = Each::from_fn(|i| self.may_bounce(i));
         End { q, z, gaps, rates, impulses, rests, left, opened, touches: true, dependent, report, struck }
     }
 
@@ -533,8 +540,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         middle: &Middle<K>,
         (free, bias): (&K::Speeds, &K::ContactRows),
     ) -> [K::ContactRows; 2] {
-        let is_open = |i: usize| !self.modes[i].is_closed();
-        motion::free_rates(self.kernel, h, middle, (&self.z, &self.rates), (free, bias), (self.dependent, is_open))
+        let bounces = |i: usize| self.may_bounce(i);
+        motion::free_rates(self.kernel, h, middle, (&self.z, &self.rates), (free, bias), (self.dependent, bounces))
     }
 
     /// Impulses of a step, and its modes.

@@ -39,7 +39,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let of = |lane: usize| &self.steppers[lane];
         let law = |lane: usize| (of(lane).law, of(lane).tolerance.to_bits(), of(lane).dependent, of(lane).scheme);
         let known = |lane: usize| of(lane).scheme == StepScheme::Midpoint && of(lane).acceleration.is_some();
-        let closed = |i: usize| self.alike(|lane| of(lane).modes[i].is_closed());
+        let closed = |i: usize| self.alike(|lane| (of(lane).modes[i].is_closed(), of(lane).may_bounce(i)));
         let goes_on = |lane: usize| !self.halted[lane] && known(lane);
         (h > 0.0 && h.is_finite() && of(0).law == StepLaw::Coulomb && !of(0).flies())
             && (self.alike(law) && (0..self.steppers.len()).all(goes_on))
@@ -96,9 +96,9 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let dependent = first.dependent;
         let free = state.z.add_scaled(W::Scalar::from_f64(h), &dynamics.acceleration);
         let before = (&state.z, &state.rates);
-        let is_open = |i: usize| !first.modes[i].is_closed();
+        let bounces = |i: usize| first.may_bounce(i);
         let at = (&free, &dynamics.bias);
-        let rates = motion::free_rates(self.wide, h, middle, before, at, (dependent, is_open));
+        let rates = motion::free_rates(self.wide, h, middle, before, at, (dependent, bounces));
         let posed = Posed::<W> {
             h,
             law: StepLaw::Coulomb,

@@ -17,7 +17,7 @@ pub(super) struct Attempted<'a, K: ContactSystem> {
     /// Contacts that are closed after the step, and those that were to be and are open.
     pub(super) rests: &'a [bool],
     pub(super) left: &'a [bool],
-    /// Contacts that were open before it.
+    /// Contacts that were open before it and may bounce.
     pub(super) opened: &'a [bool],
     /// Whether rates were those of contacts that depend on one another.
     pub(super) dependent: bool,
@@ -61,7 +61,7 @@ pub(super) struct Taken {
     pub(super) rests: Vec<bool>,
     /// Contacts that were to be closed.
     pub(super) closed: Vec<bool>,
-    /// Contacts that were open before the step.
+    /// Contacts that were open before the step and may bounce.
     pub(super) opened: Vec<bool>,
     /// Whether rates were those of contacts that depend on one another.
     pub(super) dependent: bool,
