@@ -22,7 +22,6 @@ mod edges;
 mod ensemble;
 mod equations;
 mod followed;
-mod gain;
 mod held;
 mod impulses;
 mod kept;
