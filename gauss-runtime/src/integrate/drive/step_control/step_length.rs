@@ -122,8 +122,9 @@ impl StepLength {
         self.previous = Some(logarithm.max(LEAST_REMEMBERED));
         self.rejected = false;
         self.across = self.across.saturating_sub(1);
-        let as_before = 1.0 / core::mem::replace(&mut self.stopped, 1.0);
-        factor.clamp(0.2, most).max(as_before)
+        let factor = factor.clamp(0.2, most);
+        let stopped = core::mem::replace(&mut self.stopped, 1.0);
+        if stopped < 1.0 { factor.max(1.0 / stopped) } else { factor }
     }
 }
 
