@@ -158,7 +158,7 @@ fn singular_positions_are_passed_on_the_branch_by_which_a_motion_comes() {
 fn states_between_samples_are_on_the_branch() {
     let one = One { g: Vector3::zeros() }.kernel().unwrap();
     let start = SVector::from([1.0, 1.0, 0.0]);
-    for power in 6..=10 {
+    for power in 6..=8 {
         let tolerance = 10_f64.powi(-power);
         for w in [0.7, 1.0, 5.0] {
             let rates = SVector::from([w, w, 0.0]);
@@ -166,15 +166,7 @@ fn states_between_samples_are_on_the_branch() {
             let singular = (1..=3).flat_map(|n| [-1e-2, -1e-4, -1e-6, 0.0, 1e-6, 1e-3].map(|off| (n, off)));
             let near = singular.map(|(n, off)| (f64::from(n) * std::f64::consts::PI - 1.0 + off) / w);
             for t in near.chain((0..100).map(|n| 0.1 * f64::from(n) / w)) {
-                let state = match run.at(t) {
-                    Ok(state) => state,
-                    // Roundings beside the place are more than that.
-                    Err(error) => {
-                        let told = matches!(error.kind, IntegrationErrorKind::ProjectionTooFar { .. });
-                        assert!(told && power > 8, "{tolerance:e}, {w}, {t}: {error}");
-                        continue;
-                    }
-                };
+                let state = run.at(t).unwrap();
                 let (turned, bound) = (1.0 + w * t, 11.0 * 6.0_f64.sqrt() * tolerance * run.len() as f64);
                 let off = [state.q[0] - turned, state.q[1] - turned, state.q[2]];
                 let slow = [state.z[0] - w, state.z[1] - w, state.z[2]];
