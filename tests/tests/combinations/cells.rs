@@ -1,6 +1,6 @@
-//! What a cell of the table says: shown, refused, not built, or nothing that a test tells.
+//! Cells of the table: shown, refused, not built, or nothing that a test tells.
 
-/// What is known of a combination.
+/// The knowledge of a combination.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// A test runs it.
@@ -52,9 +52,9 @@ pub struct Cell {
     pub kind: Kind,
     /// Why it is so, what is met instead; empty where the test says all.
     pub why: &'static str,
-    /// What shows it, or its refusal.
+    /// The test that shows it, or its refusal.
     pub test: Option<Test>,
-    /// What gives an answer without it, and says nothing; empty where nothing does.
+    /// The calls that give an answer without it, and say nothing; empty where there are none.
     pub silent: &'static str,
 }
 
@@ -95,14 +95,14 @@ impl Cell {
     }
 }
 
-/// What a scene holds, with the columns of which something is known; of all others no test tells.
+/// A thing that a scene holds, with the columns of which something is known; of all others no test tells.
 pub struct Row {
     pub name: &'static str,
     pub clause: &'static str,
     pub cells: &'static [(&'static str, Cell)],
 }
 
-/// What is done with a scene: its letters at the head of the table, its name, and what it stands for.
+/// The things done with a scene: letters at the head of the table, a name, and what it stands for.
 pub const COLUMNS: [(&str, &str, &str); 22] = [
     ("fix", "steps of one length", "explicit methods: `Simulation::fixed_step`, `Fixed`, `Adams`"),
     ("ada", "adaptive steps", "`Simulation::adaptive`"),

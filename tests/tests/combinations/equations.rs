@@ -1,4 +1,4 @@
-//! What the equations of a scene may hold: smooth forces, constraints, states, modes, tables.
+//! Rows of what the equations of a scene may hold: smooth forces, constraints, states, modes, tables.
 
 use super::cells::{Row, moot, refused, shown, unshown};
 

@@ -1,4 +1,4 @@
-//! What happens in a run: samples of controllers, events, jumps, stops, contacts, slots.
+//! Rows of what happens in a run: samples of controllers, events, jumps, stops, contacts, slots.
 
 use super::cells::{Row, missing, moot, refused, shown, unshown};
 

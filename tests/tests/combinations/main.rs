@@ -1,4 +1,4 @@
-//! What a scene may hold, and what is done with it: `docs/combinations.md` is written from here
+//! The table of what a scene may hold, and what is done with it: `docs/combinations.md` is written from here
 //! (`UPDATE_COMBINATIONS=1`) and compared. Each test that the table names is where it says.
 
 mod cells;
@@ -47,13 +47,13 @@ fn symbol(cell: &Cell) -> String {
 const HEAD: &str = "\
 # Combinations
 
-What a scene may hold, in rows, and what is done with it, in columns, as it is today: what a test runs, what is refused
-and why, what no test tells, what is not built. `tests/tests/combinations` has the table, sees that every test it names
+Rows are what a scene may hold, columns what is done with it, cells how it is today: run by a test, refused and why,
+shown by no test, not built. `tests/tests/combinations` has the table, sees that every test it names
 is there, and writes this page: `UPDATE_COMBINATIONS=1 cargo test -p gauss-tests --test combinations`.
 
 ";
 
-/// How many cells of each kind there are.
+/// The number of cells of each kind.
 fn counts() -> String {
     let mut out = String::from("| | cells | |\n|---|---|---|\n");
     for kind in Kind::ALL {
@@ -81,7 +81,7 @@ fn matrix() -> String {
     out
 }
 
-/// What is left out without notice, alike ones together.
+/// The list of things left out without notice, alike ones together.
 fn silent() -> String {
     let mut found: Vec<(&str, Vec<String>)> = Vec::new();
     for row in &ROWS {
@@ -100,7 +100,7 @@ fn silent() -> String {
     out
 }
 
-/// What shows a cell, with a link.
+/// The test that shows a cell, with a link.
 fn evidence(cell: &Cell) -> String {
     match cell.test {
         Some(Test { file, name: "main" }) => format!("[{file}](../{file})"),

@@ -80,7 +80,7 @@ fn upright<const N: usize>() -> (SVector<f64, N>, SVector<f64, N>) {
     (of_posts(std::f64::consts::FRAC_PI_2), of_posts(-1.0))
 }
 
-/// How far a run is off at its end.
+/// The errors of a run at its end.
 struct Passage {
     /// Its energy.
     energy: f64,

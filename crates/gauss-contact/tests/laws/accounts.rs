@@ -35,7 +35,8 @@ struct Balls {
 
 type Ended<'k, K> = (ContactTrajectory<'k, K>, Option<ContactError>);
 
-/// What a step may err: its tolerance of each speed, which changes the energy by the momentum, and of the place.
+/// The energy that a step may err by: its tolerance of each speed, which changes the energy by the momentum, and of the
+/// place.
 fn room<K: ContactSystem<Scalar = f64>>(kernel: &K, (t, q, z): (f64, &K::Configuration, &K::Speeds), by: f64) -> f64 {
     let p = kernel.momentum(t, q, z);
     (0..K::Speeds::DIM).map(|i| p.component(i).abs() * by * (1.0 + z.component(i).abs())).sum()

@@ -184,7 +184,7 @@ impl<'a> File<'a> {
         Some(ActsOn::Link(link, wrench))
     }
 
-    /// What acts on a ball, by a torque of the first three numbers of its gear, or on a joint that moves freely, by a
+    /// The drive of a ball, by a torque of the first three numbers of its gear, or of a joint that moves freely, by a
     /// force and a torque, as `mj_transmission` of MuJoCo's `src/engine/engine_core_smooth.c` has it.
     fn turned(&mut self, node: Node<'a, 'a>, gear: &[f64; 6]) -> Option<Turned> {
         let own = self.reading.text(node, "joint");

@@ -58,7 +58,7 @@ impl<'a> File<'a> {
         self.hung(other, parent, place)
     }
 
-    /// What is in another model, put at a place in a body of this one.
+    /// The contents of another model, put at a place in a body of this one.
     fn hung(&mut self, other: Model, parent: &str, place: &Place) -> Result<(), String> {
         let is_free = |joint: &Joint| joint.kind == JointKind::Floating;
         if parent != WORLD && other.description.joints.iter().any(is_free) {

@@ -1,7 +1,7 @@
 //! Types of attributes: how many numbers, which words.
 //!
-//! What reads an attribute says what it found in its own words; here is refused what nobody looked at, such as the
-//! defaults of a class that nothing has, and what is more than was asked for.
+//! The readers of attributes say what they found in words of their own; here is refused what nobody looked at, such as
+//! the defaults of a class that nothing has, and what is more than was asked for.
 
 use roxmltree::Node;
 
@@ -69,7 +69,7 @@ pub fn refuse_other_types<'a>(root: Node<'a, 'a>, reading: &mut Reading<'a>) {
     }
 }
 
-/// What an attribute is, if the value is not.
+/// The type that an attribute has, if the value is of another one.
 fn expected(element: &str, attribute: &str, kind: &str, value: &str) -> Option<String> {
     let (word, counts) = kind.split_once('(').unwrap_or((kind, ""));
     if matches!(word, "real" | "int") {

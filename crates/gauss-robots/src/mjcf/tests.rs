@@ -65,7 +65,7 @@ fn numbers_of_the_grammar_are_read() {
     assert!(known > 700 && tried > 100, "{known} attributes are known, {tried} counts tried");
 }
 
-/// What is of another type than the grammar says is a mistake that names the attribute: a word where numbers are, more
+/// A value of another type than the grammar says is a mistake that names the attribute: a word where numbers are, more
 /// or fewer numbers, a fraction where one counts, a word that is none of those.
 #[test]
 fn values_of_other_types_are_mistakes() {

@@ -12,7 +12,7 @@ use gauss_robots::description::{Drive, JointKind, Turned};
 use gauss_robots::rotation::{Rotation, Triple};
 
 impl Robot<'_> {
-    /// What drives do in joints with several coordinates, called as their controls.
+    /// The clauses of drives in joints with several coordinates, called as their controls.
     pub fn turning(&self) -> Vec<ForceClause> {
         let of = |input: &Input| {
             let Driven::Drive(drive) = input.of else { return None };

@@ -308,12 +308,12 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
     /// Whether a step ends beside a place where constraints become dependent: then the next trial ends before it.
     #[inline(always)]
     fn ends_beside(&mut self, used: f64, reached: &State<S>, moved: &Rates<S>) -> bool {
-        let length = S::Scalar::from_f64(used);
-        let trial = Trial { from: &self.state, to: reached, length, floor: None };
-        let Some(part) = clear_part(self.problem, &trial, moved, 0) else { return false };
         if self.rejected >= AVOIDED {
             return false;
         }
+        let length = S::Scalar::from_f64(used);
+        let trial = Trial { from: &self.state, to: reached, length, floor: None };
+        let Some(part) = clear_part(self.problem, &trial, moved, 0) else { return false };
         self.length = used * self.lengths.stop_before(part);
         self.rejected += 1;
         true
