@@ -230,7 +230,7 @@ pub const CONTACTS: Row = Row {
         (
             "mon",
             shown("tests/tests/touching/history.rs", "what_friction_and_impacts_take_is_what_is_lost")
-                .but("of `ContactRun`; of steps `report.work`"),
+                .but("of `ContactRun`; of steps `report.work` and `unexplained`"),
         ),
         (
             "fwd",

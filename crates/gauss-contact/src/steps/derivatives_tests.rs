@@ -108,7 +108,11 @@ impl<S: Pair<P, N>, const P: usize, const N: usize> Made<'_, S, P, N> {
         other.restore(&self.kept);
         (other.q, other.z) = (q, z);
         (other.gaps, other.rates) = (other.kernel.gaps(t, &q), other.kernel.contact_rates(t, &q, &z));
-        other.step(self.h, &input).unwrap();
+        match other.step(self.h, &input) {
+            // The same where joints and a foot that stick jam as a stop strikes.
+            Err(ContactError { kind: ContactErrorKind::Unsolved { .. }, .. }) => return None,
+            made => drop(made.unwrap()),
+        }
         // Gaps that would end below zero are brought to it, whatever their contact does.
         let held = |stepper: &ContactStepper<S::Plain>| at_zero(&stepper.kernel.gaps(0.0, &stepper.q));
         if kinds(other.modes()) != kinds(self.end.modes()) || held(&other) != held(self.end) {

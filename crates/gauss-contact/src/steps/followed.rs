@@ -109,7 +109,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         if same.looks && same.at_change.is_none() {
             let t = Dual::constant(self.t);
             let gaps = kernel.gaps(t, &state.q);
-            let rates = [kernel.contact_rates(t, &state.q, &state.z), kernel.contact_rates(middle.t, &middle.q, &z)];
+            let rates = [state.z, z].map(|z| kernel.contact_rates(middle.t, &middle.q, &z));
             let known = Known {
                 gaps: &|i| gaps.component(i).value,
                 restitution: &|_| 0.0,
@@ -138,7 +138,14 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         let before = kernel.contact_rates(t, &state.q, &state.z);
         let free = state.z.add_scaled(Dual::constant(*h), &dynamics.acceleration);
         let free_and_bias = (&free, &dynamics.bias);
-        let rates = motion::free_rates(*kernel, (*h, taken.dependent), middle, (&state.z, &before), free_and_bias);
+        let rates = motion::free_rates(
+            *kernel,
+            *h,
+            middle,
+            (&state.z, &before),
+            free_and_bias,
+            (taken.dependent, |i| taken.opened[i]),
+        );
         let gaps = kernel.gaps(t, &state.q);
         let passes = self.passes(same.tolerance, &gaps, &rates);
         let active = self.active((modes, &passes), (&friction, &dynamics), rates[1]);

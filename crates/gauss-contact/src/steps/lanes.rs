@@ -290,8 +290,12 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
                 other => other,
             };
         }
-        let (t, q, z) = self.middles();
-        let rates = self.wide.contact_rates(t, &q, &z);
+        let (t, q, _) = self.middles();
+        let mean = self.speeds(|lane| match &self.stages[lane] {
+            Stage::Flown(_, z) => self.steppers[lane].mean_of_flight(z),
+            _ => self.steppers[lane].z,
+        });
+        let rates = self.wide.contact_rates(t, &q, &mean);
         for (lane, stepper) in self.steppers.iter().enumerate() {
             let flown = matches!(self.stages[lane], Stage::Flown(..));
             if flown && stepper.comes_to_zero(h, &single::<W, _, K::ContactRows>(&rates, lane)) {
@@ -401,9 +405,10 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
                     continue;
                 }
             };
-            let made = Attempt { end, acceleration };
-            // A step that is made again goes alone.
-            if matches!(stepper.agrees(h, &middle, &made, &input.extract(lane)), Ok(true)) {
+            let (mut made, input) = (Attempt { end, acceleration }, input.extract(lane));
+            // A step that is made again, or in parts, goes alone.
+            let agrees = matches!(stepper.agrees(h, &middle, &made, &input), Ok(true));
+            if agrees && stepper.accounts(h, &mut made, &input) {
                 self.outcomes[lane] = stepper.made(h, made.end);
                 self.stages[lane] = Stage::Made;
             }

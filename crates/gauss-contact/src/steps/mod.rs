@@ -22,6 +22,7 @@ mod edges;
 mod ensemble;
 mod equations;
 mod followed;
+mod gain;
 mod held;
 mod impulses;
 mod kept;

@@ -6,6 +6,7 @@ use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 
+use crate::law::carrier;
 use crate::lockstep::larger;
 
 /// The state at half of a step, with the speeds at which accelerations are taken.
@@ -66,20 +67,29 @@ pub(super) fn second_half<K: ContactSystem>(
     if K::CONSTRAINED { kernel.project(t + K::Scalar::from_f64(h), &q, &z) } else { Ok((q, z)) }
 }
 
-/// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that depend
-/// on one another both are taken at half of the step, where they agree with one another to rounding; that is of first
-/// order. `free` are the speeds without contact impulses, `bias` the b of their accelerations.
+/// Rates before a step, and at its end without contact impulses: to second order those there. Of contacts that may
+/// bounce, and of all where some depend on one another, both are taken at half of the step: there dependent ones agree
+/// with one another to rounding, and `½ P (u + u⁺)` is the work of an impulse P. `free` are the speeds without contact
+/// impulses, `bias` the b of their accelerations.
 pub(super) fn free_rates<K: ContactSystem>(
     kernel: &K,
-    (h, dependent): (f64, bool),
+    h: f64,
     middle: &Middle<K>,
     (z, rates): (&K::Speeds, &K::ContactRows),
     (free, bias): (&K::Speeds, &K::ContactRows),
+    (dependent, bounces): (bool, impl Fn(usize) -> bool),
 ) -> [K::ContactRows; 2] {
-    if !dependent {
-        return [*rates, rates.add_scaled(K::Scalar::from_f64(h), bias)];
+    let at_half = |i: usize| dependent || bounces(carrier(K::CONTACTS, i));
+    let mut taken = [*rates, rates.add_scaled(K::Scalar::from_f64(h), bias)];
+    if !(0..K::CONTACTS.len()).any(at_half) {
+        return taken;
     }
-    [*z, *free].map(|z| kernel.contact_rates(middle.t, &middle.q, &z))
+    let halves = [*z, *free].map(|z| kernel.contact_rates(middle.t, &middle.q, &z));
+    for (taken, half) in taken.iter_mut().zip(&halves) {
+        let rows = K::CONTACTS.iter().enumerate().filter(|(i, _)| at_half(*i)).flat_map(|(_, contact)| contact.rows());
+        rows.for_each(|row| taken.set_component(row, half.component(row)));
+    }
+    taken
 }
 
 /// The fastest of rates before a step, and at its end without impulses: what lies still has only rounding before it.

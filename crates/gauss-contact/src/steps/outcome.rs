@@ -2,6 +2,7 @@
 
 use gauss_runtime::contact::ContactSystem;
 
+use crate::error::{ContactError, ContactErrorKind};
 use crate::law::carrier;
 use crate::mode::Mode;
 use crate::residual::Residual;
@@ -37,6 +38,8 @@ pub(super) struct End<K: ContactSystem> {
     pub(super) rests: K::EachContact<bool>,
     /// Contacts that acted and are open.
     pub(super) left: K::EachContact<bool>,
+    /// Contacts that were open before it and may bounce.
+    pub(super) opened: K::EachContact<bool>,
     /// Whether contacts may have changed their modes.
     pub(super) touches: bool,
     /// Whether rates were those of contacts that depend on one another.
@@ -49,10 +52,10 @@ pub(super) struct End<K: ContactSystem> {
 impl<K: ContactSystem> End<K> {
     /// With what contacts did.
     pub(super) fn attempted<'a>(&'a self, modes: &'a [Mode]) -> Attempted<'a, K> {
-        let Self { impulses, rests, left, dependent, struck, .. } = self;
+        let Self { impulses, rests, left, opened, dependent, struck, .. } = self;
         let modes = self.touches.then_some(modes);
-        let (rests, left) = (rests.as_ref(), left.as_ref());
-        Attempted { impulses, modes, rests, left, dependent: *dependent, struck: *struck }
+        let (rests, left, opened) = (rests.as_ref(), left.as_ref(), opened.as_ref());
+        Attempted { impulses, modes, rests, left, opened, dependent: *dependent, struck: *struck }
     }
 }
 
@@ -89,4 +92,28 @@ impl<K: ContactSystem<Scalar = f64>> Solved<K> {
             self.rests[i] = is_closed && !parts && !lifts;
         }
     }
+}
+
+/// Why a step is not made as a whole.
+pub(super) enum Refused {
+    /// An impact in it gains energy.
+    Gains,
+    Error(ContactError),
+}
+
+impl From<ContactError> for Refused {
+    fn from(error: ContactError) -> Self {
+        Self::Error(error)
+    }
+}
+
+/// Whether a step is too long for its forces.
+pub(super) fn is_stiff(error: &ContactError) -> bool {
+    matches!(error.kind, ContactErrorKind::Stiff { .. })
+}
+
+/// Whether the laws, or places, of an attempt have no solution.
+pub(super) fn has_no_end(error: &ContactError) -> bool {
+    use ContactErrorKind::{Displacement, Projection, Unsolved};
+    matches!(error.kind, Projection(_) | Displacement { .. } | Unsolved { .. })
 }

@@ -44,8 +44,12 @@ pub struct StepReport {
     /// balances of energy are formed from rates before and after the step. Newton's law with friction can give energy
     /// at an impact (T. R. Kane 1984); then it is positive.
     pub work: f64,
+    /// The energy that a step with an impact gained for no reason: beyond what impulses take and what all other forces
+    /// and surfaces that move do; negative where it lost some. It is the error of a step in which speeds jump, of first
+    /// order in its length, and what Newton's law gives with friction.
+    pub unexplained: f64,
     /// In how many parts the step was made, where no impulses were found for all of it, gaps did not close at its end,
-    /// or it was too long for its forces; else 0.
+    /// it was too long for its forces, or an impact gained energy; else 0.
     pub parts: u32,
     /// The length of the step.
     pub length: f64,
@@ -74,6 +78,7 @@ impl StepReport {
             corrections: self.corrections + later.corrections,
             sweeps: self.sweeps + later.sweeps,
             work: self.work + later.work,
+            unexplained: self.unexplained + later.unexplained,
             parts: self.parts.max(1) + later.parts.max(1),
             length: self.length + later.length,
             impacts: self.impacts + later.impacts,

@@ -26,7 +26,7 @@ use gauss_runtime::real::Real;
 use crate::error::{ContactError, ContactErrorKind};
 
 use super::motion::{self, Mean, Middle};
-use super::outcome::{Attempt, End};
+use super::outcome::{Attempt, End, Refused, has_no_end};
 use super::report::{StepReport, StepScheme};
 use super::stepper::ContactStepper;
 use super::watch::Watch;
@@ -173,20 +173,15 @@ fn relaxation<V: VectorSpace<f64>>(part: f64, before: &V, after: &V) -> f64 {
     if next.is_finite() { next.clamp(LEAST_PART, 1.0) } else { 1.0 }
 }
 
-/// Whether the laws, or places, of an attempt have no solution.
-fn has_no_end(error: &ContactError) -> bool {
-    use ContactErrorKind::{Displacement, Projection, Unsolved};
-    matches!(error.kind, Projection(_) | Displacement { .. } | Unsolved { .. })
-}
-
 impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
-    /// A step that is not made in parts. `last`: whether parts would not be shorter.
+    /// A step that is not made in parts. `last`: whether parts would not be shorter; `accounts`: whether its impacts
+    /// may gain no more than a little.
     pub(super) fn whole<W: Watch<K>>(
         &mut self,
         h: f64,
         input: &K::Input,
-        (watch, last): (&mut W, bool),
-    ) -> Result<StepReport, ContactError> {
+        (watch, last, accounts): (&mut W, bool, bool),
+    ) -> Result<StepReport, Refused> {
         let dependent = self.dependent;
         let (middle, mut made) = self.foreseen(h, input, watch)?;
         if !self.agrees(h, &middle, &made, input)? {
@@ -202,9 +197,12 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
                 made => made?,
             };
         }
+        if !self.accounts(h, &mut made, input) && accounts {
+            return Err(Refused::Gains);
+        }
         let end = made.end;
         watch.part((self.t, h), end.attempted(self.next.as_ref()));
-        self.take(h, end)
+        Ok(self.take(h, end)?)
     }
 
     /// A step with forces at the speeds that are foreseen at half of it.
@@ -273,7 +271,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         input: &K::Input,
         (watch, last): (&mut W, bool),
     ) -> Result<Attempt<K>, ContactError> {
-        let (mut part, mut before, mut speed) = (1.0, None, 0);
+        let (mut part, mut before, mut speed, mut struck) = (1.0, None, 0, made.end.struck);
         for n in 0..CORRECTIONS {
             let how = if made.end.struck { Mean::Ends } else { Mean::Curved };
             let wanted = self.mean(how, h, &made.end, input);
@@ -299,8 +297,16 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
             watch.again(made.end.attempted(self.next.as_ref()), (how, part));
             middle.z = motion::towards(&middle.z, &wanted, part);
             made = self.attempt(h, &middle, input)?;
+            struck |= made.end.struck;
         }
-        // Whether a gap closes in this step or in the next may depend on the speeds: both are steps.
+        // Whether a gap closes in this step or in the next may depend on the speeds: both are steps. From those of a
+        // flight it closes where it did before, and the impact tells what it gains.
+        if last && struck && !made.end.struck {
+            let wanted = self.mean(Mean::Ends, h, &made.end, input);
+            watch.again(made.end.attempted(self.next.as_ref()), (Mean::Ends, 1.0));
+            middle.z = wanted;
+            made = self.attempt(h, &middle, input)?;
+        }
         if last && made.end.struck {
             return Ok(made);
         }

@@ -21,7 +21,7 @@ use super::impulses::{Impulses, memory};
 use super::kept::Kept;
 use super::linear::Place;
 use super::motion::{self, Middle};
-use super::outcome::{Attempt, End, Pushed, Solved};
+use super::outcome::{Attempt, End, Pushed, Refused, Solved, has_no_end, is_stiff};
 use super::posed::Posed;
 use super::projection::{Closed, Projection};
 use super::relaxed::StepLaw;
@@ -41,6 +41,8 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) scheme: StepScheme,
     pub(super) law: StepLaw,
     pub(super) tolerance: f64,
+    /// Whether a step is made in parts for what its impacts gain.
+    pub(super) accounts: bool,
     pub(super) memory: M,
     pub(super) impulses: K::ContactRows,
     /// Whether contacts depended on one another in the last step.
@@ -113,6 +115,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             scheme: StepScheme::default(),
             law: StepLaw::default(),
             tolerance: 1e-8,
+            accounts: true,
             memory,
             impulses: K::ContactRows::zero(),
             dependent: false,
@@ -252,27 +255,27 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         input: &K::Input,
         (halvings, watch): (u32, &mut W),
     ) -> Result<StepReport, ContactError> {
-        use ContactErrorKind::{Displacement, Projection, Stiff, Unsolved};
-        let cause = match self.whole(h, input, (watch, halvings == 0)) {
-            Err(cause) if halvings > 0 => cause,
-            made => return made,
+        // Where a step is made in parts its end jumps: without a memory it is to be smooth in its start.
+        let accounts = self.accounts && halvings > 0 && self.scheme == StepScheme::Midpoint;
+        let cause = match self.whole(h, input, (watch, halvings == 0, accounts)) {
+            Ok(report) => return Ok(report),
+            Err(Refused::Error(cause)) if halvings == 0 || !(has_no_end(&cause) || is_stiff(&cause)) => {
+                return Err(cause);
+            }
+            Err(cause) => cause,
         };
-        if !matches!(cause.kind, Projection(_) | Displacement { .. } | Stiff { .. } | Unsolved { .. }) {
-            return Err(cause);
-        }
         let (before, parts) = (self.kept(), watch.parts());
         let both = self.both_halves(h, input, (halvings - 1, watch));
         both.or_else(|error| {
             self.restore(&before);
-            if !matches!(
-                (&cause.kind, &error.kind),
-                (Stiff { .. }, Projection(_) | Displacement { .. } | Unsolved { .. })
-            ) {
-                return Err(error);
-            }
-            // Too long for its forces, but its laws have a solution for the whole of it, if for any.
+            let last = match &cause {
+                Refused::Gains => false,
+                Refused::Error(cause) if is_stiff(cause) && has_no_end(&error) => true,
+                Refused::Error(_) => return Err(error),
+            };
+            // Too long for its forces or its impacts, but its laws have a solution for the whole of it, if for any.
             watch.keep(parts);
-            self.whole(h, input, (watch, true)).map_err(|_| error)
+            self.whole(h, input, (watch, last, false)).map_err(|_| error)
         })
     }
 
@@ -326,11 +329,6 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: self.t, kind }
     }
 
-    /// The gap with which a contact ends a step, given its rate there.
-    fn gap_at_end(&self, h: f64, i: usize, rate: f64) -> f64 {
-        self.gaps.component(i) + 0.5 * h * (self.rates.component(K::CONTACTS[i].normal) + rate)
-    }
-
     /// The second half of a step, given the rate of places, and what keeps bilateral constraints.
     pub(super) fn second_half(
         &self,
@@ -340,6 +338,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     ) -> Result<(K::Configuration, K::Speeds), ContactError> {
         let end = motion::second_half(self.kernel, (self.t, h), middle, (z, rate));
         end.map_err(|cause| self.error(None, ContactErrorKind::Projection(cause)))
+    }
+
+    /// Whether a contact is open and passes on a part of an approach. What has no restitution may come to lie on zero
+    /// and leave it by a rounding from step to step: its rates are those of what rests, so that this is no jump.
+    pub(super) fn may_bounce(&self, i: usize) -> bool {
+        K::CONTACTS[i].has_gap() && !self.modes[i].is_closed() && self.kernel.restitution().component(i) > 0.0
     }
 
     /// Whether all contacts are open.
@@ -356,7 +360,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let kernel = self.kernel;
         let acceleration = kernel.acceleration(middle.t, &middle.q, &middle.z, input);
         let z = self.z.add_scaled(h, &acceleration);
-        if self.comes_to_zero(h, &kernel.contact_rates(middle.t, &middle.q, &z)) {
+        let mean = self.mean_of_flight(&z);
+        if self.comes_to_zero(h, &kernel.contact_rates(middle.t, &middle.q, &mean)) {
             return Ok(None);
         }
         let half = kernel.kinematics(middle.t, &middle.q, &z);
@@ -373,9 +378,14 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         (0..K::CONTACTS.len()).filter(|i| K::CONTACTS[*i].has_gap())
     }
 
-    /// Whether a gap would not be open at the end of a step, given the rates there.
-    pub(super) fn comes_to_zero(&self, h: f64, after: &K::ContactRows) -> bool {
-        !Self::gaps_of().all(|i| self.gap_at_end(h, i, after.component(K::CONTACTS[i].normal)) > 0.0)
+    /// The mean speeds of a flight to others.
+    pub(super) fn mean_of_flight(&self, z: &K::Speeds) -> K::Speeds {
+        self.z.add_scaled(1.0, z).scale(0.5)
+    }
+
+    /// Whether a gap would not be open at the end of a step, given its mean rates.
+    pub(super) fn comes_to_zero(&self, h: f64, mean: &K::ContactRows) -> bool {
+        !Self::gaps_of().all(|i| self.gaps.component(i) + h * mean.component(K::CONTACTS[i].normal) > 0.0)
     }
 
     pub(super) fn is_below_zero(gaps: &K::Gaps) -> bool {
@@ -385,8 +395,21 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     /// The end of a step in flight.
     pub(super) fn flown((q, z): (K::Configuration, K::Speeds), gaps: K::Gaps, rates: K::ContactRows) -> End<K> {
         let (impulses, report, rests) = (K::ContactRows::zero(), StepReport::default(), Each::from_fn(|_| false));
-        let left = rests;
-        End { q, z, gaps, rates, impulses, rests, left, touches: false, dependent: false, report, struck: false }
+        let (left, opened) = (rests, rests);
+        End {
+            q,
+            z,
+            gaps,
+            rates,
+            impulses,
+            rests,
+            left,
+            opened,
+            touches: false,
+            dependent: false,
+            report,
+            struck: false,
+        }
     }
 
     /// A step in which contacts may act.
@@ -501,7 +524,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             ..StepReport::default()
         };
         let Solved { rests, struck, .. } = solved;
-        End { q, z, gaps, rates, impulses, rests, left, touches: true, dependent, report, struck }
+        let opened = Each::from_fn(|i| self.may_bounce(i));
+        End { q, z, gaps, rates, impulses, rests, left, opened, touches: true, dependent, report, struck }
     }
 
     /// The end of a step as the state, with the report.
@@ -516,7 +540,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         middle: &Middle<K>,
         (free, bias): (&K::Speeds, &K::ContactRows),
     ) -> [K::ContactRows; 2] {
-        motion::free_rates(self.kernel, (h, self.dependent), middle, (&self.z, &self.rates), (free, bias))
+        let bounces = |i: usize| self.may_bounce(i);
+        motion::free_rates(self.kernel, h, middle, (&self.z, &self.rates), (free, bias), (self.dependent, bounces))
     }
 
     /// Impulses of a step, and its modes.

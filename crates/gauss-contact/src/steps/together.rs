@@ -39,7 +39,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let of = |lane: usize| &self.steppers[lane];
         let law = |lane: usize| (of(lane).law, of(lane).tolerance.to_bits(), of(lane).dependent, of(lane).scheme);
         let known = |lane: usize| of(lane).scheme == StepScheme::Midpoint && of(lane).acceleration.is_some();
-        let closed = |i: usize| self.alike(|lane| of(lane).modes[i].is_closed());
+        let closed = |i: usize| self.alike(|lane| (of(lane).modes[i].is_closed(), of(lane).may_bounce(i)));
         let goes_on = |lane: usize| !self.halted[lane] && known(lane);
         (h > 0.0 && h.is_finite() && of(0).law == StepLaw::Coulomb && !of(0).flies())
             && (self.alike(law) && (0..self.steppers.len()).all(goes_on))
@@ -96,7 +96,9 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let dependent = first.dependent;
         let free = state.z.add_scaled(W::Scalar::from_f64(h), &dynamics.acceleration);
         let before = (&state.z, &state.rates);
-        let rates = motion::free_rates(self.wide, (h, dependent), middle, before, (&free, &dynamics.bias));
+        let bounces = |i: usize| first.may_bounce(i);
+        let at = (&free, &dynamics.bias);
+        let rates = motion::free_rates(self.wide, h, middle, before, at, (dependent, bounces));
         let posed = Posed::<W> {
             h,
             law: StepLaw::Coulomb,
@@ -136,7 +138,9 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
             let solved = posed.solved::<K>(&problem, (&answer, cones), modes, lane);
             (after, solved)
         }));
-        Some(PushedLanes { z, impulses, dependent })
+        // An impact keeps an account of its energy, alone.
+        let struck = self.solved.iter().any(|(_, solved)| solved.struck);
+        (!struck).then_some(PushedLanes { z, impulses, dependent })
     }
 
     /// The second half of a step. What keeps bilateral constraints goes lane by lane: its iterations end where they do.
@@ -237,7 +241,6 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
             };
             let (z, rates) = (single::<W, _, K::Speeds>(&z, lane), single::<W, _, K::ContactRows>(&rates, lane));
             let impulses = single::<W, _, K::ContactRows>(&pushed.impulses, lane);
-            goes_on &= !solved.struck;
             let of_lane_pushed = Pushed { z, impulses, dependent: pushed.dependent, solved };
             let end = stepper.end(of_lane_pushed, of_lane, (z, rates));
             self.outcomes[lane] = stepper.made(h, end);

@@ -17,6 +17,8 @@ pub(super) struct Attempted<'a, K: ContactSystem> {
     /// Contacts that are closed after the step, and those that were to be and are open.
     pub(super) rests: &'a [bool],
     pub(super) left: &'a [bool],
+    /// Contacts that were open before it and may bounce.
+    pub(super) opened: &'a [bool],
     /// Whether rates were those of contacts that depend on one another.
     pub(super) dependent: bool,
     /// Whether a gap has closed.
@@ -59,6 +61,8 @@ pub(super) struct Taken {
     pub(super) rests: Vec<bool>,
     /// Contacts that were to be closed.
     pub(super) closed: Vec<bool>,
+    /// Contacts that were open before the step and may bounce.
+    pub(super) opened: Vec<bool>,
     /// Whether rates were those of contacts that depend on one another.
     pub(super) dependent: bool,
     /// Whether a gap has closed.
@@ -88,6 +92,7 @@ impl Taken {
             impulses: (0..K::ContactRows::DIM).map(|row| attempted.impulses.component(row)).collect(),
             rests: attempted.rests.into(),
             closed: attempted.rests.iter().zip(attempted.left).map(|(rests, left)| *rests || *left).collect(),
+            opened: attempted.opened.into(),
             dependent: attempted.dependent,
             struck: attempted.struck,
         }

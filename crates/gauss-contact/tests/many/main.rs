@@ -1,5 +1,6 @@
 //! Steps of many contacts: the relaxed law, steps that keep a tolerance, changing over to them and back.
 
+mod accounts;
 mod adaptive;
 mod changeover;
 #[path = "../laws/common.rs"]

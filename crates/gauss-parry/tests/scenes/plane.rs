@@ -93,12 +93,19 @@ fn a_box_moves_as_with_the_clause() {
         // after the other.
         let early = worst(&apart[..400]);
         assert!(early < 4000.0 * f64::EPSILON, "{mu} {e} {early:e}");
-        // With restitution an edge lands at last. Rounding decides which of its corners is first; speeds are below a
-        // millimetre per second, for a step.
         let late = worst(&apart);
-        assert!(late < if e > 0.0 { 1e-6 } else { 1000.0 * 10.0 * f64::EPSILON }, "{mu} {e} {late:e}");
-        // In the end it lies on the same face.
         let gaps = expected.last().unwrap().report.closed;
+        let mut allowed = 1000.0 * 10.0 * f64::EPSILON;
+        if e > 0.0 {
+            // An edge lands at last. Rounding decides which of its corners is first, and with it how fast the box slides
+            // from there: what differs is a part of the way that is left to it, less than a tenth of a millimetre.
+            let landed = expected.iter().position(|step| step.report.closed == gaps).unwrap();
+            let [a, b] = [landed - 1, apart.len() - 1].map(|i| expected[i].state.q.translation.vector);
+            allowed = (a - b).amax();
+            assert!(allowed < 1e-4, "{mu} {e} {allowed:e}");
+        }
+        assert!(late < allowed, "{mu} {e} {late:e}");
+        // In the end it lies on the same face.
         assert_eq!(steps.modes().iter().filter(|mode| mode.is_closed()).count(), gaps);
     }
 }
