@@ -97,7 +97,7 @@ fn a_box_moves_as_with_the_clause() {
         let gaps = expected.last().unwrap().report.closed;
         let mut allowed = 1000.0 * 10.0 * f64::EPSILON;
         if e > 0.0 {
-            // An edge lands at last. Rounding decides which of its corners is first, and with it how fast the box slides
+            // An edge lands at last. Rounding decides which of its corners is first, and so how fast the box slides
             // from there: what differs is a part of the way that is left to it, less than a tenth of a millimetre.
             let landed = expected.iter().position(|step| step.report.closed == gaps).unwrap();
             let [a, b] = [landed - 1, apart.len() - 1].map(|i| expected[i].state.q.translation.vector);
