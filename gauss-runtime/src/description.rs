@@ -6,8 +6,7 @@ use crate::accuracy::Accuracy;
 use crate::methods::by_method;
 
 /// The equations of a system, the costs of its methods and their losses to rounding, as constants. Generated for every
-/// kernel. No computation uses them; a system that is written by hand needs the trait only to be tuned (crate
-/// `gauss-tune`): `impl DescribedSystem for MySystem {}`.
+/// kernel. No computation uses them.
 pub trait DescribedSystem {
     /// The equations, as they were derived.
     const EQUATIONS: Equations = Equations::new("", "");

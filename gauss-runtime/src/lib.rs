@@ -91,7 +91,6 @@ assert!((0.202 * end.w.z + 0.002 * end.spin - 0.01).abs() < 1e-12);
 //! | `gauss-adapters` | integrators, dual numbers and vectors of other crates |
 //! | `gauss-sensitivity` | derivatives of whole runs by any numbers, forward and backward; fits |
 //! | `gauss-bounded` | a scalar that knows how many of its digits are right |
-//! | `gauss-tune` | the cheapest method for a scene, measured on it |
 //!
 //! # Features
 //!
@@ -154,6 +153,7 @@ pub mod table;
 mod conversion;
 #[cfg(test)]
 mod conversion_tests;
+mod forwarding;
 mod methods;
 mod projection_error;
 mod sealed;

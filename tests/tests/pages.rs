@@ -31,7 +31,6 @@ const FOLDERS: &[&str] = &[
     "crates/gauss-sensitivity",
     "crates/gauss-study",
     "crates/gauss-tables",
-    "crates/gauss-tune",
     "tools/cargo-gauss",
 ];
 

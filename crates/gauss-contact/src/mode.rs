@@ -445,31 +445,13 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
 }
 
 impl<K: ContactSystem> GaussSystem for InMode<'_, K> {
-    type Scalar = K::Scalar;
-    type Configuration = K::Configuration;
-    type Speeds = K::Speeds;
-    type MassMatrix = K::MassMatrix;
-    type Input = K::Input;
+    gauss_runtime::forward_system!(K => kernel: types motion momenta energies);
 
     const DOF: usize = K::DOF;
     const CHART: Chart = K::CHART;
     const CONSTRAINED: bool = true;
     const STATES: usize = K::STATES;
     const SMOOTHNESS: Smoothness = K::SMOOTHNESS;
-
-    fn kinematics(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> TangentOf<Self> {
-        self.kernel.kinematics(t, q, z)
-    }
-
-    fn configuration_rates(
-        &self,
-        t: K::Scalar,
-        q: &K::Configuration,
-        z: &K::Speeds,
-        input: &K::Input,
-    ) -> TangentOf<Self> {
-        self.kernel.configuration_rates(t, q, z, input)
-    }
 
     fn acceleration(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds, input: &K::Input) -> K::Speeds {
         if self.is_open() {
@@ -478,30 +460,10 @@ impl<K: ContactSystem> GaussSystem for InMode<'_, K> {
         self.loads(t, q, z, input).acceleration()
     }
 
-    fn momentum(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> K::Speeds {
-        self.kernel.momentum(t, q, z)
-    }
-
-    fn velocity(&self, t: K::Scalar, q: &K::Configuration, p: &K::Speeds) -> K::Speeds {
-        self.kernel.velocity(t, q, p)
-    }
-
     fn momentum_rate(&self, t: K::Scalar, q: &K::Configuration, p: &K::Speeds, input: &K::Input) -> K::Speeds {
         let loads = self.loads(t, q, &self.kernel.velocity(t, q, p), input);
         let rate = self.kernel.momentum_rate(t, q, p, input);
         rate.add_scaled(K::Scalar::one(), &self.generalised(t, q, &loads.forces))
-    }
-
-    fn mass_matrix(&self, t: K::Scalar, q: &K::Configuration) -> K::MassMatrix {
-        self.kernel.mass_matrix(t, q)
-    }
-
-    fn kinetic_energy(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> K::Scalar {
-        self.kernel.kinetic_energy(t, q, z)
-    }
-
-    fn potential_energy(&self, t: K::Scalar, q: &K::Configuration) -> K::Scalar {
-        self.kernel.potential_energy(t, q)
     }
 
     fn gauss_residual(

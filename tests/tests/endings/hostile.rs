@@ -15,7 +15,6 @@ use gauss_runtime::prelude::*;
 use gauss_tables::Tabulate;
 use gauss_tests::top::TopKernel;
 use gauss_tests::watchdog::within;
-use gauss_tune::{Method, Tune};
 
 use crate::scenes::{
     Angles, Bead, Driven, GenericTop, GenericTopKernel, Inclined, Pendulum, PendulumKernel, Spring, one, toy,
@@ -179,7 +178,7 @@ fn fixed_steps() {
         swing(n, Fixed::by(Collocation::midpoint(), h));
         swing(n, Fixed::by(Collocation::order_6(), h));
         swing(n, Fixed::by(Composed::new(&Composition::KAHAN_LI_6, Collocation::midpoint()), h));
-        swing(n, Method::Gauss8 { step: h });
+        swing(n, Fixed::by(Composed::new(&Composition::KAHAN_LI_8, Collocation::order_6()), h));
     });
 }
 
@@ -245,15 +244,7 @@ fn bodies() {
 }
 
 #[test]
-fn tuning_batches_and_adapters() {
-    each("tuning", |n| {
-        let [a, b, q, z, start, end, ..] = n;
-        let kernel = pendulum();
-        let run = Simulation::new(&kernel).max_steps(2000);
-        if let Err(error) = run.tune(one(q), one(z), start..end, a, b) {
-            assert!(!error.to_string().is_empty());
-        }
-    });
+fn batches_and_adapters() {
     each("batches", |n| {
         type Four = Lanes<f64, 4>;
         let [h, start, end, x, y, z, u, v, ..] = n;

@@ -4,8 +4,7 @@ use core::fmt;
 use core::ops::Range;
 
 use gauss_runtime::chart::Chart;
-use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::constraint::ProjectionError;
+use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::{
     Contact, ContactFrame, ContactSystem, ImpulseDynamics, ImpulseResponse, impulse_terms, impulse_velocities,
 };
@@ -254,108 +253,12 @@ impl<K, const N: usize, const R: usize, const D: usize> GaussSystem for Slots<'_
 where
     K: FramedSystem<Scalar = f64, Speeds = SVector<f64, D>, Jacobian = SMatrix<f64, 6, D>>,
 {
-    type Scalar = f64;
-    type Configuration = K::Configuration;
-    type Speeds = K::Speeds;
-    type MassMatrix = K::MassMatrix;
-    type Input = K::Input;
+    gauss_runtime::forward_system!(K => kernel: types motion dynamics momenta energies condition constraints);
 
     const CHART: Chart = K::CHART;
     const HAS_CONTACTS: bool = true;
     const STATES: usize = K::STATES;
     const SMOOTHNESS: Smoothness = K::SMOOTHNESS;
-
-    fn kinematics(
-        &self,
-        t: f64,
-        q: &Self::Configuration,
-        z: &Self::Speeds,
-    ) -> <Self::Configuration as Configuration>::Tangent {
-        self.kernel.kinematics(t, q, z)
-    }
-
-    fn configuration_rates(
-        &self,
-        t: f64,
-        q: &Self::Configuration,
-        z: &Self::Speeds,
-        input: &Self::Input,
-    ) -> <Self::Configuration as Configuration>::Tangent {
-        self.kernel.configuration_rates(t, q, z, input)
-    }
-
-    fn acceleration(&self, t: f64, q: &Self::Configuration, z: &Self::Speeds, input: &Self::Input) -> Self::Speeds {
-        self.kernel.acceleration(t, q, z, input)
-    }
-
-    fn momentum(&self, t: f64, q: &Self::Configuration, z: &Self::Speeds) -> Self::Speeds {
-        self.kernel.momentum(t, q, z)
-    }
-
-    fn velocity(&self, t: f64, q: &Self::Configuration, p: &Self::Speeds) -> Self::Speeds {
-        self.kernel.velocity(t, q, p)
-    }
-
-    fn momentum_rate(&self, t: f64, q: &Self::Configuration, p: &Self::Speeds, input: &Self::Input) -> Self::Speeds {
-        self.kernel.momentum_rate(t, q, p, input)
-    }
-
-    fn mass_matrix(&self, t: f64, q: &Self::Configuration) -> Self::MassMatrix {
-        self.kernel.mass_matrix(t, q)
-    }
-
-    fn kinetic_energy(&self, t: f64, q: &Self::Configuration, z: &Self::Speeds) -> f64 {
-        self.kernel.kinetic_energy(t, q, z)
-    }
-
-    fn potential_energy(&self, t: f64, q: &Self::Configuration) -> f64 {
-        self.kernel.potential_energy(t, q)
-    }
-
-    fn gauss_residual(
-        &self,
-        t: f64,
-        q: &Self::Configuration,
-        z: &Self::Speeds,
-        acceleration: &Self::Speeds,
-        input: &Self::Input,
-    ) -> Self::Speeds {
-        self.kernel.gauss_residual(t, q, z, acceleration, input)
-    }
-
-    fn nonlinear_effects(
-        &self,
-        t: f64,
-        q: &Self::Configuration,
-        z: &Self::Speeds,
-        input: &Self::Input,
-    ) -> Self::Speeds {
-        self.kernel.nonlinear_effects(t, q, z, input)
-    }
-
-    fn constraint_function(
-        &self,
-        t: f64,
-        q: &Self::Configuration,
-        z: &Self::Speeds,
-        acceleration: &Self::Speeds,
-        input: &Self::Input,
-    ) -> f64 {
-        self.kernel.constraint_function(t, q, z, acceleration, input)
-    }
-
-    fn regularity(&self, t: f64, q: &Self::Configuration) -> f64 {
-        self.kernel.regularity(t, q)
-    }
-
-    fn project(
-        &self,
-        t: f64,
-        q: &Self::Configuration,
-        z: &Self::Speeds,
-    ) -> Result<(Self::Configuration, Self::Speeds), ProjectionError> {
-        self.kernel.project(t, q, z)
-    }
 }
 
 impl<K, const N: usize, const R: usize, const D: usize> ContactSystem for Slots<'_, K, N, R, D>
