@@ -56,9 +56,9 @@
 //! ```
 //!
 //! **Bits.** A state gets the bits of a run of its own ([`Fixed`](gauss_runtime::integrate::Fixed)) by explicit
-//! methods. Two things look at other lanes: iterations of implicit methods end when all lanes are solved, and
-//! increments of more than half a radian, in the same step as smaller ones, take another formula for the same number;
-//! both differ by rounding.
+//! methods. Three things look at other lanes: iterations of implicit methods end when all lanes are solved, projections
+//! onto constraints go on until all are on them, and increments of more than half a radian, in the same step as smaller
+//! ones, take another formula for the same number; all differ by rounding.
 //!
 //! **Steps of their own.** In an [`Ensemble`] every run takes the steps that it would take alone: the trials, errors
 //! and lengths of a step are those of its lane, and a lane whose run has ended is handed to the next.

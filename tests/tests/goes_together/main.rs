@@ -1,0 +1,57 @@
+//! What a scene holds goes with what is done with it: each scene through each column of `docs/combinations.md`.
+//!
+//! Numbers are compared with runs at tolerances of 1e-12, derivatives with differences of such runs, lanes, threads and
+//! steps by hand with the bits of single runs.
+
+mod derivatives;
+mod records;
+mod runs;
+mod scenes;
+
+use scenes::{Bending, Constrained, Input, Redundant, Stateful, TableOfOne, TableOfTwo};
+
+/// A module for each scene with a test for each column.
+macro_rules! goes_together {
+    ($($row:ident $scene:ident: $($module:ident::{$($column:ident),+}),+;)+) => {$(
+        mod $row {
+            use super::*;
+
+            $($(
+                #[test]
+                fn $column() {
+                    $module::$column(&$scene);
+                }
+            )+)+
+        }
+    )+};
+}
+
+goes_together! {
+    constraints Constrained:
+        runs::{lanes_and_threads, by_hand},
+        records::{table_and_plot, page, study},
+        derivatives::{along_a_run};
+    redundant Redundant:
+        runs::{steps, adaptive, stiff, implicit, lanes_and_threads, by_hand, between},
+        records::{table_and_plot, page, study},
+        derivatives::{of_runs, at_a_state, of_a_step, along_a_run};
+    states Stateful:
+        runs::{lanes_and_threads, by_hand, between},
+        records::{table_and_plot, page, study},
+        derivatives::{of_runs, at_a_state, of_a_step, along_a_run};
+    modes Bending:
+        runs::{steps, adaptive, stiff, implicit, lanes_and_threads, by_hand, between},
+        records::{table_and_plot, page, study, energy},
+        derivatives::{of_runs, at_a_state, of_a_step, along_a_run};
+    table_of_one TableOfOne:
+        runs::{steps, adaptive, stiff, implicit, lanes_and_threads, by_hand, between},
+        records::{table_and_plot, page, study, energy},
+        derivatives::{of_runs, at_a_state, of_a_step, along_a_run};
+    table_of_two TableOfTwo:
+        runs::{steps, adaptive, stiff, implicit, lanes_and_threads, by_hand, between},
+        records::{table_and_plot, page, study, energy},
+        derivatives::{of_runs, at_a_state, of_a_step, along_a_run};
+    input Input:
+        runs::{lanes_and_threads},
+        records::{table_and_plot, page, study};
+}
