@@ -117,6 +117,13 @@ impl<'k, K: ContactSystem, C, I, E> ContactRun<'k, K, C, I, E> {
         self.watch(crossing, true, function)
     }
 
+    /// Events that another front has gathered, in the place of those so far; they must not change the state.
+    #[doc(hidden)]
+    pub fn events_by<F>(self, events: F) -> ContactRun<'k, K, C, I, F> {
+        let Self { kernel, control, input, settings, .. } = self;
+        ContactRun { kernel, control, input, settings, events }
+    }
+
     fn watch<G>(self, crossing: Crossing, ends: bool, function: G) -> ContactRun<'k, K, C, I, Watching<E, G>> {
         let Self { kernel, control, input, settings, events } = self;
         ContactRun { kernel, control, input, settings, events: Watching::after(events, crossing, ends, function) }
