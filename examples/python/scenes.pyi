@@ -12,7 +12,12 @@ Direction = Literal["any", "rising", "falling"]
 Method = Literal["dormand_prince", "rosenbrock", "taylor", "collocation"]
 Function = Callable[[float, Array, Array], Any]
 Input = ArrayLike | tuple[ArrayLike, ArrayLike] | Function
+Contacts = Literal["events", "steps"]
+Impact = Literal["newton", "moreau", "poisson", "sequential"]
+Friction = Literal["coulomb", "relaxed"]
+Scheme = Literal["midpoint", "moreau_jean"]
 End = tuple[str, float] | tuple[str, float, Direction] | Function | tuple[Function, Direction]
+Jump = tuple[End, Function] | tuple[End, Function, Literal["through"]]
 
 class ParameterError(ValueError):
     """Parameters that cannot be: a pair (name, what is wrong) for each mistake."""
@@ -22,6 +27,11 @@ class ParameterError(ValueError):
 class IntegrationError(RuntimeError):
     """A run that did not reach its end, with the states up to the last good one."""
     run: Run
+    package: str | None
+
+class ContactError(TypeError):
+    """An answer that has no forces of contacts, of a scene with `contacts`, whose names these are."""
+    contacts: list[str]
     package: str | None
 
 class Run:
@@ -40,6 +50,14 @@ class Run:
     def columns(self) -> list[str]: ...
     @property
     def events(self) -> list[Events]: ...
+    @property
+    def jumps(self) -> list[Events]: ...
+    @property
+    def contact_events(self) -> list[ContactEvent]: ...
+    @property
+    def contact_report(self) -> dict[str, float]: ...
+    @property
+    def sampled_gaps(self) -> list[tuple[str, float, float]]: ...
     @property
     def stopped_by(self) -> int | None: ...
     @property
@@ -64,6 +82,22 @@ class Events(NamedTuple):
     t: Array
     q: Array
     z: Array
+
+class ContactEvent(NamedTuple):
+    """What happened at a contact: of an impact rates before and after it, the impulse, the energy that it took."""
+    t: float
+    contact: str
+    kind: Literal["impact", "closes", "rests", "leaves", "sticks", "slides", "reverses"]
+    before: Array | None
+    after: Array | None
+    impulse: Array | None
+    energy_lost: float | None
+
+class InContact(NamedTuple):
+    """What contacts, ranges and dry joints do at a state, and their forces: normal, tangents, spin."""
+    acceleration: Array
+    modes: dict[str, Literal["open", "closed", "sticks", "slides"]]
+    forces: dict[str, Array]
 
 class Ends:
     """The ends of many runs, a row for each."""
@@ -129,6 +163,12 @@ class Kernel:
     def states(self, shape: int | tuple[int, ...] = (), **named: ArrayLike) -> NDArray[np.void]: ...
     def views(self, states: NDArray[np.void]) -> tuple[Array, Array]: ...
     def state(self, **named: ArrayLike) -> tuple[Array, Array]: ...
+    @property
+    def contact_names(self) -> list[str]: ...
+    def without_contacts(self) -> Kernel: ...
+    def in_contact(
+        self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: float = 0.0
+    ) -> InContact: ...
     def project(self, q: ArrayLike, z: ArrayLike, *, t: float = 0.0) -> tuple[Array, Array]: ...
     def simulate(
         self,
@@ -147,8 +187,13 @@ class Kernel:
         delay: float = 0.0,
         until: End | Sequence[End] | None = None,
         events: End | Sequence[End] | None = None,
+        jumps: Jump | Sequence[Jump] | None = None,
         times: ArrayLike | None = None,
         max_steps: int | None = None,
+        contacts: Contacts | None = None,
+        impact: Impact | None = None,
+        friction: Friction | None = None,
+        scheme: Scheme | None = None,
         progress: Callable[[float], object] | bool | None = None,
     ) -> Run: ...
     def ensemble(
@@ -159,10 +204,16 @@ class Kernel:
         *,
         rtol: float = 1e-9,
         atol: float = 1e-9,
+        step: float | None = None,
+        largest_step: float | None = None,
         input: ArrayLike | tuple[ArrayLike, ArrayLike] | None = None,
         until: tuple[str, float] | tuple[str, float, Direction] | None = None,
         parameters: Mapping[str, ArrayLike] | None = None,
         max_steps: int | None = None,
+        contacts: Contacts | None = None,
+        impact: Impact | None = None,
+        friction: Friction | None = None,
+        scheme: Scheme | None = None,
         progress: Callable[[float], object] | bool | None = None,
     ) -> Ends: ...
 
@@ -896,5 +947,278 @@ class Lander(Kernel):
         """The increment seen from the body that changes the numbers of q by so much, to first order.
 
         q (..., 7), change (..., 7) -> (..., 6)
+        """
+        ...
+
+class Puck(Kernel):
+    """A puck on a floor: it bounces, slides and stays where it is.
+
+    Parameters:
+      mass: number (kg): Of the puck.
+      friction: number: Between puck and floor.
+      restitution: number: Of an impact on the floor.
+      g: number: Acceleration of free fall.
+
+    Coordinates:
+      x: coordinate
+      z: coordinate
+
+    Speeds:
+      x_dot: rate of `x`
+      z_dot: rate of `z`
+
+    Inputs:
+      push: input, in N
+
+    Contacts, whose forces `simulate`, `ensemble` and `in_contact` have:
+      floor: a gap
+    """
+    def __init__(self, *, mass: float, friction: float, restitution: float, g: float) -> None: ...
+    def without_contacts(self) -> Puck: ...
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The rates of the speeds.
+
+        q (..., 2), z (..., 2), input (..., 1) -> (..., 2)
+
+        Inputs: push (1,), input, in N.
+        """
+        ...
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
+
+        q (..., 2), z (..., 2), acceleration (..., 2), input (..., 1) -> (..., 2)
+
+        Inputs: push (1,), input, in N.
+        """
+        ...
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Inverse dynamics at acceleration zero.
+
+        q (..., 2), z (..., 2), input (..., 1) -> (..., 2)
+
+        Inputs: push (1,), input, in N.
+        """
+        ...
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Second derivatives of the kinetic energy by z.
+
+        q (..., 2) -> (..., 2, 2)
+        """
+        ...
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The velocity of the configuration, seen from the body.
+
+        q (..., 2), z (..., 2) -> (..., 2)
+        """
+        ...
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Rates of the numbers of q, then those of z, for any solver.
+
+        q (..., 2), z (..., 2), input (..., 1) -> (..., 4)
+
+        Inputs: push (1,), input, in N.
+        """
+        ...
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Derivatives of the kinetic energy by z.
+
+        q (..., 2), z (..., 2) -> (..., 2)
+        """
+        ...
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The speeds with these momenta.
+
+        q (..., 2), p (..., 2) -> (..., 2)
+        """
+        ...
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The rates of the momenta.
+
+        q (..., 2), p (..., 2), input (..., 1) -> (..., 2)
+
+        Inputs: push (1,), input, in N.
+        """
+        ...
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The kinetic energy, that of a fluid included.
+
+        q (..., 2), z (..., 2) -> (...)
+        """
+        ...
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The potential energy.
+
+        q (..., 2) -> (...)
+        """
+        ...
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Kinetic and potential energy.
+
+        q (..., 2), z (..., 2) -> (...)
+        """
+        ...
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The distance from a singularity of the coordinates: 0 there, 1 at best.
+
+        q (..., 2) -> (...)
+        """
+        ...
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The configuration moved by an increment that is seen from the body.
+
+        q (..., 2), increment (..., 2) -> (..., 2)
+        """
+        ...
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The shortest increment from q to the other.
+
+        q (..., 2), other (..., 2) -> (..., 2)
+        """
+        ...
+    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> Linearize:
+        """Velocity and acceleration with their derivatives by (increment, z), time and input.
+
+        q (..., 2), z (..., 2), input (..., 1) -> rate (..., 4), by_state (..., 4, 4), by_time (..., 4), by_input (..., 4, 1)
+
+        Inputs: push (1,), input, in N.
+        """
+        ...
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The increment seen from the body that changes the numbers of q by so much, to first order.
+
+        q (..., 2), change (..., 2) -> (..., 2)
+        """
+        ...
+
+class Gate(Kernel):
+    """A gate between two stops, whose hinge rubs.
+
+    Parameters:
+      mass: number (kg): In the middle of the gate.
+      width: number (m): From the hinge to that.
+      most: number (rad): To both sides.
+      restitution: number: At the stops.
+      rub: number (N m): The torque of the hinge at most.
+
+    Coordinates:
+      angle: coordinate
+
+    Speeds:
+      angle_dot: rate of `angle`
+
+    Inputs:
+      motor: input, in N m
+
+    Contacts, whose forces `simulate`, `ensemble` and `in_contact` have:
+      angle_from: a gap
+      angle_to: a gap
+      hinge: dry friction
+    """
+    def __init__(self, *, mass: float, width: float, most: float, restitution: float, rub: float) -> None: ...
+    def without_contacts(self) -> Gate: ...
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The rates of the speeds.
+
+        q (..., 1), z (..., 1), input (..., 1) -> (..., 1)
+
+        Inputs: motor (1,), input, in N m.
+        """
+        ...
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
+
+        q (..., 1), z (..., 1), acceleration (..., 1), input (..., 1) -> (..., 1)
+
+        Inputs: motor (1,), input, in N m.
+        """
+        ...
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Inverse dynamics at acceleration zero.
+
+        q (..., 1), z (..., 1), input (..., 1) -> (..., 1)
+
+        Inputs: motor (1,), input, in N m.
+        """
+        ...
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Second derivatives of the kinetic energy by z.
+
+        q (..., 1) -> (..., 1, 1)
+        """
+        ...
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The velocity of the configuration, seen from the body.
+
+        q (..., 1), z (..., 1) -> (..., 1)
+        """
+        ...
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Rates of the numbers of q, then those of z, for any solver.
+
+        q (..., 1), z (..., 1), input (..., 1) -> (..., 2)
+
+        Inputs: motor (1,), input, in N m.
+        """
+        ...
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Derivatives of the kinetic energy by z.
+
+        q (..., 1), z (..., 1) -> (..., 1)
+        """
+        ...
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The speeds with these momenta.
+
+        q (..., 1), p (..., 1) -> (..., 1)
+        """
+        ...
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The rates of the momenta.
+
+        q (..., 1), p (..., 1), input (..., 1) -> (..., 1)
+
+        Inputs: motor (1,), input, in N m.
+        """
+        ...
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The kinetic energy, that of a fluid included.
+
+        q (..., 1), z (..., 1) -> (...)
+        """
+        ...
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The potential energy.
+
+        q (..., 1) -> (...)
+        """
+        ...
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Kinetic and potential energy.
+
+        q (..., 1), z (..., 1) -> (...)
+        """
+        ...
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The distance from a singularity of the coordinates: 0 there, 1 at best.
+
+        q (..., 1) -> (...)
+        """
+        ...
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The configuration moved by an increment that is seen from the body.
+
+        q (..., 1), increment (..., 1) -> (..., 1)
+        """
+        ...
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The shortest increment from q to the other.
+
+        q (..., 1), other (..., 1) -> (..., 1)
+        """
+        ...
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The increment seen from the body that changes the numbers of q by so much, to first order.
+
+        q (..., 1), change (..., 1) -> (..., 1)
         """
         ...

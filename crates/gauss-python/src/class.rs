@@ -9,8 +9,10 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 use numpy::{PyArray1, PyArrayDyn, PyArrayMethods};
 
 use crate::arrays;
+use crate::errors;
 use crate::kernels::{AnyKernel, AnyScene};
 use crate::parameters;
+use crate::tuples;
 
 /// The scene of a class, as its attribute `_scene`.
 #[pyclass(frozen, module = "gauss_python")]
@@ -38,6 +40,8 @@ fn scene_of(class: &Bound<'_, PyType>) -> PyResult<&'static dyn AnyScene> {
 #[pyclass(subclass, frozen, module = "gauss_python")]
 pub struct Kernel {
     kernel: Arc<dyn AnyKernel>,
+    /// All gaps are open, by the caller's word, and nothing rubs.
+    open: bool,
 }
 
 impl Kernel {
@@ -54,6 +58,25 @@ impl Kernel {
     /// Its scene.
     pub fn scene(&self) -> &'static dyn AnyScene {
         self.kernel.scene()
+    }
+
+    /// Whether contacts act, of which only runs know the forces.
+    pub fn touches(&self) -> bool {
+        !self.open && !self.scene().contacts().is_empty()
+    }
+
+    /// Refuses to answer what forces do where those of contacts are among them.
+    pub fn knows_all_forces(&self, py: Python<'_>, (what, way): (&str, &str)) -> PyResult<()> {
+        if !self.touches() {
+            return Ok(());
+        }
+        let contacts: Vec<&str> = self.scene().contacts().iter().map(|contact| contact.name).collect();
+        let message = format!(
+            "{what} has no forces of contacts, and the scene has {}: `in_contact` and `simulate` have them; with \
+             `{way}` all gaps are open, and nothing rubs",
+            contacts.join(", ")
+        );
+        Err(errors::new(py, "ContactError", message, ("contacts", contacts)))
     }
 
     /// The number of a frame.
@@ -80,14 +103,68 @@ impl Kernel {
     }
 }
 
+/// The word for open gaps among parameters, which is no name of a field.
+const OPEN: &str = "_without_contacts";
+
 #[pymethods]
 impl Kernel {
     #[new]
     #[classmethod]
     #[pyo3(signature = (**parameters))]
     fn new(class: &Bound<'_, PyType>, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let scene = scene_of(class)?;
-        Ok(Self { kernel: parameters::kernel(class.py(), scene, parameters)?.into() })
+        let (py, scene) = (class.py(), scene_of(class)?);
+        let parameters = parameters.map(|parameters| parameters.copy()).transpose()?;
+        let open = match &parameters {
+            Some(parameters) => parameters.call_method1("pop", (OPEN, false))?.is_truthy()?,
+            None => false,
+        };
+        Ok(Self { kernel: parameters::kernel(py, scene, parameters.as_ref())?.into(), open })
+    }
+
+    /// The same kernel with all gaps open, and without dry friction: its accelerations, derivatives, runs and functions
+    /// of JAX are those of the motion without forces of contacts.
+    fn without_contacts<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let parameters = slf.get().parameters(slf.py())?;
+        parameters.set_item(OPEN, true)?;
+        slf.get_type().call((), Some(&parameters))
+    }
+
+    /// The acceleration, what contacts, ranges and dry joints do ("open", "closed", "sticks", "slides") and their
+    /// forces at a state: normal, tangents and spin of each by its name. A gap that is closing is refused, since
+    /// velocities jump there.
+    #[pyo3(signature = (q, z, input=None, *, t=0.0))]
+    fn in_contact<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        z: &Bound<'py, PyAny>,
+        input: Option<&Bound<'py, PyAny>>,
+        t: f64,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (scene, sizes) = (self.scene(), self.scene().sizes());
+        let (q, z) = (arrays::vector("q", q, sizes.configuration)?, arrays::vector("z", z, sizes.speeds)?);
+        let input = match input {
+            Some(input) => arrays::vector("input", input, sizes.input)?,
+            None if sizes.input == 0 => Vec::new(),
+            None => return Err(PyTypeError::new_err("in_contact needs input")),
+        };
+        if !self.touches() {
+            return Err(PyTypeError::new_err("no contacts act: acceleration has all forces"));
+        }
+        let found = py.detach(|| self.kernel().in_contact(t, (&q, &z), &input)).map_err(PyValueError::new_err)?;
+        let (modes, forces) = (PyDict::new(py), PyDict::new(py));
+        for (contact, mode) in scene.contacts().iter().zip(found.modes) {
+            modes.set_item(contact.name, mode)?;
+            forces.set_item(contact.name, PyArray1::from_slice(py, &found.forces[contact.rows()]))?;
+        }
+        let acceleration = PyArray1::from_vec(py, found.acceleration);
+        tuples::new(py, tuples::IN_CONTACT, (acceleration, modes, forces).into_pyobject(py)?)
+    }
+
+    /// The names of contacts, ranges and dry joints.
+    #[getter]
+    fn contact_names(&self) -> Vec<&'static str> {
+        self.scene().contacts().iter().map(|contact| contact.name).collect()
     }
 
     /// The parameters by name.
@@ -212,13 +289,16 @@ impl Kernel {
             Ok(format!("{}={}", name.str()?, value.repr()?))
         });
         let words: PyResult<Vec<String>> = words.collect();
-        Ok(format!("{}({})", slf.get().scene().description().name, words?.join(", ")))
+        let open = if slf.get().open { ".without_contacts()" } else { "" };
+        Ok(format!("{}({}){open}", slf.get().scene().description().name, words?.join(", ")))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
         other.cast::<Self>().is_ok_and(|other| {
-            let (own, other) = (self.kernel(), other.get().kernel());
-            std::ptr::eq(own.scene().description(), other.scene().description()) && own.numbers() == other.numbers()
+            let (own, other, open) = (self.kernel(), other.get().kernel(), other.get().open);
+            std::ptr::eq(own.scene().description(), other.scene().description())
+                && own.numbers() == other.numbers()
+                && self.open == open
         })
     }
 
@@ -234,7 +314,11 @@ impl Kernel {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         // In all protocols, which `copyreg.__newobj_ex__` is not.
         let (py, partial) = (slf.py(), slf.py().import("functools")?.getattr("partial")?);
-        let make = partial.call((slf.get_type(),), Some(&slf.get().parameters(py)?))?;
+        let parameters = slf.get().parameters(py)?;
+        if slf.get().open {
+            parameters.set_item(OPEN, true)?;
+        }
+        let make = partial.call((slf.get_type(),), Some(&parameters))?;
         Ok((make, PyTuple::empty(py)))
     }
 }

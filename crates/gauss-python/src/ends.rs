@@ -7,7 +7,7 @@ use pyo3::types::{PyCapsule, PyTuple, PyType};
 use crate::columns::Columns;
 use crate::kernels::AnyScene;
 use crate::run::names;
-use crate::runs::ManyEnds;
+use crate::runs::{ManyEnds, TOUCHED};
 
 /// The ends of many runs, a row for each.
 #[pyclass(frozen, module = "gauss_python")]
@@ -22,10 +22,11 @@ pub struct Ends {
 
 impl Ends {
     /// Those of a scene.
-    pub fn new(scene: &dyn AnyScene, ends: ManyEnds, interrupted: bool) -> Self {
+    pub fn new(scene: &dyn AnyScene, ends: ManyEnds, (touches, interrupted): (bool, bool)) -> Self {
         let sizes = scene.sizes();
         let ManyEnds { columns, stopped, errors, .. } = ends;
-        let columns = Columns::new(names(scene, &["steps"]), columns, stopped.len());
+        let more: &[&str] = if touches { &["steps", TOUCHED[0], TOUCHED[1]] } else { &["steps"] };
+        let columns = Columns::new(names(scene, more), columns, stopped.len());
         let errors = errors.into_iter().collect();
         Self { columns, coordinates: sizes.configuration, speeds: sizes.speeds, stopped, errors, interrupted }
     }

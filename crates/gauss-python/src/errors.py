@@ -24,3 +24,9 @@ class IntegrationError(_Raised, RuntimeError):
     """A run that did not reach its end: `run` has the states up to the last good one."""
 
     run = None
+
+
+class ContactError(_Raised, TypeError):
+    """An answer that has no forces of contacts, of a scene with `contacts`, whose names these are."""
+
+    contacts = []

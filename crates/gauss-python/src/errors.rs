@@ -7,6 +7,9 @@ use pyo3::types::{PyDict, PyTuple};
 /// The module of the exceptions.
 const MODULE: &str = "gauss_python";
 
+/// The classes of exceptions.
+pub const NAMES: [&str; 3] = ["ParameterError", "IntegrationError", "ContactError"];
+
 /// The package that this library is.
 static PACKAGE: PyOnceLock<String> = PyOnceLock::new();
 

@@ -1,14 +1,15 @@
 //! What runs are given in Python: inputs, events, states, methods, controllers.
 
+use gauss_contact::{Impact, StepLaw, StepScheme};
 use gauss_runtime::prelude::Crossing;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 
-use crate::arrays::{self, shown};
+use crate::arrays::{self, shown, vector};
 use crate::calls::Calls;
-use crate::kernels::AnyScene;
-use crate::steps::{Control, Function, Table, Until, Watched};
+use crate::kernels::{AnyKernel, AnyScene};
+use crate::steps::{Control, Effect, Function, Jumped, Table, Until, Watched};
 
 /// What an input may be in Python.
 pub enum GivenInput {
@@ -160,17 +161,55 @@ pub fn states(name: &'static str, given: &Bound<'_, PyAny>, size: usize) -> PyRe
     }
 }
 
-/// The method by name, and its steps: their one length, or tolerances and the longest one.
-pub fn control(
-    method: Option<&str>,
-    step: Option<f64>,
-    (rtol, atol, largest): (f64, f64, Option<f64>),
-) -> PyResult<Control> {
-    let wrong = |why: &str| Err(PyValueError::new_err(why.to_owned()));
+/// The words of Python for a method and its steps.
+#[derive(Clone, Copy)]
+pub struct Words<'a> {
+    /// The method.
+    pub method: Option<&'a str>,
+    /// The one length of steps.
+    pub step: Option<f64>,
+    /// Relative and absolute tolerance, the longest step.
+    pub tolerances: (f64, f64, Option<f64>),
+    /// How contacts are followed.
+    pub contacts: Option<&'a str>,
+    /// The law of impacts.
+    pub impact: Option<&'a str>,
+    /// The law of friction in steps.
+    pub friction: Option<&'a str>,
+    /// The motion between impacts in steps.
+    pub scheme: Option<&'a str>,
+}
+
+fn wrong<R>(why: &str) -> PyResult<R> {
+    Err(PyValueError::new_err(why.to_owned()))
+}
+
+/// One of some words.
+fn word<T: Copy>(name: &str, given: &str, known: &[(&str, T)]) -> PyResult<T> {
+    match known.iter().find(|(word, _)| *word == given) {
+        Some((_, value)) => Ok(*value),
+        None => {
+            let all: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
+            wrong(&format!("{name} is {given:?}; there are {}", all.join(", ")))
+        }
+    }
+}
+
+/// The method and its steps: their one length, or tolerances and the longest one. `touches` says whether contacts act.
+pub fn control(name: &str, touches: bool, words: Words<'_>) -> PyResult<Control> {
+    let Words { method, step, tolerances: (rtol, atol, largest), contacts, impact, friction, scheme } = words;
     if step.is_some() && largest.is_some() {
         return wrong("steps are of the length step, or at most of largest_step: give one of them");
     }
     let largest = largest.unwrap_or(f64::INFINITY);
+    if touches {
+        return touching(words, (rtol, atol, largest));
+    }
+    let of_contacts =
+        [("contacts", contacts), ("impact", impact), ("friction", friction), ("scheme", scheme)].into_iter();
+    if let Some((word, _)) = of_contacts.clone().find(|(_, given)| given.is_some()) {
+        return Err(PyTypeError::new_err(format!("{word} is of contacts, and none act in this {name}")));
+    }
     match (method.unwrap_or("dormand_prince"), step) {
         ("dormand_prince", None) => Ok(Control::Adaptive(rtol, atol, largest)),
         ("dormand_prince", Some(step)) => Ok(Control::Fixed(step)),
@@ -185,6 +224,41 @@ pub fn control(
             let all = "dormand_prince, rosenbrock, taylor, collocation";
             wrong(&format!("{name:?} is no method; there are {all}"))
         }
+    }
+}
+
+const LAWS: [(&str, Impact); 4] = [
+    ("newton", Impact::Newton),
+    ("moreau", Impact::Moreau),
+    ("poisson", Impact::Poisson),
+    ("sequential", Impact::Sequential),
+];
+const FRICTIONS: [(&str, StepLaw); 2] = [("coulomb", StepLaw::Coulomb), ("relaxed", StepLaw::ConvexRelaxation)];
+const SCHEMES: [(&str, StepScheme); 2] = [("midpoint", StepScheme::Midpoint), ("moreau_jean", StepScheme::MoreauJean)];
+
+/// Contacts from event to event, or in steps.
+fn touching(words: Words<'_>, (rtol, atol, largest): (f64, f64, f64)) -> PyResult<Control> {
+    let Words { method, step, contacts, impact, friction, scheme, .. } = words;
+    if word("contacts", contacts.unwrap_or("events"), &[("events", true), ("steps", false)])? {
+        return match (step, friction.or(scheme), method.unwrap_or("dormand_prince")) {
+            (Some(_), ..) => wrong("step is that of contacts=\"steps\": from event to event rtol and atol choose it"),
+            (_, Some(_), _) => wrong("friction and scheme are those of contacts=\"steps\""),
+            (.., "dormand_prince") => {
+                Ok(Control::ContactEvents(rtol, atol, largest, word("impact", impact.unwrap_or("newton"), &LAWS)?))
+            }
+            (.., name) => wrong(&format!("with contacts the method is dormand_prince, and not {name}")),
+        };
+    }
+    match (step, method, impact.filter(|law| *law != "newton")) {
+        _ if largest.is_finite() => wrong("steps of contacts are of the length step, and have no largest_step"),
+        (None, ..) => wrong("contacts=\"steps\" needs step, their length"),
+        (_, Some(_), _) => wrong("contacts=\"steps\" is a method of its own: leave out method"),
+        (.., Some(_)) => wrong("impacts in steps go by Newton's law: leave out impact, or take contacts=\"events\""),
+        (Some(step), None, None) => Ok(Control::ContactSteps(
+            step,
+            word("scheme", scheme.unwrap_or("midpoint"), &SCHEMES)?,
+            word("friction", friction.unwrap_or("coulomb"), &FRICTIONS)?,
+        )),
     }
 }
 
@@ -232,8 +306,8 @@ pub fn controller(
 }
 
 /// A function of Python that is watched.
-pub fn watch<'a>(end: &'a GivenEnd, calls: &'a Calls) -> impl Fn(f64, &[f64], &[f64]) -> f64 + Sync + 'a {
-    move |t, q, z| match end {
+pub fn watch<'a>(event: &'a GivenEvent, calls: &'a Calls) -> impl Fn(f64, &[f64], &[f64]) -> f64 + Sync + 'a {
+    move |t, q, z| match &event.end {
         GivenEnd::Function(function) => {
             calls.call(function, (t, q, z), |value| value.extract::<f64>()).unwrap_or(f64::NAN)
         }
@@ -241,13 +315,101 @@ pub fn watch<'a>(end: &'a GivenEnd, calls: &'a Calls) -> impl Fn(f64, &[f64], &[
     }
 }
 
-/// An event of a run, or its end, with the function that is watched where it is one.
-pub fn until_of<'a>((end, crossing): &(GivenEnd, Crossing), ends: bool, watched: Function<'a, f64>) -> Until<'a> {
-    let watched = match end {
-        GivenEnd::Number(place, value) => Watched::Number(*place, *value),
+/// The jump at an event: a function of Python, which may give None.
+pub fn jump<'a>(
+    event: &'a GivenEvent,
+    calls: &'a Calls,
+    kernel: &'a dyn AnyKernel,
+) -> impl Fn(f64, &[f64], &[f64]) -> Jumped + Sync + 'a {
+    let sizes = kernel.scene().sizes();
+    let read = move |value: &Bound<'_, PyAny>| {
+        if value.is_none() {
+            return Ok(None);
+        }
+        let Ok((q, z)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() else {
+            return Err(PyTypeError::new_err("a jump gives (q, z), or None where the state stays as it is"));
+        };
+        let state = (vector("q", &q, sizes.configuration)?, vector("z", &z, sizes.speeds)?);
+        kernel.check(&state.0, &state.1).map_err(PyValueError::new_err)?;
+        Ok(Some(state))
+    };
+    move |t, q, z| match &event.effect {
+        GivenEffect::Jumps(function, _) => calls.call(function, (t, q, z), read).unwrap_or_else(|| {
+            // The run ends with the last state before it.
+            Some((vec![f64::NAN; sizes.configuration], vec![f64::NAN; sizes.speeds]))
+        }),
+        GivenEffect::None | GivenEffect::Ends => None,
+    }
+}
+
+/// An event of a run with its effect, and the functions of Python that it calls.
+pub fn until_of<'a>(given: &GivenEvent, (watched, jump): (Function<'a, f64>, Function<'a, Jumped>)) -> Until<'a> {
+    let watched = match given.end {
+        GivenEnd::Number(place, value) => Watched::Number(place, value),
         GivenEnd::Function(_) => Watched::Function(watched),
     };
-    Until { watched, crossing: *crossing, ends }
+    let effect = match given.effect {
+        GivenEffect::None => Effect::None,
+        GivenEffect::Jumps(_, through) => Effect::Jumps(jump, through),
+        GivenEffect::Ends => Effect::Ends,
+    };
+    Until { watched, crossing: given.crossing, effect }
+}
+
+/// What becomes of a run at an event.
+pub enum GivenEffect {
+    /// It goes on.
+    None,
+    /// The state jumps, by a function of (t, q, z); whether it may go on through zero.
+    Jumps(Py<PyAny>, bool),
+    /// It ends.
+    Ends,
+}
+
+/// An event as given in Python.
+pub struct GivenEvent {
+    /// What is watched.
+    pub end: GivenEnd,
+    /// In which direction.
+    pub crossing: Crossing,
+    /// What becomes of the run.
+    pub effect: GivenEffect,
+}
+
+/// Pairs of an event and a function, or a list of such, with the word "through" where the event may pass.
+pub fn jumps(scene: &dyn AnyScene, given: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<GivenEvent>> {
+    let one = |given: &Bound<'_, PyAny>| {
+        let pair = given.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>().map(|(event, jump)| (event, jump, None));
+        let all = pair.or_else(|_| given.extract().map(|(event, jump, word)| (event, jump, Some::<String>(word))));
+        match all {
+            Ok((event, jump, through))
+                if jump.is_callable() && through.as_deref().is_none_or(|word| word == "through") =>
+            {
+                let (end, crossing) = self::end(scene, &event)?;
+                Ok(GivenEvent { end, crossing, effect: GivenEffect::Jumps(jump.unbind(), through.is_some()) })
+            }
+            _ => Err(PyTypeError::new_err(
+                "a jump is (event, function), or (event, function, \"through\"), and its function of (t, q, z) gives \
+                 (q, z)",
+            )),
+        }
+    };
+    match given {
+        None => Ok(Vec::new()),
+        Some(given) => match given.cast::<PyList>() {
+            Ok(list) => list.iter().map(|given| one(&given)).collect(),
+            Err(_) => Ok(vec![one(given)?]),
+        },
+    }
+}
+
+/// Events without an effect, or ends.
+pub fn events(scene: &dyn AnyScene, given: Option<&Bound<'_, PyAny>>, ends: bool) -> PyResult<Vec<GivenEvent>> {
+    let of = |(end, crossing)| {
+        let effect = if ends { GivenEffect::Ends } else { GivenEffect::None };
+        GivenEvent { end, crossing, effect }
+    };
+    Ok(self::ends(scene, given)?.into_iter().map(of).collect())
 }
 
 /// The end of an ensemble: none, or one number.
@@ -255,7 +417,7 @@ pub fn one_end<'a>(mut ends: Vec<(GivenEnd, Crossing)>) -> PyResult<Option<Until
     match (ends.pop(), ends.is_empty()) {
         (None, _) => Ok(None),
         (Some((GivenEnd::Number(place, value), crossing)), true) => {
-            Ok(Some(Until { watched: Watched::Number(place, value), crossing, ends: true }))
+            Ok(Some(Until { watched: Watched::Number(place, value), crossing, effect: Effect::Ends }))
         }
         _ => Err(PyTypeError::new_err("the end of an ensemble is one (name, value), with a direction or not")),
     }

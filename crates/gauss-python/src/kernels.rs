@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::time::Duration;
 
 use gauss_runtime::accuracy::Accuracy;
+use gauss_runtime::contact::Contact;
 use gauss_runtime::description::{Equations, Operations};
 use gauss_runtime::error::ParameterError;
 use gauss_runtime::prelude::{DescribedSystem, GaussSystem};
@@ -15,7 +16,7 @@ use crate::memory::Source;
 use crate::methods::{Id, SPECS, Sizes, Slot, Table, Work};
 use crate::runs::{self, Many, ManyEnds};
 use crate::scene::{ScalarOf, Scene};
-use crate::steps::{self, Methods, Outcome, Request};
+use crate::steps::{self, Control, InContact, Methods, Outcome, Request};
 
 /// A scene, its type forgotten.
 pub trait AnyScene: Send + Sync {
@@ -35,6 +36,8 @@ pub trait AnyScene: Send + Sync {
     fn frames(&self) -> &[&'static str];
     /// Joints whose reactions are methods.
     fn joints(&self) -> &[&'static str];
+    /// Contacts, ranges and dry joints.
+    fn contacts(&self) -> &'static [Contact];
     /// Whether kernels have the method.
     fn has(&self, id: Id) -> bool;
     /// The numbers of q and z at rest in the origin.
@@ -60,11 +63,21 @@ pub trait AnyKernel: Send + Sync {
     /// All arrays that the method names have these rows, each of the sizes of the scene.
     #[allow(unsafe_code)]
     unsafe fn run(&self, id: Id, work: &Work, rows: Range<usize>) -> Result<(), OffGroup>;
+    /// Whether these numbers are a state.
+    ///
+    /// # Errors
+    /// All that is wrong with them.
+    fn check(&self, q: &[f64], z: &[f64]) -> Result<(), String>;
     /// The nearest state on the constraints.
     ///
     /// # Errors
     /// A state that is none, one from which no such state is found.
     fn project(&self, t: f64, q: &[f64], z: &[f64]) -> Result<[Vec<f64>; 2], String>;
+    /// What contacts do at a state.
+    ///
+    /// # Errors
+    /// A state that is none or at which velocities jump; no contacts.
+    fn in_contact(&self, t: f64, state: (&[f64], &[f64]), input: &[f64]) -> Result<InContact, String>;
     /// A run.
     fn simulate(&self, request: &Request<'_>) -> Result<Outcome, String>;
     /// Many runs.
@@ -147,6 +160,10 @@ impl<S: Scene> AnyScene for Registered<S> {
         &self.single.joints
     }
 
+    fn contacts(&self) -> &'static [Contact] {
+        self.steps.touching()
+    }
+
     fn has(&self, id: Id) -> bool {
         self.single.has(id)
     }
@@ -173,6 +190,11 @@ struct Instance<S: Scene> {
 }
 
 impl<S: Scene> Instance<S> {
+    /// The configuration of a state.
+    fn state(&self, q: &[f64], z: &[f64]) -> Result<<S::Single as GaussSystem>::Configuration, String> {
+        steps::state(&S::DESCRIPTION, self.scene.names(), q, z).map_err(|mistakes| mistakes.join("; "))
+    }
+
     /// The first rotation in these rows that is none, as what is not a number is.
     fn off_group(&self, slot: Slot, source: &Source, rows: Range<usize>) -> Result<(), OffGroup> {
         for &(place, count) in &self.scene.blocks {
@@ -317,21 +339,33 @@ impl<S: Scene> AnyKernel for Instance<S> {
         Ok(())
     }
 
+    fn check(&self, q: &[f64], z: &[f64]) -> Result<(), String> {
+        self.state(q, z).map(drop)
+    }
+
     fn project(&self, t: f64, q: &[f64], z: &[f64]) -> Result<[Vec<f64>; 2], String> {
-        let start = steps::state(&S::DESCRIPTION, self.scene.names(), q, z).map_err(|mistakes| mistakes.join("; "))?;
+        let start = self.state(q, z)?;
         let found = self.single.project(t, &start, &steps::vector(z)).map_err(|error| error.to_string())?;
         Ok([steps::numbers_of(&found.0), steps::components(&found.1)])
     }
 
+    fn in_contact(&self, t: f64, (q, z): (&[f64], &[f64]), input: &[f64]) -> Result<InContact, String> {
+        self.check(q, z)?;
+        self.scene.steps.in_contact(&self.single, t, (q, z), input)
+    }
+
     fn simulate(&self, request: &Request<'_>) -> Result<Outcome, String> {
-        let names = self.scene.names();
-        steps::state::<<S::Single as GaussSystem>::Configuration>(&S::DESCRIPTION, names, request.q, request.z)
-            .map_err(|mistakes| mistakes.join("; "))?;
+        self.check(request.q, request.z)?;
         self.scene.steps.simulate(&self.single, request)
     }
 
     fn ensemble(&self, many: &Many<'_>) -> Result<ManyEnds, String> {
-        runs::ensemble::<S>(&self.packed, &self.numbers, many)
+        match many.control {
+            Control::ContactEvents(..) | Control::ContactSteps(..) => {
+                runs::touching::<S>(&self.scene.steps, &self.single, &self.numbers, many)
+            }
+            _ => runs::ensemble::<S>(&self.packed, &self.numbers, many),
+        }
     }
 
     fn batch_time(&self, many: &Many<'_>) -> Result<Duration, String> {

@@ -22,7 +22,7 @@ pub fn begin(module: &Bound<'_, PyModule>) -> PyResult<()> {
         class.setattr("__module__", module.name()?)?;
         module.add(class.name()?, class)?;
     }
-    for name in ["ParameterError", "IntegrationError"] {
+    for name in errors::NAMES {
         module.add(name, errors::class(py, name)?)?;
     }
     module.add_function(wrap_pyfunction!(errors::raised, module)?)?;
@@ -39,7 +39,7 @@ pub fn add<S: Scene>(module: &Bound<'_, PyModule>) -> PyResult<&'static dyn AnyS
     attributes.set_item("_scene", Py::new(py, SceneHandle::new(scene))?)?;
     attributes.set_item("__module__", module.name()?)?;
     attributes.set_item("__qualname__", description.name)?;
-    attributes.set_item("__doc__", documentation(description))?;
+    attributes.set_item("__doc__", documentation(scene))?;
     attributes.set_item("__slots__", PyTuple::empty(py))?;
     attributes.set_item("__signature__", signature(py, description)?)?;
     let bases = (py.get_type::<Kernel>(),);
@@ -51,8 +51,8 @@ pub fn add<S: Scene>(module: &Bound<'_, PyModule>) -> PyResult<&'static dyn AnyS
 /// Adds `stubs()`, the text of the module's `.pyi`, and `__all__`.
 pub fn finish(module: &Bound<'_, PyModule>, scenes: Vec<&'static dyn AnyScene>) -> PyResult<()> {
     let py = module.py();
-    let names = ["Kernel", "Run", "Ends", "ParameterError", "IntegrationError", "jax", "stubs"];
-    let names = names.into_iter().map(str::to_owned).chain(tuples::names());
+    let names = ["Kernel", "Run", "Ends", "jax", "stubs"].into_iter().chain(errors::NAMES);
+    let names = names.map(str::to_owned).chain(tuples::names());
     let all = names.chain(scenes.iter().map(|scene| scene.description().name.to_owned()));
     module.add("__all__", PyList::new(py, all.collect::<Vec<_>>())?)?;
     let stubs = move |_: &Bound<'_, PyTuple>, _: Option<&Bound<'_, PyDict>>| stubs::text(&scenes);

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 
 use crate::call::{Given, call};
 use crate::class::Kernel;
-use crate::methods::Id;
+use crate::methods::{Id, SPECS};
 
 type Any<'py> = Bound<'py, PyAny>;
 type Result<'py> = PyResult<Bound<'py, PyAny>>;
@@ -27,6 +27,10 @@ macro_rules! methods {
                 t: Option<&Any<'py>>,
                 out: Option<&Any<'py>>,
             ) -> Result<'py> {
+                if SPECS[Id::$id as usize].has_forces() {
+                    let way = concat!("kernel.without_contacts().", stringify!($method));
+                    self.knows_all_forces(py, (stringify!($method), way))?;
+                }
                 let frames: &[usize] = &[$(self.$frame($frame)?)?];
                 let frame = frames.first().copied().unwrap_or(0);
                 call(py, self.kernel(), Id::$id, &Given { arguments: [$($slot),*], t, frame, out })

@@ -3,11 +3,11 @@
 use gauss_runtime::integrate::Summary;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyCapsule, PyList, PyTuple, PyType};
+use pyo3::types::{PyCapsule, PyDict, PyList, PyTuple, PyType};
 
 use crate::columns::Columns;
 use crate::kernels::AnyScene;
-use crate::steps::{Event, Outcome};
+use crate::steps::{Event, Happening, KINDS, Outcome, Touched, column_names};
 use crate::tuples;
 
 /// A run: its states in columns that NumPy and Arrow see without a copy.
@@ -16,23 +16,38 @@ pub struct Run {
     columns: Columns,
     coordinates: usize,
     speeds: usize,
-    /// How many events were looked for.
-    kinds: usize,
+    /// How many jumps were looked for, and behind them how many events.
+    kinds: (usize, usize),
+    /// The names of contacts, and how many rows each has; none where they have no part in the run.
+    contacts: Vec<(String, usize)>,
     outcome: Outcome,
 }
 
 impl Run {
-    /// The run of a scene in which so many events were looked for.
-    pub fn new(scene: &dyn AnyScene, mut outcome: Outcome, kinds: usize) -> Self {
+    /// The run of a scene in which so many jumps and events were looked for.
+    pub fn new(scene: &dyn AnyScene, mut outcome: Outcome, kinds: (usize, usize)) -> Self {
         let (sizes, numbers) = (scene.sizes(), std::mem::take(&mut outcome.columns));
-        let names = names(scene, &["kinetic_energy", "potential_energy"]);
+        let all = if outcome.touched.is_some() { scene.contacts() } else { &[] };
+        let contacts = all.iter().map(|contact| (contact.name.to_owned(), contact.rows().len())).collect();
+        let mut names = names(scene, &["kinetic_energy", "potential_energy"]);
+        names.extend(column_names(all));
         let columns = Columns::new(names, numbers, outcome.rows);
-        Self { columns, coordinates: sizes.configuration, speeds: sizes.speeds, kinds, outcome }
+        Self { columns, coordinates: sizes.configuration, speeds: sizes.speeds, kinds, contacts, outcome }
+    }
+
+    fn touched(&self) -> Touched {
+        self.outcome.touched.clone().unwrap_or_default()
+    }
+
+    /// Those of some of the events.
+    fn events_of<'py>(&self, py: Python<'py>, numbers: std::ops::Range<usize>) -> PyResult<Bound<'py, PyList>> {
+        let events: PyResult<Vec<_>> = numbers.map(|number| self.event(py, number)).collect();
+        PyList::new(py, events?)
     }
 
     /// When it ended.
     pub fn reached(&self) -> f64 {
-        self.outcome.reached
+        self.outcome.last[0]
     }
 
     /// The times and states of one event.
@@ -104,8 +119,43 @@ impl Run {
     /// Times and states of `events`, one after the other as they were asked for: tuples t, q, z of arrays.
     #[getter]
     fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let events: PyResult<Vec<_>> = (0..self.kinds).map(|number| self.event(py, number)).collect();
+        self.events_of(py, self.kinds.0..self.kinds.0 + self.kinds.1)
+    }
+
+    /// Those of `jumps`: the states before them.
+    #[getter]
+    fn jumps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        self.events_of(py, 0..self.kinds.0)
+    }
+
+    /// What happened at contacts, in order of time: tuples t, contact, kind ("impact", "closes", "rests", "leaves",
+    /// "sticks", "slides", "reverses"), and of an impact the rates before and after it, the impulse (along the normal,
+    /// then the tangents and the spin) and the energy that it took away.
+    #[getter]
+    fn contact_events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let one = |Happening { time, contact, kind, impact }: &Happening| {
+            let (name, rows) = &self.contacts[*contact];
+            let part = |k: usize| impact.get(k * rows..(k + 1) * rows).map(|part| PyArray1::from_slice(py, part));
+            let fields = (*time, name, KINDS[*kind], part(0), part(1), part(2), impact.last().copied());
+            tuples::new(py, tuples::CONTACT_EVENT, fields.into_pyobject(py)?)
+        };
+        let events: PyResult<Vec<_>> = self.touched().happened.iter().map(one).collect();
         PyList::new(py, events?)
+    }
+
+    /// How well the laws of contact were kept, by name; empty of runs without contacts.
+    #[getter]
+    fn contact_report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let report = PyDict::new(py);
+        self.touched().report.iter().try_for_each(|(name, number)| report.set_item(name, number))?;
+        Ok(report)
+    }
+
+    /// Where open gaps were looked at by samples alone, so that a touch may have been missed: contact, from when on,
+    /// until when.
+    #[getter]
+    fn sampled_gaps(&self) -> Vec<(String, f64, f64)> {
+        self.touched().sampled.iter().map(|&(contact, from, to)| (self.contacts[contact].0.clone(), from, to)).collect()
     }
 
     /// The number of the end in `until` that it came to; none where it went on to its time.
@@ -180,14 +230,19 @@ impl Run {
         format!("Run({} states, {}{end})", columns.len(), outcome.summary)
     }
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let (py, Self { columns, coordinates, speeds, kinds, outcome }) = (slf.py(), slf.get());
-        let Outcome { reached, events, stopped_by, summary, error, interrupted, .. } = outcome;
+        let (py, Self { columns, coordinates, speeds, kinds, contacts, outcome }) = (slf.py(), slf.get());
+        let Outcome { last, events, stopped_by, summary, touched, error, interrupted, .. } = outcome;
         let events: Vec<(usize, Vec<f64>)> = events.iter().map(|event| (event.number, event.row.clone())).collect();
+        let touched = touched.clone().map(|Touched { happened, report, sampled }| {
+            let happened =
+                happened.into_iter().map(|Happening { time, contact, kind, impact }| (time, contact, kind, impact));
+            (happened.collect::<Vec<_>>(), report, sampled)
+        });
         let state = (
             (columns.names().to_vec(), PyArray1::from_slice(py, columns.numbers()), columns.len()),
-            (*coordinates, *speeds, *kinds),
-            (*reached, *stopped_by, error.clone(), *interrupted),
-            events,
+            (*coordinates, *speeds, *kinds, contacts.clone()),
+            (last.clone(), *stopped_by, error.clone(), *interrupted),
+            (events, touched),
             (summary.steps, summary.rejected, summary.rounded, summary.excess, summary.jumps),
         );
         // A method of the class: pickles find it in all protocols.
@@ -199,18 +254,27 @@ impl Run {
     fn _restored(
         _class: &Bound<'_, PyType>,
         columns: (Vec<String>, Bound<'_, PyArray1<f64>>, usize),
-        sizes: (usize, usize, usize),
-        end: (f64, Option<usize>, Option<String>, bool),
-        events: Vec<(usize, Vec<f64>)>,
+        sizes: (usize, usize, (usize, usize), Vec<(String, usize)>),
+        end: (Vec<f64>, Option<usize>, Option<String>, bool),
+        happened: (Vec<(usize, Vec<f64>)>, Option<PickledTouches>),
         steps: (u64, u64, u64, f64, u64),
     ) -> PyResult<Self> {
-        let ((names, numbers, rows), (coordinates, speeds, kinds)) = (columns, sizes);
-        let (reached, stopped_by, error, interrupted) = end;
+        let ((names, numbers, rows), (coordinates, speeds, kinds, contacts)) = (columns, sizes);
+        let ((last, stopped_by, error, interrupted), (events, touched)) = (end, happened);
         let mut summary = Summary::default();
         (summary.steps, summary.rejected, summary.rounded, summary.excess, summary.jumps) = steps;
         let columns = Columns::new(names, numbers.readonly().to_vec()?, rows);
         let events = events.into_iter().map(|(number, row)| Event { number, row }).collect();
-        let outcome = Outcome { columns: Vec::new(), rows, reached, events, stopped_by, summary, error, interrupted };
-        Ok(Self { columns, coordinates, speeds, kinds, outcome })
+        let touched = touched.map(|(happened, report, sampled)| {
+            let one = |(time, contact, kind, impact)| Happening { time, contact, kind, impact };
+            Touched { happened: happened.into_iter().map(one).collect(), report, sampled }
+        });
+        let columns_of = Vec::new();
+        let outcome =
+            Outcome { columns: columns_of, rows, last, events, stopped_by, summary, touched, error, interrupted };
+        Ok(Self { columns, coordinates, speeds, kinds, contacts, outcome })
     }
 }
+
+/// What contacts did, as pickles have it.
+type PickledTouches = (Vec<(f64, usize, usize, Vec<f64>)>, Vec<(String, f64)>, Vec<(usize, f64, f64)>);

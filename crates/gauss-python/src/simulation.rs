@@ -12,7 +12,7 @@ use crate::calls::{Calls, Progress, watched_run};
 use crate::class::Kernel;
 use crate::ends::Ends;
 use crate::errors;
-use crate::given::{self, GivenController, GivenEnd, GivenInput, states};
+use crate::given::{self, GivenController, GivenEvent, GivenInput, Words, states};
 use crate::run::Run;
 use crate::runs::Many;
 use crate::steps::{Control, Held, Input, Outcome, Request};
@@ -25,13 +25,37 @@ struct Given {
     control: Control,
     input: GivenInput,
     controller: Option<GivenController>,
-    /// Events, then ends, of which the flag tells.
-    watched: Vec<((GivenEnd, gauss_runtime::prelude::Crossing), bool)>,
+    /// Jumps, which errors number from 0 on, then events, then ends.
+    watched: Vec<GivenEvent>,
     times: Option<Vec<f64>>,
     limit: Option<u64>,
 }
 
 impl Given {
+    /// Refuses what runs with contacts do not have.
+    fn without_what_contacts_have_not(&self) -> PyResult<()> {
+        let in_steps = match self.control {
+            Control::ContactEvents(..) => false,
+            Control::ContactSteps(..) => true,
+            _ => return Ok(()),
+        };
+        let jumps = self.watched.iter().any(|event| matches!(event.effect, given::GivenEffect::Jumps(..)));
+        let why = match (in_steps, &self.controller, &self.times) {
+            _ if jumps => {
+                "jumps of one's own are those of runs without contacts: end the run by `until` and begin another"
+            }
+            (true, Some(_), _) => {
+                "steps of contacts call an `input` function once each, and hold it: a controller is that"
+            }
+            (false, Some(_), _) => {
+                "controllers that sample go with contacts=\"steps\", as `input`, or without contacts"
+            }
+            (true, _, Some(_)) => "steps of contacts give the states at their ends, and none between: leave out times",
+            _ => return Ok(()),
+        };
+        Err(PyTypeError::new_err(why))
+    }
+
     /// Runs it.
     fn run(&self, py: Python<'_>, kernel: &Kernel, calls: &Calls) -> PyResult<Outcome> {
         let kernel = kernel.kernel();
@@ -53,17 +77,19 @@ impl Given {
             GivenInput::Table(table) => Input::Table(table.clone()),
             GivenInput::Function(_) => Input::Function(&by_function),
         };
-        let functions: Vec<_> = self.watched.iter().map(|((end, _), _)| given::watch(end, calls)).collect();
-        let until =
-            self.watched.iter().zip(&functions).map(|((end, ends), function)| given::until_of(end, *ends, function));
+        let functions =
+            self.watched.iter().map(|event| (given::watch(event, calls), given::jump(event, calls, kernel)));
+        let functions: Vec<_> = functions.collect();
+        let until = self.watched.iter().zip(&functions);
+        let until: Vec<_> = until.map(|(event, (watch, jump))| given::until_of(event, (watch, jump))).collect();
         let request = Request {
             q: &self.q,
             z: &self.z,
             interval: self.interval,
             control: self.control,
-            input,
+            input: &input,
             controller: self.controller.as_ref().map(|held| Held { period: held.period, delay: held.delay, law: &law }),
-            until: until.collect(),
+            until: &until,
             times: self.times.as_deref(),
             limit: self.limit,
             stop: &calls.stop,
@@ -82,11 +108,19 @@ impl Kernel {
     /// `input` is an array, a pair (times, values), straight between them, or a function of (t, q, z). `controller` is
     /// a function of (t, q, z) that is called every `period`; what it gives is held, from `delay` after that on, and
     /// added to the input. `until` ends the run early: (name, value), (name, value, "falling"), a function of (t, q,
-    /// z), or a list of such; states at `events`, as these, are found in the run. `times` are those of the states that
-    /// are given back, instead of the ends of steps. `progress` is a function of the time, or True for a bar of tqdm.
-    /// Ctrl-C, and an exception in a function, end the run and are raised with what there is of it, as `run`.
+    /// z), or a list of such; states at `events`, as these, are found in the run. `jumps` are pairs of such an event
+    /// and a function of (t, q, z) that gives another (q, z). `times` are those of the states that are given back,
+    /// instead of the ends of steps.
+    ///
+    /// Scenes with contacts, ranges or dry friction run from event to event, with `impact`, the law of impacts
+    /// ("newton", "moreau", "poisson", "sequential"); or with `contacts="steps"` in steps of the length `step`, with
+    /// `friction` ("coulomb", "relaxed") and `scheme` ("midpoint", "moreau_jean").
+    ///
+    /// `progress` is a function of the time, or True for a bar of tqdm. Ctrl-C, and an exception in a function, end the
+    /// run and are raised with what there is of it, as `run`.
     #[pyo3(signature = (q, z, interval, *, rtol=1e-9, atol=1e-9, step=None, largest_step=None, method=None, input=None,
-        controller=None, period=None, delay=0.0, until=None, events=None, times=None, max_steps=None, progress=None))]
+        controller=None, period=None, delay=0.0, until=None, events=None, jumps=None, times=None, max_steps=None,
+        contacts=None, impact=None, friction=None, scheme=None, progress=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords")]
     fn simulate<'py>(
         &self,
@@ -105,31 +139,36 @@ impl Kernel {
         delay: f64,
         until: Option<&Bound<'py, PyAny>>,
         events: Option<&Bound<'py, PyAny>>,
+        jumps: Option<&Bound<'py, PyAny>>,
         times: Option<&Bound<'py, PyAny>>,
         max_steps: Option<u64>,
+        contacts: Option<&str>,
+        impact: Option<&str>,
+        friction: Option<&str>,
+        scheme: Option<&str>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, Run>> {
         let (scene, sizes) = (self.scene(), self.scene().sizes());
         let lengths = [("step", step.unwrap_or(1.0)), ("largest_step", largest_step.unwrap_or(1.0))];
         let positive = [("rtol", rtol), ("atol", atol), lengths[0], lengths[1]];
         given::checked(interval, &positive)?;
-        let (events, ends) = (given::ends(scene, events)?, given::ends(scene, until)?);
-        let kinds = events.len();
+        let tolerances = (rtol, atol, largest_step);
+        let words = Words { method, step, tolerances, contacts, impact, friction, scheme };
+        let [events, jumps, ends] =
+            [given::events(scene, events, false)?, given::jumps(scene, jumps)?, given::events(scene, until, true)?];
+        let kinds = (jumps.len(), events.len());
         let given = Given {
             q: vector("q", q, sizes.configuration)?,
             z: vector("z", z, sizes.speeds)?,
             interval,
-            control: given::control(method, step, (rtol, atol, largest_step))?,
+            control: given::control("run", self.touches(), words)?,
             input: given::input(scene, input, controller.is_some())?,
             controller: given::controller(scene, controller, period, delay)?,
-            watched: events
-                .into_iter()
-                .map(|end| (end, false))
-                .chain(ends.into_iter().map(|end| (end, true)))
-                .collect(),
+            watched: jumps.into_iter().chain(events).chain(ends).collect(),
             times: times.map(|times| given::times_within(times, interval)).transpose()?,
             limit: max_steps,
         };
+        given.without_what_contacts_have_not()?;
         // Last of all, so that no bar is shown for a run that is refused.
         let calls = Calls::new(Progress::of(progress, interval, "s")?);
         let run = given.run(py, self, &calls).map(|outcome| Run::new(scene, outcome, kinds));
@@ -142,11 +181,12 @@ impl Kernel {
 
     /// Carries many states, in lanes and on all threads, each with steps of its own: q and z are rows, or one for all;
     /// `parameters` has an array with a number for each run. `input` is an array or a pair (times, values); `until` is
-    /// (name, value) or (name, value, direction). Runs that fail, or cannot begin, are told of in `errors`, each with
-    /// all that is wrong. `progress` is a function of the number of runs that have ended, or True for a bar of tqdm.
+    /// (name, value) or (name, value, direction). With contacts each run is as `simulate` makes it, and `contacts`,
+    /// `step`, `largest_step`, `impact`, `friction`, `scheme` are those of it. Runs that fail, or cannot begin, are
+    /// told of in `errors`, each with all that is wrong. `progress` is a function of the number of runs that have ended, or True for a bar of tqdm.
     /// Ctrl-C ends all runs and is raised with what there is, as `ends`.
-    #[pyo3(signature = (q, z, interval, *, rtol=1e-9, atol=1e-9, input=None, until=None, parameters=None,
-        max_steps=None, progress=None))]
+    #[pyo3(signature = (q, z, interval, *, rtol=1e-9, atol=1e-9, step=None, largest_step=None, input=None, until=None,
+        parameters=None, max_steps=None, contacts=None, impact=None, friction=None, scheme=None, progress=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords")]
     fn ensemble<'py>(
         &self,
@@ -156,15 +196,31 @@ impl Kernel {
         interval: (f64, f64),
         rtol: f64,
         atol: f64,
+        step: Option<f64>,
+        largest_step: Option<f64>,
         input: Option<&Bound<'py, PyAny>>,
         until: Option<&Bound<'py, PyAny>>,
         parameters: Option<&Bound<'py, PyDict>>,
         max_steps: Option<u64>,
+        contacts: Option<&str>,
+        impact: Option<&str>,
+        friction: Option<&str>,
+        scheme: Option<&str>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Ends> {
         let (kernel, scene) = (self.kernel(), self.kernel().scene());
         let sizes = scene.sizes();
-        given::checked(interval, &[("rtol", rtol), ("atol", atol)])?;
+        let lengths = [("step", step.unwrap_or(1.0)), ("largest_step", largest_step.unwrap_or(1.0))];
+        given::checked(interval, &[("rtol", rtol), ("atol", atol), lengths[0], lengths[1]])?;
+        if let (false, Some((word, _))) = (
+            self.touches(),
+            [("step", step), ("largest_step", largest_step)].into_iter().find(|(_, given)| given.is_some()),
+        ) {
+            return Err(PyTypeError::new_err(format!("{word} is of contacts, and none act in this ensemble")));
+        }
+        let tolerances = (rtol, atol, largest_step);
+        let words = Words { method: None, step, tolerances, contacts, impact, friction, scheme };
+        let control = given::control("ensemble", self.touches(), words)?;
         let (q, z) = (states("q", q, sizes.configuration)?, states("z", z, sizes.speeds)?);
         let own = given::own_parameters(scene, parameters)?;
         let counts = [("q", q.1), ("z", z.1)].into_iter();
@@ -191,7 +247,7 @@ impl Kernel {
             z: &z,
             parameters: own.into_iter().map(|(_, place, values)| (place, values)).collect(),
             interval,
-            tolerances: (rtol, atol),
+            control,
             limit: max_steps,
             input,
             until,
@@ -203,7 +259,8 @@ impl Kernel {
         drop(many);
         let interrupted = calls.stop.load(Ordering::Relaxed);
         calls.end(py, so_many());
-        let ends = ends?.map_err(PyValueError::new_err).map(|ends| Ends::new(scene, ends, interrupted));
+        let ends =
+            ends?.map_err(PyValueError::new_err).map(|ends| Ends::new(scene, ends, (self.touches(), interrupted)));
         match calls.error() {
             None => ends,
             Some(error) => Err(ended_by(py, error, "ends", ends.and_then(|ends| ends.into_bound_py_any(py)))),
@@ -252,7 +309,7 @@ impl Kernel {
             z: &z,
             parameters: Vec::new(),
             interval: (0.0, 0.0),
-            tolerances: (1.0, 1.0),
+            control: Control::Adaptive(1.0, 1.0, f64::INFINITY),
             limit: None,
             input,
             until: None,

@@ -26,7 +26,7 @@ pub fn text(scenes: &[&'static dyn AnyScene]) -> String {
 fn class(scene: &dyn AnyScene) -> String {
     let description = scene.description();
     let mut text = format!("\nclass {}(Kernel):\n", description.name);
-    text.push_str(&docstring(&documentation(description), 4));
+    text.push_str(&docstring(&documentation(scene), 4));
     let keywords = description.fields.iter().map(|field| match field.shape {
         Shape::Array([]) => format!("{}: float", field.name),
         Shape::Array(_) | Shape::Rotation => format!("{}: ArrayLike", field.name),
@@ -35,6 +35,9 @@ fn class(scene: &dyn AnyScene) -> String {
     let keywords: Vec<String> = keywords.collect();
     let star = if keywords.is_empty() { "" } else { ", *, " };
     let _ = writeln!(text, "    def __init__(self{star}{}) -> None: ...", keywords.join(", "));
+    if !scene.contacts().is_empty() {
+        let _ = writeln!(text, "    def without_contacts(self) -> {}: ...", description.name);
+    }
     let all = SPECS.iter().enumerate();
     for (_, spec) in all.filter(|(number, _)| Id::ALL.iter().any(|id| *id as usize == *number && scene.has(*id))) {
         text.push_str(&method(scene, spec));

@@ -9,6 +9,12 @@ use crate::methods::SPECS;
 /// The class of the times and states of an event.
 pub const EVENTS: &str = "Events";
 
+/// The class of a change of a contact.
+pub const CONTACT_EVENT: &str = "ContactEvent";
+
+/// The class of what contacts do at a state.
+pub const IN_CONTACT: &str = "InContact";
+
 static CLASSES: PyOnceLock<Py<PyDict>> = PyOnceLock::new();
 
 /// The names of all classes.
@@ -16,11 +22,16 @@ pub fn names() -> impl Iterator<Item = String> {
     all().map(|(name, _)| name)
 }
 
-/// All classes with their fields: of each method that gives several results, and of events.
+/// All classes with their fields: of each method that gives several results, and of what happens in runs.
 fn all() -> impl Iterator<Item = (String, Vec<&'static str>)> {
     let several = SPECS.iter().filter(|spec| spec.results.len() > 1);
     let of_methods = several.map(|spec| (spec.class_name(), spec.results.iter().map(|result| result.name).collect()));
-    of_methods.chain([(EVENTS.to_owned(), vec!["t", "q", "z"])])
+    let others = [
+        (EVENTS, vec!["t", "q", "z"]),
+        (CONTACT_EVENT, vec!["t", "contact", "kind", "before", "after", "impulse", "energy_lost"]),
+        (IN_CONTACT, vec!["acceleration", "modes", "forces"]),
+    ];
+    of_methods.chain(others.map(|(name, fields)| (name.to_owned(), fields)))
 }
 
 /// Adds them to the package.

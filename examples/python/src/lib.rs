@@ -138,4 +138,57 @@ pub struct Lander<T> {
     g: T,
 }
 
-gauss_python::module!(scenes: Pendulum<f64>, Torpedo<f64>, Arm<f64>, Wire, Lander<f64>);
+/// A puck on a floor: it bounces, slides and stays where it is.
+#[derive(GaussDynamics)]
+#[gauss(
+    python,
+    linearize,
+    coordinates(x, z),
+    particle(mass = mass, position = [x, 0, z]),
+    frame(puck, position = [x, 0, z]),
+    contact(floor, point = puck.position, friction = friction, restitution = restitution),
+    input(push = "N"),
+    drive(x = push),
+)]
+pub struct Puck<T> {
+    /// Of the puck.
+    #[gauss(unit = "kg")]
+    mass: T,
+    /// Between puck and floor.
+    friction: T,
+    /// Of an impact on the floor.
+    restitution: T,
+    /// Acceleration of free fall.
+    #[gauss(gravity)]
+    g: T,
+}
+
+/// A gate between two stops, whose hinge rubs.
+#[derive(GaussDynamics)]
+#[gauss(
+    python,
+    coordinates(angle),
+    particle(mass = mass, position = [width * cos(angle), width * sin(angle), 0]),
+    input(motor = "N m"),
+    drive(angle = motor),
+    range(angle, from = -most, to = most, restitution = restitution),
+    dry_friction(hinge, slip = rate(angle), bound = rub),
+)]
+pub struct Gate {
+    /// In the middle of the gate.
+    #[gauss(unit = "kg")]
+    mass: f64,
+    /// From the hinge to that.
+    #[gauss(unit = "m")]
+    width: f64,
+    /// To both sides.
+    #[gauss(unit = "rad")]
+    most: f64,
+    /// At the stops.
+    restitution: f64,
+    /// The torque of the hinge at most.
+    #[gauss(unit = "N m")]
+    rub: f64,
+}
+
+gauss_python::module!(scenes: Pendulum<f64>, Torpedo<f64>, Arm<f64>, Wire, Lander<f64>, Puck<f64>, Gate);

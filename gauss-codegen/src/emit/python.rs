@@ -28,7 +28,7 @@ pub fn scene(derived: &Derived<'_, '_>) -> TokenStream {
     let (offers, steps) = (offers(derived), steps(derived));
     let remarks = item.described.iter().flat_map(|file| &file.remarks);
     let remarks = remarks.map(|Remark { text, ignored }| {
-        let text = without_contacts(text);
+        let text = without_rust(text);
         quote!(#text #ignored;)
     });
     // Where the crate is missing, the clause is to blame.
@@ -48,13 +48,9 @@ pub fn scene(derived: &Derived<'_, '_>) -> TokenStream {
     }
 }
 
-/// A remark without the remedies that need runs with contacts, which Python does not have.
-fn without_contacts(text: &str) -> String {
-    let remedy = text.split_once(", which a `ContactRun` runs, ");
-    match remedy.and_then(|(before, others)| Some((before.rsplit_once("write ")?.0, others))) {
-        Some((matter, others)) => format!("{matter}write {others}"),
-        None => text.to_owned(),
-    }
+/// A remark without words of Rust: runs with contacts are those of `simulate`.
+fn without_rust(text: &str) -> String {
+    text.replace(", which a `ContactRun` runs,", ",")
 }
 
 /// `mass [f64] "mass" "kg" "of the hull";`
@@ -96,23 +92,26 @@ fn offers(derived: &Derived<'_, '_>) -> Vec<proc_macro2::Ident> {
     words.into_iter().map(|word| format_ident!("{}", word)).collect()
 }
 
-/// The methods of integration that the kernel has besides those of every kernel, a word for each.
+/// What runs the kernel has besides those of every kernel, a word for each.
 fn steps(derived: &Derived<'_, '_>) -> Vec<proc_macro2::Ident> {
     let has_jacobian = derived.kernel.derivatives.iter().any(|other| matches!(other.kind, DerivativeKind::ByState));
-    let words = [(derived.item().wanted.taylor.is_some(), "taylor"), (has_jacobian, "rosenbrock")];
+    let touches = !derived.subject.system.contacts.is_empty();
+    let words =
+        [(derived.item().wanted.taylor.is_some(), "taylor"), (has_jacobian, "rosenbrock"), (touches, "contacts")];
     words.into_iter().filter(|(has, _)| *has).map(|(_, word)| format_ident!("{}", word)).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::without_contacts;
+    use super::without_rust;
 
     #[test]
     fn remedies_are_those_of_python() {
         let told = "3:1: the limits of joints do not act; write `limits = range` for exact stops, which a `ContactRun` \
                     runs, `limits = stop(…)` for stops that give way, or `limits = none`";
-        let expected = "3:1: the limits of joints do not act; write `limits = stop(…)` for stops that give way, or `limits = none`";
-        assert_eq!(without_contacts(told), expected);
-        assert_eq!(without_contacts("<antenna/> is not read"), "<antenna/> is not read");
+        let expected = "3:1: the limits of joints do not act; write `limits = range` for exact stops, \
+                        `limits = stop(…)` for stops that give way, or `limits = none`";
+        assert_eq!(without_rust(told), expected);
+        assert_eq!(without_rust("<antenna/> is not read"), "<antenna/> is not read");
     }
 }

@@ -141,6 +141,7 @@ pub fn functions<'py>(module: &str, kernel: &Bound<'py, PyAny>) -> PyResult<Boun
     let Ok(own) = kernel.cast::<Kernel>() else {
         return Err(PyTypeError::new_err("functions of JAX are those of a kernel"));
     };
+    own.get().knows_all_forces(py, ("jax", "jax(kernel.without_contacts())"))?;
     // Each extension has a handler, and so a module, of its own.
     let target = format!("gauss_{}", module.replace('.', "_"));
     let source = || {

@@ -177,6 +177,12 @@ const fn spec(
 }
 
 impl Spec {
+    /// Whether it is about forces: then it has the input among its arguments, and those of contacts are not in it.
+    #[must_use]
+    pub fn has_forces(&self) -> bool {
+        self.arguments.iter().any(|argument| argument.slot == Slot::U)
+    }
+
     /// The class of its results, where there are several: `LinearizeInverse`.
     #[must_use]
     pub fn class_name(&self) -> String {

@@ -9,7 +9,7 @@ use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
 use crate::scene::{ScalarOf, Scene};
-use crate::steps::{self, Input, Stoppable, Until, Watched, components, numbers_of, vector};
+use crate::steps::{self, Control, Input, Stoppable, Until, Watched, components, numbers_of, vector};
 use crate::threads;
 
 /// Many runs over one interval.
@@ -24,8 +24,8 @@ pub struct Many<'a> {
     pub parameters: Vec<(usize, Vec<f64>)>,
     /// From when to when.
     pub interval: (f64, f64),
-    /// Relative and absolute.
-    pub tolerances: (f64, f64),
+    /// The steps: without contacts as long as tolerances allow.
+    pub control: Control,
     /// The most steps of each.
     pub limit: Option<u64>,
     /// The input, the same for all.
@@ -38,7 +38,25 @@ pub struct Many<'a> {
     pub ended: &'a AtomicUsize,
 }
 
-/// Where the runs ended, column by column: time, the numbers of q and z, steps. Of a run that could not begin there is
+impl Many<'_> {
+    /// The parameters of a run.
+    pub(super) fn own(&self, numbers: &[f64], i: usize) -> Vec<f64> {
+        let mut own = numbers.to_vec();
+        self.parameters.iter().for_each(|(place, values)| own[*place] = values[i]);
+        own
+    }
+
+    /// The numbers of the first q and z of a run.
+    pub(super) fn first(&self, i: usize) -> [&[f64]; 2] {
+        [self.q, self.z].map(|all| {
+            let size = all.len().checked_div(self.count).unwrap_or(0);
+            &all[i * size..(i + 1) * size]
+        })
+    }
+}
+
+/// Where the runs ended, column by column: time, the numbers of q and z, steps, and of runs with contacts what
+/// [`TOUCHED`](super::TOUCHED) has. Of a run that could not begin there is
 /// no number.
 #[derive(Clone, Debug)]
 pub struct ManyEnds {
@@ -85,15 +103,13 @@ pub fn ensemble<S: Scene>(shared: &Packs<S>, numbers: &[f64], many: &Many<'_>) -
         [] => run(shared, many, &first),
         _ => run(own, many, &first),
     });
-    Ok(ran.scattered(&runs, many.count, refused))
+    Ok(ran?.scattered(&runs, many.count, refused))
 }
 
 /// The first states; of those that are none all that is wrong is noted.
 fn first_states<S: Scene>(many: &Many<'_>, refused: &mut Refused) -> Vec<Option<StateOf<Packs<S>>>> {
-    let size = |numbers: &[f64]| numbers.len().checked_div(many.count).unwrap_or(0);
-    let (coordinates, speeds) = (size(many.q), size(many.z));
     let state = |i: usize| {
-        let (q, z) = (&many.q[i * coordinates..(i + 1) * coordinates], &many.z[i * speeds..(i + 1) * speeds]);
+        let [q, z] = many.first(i);
         match steps::state(&S::DESCRIPTION, names::<S>(), q, z) {
             Ok(q) => Some((q, vector(z))),
             Err(mistakes) => {
@@ -105,7 +121,7 @@ fn first_states<S: Scene>(many: &Many<'_>, refused: &mut Refused) -> Vec<Option<
     (0..many.count).map(state).collect()
 }
 
-fn names<S: Scene>() -> [&'static [&'static str]; 2] {
+pub(super) fn names<S: Scene>() -> [&'static [&'static str]; 2] {
     [<S::Single as DescribedSystem>::COORDINATE_NAMES, <S::Single as DescribedSystem>::SPEED_NAMES]
 }
 
@@ -115,11 +131,6 @@ fn own_kernels<S: Scene>(numbers: &[f64], many: &Many<'_>, runs: &[usize], refus
         return Vec::new();
     }
     let lanes = <ScalarOf<Packs<S>> as Packed>::WIDTH;
-    let alone = |i: usize| {
-        let mut own = numbers.to_vec();
-        many.parameters.iter().for_each(|(place, values)| own[*place] = values[i]);
-        own
-    };
     let mut kernels = Vec::new();
     for block in runs.chunks(lanes) {
         let mut packed: Vec<_> = numbers.iter().map(ScalarOf::<Packs<S>>::repeat).collect();
@@ -131,7 +142,7 @@ fn own_kernels<S: Scene>(numbers: &[f64], many: &Many<'_>, runs: &[usize], refus
         let Err(error) = S::packed(&packed).map(|kernel| kernels.push(kernel)) else { continue };
         let before = refused.len();
         for &i in block {
-            if let Err(error) = S::single(&alone(i)) {
+            if let Err(error) = S::single(&many.own(numbers, i)) {
                 refused.entry(i).or_default().extend(error.violations().iter().map(ToString::to_string));
             }
         }
@@ -144,7 +155,7 @@ fn own_kernels<S: Scene>(numbers: &[f64], many: &Many<'_>, runs: &[usize], refus
     kernels
 }
 
-fn run<'k, S, K>(kernels: &'k K, many: &'k Many<'_>, first: &[StateOf<S>]) -> ManyEnds
+fn run<'k, S, K>(kernels: &'k K, many: &'k Many<'_>, first: &[StateOf<S>]) -> Result<ManyEnds, String>
 where
     S: BatchSystem<
             Scalar: Packed<Single = f64>,
@@ -169,7 +180,10 @@ where
     let count = |_: usize| {
         many.ended.fetch_add(1, Ordering::Relaxed);
     };
-    let (relative, absolute) = many.tolerances;
+    let (relative, absolute) = match many.control {
+        Control::Adaptive(relative, absolute, _) => (relative, absolute),
+        other => return Err(format!("an ensemble has steps as long as tolerances allow, and not {other:?}")),
+    };
     let ensemble: Ensemble<'_, K, VelocityForm, _, _> = kernels.batch().input(source).adaptive(relative, absolute);
     let ensemble = ensemble.until(crossing, watched).progress(&count);
     let ensemble = match many.limit {
@@ -178,7 +192,7 @@ where
     };
     let mut states = States::from_fn(first.len(), |i| first[i]);
     let ends = ensemble.run_on_all_threads(many.interval.0..many.interval.1, &mut states);
-    gathered(&ends, &states)
+    Ok(gathered(&ends, &states))
 }
 
 /// A batch of one kernel for all, or of one for each block.

@@ -14,11 +14,10 @@ use crate::steps::{configuration, vector};
 /// # Errors
 /// A state that is none.
 pub fn batch_time<S: Scene>(system: &S::Packed, many: &Many<'_>) -> Result<Duration, String> {
-    let of = |numbers: &[f64]| numbers.len().checked_div(many.count).unwrap_or(0);
-    let (sizes, speeds) = (of(many.q), of(many.z));
     let mut all = Vec::with_capacity(many.count);
     for i in 0..many.count {
-        all.push((configuration(&many.q[i * sizes..(i + 1) * sizes])?, vector(&many.z[i * speeds..(i + 1) * speeds])));
+        let [q, z] = many.first(i);
+        all.push((configuration(q)?, vector(z)));
     }
     let states = States::<S::Packed>::from_fn(many.count, |i| all[i]);
     let batch = Batch::new(system);

@@ -2,6 +2,8 @@
 
 mod many;
 mod measured;
+mod touching;
 
 pub use many::{Many, ManyEnds, ensemble};
 pub use measured::batch_time;
+pub use touching::{TOUCHED, touching};

@@ -1,5 +1,6 @@
 //! Why a run ended, in words of Python: remedies that are Rust's alone are replaced by those that a caller has here.
 
+use gauss_contact::{ContactError, ContactErrorKind};
 use gauss_runtime::integrate::IntegrationErrorKind;
 
 /// The message.
@@ -22,11 +23,43 @@ pub fn words(kind: &IntegrationErrorKind) -> String {
             "the initial {level} violates the constraints, the nearest one that satisfies them is {distance:e} away; start \
              from `q, z = kernel.project(q, z)`"
         ),
-        IntegrationErrorKind::Contacts => {
-            "the scene has contacts, whose forces runs from Python do not have; take them \
-             out of its struct, or run it from Rust"
-                .to_owned()
-        }
+        IntegrationErrorKind::NotTurnedBack { event, before, after } => format!(
+            "the jump of event {event} does not turn its function back, which goes on through zero at a rate of \
+             {after:.3e} after {before:.3e}; turn the velocity along the function, or write (event, function, \
+             \"through\") where it is to pass"
+        ),
+        other => other.to_string(),
+    }
+}
+
+/// The message of a run with contacts.
+pub fn of_contacts(ContactError { contact, time, kind, .. }: &ContactError) -> String {
+    let why = contact_words(kind);
+    match contact {
+        Some(name) => format!("t = {time}: contact {name}: {why}"),
+        None => format!("t = {time}: {why}"),
+    }
+}
+
+fn contact_words(kind: &ContactErrorKind) -> String {
+    match kind {
+        ContactErrorKind::Penetration { gap } => format!(
+            "the gap of an open contact is {gap:e} and was not seen to close; set `largest_step`, or take \
+             `contacts=\"steps\"`"
+        ),
+        ContactErrorKind::States { states } => format!(
+            "elements of the scene have {states} states, which steps of one length do not follow; leave out \
+             `contacts=\"steps\"`"
+        ),
+        ContactErrorKind::EnergyGrows { law, before, after } => format!(
+            "by the law {law:?} the impact would raise the kinetic energy from {before:e} to {after:e}; \
+             `impact=\"moreau\"` and `\"poisson\"` keep it from growing"
+        ),
+        ContactErrorKind::TooManyEvents { limit } => format!(
+            "{limit} events do not reach the end; begin another run at the last state of this one, or take \
+             `contacts=\"steps\"`"
+        ),
+        ContactErrorKind::Integration(error) => words(&error.kind),
         other => other.to_string(),
     }
 }
@@ -58,15 +91,55 @@ mod tests {
             Kind::ProjectionTooFar { level, distance: 1.0, allowed: 1e-9 },
             Kind::InconsistentStart { level, distance: 1.0 },
             Kind::InvalidStep { step: 0.0 },
-            Kind::Contacts,
+            Kind::NotTurnedBack { event: 0, before: -1.0, after: -1.0 },
+            Kind::Zeno { event: 0, interval: 1e-9 },
+            Kind::TooManyJumps { event: 0, jumps: 9, interval: 1e-9 },
         ];
-        for kind in all {
-            let told = words(&kind);
-            for name in
-                ["::", "&q", "#[gauss", "`every`", "Rosenbrock", "Splitting", "ContactRun", "without_contacts()"]
-            {
+        for told in all.iter().map(words).chain(all_of_contacts()) {
+            for name in [
+                "::",
+                "&q",
+                "#[gauss",
+                "`every`",
+                "Rosenbrock",
+                "Splitting",
+                "ContactRun",
+                "without_contacts()",
+                "then_through",
+                "attempt",
+                "changing_over",
+                "max_events",
+            ] {
                 assert!(!told.contains(name), "{told}");
             }
         }
+    }
+
+    /// What stops runs with contacts: one of each kind that a run of a scene can meet.
+    fn all_of_contacts() -> Vec<String> {
+        use ContactErrorKind as Kind;
+        let law = gauss_contact::Impact::Newton;
+        let residual = gauss_contact::Residual::default();
+        let kinds = [
+            Kind::NegativeGap { gap: -1.0 },
+            Kind::Penetration { gap: -1e-3 },
+            Kind::InvalidRestitution { restitution: 2.0 },
+            Kind::InvalidFriction { friction: -1.0 },
+            Kind::InvalidInterval,
+            Kind::States { states: 1 },
+            Kind::Stiff { speed: 0, step: 1e-3 },
+            Kind::TooManySteps { limit: 9 },
+            Kind::NonFinite,
+            Kind::Inconsistent,
+            Kind::Indeterminate,
+            Kind::Unsolved { residual },
+            Kind::EnergyGrows { law, before: 1.0, after: 2.0 },
+            Kind::Zeno { impacts: 9 },
+            Kind::Chatter { changes: 9 },
+            Kind::TooManyEvents { limit: 9 },
+            Kind::Displacement { gap: 1e-3, moved: 1.0 },
+            Kind::Strikes { rate: -1.0 },
+        ];
+        kinds.iter().map(contact_words).collect()
     }
 }

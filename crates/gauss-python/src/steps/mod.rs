@@ -1,13 +1,15 @@
 //! Runs of one state, the type of their system forgotten: numbers in, columns of numbers out.
 
 mod causes;
+mod contacts;
 mod one;
 mod request;
 mod stoppable;
 
 pub use causes::words;
+pub use contacts::{Happening, InContact, KINDS, Touched, column_names};
 pub use one::{Event, Methods, Outcome};
-pub use request::{Control, Function, Held, Input, Request, Table, Until, Watched};
+pub use request::{Control, Effect, Function, Held, Input, Jumped, Request, Table, Until, Watched};
 pub use stoppable::Stoppable;
 
 use gauss_runtime::prelude::{Configuration, VectorSpace};

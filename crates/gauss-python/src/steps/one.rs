@@ -2,29 +2,35 @@
 
 use std::sync::atomic::Ordering;
 
+use gauss_runtime::contact::{Contact, ContactSystem};
+use gauss_runtime::integrate::drive::each::Each;
 use gauss_runtime::integrate::{Adaptive, Collocation, Control as Steps, Fixed, IntegrationError, Summary};
 use gauss_runtime::prelude::*;
 
-use super::request::{Control, Function, Input, Request, Until, Watched};
+use super::contacts::{self, InContact, Touched};
+use super::request::{Control, Effect, Function, Input, Request, Until, Watched};
 use super::stoppable::Stoppable;
 use super::{components, configuration, numbers_of, vector, words};
 use crate::methods::System;
 
-/// A run with its states, column by column: time, the numbers of q and z, kinetic and potential energy.
+/// A run with its states, column by column: time, the numbers of q and z, kinetic and potential energy, and of contacts
+/// what [`contacts::column_names`] has.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The columns, one after the other.
     pub columns: Vec<f64>,
     /// How many states there are.
     pub rows: usize,
-    /// When it ended.
-    pub reached: f64,
+    /// The last state: time, and the numbers of q and z.
+    pub last: Vec<f64>,
     /// Events in the order in which they happened, the end of the run not among them.
     pub events: Vec<Event>,
     /// The end that it came to before its time, by its number among the ends.
     pub stopped_by: Option<usize>,
     /// Its steps.
     pub summary: Summary,
+    /// What contacts did; none of runs that leave them out.
+    pub touched: Option<Touched>,
     /// Why it did not reach its end.
     pub error: Option<String>,
     /// It was told to stop.
@@ -44,18 +50,27 @@ pub struct Event {
 type Tolerances = (f64, f64, f64);
 type Stepper<S> = fn(&S, &Request<'_>, Tolerances) -> Result<Outcome, String>;
 
+/// The contacts of a system, and what is done with them.
+#[derive(Clone, Copy, Debug)]
+struct Contacts<S> {
+    all: &'static [Contact],
+    run: fn(&S, &Request<'_>) -> Result<Outcome, String>,
+    at: fn(&S, f64, (&[f64], &[f64]), &[f64]) -> Result<InContact, String>,
+}
+
 /// The methods of integration that only some systems have.
 #[derive(Clone, Copy, Debug)]
 pub struct Methods<S> {
     taylor: Option<Stepper<S>>,
     rosenbrock: Option<Stepper<S>>,
+    contacts: Option<Contacts<S>>,
 }
 
 impl<S: System<Scalar = f64>> Methods<S> {
     /// None of them: each word in `steps` of [`scene!`](crate::scene) adds one.
     #[must_use]
     pub fn new() -> Self {
-        Self { taylor: None, rosenbrock: None }
+        Self { taylor: None, rosenbrock: None, contacts: None }
     }
 
     /// Power series.
@@ -80,7 +95,31 @@ impl<S: System<Scalar = f64>> Methods<S> {
         });
     }
 
-    /// Runs a kernel.
+    /// Runs with contacts.
+    pub fn contacts(&mut self)
+    where
+        S: ContactSystem,
+    {
+        self.contacts = Some(Contacts { all: S::CONTACTS, run: contacts::run, at: contacts::at });
+    }
+
+    /// The contacts; none where the system has no such runs.
+    #[must_use]
+    pub fn touching(&self) -> &'static [Contact] {
+        self.contacts.as_ref().map_or(&[], |contacts| contacts.all)
+    }
+
+    /// What contacts do at a state.
+    ///
+    /// # Errors
+    /// Velocities jump there; there are no contacts.
+    pub fn in_contact(&self, system: &S, t: f64, state: (&[f64], &[f64]), input: &[f64]) -> Result<InContact, String> {
+        self.contacts
+            .as_ref()
+            .map_or(Err("the scene has no contacts".to_owned()), |own| (own.at)(system, t, state, input))
+    }
+
+    /// Runs a kernel, without its contacts where the control has nothing to do with them.
     ///
     /// # Errors
     /// A first state that is none, a method that the system has not.
@@ -104,6 +143,10 @@ impl<S: System<Scalar = f64>> Methods<S> {
                 Some(stepper) => stepper(system, request, (relative, absolute, largest)),
                 None => lacks("taylor", "taylor"),
             },
+            Control::ContactEvents(..) | Control::ContactSteps(..) => match &self.contacts {
+                Some(contacts) => (contacts.run)(system, request),
+                None => lacks("of contacts", "contact(…)"),
+            },
         }
     }
 }
@@ -123,44 +166,20 @@ fn bounded<C>(control: C, largest: f64, bound: impl Fn(C, f64) -> C) -> C {
 }
 
 /// What a run needs of a system.
-trait Moving: GaussSystem<Scalar = f64, Input: VectorSpace<f64>> {}
+pub(super) trait Moving: GaussSystem<Scalar = f64, Input: VectorSpace<f64>> {}
 
 impl<S: GaussSystem<Scalar = f64, Input: VectorSpace<f64>>> Moving for S {}
 
-type Watch<'a, S> = Box<
-    dyn Fn(<S as GaussSystem>::Scalar, &<S as GaussSystem>::Configuration, &<S as GaussSystem>::Speeds) -> f64 + 'a,
->;
-
-/// The functions of some direction that end a run or do not, and the number of each among those.
-fn watched<'a, S: Moving>(request: &'a Request<'_>, ends: bool, crossing: Crossing) -> (Vec<Watch<'a, S>>, Vec<usize>) {
-    let all = request.until.iter().filter(|until| until.ends == ends).enumerate();
-    all.filter(|(_, until)| until.crossing == crossing).map(|(number, until)| (watch::<S>(until), number)).unzip()
-}
-
-const DIRECTIONS: [Crossing; 3] = [Crossing::Any, Crossing::Rising, Crossing::Falling];
+/// A function that is watched.
+pub(super) type Watch<'a, Q, Z> = Box<dyn Fn(f64, &Q, &Z) -> f64 + 'a>;
 
 /// A run by any method.
 fn run<S: Moving, C: Steps<S>>(system: &S, request: &Request<'_>, control: C) -> Result<Outcome, String> {
     let (q, z) = (configuration::<S::Configuration>(request.q)?, vector::<S::Speeds>(request.z));
-    let [events, ends] = [false, true].map(|ends| DIRECTIONS.map(|crossing| watched::<S>(request, ends, crossing)));
-    let numbers =
-        |lists: &[(Vec<Watch<'_, S>>, Vec<usize>); 3]| lists.each_ref().map(|(_, list)| list.clone()).concat();
-    let numbers = [numbers(&events), numbers(&ends)];
-    let ([any, rising, falling], [end, end_rising, end_falling]) =
-        (events.map(|(list, _)| list), ends.map(|(list, _)| list));
-    let source = |t: f64, q: &S::Configuration, z: &S::Speeds| match &request.input {
-        Input::Function(function) => of_numbers(*function, t, q, z),
-        input => input.at(t, |number| number(0)),
-    };
     let simulation = Simulation::new(system)
-        .input(source)
+        .input(|t: f64, q: &S::Configuration, z: &S::Speeds| input::<S>(request, t, q, z))
         .observe(|sample: &Sample<S>| (request.look)(sample.t))
-        .event_each(Crossing::Any, any)
-        .event_each(Crossing::Rising, rising)
-        .event_each(Crossing::Falling, falling)
-        .until_each(Crossing::Any, end)
-        .until_each(Crossing::Rising, end_rising)
-        .until_each(Crossing::Falling, end_falling)
+        .events_by(Each::of(watched::<S>(request)).then(|place, state: &mut Sample<S>| jump(request, place, state)))
         .control(control);
     let simulation = match request.limit {
         Some(limit) => simulation.max_steps(limit),
@@ -174,15 +193,40 @@ fn run<S: Moving, C: Steps<S>>(system: &S, request: &Request<'_>, control: C) ->
             simulation.sampled(held.period, law).delayed(held.delay).attempt(q, z, interval)
         }
     };
-    outcome(system, request, (&run, error), &numbers)
+    outcome(system, request, &run, error)
 }
 
-/// What became of a run; `numbers` are those of events and of ends in the order in which the run has them.
+/// The input of a run.
+pub(super) fn input<S: Moving>(request: &Request<'_>, t: f64, q: &S::Configuration, z: &S::Speeds) -> S::Input {
+    match request.input {
+        Input::Function(function) => of_numbers(*function, t, q, z),
+        input => input.at(t, |number| number(0)),
+    }
+}
+
+/// All events, each with its direction, whether it ends the run, and whether its jump may let it go on.
+pub(super) fn watched<'a, S: Moving>(
+    request: &'a Request<'_>,
+) -> impl Iterator<Item = (Watch<'a, S::Configuration, S::Speeds>, Crossing, [bool; 2])> {
+    let through = |until: &Until<'_>| matches!(until.effect, Effect::Jumps(_, true));
+    request.until.iter().map(move |until| (watch::<S>(until), until.crossing, [until.ends(), through(until)]))
+}
+
+/// What an event does to a state; whether it does.
+fn jump<S: Moving>(request: &Request<'_>, place: usize, state: &mut Sample<S>) -> bool {
+    let Effect::Jumps(function, _) = request.until[place].effect else { return false };
+    let Some((q, z)) = function(state.t, &numbers_of(&state.q), &components(&state.z)) else { return false };
+    // Numbers that are no state end the run: these have been looked at, or are those of a function that failed.
+    (state.q, state.z) = (S::Configuration::from_components(&vector(&q)), vector(&z));
+    true
+}
+
+/// What became of a run.
 fn outcome<S: Moving>(
     system: &S,
     request: &Request<'_>,
-    (run, error): (&Trajectory<'_, S>, Option<IntegrationError>),
-    [events, ends]: &[Vec<usize>; 2],
+    run: &Trajectory<'_, S>,
+    error: Option<IntegrationError>,
 ) -> Result<Outcome, String> {
     // States between steps are made by the system, which must go on for that.
     let interrupted = request.stop.swap(false, Ordering::Relaxed);
@@ -190,21 +234,32 @@ fn outcome<S: Moving>(
         Some(times) => between(run, times)?,
         None => run.samples().to_vec(),
     };
-    let happened = run.events().iter().filter_map(|event| {
-        let number = *events.get(event.number)?;
-        let Sample { t, q, z, .. } = &event.sample;
-        Some(Event { number, row: [vec![*t], numbers_of(q), components(z)].concat() })
-    });
+    let rows = states.iter().map(|state| [row(state.t, &state.q, &state.z), energies(system, state)].concat());
     Ok(Outcome {
-        columns: columns(system, &states),
+        columns: columns(rows),
         rows: states.len(),
-        reached: run.last().t,
-        events: happened.collect(),
-        stopped_by: run.stopped_by().map(|number| ends[number - events.len()]),
+        last: row(run.last().t, &run.last().q, &run.last().z),
+        events: happened(request, run.events().iter().map(|event| (event.number, &event.sample))),
+        stopped_by: run.stopped_by().map(|number| number_of_end(request, number)),
         summary: *run.summary(),
+        touched: None,
         error: error.filter(|_| !interrupted).map(|error| format!("t = {}: {}", error.time, words(&error.kind))),
         interrupted,
     })
+}
+
+/// Events that do not end the run.
+pub(super) fn happened<'s, S: Moving + 's>(
+    request: &Request<'_>,
+    events: impl Iterator<Item = (usize, &'s Sample<S>)>,
+) -> Vec<Event> {
+    let goes_on = events.filter(|(number, _)| request.until.get(*number).is_some_and(|until| !until.ends()));
+    goes_on.map(|(number, Sample { t, q, z, .. })| Event { number, row: row(*t, q, z) }).collect()
+}
+
+/// The number among the ends.
+pub(super) fn number_of_end(request: &Request<'_>, number: usize) -> usize {
+    request.until[..number].iter().filter(|until| until.ends()).count()
 }
 
 /// The input that a function gives.
@@ -217,7 +272,8 @@ fn of_numbers<Q: Configuration<Scalar = f64>, Z: VectorSpace<f64>, U: VectorSpac
     vector(&function(t, &numbers_of(q), &components(z)))
 }
 
-fn watch<'a, S: Moving>(until: &'a Until<'a>) -> Watch<'a, S> {
+/// The function of an event.
+pub(super) fn watch<'a, S: Moving>(until: &'a Until<'_>) -> Watch<'a, S::Configuration, S::Speeds> {
     match until.watched {
         Watched::Number(place, value) => Box::new(move |_, q, z| {
             let size = <<S::Configuration as Configuration>::Components as VectorSpace<f64>>::DIM;
@@ -241,18 +297,23 @@ fn between<S: GaussSystem<Scalar = f64>>(run: &Trajectory<'_, S>, times: &[f64])
     Ok(states)
 }
 
-fn columns<S: GaussSystem<Scalar = f64>>(system: &S, states: &[Sample<S>]) -> Vec<f64> {
-    let row = |state: &Sample<S>| {
-        let (t, q, z) = (state.t, &state.q, &state.z);
-        let energies = [system.kinetic_energy(t, q, z), system.potential_energy(t, q)];
-        [vec![t], numbers_of(q), components(z), energies.to_vec()].concat()
-    };
-    let count = 1 + <<S::Configuration as Configuration>::Components as VectorSpace<f64>>::DIM + S::DOF + 2;
-    let mut columns = vec![0.0; count * states.len()];
-    for (n, state) in states.iter().enumerate() {
-        for (column, number) in row(state).into_iter().enumerate() {
-            columns[column * states.len() + n] = number;
-        }
+/// Time and the numbers of q and z.
+pub(super) fn row<Q: Configuration<Scalar = f64>, Z: VectorSpace<f64>>(t: f64, q: &Q, z: &Z) -> Vec<f64> {
+    [vec![t], numbers_of(q), components(z)].concat()
+}
+
+/// Kinetic and potential energy.
+pub(super) fn energies<S: Moving>(system: &S, Sample { t, q, z, .. }: &Sample<S>) -> Vec<f64> {
+    vec![system.kinetic_energy(*t, q, z), system.potential_energy(*t, q)]
+}
+
+/// Columns from rows of one length.
+pub(super) fn columns(rows: impl ExactSizeIterator<Item = Vec<f64>>) -> Vec<f64> {
+    let count = rows.len();
+    let mut columns = Vec::new();
+    for (n, row) in rows.enumerate() {
+        columns.resize(row.len() * count, 0.0);
+        row.into_iter().enumerate().for_each(|(column, number)| columns[column * count + n] = number);
     }
     columns
 }

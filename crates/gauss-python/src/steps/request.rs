@@ -2,6 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
+use gauss_contact::{Impact, StepLaw, StepScheme};
 use gauss_runtime::prelude::{Crossing, Real, VectorSpace};
 
 /// The method and its choice of steps. Three numbers are the relative and the absolute tolerance, and the longest step.
@@ -17,6 +18,10 @@ pub enum Control {
     Stiff(f64, f64, f64),
     /// Power series, as long as tolerances allow.
     Taylor(f64, f64, f64),
+    /// Contacts from event to event, by the first method between them and this law of impacts.
+    ContactEvents(f64, f64, f64, Impact),
+    /// Contacts in steps of one length.
+    ContactSteps(f64, StepScheme, StepLaw),
 }
 
 /// Points of the input over time, straight between them and constant beyond.
@@ -82,14 +87,35 @@ pub enum Watched<'a> {
     Function(Function<'a, f64>),
 }
 
-/// An event of a run, or its end before its time.
+/// The configuration and the speeds after a jump; none where the state stays as it is.
+pub type Jumped = Option<(Vec<f64>, Vec<f64>)>;
+
+/// What becomes of a run at an event.
+#[derive(Clone, Copy)]
+pub enum Effect<'a> {
+    /// It goes on.
+    None,
+    /// The state jumps; whether the function may go on through zero after that.
+    Jumps(Function<'a, Jumped>, bool),
+    /// It ends.
+    Ends,
+}
+
+/// An event of a run.
 pub struct Until<'a> {
     /// What passes through zero.
     pub watched: Watched<'a>,
     /// In which direction.
     pub crossing: Crossing,
+    /// What becomes of the run.
+    pub effect: Effect<'a>,
+}
+
+impl Until<'_> {
     /// Whether the run ends there.
-    pub ends: bool,
+    pub fn ends(&self) -> bool {
+        matches!(self.effect, Effect::Ends)
+    }
 }
 
 /// A controller that samples: its input is held from one instant to the next.
@@ -113,11 +139,11 @@ pub struct Request<'a> {
     /// The steps.
     pub control: Control,
     /// The input.
-    pub input: Input<'a>,
+    pub input: &'a Input<'a>,
     /// What is added to it.
     pub controller: Option<Held<'a>>,
-    /// Where something happens, or it ends.
-    pub until: Vec<Until<'a>>,
+    /// Where something happens; what ends it is behind all else.
+    pub until: &'a [Until<'a>],
     /// The times at which states are wanted; those of the steps where there are none.
     pub times: Option<&'a [f64]>,
     /// The most steps.

@@ -1,4 +1,5 @@
-//! A system that has no motion any more once it is told to stop: the run then ends with the last good state.
+//! A system that has no motion any more once it is told to stop: the run then ends with the last good state. Its gaps
+//! are open: who runs it has chosen that, and contacts have runs of their own.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -28,7 +29,6 @@ impl<S: GaussSystem> GaussSystem for Stoppable<'_, S> {
 
     const CHART: Chart = S::CHART;
     const CONSTRAINED: bool = S::CONSTRAINED;
-    const HAS_CONTACTS: bool = S::HAS_CONTACTS;
     const STATES: usize = S::STATES;
     const SMOOTHNESS: Smoothness = S::SMOOTHNESS;
 
