@@ -1222,3 +1222,256 @@ class Gate(Kernel):
         q (..., 1), change (..., 1) -> (..., 1)
         """
         ...
+
+class Cart(Kernel):
+    """A cart whose motor comes to its thrust with a lag, and gives less the faster it goes.
+
+    Parameters:
+      mass: number (kg): Of the cart.
+      lag: number (s): Until the motor follows.
+
+    Coordinates:
+      x: coordinate
+      thrust: state of an element
+
+    Speeds:
+      x_dot: rate of `x`
+
+    Inputs:
+      throttle: input
+    """
+    def __init__(self, *, mass: float, lag: float) -> None: ...
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The rates of the speeds.
+
+        q (..., 2), z (..., 1), input (..., 1) -> (..., 1)
+
+        Inputs: throttle (1,), input.
+        """
+        ...
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
+
+        q (..., 2), z (..., 1), acceleration (..., 1), input (..., 1) -> (..., 1)
+
+        Inputs: throttle (1,), input.
+        """
+        ...
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Inverse dynamics at acceleration zero.
+
+        q (..., 2), z (..., 1), input (..., 1) -> (..., 1)
+
+        Inputs: throttle (1,), input.
+        """
+        ...
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Second derivatives of the kinetic energy by z.
+
+        q (..., 2) -> (..., 1, 1)
+        """
+        ...
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The velocity of the configuration, seen from the body.
+
+        q (..., 2), z (..., 1) -> (..., 2)
+        """
+        ...
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Rates of the numbers of q, then those of z, for any solver.
+
+        q (..., 2), z (..., 1), input (..., 1) -> (..., 3)
+
+        Inputs: throttle (1,), input.
+        """
+        ...
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Derivatives of the kinetic energy by z.
+
+        q (..., 2), z (..., 1) -> (..., 1)
+        """
+        ...
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The speeds with these momenta.
+
+        q (..., 2), p (..., 1) -> (..., 1)
+        """
+        ...
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The rates of the momenta.
+
+        q (..., 2), p (..., 1), input (..., 1) -> (..., 1)
+
+        Inputs: throttle (1,), input.
+        """
+        ...
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The kinetic energy, that of a fluid included.
+
+        q (..., 2), z (..., 1) -> (...)
+        """
+        ...
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The potential energy.
+
+        q (..., 2) -> (...)
+        """
+        ...
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Kinetic and potential energy.
+
+        q (..., 2), z (..., 1) -> (...)
+        """
+        ...
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The distance from a singularity of the coordinates: 0 there, 1 at best.
+
+        q (..., 2) -> (...)
+        """
+        ...
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The configuration moved by an increment that is seen from the body.
+
+        q (..., 2), increment (..., 2) -> (..., 2)
+        """
+        ...
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The shortest increment from q to the other.
+
+        q (..., 2), other (..., 2) -> (..., 2)
+        """
+        ...
+    def linearize(self, q: ArrayLike, z: ArrayLike, input: ArrayLike, *, t: ArrayLike = 0.0, out: tuple[Array, ...] | tuple[Single, ...] | None = None) -> Linearize:
+        """Velocity and acceleration with their derivatives by (increment, z), time and input.
+
+        q (..., 2), z (..., 1), input (..., 1) -> rate (..., 3), by_state (..., 3, 3), by_time (..., 3), by_input (..., 3, 1)
+
+        Inputs: throttle (1,), input.
+        """
+        ...
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The increment seen from the body that changes the numbers of q by so much, to first order.
+
+        q (..., 2), change (..., 2) -> (..., 2)
+        """
+        ...
+
+class Bead(Kernel):
+    """A bead on a ring that two laws hold, of which one would do.
+
+    Parameters:
+      mass: number (kg): Of the bead.
+      radius: number (m): Of the ring.
+      g: number: Acceleration of free fall.
+
+    Coordinates:
+      x: coordinate
+      z: coordinate
+
+    Speeds:
+      x_dot: rate of `x`
+      z_dot: rate of `z`
+    """
+    def __init__(self, *, mass: float, radius: float, g: float) -> None: ...
+    def acceleration(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The rates of the speeds.
+
+        q (..., 2), z (..., 2) -> (..., 2)
+        """
+        ...
+    def inverse_dynamics(self, q: ArrayLike, z: ArrayLike, acceleration: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The generalised force, dual to the speeds, that must be added for the motion to have this acceleration.
+
+        q (..., 2), z (..., 2), acceleration (..., 2) -> (..., 2)
+        """
+        ...
+    def nonlinear_effects(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Inverse dynamics at acceleration zero.
+
+        q (..., 2), z (..., 2) -> (..., 2)
+        """
+        ...
+    def mass_matrix(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Second derivatives of the kinetic energy by z.
+
+        q (..., 2) -> (..., 2, 2)
+        """
+        ...
+    def kinematics(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The velocity of the configuration, seen from the body.
+
+        q (..., 2), z (..., 2) -> (..., 2)
+        """
+        ...
+    def rates(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Rates of the numbers of q, then those of z, for any solver.
+
+        q (..., 2), z (..., 2) -> (..., 4)
+        """
+        ...
+    def momentum(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Derivatives of the kinetic energy by z.
+
+        q (..., 2), z (..., 2) -> (..., 2)
+        """
+        ...
+    def velocity(self, q: ArrayLike, p: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The speeds with these momenta.
+
+        q (..., 2), p (..., 2) -> (..., 2)
+        """
+        ...
+    def momentum_rate(self, q: ArrayLike, p: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The rates of the momenta.
+
+        q (..., 2), p (..., 2) -> (..., 2)
+        """
+        ...
+    def kinetic_energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The kinetic energy, that of a fluid included.
+
+        q (..., 2), z (..., 2) -> (...)
+        """
+        ...
+    def potential_energy(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The potential energy.
+
+        q (..., 2) -> (...)
+        """
+        ...
+    def energy(self, q: ArrayLike, z: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Kinetic and potential energy.
+
+        q (..., 2), z (..., 2) -> (...)
+        """
+        ...
+    def regularity(self, q: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The distance from a singularity of the coordinates: 0 there, 1 at best.
+
+        q (..., 2) -> (...)
+        """
+        ...
+    def retract(self, q: ArrayLike, increment: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The configuration moved by an increment that is seen from the body.
+
+        q (..., 2), increment (..., 2) -> (..., 2)
+        """
+        ...
+    def difference(self, q: ArrayLike, other: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The shortest increment from q to the other.
+
+        q (..., 2), other (..., 2) -> (..., 2)
+        """
+        ...
+    def multipliers(self, q: ArrayLike, z: ArrayLike, input: ArrayLike | None = None, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """Lagrange multipliers.
+
+        q (..., 2), z (..., 2) -> (..., 2)
+        """
+        ...
+    def tangent(self, q: ArrayLike, change: ArrayLike, *, t: ArrayLike = 0.0, out: Array | Single | None = None) -> Array:
+        """The increment seen from the body that changes the numbers of q by so much, to first order.
+
+        q (..., 2), change (..., 2) -> (..., 2)
+        """
+        ...

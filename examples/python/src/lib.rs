@@ -191,4 +191,52 @@ pub struct Gate {
     rub: f64,
 }
 
-gauss_python::module!(scenes: Pendulum<f64>, Torpedo<f64>, Arm<f64>, Wire, Lander<f64>, Puck<f64>, Gate);
+/// What a motor gives at a speed, in m/s and N.
+const POWER: [[f64; 2]; 3] = [[-10.0, 4.0], [0.0, 2.0], [10.0, 0.0]];
+
+/// A cart whose motor comes to its thrust with a lag, and gives less the faster it goes.
+#[derive(GaussDynamics)]
+#[gauss(
+    python,
+    linearize,
+    coordinates(x),
+    particle(mass = mass, position = [x, 0, 0]),
+    input(throttle),
+    table(power, points = POWER),
+    states(thrust = (throttle - thrust) / lag),
+    drive(x = thrust * power(rate(x))),
+)]
+pub struct Cart<T> {
+    /// Of the cart.
+    #[gauss(unit = "kg")]
+    mass: T,
+    /// Until the motor follows.
+    #[gauss(unit = "s")]
+    lag: T,
+}
+
+/// A bead on a ring that two laws hold, of which one would do.
+#[derive(GaussDynamics)]
+#[gauss(
+    python,
+    redundant,
+    coordinates(x, z),
+    particle(mass = mass, position = [x, 0, z]),
+    constraint(position = x * x + z * z - radius * radius),
+    constraint(position = 3 * x * x + 3 * z * z - 3 * radius * radius),
+)]
+pub struct Bead {
+    /// Of the bead.
+    #[gauss(unit = "kg")]
+    mass: f64,
+    /// Of the ring.
+    #[gauss(unit = "m")]
+    radius: f64,
+    /// Acceleration of free fall.
+    #[gauss(gravity)]
+    g: f64,
+}
+
+gauss_python::module!(
+    scenes: Pendulum<f64>, Torpedo<f64>, Arm<f64>, Wire, Lander<f64>, Puck<f64>, Gate, Cart<f64>, Bead
+);

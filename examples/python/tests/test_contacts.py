@@ -1,12 +1,17 @@
 """Contacts, ranges and dry friction from Python; jumps of the state."""
 
+import pathlib
 import pickle
+import sys
 
 import numpy as np
 import pytest
 import scenes
 
 from test_runs import interrupted_after
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "study"))
+import pucks  # noqa: E402
 
 G, MU, E = 9.81, 0.3, 0.6
 
@@ -323,3 +328,13 @@ def test_jumps_that_are_none(pendulum, wire):
     q, z = wire.project(*wire.state(x=1.0, y=1.0))
     with pytest.raises(ValueError, match="is no rotation"):
         wire.simulate(q, z, (0, 2), jumps=(("y", 0.5), lambda t, q, z: (2 * q, z)))
+
+
+def test_the_study_of_pucks_stops_where_the_formula_says():
+    given = pucks.thrown(3, 60)
+    expected = pucks.formula(*given)
+    ends = pucks.stops(*given)
+    assert ends.errors == [] and abs(ends.q[:, 0] - expected).max() < 1e-6
+    # Each impact, of at most mu (1 + e) v of the speed, comes up to a step late, at 10 m/s.
+    stepped = pucks.stops(*given, contacts="steps", step=5e-3)
+    assert stepped.errors == [] and abs(stepped.q[:, 0] - expected).max() < 10.0 * 5e-3 * 3

@@ -283,3 +283,32 @@ def test_solvers_of_others(torpedo):
     theirs = integrate.solve_ivp(rates, (0, 3), np.append(q, z), method="DOP853", rtol=1e-10, atol=1e-10).y[:, -1]
     ours = torpedo.simulate(q, z, (0, 3), rtol=1e-10, atol=1e-10)
     assert abs(theirs - np.append(ours.q[-1], ours.z[-1])).max() < 1e-8
+
+
+def test_states_of_elements_and_tables():
+    cart = scenes.Cart(mass=3.0, lag=0.5)
+    assert cart.coordinate_names == ["x", "thrust"] and cart.speed_names == ["x_dot"]
+    # The motor is full from the start on: 3 v' = 2 - v / 5, a straight line of the table.
+    q, z = cart.state(thrust=1.0)
+    run = cart.simulate(q, z, (0, 3), rtol=1e-11, atol=1e-11, input=[1.0])
+    assert abs(run.z[-1, 0] - 10 * (1 - np.exp(-3 / 15))) < 1e-9 and abs(run.q[-1, 1] - 1.0) < 1e-12
+    # It comes to its thrust by the lag alone, and lanes and batches have that rate.
+    run = cart.simulate(*cart.state(), (0, 1), rtol=1e-11, atol=1e-11, input=[0.7])
+    assert abs(run.q[-1, 1] - 0.7 * (1 - np.exp(-2.0))) < 1e-9
+    ends = cart.ensemble(np.zeros((9, 2)), [0.0], (0, 1), rtol=1e-11, atol=1e-11, input=[0.7])
+    assert abs(ends.q - run.q[-1]).max() < 1e-9
+    rates = cart.rates(np.tile([0.0, 0.2], (9, 1)), np.zeros((9, 1)), [0.7])
+    assert np.allclose(rates, [0.0, 0.5 / 0.5, 0.4 / 3.0], atol=1e-15)
+    # Rates of x, of the thrust, of the speed, by these and by the throttle.
+    linear = cart.linearize([0.0, 0.2], [1.0], [0.7])
+    assert np.allclose(linear.by_state, [[0, 0, 1], [0, -2, 0], [0, 1.8 / 3, -0.2 * 0.2 / 3]], atol=1e-15)
+    assert np.allclose(linear.by_input, [[0], [2], [0]], atol=1e-15)
+
+
+def test_constraints_that_depend_on_one_another():
+    bead = scenes.Bead(mass=0.2, radius=0.5, g=9.81)
+    q, z = bead.state(x=0.5 * np.sin(1.0), z=-0.5 * np.cos(1.0))
+    run = bead.simulate(q, z, (0, period(1.0)), rtol=1e-11, atol=1e-11)
+    # It swings as a pendulum of that length.
+    assert abs(run.q[-1] - q).max() < 1e-8 and abs(np.hypot(*run.q.T) - 0.5).max() < 1e-12
+    assert np.allclose(bead.acceleration(q, z), -9.81 * np.sin(1.0) * np.array([np.cos(1.0), np.sin(1.0)]), atol=1e-12)

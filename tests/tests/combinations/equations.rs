@@ -125,6 +125,7 @@ pub const REDUNDANT: Row = Row {
     cells: &[
         ("ada", shown("tests/tests/linkages/redundant.rs", "a_door_on_three_hinges_swings_as_about_an_axle")),
         ("mon", shown("tests/tests/linkages/redundant.rs", "bricards_mechanism_moves_as_in_closed_form")),
+        ("py", shown("examples/python/tests/test_runs.py", "test_constraints_that_depend_on_one_another")),
     ],
 };
 
@@ -166,6 +167,7 @@ pub const STATES: Row = Row {
             ),
         ),
         ("lin", shown("tests/tests/elements_with_states/derivatives.rs", "linearize_is_the_matrix")),
+        ("py", shown("examples/python/tests/test_runs.py", "test_states_of_elements_and_tables")),
     ],
 };
 
@@ -186,6 +188,7 @@ pub const TABLE_OF_ONE: Row = Row {
     cells: &[
         ("tay", refused(TABLES_HAVE_NO_SERIES)),
         ("lin", shown("tests/tests/functions.rs", "values_and_derivatives")),
+        ("py", shown("examples/python/tests/test_runs.py", "test_states_of_elements_and_tables")),
     ],
 };
 

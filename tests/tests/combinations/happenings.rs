@@ -141,7 +141,11 @@ pub const JUMPS: Row = Row {
         ("lin", moot(AT_A_STATE)),
         ("dst", missing("a step ends at the time that it is given; no jump is within it")),
         ("run", missing("derivatives of a jump and of its time have no place in the product")),
-        ("py", missing("`simulate` has no argument for it")),
+        (
+            "py",
+            shown("examples/python/tests/test_contacts.py", "test_a_wall_of_ones_own_turns_back")
+                .but("`ensemble` has none, nor have runs with contacts"),
+        ),
     ],
 };
 
@@ -151,9 +155,8 @@ const FREE_STEP: &str = "`step` takes `acceleration`, that with all gaps open; s
                          `Batch::accelerations`";
 const FREE_DERIVATIVES: &str = "`linearize` of the kernel is that with all gaps open, also of what rests";
 const FREE_STEP_DERIVATIVES: &str = "`CommutatorFree4::step_linearized` is that of the motion with all gaps open";
-const FROM_PYTHON: &str = "`simulate` and `ensemble` raise";
-const METHODS_OF_PYTHON: &str =
-    "`acceleration`, `rates`, `linearize` and functions of JAX are those with all gaps open";
+const IN_PYTHON: &str =
+    "what has forces in it, functions of JAX too, raises `ContactError`: `in_contact`, or `without_contacts()` on purpose";
 
 pub const RANGES: Row = Row {
     name: "Ranges and dry friction",
@@ -188,7 +191,7 @@ pub const RANGES: Row = Row {
         ),
         ("run", shown("examples/tests/hop_mpc.rs", "plans_hop_on_after_a_blow_and_thrusts_alone_do_not")),
         ("stu", unshown("the examples `lander_legs` and `study` are such studies")),
-        ("py", refused(FROM_PYTHON).silent(METHODS_OF_PYTHON)),
+        ("py", shown("examples/python/tests/test_contacts.py", "test_ranges_and_dry_friction").but(IN_PYTHON)),
     ],
 };
 
@@ -254,7 +257,7 @@ pub const CONTACTS: Row = Row {
         ),
         ("run", shown("examples/tests/trot_regulator.rs", "gains_from_derivatives_of_steps_hold_a_trot")),
         ("stu", unshown("the examples `lander_legs` and `study` are such studies")),
-        ("py", refused(FROM_PYTHON).silent(METHODS_OF_PYTHON)),
+        ("py", shown("examples/python/tests/test_contacts.py", "test_from_event_to_event").but(IN_PYTHON)),
     ],
 };
 
