@@ -64,6 +64,11 @@ pub const fn shown(file: &'static str, name: &'static str) -> Cell {
     Cell { kind: Kind::Shown, test: Some(Test { file, name }), ..UNSHOWN }
 }
 
+/// A scene of `goes_together` with one of its columns.
+pub const fn together(name: &'static str) -> Cell {
+    shown("tests/tests/goes_together/main.rs", name)
+}
+
 pub const fn refused(why: &'static str) -> Cell {
     Cell { kind: Kind::Refused, why, ..UNSHOWN }
 }

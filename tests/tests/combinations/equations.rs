@@ -1,11 +1,14 @@
 //! Rows of what the equations of a scene may hold: smooth forces, constraints, states, modes, tables.
 
-use super::cells::{Row, moot, refused, shown, unshown};
+use super::cells::{Row, moot, refused, shown, together, unshown};
 
 const NO_CONTACTS: &str =
     "a scene without contacts has no event or impulse of contact: a compile error, no `ContactSystem`";
 const TABLES_HAVE_NO_SERIES: &str = "from cell to cell a table is another polynomial, so that no series holds over a \
                                      step: a compile error at `taylor`, which calls it `a function of your own`";
+
+const REDUNDANT_HAS_NO_SERIES: &str = "rows are kept or let go by the size of their pivots, which has no power series \
+                                       where it passes through zero: a message at `taylor`";
 
 pub const SMOOTH: Row = Row {
     name: "Smooth forces",
@@ -87,11 +90,14 @@ pub const CONSTRAINTS: Row = Row {
                 .but("nothing brings the state back onto the constraints: `project` does, when it is called"),
         ),
         ("lan", shown("tests/tests/batch/main.rs", "constraints_hold_in_every_lane")),
+        ("thr", together("constraints::lanes_and_threads")),
         (
             "at",
             shown("gauss-runtime/src/integrate/drive/runs/between_tests.rs", "what_is_between_satisfies_constraints"),
         ),
-        ("pag", unshown("the example `rolling_disk` writes one")),
+        ("tab", together("constraints::table_and_plot")),
+        ("plt", together("constraints::table_and_plot")),
+        ("pag", together("constraints::page")),
         (
             "mon",
             shown(
@@ -114,7 +120,12 @@ pub const CONSTRAINTS: Row = Row {
             shown("tests/tests/discrete.rs", "constraints_with_multipliers")
                 .but("before the state is brought back onto the constraints"),
         ),
-        ("run", unshown("what `project` does between two steps has no part in the product")),
+        (
+            "run",
+            together("constraints::along_a_run")
+                .but("what `project` does between two steps has no part in the product"),
+        ),
+        ("stu", together("constraints::study")),
         ("py", shown("examples/python/tests/test_runs.py", "test_causes_are_told_in_words_of_python")),
     ],
 };
@@ -123,8 +134,25 @@ pub const REDUNDANT: Row = Row {
     name: "Constraints that depend on one another",
     clause: "`redundant`",
     cells: &[
+        ("fix", together("redundant::steps")),
         ("ada", shown("tests/tests/linkages/redundant.rs", "a_door_on_three_hinges_swings_as_about_an_axle")),
+        ("tay", refused(REDUNDANT_HAS_NO_SERIES)),
+        ("ros", together("redundant::stiff")),
+        ("imp", together("redundant::implicit")),
+        ("one", together("redundant::by_hand")),
+        ("lan", together("redundant::lanes_and_threads")),
+        ("thr", together("redundant::lanes_and_threads")),
+        ("at", together("redundant::between")),
+        ("tab", together("redundant::table_and_plot")),
+        ("plt", together("redundant::table_and_plot")),
+        ("pag", together("redundant::page")),
         ("mon", shown("tests/tests/linkages/redundant.rs", "bricards_mechanism_moves_as_in_closed_form")),
+        ("fwd", together("redundant::of_runs")),
+        ("adj", together("redundant::of_runs")),
+        ("lin", together("redundant::at_a_state")),
+        ("dst", together("redundant::of_a_step")),
+        ("run", together("redundant::along_a_run")),
+        ("stu", together("redundant::study")),
         ("py", shown("examples/python/tests/test_runs.py", "test_constraints_that_depend_on_one_another")),
     ],
 };
@@ -156,9 +184,13 @@ pub const STATES: Row = Row {
             )
             .by("tests/tests/elements_with_states/beside.rs", "steps_of_one_length_refuse_states"),
         ),
+        ("one", together("states::by_hand")),
         ("lan", shown("tests/tests/elements_with_states/beside.rs", "packs_have_states")),
+        ("thr", together("states::lanes_and_threads")),
         ("at", shown("examples/tests/hull_memory.rs", "states_are_the_convolution_over_the_run")),
-        ("pag", unshown("the example `hull_memory` writes one")),
+        ("tab", together("states::table_and_plot")),
+        ("plt", together("states::table_and_plot")),
+        ("pag", together("states::page")),
         (
             "mon",
             shown(
@@ -166,7 +198,12 @@ pub const STATES: Row = Row {
                 "energy_is_balanced_and_forces_are_those_of_the_elements",
             ),
         ),
+        ("fwd", together("states::of_runs")),
+        ("adj", together("states::of_runs")),
         ("lin", shown("tests/tests/elements_with_states/derivatives.rs", "linearize_is_the_matrix")),
+        ("dst", together("states::of_a_step")),
+        ("run", together("states::along_a_run")),
+        ("stu", together("states::study")),
         ("py", shown("examples/python/tests/test_runs.py", "test_states_of_elements_and_tables")),
     ],
 };
@@ -175,10 +212,24 @@ pub const MODES: Row = Row {
     name: "Bodies that bend",
     clause: "`modes(panel, …)`",
     cells: &[
+        ("fix", together("modes::steps")),
         ("ada", shown("tests/tests/flexible/beam.rs", "what_no_force_acts_on_keeps_its_momenta")),
+        ("ros", together("modes::stiff")),
+        ("imp", together("modes::implicit")),
+        ("one", together("modes::by_hand")),
+        ("lan", together("modes::lanes_and_threads")),
+        ("thr", together("modes::lanes_and_threads")),
         ("at", shown("tests/tests/flexible/spin.rs", "a_beam_that_spins_up_lags_and_comes_back")),
-        ("pag", unshown("the example `solar_arrays` writes one")),
+        ("tab", together("modes::table_and_plot")),
+        ("plt", together("modes::table_and_plot")),
+        ("pag", together("modes::page")),
+        ("mon", together("modes::energy")),
+        ("fwd", together("modes::of_runs")),
+        ("adj", together("modes::of_runs")),
         ("lin", shown("tests/tests/flexible/beam.rs", "a_free_spacecraft_has_the_frequencies_of_its_beams")),
+        ("dst", together("modes::of_a_step")),
+        ("run", together("modes::along_a_run")),
+        ("stu", together("modes::study")),
     ],
 };
 
@@ -186,8 +237,25 @@ pub const TABLE_OF_ONE: Row = Row {
     name: "Tables of one number",
     clause: "`table(lift, points = LIFT)`",
     cells: &[
+        ("fix", together("table_of_one::steps")),
+        ("ada", together("table_of_one::adaptive")),
         ("tay", refused(TABLES_HAVE_NO_SERIES)),
+        ("ros", together("table_of_one::stiff")),
+        ("imp", together("table_of_one::implicit")),
+        ("one", together("table_of_one::by_hand")),
+        ("lan", together("table_of_one::lanes_and_threads")),
+        ("thr", together("table_of_one::lanes_and_threads")),
+        ("at", together("table_of_one::between")),
+        ("tab", together("table_of_one::table_and_plot")),
+        ("plt", together("table_of_one::table_and_plot")),
+        ("pag", together("table_of_one::page")),
+        ("mon", together("table_of_one::energy")),
+        ("fwd", together("table_of_one::of_runs")),
+        ("adj", together("table_of_one::of_runs")),
         ("lin", shown("tests/tests/functions.rs", "values_and_derivatives")),
+        ("dst", together("table_of_one::of_a_step")),
+        ("run", together("table_of_one::along_a_run")),
+        ("stu", together("table_of_one::study")),
         ("py", shown("examples/python/tests/test_runs.py", "test_states_of_elements_and_tables")),
     ],
 };
@@ -196,10 +264,25 @@ pub const TABLES: Row = Row {
     name: "Tables of two and three numbers",
     clause: "`table(lift, axes = [ALPHA, MACH], values = LIFT)`",
     cells: &[
+        ("fix", together("table_of_two::steps")),
         ("ada", shown("tests/tests/tables.rs", "a_run_by_a_table")),
         ("tay", refused(TABLES_HAVE_NO_SERIES)),
-        ("lan", unshown("accelerations and derivatives of the kernel in packs are those of single numbers; no run is")),
+        ("ros", together("table_of_two::stiff")),
+        ("imp", together("table_of_two::implicit")),
+        ("one", together("table_of_two::by_hand")),
+        ("lan", together("table_of_two::lanes_and_threads")),
+        ("thr", together("table_of_two::lanes_and_threads")),
+        ("at", together("table_of_two::between")),
+        ("tab", together("table_of_two::table_and_plot")),
+        ("plt", together("table_of_two::table_and_plot")),
+        ("pag", together("table_of_two::page")),
+        ("mon", together("table_of_two::energy")),
+        ("fwd", together("table_of_two::of_runs")),
+        ("adj", together("table_of_two::of_runs")),
         ("lin", shown("tests/tests/tables.rs", "a_table_is_its_formula")),
+        ("dst", together("table_of_two::of_a_step")),
+        ("run", together("table_of_two::along_a_run")),
+        ("stu", together("table_of_two::study")),
     ],
 };
 
@@ -227,6 +310,7 @@ pub const INPUTS: Row = Row {
         ),
         ("one", shown("tests/tests/rosenbrock.rs", "order_4_in_every_chart_with_feedback")),
         ("lan", shown("tests/tests/batch/ensembles.rs", "pushes_that_are_over_soon_are_seen_in_every_lane")),
+        ("thr", together("input::lanes_and_threads")),
         (
             "at",
             shown(
@@ -235,12 +319,15 @@ pub const INPUTS: Row = Row {
             ),
         ),
         ("tab", shown("crates/gauss-tables/tests/table.rs", "columns_have_names_and_csv_reads_back")),
+        ("plt", together("input::table_and_plot")),
+        ("pag", together("input::page")),
         ("mon", shown("gauss-runtime/src/monitor/balance.rs", "energy_is_what_was_supplied_up_to_the_quadrature")),
         ("fwd", shown("crates/gauss-sensitivity/tests/derivatives/groups.rs", "backward_is_forward")),
         ("adj", shown("crates/gauss-sensitivity/tests/derivatives/groups.rs", "backward_is_forward")),
         ("lin", shown("tests/tests/linearize.rs", "groups_and_scalars")),
         ("dst", shown("tests/tests/discrete.rs", "groups_and_scalars").but("held for the step")),
         ("run", shown("tests/tests/discrete.rs", "steps_after_one_another").but("held for each step")),
+        ("stu", together("input::study")),
         ("py", shown("examples/python/tests/test_runs.py", "test_inputs")),
     ],
 };

@@ -155,8 +155,7 @@ const FREE_STEP: &str = "`step` takes `acceleration`, that with all gaps open; s
                          `Batch::accelerations`";
 const FREE_DERIVATIVES: &str = "`linearize` of the kernel is that with all gaps open, also of what rests";
 const FREE_STEP_DERIVATIVES: &str = "`CommutatorFree4::step_linearized` is that of the motion with all gaps open";
-const IN_PYTHON: &str =
-    "what has forces in it, functions of JAX too, raises `ContactError`: `in_contact`, or `without_contacts()` on purpose";
+const IN_PYTHON: &str = "what has forces in it, functions of JAX too, raises `ContactError`: `in_contact`, or `without_contacts()` on purpose";
 
 pub const RANGES: Row = Row {
     name: "Ranges and dry friction",
