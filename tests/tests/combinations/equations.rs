@@ -336,6 +336,7 @@ pub const RECORDED: Row = Row {
     name: "Inputs by a table of samples",
     clause: "a recording behind `InputSource`; in Python a pair (times, values)",
     cells: &[
+        ("fix", together("recorded::steps")),
         (
             "ada",
             shown(
@@ -345,12 +346,22 @@ pub const RECORDED: Row = Row {
             .but("a run for each interval between two rows, where the input has its corners"),
         ),
         ("tay", refused(NO_SERIES).by("tests/compile_fail/taylor.rs", "main")),
+        ("ros", together("recorded::stiff")),
+        ("imp", together("recorded::implicit")),
         (
             "stp",
             shown("examples/tests/trotting.rs", "it_trots_and_recorded_torques_give_the_same_bits")
                 .but("a row for each step"),
         ),
-        ("lan", unshown("`Batch::input` is a function of a pack: a recording for each lane is written by hand")),
+        ("one", together("recorded::by_hand")),
+        ("lan", together("recorded::lanes_and_threads")),
+        ("thr", together("recorded::lanes_and_threads")),
+        ("at", together("recorded::between")),
+        ("tab", together("recorded::table_and_plot")),
+        ("plt", together("recorded::table_and_plot")),
+        ("pag", together("recorded::page")),
+        ("mon", together("recorded::energy")),
+        ("fwd", together("recorded::of_runs")),
         (
             "adj",
             shown("crates/gauss-sensitivity/tests/derivatives/memory.rs", "the_number_of_checkpoints_changes_no_bit")
@@ -358,6 +369,8 @@ pub const RECORDED: Row = Row {
         ),
         ("lin", moot("it takes the value of the input, wherever that comes from")),
         ("dst", moot("it takes the value that is held, wherever that comes from")),
+        ("run", together("recorded::along_a_run")),
+        ("stu", together("recorded::study")),
         ("py", shown("examples/python/tests/test_runs.py", "test_inputs")),
     ],
 };

@@ -1,6 +1,6 @@
 //! Rows of what happens in a run: samples of controllers, events, jumps, stops, contacts, slots.
 
-use super::cells::{Row, missing, moot, refused, shown, unshown};
+use super::cells::{Row, missing, moot, refused, shown, together, unshown};
 
 const AT_A_STATE: &str = "it happens in a run; the equations at a state have no part of it";
 const NOT_IN_RUNS: &str = "`ContactRun` has `input`, `event` and `until`, and no such method";
@@ -17,6 +17,8 @@ pub const SAMPLED: Row = Row {
             refused("it needs an input, and inputs have no power series: a compile error at `taylor`")
                 .by("tests/compile_fail/taylor.rs", "main"),
         ),
+        ("ros", together("sampled::stiff")),
+        ("imp", together("sampled::implicit")),
         ("evt", missing(NOT_IN_RUNS)),
         ("stp", missing("`ContactSteps::input` is asked in each step; another period is a loop over `ContactStepper`")),
         ("one", moot(BETWEEN_STEPS)),
@@ -24,7 +26,8 @@ pub const SAMPLED: Row = Row {
         ("thr", missing("`Batch` and `Ensemble` have no such method")),
         ("at", shown("tests/tests/sampled.rs", "states_between_have_the_input_that_was_held")),
         ("tab", shown("tests/tests/sampled.rs", "tables_tell_what_was_held")),
-        ("pag", unshown("the example `mpc_step` writes one")),
+        ("plt", together("sampled::table_and_plot")),
+        ("pag", together("sampled::page")),
         ("mon", shown("tests/tests/sampled.rs", "the_balance_of_energy_is_that_of_what_was_held")),
         ("fwd", shown("tests/tests/sampled.rs", "derivatives_pass_through_samples").but("in dual numbers")),
         (
@@ -37,6 +40,7 @@ pub const SAMPLED: Row = Row {
             shown("tests/tests/discrete.rs", "differences_of_the_same_step").but("the step of an input that is held"),
         ),
         ("run", shown("tests/tests/discrete.rs", "steps_after_one_another")),
+        ("stu", together("sampled::study")),
         (
             "py",
             shown("examples/python/tests/test_methods.py", "test_controllers_hold_from_instant_to_instant")
@@ -67,6 +71,7 @@ pub const EVENTS: Row = Row {
             "tay",
             shown("tests/tests/taylor/runs.rs", "events_and_states_between_samples_have_the_accuracy_of_the_method"),
         ),
+        ("ros", together("event::stiff")),
         ("imp", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
         (
             "evt",
@@ -90,6 +95,10 @@ pub const EVENTS: Row = Row {
                 "samples_apart_events_and_both_directions",
             ),
         ),
+        ("tab", together("event::table_and_plot")),
+        ("plt", together("event::table_and_plot")),
+        ("pag", together("event::page")),
+        ("mon", together("event::energy")),
         (
             "fwd",
             shown(
@@ -120,12 +129,16 @@ pub const JUMPS: Row = Row {
         ("fix", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
         ("ada", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
         ("tay", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
+        ("ros", together("jump::stiff")),
         ("imp", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
         ("evt", missing(NOT_IN_RUNS)),
         ("stp", missing("steps have no events: begin another `ContactStepper` at the state after a jump")),
         ("one", moot(BETWEEN_STEPS)),
         ("lan", shown("tests/tests/events.rs", "runs_in_lanes_pile_up_and_are_told_as_alone")),
+        ("thr", together("jump::threads")),
         ("at", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
+        ("tab", together("jump::table_and_plot")),
+        ("plt", together("jump::table_and_plot")),
         (
             "pag",
             unshown("pictures are even in time")
@@ -141,6 +154,7 @@ pub const JUMPS: Row = Row {
         ("lin", moot(AT_A_STATE)),
         ("dst", missing("a step ends at the time that it is given; no jump is within it")),
         ("run", missing("derivatives of a jump and of its time have no place in the product")),
+        ("stu", together("jump::study")),
         (
             "py",
             shown("examples/python/tests/test_contacts.py", "test_a_wall_of_ones_own_turns_back")

@@ -4,11 +4,13 @@
 //! steps by hand with the bits of single runs.
 
 mod derivatives;
+mod happenings;
 mod records;
 mod runs;
 mod scenes;
 
-use scenes::{Bending, Constrained, Input, Redundant, Stateful, TableOfOne, TableOfTwo};
+use happenings::{Event, Jump, Sampled};
+use scenes::{Bending, Constrained, Input, Recorded, Redundant, Stateful, TableOfOne, TableOfTwo};
 
 /// A module for each scene with a test for each column.
 macro_rules! goes_together {
@@ -32,7 +34,7 @@ goes_together! {
         records::{table_and_plot, page, study},
         derivatives::{along_a_run};
     redundant Redundant:
-        runs::{steps, adaptive, stiff, implicit, lanes_and_threads, by_hand, between},
+        runs::{steps, several_steps, adaptive, stiff, implicit, lanes_and_threads, by_hand, between},
         records::{table_and_plot, page, study},
         derivatives::{of_runs, at_a_state, of_a_step, along_a_run};
     states Stateful:
@@ -40,18 +42,28 @@ goes_together! {
         records::{table_and_plot, page, study},
         derivatives::{of_runs, at_a_state, of_a_step, along_a_run};
     modes Bending:
-        runs::{steps, adaptive, stiff, implicit, lanes_and_threads, by_hand, between},
+        runs::{steps, several_steps, adaptive, stiff, implicit, lanes_and_threads, by_hand, between},
         records::{table_and_plot, page, study, energy},
         derivatives::{of_runs, at_a_state, of_a_step, along_a_run};
     table_of_one TableOfOne:
-        runs::{steps, adaptive, stiff, implicit, lanes_and_threads, by_hand, between},
+        runs::{steps, several_steps, adaptive, stiff, implicit, lanes_and_threads, by_hand, between},
         records::{table_and_plot, page, study, energy},
         derivatives::{of_runs, at_a_state, of_a_step, along_a_run};
     table_of_two TableOfTwo:
-        runs::{steps, adaptive, stiff, implicit, lanes_and_threads, by_hand, between},
+        runs::{steps, several_steps, adaptive, stiff, implicit, lanes_and_threads, by_hand, between},
         records::{table_and_plot, page, study, energy},
         derivatives::{of_runs, at_a_state, of_a_step, along_a_run};
     input Input:
         runs::{lanes_and_threads},
         records::{table_and_plot, page, study};
+    recorded Recorded:
+        runs::{steps, stiff, implicit, lanes_and_threads, by_hand, between},
+        records::{table_and_plot, page, study, energy},
+        derivatives::{of_runs, along_a_run};
+    event Event:
+        happenings::{stiff, table_and_plot, page, energy};
+    jump Jump:
+        happenings::{stiff, table_and_plot, study, threads};
+    sampled Sampled:
+        happenings::{stiff, implicit, table_and_plot, page, study};
 }

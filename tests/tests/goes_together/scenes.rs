@@ -190,7 +190,7 @@ scene! {
     spring(along = x, stiffness = k), drive(x = push),
 )]
 pub struct Pushed<T> {
-    k: T,
+    pub k: T,
 }
 
 scene! {
@@ -199,4 +199,24 @@ scene! {
     |k, x| Pushed { k },
     (vector([x]), vector([T::zero()])),
     |at| vector([(at.t + at.t).sin() - at.z[0] * T::from_f64(0.1)])
+}
+
+/// A recording: the push every quarter of a second, straight in between.
+const RECORD: [f64; 5] = [0.0, 2.0, -1.0, 0.5, 1.5];
+
+/// The push of a recording at a time, in each lane by its own interval.
+fn recorded<T: Real>(t: T) -> T {
+    let line = |from: usize| {
+        let part = t * T::from_f64(4.0) - T::from_f64(from as f64);
+        T::from_f64(RECORD[from]) + part * T::from_f64(RECORD[from + 1] - RECORD[from])
+    };
+    (0..3).rev().fold(line(3), |later, from| T::select_lt(t, T::from_f64(0.25 * (from + 1) as f64), line(from), later))
+}
+
+scene! {
+    /// An input by a table of samples.
+    Recorded of PushedKernel, [20.0, 0.3],
+    |k, x| Pushed { k },
+    (vector([x]), vector([T::zero()])),
+    |at| vector([recorded(at.t)])
 }
