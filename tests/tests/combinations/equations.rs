@@ -1,6 +1,6 @@
 //! Rows of what the equations of a scene may hold: smooth forces, constraints, states, modes, tables.
 
-use super::cells::{Row, moot, refused, shown, together, unshown};
+use super::cells::{Row, moot, refused, shown, together};
 
 const NO_CONTACTS: &str =
     "a scene without contacts has no event or impulse of contact: a compile error, no `ContactSystem`";
