@@ -18,19 +18,21 @@ pub struct BalancePoint {
     pub energy: f64,
     /// `∫ supplied_power dt` from t₀.
     pub work: f64,
+    /// What jumps of the state gave since t₀; negative where they took energy away.
+    pub jumps: f64,
     /// About how far the integral is off: the differences of two rules of quadrature, added up over the steps.
     pub uncertainty: f64,
 }
 
 impl BalancePoint {
-    /// Energy that did not come from anywhere: `energy − work`.
+    /// Energy that did not come from anywhere: `energy − work − jumps`.
     #[must_use]
     pub fn residual(&self) -> f64 {
-        self.energy - self.work
+        self.energy - self.work - self.jumps
     }
 }
 
-/// The balance `E(t) − E(t₀) = ∫ supplied_power dt` over a run: see [`power_balance`].
+/// The balance `E(t) − E(t₀) = ∫ supplied_power dt` and what jumps gave, over a run: see [`power_balance`].
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct EnergyBalance {
@@ -50,7 +52,7 @@ impl EnergyBalance {
         &self.points[self.points.len() - 1]
     }
 
-    /// The largest |energy − work|; NaN when one is.
+    /// The largest size of a [residual](BalancePoint::residual); NaN when one is.
     #[must_use]
     pub fn largest_residual(&self) -> f64 {
         let sizes = self.points.iter().map(|point| point.residual().abs());
@@ -60,18 +62,16 @@ impl EnergyBalance {
 }
 
 impl fmt::Display for EnergyBalance {
-    /// `energy +1.2e0 = work +1.3e0 − 1.0e-1, quadrature within 2.0e-9`: at the end of the run.
+    /// `energy +1.2e0 = work +1.3e0 − 1.0e-1, quadrature within 2.0e-9`: at the end of the run; with what jumps gave,
+    /// where there are some.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let end = self.last();
         let sign = if end.residual() < 0.0 { '−' } else { '+' };
-        write!(
-            f,
-            "energy {:+.6e} = work {:+.6e} {sign} {:.2e}, quadrature within {:.1e}",
-            end.energy,
-            end.work,
-            end.residual().abs(),
-            end.uncertainty
-        )
+        write!(f, "energy {:+.6e} = work {:+.6e}", end.energy, end.work)?;
+        if end.jumps != 0.0 {
+            write!(f, ", jumps {:+.6e}", end.jumps)?;
+        }
+        write!(f, " {sign} {:.2e}, quadrature within {:.1e}", end.residual().abs(), end.uncertainty)
     }
 }
 
@@ -83,8 +83,8 @@ impl fmt::Display for EnergyBalance {
 /// The power is integrated from sample to sample by Kronrod's extension of Gauss–Lobatto quadrature with four nodes
 /// (Gander & Gautschi, *Adaptive quadrature – revisited*, BIT 40, 2000), at states of the run ([`Trajectory::at`]). The
 /// uncertainty is the difference to the four nodes alone, of sixth order in the distance of samples; it is no bound. A
-/// residual far beyond it and rounding is the integrator's error, or a power that is not accounted for, such as what
-/// jumps at events take or give. Run with [`largest_step`](crate::integrate::Simulation::largest_step) where the
+/// residual far beyond it and rounding is the integrator's error, or a power that is not accounted for. What jumps at
+/// events give is told by itself. Run with [`largest_step`](crate::integrate::Simulation::largest_step) where the
 /// quadrature limits.
 ///
 /// In systems with something moved as a function of time the residual is the work of whatever moves it: see
@@ -105,9 +105,12 @@ pub fn power_balance<S: ForcedSystem>(
     let first = trajectory.first();
     let initial = energy(first);
     let mut points = Vec::with_capacity(trajectory.len());
-    let mut last = BalancePoint { t: first.t.lane(0), energy: 0.0, work: 0.0, uncertainty: 0.0 };
+    let mut last = BalancePoint { t: first.t.lane(0), energy: 0.0, work: 0.0, jumps: 0.0, uncertainty: 0.0 };
     points.push(last);
-    for (left, right) in trajectory.iter().zip(trajectory.iter().skip(1)) {
+    for (left, after) in trajectory.iter().zip(trajectory.iter().skip(1)) {
+        // Where the state jumps, the event has the one before.
+        let at_once = |sample: &&Sample<S>| sample.t.lane(0) == after.t.lane(0);
+        let right = trajectory.events().iter().map(|event| &event.sample).find(at_once).unwrap_or(after);
         let length = right.t - left.t;
         let h = length.lane(0);
         // Where controllers sample, a step has the input from before its end: some roundings of the time earlier.
@@ -122,8 +125,9 @@ pub fn power_balance<S: ForcedSystem>(
         let kronrod = h / 2940.0 * (77.0 * ends + 432.0 * both(2.0 / 3.0) + 625.0 * inner + 672.0 * within(0.0));
         last = BalancePoint {
             t: right.t.lane(0),
-            energy: energy(right) - initial,
+            energy: energy(after) - initial,
             work: last.work + kronrod,
+            jumps: last.jumps + (energy(after) - energy(right)),
             uncertainty: last.uncertainty + (kronrod - lobatto).abs(),
         };
         points.push(last);
@@ -162,7 +166,7 @@ mod tests {
                 let trajectory = run(&system, step, interval.clone());
                 let balance = power_balance(&system, &trajectory, push);
                 assert_eq!(balance.points().len(), trajectory.len());
-                let origin = BalancePoint { t: interval.start, energy: 0.0, work: 0.0, uncertainty: 0.0 };
+                let origin = BalancePoint { t: interval.start, energy: 0.0, work: 0.0, jumps: 0.0, uncertainty: 0.0 };
                 assert_eq!(balance.points()[0], origin);
                 assert_eq!(balance.last().t, interval.end);
                 // The quadrature is of a higher order than its uncertainty, which is of the sixth, as the integrator
@@ -191,10 +195,15 @@ mod tests {
 
     #[test]
     fn nan_is_not_hidden_and_the_end_is_printed() {
-        let point = BalancePoint { t: 1.0, energy: 2.5, work: 2.75, uncertainty: 1e-9 };
+        let point = BalancePoint { t: 1.0, energy: 2.5, work: 2.75, jumps: 0.0, uncertainty: 1e-9 };
         let mut balance = EnergyBalance { points: Vec::from([point]) };
         assert_eq!(balance.to_string(), "energy +2.500000e0 = work +2.750000e0 − 2.50e-1, quadrature within 1.0e-9");
         assert_eq!(balance.largest_residual(), 0.25);
+        balance.points[0].jumps = -0.5;
+        assert_eq!(
+            balance.to_string(),
+            "energy +2.500000e0 = work +2.750000e0, jumps -5.000000e-1 + 2.50e-1, quadrature within 1.0e-9"
+        );
         balance.points.insert(0, BalancePoint { energy: f64::NAN, ..point });
         assert!(balance.largest_residual().is_nan());
     }

@@ -144,7 +144,7 @@ pub const JUMPS: Row = Row {
             unshown("pictures are even in time")
                 .silent("a page draws straight on from picture to picture, also where the state jumps between two"),
         ),
-        ("mon", missing("`power_balance` leaves what jumps take in its residual, where errors of the run are, too")),
+        ("mon", together("jump::energy")),
         (
             "fwd",
             shown("tests/tests/duals/events.rs", "times_of_impacts_and_the_flight_after_them_have_derivatives")

@@ -120,6 +120,16 @@ pub fn energy<H: Happening>(_: &H) {
     let balance = power_balance(&kernel, &run, push);
     assert!(balance.largest_residual() < 1e-9 + 10.0 * balance.last().uncertainty, "{balance}");
     assert!(balance.last().uncertainty < 1e-6, "{balance}");
+    // At an event alone nothing is lost. A jump takes three quarters of the kinetic energy that there is.
+    let lost: f64 = run
+        .events()
+        .iter()
+        .map(|event| {
+            let after = run.at(event.sample.t).unwrap();
+            kernel.energy(after.t, &after.q, &after.z) - kernel.energy(event.sample.t, &event.sample.q, &event.sample.z)
+        })
+        .sum();
+    assert!((balance.last().jumps - lost).abs() < 1e-12, "{balance}");
 }
 
 /// Rows of a study are runs that are made alone.

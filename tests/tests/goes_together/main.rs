@@ -63,7 +63,7 @@ goes_together! {
     event Event:
         happenings::{stiff, table_and_plot, page, energy};
     jump Jump:
-        happenings::{stiff, table_and_plot, study, threads};
+        happenings::{stiff, table_and_plot, energy, study, threads};
     sampled Sampled:
         happenings::{stiff, implicit, table_and_plot, page, study};
 }
