@@ -3,6 +3,7 @@
 //! Numbers are compared with runs at tolerances of 1e-12, derivatives with differences of such runs, lanes, threads and
 //! steps by hand with the bits of single runs.
 
+mod contacts;
 mod derivatives;
 mod happenings;
 mod records;
@@ -42,7 +43,7 @@ goes_together! {
         records::{table_and_plot, page, study},
         derivatives::{of_runs, at_a_state, of_a_step, along_a_run};
     modes Bending:
-        runs::{steps, several_steps, adaptive, stiff, implicit, lanes_and_threads, by_hand, between},
+        runs::{steps, several_steps, adaptive, series, stiff, implicit, lanes_and_threads, by_hand, between},
         records::{table_and_plot, page, study, energy},
         derivatives::{of_runs, at_a_state, of_a_step, along_a_run};
     table_of_one TableOfOne:

@@ -79,6 +79,11 @@ pub fn adaptive<S: Scene>(scene: &S) {
     check(scene, Adaptive::by(RungeKutta(DormandPrince5), 1e-8, 1e-9), 1e-5);
 }
 
+/// Power series at 1e-11, a dozen steps.
+pub fn series<S: Scene<System<f64>: TaylorSystem>>(scene: &S) {
+    check(scene, Taylor::new(1e-11, 1e-12), 1e-9);
+}
+
 /// Rosenbrock's method at 1e-8, some hundred steps.
 pub fn stiff<S: Scene<System<f64>: LinearizedSystem>>(scene: &S)
 where

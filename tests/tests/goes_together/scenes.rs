@@ -117,7 +117,7 @@ scene! {
 /// A beam on a hinge, which stretches as it turns.
 #[derive(GaussDynamics)]
 #[gauss(
-    coordinates(angle, s), linearize,
+    coordinates(angle, s), linearize, taylor,
     body(beam, rotation = rotation_z(angle), mass = 2, center_of_mass = [0.5, 0, 0], inertia = [0, 2 / 3, 2 / 3]),
     modes(beam, coordinates = [s], translation = [[1.25, 0, 0]], mass = [34 / 35], stiffness = [k],
         inertia = [[0, 1.6, 1.6, 0, 0, 0]]),
@@ -134,7 +134,7 @@ scene! {
 }
 
 /// A line through places unevenly far apart.
-const PULL: [[f64; 2]; 5] = [[-2.0, -3.0], [-0.5, -0.75], [0.0, 0.0], [0.75, 1.125], [2.0, 3.0]];
+pub const PULL: [[f64; 2]; 5] = [[-2.0, -3.0], [-0.5, -0.75], [0.0, 0.0], [0.75, 1.125], [2.0, 3.0]];
 
 /// A mass on a spring by a table.
 #[derive(GaussDynamics)]
@@ -153,10 +153,10 @@ scene! {
     (vector([x]), vector([T::zero()]))
 }
 
-const X: [f64; 4] = [-2.0, -0.2, 0.5, 2.0];
-const V: [f64; 3] = [-3.0, 0.4, 4.0];
+pub const X: [f64; 4] = [-2.0, -0.2, 0.5, 2.0];
+pub const V: [f64; 3] = [-3.0, 0.4, 4.0];
 /// −4 x − 0.5 v, which interpolation between corners gives to rounding.
-const DRAG: [[f64; 3]; 4] = {
+pub const DRAG: [[f64; 3]; 4] = {
     let mut values = [[0.0; 3]; 4];
     let mut i = 0;
     while i < 12 {
@@ -205,7 +205,7 @@ scene! {
 const RECORD: [f64; 5] = [0.0, 2.0, -1.0, 0.5, 1.5];
 
 /// The push of a recording at a time, in each lane by its own interval.
-fn recorded<T: Real>(t: T) -> T {
+pub fn recorded<T: Real>(t: T) -> T {
     let line = |from: usize| {
         let part = t * T::from_f64(4.0) - T::from_f64(from as f64);
         T::from_f64(RECORD[from]) + part * T::from_f64(RECORD[from + 1] - RECORD[from])
