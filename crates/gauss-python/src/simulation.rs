@@ -183,8 +183,8 @@ impl Kernel {
     /// `parameters` has an array with a number for each run. `input` is an array or a pair (times, values); `until` is
     /// (name, value) or (name, value, direction). With contacts each run is as `simulate` makes it, and `contacts`,
     /// `step`, `largest_step`, `impact`, `friction`, `scheme` are those of it. Runs that fail, or cannot begin, are
-    /// told of in `errors`, each with all that is wrong. `progress` is a function of the number of runs that have ended, or True for a bar of tqdm.
-    /// Ctrl-C ends all runs and is raised with what there is, as `ends`.
+    /// told of in `errors`, each with all that is wrong. `progress` is a function of the number of runs that have
+    /// ended, or True for a bar of tqdm. Ctrl-C ends all runs and is raised with what there is, as `ends`.
     #[pyo3(signature = (q, z, interval, *, rtol=1e-9, atol=1e-9, step=None, largest_step=None, input=None, until=None,
         parameters=None, max_steps=None, contacts=None, impact=None, friction=None, scheme=None, progress=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords")]
@@ -212,10 +212,8 @@ impl Kernel {
         let sizes = scene.sizes();
         let lengths = [("step", step.unwrap_or(1.0)), ("largest_step", largest_step.unwrap_or(1.0))];
         given::checked(interval, &[("rtol", rtol), ("atol", atol), lengths[0], lengths[1]])?;
-        if let (false, Some((word, _))) = (
-            self.touches(),
-            [("step", step), ("largest_step", largest_step)].into_iter().find(|(_, given)| given.is_some()),
-        ) {
+        let own = [("step", step), ("largest_step", largest_step)].into_iter().find(|(_, given)| given.is_some());
+        if let (false, Some((word, _))) = (self.touches(), own) {
             return Err(PyTypeError::new_err(format!("{word} is of contacts, and none act in this ensemble")));
         }
         let tolerances = (rtol, atol, largest_step);

@@ -5,58 +5,17 @@ use std::sync::atomic::Ordering;
 use gauss_contact::{
     ContactRun, ContactStepper, ContactTrajectory, EventKind, Mode, Residual, StepLaw, StepReport, StepScheme,
 };
-use gauss_runtime::contact::{Contact, ContactSystem};
+use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::integrate::drive::each::Each;
 use gauss_runtime::integrate::{Adaptive, Summary};
 use gauss_runtime::prelude::*;
 
 use super::causes::of_contacts;
-use super::one::{self, Outcome, Watch};
+use super::outcome::{self, Happening, InContact, Outcome, Touched};
 use super::request::{Control, Request};
+use super::watching::{Watch, input, watch, watched};
 use super::{components, configuration, vector};
 use crate::methods::System;
-
-/// What happens to a contact, by its name.
-pub const KINDS: [&str; 7] = ["impact", "closes", "rests", "leaves", "sticks", "slides", "reverses"];
-
-/// What contacts did in a run.
-#[derive(Clone, Debug, Default)]
-pub struct Touched {
-    /// Changes of contacts, in order of time.
-    pub happened: Vec<Happening>,
-    /// How well the laws were kept, and in steps what became of gaps.
-    pub report: Vec<(String, f64)>,
-    /// Where open gaps were looked at by samples alone: the contact, from when to when.
-    pub sampled: Vec<(usize, f64, f64)>,
-}
-
-/// A change of a contact.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Happening {
-    /// When.
-    pub time: f64,
-    /// Which contact.
-    pub contact: usize,
-    /// What, by its place in [`KINDS`].
-    pub kind: usize,
-    /// Of an impact: rates before and after it and the impulse, row by row, then the energy that it takes away.
-    pub impact: Vec<f64>,
-}
-
-/// The names of the columns of contacts, as tables of Rust have them.
-pub fn column_names(contacts: &[Contact]) -> Vec<String> {
-    let of = |contact: &Contact| {
-        let tangents = (1..=contact.tangents).flat_map(|k| {
-            let number = if contact.tangents > 1 { format!(" {k}") } else { String::new() };
-            ["slip", "friction"].map(|what| format!("{what}{number}"))
-        });
-        let of_normal = ["gap", "force"].map(str::to_owned).into_iter().filter(|_| contact.has_gap());
-        let of_drilling = ["spin", "drilling"].map(str::to_owned).into_iter().filter(|_| contact.drills);
-        let all = of_normal.chain(tangents).chain(of_drilling);
-        all.map(|what| format!("{} {what}", contact.name)).collect::<Vec<_>>()
-    };
-    contacts.iter().flat_map(of).collect()
-}
 
 /// What runs with contacts need of a system.
 trait Touching: System<Scalar = f64> + ContactSystem {}
@@ -73,17 +32,6 @@ pub fn run<S: System<Scalar = f64> + ContactSystem>(system: &S, request: &Reques
         Control::ContactSteps(length, scheme, law) => in_steps(system, request, start, (length, scheme, law)),
         _ => by_events(system, request, start),
     }
-}
-
-/// What contacts do at a state.
-#[derive(Clone, Debug)]
-pub struct InContact {
-    /// The rates of the speeds.
-    pub acceleration: Vec<f64>,
-    /// Of each contact.
-    pub modes: Vec<&'static str>,
-    /// All rows.
-    pub forces: Vec<f64>,
 }
 
 /// What contacts do at a state: a run of no length decides it.
@@ -125,8 +73,8 @@ pub fn at<S: System<Scalar = f64> + ContactSystem>(
 /// A state with its energies and the columns of its contacts.
 fn row<S: Touching>(system: &S, sample: &Sample<S>, forces: Option<&S::ContactRows>) -> Vec<f64> {
     let Sample { t, q, z, .. } = sample;
-    let mut row = one::row(*t, q, z);
-    row.extend(one::energies(system, sample));
+    let mut row = outcome::row(*t, q, z);
+    row.extend(outcome::energies(system, sample));
     let (gaps, rates) = (system.gaps(*t, q), system.contact_rates(*t, q, z));
     let force = |row: usize| forces.map_or(f64::NAN, |forces| forces.component(row));
     for (i, contact) in S::CONTACTS.iter().enumerate() {
@@ -161,8 +109,8 @@ fn by_events<S: Touching>(
         .control(control)
         .tolerance(relative, absolute)
         .law(law)
-        .input(|t: f64, q: &S::Configuration, z: &S::Speeds| one::input::<S>(request, t, q, z))
-        .events_by(Each::of(one::watched::<S>(request).chain([stop])));
+        .input(|t: f64, q: &S::Configuration, z: &S::Speeds| input::<S>(request, t, q, z))
+        .events_by(Each::of(watched::<S>(request).chain([stop])));
     let run = match request.limit {
         Some(limit) => run.max_steps(limit),
         None => run,
@@ -170,13 +118,14 @@ fn by_events<S: Touching>(
     let (run, error) = run.attempt(q, z, request.interval.0..request.interval.1);
     let interrupted = request.stop.load(Ordering::Relaxed);
     let rows = rows_of(system, request, &run)?;
-    let last = run.last().map_or_else(|| one::row(request.interval.0, &q, &z), |end| one::row(end.t, &end.q, &end.z));
+    let last =
+        run.last().map_or_else(|| outcome::row(request.interval.0, &q, &z), |end| outcome::row(end.t, &end.q, &end.z));
     Ok(Outcome {
         rows: rows.len(),
-        columns: one::columns(rows.into_iter()),
+        columns: outcome::columns(rows.into_iter()),
         last,
-        events: one::happened(request, run.passages().iter().map(|passage| (passage.number, &passage.sample))),
-        stopped_by: run.stopped_by().map(|number| one::number_of_end(request, number)),
+        events: outcome::happened(request, run.passages().iter().map(|passage| (passage.number, &passage.sample))),
+        stopped_by: run.stopped_by().map(|number| outcome::number_of_end(request, number)),
         summary: summary(&run),
         touched: Some(touched(&run)),
         error: error.filter(|_| !interrupted).map(|error| of_contacts(&error)),
@@ -299,12 +248,12 @@ fn in_steps<S: Touching>(
 
 impl<'a, S: Touching> Made<'a, S> {
     fn begun(system: &'a S, request: &'a Request<'a>, (t, q, z): (f64, &S::Configuration, &S::Speeds)) -> Self {
-        let watches: Vec<_> = request.until.iter().map(|until| one::watch::<S>(until)).collect();
+        let watches: Vec<_> = request.until.iter().map(|until| watch::<S>(until)).collect();
         let values = watches.iter().map(|watch| watch(t, q, z)).collect();
         let outcome = Outcome {
             columns: Vec::new(),
             rows: 0,
-            last: one::row(t, q, z),
+            last: outcome::row(t, q, z),
             events: Vec::new(),
             stopped_by: None,
             summary: Summary::default(),
@@ -333,7 +282,7 @@ impl<'a, S: Touching> Made<'a, S> {
         if self.request.times.is_none() {
             self.rows.push(row(self.system, sample, forces));
         }
-        self.outcome.last = one::row(sample.t, &sample.q, &sample.z);
+        self.outcome.last = outcome::row(sample.t, &sample.q, &sample.z);
     }
 
     /// All steps.
@@ -350,7 +299,7 @@ impl<'a, S: Touching> Made<'a, S> {
             if self.outcome.summary.steps >= limit {
                 return Err(format!("t = {t}: {limit} steps do not reach the end; allow more by `max_steps`"));
             }
-            let input = one::input::<S>(self.request, t, stepper.configuration(), stepper.speeds());
+            let input = input::<S>(self.request, t, stepper.configuration(), stepper.speeds());
             let report = stepper.step((end - start) / count, &input).map_err(|error| of_contacts(&error))?;
             n += 1.0;
             let (t, q, z) = (start + (end - start) * (n / count), *stepper.configuration(), *stepper.speeds());
@@ -403,8 +352,8 @@ impl<'a, S: Touching> Made<'a, S> {
                 Crossing::Falling => falls,
             };
             match passes {
-                true if until.ends() => self.outcome.stopped_by = Some(one::number_of_end(self.request, number)),
-                true => self.outcome.events.extend(one::happened(self.request, [(number, sample)].into_iter())),
+                true if until.ends() => self.outcome.stopped_by = Some(outcome::number_of_end(self.request, number)),
+                true => self.outcome.events.extend(outcome::happened(self.request, [(number, sample)].into_iter())),
                 false => {}
             }
         }
@@ -413,7 +362,7 @@ impl<'a, S: Touching> Made<'a, S> {
 
     fn ended(self) -> Outcome {
         let Self { mut outcome, rows, worst, sums: (work, impacts), .. } = self;
-        (outcome.rows, outcome.columns) = (rows.len(), one::columns(rows.into_iter()));
+        (outcome.rows, outcome.columns) = (rows.len(), outcome::columns(rows.into_iter()));
         if let Some(touched) = &mut outcome.touched {
             touched.report = named(&[
                 ("impacts", impacts as f64),

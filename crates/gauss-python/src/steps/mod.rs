@@ -3,12 +3,14 @@
 mod causes;
 mod contacts;
 mod one;
+mod outcome;
 mod request;
 mod stoppable;
+mod watching;
 
 pub use causes::words;
-pub use contacts::{Happening, InContact, KINDS, Touched, column_names};
-pub use one::{Event, Methods, Outcome};
+pub use one::Methods;
+pub use outcome::{Event, Happening, InContact, KINDS, Outcome, Touched, column_names};
 pub use request::{Control, Effect, Function, Held, Input, Jumped, Request, Table, Until, Watched};
 pub use stoppable::Stoppable;
 

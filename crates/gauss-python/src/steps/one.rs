@@ -4,47 +4,15 @@ use std::sync::atomic::Ordering;
 
 use gauss_runtime::contact::{Contact, ContactSystem};
 use gauss_runtime::integrate::drive::each::Each;
-use gauss_runtime::integrate::{Adaptive, Collocation, Control as Steps, Fixed, IntegrationError, Summary};
+use gauss_runtime::integrate::{Adaptive, Collocation, Control as Steps, Fixed, IntegrationError};
 use gauss_runtime::prelude::*;
 
-use super::contacts::{self, InContact, Touched};
-use super::request::{Control, Effect, Function, Input, Request, Until, Watched};
+use super::outcome::{InContact, Outcome, columns, energies, happened, number_of_end, row};
+use super::request::{Control, Request};
 use super::stoppable::Stoppable;
-use super::{components, configuration, numbers_of, vector, words};
+use super::watching::{Moving, input, jump, of_numbers, watched};
+use super::{configuration, contacts, vector, words};
 use crate::methods::System;
-
-/// A run with its states, column by column: time, the numbers of q and z, kinetic and potential energy, and of contacts
-/// what [`contacts::column_names`] has.
-#[derive(Clone, Debug)]
-pub struct Outcome {
-    /// The columns, one after the other.
-    pub columns: Vec<f64>,
-    /// How many states there are.
-    pub rows: usize,
-    /// The last state: time, and the numbers of q and z.
-    pub last: Vec<f64>,
-    /// Events in the order in which they happened, the end of the run not among them.
-    pub events: Vec<Event>,
-    /// The end that it came to before its time, by its number among the ends.
-    pub stopped_by: Option<usize>,
-    /// Its steps.
-    pub summary: Summary,
-    /// What contacts did; none of runs that leave them out.
-    pub touched: Option<Touched>,
-    /// Why it did not reach its end.
-    pub error: Option<String>,
-    /// It was told to stop.
-    pub interrupted: bool,
-}
-
-/// A state in which something happened.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Event {
-    /// Which, of those that do not end the run.
-    pub number: usize,
-    /// Time, and the numbers of q and z.
-    pub row: Vec<f64>,
-}
 
 /// The relative and the absolute tolerance, and the longest step.
 type Tolerances = (f64, f64, f64);
@@ -165,14 +133,6 @@ fn bounded<C>(control: C, largest: f64, bound: impl Fn(C, f64) -> C) -> C {
     if largest.is_finite() { bound(control, largest) } else { control }
 }
 
-/// What a run needs of a system.
-pub(super) trait Moving: GaussSystem<Scalar = f64, Input: VectorSpace<f64>> {}
-
-impl<S: GaussSystem<Scalar = f64, Input: VectorSpace<f64>>> Moving for S {}
-
-/// A function that is watched.
-pub(super) type Watch<'a, Q, Z> = Box<dyn Fn(f64, &Q, &Z) -> f64 + 'a>;
-
 /// A run by any method.
 fn run<S: Moving, C: Steps<S>>(system: &S, request: &Request<'_>, control: C) -> Result<Outcome, String> {
     let (q, z) = (configuration::<S::Configuration>(request.q)?, vector::<S::Speeds>(request.z));
@@ -194,31 +154,6 @@ fn run<S: Moving, C: Steps<S>>(system: &S, request: &Request<'_>, control: C) ->
         }
     };
     outcome(system, request, &run, error)
-}
-
-/// The input of a run.
-pub(super) fn input<S: Moving>(request: &Request<'_>, t: f64, q: &S::Configuration, z: &S::Speeds) -> S::Input {
-    match request.input {
-        Input::Function(function) => of_numbers(*function, t, q, z),
-        input => input.at(t, |number| number(0)),
-    }
-}
-
-/// All events, each with its direction, whether it ends the run, and whether its jump may let it go on.
-pub(super) fn watched<'a, S: Moving>(
-    request: &'a Request<'_>,
-) -> impl Iterator<Item = (Watch<'a, S::Configuration, S::Speeds>, Crossing, [bool; 2])> {
-    let through = |until: &Until<'_>| matches!(until.effect, Effect::Jumps(_, true));
-    request.until.iter().map(move |until| (watch::<S>(until), until.crossing, [until.ends(), through(until)]))
-}
-
-/// What an event does to a state; whether it does.
-fn jump<S: Moving>(request: &Request<'_>, place: usize, state: &mut Sample<S>) -> bool {
-    let Effect::Jumps(function, _) = request.until[place].effect else { return false };
-    let Some((q, z)) = function(state.t, &numbers_of(&state.q), &components(&state.z)) else { return false };
-    // Numbers that are no state end the run: these have been looked at, or are those of a function that failed.
-    (state.q, state.z) = (S::Configuration::from_components(&vector(&q)), vector(&z));
-    true
 }
 
 /// What became of a run.
@@ -248,42 +183,6 @@ fn outcome<S: Moving>(
     })
 }
 
-/// Events that do not end the run.
-pub(super) fn happened<'s, S: Moving + 's>(
-    request: &Request<'_>,
-    events: impl Iterator<Item = (usize, &'s Sample<S>)>,
-) -> Vec<Event> {
-    let goes_on = events.filter(|(number, _)| request.until.get(*number).is_some_and(|until| !until.ends()));
-    goes_on.map(|(number, Sample { t, q, z, .. })| Event { number, row: row(*t, q, z) }).collect()
-}
-
-/// The number among the ends.
-pub(super) fn number_of_end(request: &Request<'_>, number: usize) -> usize {
-    request.until[..number].iter().filter(|until| until.ends()).count()
-}
-
-/// The input that a function gives.
-fn of_numbers<Q: Configuration<Scalar = f64>, Z: VectorSpace<f64>, U: VectorSpace<f64>>(
-    function: Function<'_, Vec<f64>>,
-    t: f64,
-    q: &Q,
-    z: &Z,
-) -> U {
-    vector(&function(t, &numbers_of(q), &components(z)))
-}
-
-/// The function of an event.
-pub(super) fn watch<'a, S: Moving>(until: &'a Until<'_>) -> Watch<'a, S::Configuration, S::Speeds> {
-    match until.watched {
-        Watched::Number(place, value) => Box::new(move |_, q, z| {
-            let size = <<S::Configuration as Configuration>::Components as VectorSpace<f64>>::DIM;
-            let number = if place < size { q.components().component(place) } else { z.component(place - size) };
-            number - value
-        }),
-        Watched::Function(function) => Box::new(move |t, q, z| function(t, &numbers_of(q), &components(z))),
-    }
-}
-
 /// The states at these times, but those that the run did not come to.
 fn between<S: GaussSystem<Scalar = f64>>(run: &Trajectory<'_, S>, times: &[f64]) -> Result<Vec<Sample<S>>, String> {
     let mut states = Vec::with_capacity(times.len());
@@ -295,25 +194,4 @@ fn between<S: GaussSystem<Scalar = f64>>(run: &Trajectory<'_, S>, times: &[f64])
         }
     }
     Ok(states)
-}
-
-/// Time and the numbers of q and z.
-pub(super) fn row<Q: Configuration<Scalar = f64>, Z: VectorSpace<f64>>(t: f64, q: &Q, z: &Z) -> Vec<f64> {
-    [vec![t], numbers_of(q), components(z)].concat()
-}
-
-/// Kinetic and potential energy.
-pub(super) fn energies<S: Moving>(system: &S, Sample { t, q, z, .. }: &Sample<S>) -> Vec<f64> {
-    vec![system.kinetic_energy(*t, q, z), system.potential_energy(*t, q)]
-}
-
-/// Columns from rows of one length.
-pub(super) fn columns(rows: impl ExactSizeIterator<Item = Vec<f64>>) -> Vec<f64> {
-    let count = rows.len();
-    let mut columns = Vec::new();
-    for (n, row) in rows.enumerate() {
-        columns.resize(row.len() * count, 0.0);
-        row.into_iter().enumerate().for_each(|(column, number)| columns[column * count + n] = number);
-    }
-    columns
 }

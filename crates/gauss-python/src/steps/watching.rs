@@ -1,0 +1,61 @@
+//! What a run asks of its request while it goes on: inputs, events, jumps.
+
+use gauss_runtime::prelude::*;
+
+use super::request::{Effect, Function, Input, Request, Until, Watched};
+use super::{components, numbers_of, vector};
+
+/// What a run needs of a system.
+pub(super) trait Moving: GaussSystem<Scalar = f64, Input: VectorSpace<f64>> {}
+
+impl<S: GaussSystem<Scalar = f64, Input: VectorSpace<f64>>> Moving for S {}
+
+/// A function that is watched.
+pub(super) type Watch<'a, Q, Z> = Box<dyn Fn(f64, &Q, &Z) -> f64 + 'a>;
+
+/// The input of a run.
+pub(super) fn input<S: Moving>(request: &Request<'_>, t: f64, q: &S::Configuration, z: &S::Speeds) -> S::Input {
+    match request.input {
+        Input::Function(function) => of_numbers(*function, t, q, z),
+        input => input.at(t, |number| number(0)),
+    }
+}
+
+/// All events, each with its direction, whether it ends the run, and whether its jump may let it go on.
+pub(super) fn watched<'a, S: Moving>(
+    request: &'a Request<'_>,
+) -> impl Iterator<Item = (Watch<'a, S::Configuration, S::Speeds>, Crossing, [bool; 2])> {
+    let through = |until: &Until<'_>| matches!(until.effect, Effect::Jumps(_, true));
+    request.until.iter().map(move |until| (watch::<S>(until), until.crossing, [until.ends(), through(until)]))
+}
+
+/// What an event does to a state; whether it does.
+pub(super) fn jump<S: Moving>(request: &Request<'_>, place: usize, state: &mut Sample<S>) -> bool {
+    let Effect::Jumps(function, _) = request.until[place].effect else { return false };
+    let Some((q, z)) = function(state.t, &numbers_of(&state.q), &components(&state.z)) else { return false };
+    // Numbers that are no state end the run: these have been looked at, or are those of a function that failed.
+    (state.q, state.z) = (S::Configuration::from_components(&vector(&q)), vector(&z));
+    true
+}
+
+/// The input that a function gives.
+pub(super) fn of_numbers<Q: Configuration<Scalar = f64>, Z: VectorSpace<f64>, U: VectorSpace<f64>>(
+    function: Function<'_, Vec<f64>>,
+    t: f64,
+    q: &Q,
+    z: &Z,
+) -> U {
+    vector(&function(t, &numbers_of(q), &components(z)))
+}
+
+/// The function of an event.
+pub(super) fn watch<'a, S: Moving>(until: &'a Until<'_>) -> Watch<'a, S::Configuration, S::Speeds> {
+    match until.watched {
+        Watched::Number(place, value) => Box::new(move |_, q, z| {
+            let size = <<S::Configuration as Configuration>::Components as VectorSpace<f64>>::DIM;
+            let number = if place < size { q.components().component(place) } else { z.component(place - size) };
+            number - value
+        }),
+        Watched::Function(function) => Box::new(move |t, q, z| function(t, &numbers_of(q), &components(z))),
+    }
+}
