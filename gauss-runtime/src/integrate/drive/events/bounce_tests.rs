@@ -2,8 +2,13 @@
 
 use nalgebra::SVector;
 use std::string::ToString;
+use std::vec::Vec;
 
-use crate::integrate::{Adaptive, Control, Crossing, Fixed, IntegrationErrorKind, JumpMistake, Sample, Simulation};
+use crate::integrate::drive::each::Each;
+use crate::integrate::drive::search::Function;
+use crate::integrate::{
+    Adaptive, Control, Crossing, Fixed, IntegrationErrorKind, JumpMistake, Sample, Simulation, Trajectory,
+};
 use crate::testing::coasting::Coasting;
 
 type Pair = SVector<f64, 2>;
@@ -259,4 +264,41 @@ fn a_jump_sets_what_it_may() {
         let error = run.then(jump).adaptive(1e-9, 1e-9).run(start.0, start.1, 0.0..1.0).expect_err("refused");
         assert_eq!(error.kind, IntegrationErrorKind::InvalidJump { event: 0, mistake });
     }
+}
+
+/// A list has the bits of as many single events, each with its direction, its end and its jump.
+#[test]
+fn lists_jump_as_single_events_do() {
+    let system = particle();
+    let floor = |_: f64, q: &Pair, _: &Pair| q[1];
+    let gate = |_: f64, q: &Pair, _: &Pair| q[0] - 0.5;
+    let far = |_: f64, q: &Pair, _: &Pair| q[0] - 2.0;
+    let start = || (pair(0.0, 1.0), pair(0.7, 0.0));
+    let singly = Simulation::new(&system)
+        .event(Crossing::Falling, floor)
+        .then(|state| state.z[1] *= -0.9)
+        .event(Crossing::Rising, gate)
+        .then_through(|state| state.z[0] += 0.1)
+        .until(Crossing::Any, far)
+        .adaptive(1e-9, 1e-9);
+    let singly = singly.run(start().0, start().1, 0.0..9.0).expect("runs");
+    let functions: [Function<'_, Particle>; 3] = [&floor, &gate, &far];
+    let marks =
+        [(Crossing::Falling, [false, false]), (Crossing::Rising, [false, true]), (Crossing::Any, [true, false])];
+    let all = functions.into_iter().zip(marks).map(|(function, (crossing, marks))| (function, crossing, marks));
+    let jump = |place: usize, state: &mut Sample<Particle>| {
+        match place {
+            0 => state.z[1] *= -0.9,
+            1 => state.z[0] += 0.1,
+            _ => return false,
+        }
+        true
+    };
+    let listed = Simulation::new(&system).events_by(Each::of(all).then(jump)).adaptive(1e-9, 1e-9);
+    let listed = listed.run(start().0, start().1, 0.0..9.0).expect("runs");
+    assert!(singly.events().len() > 4 && singly.stopped_by() == Some(2) && listed.stopped_by() == Some(2));
+    let bits = |sample: &Sample<Particle>| (sample.t.to_bits(), sample.q.map(f64::to_bits), sample.z.map(f64::to_bits));
+    assert!(singly.iter().map(bits).eq(listed.iter().map(bits)));
+    let numbers = |run: &Trajectory<'_, Particle>| run.events().iter().map(|event| event.number).collect::<Vec<_>>();
+    assert_eq!(numbers(&singly), numbers(&listed));
 }
