@@ -17,6 +17,7 @@ mod mechanics;
 mod methods;
 mod mistakes;
 mod model;
+pub mod parameters;
 pub mod program;
 pub mod scene;
 pub mod targets;

@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod elements_tests;
 mod methods;
+mod parameters;
 #[cfg(test)]
 mod pass_tests;
 #[cfg(test)]
@@ -12,6 +13,7 @@ mod rounding_tests;
 mod signature;
 
 use std::fmt;
+use std::ops::Range;
 
 use proc_macro2::TokenStream;
 use syn::DeriveInput;
@@ -22,7 +24,8 @@ use crate::error::Result;
 use crate::expand::derive;
 use crate::formulation::Printed;
 use crate::mistakes::bug;
-use crate::model::struct_in;
+use crate::model::{only_struct_in, struct_in};
+use crate::parameters::Parameters;
 use crate::program::{Functions, Program};
 use crate::scene::{Mistake, Scene};
 use crate::words::Unraw;
@@ -34,6 +37,8 @@ use signature::Signature;
 #[derive(Clone, Debug)]
 pub struct Derivation {
     functions: Functions,
+    parameters: Parameters,
+    unit_components: Vec<Range<usize>>,
     accuracy: Vec<(String, [f64; 2])>,
     remarks: Vec<String>,
     files: Vec<String>,
@@ -59,6 +64,14 @@ impl Derivation {
         Self::new(&struct_in(source, name)?)
     }
 
+    /// The same of the only struct with a `#[gauss(…)]` attribute in a text.
+    ///
+    /// # Errors
+    /// What is no Rust; no such struct, or several; every mistake of the struct.
+    pub fn of_text(source: &str) -> syn::Result<Self> {
+        Self::new(&only_struct_in(source)?)
+    }
+
     /// The same of a scene that is written in Rust.
     ///
     /// # Errors
@@ -73,6 +86,8 @@ impl Derivation {
         let refused = |malformed: &dyn fmt::Display| bug(ident, &malformed);
         let constants = signature.constants(derived).map_err(|malformed| refused(&malformed))?;
         let programs = programs(derived, &signature).map_err(|malformed| refused(&malformed))?;
+        let parameters = parameters::parameters(derived, &signature).map_err(|malformed| refused(&malformed))?;
+        let unit_components = parameters::unit_components(derived);
         let equations = Equations::of(derived);
         let rust = emit(derived, &equations);
         let accuracy = figures(derived).map(|(_, name, figure)| (name.to_owned(), figure.rounded())).collect();
@@ -82,7 +97,7 @@ impl Derivation {
         let Equations { text, latex } = equations;
         let functions = Functions { name: ident.unraw().to_string(), equations: text, constants, methods: programs };
         let sections = derived.printed.clone();
-        Ok(Self { functions, accuracy, remarks, files, latex, sections, rust })
+        Ok(Self { functions, parameters, unit_components, accuracy, remarks, files, latex, sections, rust })
     }
 
     /// The name of the struct.
@@ -98,6 +113,17 @@ impl Derivation {
     /// What `kernel()` computes: the constants, from the numbers of the fields.
     pub fn constants(&self) -> &Program {
         &self.functions.constants
+    }
+
+    /// The fields of the struct, and what `kernel()` checks of their numbers.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// The components of a configuration that have the length one together, as those of a unit quaternion have: where
+    /// they are among all.
+    pub fn unit_components(&self) -> &[Range<usize>] {
+        &self.unit_components
     }
 
     /// One program for each method of the kernel, then `evaluate`, and `linearize`, `by_parameters`,

@@ -31,7 +31,7 @@ mod tests;
 mod units;
 
 pub use language::arithmetic::{LARGEST_EXPONENT, too_many_factors};
-pub use parse::{item, parse, struct_in};
+pub use parse::{item, only_struct_in, parse, struct_in};
 pub use scene::clauses::{
     BodyClause, Coefficients, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, RoleClause, RoleValue,
     SpeedKind, SpeedPart,

@@ -180,6 +180,41 @@ pub fn struct_in(source: &str, name: &str) -> syn::Result<DeriveInput> {
     Ok(item.clone().into())
 }
 
+/// The only struct with a `#[gauss(…)]` attribute, its own or of a field, in a text.
+///
+/// # Errors
+/// What is no Rust; no such struct; every further one.
+pub fn only_struct_in(source: &str) -> syn::Result<DeriveInput> {
+    let tokens: TokenStream = source.parse()?;
+    if let Some(span) = nesting::item_too_deep(tokens.clone()) {
+        return Err(Error::new(span, format!("nested more than {} levels deep", nesting::DEEPEST)));
+    }
+    let file: syn::File = syn::parse2(tokens)?;
+    let is_gauss = |attribute: &syn::Attribute| attribute.path().is_ident("gauss");
+    let is_scene = |item: &syn::ItemStruct| {
+        let fields = item.fields.iter().flat_map(|field| &field.attrs);
+        item.attrs.iter().chain(fields).any(is_gauss)
+    };
+    let scene = |item| match item {
+        syn::Item::Struct(item) if is_scene(&item) => Some(item),
+        _ => None,
+    };
+    let mut scenes = file.items.into_iter().filter_map(scene);
+    let Some(first) = scenes.next() else {
+        let message = "there is no struct with `#[gauss(…)]` in this text; write `#[gauss(…)] struct Name { … }`";
+        return Err(Error::new(proc_macro2::Span::call_site(), message));
+    };
+    let further = scenes.map(|scene| {
+        let message = format!("a text has one scene, and `{}` is another; remove it", scene.ident);
+        Error::new(scene.ident.span(), message)
+    });
+    let all = further.reduce(|mut all, mistake| {
+        all.combine(mistake);
+        all
+    });
+    all.map_or_else(|| Ok(first.into()), Err)
+}
+
 fn find<'a>(items: &'a [syn::Item], name: &str) -> Option<&'a syn::ItemStruct> {
     items.iter().find_map(|item| match item {
         syn::Item::Struct(item) if item.ident.unraw() == name => Some(item),

@@ -1,0 +1,112 @@
+//! The parameters of a struct as plain data: what its fields hold, and what `kernel()` checks of them.
+//!
+//! `#[derive(GaussDynamics)]` writes the same checks as Rust. A tool that makes kernels at run time reads them here:
+//! each is a [`Rule`] about numbers, which are given, or computed from those by a program.
+
+use crate::program::Program;
+
+/// The fields of a struct, and what must hold of their numbers. It refers to no scene.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Parameters {
+    /// In the order of the fields; a body is three of them. Fields of other types are left out.
+    pub list: Vec<Parameter>,
+    /// Which of their numbers, counted through the list, is each argument of
+    /// [`Derivation::constants`](crate::Derivation::constants).
+    pub read: Vec<usize>,
+    /// In the order in which they are made.
+    pub checks: Vec<Check>,
+    /// What checks are about and nobody gives: from the arguments of [`Derivation::constants`](crate::Derivation) the
+    /// numbers of [`Given::Computed`].
+    pub computed: Program,
+    /// The field that speaks for constants that leave the range of numbers.
+    pub label: String,
+    /// Bodies without mass may move with others: where [`Rule::MassInSum`] and its like found one, the mass matrix is
+    /// to be regular.
+    pub in_sum: bool,
+}
+
+/// Numbers that are given together: a field, or a part of one that is a body.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Parameter {
+    /// `m`, `arm.center_of_mass`.
+    pub name: String,
+    /// How many numbers it has; a matrix is row after row.
+    pub count: usize,
+    /// The unit, if one is written.
+    pub unit: Option<String>,
+    /// The comment of the field.
+    pub documentation: String,
+}
+
+/// A number that a check is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Given {
+    /// Of the numbers of all parameters.
+    Number(usize),
+    /// Of the outputs of [`Parameters::computed`].
+    Computed(usize),
+    /// Where nothing is given.
+    Zero,
+}
+
+/// A rule, and what it is about.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Check {
+    /// What the numbers are called in messages.
+    pub label: String,
+    /// What must hold of them.
+    pub rule: Rule,
+    /// The numbers; of a matrix row after row.
+    pub values: Vec<Given>,
+    /// Principal moments need not obey the triangle inequality.
+    pub is_formal: bool,
+}
+
+/// What must hold of numbers: each is a method of the runtime's `ParameterCheck`, with its arguments in order. Whoever
+/// makes checks makes all of them: a rule that is added is an error of its compiler.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// All are finite.
+    Finite,
+    /// Of a body alone.
+    Mass,
+    /// Of one of several bodies.
+    MassInSum,
+    /// Finite and zero or greater.
+    NonNegative,
+    /// Six by six.
+    Symmetric,
+    /// A tensor, three by three.
+    Inertia,
+    /// A mass, a centre, a tensor about O: what is left about the centre of mass.
+    CentralInertia,
+    /// The same, of which the moment about one axis enters.
+    InertiaAboutAxis(usize),
+    /// The same, of one of several bodies.
+    InertiaInSum,
+    /// A kinetic energy that is positive for all motions: a square matrix.
+    KineticMatrix,
+    /// Of a spring or a stop.
+    Stiffness,
+    /// Of a stop.
+    Width,
+    /// Of a stop, the lower one first.
+    Limits,
+    /// The inertia of a rate.
+    Armature,
+    /// A semi-axis.
+    Length,
+    /// A coefficient of restitution.
+    Restitution,
+    /// The square of a length.
+    Direction,
+    /// A square matrix.
+    StiffnessMatrix,
+    /// A square matrix.
+    DampingMatrix,
+    /// Mass, first moment, inertia, participations and modal masses: a square matrix.
+    Modes,
+}
