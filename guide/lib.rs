@@ -31,6 +31,7 @@ chapters! {
     Embedded: "src/embedded.md",
     Robots: "src/robots.md",
     RobotsTouching: "src/robots_touching.md",
+    RunTime: "src/run_time.md",
     Equations: "src/equations.md",
     Seeing: "src/seeing.md",
     Results: "src/results.md",

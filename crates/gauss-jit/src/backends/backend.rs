@@ -1,0 +1,29 @@
+//! The two traits of whatever carries programs out.
+
+use std::fmt::Debug;
+
+use gauss_codegen::program::Program;
+
+/// A way to carry out programs.
+///
+/// All ways round alike: products are fused with sums where the processor has an instruction for that, sines and other
+/// functions are the runtime's. So each gives the same bits.
+pub trait Backend: Debug + Send + Sync {
+    /// The program, ready to be called; `None` where this way is not open: the interpreter is taken then.
+    fn compile(&self, program: &Program) -> Option<Box<dyn Compiled>>;
+}
+
+/// A program that can be called, by any number of threads at once.
+pub trait Compiled: Debug + Send + Sync {
+    /// Writes the outputs, result by result.
+    ///
+    /// # Panics
+    /// Of lists whose lengths are not those of the program.
+    fn run(&self, arguments: &[&[f64]], outputs: &mut [f64]);
+
+    /// Whether it is machine code.
+    fn is_machine_code(&self) -> bool;
+}
+
+/// The most arguments that a program has: constants, time, configuration, speeds, and at most four more.
+pub const MOST_ARGUMENTS: usize = 8;

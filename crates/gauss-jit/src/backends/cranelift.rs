@@ -1,0 +1,292 @@
+//! Machine code by Cranelift: one function for each program, made when it is first called.
+//!
+//! A function reads its arguments where it needs them, computes everything, and then writes the results. Angles that
+//! are arguments come first: their sines and cosines are one call of the runtime.
+
+use cranelift_codegen::Context;
+use cranelift_codegen::ir::types::{F64, I64};
+use cranelift_codegen::ir::{
+    AbiParam, FuncRef, InstBuilder, MemFlags, Signature, StackSlotData, StackSlotKind, Type, Value,
+};
+use cranelift_codegen::isa::OwnedTargetIsa;
+use cranelift_codegen::settings::{self, Configurable};
+use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
+use cranelift_jit::{JITBuilder, JITModule};
+use cranelift_module::{Linkage, Module, default_libcall_names};
+
+use gauss_codegen::program::{BinaryFunction, Function, Input, Instruction, Operand, Program};
+
+use super::backend::{Backend, Compiled, MOST_ARGUMENTS};
+use super::functions::{binary, is_fused, unary};
+use super::machine::{self, MachineCode};
+
+/// How hard Cranelift tries to keep values in registers. Its optimiser is left out: it undoes the order of statements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Effort {
+    /// One pass over the code: the shortest time until the first call.
+    Quick,
+    /// Registers are assigned with backtracking: code that runs in three quarters of the time, and takes some ten times
+    /// as long to make.
+    #[default]
+    Thorough,
+}
+
+/// Machine code by Cranelift.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Cranelift {
+    /// How hard it tries.
+    pub effort: Effort,
+}
+
+impl Backend for Cranelift {
+    fn compile(&self, program: &Program) -> Option<Box<dyn Compiled>> {
+        // Its fields can be written by anyone, and code reads what they name.
+        program.verify().ok()?;
+        let code = self.machine_code(program)?;
+        Some(Box::new(code))
+    }
+}
+
+impl Cranelift {
+    /// `None` for processors that Cranelift does not know, or where executable memory is refused.
+    fn machine_code(self, program: &Program) -> Option<MachineCode> {
+        let mut builder = JITBuilder::with_isa(self.target()?, default_libcall_names());
+        declare_symbols(&mut builder);
+        let mut module = JITModule::new(builder);
+        let mut context = module.make_context();
+        let pointer = module.target_config().pointer_type();
+        context.func.signature.params = vec![AbiParam::new(pointer), AbiParam::new(pointer)];
+        Writer::write(program, &mut module, &mut context)?;
+        let signature = context.func.signature.clone();
+        let id = module.declare_function("program", Linkage::Export, &signature).ok()?;
+        let made = module.define_function(id, &mut context).is_ok() && module.finalize_definitions().is_ok();
+        let counts = program.arguments.iter().map(|argument| argument.components.len()).collect();
+        machine::code(module, made.then_some(id), counts, program.code.outputs.len())
+    }
+
+    fn target(self) -> Option<OwnedTargetIsa> {
+        let mut flags = settings::builder();
+        let registers = if self.effort == Effort::Quick { "single_pass" } else { "backtracking" };
+        let wanted = [
+            ("opt_level", "none"),
+            ("regalloc_algorithm", registers),
+            ("enable_verifier", if cfg!(debug_assertions) { "true" } else { "false" }),
+            ("is_pic", "false"),
+            ("use_colocated_libcalls", "false"),
+        ];
+        wanted.iter().try_for_each(|(name, value)| flags.set(name, value)).ok()?;
+        let isa = cranelift_native::builder().ok()?;
+        isa.finish(settings::Flags::new(flags)).ok()
+    }
+}
+
+const UNARY: [Function; 6] =
+    [Function::Sin, Function::Cos, Function::Exp, Function::Ln, Function::Signum, Function::Tanh];
+const BINARY: [BinaryFunction; 4] =
+    [BinaryFunction::Atan2, BinaryFunction::Min, BinaryFunction::Max, BinaryFunction::Powf];
+const SINES: &str = "sines_and_cosines";
+
+fn declare_symbols(builder: &mut JITBuilder) {
+    builder.symbol(SINES, machine::sines_and_cosines as *const u8);
+    UNARY.iter().for_each(|function| {
+        builder.symbol(function.name(), unary(*function) as *const u8);
+    });
+    BINARY.iter().for_each(|function| {
+        builder.symbol(function.name(), binary(*function) as *const u8);
+    });
+}
+
+/// What has been written of a program.
+struct Writer<'a, 'b> {
+    program: &'a Program,
+    builder: FunctionBuilder<'b>,
+    module: &'a mut JITModule,
+    /// Where the numbers of each argument are.
+    arguments: Vec<Value>,
+    /// Of each instruction its result, of pairs both.
+    results: Vec<[Value; 2]>,
+    functions: Vec<(&'static str, FuncRef)>,
+    is_fused: bool,
+}
+
+impl Writer<'_, '_> {
+    fn write(program: &Program, module: &mut JITModule, context: &mut Context) -> Option<()> {
+        if program.arguments.len() > MOST_ARGUMENTS {
+            return None;
+        }
+        let mut memory = FunctionBuilderContext::new();
+        let mut builder = FunctionBuilder::new(&mut context.func, &mut memory);
+        let block = builder.create_block();
+        builder.append_block_params_for_function_params(block);
+        builder.switch_to_block(block);
+        builder.seal_block(block);
+        let [lists, outputs] = [0, 1].map(|k| builder.block_params(block)[k]);
+        let pointer = module.target_config().pointer_type();
+        let size = pointer.bytes() as i32;
+        let places = 0..program.arguments.len() as i32;
+        let arguments = places.map(|k| builder.ins().load(pointer, trusted(), lists, size * k)).collect();
+        let count = program.code.instructions.len();
+        let unwritten = builder.ins().f64const(f64::NAN);
+        let (results, functions) = (vec![[unwritten; 2]; count], Vec::new());
+        let mut writer = Writer { program, builder, module, arguments, results, functions, is_fused: is_fused() };
+        writer.instructions()?;
+        // Everything is computed before anything is written.
+        let values: Vec<Value> = program.code.outputs.iter().map(|&output| writer.value(output)).collect();
+        for (k, value) in values.into_iter().enumerate() {
+            writer.builder.ins().store(trusted(), value, outputs, 8 * k as i32);
+        }
+        writer.builder.ins().return_(&[]);
+        writer.builder.finalize();
+        Some(())
+    }
+
+    fn instructions(&mut self) -> Option<()> {
+        let instructions = &self.program.code.instructions;
+        let of_input = |k: &usize| matches!(instructions[*k], Instruction::SineCosine(Operand::Input(_)));
+        let first: Vec<usize> = (0..instructions.len()).filter(of_input).collect();
+        self.sines_and_cosines(&first)?;
+        for (k, instruction) in instructions.iter().enumerate() {
+            match *instruction {
+                Instruction::SineCosine(Operand::Input(_)) => {}
+                Instruction::SineCosine(_) => self.sines_and_cosines(&[k])?,
+                ref other => self.results[k][0] = self.result(other)?,
+            }
+        }
+        Some(())
+    }
+
+    /// Sines and cosines of the angles of these instructions, by one call.
+    fn sines_and_cosines(&mut self, instructions: &[usize]) -> Option<()> {
+        if instructions.is_empty() {
+            return Some(());
+        }
+        let count = instructions.len() as i32;
+        let mut slot = |numbers: i32| {
+            let data = StackSlotData::new(StackSlotKind::ExplicitSlot, 8 * numbers as u32, 3);
+            self.builder.create_sized_stack_slot(data)
+        };
+        let (angles, pairs) = (slot(count), slot(2 * count));
+        for (place, &k) in instructions.iter().enumerate() {
+            let Instruction::SineCosine(angle) = self.program.code.instructions[k] else { return None };
+            let angle = self.value(angle);
+            self.builder.ins().stack_store(angle, angles, 8 * place as i32);
+        }
+        let pointer = self.module.target_config().pointer_type();
+        let function = self.function(SINES, &[pointer, I64, pointer], false)?;
+        let ins = |builder: &mut FunctionBuilder<'_>, slot| builder.ins().stack_addr(pointer, slot, 0);
+        let (from, to) = (ins(&mut self.builder, angles), ins(&mut self.builder, pairs));
+        let count = self.builder.ins().iconst(I64, i64::from(count));
+        self.builder.ins().call(function, &[from, count, to]);
+        for (place, &k) in instructions.iter().enumerate() {
+            let place = 16 * place as i32;
+            self.results[k] = [0, 8].map(|part| self.builder.ins().stack_load(F64, pairs, place + part));
+        }
+        Some(())
+    }
+
+    /// A function of the runtime, which is declared when it is first called.
+    fn function(&mut self, name: &'static str, parameters: &[Type], gives: bool) -> Option<FuncRef> {
+        if let Some((_, known)) = self.functions.iter().find(|(known, _)| *known == name) {
+            return Some(*known);
+        }
+        let mut signature: Signature = self.module.make_signature();
+        signature.params.extend(parameters.iter().map(|ty| AbiParam::new(*ty)));
+        signature.returns.extend(gives.then(|| AbiParam::new(F64)));
+        let id = self.module.declare_function(name, Linkage::Import, &signature).ok()?;
+        let function = self.module.declare_func_in_func(id, self.builder.func);
+        self.functions.push((name, function));
+        Some(function)
+    }
+
+    fn value(&mut self, operand: Operand) -> Value {
+        match operand {
+            Operand::Input(Input::Component { argument, component }) => {
+                let list = self.arguments[argument];
+                self.builder.ins().load(F64, trusted().with_readonly(), list, 8 * component as i32)
+            }
+            Operand::Input(Input::Number(number)) => self.builder.ins().f64const(self.program.numbers[number]),
+            Operand::Number(value) => self.builder.ins().f64const(value.to_f64()),
+            Operand::Value(k) | Operand::Sine(k) => self.results[k][0],
+            Operand::Cosine(k) => self.results[k][1],
+        }
+    }
+
+    fn result(&mut self, instruction: &Instruction) -> Option<Value> {
+        let of = |writer: &mut Self, operands: [Operand; 2]| operands.map(|operand| writer.value(operand));
+        Some(match *instruction {
+            Instruction::Add(a, b) => {
+                let [a, b] = of(self, [a, b]);
+                self.builder.ins().fadd(a, b)
+            }
+            Instruction::Subtract(a, b) => {
+                let [a, b] = of(self, [a, b]);
+                self.builder.ins().fsub(a, b)
+            }
+            Instruction::Multiply(a, b) => {
+                let [a, b] = of(self, [a, b]);
+                self.builder.ins().fmul(a, b)
+            }
+            Instruction::Divide(a, b) => {
+                let [a, b] = of(self, [a, b]);
+                self.builder.ins().fdiv(a, b)
+            }
+            Instruction::MultiplyAdd(a, b, c) => {
+                let ([a, b], c) = (of(self, [a, b]), self.value(c));
+                self.sum(a, b, c)
+            }
+            Instruction::MultiplySubtract(a, b, c) => {
+                let ([a, b], c) = (of(self, [a, b]), self.value(c));
+                if self.is_fused {
+                    let a = self.builder.ins().fneg(a);
+                    self.builder.ins().fma(a, b, c)
+                } else {
+                    let product = self.builder.ins().fmul(a, b);
+                    self.builder.ins().fsub(c, product)
+                }
+            }
+            Instruction::Negate(a) => {
+                let a = self.value(a);
+                self.builder.ins().fneg(a)
+            }
+            Instruction::Call(function, a) => {
+                let a = self.value(a);
+                self.call(function, a)?
+            }
+            Instruction::Binary(function, a, b) => {
+                let arguments = of(self, [a, b]);
+                let function = self.function(function.name(), &[F64, F64], true)?;
+                let call = self.builder.ins().call(function, &arguments);
+                self.builder.inst_results(call)[0]
+            }
+            // Pairs are written together; models with functions of their author's are refused before.
+            Instruction::SineCosine(_) | Instruction::Own(..) => return None,
+        })
+    }
+
+    fn sum(&mut self, a: Value, b: Value, c: Value) -> Value {
+        if self.is_fused {
+            self.builder.ins().fma(a, b, c)
+        } else {
+            let product = self.builder.ins().fmul(a, b);
+            self.builder.ins().fadd(product, c)
+        }
+    }
+
+    fn call(&mut self, function: Function, a: Value) -> Option<Value> {
+        Some(match function {
+            Function::Sqrt => self.builder.ins().sqrt(a),
+            Function::Abs => self.builder.ins().fabs(a),
+            _ => {
+                let function = self.function(function.name(), &[F64], true)?;
+                let call = self.builder.ins().call(function, &[a]);
+                self.builder.inst_results(call)[0]
+            }
+        })
+    }
+}
+
+/// Of memory that is aligned and there.
+fn trusted() -> MemFlags {
+    MemFlags::trusted()
+}

@@ -1,0 +1,16 @@
+//! What carries programs out: machine code, or the interpreter.
+
+mod backend;
+#[cfg(feature = "cranelift")]
+mod cranelift;
+mod functions;
+mod interpreter;
+#[cfg(feature = "cranelift")]
+mod machine;
+
+pub(crate) use backend::MOST_ARGUMENTS;
+pub use backend::{Backend, Compiled};
+#[cfg(feature = "cranelift")]
+pub use cranelift::{Cranelift, Effort};
+pub use interpreter::Interpreter;
+pub(crate) use interpreter::interpreted;

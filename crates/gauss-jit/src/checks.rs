@@ -1,0 +1,148 @@
+//! What `kernel()` checks of parameters, done at run time: the same rules by the same functions of the runtime.
+
+use std::collections::HashSet;
+use std::sync::{Mutex, PoisonError};
+
+use gauss_codegen::parameters::{Check, Given, Parameters, Rule};
+use gauss_runtime::__private_0_1_0::ParameterCheck;
+use gauss_runtime::error::ParameterError;
+
+use crate::error::KernelError;
+
+/// The most rows of a matrix that is checked.
+pub const MOST_ROWS: usize = 32;
+
+/// Names in messages, each kept once as long as the process runs: those of the runtime are not freed.
+fn kept(name: &str) -> &'static str {
+    static NAMES: Mutex<Option<HashSet<&'static str>>> = Mutex::new(None);
+    let mut names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
+    let names = names.get_or_insert_default();
+    if let Some(known) = names.get(name) {
+        return known;
+    }
+    let kept: &'static str = Box::leak(name.to_owned().into_boxed_str());
+    names.insert(kept);
+    kept
+}
+
+/// Rows of a square matrix of N rows.
+fn rows<const N: usize>(values: &[f64]) -> [[f64; N]; N] {
+    std::array::from_fn(|i| std::array::from_fn(|j| values[N * i + j]))
+}
+
+/// Calls a function with a matrix whose size is known at run time.
+macro_rules! square {
+    ($values:expr, |$matrix:ident| $call:expr, [$($n:literal)+]) => {
+        match $values.len().isqrt() {
+            0 => {}
+            $($n => { let $matrix = &rows::<$n>($values); $call; })+
+            rows => return Err(KernelError::TooLarge { rows, most: MOST_ROWS }),
+        }
+    };
+    ($values:expr, |$matrix:ident| $call:expr) => {
+        square!($values, |$matrix| $call, [1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29
+            30 31 32])
+    };
+}
+
+/// The state of the checks of one set of numbers.
+pub struct Checks<'a> {
+    parameters: &'a Parameters,
+    check: ParameterCheck<f64>,
+}
+
+impl<'a> Checks<'a> {
+    /// Every rule about the numbers of the parameters and what is `computed` from them.
+    ///
+    /// # Errors
+    /// All rules that are broken.
+    pub fn of(parameters: &'a Parameters, numbers: &[f64], computed: &[f64]) -> Result<Self, KernelError> {
+        let mut checks = Self { parameters, check: ParameterCheck::new() };
+        for law in &parameters.checks {
+            let value = |given: &Given| match *given {
+                Given::Number(k) => numbers[k],
+                Given::Computed(k) => computed[k],
+                Given::Zero => 0.0,
+            };
+            let values: Vec<f64> = law.values.iter().map(value).collect();
+            checks.law(law, &values)?;
+        }
+        checks.check.finish()?;
+        Ok(checks)
+    }
+
+    fn law(&mut self, law: &Check, values: &[f64]) -> Result<(), KernelError> {
+        let (check, label) = (&mut self.check, kept(&law.label));
+        let triple = |first: usize| std::array::from_fn(|i| values[first + i]);
+        check.waive_triangle_inequality(law.is_formal);
+        match law.rule {
+            Rule::Finite => check.finite(label, values),
+            Rule::Mass => check.mass(label, values[0]),
+            Rule::MassInSum => check.mass_in_sum(label, values[0]),
+            Rule::NonNegative => check.non_negative(label, values[0]),
+            Rule::Symmetric => check.symmetric(label, &rows(values)),
+            Rule::Inertia => check.inertia(label, &rows(values)),
+            Rule::CentralInertia => check.central_inertia(label, values[0], triple(1), &rows(&values[4..])),
+            Rule::InertiaAboutAxis(axis) => {
+                check.inertia_about_axis(label, axis, (values[0], triple(1)), &rows(&values[4..]));
+            }
+            Rule::InertiaInSum => check.inertia_in_sum(label, values[0], triple(1), &rows(&values[4..])),
+            // Of one body among several it says nothing where others make up for what it lacks.
+            Rule::KineticMatrix if self.parameters.in_sum && check.massless().is_some() => {}
+            Rule::KineticMatrix => square!(values, |matrix| check.kinetic_matrix(label, matrix), [1 2 3 4 5 6]),
+            Rule::Stiffness => check.stiffness(label, values[0]),
+            Rule::Width => check.width(label, values[0]),
+            Rule::Limits => check.limits(label, [values[0], values[1]]),
+            Rule::Armature => check.armature(label, values[0]),
+            Rule::Length => check.positive_length(label, values[0]),
+            Rule::Restitution => check.restitution(label, values[0]),
+            Rule::Direction => check.direction(label, values[0]),
+            Rule::StiffnessMatrix => square!(values, |matrix| check.stiffness_matrix(label, matrix)),
+            Rule::DampingMatrix => square!(values, |matrix| check.damping_matrix(label, matrix)),
+            Rule::Modes => square!(values, |matrix| check.modes(label, matrix)),
+        }
+        check.waive_triangle_inequality(false);
+        Ok(())
+    }
+
+    /// Whether the mass matrix must be looked at: a body has no mass of its own.
+    pub fn wants_mass_matrix(&self) -> bool {
+        self.parameters.in_sum && self.check.massless().is_some()
+    }
+
+    /// Whether bodies without mass have a mass matrix all the same, at some of the configurations.
+    ///
+    /// # Errors
+    /// [`KernelError::TooLarge`].
+    pub fn mass_matrices(&mut self, matrices: &[Vec<f64>; 4]) -> Result<(), KernelError> {
+        let size = matrices[0].len().isqrt();
+        // A matrix with more rows that stand alone, with a diagonal of one, is regular where the first is.
+        let class = [8, 16, 32, 64, 128].into_iter().find(|class| size <= *class);
+        let class = class.ok_or(KernelError::TooLarge { rows: size, most: 128 })?;
+        match class {
+            8 => self.check.regular(&padded::<8>(matrices, size)),
+            16 => self.check.regular(&padded::<16>(matrices, size)),
+            32 => self.check.regular(&padded::<32>(matrices, size)),
+            64 => self.check.regular(&padded::<64>(matrices, size)),
+            _ => self.check.regular(&padded::<128>(matrices, size)),
+        }
+        Ok(())
+    }
+
+    /// Whether all constants are numbers.
+    ///
+    /// # Errors
+    /// All rules that are broken.
+    pub fn finish(mut self, constants: &[f64]) -> Result<(), ParameterError> {
+        self.check.constants(kept(&self.parameters.label), constants);
+        self.check.finish()
+    }
+}
+
+fn padded<const N: usize>(matrices: &[Vec<f64>; 4], size: usize) -> [[[f64; N]; N]; 4] {
+    let entry = |matrix: &[f64], i: usize, j: usize| match (i < size && j < size, i == j) {
+        (true, _) => matrix[size * i + j],
+        (false, same) => f64::from(u8::from(same)),
+    };
+    std::array::from_fn(|k| std::array::from_fn(|i| std::array::from_fn(|j| entry(&matrices[k], i, j))))
+}

@@ -1,0 +1,194 @@
+//! Errors: mistakes of a scene with their places, parameters that no body has, calls with numbers of another method.
+
+use std::fmt;
+
+use gauss_runtime::error::ParameterError;
+
+/// Where a mistake is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Place {
+    /// In the text of a scene, both counted from one; columns are characters.
+    Text {
+        /// The line.
+        line: usize,
+        /// The column.
+        column: usize,
+    },
+    /// A clause as it begins, the name of a field, or of the scene where it is of the whole.
+    Clause(String),
+}
+
+/// One mistake of a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Mistake {
+    /// Where it is.
+    pub place: Place,
+    /// What is wrong, with the remedy: as the compiler says it of a struct.
+    pub message: String,
+}
+
+impl fmt::Display for Mistake {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.place {
+            Place::Text { line, column } => write!(f, "{line}:{column}: {}", self.message),
+            Place::Clause(clause) => write!(f, "{clause}: {}", self.message),
+        }
+    }
+}
+
+/// Every mistake of a scene, in the order of their places.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mistakes {
+    pub(crate) list: Vec<Mistake>,
+    pub(crate) source: String,
+}
+
+impl Mistakes {
+    /// The mistakes: at least one.
+    pub fn as_slice(&self) -> &[Mistake] {
+        &self.list
+    }
+
+    /// The text that places are in: of a robot's file the struct that was made of its clauses, one on each line.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+}
+
+impl fmt::Display for Mistakes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.list.iter().enumerate().try_for_each(|(k, mistake)| {
+            let separator = if k > 0 { "\n" } else { "" };
+            write!(f, "{separator}{mistake}")
+        })
+    }
+}
+
+impl std::error::Error for Mistakes {}
+
+/// Why a kernel cannot be made from numbers.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum KernelError {
+    /// Parameters that no body has: as `kernel()` of a compiled struct refuses them, all at once.
+    Parameters(ParameterError),
+    /// Names and counts of numbers that are not those of the model, all at once.
+    Given(Vec<Misgiven>),
+    /// A check needs a matrix with more rows than are supported at run time.
+    TooLarge {
+        /// How many rows it has.
+        rows: usize,
+        /// How many are supported.
+        most: usize,
+    },
+}
+
+/// A parameter that is not given as the model has it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Misgiven {
+    /// No parameter has that name.
+    Unknown(String),
+    /// That parameter is not given.
+    Missing(String),
+    /// That parameter is given more than once.
+    Repeated(String),
+    /// That parameter has another count of numbers.
+    Count {
+        /// Its name.
+        name: String,
+        /// How many numbers it has.
+        expected: usize,
+        /// How many are given.
+        found: usize,
+    },
+}
+
+impl fmt::Display for Misgiven {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown(name) => write!(f, "the model has no parameter `{name}`"),
+            Self::Missing(name) => write!(f, "`{name}` is not given"),
+            Self::Repeated(name) => write!(f, "`{name}` is given more than once"),
+            Self::Count { name, expected, found } => {
+                write!(f, "`{name}` has {expected} numbers, and {found} are given")
+            }
+        }
+    }
+}
+
+impl fmt::Display for KernelError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Parameters(error) => error.fmt(f),
+            Self::Given(list) => list.iter().enumerate().try_for_each(|(k, misgiven)| {
+                let separator = if k > 0 { "; " } else { "" };
+                write!(f, "{separator}{misgiven}")
+            }),
+            Self::TooLarge { rows, most } => {
+                write!(f, "a check of the parameters needs a matrix of {rows} rows; at run time {most} are supported")
+            }
+        }
+    }
+}
+
+impl std::error::Error for KernelError {}
+
+impl From<ParameterError> for KernelError {
+    fn from(error: ParameterError) -> Self {
+        Self::Parameters(error)
+    }
+}
+
+/// Why a method is not called.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CallError {
+    /// The model has no such method; those of clauses are there where the clause is.
+    NoMethod {
+        /// What was asked for.
+        name: String,
+        /// The methods that there are.
+        known: Vec<String>,
+    },
+    /// The lists of numbers are more or fewer than the method takes.
+    Lists {
+        /// The method.
+        method: String,
+        /// The names of its arguments.
+        expected: Vec<String>,
+        /// How many lists are given.
+        found: usize,
+    },
+    /// An argument, or the results, have another count of numbers.
+    Count {
+        /// The method.
+        method: String,
+        /// The argument: `q`; or `results`.
+        name: String,
+        /// How many numbers it has.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+}
+
+impl fmt::Display for CallError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoMethod { name, known } => {
+                write!(f, "the model has no method `{name}`; it has {}", known.join(", "))
+            }
+            Self::Lists { method, expected, found } => {
+                write!(f, "`{method}` takes {}, and {found} lists of numbers are given", expected.join(", "))
+            }
+            Self::Count { method, name, expected, found } => {
+                write!(f, "`{name}` of `{method}` has {expected} numbers, and {found} are given")
+            }
+        }
+    }
+}
+
+impl std::error::Error for CallError {}

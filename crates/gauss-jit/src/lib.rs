@@ -1,0 +1,16 @@
+#![doc = include_str!("../README.md")]
+#![deny(missing_docs, unsafe_code)]
+
+mod backends;
+mod checks;
+mod error;
+mod kernel;
+mod model;
+
+pub use backends::{Backend, Compiled, Interpreter};
+#[cfg(feature = "cranelift")]
+pub use backends::{Cranelift, Effort};
+pub use error::{CallError, KernelError, Misgiven, Mistake, Mistakes, Place};
+pub use gauss_codegen::{Clause, Field, Notation, Scene};
+pub use kernel::{Kernel, Method};
+pub use model::Model;

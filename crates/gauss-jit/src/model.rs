@@ -1,0 +1,253 @@
+//! Models: scenes that come as text, as files of robots, or clause by clause, while a program runs.
+
+use std::ops::Range;
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
+use std::path::Path;
+use std::sync::{Arc, Once, OnceLock};
+
+use gauss_codegen::parameters::{Parameter, Parameters};
+use gauss_codegen::program::{Argument, Counts, Instruction, Program, Results};
+use gauss_codegen::{Derivation, Notation, Scene};
+
+use crate::backends::{Backend, Compiled, interpreted};
+use crate::error::{CallError, Mistake, Mistakes, Place};
+
+/// A scene with its equations of motion, and the programs that compute them.
+///
+/// It is what `#[derive(GaussDynamics)]` derives of the same struct, by the same pipeline; the last step is another.
+/// Clones share what is derived and compiled. Every method is compiled when it is first called, by any kernel.
+#[derive(Clone, Debug)]
+pub struct Model {
+    pub(crate) derived: Arc<Derived>,
+}
+
+/// What kernels of a model share.
+#[derive(Debug)]
+pub(crate) struct Derived {
+    name: String,
+    equations: [String; 2],
+    accuracy: Vec<(String, [f64; 2])>,
+    remarks: Vec<String>,
+    pub parameters: Parameters,
+    pub unit_components: Vec<Range<usize>>,
+    pub constants: Program,
+    pub methods: Vec<Program>,
+    compiled: Vec<OnceLock<Box<dyn Compiled>>>,
+    backend: Box<dyn Backend>,
+}
+
+impl Derived {
+    pub fn compiled(&self, method: usize) -> &dyn Compiled {
+        let program = &self.methods[method];
+        let make = || {
+            self.backend.compile(program).unwrap_or_else(|| {
+                say_interpreted();
+                Box::new(interpreted(program))
+            })
+        };
+        &**self.compiled[method].get_or_init(make)
+    }
+}
+
+/// Machine code, where it is compiled in.
+fn default_backend() -> Box<dyn Backend> {
+    #[cfg(feature = "cranelift")]
+    return Box::new(crate::backends::Cranelift::default());
+    #[cfg(not(feature = "cranelift"))]
+    return Box::new(crate::backends::Interpreter);
+}
+
+/// Once in the life of a process.
+fn say_interpreted() {
+    static SAID: Once = Once::new();
+    SAID.call_once(|| {
+        eprintln!(
+            "gauss-jit: no machine code can be made here (is executable memory refused?); methods are interpreted"
+        );
+    });
+}
+
+impl Model {
+    /// The model of the struct with `#[gauss(…)]` attributes that is in a text. A path of a file in it is relative to
+    /// the folder of the package that Cargo runs, or to the working directory.
+    ///
+    /// # Errors
+    /// Every mistake of the scene, with its line and column and the words of the compiler; a text with no such struct,
+    /// or with several; functions of Rust that its equations call.
+    pub fn from_source(source: &str) -> Result<Self, Mistakes> {
+        let derivation = Derivation::of_text(source).map_err(|error| located(source, &error))?;
+        Self::new(&derivation).map_err(|mistake| Mistakes { list: vec![mistake], source: source.to_owned() })
+    }
+
+    /// The model of a robot in a URDF file, with further clauses: `gravity = 9.81`, `base = floating`, `linearize`.
+    ///
+    /// # Errors
+    /// Every mistake, in the text of [`Mistakes::source`].
+    #[cfg(feature = "urdf")]
+    pub fn from_urdf(path: impl AsRef<Path>, clauses: &[&str]) -> Result<Self, Mistakes> {
+        Self::from_source(&of_file("urdf", path.as_ref(), clauses))
+    }
+
+    /// The same of an MJCF file.
+    ///
+    /// # Errors
+    /// Every mistake, in the text of [`Mistakes::source`].
+    #[cfg(feature = "mjcf")]
+    pub fn from_mjcf(path: impl AsRef<Path>, clauses: &[&str]) -> Result<Self, Mistakes> {
+        Self::from_source(&of_file("mjcf", path.as_ref(), clauses))
+    }
+
+    /// The model of a scene that is written clause by clause.
+    ///
+    /// # Errors
+    /// Every mistake, with the clause or the field that is wrong; functions of Rust that its equations call.
+    pub fn from_scene(scene: &Scene) -> Result<Self, Mistakes> {
+        let derived = Derivation::of_scene(scene).map_err(|mistakes| {
+            let mistake = |mistake: gauss_codegen::Mistake| {
+                let place = Place::Clause(mistake.clause);
+                Mistake { place, message: mistake.message }
+            };
+            mistakes.into_iter().map(mistake).collect::<Vec<_>>()
+        });
+        let model = derived.and_then(|derivation| Self::new(&derivation).map_err(|mistake| vec![mistake]));
+        model.map_err(|list| Mistakes { list, source: scene.source() })
+    }
+
+    fn new(derivation: &Derivation) -> Result<Self, Mistake> {
+        let functions = derivation.functions();
+        if let Some(name) = functions.programs().find_map(called) {
+            let message =
+                format!("the equations call `{name}`, a function of Rust or a table, which is not there at run time");
+            return Err(Mistake { place: Place::Clause(functions.name.clone()), message });
+        }
+        let derived = Derived {
+            name: functions.name.clone(),
+            equations: [Notation::Text, Notation::Latex].map(|notation| derivation.equations(notation).to_owned()),
+            accuracy: derivation.accuracy().to_vec(),
+            remarks: derivation.remarks().to_vec(),
+            parameters: derivation.parameters().clone(),
+            unit_components: derivation.unit_components().to_vec(),
+            constants: functions.constants.clone(),
+            methods: functions.methods.clone(),
+            compiled: functions.methods.iter().map(|_| OnceLock::new()).collect(),
+            backend: default_backend(),
+        };
+        Ok(Self { derived: Arc::new(derived) })
+    }
+
+    /// The same model whose programs are carried out in another way.
+    #[must_use]
+    pub fn with_backend(&self, backend: impl Backend + 'static) -> Self {
+        let Derived { name, equations, accuracy, remarks, parameters, unit_components, constants, methods, .. } =
+            &*self.derived;
+        let derived = Derived {
+            name: name.clone(),
+            equations: equations.clone(),
+            accuracy: accuracy.clone(),
+            remarks: remarks.clone(),
+            parameters: parameters.clone(),
+            unit_components: unit_components.clone(),
+            constants: constants.clone(),
+            methods: methods.clone(),
+            compiled: methods.iter().map(|_| OnceLock::new()).collect(),
+            backend: Box::new(backend),
+        };
+        Self { derived: Arc::new(derived) }
+    }
+
+    /// The name of the struct.
+    pub fn name(&self) -> &str {
+        &self.derived.name
+    }
+
+    /// The equations of motion: a page of text, or LaTeX.
+    pub fn equations(&self, notation: Notation) -> &str {
+        match notation {
+            Notation::Text => &self.derived.equations[0],
+            Notation::Latex => &self.derived.equations[1],
+        }
+    }
+
+    /// What each method computes, by kind of operation: `OPERATIONS` of a compiled kernel, counted where no vectors are
+    /// formed.
+    pub fn operations(&self) -> impl Iterator<Item = (&str, Counts)> {
+        self.derived.methods.iter().map(|program| (program.name.as_str(), program.code.counts()))
+    }
+
+    /// The rounding error of each method at the worst state that a search found, and the median, in units of the change
+    /// of the result when every parameter and argument changes in its last place.
+    pub fn accuracy(&self) -> &[(String, [f64; 2])] {
+        &self.derived.accuracy
+    }
+
+    /// Remarks about a robot from a file: names that were changed, elements that do not act in the equations.
+    pub fn remarks(&self) -> &[String] {
+        &self.derived.remarks
+    }
+
+    /// The parameters: the fields of the struct; a body is three of them, `arm.mass`, `arm.center_of_mass`,
+    /// `arm.inertia`.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.derived.parameters.list
+    }
+
+    /// The names of the methods.
+    pub fn methods(&self) -> impl Iterator<Item = &str> {
+        self.derived.methods.iter().map(|program| program.name.as_str())
+    }
+
+    /// What a method takes, the constants left out: of each argument its name and those of its components.
+    ///
+    /// # Errors
+    /// [`CallError::NoMethod`].
+    pub fn arguments(&self, method: &str) -> Result<&[Argument], CallError> {
+        Ok(&self.derived.methods[self.method(method)?].arguments[1..])
+    }
+
+    /// What a method gives: numbers, vectors and matrices, one after another; matrices row after row.
+    ///
+    /// # Errors
+    /// [`CallError::NoMethod`].
+    pub fn results(&self, method: &str) -> Result<&[Results], CallError> {
+        Ok(&self.derived.methods[self.method(method)?].results)
+    }
+
+    pub(crate) fn method(&self, name: &str) -> Result<usize, CallError> {
+        // One program with two names, as of compiled kernels.
+        let own = if name == "inverse_dynamics" { "gauss_residual" } else { name };
+        let found = self.derived.methods.iter().position(|program| program.name == own);
+        found.ok_or_else(|| CallError::NoMethod {
+            name: name.to_owned(),
+            known: self.methods().map(str::to_owned).collect(),
+        })
+    }
+}
+
+/// The struct of a robot's file, with a line for each clause.
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
+fn of_file(format: &str, path: &Path, clauses: &[&str]) -> String {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let clauses: String = clauses.iter().map(|clause| format!("\n    {clause},")).collect();
+    format!("#[gauss({format} = {:?},{clauses}\n)]\nstruct Robot;\n", path.to_string_lossy())
+}
+
+/// The name of a function of the author's own that the program calls.
+fn called(program: &Program) -> Option<String> {
+    program.code.instructions.iter().find_map(|instruction| match instruction {
+        Instruction::Own(function, _) => program.functions.get(usize::from(function.index)).cloned(),
+        _ => None,
+    })
+}
+
+fn located(source: &str, error: &syn::Error) -> Mistakes {
+    let mistake = |error: syn::Error| {
+        let start = error.span().start();
+        Mistake { place: Place::Text { line: start.line, column: start.column + 1 }, message: error.to_string() }
+    };
+    let mut list: Vec<Mistake> = error.clone().into_iter().map(mistake).collect();
+    list.sort_by_key(|mistake| match mistake.place {
+        Place::Text { line, column } => (line, column),
+        Place::Clause(_) => (0, 0),
+    });
+    Mistakes { list, source: source.to_owned() }
+}
