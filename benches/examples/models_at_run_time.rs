@@ -1,5 +1,5 @@
-//! `cargo run --release -p gauss-benches --example models_at_run_time --features robots`: robots that are read while the
-//! program runs, beside the same ones compiled ahead, and beside C where there is a compiler.
+//! `cargo run --release -p gauss-benches --example models_at_run_time --features robots`: robots that are read while
+//! the program runs, beside the same ones compiled ahead, and beside C where there is a compiler.
 //!
 //! Ways take turns; medians of all rounds.
 

@@ -127,3 +127,35 @@ fn kernels_outlive_their_models_and_are_shared_by_threads() {
         }
     });
 }
+
+/// Linux refuses a process executable memory that asks it to; a child of this test does.
+#[cfg(target_os = "linux")]
+#[test]
+fn where_executable_memory_is_refused_methods_are_interpreted() {
+    const CHILD: &str = "GAUSS_JIT_REFUSED";
+    const REFUSING: &str = "import ctypes, os, sys
+if ctypes.CDLL(None).prctl(65, 1, 0, 0, 0) != 0: sys.exit(77)
+os.execv(sys.argv[1], sys.argv[1:])";
+    if std::env::var_os(CHILD).is_some() {
+        let kernel = pendulum().kernel(&[("m", &[1.0]), ("l", &[0.5]), ("g", &[9.81])]).expect("a pendulum");
+        let found = kernel.acceleration(0.0, &[0.1], &[0.2], &[]).expect("a call")[0];
+        assert!((found + 9.81 / 0.5 * 0.1_f64.sin()).abs() < 1e-14, "{found}");
+        assert!(!kernel.method("acceleration").expect("it").is_machine_code());
+        assert!(!kernel.method("mass_matrix").expect("it").is_machine_code());
+        return;
+    }
+    let own = std::env::current_exe().expect("this program");
+    let mut python = std::process::Command::new("python3");
+    python.args(["-c", REFUSING]).arg(own).args(["where_executable_memory", "--nocapture"]).env(CHILD, "1");
+    let Ok(output) = python.output() else {
+        println!("no Python, which asks for it: nothing tested");
+        return;
+    };
+    if output.status.code() == Some(77) {
+        println!("this system does not refuse: nothing tested");
+        return;
+    }
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    assert_eq!(said.matches("methods are interpreted").count(), 1, "{said}");
+}

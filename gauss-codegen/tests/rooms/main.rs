@@ -139,8 +139,9 @@ fn syn_is_named_where_structs_are_read() {
 }
 
 /// What names the scene as it was written beside `model` and `translate`, and why.
-const READERS: [(&str, &str); 4] = [
+const READERS: [(&str, &str); 5] = [
     // Structs in the text of a file are derived as well.
+    ("derivation/mod.rs", "only_struct_in"),
     ("derivation/mod.rs", "struct_in"),
     // The steps, one after another.
     ("expand.rs", "Model"),
