@@ -6,6 +6,7 @@ mod checks;
 mod error;
 mod kernel;
 mod model;
+mod system;
 
 pub use backends::{Backend, Compiled, Interpreter};
 #[cfg(feature = "cranelift")]
@@ -14,3 +15,4 @@ pub use error::{CallError, KernelError, Misgiven, Mistake, Mistakes, Place};
 pub use gauss_codegen::{Clause, Field, Notation, Scene};
 pub use kernel::{Kernel, Method};
 pub use model::Model;
+pub use system::{Inputs, NoSystem, System};

@@ -72,6 +72,7 @@ pub fn binary(function: BinaryFunction) -> extern "C" fn(f64, f64) -> f64 {
 }
 
 /// Sines and cosines of several angles, which the runtime computes together: the same bits as alone.
+#[cfg(feature = "cranelift")]
 pub fn sines_and_cosines(angles: &[f64], results: &mut [[f64; 2]]) {
     let (together, rest) = angles.as_chunks::<4>();
     for (angles, results) in together.iter().zip(results.chunks_mut(4)) {
