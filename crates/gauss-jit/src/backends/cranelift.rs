@@ -6,7 +6,7 @@
 use cranelift_codegen::Context;
 use cranelift_codegen::ir::types::{F64, I64};
 use cranelift_codegen::ir::{
-    AbiParam, FuncRef, InstBuilder, MemFlags, Signature, StackSlotData, StackSlotKind, Type, Value,
+    AbiParam, FuncRef, InstBuilder, MemFlags, Signature, StackSlot, StackSlotData, StackSlotKind, Type, Value,
 };
 use cranelift_codegen::isa::OwnedTargetIsa;
 use cranelift_codegen::settings::{self, Configurable};
@@ -27,10 +27,14 @@ pub enum Effort {
     /// One pass over the code: the shortest time until the first call.
     Quick,
     /// Registers are assigned with backtracking: code that runs in three quarters of the time, and takes some ten times
-    /// as long to make.
+    /// as long to make. Programs of more than 10,000 instructions are made in one pass all the same: backtracking takes
+    /// longer than in proportion, 18 s where one pass takes 0.1.
     #[default]
     Thorough,
 }
+
+/// Instructions of the longest program whose registers are assigned with backtracking.
+const LONGEST: usize = 10_000;
 
 /// Machine code by Cranelift.
 #[derive(Clone, Copy, Debug, Default)]
@@ -51,7 +55,7 @@ impl Backend for Cranelift {
 impl Cranelift {
     /// `None` for processors that Cranelift does not know, or where executable memory is refused.
     fn machine_code(self, program: &Program) -> Option<MachineCode> {
-        let mut builder = JITBuilder::with_isa(self.target()?, default_libcall_names());
+        let mut builder = JITBuilder::with_isa(self.target(program.code.instructions.len())?, default_libcall_names());
         declare_symbols(&mut builder);
         let mut module = JITModule::new(builder);
         let mut context = module.make_context();
@@ -65,9 +69,11 @@ impl Cranelift {
         machine::code(module, made.then_some(id), counts, program.code.outputs.len())
     }
 
-    fn target(self) -> Option<OwnedTargetIsa> {
+    /// The processor that this runs on, for a program of so many instructions.
+    fn target(self, length: usize) -> Option<OwnedTargetIsa> {
         let mut flags = settings::builder();
-        let registers = if self.effort == Effort::Quick { "single_pass" } else { "backtracking" };
+        let is_quick = self.effort == Effort::Quick || length > LONGEST;
+        let registers = if is_quick { "single_pass" } else { "backtracking" };
         let wanted = [
             ("opt_level", "none"),
             ("regalloc_algorithm", registers),
@@ -104,10 +110,17 @@ struct Writer<'a, 'b> {
     module: &'a mut JITModule,
     /// Where the numbers of each argument are.
     arguments: Vec<Value>,
-    /// Of each instruction its result, of pairs both.
-    results: Vec<[Value; 2]>,
+    results: Vec<Computed>,
     functions: Vec<(&'static str, FuncRef)>,
     is_fused: bool,
+}
+
+/// Where the result of an instruction is.
+#[derive(Clone, Copy)]
+enum Computed {
+    Value(Value),
+    /// Sine and cosine, from that byte of the frame on: read where they are used, so that they hold no registers.
+    Pair(StackSlot, i32),
 }
 
 impl Writer<'_, '_> {
@@ -128,7 +141,7 @@ impl Writer<'_, '_> {
         let arguments = places.map(|k| builder.ins().load(pointer, trusted(), lists, size * k)).collect();
         let count = program.code.instructions.len();
         let unwritten = builder.ins().f64const(f64::NAN);
-        let (results, functions) = (vec![[unwritten; 2]; count], Vec::new());
+        let (results, functions) = (vec![Computed::Value(unwritten); count], Vec::new());
         let mut writer = Writer { program, builder, module, arguments, results, functions, is_fused: is_fused() };
         writer.instructions()?;
         // Everything is computed before anything is written.
@@ -150,7 +163,7 @@ impl Writer<'_, '_> {
             match *instruction {
                 Instruction::SineCosine(Operand::Input(_)) => {}
                 Instruction::SineCosine(_) => self.sines_and_cosines(&[k])?,
-                ref other => self.results[k][0] = self.result(other)?,
+                ref other => self.results[k] = Computed::Value(self.result(other)?),
             }
         }
         Some(())
@@ -179,8 +192,7 @@ impl Writer<'_, '_> {
         let count = self.builder.ins().iconst(I64, i64::from(count));
         self.builder.ins().call(function, &[from, count, to]);
         for (place, &k) in instructions.iter().enumerate() {
-            let place = 16 * place as i32;
-            self.results[k] = [0, 8].map(|part| self.builder.ins().stack_load(F64, pairs, place + part));
+            self.results[k] = Computed::Pair(pairs, 16 * place as i32);
         }
         Some(())
     }
@@ -207,8 +219,15 @@ impl Writer<'_, '_> {
             }
             Operand::Input(Input::Number(number)) => self.builder.ins().f64const(self.program.numbers[number]),
             Operand::Number(value) => self.builder.ins().f64const(value.to_f64()),
-            Operand::Value(k) | Operand::Sine(k) => self.results[k][0],
-            Operand::Cosine(k) => self.results[k][1],
+            Operand::Value(k) | Operand::Sine(k) => self.computed(k, 0),
+            Operand::Cosine(k) => self.computed(k, 8),
+        }
+    }
+
+    fn computed(&mut self, k: usize, part: i32) -> Value {
+        match self.results[k] {
+            Computed::Value(value) => value,
+            Computed::Pair(slot, place) => self.builder.ins().stack_load(F64, slot, place + part),
         }
     }
 
