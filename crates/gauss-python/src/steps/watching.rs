@@ -34,7 +34,7 @@ pub(super) fn jump<S: Moving>(request: &Request<'_>, place: usize, state: &mut S
     let Effect::Jumps(function, _) = request.until[place].effect else { return false };
     let Some((q, z)) = function(state.t, &numbers_of(&state.q), &components(&state.z)) else { return false };
     // Numbers that are no state end the run: these have been looked at, or are those of a function that failed.
-    (state.q, state.z) = (S::Configuration::from_components(&vector(&q)), vector(&z));
+    (state.q, state.z) = (S::Configuration::from_components(&vector(&q)).renormalise(), vector(&z));
     true
 }
 
