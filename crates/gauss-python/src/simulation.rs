@@ -44,12 +44,7 @@ impl Given {
             _ if jumps => {
                 "jumps of one's own are those of runs without contacts: end the run by `until` and begin another"
             }
-            (true, Some(_), _) => {
-                "steps of contacts call an `input` function once each, and hold it: a controller is that"
-            }
-            (false, Some(_), _) => {
-                "controllers that sample go with contacts=\"steps\", as `input`, or without contacts"
-            }
+            (false, Some(_), _) => "controllers that sample go with contacts=\"steps\", or without contacts",
             (true, _, Some(_)) => "steps of contacts give the states at their ends, and none between: leave out times",
             _ => return Ok(()),
         };

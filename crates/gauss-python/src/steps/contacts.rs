@@ -1,5 +1,6 @@
 //! Runs with contacts: from event to event, or in steps.
 
+use std::collections::VecDeque;
 use std::sync::atomic::Ordering;
 
 use gauss_contact::{
@@ -12,8 +13,8 @@ use gauss_runtime::prelude::*;
 
 use super::causes::of_contacts;
 use super::outcome::{self, Happening, InContact, Outcome, Touched};
-use super::request::{Control, Request};
-use super::watching::{Watch, input, watch, watched};
+use super::request::{Control, Held, Request};
+use super::watching::{Watch, input, of_numbers, watch, watched};
 use super::{components, configuration, vector};
 use crate::methods::System;
 
@@ -289,7 +290,8 @@ impl<'a, S: Touching> Made<'a, S> {
     fn steps(&mut self, mut stepper: ContactStepper<'_, S>, count: f64) -> Result<(), String> {
         let (start, end) = self.request.interval;
         self.modes = stepper.modes().to_vec();
-        let mut n = 0.0;
+        let (mut n, h) = (0.0, (end - start) / count);
+        let mut sampled = self.request.controller.as_ref().map(|held| Sampled::new(held, start, h)).transpose()?;
         while n < count {
             let (t, limit) = (stepper.time(), self.request.limit.unwrap_or(u64::MAX));
             (self.request.look)(t);
@@ -299,8 +301,12 @@ impl<'a, S: Touching> Made<'a, S> {
             if self.outcome.summary.steps >= limit {
                 return Err(format!("t = {t}: {limit} steps do not reach the end; allow more by `max_steps`"));
             }
-            let input = input::<S>(self.request, t, stepper.configuration(), stepper.speeds());
-            let report = stepper.step((end - start) / count, &input).map_err(|error| of_contacts(&error))?;
+            let (q, z) = (stepper.configuration(), stepper.speeds());
+            let mut input = input::<S>(self.request, t, q, z);
+            if let Some(sampled) = &mut sampled {
+                input = input.add_scaled(1.0, &sampled.at(t, q, z));
+            }
+            let report = stepper.step(h, &input).map_err(|error| of_contacts(&error))?;
             n += 1.0;
             let (t, q, z) = (start + (end - start) * (n / count), *stepper.configuration(), *stepper.speeds());
             let sample = Sample { t, q, z, p: self.system.momentum(t, &q, &z) };
@@ -376,6 +382,47 @@ impl<'a, S: Touching> Made<'a, S> {
             ]);
         }
         outcome
+    }
+}
+
+/// A controller that samples, whose instants are those of steps.
+struct Sampled<'a, U> {
+    held: &'a Held<'a>,
+    /// The time of the first instant, and the part of a step by which times may differ.
+    start: f64,
+    late: f64,
+    /// The number of the next instant.
+    next: u32,
+    /// What acts, and from when on others will.
+    acts: U,
+    to_come: VecDeque<(f64, U)>,
+}
+
+impl<'a, U: VectorSpace<f64>> Sampled<'a, U> {
+    fn new(held: &'a Held<'a>, start: f64, h: f64) -> Result<Self, String> {
+        let late = 1e-3 * h;
+        for (name, time) in [("period", held.period), ("delay", held.delay)] {
+            if (time - (time / h).round() * h).abs() > late {
+                return Err(format!("{name} is {time}, which is no multiple of the step, {h}"));
+            }
+        }
+        Ok(Self { held, start, late, next: 0, acts: U::zero(), to_come: VecDeque::new() })
+    }
+
+    /// What is held from the time of a step on.
+    fn at<Q: Configuration<Scalar = f64>, Z: VectorSpace<f64>>(&mut self, t: f64, q: &Q, z: &Z) -> U {
+        let instant = self.start + f64::from(self.next) * self.held.period;
+        if instant <= t + self.late {
+            self.to_come.push_back((instant + self.held.delay, of_numbers(self.held.law, t, q, z)));
+            self.next += 1;
+        }
+        while let Some((from, acts)) = self.to_come.front()
+            && *from <= t + self.late
+        {
+            self.acts = *acts;
+            self.to_come.pop_front();
+        }
+        self.acts
     }
 }
 
