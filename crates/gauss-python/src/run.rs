@@ -254,7 +254,7 @@ impl Run {
     fn _restored(
         _class: &Bound<'_, PyType>,
         columns: (Vec<String>, Bound<'_, PyArray1<f64>>, usize),
-        sizes: (usize, usize, (usize, usize), Vec<(String, usize)>),
+        sizes: PickledSizes,
         end: (Vec<f64>, Option<usize>, Option<String>, bool),
         happened: (Vec<(usize, Vec<f64>)>, Option<PickledTouches>),
         steps: (u64, u64, u64, f64, u64),
@@ -276,5 +276,7 @@ impl Run {
     }
 }
 
+/// Coordinates, speeds, jumps and events, contacts, as pickles have them.
+type PickledSizes = (usize, usize, (usize, usize), Vec<(String, usize)>);
 /// What contacts did, as pickles have it.
 type PickledTouches = (Vec<(f64, usize, usize, Vec<f64>)>, Vec<(String, f64)>, Vec<(usize, f64, f64)>);

@@ -16,6 +16,8 @@ use crate::methods::System;
 
 /// The relative and the absolute tolerance, and the longest step.
 type Tolerances = (f64, f64, f64);
+/// Time, q and z, input.
+type At<S> = fn(&S, f64, (&[f64], &[f64]), &[f64]) -> Result<InContact, String>;
 type Stepper<S> = fn(&S, &Request<'_>, Tolerances) -> Result<Outcome, String>;
 
 /// The contacts of a system, and what is done with them.
@@ -23,7 +25,7 @@ type Stepper<S> = fn(&S, &Request<'_>, Tolerances) -> Result<Outcome, String>;
 struct Contacts<S> {
     all: &'static [Contact],
     run: fn(&S, &Request<'_>) -> Result<Outcome, String>,
-    at: fn(&S, f64, (&[f64], &[f64]), &[f64]) -> Result<InContact, String>,
+    at: At<S>,
 }
 
 /// The methods of integration that only some systems have.
