@@ -45,7 +45,7 @@ def formula(parameters, q, z):
 
 
 def main():
-    given = thrown(7, 2000)
+    given = thrown(7, 500)
     expected = formula(*given)
     print(f"{len(expected)} pucks stop at {expected.mean():.3f} m in the mean, {expected.std():.3f} m apart")
     for how in ({"rtol": 1e-9, "atol": 1e-9}, {"contacts": "steps", "step": 2e-3}):
