@@ -17,7 +17,7 @@ use gauss_runtime::prelude::*;
 // ANCHOR: leg
 #[derive(GaussDynamics)]
 #[gauss(
-    linearize,
+    linearize(without_contacts),
     frames(thigh, shank),
     coordinates(hip, knee),
     body(thigh, rotation = rotation_y(-hip)),

@@ -161,7 +161,7 @@ fn derivatives<'g>(
     formulas: &Formulas<'g>,
     parameters: &[Parameter<'g>],
 ) -> (Vec<Wanted<'g>>, Vec<Expr<'g>>) {
-    let linearization = wanted_of.linearize.then(|| Linearization::new(system, formulas));
+    let linearization = wanted_of.linearize.is_some().then(|| Linearization::new(system, formulas));
     let inverse = wanted_of.inverse.then(|| InverseLinearization::new(system, formulas));
     let hessian = wanted_of.hessian.then(|| Hessian::new(system, formulas));
     let mut derivatives = Vec::new();

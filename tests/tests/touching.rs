@@ -1,5 +1,7 @@
 //! Runs with contacts of kernels that are derived: groups, inputs, constraints, gaps that depend on time.
 
+#[path = "touching/by_hand.rs"]
+mod by_hand;
 #[path = "touching/ellipsoids.rs"]
 mod ellipsoids;
 #[path = "touching/history.rs"]

@@ -5,7 +5,7 @@ use alloc::{vec, vec::Vec};
 use crate::ways::{Differences, JacobianFunction};
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::integrate::{
-    Feedback, Form, InputSource, MomentumForm, Problem, Rates, Sample, State, SystemProblem,
+    Feedback, Form, InputSource, MomentumForm, Problem, Rates, Sample, State, SystemProblem, WithoutContacts,
 };
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
@@ -20,8 +20,9 @@ use gauss_runtime::system::GaussSystem;
 /// Made like a [`Simulation`](gauss_runtime::integrate::Simulation). It does not bring a state back onto constraints
 /// while it runs, as those do: accelerations satisfy constraints that were differentiated, so states leave them slowly,
 /// and [`GaussSystem::project`] of the final state repairs a short run. `f` never fails; undefined results are NaN.
-/// Contact forces are not in it: of a scene with [contacts](GaussSystem::HAS_CONTACTS) it is the motion with all gaps
-/// open, and nothing refuses to go on where one has closed.
+/// Contact forces are not in it: a scene with [contacts](GaussSystem::HAS_CONTACTS) is refused by the compiler, but for
+/// [`without_contacts`](Self::without_contacts). `InMode` of the crate `gauss-contact` is the system in closed contacts,
+/// as long as they stay so.
 ///
 /// J is the way in which ∂f/∂x is computed for implicit methods.
 ///
@@ -57,6 +58,19 @@ use gauss_runtime::system::GaussSystem;
 /// # Ok(())
 /// # }
 /// ```
+///
+/// Contacts are left out on purpose, or not at all:
+///
+/// ```compile_fail,E0080
+/// # use gauss_adapters::FlatSystem;
+/// # use gauss_runtime::prelude::*;
+/// # #[derive(GaussDynamics)]
+/// # #[gauss(coordinates(height), particle(mass = m, position = [0, 0, height]), contact(floor, gap = height))]
+/// # struct Ball { m: f64 }
+/// # let kernel = Ball { m: 1.0 }.kernel().unwrap();
+/// let system = FlatSystem::new(&kernel); // with `.without_contacts()` it compiles
+/// system.rates(0.0, &[1.0, 0.0], &mut [0.0; 2]);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct FlatSystem<P, J = Differences> {
     problem: P,
@@ -82,6 +96,13 @@ impl<'k, S: GaussSystem, F, I, J> FlatSystem<SystemProblem<'k, S, F, I>, J> {
     #[must_use]
     pub fn momentum_form(self) -> FlatSystem<SystemProblem<'k, S, MomentumForm, I>, J> {
         self.form(MomentumForm)
+    }
+
+    /// Takes the equations of a scene with contacts as if all of its gaps stayed open: nothing touches, and nothing
+    /// refuses to go on where a gap has closed.
+    #[must_use]
+    pub fn without_contacts(self) -> FlatSystem<SystemProblem<'k, S, WithoutContacts<F>, I>, J> {
+        FlatSystem { problem: self.problem.without_contacts(), jacobian: self.jacobian }
     }
 
     /// Takes the input from a function of time, configuration and quasi-velocities.
@@ -180,6 +201,14 @@ where
     /// once.
     #[inline]
     pub fn rates_by(&self, t: S::Scalar, get: impl Fn(usize) -> S::Scalar, mut put: impl FnMut(usize, S::Scalar)) {
+        const {
+            assert!(
+                !S::HAS_CONTACTS || P::LEAVES_CONTACTS_OUT,
+                "the scene has contacts, whose forces its equations do not have: leave contacts out on purpose by \
+                 `without_contacts()`, take `InMode` of gauss-contact for the motion in closed contacts, or run it by \
+                 `Simulation` with contacts"
+            )
+        }
         let (unbound, state) = Self::state(t, get);
         let Rates { configuration, variables } = self.problem.rates(&state);
         let rates = unbound.component_rates(&configuration);

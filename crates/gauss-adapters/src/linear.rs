@@ -18,7 +18,22 @@ type Number = DualNumber<Dual64>;
 /// those of the input; another number of either does not compile. Derivatives that the arguments carry are dropped.
 ///
 /// Under constraints, closed contacts among them, derivatives are those of the accelerations that satisfy them;
-/// deviations that violate constraints do not go away.
+/// deviations that violate constraints do not go away. A kernel with contacts, whose equations have no contact forces,
+/// is refused by the compiler:
+///
+/// ```compile_fail,E0080
+/// # use gauss_adapters::{DualNumber, linearize};
+/// # use gauss_runtime::prelude::*;
+/// # use gauss_runtime::linearize::Linearization;
+/// # use num_dual::Dual64;
+/// # #[derive(GaussDynamics)]
+/// # #[gauss(coordinates(x), particle(mass = m, position = [0, 0, x]), contact(floor, gap = x), input(u), drive(x = u))]
+/// # struct Ball<T> { m: T }
+/// let number = |x: f64| DualNumber(Dual64::from_re(x));
+/// let kernel = Ball { m: number(1.0) }.kernel().unwrap();
+/// let (q, z, u) = ([number(1.0)].into(), [number(0.0)].into(), [number(0.0)].into());
+/// let _: Linearization<f64, 2, 1> = linearize(&kernel, 0.0, &q, &z, &u);
+/// ```
 pub fn linearize<S, const D: usize, const U: usize>(
     system: &S,
     t: f64,
@@ -33,6 +48,11 @@ where
     const {
         assert!(D == <TangentOf<S> as VectorSpace<Number>>::DIM + S::Speeds::DIM, "D counts increments and speeds");
         assert!(U == <S::Input as VectorSpace<Number>>::DIM, "U counts the components of the input");
+        assert!(
+            !S::HAS_CONTACTS,
+            "the scene has contacts, whose forces its equations do not have: linearize `InMode::new(&kernel, &modes)` \
+             of gauss-contact, with `&[]` where all gaps are open"
+        );
     }
     let (components, one) = (TangentOf::<S>::DIM, DualNumber(Dual64::new(0.0, 1.0)));
     let q = S::Configuration::from_components(&plain(&q.components()));

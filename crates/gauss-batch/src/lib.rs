@@ -177,15 +177,17 @@ impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
         Batch { kernels: self.kernels, form: self.form, input }
     }
 
-    /// The accelerations ż of all states at the time `t`.
+    /// The accelerations ż of all states at the time `t`. They have no contact forces: a scene
+    /// with contacts is refused, but for [`without_contacts`](Self::without_contacts).
     ///
     /// # Panics
-    /// When there are fewer kernels than blocks.
+    /// When there are fewer kernels than blocks; of a scene with contacts.
     #[must_use]
     pub fn accelerations<S>(&self, t: f64, states: &States<S>) -> Packs<S::Speeds>
     where
         S: BatchSystem,
         K: Kernels<S>,
+        F: Form<S>,
         I: InputSource<S>,
     {
         let mut accelerations = states.speeds.with_blocks(Vec::with_capacity(states.speeds.blocks().len()));
@@ -197,13 +199,15 @@ impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
     /// no new memory. For more states than the caches hold, new memory costs more than the accelerations.
     ///
     /// # Panics
-    /// When there are fewer kernels than blocks.
+    /// As [`accelerations`](Self::accelerations).
     pub fn accelerations_into<S>(&self, t: f64, states: &States<S>, accelerations: &mut Packs<S::Speeds>)
     where
         S: BatchSystem,
         K: Kernels<S>,
+        F: Form<S>,
         I: InputSource<S>,
     {
+        refuse_contacts::<S, F>();
         let t = S::Scalar::from_f64(t);
         let blocks = states.configurations.blocks().iter().zip(states.speeds.blocks()).enumerate();
         accelerations.refill(
@@ -272,21 +276,32 @@ impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
     }
 }
 
+/// Refuses a scene whose contact forces would be left out unasked.
+fn refuse_contacts<S: GaussSystem, F: Form<S>>() {
+    assert!(
+        !S::HAS_CONTACTS || F::LEAVES_CONTACTS_OUT,
+        "the scene has contacts, whose forces accelerations of a batch do not have: leave contacts out on purpose by \
+         `without_contacts()`, or take `InMode` of gauss-contact for what holds in closed contacts"
+    );
+}
+
 #[cfg(feature = "rayon")]
 impl<K: ?Sized + Sync, F, I: Sync> Batch<'_, K, F, I> {
     /// [`accelerations`](Self::accelerations) on all threads.
     ///
     /// # Panics
-    /// When there are fewer kernels than blocks.
+    /// As [`accelerations`](Self::accelerations).
     #[must_use]
     pub fn accelerations_on_all_threads<S>(&self, t: f64, states: &States<S>) -> Packs<S::Speeds>
     where
         S: BatchSystem<Configuration: Sync, Speeds: Send + Sync>,
         K: Kernels<S>,
+        F: Form<S>,
         I: InputSource<S>,
     {
         use rayon::prelude::*;
 
+        refuse_contacts::<S, F>();
         let t = S::Scalar::from_f64(t);
         let (kernels, input) = (self.kernels, &self.input);
         let (configurations, speeds) = (states.configurations.blocks(), states.speeds.blocks());

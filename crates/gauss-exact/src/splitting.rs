@@ -168,6 +168,7 @@ where
         _: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind> {
+        problem.check_contacts()?;
         let system = problem.system();
         let at_rest = S::Speeds::zero();
         let kick = |t, q: &S::Configuration, p: &S::Speeds, length| {

@@ -202,6 +202,7 @@ where
         _: &Rates<S>,
         h: f64,
     ) -> Result<Step<S>, IntegrationErrorKind> {
+        problem.check_contacts()?;
         let momentum = problem.momentum(state.t, &state.q, &state.y);
         let (q, momentum) = self
             .after(quaternion(&state.q), triple(&momentum), h)

@@ -12,7 +12,7 @@ use crate::model::names::inputs;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 use crate::model::robots;
 use crate::model::scene::model::Model;
-use crate::terms::{Described, Item, Scalar};
+use crate::terms::{Described, Item, Scalar, Wanted};
 use proc_macro2::TokenStream;
 use syn::ext::IdentExt;
 use syn::punctuated::Punctuated;
@@ -47,6 +47,7 @@ pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
         inputs::name(&mut clauses.statements, &reader.fields, &mut context);
         let mut model = assembly::model(input, clauses, reader, &mut context)?;
         check_python(&model.item, &input.generics, &mut context);
+        check_derivatives(&model.item.wanted, !model.contacts.is_empty(), &mut context);
         model.item.described = described;
         model.item.tracked = tracked;
         Some(model)
@@ -165,6 +166,20 @@ fn check_python(item: &Item, generics: &Generics, context: &mut Context) {
         let name = &parameter.ident;
         context.error(name.span(), format!("with `python` the scalar is the only type parameter; `{name}` is none"));
     }
+}
+
+/// Derivatives of the equations have no contact forces: that is asked for by a word where there are contacts, and
+/// nowhere else.
+fn check_derivatives(wanted: &Wanted, has_contacts: bool, context: &mut Context) {
+    let Some(clause) = wanted.linearize.as_ref().filter(|_| wanted.without_contacts != has_contacts) else { return };
+    let message = if has_contacts {
+        "the scene has contacts, whose forces are not in the equations that `linearize` differentiates: write \
+         `linearize(without_contacts)` where all gaps are open, and for what rests, slides or sticks take \
+         `gauss_adapters::linearize` of `InMode` of gauss-contact, without this clause"
+    } else {
+        "`linearize(without_contacts)` is for scenes with contacts, and this one has none; leave the word out"
+    };
+    context.error(clause.span(), message);
 }
 
 /// The struct of that name in the text of a Rust file, wherever in its modules it is.

@@ -7,8 +7,10 @@ use proc_macro2::Ident;
 pub struct Wanted {
     /// `taylor`, where it is written: power series of the motion.
     pub taylor: Option<Ident>,
-    /// `linearize`: the derivatives of the equations by the state.
-    pub linearize: bool,
+    /// `linearize`, where it is written: the derivatives of the equations by the state.
+    pub linearize: Option<Ident>,
+    /// `linearize(without_contacts)`: on purpose those of equations without contact forces.
+    pub without_contacts: bool,
     /// `linearize(parameters)`: by the parameters, too.
     pub by_parameters: bool,
     /// `linearize(inverse)`: those of inverse dynamics, too.

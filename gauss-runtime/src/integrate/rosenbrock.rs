@@ -127,6 +127,7 @@ impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
         _: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind> {
+        problem.check_contacts()?;
         let number = S::Scalar::from_f64;
         let one = S::Scalar::one();
         let system = problem.system();

@@ -165,10 +165,15 @@ pub const JUMPS: Row = Row {
 
 const FALLS_THROUGH: &str = "without the forces of its contacts bodies would fall through floors and joints pass their \
                              stops: `IntegrationErrorKind::Contacts`, or `without_contacts()` on purpose";
-const FREE_STEP: &str = "`step` takes `acceleration`, that with all gaps open; so do the adapters (`FlatSystem`) and \
-                         `Batch::accelerations`";
-const FREE_DERIVATIVES: &str = "`linearize` of the kernel is that with all gaps open, also of what rests";
-const FREE_STEP_DERIVATIVES: &str = "`CommutatorFree4::step_linearized` is that of the motion with all gaps open";
+const BY_HAND: &str = "tests/tests/touching/by_hand.rs";
+const REFUSES_BY_HAND: &str = "steps_by_hand_refuse_contacts";
+const FREE_STEP: &str = "`IntegrationErrorKind::Contacts`, or `without_contacts()` on purpose; `Batch::accelerations` \
+                         refuses as well, and adapters (`FlatSystem`) while they compile; `ContactStepper` has the \
+                         forces";
+const FREE_DERIVATIVES: &str = "`InMode` with `gauss_adapters::linearize`; of the kernel the derive refuses: \
+                                `derivatives_leave_contacts_out_on_purpose`";
+const FREE_STEP_DERIVATIVES: &str = "by `step_with_derivatives`; `step_linearized` needs `linearize`, which the derive \
+                                     refuses but for `linearize(without_contacts)`";
 const IN_PYTHON: &str = "what has forces in it, functions of JAX too, raises `ContactError`: `in_contact`, or `without_contacts()` on purpose";
 
 pub const RANGES: Row = Row {
@@ -182,7 +187,7 @@ pub const RANGES: Row = Row {
         ("imp", refused(FALLS_THROUGH)),
         ("evt", shown("tests/tests/touching.rs", "a_motor_holds_a_pendulum_at_its_stop")),
         ("stp", shown("crates/gauss-contact/tests/many/several.rs", "a_leg_between_its_stops_gains_little")),
-        ("one", missing("a step by hand has no forces of stops or dry joints").silent(FREE_STEP)),
+        ("one", refused(FREE_STEP).by(BY_HAND, REFUSES_BY_HAND)),
         (
             "lan",
             shown(
@@ -193,14 +198,18 @@ pub const RANGES: Row = Row {
         ("at", shown("tests/tests/touching.rs", "a_motor_holds_a_pendulum_at_its_stop").but("of `ContactRun`")),
         ("pag", unshown("the example `dry_friction` writes one")),
         ("adj", refused(FALLS_THROUGH)),
-        ("lin", unshown("`InMode` with `gauss_adapters::linearize` is the way").silent(FREE_DERIVATIVES)),
+        (
+            "lin",
+            refused(FREE_DERIVATIVES)
+                .by("gauss-codegen/src/model/tests/systems/contacts.rs", "derivatives_leave_contacts_out_on_purpose"),
+        ),
         (
             "dst",
             shown(
                 "crates/gauss-contact/src/steps/derivatives_tests.rs",
                 "stops_dry_joints_and_rods_have_the_derivatives_of_differences",
             )
-            .silent(FREE_STEP_DERIVATIVES),
+            .but(FREE_STEP_DERIVATIVES),
         ),
         ("run", shown("examples/tests/hop_mpc.rs", "plans_hop_on_after_a_blow_and_thrusts_alone_do_not")),
         ("stu", unshown("the examples `lander_legs` and `study` are such studies")),
@@ -219,7 +228,7 @@ pub const CONTACTS: Row = Row {
         ("imp", refused(FALLS_THROUGH).by("tests/tests/touching.rs", "runs_without_contact_forces_refuse_contacts")),
         ("evt", shown("tests/tests/touching.rs", "a_sliding_ball_begins_to_roll")),
         ("stp", shown("crates/gauss-contact/tests/laws/steps.rs", "a_box_falls_on_a_corner_and_lies_down")),
-        ("one", missing("a step by hand has no contact forces; `ContactStepper` has").silent(FREE_STEP)),
+        ("one", refused(FREE_STEP).by(BY_HAND, REFUSES_BY_HAND)),
         (
             "lan",
             shown("crates/gauss-contact/tests/many/lanes.rs", "a_lane_has_the_bits_of_a_stepper_of_its_own")
@@ -254,19 +263,14 @@ pub const CONTACTS: Row = Row {
                 .but("`ContactRun` in dual numbers; `gauss-sensitivity` refuses, `contacts_are_refused`"),
         ),
         ("adj", refused(FALLS_THROUGH).but("as forward; `contacts_are_refused` asks `run` alone, not `gradient`")),
-        (
-            "lin",
-            shown("tests/tests/duals/contacts.rs", "a_system_is_linearised_in_its_mode")
-                .but("`InMode` with `gauss_adapters::linearize`")
-                .silent(FREE_DERIVATIVES),
-        ),
+        ("lin", shown("tests/tests/duals/contacts.rs", "a_system_is_linearised_in_its_mode").but(FREE_DERIVATIVES)),
         (
             "dst",
             shown(
                 "crates/gauss-contact/src/steps/derivatives_tests.rs",
                 "a_tossed_crate_has_the_derivatives_of_differences",
             )
-            .silent(FREE_STEP_DERIVATIVES),
+            .but(FREE_STEP_DERIVATIVES),
         ),
         ("run", shown("examples/tests/trot_regulator.rs", "gains_from_derivatives_of_steps_hold_a_trot")),
         ("stu", unshown("the examples `lander_legs` and `study` are such studies")),
@@ -288,10 +292,7 @@ pub const SLOTS: Row = Row {
         ("imp", refused(FALLS_THROUGH)),
         ("evt", shown("crates/gauss-contact/tests/slots.rs", "exact_runs_and_steps_move_as_with_the_clause")),
         ("stp", shown("crates/gauss-parry/tests/scenes/arm.rs", "an_arm_pushes_a_box_over_a_table")),
-        (
-            "one",
-            missing("a step by hand has no contact forces; `ParrySteps` and `ContactStepper` have").silent(FREE_STEP),
-        ),
+        ("one", refused(FREE_STEP)),
         ("lan", missing(ONE_SCALAR)),
         ("thr", missing("`ContactEnsemble` takes packs, and slots are in `f64` alone")),
         ("mon", missing("`Slots` have no powers, so that `energy_balance` is not there; `report.work` is")),

@@ -100,7 +100,7 @@ struct Shaken<T> {
 /// A body in the air, over a floor.
 #[derive(GaussDynamics)]
 #[gauss(
-    linearize,
+    linearize(without_contacts),
     coordinates(pose: Pose),
     body(stone, position = pose.position, rotation = pose.rotation, mass = 2, inertia = [0.5, 0.6, 0.6],
          center_of_mass = [0.1, 0, 0.2]),

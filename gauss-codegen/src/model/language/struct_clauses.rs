@@ -188,12 +188,13 @@ impl Topics {
                 check_alone(clause, context);
             }
             Topic::Linearize => {
-                self.wanted.linearize = true;
+                self.wanted.linearize.get_or_insert(clause.name.clone());
                 for further in read_linearize(clause, context) {
                     match further {
                         Further::Parameters => self.wanted.by_parameters = true,
                         Further::Inverse => self.wanted.inverse = true,
                         Further::Hessian => self.wanted.hessian = true,
+                        Further::WithoutContacts => self.wanted.without_contacts = true,
                     }
                 }
             }
@@ -413,16 +414,21 @@ fn check_alone(clause: &Clause, context: &mut Context) {
     context.error(span, format!("`{name}` takes no value; write `{name}` alone, or leave it out"));
 }
 
-/// What `linearize` gives besides the derivatives by state, time and input.
+/// What `linearize` gives besides the derivatives by state, time and input, and of which equations.
 #[derive(Clone, Copy, PartialEq)]
 enum Further {
     Parameters,
     Inverse,
     Hessian,
+    WithoutContacts,
 }
 
-const FURTHER: &Table<Further> =
-    &[("parameters", Further::Parameters), ("inverse", Further::Inverse), ("hessian", Further::Hessian)];
+const FURTHER: &Table<Further> = &[
+    ("parameters", Further::Parameters),
+    ("inverse", Further::Inverse),
+    ("hessian", Further::Hessian),
+    ("without_contacts", Further::WithoutContacts),
+];
 
 /// `linearize`, `linearize(parameters, inverse)`.
 fn read_linearize(clause: &Clause, context: &mut Context) -> Vec<Further> {

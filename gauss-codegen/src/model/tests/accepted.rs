@@ -57,14 +57,14 @@ fn clauses_merge() {
 
 #[test]
 fn derivatives_only_where_they_are_asked_for() {
-    assert!(!model(&body("#[gauss(chart = hybrid)]")).item.wanted.linearize);
+    assert!(model(&body("#[gauss(chart = hybrid)]")).item.wanted.linearize.is_none());
     let state = model(&body("#[gauss(chart = hybrid, linearize)]")).item.wanted;
-    assert!(state.linearize && !state.by_parameters && state.regressor.is_none());
+    assert!(state.linearize.is_some() && !state.by_parameters && state.regressor.is_none());
     let all = model(&body("#[gauss(linearize(parameters), regressor)]")).item.wanted;
-    assert!(all.linearize && all.by_parameters && !all.inverse && all.regressor.is_some());
+    assert!(all.linearize.is_some() && all.by_parameters && !all.inverse && all.regressor.is_some());
     let both = model(&body("#[gauss(linearize(inverse, parameters, hessian))]")).item.wanted;
-    assert!(both.linearize && both.by_parameters && both.inverse && both.hessian);
-    assert!(model(&body("#[gauss(linearize, drag(linear = [1, 1, 1, 1, 1, 1]))]")).item.wanted.linearize);
+    assert!(both.linearize.is_some() && both.by_parameters && both.inverse && both.hessian);
+    assert!(model(&body("#[gauss(linearize, drag(linear = [1, 1, 1, 1, 1, 1]))]")).item.wanted.linearize.is_some());
 }
 
 #[test]

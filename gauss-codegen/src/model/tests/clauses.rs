@@ -49,7 +49,7 @@ fn linearize_stands_alone_or_names_more() {
                   else is wanted: `parameters` for those by the parameters, `inverse` for those of inverse dynamics, \
                   `hessian` for second ones along given weights";
     check_body("#[gauss(linearize = true)]", &[("true", &format!("`linearize` takes no value after `=`; {remedy}"))]);
-    let unknown = "unknown kind of derivative `z`; expected `parameters`, `inverse` or `hessian`";
+    let unknown = "unknown kind of derivative `z`; expected `parameters`, `inverse`, `hessian` or `without_contacts`";
     check_body("#[gauss(linearize(z))]", &[("z", unknown)]);
     check_body("#[gauss(linearize(parameters, z))]", &[("z", unknown)]);
     let near = "unknown kind of derivative `inverted`; did you mean `inverse`?";

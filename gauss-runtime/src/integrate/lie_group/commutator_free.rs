@@ -37,6 +37,7 @@ impl<S: GaussSystem> OneStep<S> for CommutatorFree4 {
         rates: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind> {
+        problem.check_contacts()?;
         let end = Path::new(state, rates, h, |_, stage| problem.rates(stage))?.end;
         check_chart(problem.system(), state, &end)?;
         // No stage has weight 0: what is not finite reaches the end.

@@ -73,6 +73,7 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
         h: T,
         increment: impl Fn(usize, &[Rates<Sys>; S]) -> Rates<Sys>,
     ) -> Result<([Rates<Sys>; S], Rates<Sys>), IntegrationErrorKind> {
+        problem.check_contacts()?;
         let one = <Sys::Scalar as Real>::one();
         // Derivatives in the algebra: dexp_inv(σ, V) and ẏ. At σ = 0 the former is V.
         let mut stages = [*rates; S];

@@ -18,6 +18,7 @@ type Input<P> = <<P as Problem>::System as GaussSystem>::Input;
 
 impl<P: Problem> Problem for Called<'_, P> {
     type System = P::System;
+    const LEAVES_CONTACTS_OUT: bool = P::LEAVES_CONTACTS_OUT;
 
     #[inline(always)]
     fn system(&self) -> &P::System {
@@ -80,10 +81,5 @@ impl<P: Problem> Problem for Called<'_, P> {
     #[inline(always)]
     fn held(&self) -> Option<&Cell<Input<P>>> {
         self.0.held()
-    }
-
-    #[inline(always)]
-    fn leaves_contacts_out(&self) -> bool {
-        self.0.leaves_contacts_out()
     }
 }

@@ -2,7 +2,8 @@
 
 use core::cell::Cell;
 
-use super::form::{Form, VelocityForm};
+use super::error::IntegrationErrorKind;
+use super::form::{Form, VelocityForm, WithoutContacts};
 use super::input::{InputSource, NoInput};
 use super::state::{Rates, Sample, State};
 use crate::system::GaussSystem;
@@ -16,6 +17,9 @@ type Input<P> = <<P as Problem>::System as GaussSystem>::Input;
 pub trait Problem {
     /// What moves.
     type System: GaussSystem;
+
+    /// Whether the equations leave out [contacts](GaussSystem::HAS_CONTACTS) on purpose.
+    const LEAVES_CONTACTS_OUT: bool = false;
 
     /// The system.
     fn system(&self) -> &Self::System;
@@ -71,9 +75,18 @@ pub trait Problem {
         None
     }
 
-    /// Whether the equations leave out [contacts](GaussSystem::HAS_CONTACTS) on purpose.
-    fn leaves_contacts_out(&self) -> bool {
-        false
+    /// Refuses a scene with [contacts](GaussSystem::HAS_CONTACTS), whose forces these equations do not have, unless
+    /// they are left out on purpose ([`WithoutContacts`]). Every run and every step of
+    /// the methods here asks it; it costs nothing.
+    ///
+    /// # Errors
+    /// [`IntegrationErrorKind::Contacts`].
+    #[inline(always)]
+    fn check_contacts(&self) -> Result<(), IntegrationErrorKind> {
+        if Self::System::HAS_CONTACTS && !Self::LEAVES_CONTACTS_OUT {
+            return Err(IntegrationErrorKind::Contacts);
+        }
+        Ok(())
     }
 
     /// The state at time t with the quasi-velocities z.
@@ -130,6 +143,11 @@ impl<'k, S, F, I> SystemProblem<'k, S, F, I> {
         SystemProblem { system: self.system, form, input: self.input }
     }
 
+    /// The same with [contacts](GaussSystem::HAS_CONTACTS) left out on purpose, as if all gaps stayed open.
+    pub fn without_contacts(self) -> SystemProblem<'k, S, WithoutContacts<F>, I> {
+        SystemProblem { system: self.system, form: WithoutContacts(self.form), input: self.input }
+    }
+
     /// The same under another input.
     pub fn input_from<J>(self, input: J) -> SystemProblem<'k, S, F, J> {
         SystemProblem { system: self.system, form: self.form, input }
@@ -138,6 +156,7 @@ impl<'k, S, F, I> SystemProblem<'k, S, F, I> {
 
 impl<S: GaussSystem, F: Form<S>, I: InputSource<S>> Problem for SystemProblem<'_, S, F, I> {
     type System = S;
+    const LEAVES_CONTACTS_OUT: bool = F::LEAVES_CONTACTS_OUT;
 
     #[inline(always)]
     fn system(&self) -> &S {
@@ -178,9 +197,5 @@ impl<S: GaussSystem, F: Form<S>, I: InputSource<S>> Problem for SystemProblem<'_
     #[inline(always)]
     fn held(&self) -> Option<&Cell<S::Input>> {
         self.input.held()
-    }
-    #[inline(always)]
-    fn leaves_contacts_out(&self) -> bool {
-        F::LEAVES_CONTACTS_OUT
     }
 }

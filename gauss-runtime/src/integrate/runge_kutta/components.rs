@@ -129,6 +129,7 @@ impl<C: Coefficients<S>, const S: usize> RungeKutta<C, S> {
         rates: &Rates<Sys>,
         h: Sys::Scalar,
     ) -> Result<(Step<Sys>, Option<Rates<Sys>>), IntegrationErrorKind> {
+        problem.check_contacts()?;
         const { Self::STAGES };
         let start: Point<ComponentsOf<Sys>, Sys::Speeds> =
             Point { components: state.q.components(), variables: state.y };

@@ -63,7 +63,8 @@ pub trait OneStep<S: GaussSystem> {
     /// constraints: [`Control`](crate::integrate::drive::control::Control) does that.
     ///
     /// # Errors
-    /// When the step cannot be made; the state given is untouched.
+    /// When the step cannot be made; the state given is untouched. Contacts are refused as in a run: begin with
+    /// [`Problem::check_contacts`].
     fn step<P: Problem<System = S>>(
         &self,
         problem: &P,

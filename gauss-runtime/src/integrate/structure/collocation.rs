@@ -180,6 +180,7 @@ impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Collocation<Sys::S
         rates: &Rates<Sys>,
         h: Sys::Scalar,
     ) -> Result<Rates<Sys>, IntegrationErrorKind> {
+        problem.check_contacts()?;
         let one = Sys::Scalar::one();
         let half = Sys::Scalar::ratio(1, 2);
         let middle_time = h.fma(half, state.t);

@@ -262,6 +262,7 @@ where
         _: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Rates<S>, IntegrationErrorKind> {
+        problem.check_contacts()?;
         const { assert!(matches!(S::CHART, Chart::LeftInvariant), "`EnergyMomentum` needs the left-invariant chart") };
         let system = problem.system();
         let (one, half) = (S::Scalar::one(), S::Scalar::ratio(1, 2));

@@ -49,6 +49,7 @@ where
         _: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind> {
+        problem.check_contacts()?;
         const { assert!(matches!(S::CHART, Chart::LeftInvariant), "`Variational` needs the left-invariant chart") };
         let system = problem.system();
         let (one, half) = (S::Scalar::one(), h * S::Scalar::ratio(1, 2));

@@ -544,3 +544,20 @@ fn drilling_and_rolling() {
         ],
     );
 }
+
+/// Derivatives of the equations have no contact forces, which is said where they are asked for.
+#[test]
+fn derivatives_leave_contacts_out_on_purpose() {
+    let with = "the scene has contacts, whose forces are not in the equations that `linearize` differentiates: write \
+                `linearize(without_contacts)` where all gaps are open, and for what rests, slides or sticks take \
+                `gauss_adapters::linearize` of `InMode` of gauss-contact, without this clause";
+    for clause in ["contact(floor, gap = tip.z)", "range(theta, to = k)", "dry_friction(theta, bound = k)"] {
+        mistakes(&format!("linearize, {clause}"), &[("linearize", with)]);
+        mistakes(&format!("{clause}, linearize(hessian, parameters)"), &[("linearize", with)]);
+        let model = system(&arm(&format!("linearize(without_contacts, hessian), {clause}")));
+        assert!(model.item.wanted.linearize.is_some() && model.item.wanted.hessian);
+    }
+    let without =
+        "`linearize(without_contacts)` is for scenes with contacts, and this one has none; leave the word out";
+    mistakes("linearize(without_contacts), potential = k * tip.z", &[("linearize", without)]);
+}

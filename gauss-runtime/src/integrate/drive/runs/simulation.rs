@@ -111,11 +111,7 @@ impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C
     /// a run ends at once with [`IntegrationErrorKind::Contacts`](crate::integrate::IntegrationErrorKind::Contacts);
     /// `ContactRun` of the crate `gauss-contact` has contact forces. A later [`form`](Self::form) undoes it.
     pub fn without_contacts(self) -> Simulation<SystemProblem<'k, S, WithoutContacts<F>, I>, C, O, E> {
-        self.with_problem(|SystemProblem { system, form, input }| SystemProblem {
-            system,
-            form: WithoutContacts(form),
-            input,
-        })
+        self.with_problem(SystemProblem::without_contacts)
     }
 
     /// The input as a function of time and state. It is called at every stage of every step, also of steps that are

@@ -175,9 +175,7 @@ pub fn prepare<S: GaussSystem, P: Problem<System = S>>(
     start: &State<S>,
     end: S::Scalar,
 ) -> Result<(f64, State<S>, Rates<S>), IntegrationErrorKind> {
-    if S::HAS_CONTACTS && !problem.leaves_contacts_out() {
-        return Err(IntegrationErrorKind::Contacts);
-    }
+    problem.check_contacts()?;
     let span = end - start.t;
     if !(start.t.is_finite() && end.is_finite() && span.is_finite()) {
         return Err(IntegrationErrorKind::InvalidInterval);
