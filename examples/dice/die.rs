@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::f64::consts::PI;
 
-use gauss_contact::{ContactStepper, ContactSteps, StepSample};
+use gauss_contact::{ContactStepper, StepSample, WithContacts};
 use gauss_runtime::prelude::*;
 use gauss_study::Draw;
 
@@ -101,5 +101,5 @@ pub fn throw(kernel: &DieKernel, draw: &Draw) -> Result<Throw, gauss_contact::Co
 /// Where a step is one.
 pub fn path(kernel: &DieKernel, draw: &Draw) -> Result<Vec<StepSample<DieKernel>>, Box<dyn Error>> {
     let (q, z) = start(draw);
-    Ok(ContactSteps::new(kernel, STEP).run(q, z, 0.0..1.2)?)
+    Ok(Simulation::new(kernel).contact_steps(STEP).run(q, z, 0.0..1.2)?.samples)
 }

@@ -46,7 +46,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("A ball that keeps 0.7 of its speed: {impacts} impacts, then rest at {:.9} s, as it should", rest.time);
     println!("at {rests:.9} s. The force of the floor is its weight then.");
     let table = Table::new(bounces.at_times((0..=6).map(|n| 0.5 * f64::from(n)))?);
-    let table = table.column("height", |s| s.q[0]).contacts(&ball, |s| bounces.forces(s.t).ok()).energies(&ball);
+    let table =
+        table.column("height", |s| s.q[0]).contacts(&ball, |s| Some(*bounces.forces(s.t).ok()?)).energies(&ball);
     print!("\n{table}");
     write("hopping", &picture::draw(&runner, &run, &ball, &bounces)?)?;
     write_page("hopping", &picture::page(&runner, &run)?)

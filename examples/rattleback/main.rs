@@ -76,7 +76,7 @@ fn tell(kernel: &OnTableKernel, mu: f64, run: &Run<'_>) -> Result<(), Box<dyn st
 }
 
 fn page(kernel: &OnTableKernel, run: &Run<'_>) -> Result<Playback<OnTableKernel>, Box<dyn std::error::Error>> {
-    Ok(Playback::of_contacts("A rattleback on a table, spun against its way, μ = 0.4", run)?
+    Ok(Playback::new("A rattleback on a table, spun against its way, μ = 0.4", run)?
         .si()
         .body("stone", |s| s.q, [Shape::ellipsoid(AXES)])
         .trace("stone", [AXES[0], 0.0, 0.0])

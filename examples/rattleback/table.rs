@@ -53,6 +53,6 @@ pub fn vertical(s: &Sample<OnTableKernel>) -> f64 {
 /// # Errors
 /// Where the run does not cover the time.
 pub fn obliquity(run: &Run<'_>, t: f64) -> Result<f64, ContactError> {
-    let forces = run.forces(t)?;
+    let forces = *run.forces(t)?;
     Ok(forces[1].hypot(forces[2]) / forces[0])
 }

@@ -60,7 +60,7 @@ fn energy_is_lost_as_friction_times_way() {
     assert!(alone, "{:?}", run.events());
     // At the end both rest, and friction holds the weight.
     assert_eq!(run.modes(12.0).unwrap(), [Mode::Sticks; 2]);
-    let (last, held) = (run.last().unwrap(), run.forces(12.0).unwrap());
+    let (last, held) = (run.last().unwrap(), *run.forces(12.0).unwrap());
     assert!((0..2).all(|k| held[k].abs() <= LIMITS[k]), "{held}");
     let pull = kernel.gauss_residual(12.0, &last.q, &last.z, &SVector::zeros(), &());
     assert!((pull - held).amax() < 1e-12 && last.z.amax() == 0.0, "{pull} {held}");
@@ -76,7 +76,7 @@ fn what_is_decided_at_rest_is_a_minimum() {
         let q = SVector::from([angle.sin() * 1.5, 0.3 * angle]);
         let run = ContactRun::new(&kernel).adaptive(1e-9, 1e-9).run(q, z, 0.0..1e-9).unwrap();
         let dynamics = kernel.contact_dynamics(0.0, &q, &z, &());
-        let rates = dynamics.acceleration + dynamics.response.columns * run.forces(0.0).unwrap();
+        let rates = dynamics.acceleration + dynamics.response.columns * *run.forces(0.0).unwrap();
         let cost = |a: &SVector<f64, 2>| {
             kernel.constraint_function(0.0, &q, &z, a, &()) + LIMITS[0] * a[0].abs() + LIMITS[1] * a[1].abs()
         };

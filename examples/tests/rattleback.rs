@@ -39,7 +39,7 @@ fn what_friction_holds_rolls_as_by_constraints() {
             assert!((state.q.translation.vector - place.translation.vector).norm() < off);
             // The multipliers of the constraints are the friction along k₁ and k₂.
             let held = rolling.multipliers(sample.t, &sample.q, &sample.z, &());
-            let vectors = run.force_vectors(sample.t).unwrap();
+            let vectors = run.forces(sample.t).unwrap().vectors();
             let friction = vectors[0].force;
             let near = 1e-4 * 9.81;
             assert!((friction.x - held[0]).abs() < near && (friction.y - held[1]).abs() < near, "{friction} {held}");

@@ -20,7 +20,7 @@ pub fn ball(
     run: &ContactTrajectory<'_, BallKernel>,
 ) -> Result<Playback<BallKernel>, ContactError> {
     let floor = Shape::cuboid([0.8, 0.4, 0.02]).at(&at(0.0, 0.0, -0.01)).colour("#bbbbbb");
-    Ok(Playback::of_contacts("A ball that keeps 0.9 of its speed", run)?
+    Ok(Playback::new("A ball that keeps 0.9 of its speed", run)?
         .si()
         .body("ball", |s| at(0.0, 0.0, s.q[0]), [Shape::ball(0.05).at(&at(0.0, 0.0, 0.05))])
         .body("floor", |_| Isometry3::identity(), [floor])
@@ -50,7 +50,7 @@ pub fn block(
     let place = |_: usize, s: &Sample<BeltKernel>| {
         Some(ContactFrame::new(Vector3::new(s.q[0], 0.0, s.q[1]), Vector3::z(), &[Vector3::x()]))
     };
-    Ok(Playback::of_contacts("A block on a belt sticks and slips", run)?
+    Ok(Playback::new("A block on a belt sticks and slips", run)?
         .si()
         .body("block", |s| at(s.q[0], 0.0, s.q[1] + 0.05), [Shape::cuboid([0.14, 0.14, 0.1])])
         .body("wall", |_| at(-0.7, 0.0, 0.05), [Shape::cuboid([0.02, 0.2, 0.3]).colour("#bbbbbb")])
@@ -78,7 +78,7 @@ pub fn billiard(
         let rates = kernel.contact_rates(s.t, &s.q, &s.z);
         rates[1].hypot(rates[2])
     };
-    Ok(Playback::of_contacts("A billiard ball with side spin", run)?
+    Ok(Playback::new("A billiard ball with side spin", run)?
         .si()
         .body("ball", |s| s.q, [Shape::ball(radius)])
         .trace("ball", [0.0; 3])

@@ -57,7 +57,7 @@ fn page(
     let wall = |x: f64| Shape::cuboid([0.1, 0.9, long(2.0 * TOY.hm)]).at(&Isometry3::translation(x, 0.0, 0.0));
     let beak = Shape::rod([-0.8, 0.0, 1.4], [-long(TOY.ls), 0.0, long(TOY.hs)], 0.12).colour("#d55e00");
     let head = Shape::ball(0.5).at(&Isometry3::translation(-0.8, 0.0, 1.4));
-    let page = Playback::of_contacts("A woodpecker toy", run)?
+    let page = Playback::new("A woodpecker toy", run)?
         .body("pole", still, [pole])
         .body("sleeve", sleeve, [1.0, -1.0].map(|side| wall(side * (long(TOY.rm) + 0.05)).colour("#666666")))
         .body("bird", bird, [Shape::ellipsoid([0.7, 0.6, 1.5]).colour("#0072b2"), head.colour("#0072b2"), beak])

@@ -18,13 +18,13 @@ pub use crate::frames::{FrameName, FramedSystem, JacobianRates};
 pub use crate::hessian::HessianSystem;
 pub use crate::identification::{InertialRegressor, ParametricSystem};
 pub use crate::increments::Increments;
-#[cfg(feature = "alloc")]
-pub use crate::integrate::Trajectory;
 pub use crate::integrate::{
     Adaptive, Classical4, Collocation, CommutatorFree4, Crossing, DormandPrince5, DormandPrince8, InputSource,
     IntegrationError, IntegrationErrorKind, MomentumForm, Rosenbrock, RungeKutta, Sample, Simulation, Tableau, Taylor,
     VelocityForm, Verner9,
 };
+#[cfg(feature = "alloc")]
+pub use crate::integrate::{RunRecord, Trajectory};
 pub use crate::inverse::InverseLinearizedSystem;
 pub use crate::linearize::LinearizedSystem;
 pub use crate::reactions::{ContactReactions, Reactions};

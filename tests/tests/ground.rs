@@ -61,7 +61,7 @@ fn a_quadruped_stands_on_its_feet() {
     // What is left of the motion is 400 N m times the tolerance of angles.
     let end = run.last().unwrap();
     let weight = Vector3::new(0.0, 0.0, 11.6 * G);
-    let forces = run.force_vectors(2.0).unwrap();
+    let forces = run.forces(2.0).unwrap().vectors();
     let sum: Vector3<f64> = forces.iter().map(|force| force.force).sum();
     assert!((sum - weight).amax() < 1e-6, "{sum}");
     let moment: Vector3<f64> = forces.iter().map(|force| force.point.cross(&force.force)).sum();
@@ -237,7 +237,7 @@ fn a_sole_slides_by_the_friction_of_its_file() {
     let stops = run.events().iter().find(|event| event.kind == EventKind::Sticks).unwrap().time;
     assert!((stops - v / (mu * G)).abs() < 1e-9, "{stops}");
     // Without weight along the ground four corners bear 4 kg.
-    let forces = run.force_vectors(0.4).unwrap();
+    let forces = run.forces(0.4).unwrap().vectors();
     let sum: Vector3<f64> = forces.iter().map(|force| force.force).sum();
     assert!((sum - Vector3::new(0.0, 0.0, 4.0 * G)).amax() < 1e-10 && forces.len() == 4, "{sum}");
 }
@@ -272,7 +272,7 @@ fn a_post_stands_on_points_of_its_rim() {
     assert!((end.q[0] - 0.1 - above).abs() < 1e-9, "{}", end.q);
     let rest = Post { e: 0.0, h: -0.1 }.kernel().unwrap();
     let run = ContactRun::new(&rest).adaptive(1e-10, 1e-10).run(start, SVector::zeros(), 0.0..0.5).unwrap();
-    let forces = run.forces(0.4).unwrap();
+    let forces = *run.forces(0.4).unwrap();
     // Alike, of least norm, on the six points of the lower rim; along the rail nothing rubs.
     assert!((0..12).all(|k| (forces[k] - if k < 6 { 2.0 * G / 6.0 } else { 0.0 }).abs() < 1e-12), "{forces}");
 }

@@ -22,7 +22,7 @@ const HELD: f64 = 0.9;
 fn steps(h: f64, pull: f64, turn: f64, end: f64) -> Vec<StepSample<DryKernel>> {
     let kernel = Dry.kernel().unwrap();
     let input = move |_: f64, _: &V, _: &V| DryInput { pull, turn }.input();
-    ContactSteps::new(&kernel, h).input(input).run(V::zeros(), V::zeros(), 0.0..end).unwrap()
+    ContactSteps::new(&kernel, h).input(input).run(V::zeros(), V::zeros(), 0.0..end).unwrap().samples
 }
 
 #[test]

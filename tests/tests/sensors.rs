@@ -134,7 +134,7 @@ fn a_crate_on_a_slope_presses_below_its_weight() {
     // Along g from the centre of mass to the floor, 0.1 below; within the rounding of a step of 10 ms, and that of
     // solutions which hold to 1e-12 of the largest rate, g h.
     let below = place + Vector3::new(down, aside, -1.0) * 0.1;
-    for (forces, tolerance) in [(run.sensors(0.05).unwrap(), 1e-12), (stepper.forces(), 1e-11)] {
+    for (forces, tolerance) in [(run.forces(0.05).unwrap(), 1e-12), (stepper.forces(), 1e-11)] {
         let pressure = forces.center_of_pressure(0..8).unwrap().unwrap();
         assert!((pressure - below).amax() < tolerance, "{pressure}");
         let wrench = forces.wrench_on("hull", &below).unwrap();

@@ -56,7 +56,7 @@ fn a_sliding_ball_begins_to_roll() {
     assert!((velocity - 5.0 / 7.0 * v * along).amax() < 1e-9, "{velocity}");
     assert!((end.q.translation.z - BALL.r).abs() <= 4.0 * f64::EPSILON * BALL.r);
     // Rolling, friction does nothing.
-    let forces = run.forces(0.9).unwrap();
+    let forces = *run.forces(0.9).unwrap();
     let weight = BALL.m * BALL.g;
     assert!((forces - SVector::from([weight, 0.0, 0.0])).amax() < 1e-12 * weight, "{forces}");
 }
@@ -216,7 +216,7 @@ fn runs_without_contact_forces_refuse_contacts() {
     ];
     for refusal in refusals {
         assert_eq!(refusal.kind, IntegrationErrorKind::Contacts);
-        assert!(refusal.to_string().contains("`ContactRun` of the crate `gauss-contact`"), "{refusal}");
+        assert!(refusal.to_string().contains("(trait `WithContacts` of the crate `gauss-contact`)"), "{refusal}");
     }
     // On purpose: through the floor, in either form; a parabola is exact to the rounding of a few steps.
     let fallen = 1.0 - 0.5 * 9.81;

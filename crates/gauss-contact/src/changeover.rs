@@ -25,7 +25,7 @@ use crate::impact::Impact;
 use crate::mode::InMode;
 use crate::residual::Residual;
 use crate::run::ContactRun;
-use crate::steps::{ContactStepper, StepSample, StepScheme};
+use crate::steps::{ContactStepper, StepSample, StepScheme, SteppedRun};
 use crate::trajectory::{ContactTrajectory, InputOf};
 
 /// Events within the time of these steps pile up, unless the run says otherwise.
@@ -60,9 +60,9 @@ pub struct EventPart<'k, K: ContactSystem> {
 /// A part of a run in steps of one length.
 #[derive(Debug)]
 #[non_exhaustive]
-pub struct StepPart<K: ContactSystem<Scalar = f64>> {
-    /// The ends of the steps.
-    pub samples: Vec<StepSample<K>>,
+pub struct StepPart<'k, K: ContactSystem<Scalar = f64>> {
+    /// The steps.
+    pub samples: SteppedRun<'k, K>,
     /// Why there were no events any more.
     pub because: ContactError,
     /// The length of the steps: impacts are known to that time, so that places after one are off by it times what
@@ -81,7 +81,7 @@ pub enum RunPart<'k, K: ContactSystem<Scalar = f64>> {
     /// From event to event, to a tolerance.
     Events(EventPart<'k, K>),
     /// In steps: of first order at impacts.
-    Steps(StepPart<K>),
+    Steps(StepPart<'k, K>),
 }
 
 /// A run that has changed over to steps and back: its parts, in order of time.
@@ -284,7 +284,7 @@ where
     }
 
     fn part(&self, trajectory: ContactTrajectory<'k, K>) -> RunPart<'k, K> {
-        let Tolerance { relative, absolute } = self.run.settings.tolerance;
+        let Tolerance { relative, absolute } = self.run.settings.tolerance::<InMode<'k, K>>(&self.run.control);
         RunPart::Events(EventPart { trajectory, tolerance: [relative, absolute] })
     }
 
@@ -297,7 +297,7 @@ where
     ) -> Result<bool, ContactError> {
         let (start, q, z) = *from;
         let mut part = StepPart {
-            samples: Vec::new(),
+            samples: SteppedRun::begun(self.run.kernel, (start, q, z)),
             because,
             h: self.h,
             impacts: 0,
@@ -312,7 +312,7 @@ where
         made.map(|()| from.0 >= self.end)
     }
 
-    fn go_in_steps(&self, (start, q, z): At<K>, part: &mut StepPart<K>) -> Result<(), ContactError> {
+    fn go_in_steps(&self, (start, q, z): At<K>, part: &mut StepPart<'k, K>) -> Result<(), ContactError> {
         let mut stepper = ContactStepper::new(self.run.kernel, start, q, z)?.scheme(self.scheme);
         let mut struck = start;
         for n in 1_u64.. {
@@ -325,7 +325,7 @@ where
             part.impacts += report.impacts;
             part.residual = part.residual.worse(report.residual);
             part.closure = part.closure.max(report.closure);
-            part.samples.push(StepSample::of(&stepper));
+            part.samples.samples.push(StepSample::of(&stepper));
             if report.impacts > 0 {
                 struck = end;
             }

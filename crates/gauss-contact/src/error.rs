@@ -93,7 +93,12 @@ pub enum ContactErrorKind {
         /// The limit.
         limit: u64,
     },
-    /// Gaps, rates or coefficients of the contacts are not finite.
+    /// Every n-th state alone is asked for in steps, which states in between are made from.
+    EveryState {
+        /// n.
+        every: u64,
+    },
+    /// Gaps, rates or coefficients of the contacts, or functions that a run watches, are not finite.
     NonFinite,
     /// Painlevé's paradox: no contact force agrees with rigid bodies and Coulomb's law here. See
     /// [`ContactRun::impact_without_collision`](crate::ContactRun::impact_without_collision).
@@ -220,6 +225,11 @@ impl ContactErrorKind {
                 "elements of the scene have {states} states, which steps of one length do not follow; run it from event \
                  to event: `ContactRun`"
             ),
+            Self::EveryState { every } => write!(
+                f,
+                "steps with contacts keep every state, and `every({every})` asks for fewer; leave it out, and take \
+                 `sampled` or `at_times` of the run"
+            ),
             Self::LawWithoutSteps { law } => {
                 write!(f, "a run by the law {law:?} cannot change over to steps: these have Newton's law alone")
             }
@@ -269,6 +279,7 @@ impl fmt::Display for ContactErrorKind {
             | Self::StepTooSmall { .. }
             | Self::Lanes { .. }
             | Self::LawWithoutSteps { .. }
+            | Self::EveryState { .. }
             | Self::States { .. }
             | Self::Displacement { .. }
             | Self::Stiff { .. }

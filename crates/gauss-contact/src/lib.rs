@@ -15,8 +15,17 @@
 //! - Where rigid bodies and Coulomb's law have no motion or several (Painlevé), the run ends with an error; where they
 //!   have none it can go on by an impulse ([`ContactRun::impact_without_collision`]).
 //!
-//! For many contacts there are steps of one length in velocities and impulses ([`ContactSteps`], [`ContactStepper`]):
-//! any number of contacts, all impacts of a step at once, without events and without allocation.
+//! For many contacts there are steps of one length in velocities and impulses: any number of contacts, all impacts of a
+//! step at once, without events and without allocation.
+//!
+//! | for | begin with |
+//! |---|---|
+//! | a run | `Simulation::new(&kernel)` and [`contact_events`](WithContacts::contact_events) or [`contact_steps`](WithContacts::contact_steps) of [`WithContacts`] |
+//! | its states, forces, tables, pages | [`ContactRecord`] |
+//! | one step at a time | [`ContactStepper`] |
+//! | many systems in steps | [`ContactEnsemble`] |
+//! | a system in given modes, its accelerations and derivatives | [`InMode`] |
+//! | contacts that come at run time | [`Slots`] |
 //!
 //! Limits: flights lower than some hundred roundings of the largest coordinate are rest, or an error where e = 1. No
 //! first touch is missed, however long the steps: the rate of a gap is bounded by kinetic energy. Where that is not
@@ -50,6 +59,7 @@ mod equations;
 mod error;
 mod frame;
 mod friction;
+mod front;
 mod history;
 mod impact;
 mod law;
@@ -59,12 +69,14 @@ mod moving;
 mod poisson;
 mod present;
 mod problem;
+mod record;
 mod reserve;
 mod residual;
 mod rest;
 mod rounding;
 mod run;
 mod sensors;
+mod settings;
 mod shared;
 mod slots;
 mod solution;
@@ -78,9 +90,11 @@ mod witness;
 pub use balance::ContactBalance;
 pub use changeover::{ChangingRun, ChangingTrajectory, EventPart, RunPart, StepPart};
 pub use error::{ContactError, ContactErrorKind};
+pub use front::{Unchosen, WithContacts};
 pub use history::{ContactEvent, EventKind, ImpactRecord, Passage, SampledGap, SolveRecord};
 pub use impact::Impact;
 pub use mode::{InMode, Mode};
+pub use record::ContactRecord;
 pub use residual::Residual;
 pub use run::ContactRun;
 pub use sensors::{ContactForce, ContactForces, ContactWrench, SensorError};

@@ -26,10 +26,12 @@ use crate::mode::{InMode, Least, Mode, slip, tangents};
 use crate::moving::in_time;
 use crate::problem::InModeProblem;
 use crate::rounding::Rounding;
+use crate::settings::{Settings, TOLERANCE};
 use crate::trajectory::{ContactTrajectory, InputOf, Segment, integration};
 use crate::witness::{GapBound, Watched, Witness};
 
-/// A run with contacts in preparation.
+/// A run from event to event in preparation: that of
+/// [`contact_events`](crate::WithContacts::contact_events) of a [`Simulation`].
 #[derive(Clone, Copy, Debug)]
 #[must_use = "a run does nothing before `run`"]
 pub struct ContactRun<'k, K, C = NoControl, I = NoInput, E = NoEvents> {
@@ -37,31 +39,21 @@ pub struct ContactRun<'k, K, C = NoControl, I = NoInput, E = NoEvents> {
     pub(crate) control: C,
     pub(crate) input: I,
     pub(crate) settings: Settings,
-    events: E,
+    pub(crate) events: E,
 }
-
-/// The settings of a run but for its kernel, its method and its input.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Settings {
-    pub(crate) law: Impact,
-    jams: bool,
-    pub(crate) tolerance: Tolerance,
-    /// The most events.
-    limit: usize,
-    /// The most steps.
-    steps: Option<u64>,
-}
-
-/// Events of a run unless it sets another limit.
-const MOST_EVENTS: usize = 1_000_000;
 
 impl<'k, K: ContactSystem> ContactRun<'k, K> {
     /// A run of a system, without inputs and with Newton's law of impact.
     pub fn new(kernel: &'k K) -> Self {
+        Self::of_parts(kernel, NoControl, NoInput, NoEvents).tolerance(TOLERANCE.relative, TOLERANCE.absolute)
+    }
+}
+
+impl<'k, K: ContactSystem, C, I, E> ContactRun<'k, K, C, I, E> {
+    /// With the tolerance of its steps.
+    pub(crate) fn of_parts(kernel: &'k K, control: C, input: I, events: E) -> Self {
         const { assert!(K::Scalar::LANES == 1, "runs with contacts take one state at a time, no packs of numbers") }
-        let tolerance = Tolerance { relative: 1e-9, absolute: 1e-9 };
-        let settings = Settings { law: Impact::Newton, jams: false, tolerance, limit: MOST_EVENTS, steps: None };
-        Self { kernel, control: NoControl, input: NoInput, settings, events: NoEvents }
+        Self { kernel, control, input, settings: Settings::new(), events }
     }
 }
 
@@ -82,7 +74,7 @@ impl<'k, K: ContactSystem, C, I, E> ContactRun<'k, K, C, I, E> {
     /// `absolute`, plus `relative` times the largest speed at an event so far. Each such place adds an error of that
     /// size.
     pub fn tolerance(mut self, relative: f64, absolute: f64) -> Self {
-        self.settings.tolerance = Tolerance { relative, absolute };
+        self.settings.tolerance = Some(Tolerance { relative, absolute });
         self
     }
 
@@ -93,8 +85,13 @@ impl<'k, K: ContactSystem, C, I, E> ContactRun<'k, K, C, I, E> {
     where
         G: Fn(K::Scalar, &K::Configuration, &K::Speeds) -> K::Input,
     {
+        self.input_from(Feedback(input))
+    }
+
+    /// The input from a type that implements [`InputSource`]: a controller with parameters of its own, or a table.
+    pub fn input_from<J: InputSource<K>>(self, input: J) -> ContactRun<'k, K, C, J, E> {
         let Self { kernel, control, settings, events, .. } = self;
-        ContactRun { kernel, control, input: Feedback(input), settings, events }
+        ContactRun { kernel, control, input, settings, events }
     }
 
     /// Finds the states in which a function of time and state passes through zero, between impacts or by one. They are
@@ -230,8 +227,7 @@ impl<'k, K: ContactSystem, C, E> ContactRun<'k, K, C, NoInput, E> {
         E: Events<InMode<'k, K>>,
     {
         let Self { kernel, control, settings, events, .. } = self;
-        let Settings { law, tolerance, .. } = settings;
-        let scales = Scales::new(tolerance, law, interval.start);
+        let scales = Scales::new(settings.tolerance::<InMode<'k, K>>(&control), settings.law, interval.start);
         let mut driver = Driver {
             kernel,
             control,
@@ -399,6 +395,7 @@ where
         });
         let users = Events::<InMode<'k, K>>::count(&self.events);
         let simulation = Simulation::of(problem).control(self.control.clone()).events_by(&mut self.events);
+        let simulation = simulation.every(self.settings.every);
         let mut simulation = simulation.until_each_bounded(Crossing::Falling, functions.collect());
         if let Some(limit) = self.settings.steps {
             simulation = simulation.max_steps(limit.saturating_sub(self.used));

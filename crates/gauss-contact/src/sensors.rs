@@ -2,7 +2,9 @@
 
 use alloc::borrow::ToOwned;
 use alloc::string::String;
+use alloc::vec::Vec;
 use core::fmt;
+use core::ops::Deref;
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::{Contact, ContactFrame, ContactSystem};
@@ -85,10 +87,10 @@ impl fmt::Display for SensorError {
 
 impl core::error::Error for SensorError {}
 
-/// The forces of all contacts at one time, by [`ContactStepper::forces`](crate::ContactStepper::forces),
-/// [`StepSample::forces`](crate::StepSample::forces) or
-/// [`ContactTrajectory::sensors`](crate::ContactTrajectory::sensors). A step has the mean forces over its length, its
-/// impulses by its length; they act at the places that contacts have at its end.
+/// The forces of all contacts at one time: `run.forces(t)` of a run from event to event or in steps
+/// ([`ContactRecord::forces`](crate::ContactRecord::forces)), `stepper.forces()`. It can be used as its rows: normal,
+/// then tangents, then the spin, contact by contact; of dry friction and rolling resistance tangents alone. A step has
+/// the mean forces over its length, its impulses by its length.
 pub struct ContactForces<'k, K: ContactSystem> {
     kernel: &'k K,
     t: K::Scalar,
@@ -108,6 +110,14 @@ impl<K: ContactSystem> fmt::Debug for ContactForces<'_, K> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { t, q, rows, .. } = self;
         f.debug_struct("ContactForces").field("t", t).field("q", q).field("rows", rows).finish()
+    }
+}
+
+impl<K: ContactSystem> Deref for ContactForces<'_, K> {
+    type Target = K::ContactRows;
+
+    fn deref(&self) -> &K::ContactRows {
+        &self.rows
     }
 }
 
@@ -135,6 +145,13 @@ impl<'k, K: ContactSystem> ContactForces<'k, K> {
         }
         own.tangent_rows().zip(&mut force[1..]).for_each(|(row, part)| *part = self.rows.component(row));
         Ok(force)
+    }
+
+    /// All forces as vectors, each with where it acts: of contacts that have one, and whose place is known
+    /// ([`contact_frame`](ContactSystem::contact_frame)).
+    pub fn vectors(&self) -> Vec<ContactForce<K::Scalar>> {
+        let acts = |contact: &usize| !self.rests(*contact).unwrap_or(true);
+        (0..K::CONTACTS.len()).filter(acts).filter_map(|contact| self.in_world(contact).ok()).collect()
     }
 
     /// The force of a contact on its first body, and where it acts.

@@ -12,7 +12,7 @@ use crate::dense::value;
 use crate::error::{ContactError, ContactErrorKind};
 use crate::history::{ContactEvent, Passage, SampledGap, SolveRecord};
 use crate::mode::{InMode, Mode};
-use crate::sensors::{ContactForce, ContactForces};
+use crate::sensors::ContactForces;
 
 /// The input as a function of time and state.
 pub(crate) type InputOf<'k, K> = Rc<
@@ -145,14 +145,13 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
         times.into_iter().map(|t| self.at(t)).collect()
     }
 
-    /// The contact forces at a time, all rows: normal, then tangents, then the spin, contact by contact; of dry
-    /// friction and rolling resistance tangents alone. Where contacts depend on one another they are those of least
-    /// `Σ D_ii λ_i²`, or, where these break a law that others keep, those that keep the laws with the most to spare;
-    /// the motion is the same for all.
+    /// The forces at contacts at a time, with what sensors there measure: rows, vectors, the wrench on a body, the
+    /// centre of pressure. Where contacts depend on one another they are those of least `Σ D_ii λ_i²`, or, where these
+    /// break a law that others keep, those that keep the laws with the most to spare; the motion is the same for all.
     ///
     /// # Errors
     /// Where the run does not cover the time.
-    pub fn forces(&self, t: K::Scalar) -> Result<K::ContactRows, ContactError> {
+    pub fn forces(&self, t: K::Scalar) -> Result<ContactForces<'k, K>, ContactError> {
         let segment = self.segment_at(t)?;
         let state = segment.trajectory.at(t).map_err(|error| integration(value(t), error))?;
         let input = (self.input)(t, &state.q, &state.z);
@@ -166,27 +165,7 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
             .iter()
             .enumerate()
             .for_each(|(row, force)| forces.set_component(row, *force));
-        Ok(forces)
-    }
-
-    /// The contact forces at a time as vectors: of each closed contact whose place is known
-    /// ([`contact_frame`](ContactSystem::contact_frame)) its number, where it is, and the force on its first body
-    /// there, along the observer's axes.
-    ///
-    /// # Errors
-    /// Where the run does not cover the time.
-    pub fn force_vectors(&self, t: K::Scalar) -> Result<Vec<ContactForce<K::Scalar>>, ContactError> {
-        let (sensors, modes) = (self.sensors(t)?, self.modes(t)?);
-        let closed = modes.iter().enumerate().filter(|(_, mode)| mode.is_closed());
-        Ok(closed.filter_map(|(contact, _)| sensors.in_world(contact).ok()).collect())
-    }
-
-    /// What sensors at the contacts measure at a time: forces, the wrench on a body, the centre of pressure.
-    ///
-    /// # Errors
-    /// Where the run does not cover the time.
-    pub fn sensors(&self, t: K::Scalar) -> Result<ContactForces<'k, K>, ContactError> {
-        Ok(ContactForces::new(self.segment_at(t)?.system.kernel, t, self.at(t)?.q, self.forces(t)?))
+        Ok(ContactForces::new(system.kernel, t, state.q, forces))
     }
 
     /// The modes of the contacts at a time; at an event, those after it.

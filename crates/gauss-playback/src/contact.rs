@@ -36,49 +36,25 @@ impl<S: GaussSystem<Scalar = f64>> Playback<S> {
 
 #[cfg(feature = "contact")]
 mod of_runs {
-    use gauss_contact::{ContactError, ContactTrajectory, Mode};
+    use gauss_contact::{ContactError, ContactRecord, Mode};
     use gauss_runtime::configuration::VectorSpace;
     use gauss_runtime::contact::{ContactFrame, ContactSystem};
     use gauss_runtime::prelude::Sample;
 
-    use crate::playback::{PICTURES, Playback};
+    use crate::page::Plane;
+    use crate::playback::Playback;
     use crate::touch::Touch;
 
     impl<S: ContactSystem<Scalar = f64>> Playback<S> {
-        /// The playback of a run with contacts, at 600 times equally far apart, and before and after each event: what
-        /// jumps there is not smoothed.
-        ///
-        /// # Errors
-        /// [`ContactErrorKind::OutsideRun`](gauss_contact::ContactErrorKind::OutsideRun) of a run that ended before its
-        /// first step.
-        pub fn of_contacts(title: &str, run: &ContactTrajectory<'_, S>) -> Result<Self, ContactError> {
-            let (mut times, span) = match (run.segments().first(), run.last()) {
-                (Some(first), Some(last)) => {
-                    let (first, gaps) = (first.trajectory().first().t, f64::from(PICTURES - 1));
-                    let time = |n: u32| first + (last.t - first) * f64::from(n) / gaps;
-                    ((0..PICTURES).map(|n| time(n).min(last.t)).collect(), last.t - first)
-                }
-                _ => (vec![0.0], 0.0),
-            };
-            // Of events that pile up no more than a screen shows.
-            let least = span / f64::from(10 * PICTURES);
-            let mut shown = f64::NEG_INFINITY;
-            for event in run.events() {
-                if event.time - shown > least && event.time > times[0] {
-                    shown = event.time;
-                    times.extend([event.time.next_down(), event.time]);
-                }
-            }
-            times.sort_by(f64::total_cmp);
-            times.dedup();
-            Ok(Self::of_samples(title, run.at_times(times)?))
-        }
-
-        /// All contacts of a run whose place the kernel knows, each with its force, as [`contact`](Self::contact) draws
-        /// them. Contacts whose gaps are written as expressions have no place that the kernel would know:
+        /// All contacts of a run, from event to event or in steps, whose place the kernel knows, each with its force,
+        /// as [`contact`](Self::contact) draws them, and the planes that stand still which they touch. Contacts whose
+        /// gaps are written as expressions have no place that the kernel would know:
         /// [`contacts_at`](Self::contacts_at).
         #[must_use]
-        pub fn contacts(self, kernel: &S, scale: f64, run: &ContactTrajectory<'_, S>) -> Self {
+        pub fn contacts<'k>(self, kernel: &S, scale: f64, run: &impl ContactRecord<'k, S>) -> Self
+        where
+            S: 'k,
+        {
             self.contacts_at(kernel, scale, run, |_, _| None)
         }
 
@@ -86,18 +62,26 @@ mod of_runs {
         /// those of a contact, by its place in [`CONTACTS`](ContactSystem::CONTACTS), at a state. A contact of which
         /// they are not always known is not drawn.
         #[must_use]
-        pub fn contacts_at(
+        pub fn contacts_at<'k>(
             mut self,
             kernel: &S,
             scale: f64,
-            run: &ContactTrajectory<'_, S>,
+            run: &impl ContactRecord<'k, S>,
             place: impl Fn(usize, &Sample<S>) -> Option<ContactFrame<f64>>,
-        ) -> Self {
+        ) -> Self
+        where
+            S: 'k,
+        {
             for (n, contact) in S::CONTACTS.iter().enumerate() {
                 let frame = |s: &Sample<S>| kernel.contact_frame(n, s.t, &s.q).or_else(|| place(n, s));
                 let Some(frames) = self.samples.iter().map(frame).collect::<Option<Vec<_>>>() else { continue };
+                if let Some(plane) = plane(kernel, n, &self.samples, &frames)
+                    && !self.page.planes.contains(&plane)
+                {
+                    self.page.planes.push(plane);
+                }
                 let shown = self.samples.iter().zip(frames).map(|(s, frame)| {
-                    let forces = run.forces(s.t)?;
+                    let forces = *run.forces(s.t)?;
                     let rows: Vec<f64> = contact.rows().map(|row| forces.component(row)).collect();
                     Ok((touch(&run.modes(s.t)?[n]), frame.point, frame.force(&rows)))
                 });
@@ -108,6 +92,35 @@ mod of_runs {
             }
             self
         }
+    }
+
+    /// How many roundings a plane may seem to move by: points, normals and gaps are short sums.
+    const ROUNDINGS: f64 = 64.0;
+
+    /// The plane that a contact touches, as its normal and height, where it stands still.
+    fn plane<S: ContactSystem<Scalar = f64>>(
+        kernel: &S,
+        contact: usize,
+        samples: &[Sample<S>],
+        frames: &[ContactFrame<f64>],
+    ) -> Option<Plane> {
+        if S::CONTACTS[contact].bodies[1].is_some() || !S::CONTACTS[contact].has_gap() {
+            return None;
+        }
+        let seen = samples.iter().zip(frames).map(|(s, frame)| {
+            let (gap, along) = (kernel.gaps(s.t, &s.q).component(contact), frame.normal.dot(&frame.point));
+            (frame.normal, along - gap, along.abs().max(gap.abs()).max(frame.point.amax()))
+        });
+        let (normal, height, mut size) = seen.clone().next()?;
+        for (other, its_height, its_size) in seen {
+            size = size.max(its_size);
+            let rounding = ROUNDINGS * f64::EPSILON;
+            let is_still = (other - normal).amax() <= rounding && (its_height - height).abs() <= rounding * size;
+            if !is_still {
+                return None;
+            }
+        }
+        Some(Plane { normal: normal.map(|x| x as f32).into(), height: height as f32 })
     }
 
     fn touch(mode: &Mode<f64>) -> Touch {

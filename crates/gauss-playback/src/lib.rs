@@ -37,8 +37,8 @@
 //! `Playback::shapes_of_urdf` gives them the boxes, cylinders and balls of their file.
 //!
 //! What touches is shown by [`Playback::contact`]: a dot and a force, in the colour of what the contact does. With the
-//! feature `contact` `Playback::of_contacts` is the playback of a run of `gauss-contact`, and `Playback::contacts`
-//! shows all of its contacts with their forces.
+//! feature `contact` `Playback::contacts` shows all contacts of a run of `gauss-contact` with their forces, and the
+//! planes that they touch.
 //!
 //! All lengths are in the units of the scene, which the page shows if they are those of the SI ([`Playback::si`]); the
 //! axes are the observer's, and k₃ points up on the screen.

@@ -32,6 +32,8 @@ pub struct Page {
     pub traces: Vec<Trace>,
     pub arrows: Vec<Arrow>,
     pub contacts: Vec<Contact>,
+    /// The planes that contacts touch; a page without any has a floor below everything.
+    pub planes: Vec<Plane>,
     pub panels: Vec<Panel>,
 }
 
@@ -75,6 +77,13 @@ pub struct Contact {
     pub values: Vec<[f64; 6]>,
 }
 
+/// A plane that stands still, by its normal and its height along it, as a screen shows them.
+#[derive(Clone, Copy, PartialEq, Serialize)]
+pub struct Plane {
+    pub normal: [f32; 3],
+    pub height: f32,
+}
+
 #[derive(Serialize)]
 pub struct Panel {
     pub title: String,
@@ -108,6 +117,7 @@ impl Page {
             traces: Vec::new(),
             arrows: Vec::new(),
             contacts: Vec::new(),
+            planes: Vec::new(),
             panels: Vec::new(),
         }
     }

@@ -4,16 +4,15 @@
 use std::fs;
 use std::path::Path;
 
-use gauss_runtime::prelude::{
-    FrameName, FramedSystem, GaussSystem, IntegrationError, Isometry3, Sample, Trajectory, Vector3,
-};
+use gauss_runtime::integrate::RunRecord;
+use gauss_runtime::prelude::{FrameName, FramedSystem, GaussSystem, Isometry3, Sample, Vector3};
 
 use crate::error::PlaybackError;
 use crate::page::{self, Arrow, Body, Curve, Page, Panel, Rod, Trace};
 use crate::shape::Shape;
 
 /// Pictures of a run: at 60 a second it takes ten seconds to play.
-pub(crate) const PICTURES: u32 = 600;
+const PICTURES: u32 = 600;
 
 /// Of a number that cannot be shown.
 const OUT_OF_RANGE: &str = "is not finite, or larger than a page can show (1.7e38)";
@@ -27,26 +26,23 @@ pub struct Playback<S: GaussSystem<Scalar = f64>> {
 }
 
 impl<S: GaussSystem<Scalar = f64>> Playback<S> {
-    /// The playback of a run, at 600 times equally far apart; states between its samples are those of
-    /// [`Trajectory::at`].
+    /// The playback of the record of a run: of a [`Trajectory`](gauss_runtime::integrate::Trajectory), or of a run with
+    /// contacts, from event to event or in steps. There are pictures at 600 times equally far apart, and one before and
+    /// one after each jump of the state or of a contact's force, so that a jump is none that takes a time.
     ///
     /// # Errors
-    /// The error of [`Trajectory::at`].
-    pub fn new(title: &str, path: &Trajectory<'_, S>) -> Result<Self, IntegrationError> {
-        Self::with_pictures(title, path, PICTURES)
+    /// The error of [`RunRecord::state_at`].
+    pub fn new<R: RunRecord<S> + ?Sized>(title: &str, run: &R) -> Result<Self, R::Error> {
+        Self::with_pictures(title, run, PICTURES)
     }
 
     /// The same with another number of pictures, at least two: more for long runs with fast turns, fewer for small
     /// files.
     ///
     /// # Errors
-    /// The error of [`Trajectory::at`].
-    pub fn with_pictures(title: &str, path: &Trajectory<'_, S>, pictures: u32) -> Result<Self, IntegrationError> {
-        let (first, last) = (path.first().t, path.last().t);
-        let gaps = pictures.max(2) - 1;
-        // The last time is that of the last sample itself: rounding must not leave the run.
-        let time = |n: u32| if n == gaps { last } else { first + (last - first) * f64::from(n) / f64::from(gaps) };
-        Ok(Self::of_samples(title, path.at_times((0..=gaps).map(time))?))
+    /// The error of [`RunRecord::state_at`].
+    pub fn with_pictures<R: RunRecord<S> + ?Sized>(title: &str, run: &R, pictures: u32) -> Result<Self, R::Error> {
+        Ok(Self::of_samples(title, run.sampled(pictures as usize)?))
     }
 
     /// The playback of samples in the order of time. The page plays evenly in time, whatever the distances of samples.

@@ -106,16 +106,17 @@ const look = () => {
   const largest = Math.max(...bodies.map(reach));
   if (data.follow !== null) stage.distance = Math.min(stage.distance, distanceTo(2.5 * (reach(bodies[data.follow]) || largest)));
 };
-const buffers = { traces: [], grid: null };
+const buffers = { traces: [], grids: [] };
 if (stage) {
   look();
   buffers.traces = traces.map((trace) => stage.tube(clock.map((_, n) => {
     const { at, axes } = poseAt(bodies[trace.body], [n, n, 0]);
     return add(at, turned3(axes, trace.point));
   }), Math.min(0.004 * radius, stage.distance * 0.0015)));
-  // The floor is below everything.
+  // Planes that are touched, or a floor below everything.
   const height = Math.min(...corners.map((corner) => dot(corner, stage.world[2])));
-  buffers.grid = floorOf(stage, middle, radius, height);
+  buffers.grids = data.planes.map(({ normal, height: h }) => floorOf(stage, middle, radius, h, axesAlong(normal)));
+  if (!data.planes.length) buffers.grids.push(floorOf(stage, middle, radius, height));
 }
 
 // What contacts do, and its colours.
@@ -128,7 +129,7 @@ const drawStage = (where, style) => {
   if (follow !== "") stage.target = poses[follow].at;
   stage.begin(paper);
   const ink = colourOf(style.ink);
-  stage.lines(buffers.grid.buffer, buffers.grid.count, [...ink, 0.13]);
+  buffers.grids.forEach((grid) => stage.lines(grid.buffer, grid.count, [...ink, 0.13]));
   drawAxes(stage, 0.18 * radius);
   poses.forEach((pose, k) => drawBody(stage, bodies[k].shapes, pose, bodyColour(k)));
   rods.forEach(({ from, to, radius: r }) => {
@@ -193,7 +194,7 @@ arrows.forEach((arrow, k) => key(legend, arrow.name, arrowColour(k)));
 const touched = new Set(contacts.flatMap(({ touches }) => touches));
 Object.keys(TOUCHES).filter((touch) => touched.has(touch)).forEach((touch) => key(legend, `contact ${touch}`, TOUCHES[touch]));
 if (stage) AXES.forEach(({ name, colour }) => key(legend, name, colour));
-if (stage) key(legend, `squares of ${Number(buffers.grid.side.toPrecision(3))}${inUnits(" m")}`, "var(--line)");
+if (stage) key(legend, `squares of ${Number(buffers.grids[0].side.toPrecision(3))}${inUnits(" m")}`, "var(--line)");
 
 byId("play").addEventListener("click", toggle);
 byId("slider").addEventListener("input", (event) => { playing = false; seek(begin + event.target.value * span); });

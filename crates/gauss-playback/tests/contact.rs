@@ -1,7 +1,7 @@
 //! Contacts of a run on the page: where they are, what they do, their forces.
 #![cfg(feature = "contact")]
 
-use gauss_contact::ContactRun;
+use gauss_contact::{ContactRun, WithContacts};
 use gauss_playback::{Playback, PlaybackError, Touch};
 use gauss_runtime::contact::ContactFrame;
 use gauss_runtime::prelude::*;
@@ -20,10 +20,14 @@ struct Block {
     g: f64,
 }
 
-fn contacts(page: &str) -> Vec<Value> {
+fn data(page: &str) -> Value {
     let (_, rest) = page.split_once("<script id=\"data\" type=\"application/json\">").expect("the mark of the data");
     let (data, _) = rest.split_once("</script>").expect("the end of the data");
-    let data: Value = serde_json::from_str(data).expect("JSON");
+    serde_json::from_str(data).expect("JSON")
+}
+
+fn contacts(page: &str) -> Vec<Value> {
+    let data = data(page);
     let mut contacts = data["contacts"].as_array().expect("a list").clone();
     contacts.push(data["times"].clone());
     contacts
@@ -42,8 +46,8 @@ fn contacts_have_places_modes_and_forces() -> Result<(), Box<dyn std::error::Err
     let wall = |n: usize, s: &Sample<BlockKernel>| {
         (n == 1).then(|| ContactFrame::new(Vector3::new(3.0, 0.0, s.q[1]), -Vector3::x(), &[]))
     };
-    let bare = Playback::of_contacts("A block", &run)?.contacts(&kernel, 0.1, &run).html()?;
-    let page = Playback::of_contacts("A block", &run)?.contacts_at(&kernel, 0.1, &run, wall).html()?;
+    let bare = Playback::new("A block", &run)?.contacts(&kernel, 0.1, &run).html()?;
+    let page = Playback::new("A block", &run)?.contacts_at(&kernel, 0.1, &run, wall).html()?;
     assert_eq!(contacts(&bare).len(), 2, "the floor, and the times");
     let shown = contacts(&page);
     let [floor, wall, times] = &shown[..] else { panic!("two contacts and the times") };
@@ -95,5 +99,39 @@ fn a_contact_by_hand_and_a_run_of_other_times() -> Result<(), Box<dyn std::error
     let page = Playback::of_samples("", later).contacts(&kernel, 1.0, &run).html();
     let Err(PlaybackError::Mistakes(all)) = page else { panic!("a mistake") };
     assert!(all.len() == 1 && all[0].starts_with("contact `floor`: "), "{all:?}");
+    Ok(())
+}
+
+/// A block on a slope of 30°, of which the plane is drawn; of steps as of events.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, z),
+    particle(mass = 2, position = [x, 0, z]),
+    contact(slope, point = [x, 0, z], plane = [3, 0, 4], height = 0.5, friction = 0.1),
+)]
+struct Slope {
+    #[gauss(gravity)]
+    g: f64,
+}
+
+#[test]
+fn the_plane_of_a_slope_is_drawn() -> Result<(), Box<dyn std::error::Error>> {
+    let kernel = Slope { g: 9.81 }.kernel()?;
+    let start = ([0.0, 0.8].into(), [0.0, 0.0].into());
+    let exact = Simulation::new(&kernel).adaptive(1e-9, 1e-9).contact_events().run(start.0, start.1, 0.0..1.0)?;
+    let steps = Simulation::new(&kernel).contact_steps(1e-2).run(start.0, start.1, 0.0..1.0)?;
+    let pages = [
+        Playback::new("A slope", &exact)?.contacts(&kernel, 0.1, &exact).html()?,
+        Playback::new("A slope", &steps)?.contacts(&kernel, 0.1, &steps).html()?,
+    ];
+    for page in pages {
+        let planes = data(&page)["planes"].as_array().expect("a list").clone();
+        let [plane] = &planes[..] else { panic!("one plane: {planes:?}") };
+        // A plane at a distance of 0.5 from Ω, whatever the length of the normal that is written.
+        let numbers = [numbers(&plane["normal"]), vec![plane["height"].as_f64().expect("a number")]].concat();
+        let expected = [0.6, 0.0, 0.8, 0.5];
+        // Floats of 24 bits.
+        assert!(numbers.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-7), "{numbers:?}");
+    }
     Ok(())
 }

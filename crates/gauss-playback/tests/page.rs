@@ -169,3 +169,37 @@ fn an_ellipsoid_has_the_moments_it_is_drawn_for() {
     let radius = planet.expect("numbers")["size"][0].as_f64().expect("a number");
     assert!((radius / (2.5e42 * 3.0 / 1.9e27_f64).sqrt() - 1.0).abs() < 1e-14);
 }
+
+/// A ball that keeps four fifths of its speed at each bounce.
+#[derive(GaussDynamics)]
+#[gauss(coordinates(height), particle(mass = 1, position = [0, 0, height]), gravity = 9.81)]
+struct Ball {}
+
+/// Speeds jump at a bounce: the page has the one before and the one after, a rounding of the time apart, and curves go
+/// straight up between them.
+#[test]
+fn a_jump_is_a_jump() -> Result<(), Box<dyn std::error::Error>> {
+    let kernel = Ball {}.kernel()?;
+    let run = Simulation::new(&kernel)
+        .event(Crossing::Falling, |_, q: &SVector<f64, 1>, _| q[0])
+        .then(|state| state.z[0] *= -0.8)
+        .adaptive(1e-10, 1e-10)
+        .run(SVector::from([1.0]), SVector::from([0.0]), 0.0..2.0)?;
+    // Few pictures, so that none is at a bounce by chance.
+    let page = Playback::with_pictures("A ball", &run, 21)?.curve("speed", "speed", |s| s.z[0]).html()?;
+    let data = data(&page);
+    let numbers = |value: &Value| -> Vec<f64> {
+        value.as_array().expect("a list").iter().map(|x| x.as_f64().expect("a number")).collect()
+    };
+    let (times, speeds) = (numbers(&data["times"]), numbers(&data["panels"][0]["curves"][0]["values"]));
+    assert_eq!(times.len(), 21 + 2 * run.events().len());
+    assert!(times.is_sorted_by(|a, b| a < b));
+    for event in run.events() {
+        let after = times.iter().position(|t| *t == event.sample.t).expect("a picture");
+        assert_eq!(times[after - 1], event.sample.t.next_down());
+        // A rounding of the time, at g.
+        assert!((speeds[after - 1] - event.sample.z[0]).abs() < 1e-13);
+        assert!((speeds[after] + 0.8 * event.sample.z[0]).abs() < 1e-13);
+    }
+    Ok(())
+}

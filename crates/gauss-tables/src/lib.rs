@@ -60,10 +60,6 @@ mod run;
 mod table;
 
 /// [`Tabulate`] is for runs alone, so that functions can be added to it.
-mod sealed {
-    pub trait Sealed {}
-}
-
 pub use error::TableError;
 pub use gauss_runtime::chart::EulerSequence;
 pub use run::{RunTable, Tabulate};

@@ -6,7 +6,7 @@ use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::description::DescribedSystem;
 use gauss_runtime::forces::ForcedSystem;
-use gauss_runtime::integrate::{IntegrationError, Sample, Trajectory};
+use gauss_runtime::integrate::{RunRecord, Sample};
 use gauss_runtime::nalgebra::{Quaternion, UnitQuaternion};
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
@@ -16,10 +16,11 @@ use crate::table::{ColumnError, Table};
 /// A table whose rows are states of a system S: what a run is tabulated as.
 pub type RunTable<S> = Table<Sample<S>>;
 
-/// Tables of a run.
+/// Tables of the record of a run: of a [`Trajectory`](gauss_runtime::integrate::Trajectory), and of runs with contacts,
+/// from event to event and in steps.
 #[doc(alias = "csv")]
 #[doc(alias = "plot")]
-pub trait Tabulate<S: GaussSystem>: crate::sealed::Sealed {
+pub trait Tabulate<S: GaussSystem>: RunRecord<S> {
     /// A table with a row for every sample, and the time as its first column.
     ///
     /// ```
@@ -60,19 +61,17 @@ pub trait Tabulate<S: GaussSystem>: crate::sealed::Sealed {
     /// A table with a row for every given time, which is its first column.
     ///
     /// # Errors
-    /// The error of [`Trajectory::at`] for the first time whose state cannot be computed.
-    fn table_at(&self, times: impl IntoIterator<Item = S::Scalar>) -> Result<RunTable<S>, IntegrationError>;
+    /// The error of [`state_at`](RunRecord::state_at) for the first time whose state cannot be found.
+    fn table_at(&self, times: impl IntoIterator<Item = S::Scalar>) -> Result<RunTable<S>, Self::Error>;
 }
 
-impl<S: GaussSystem> crate::sealed::Sealed for Trajectory<'_, S> {}
-
-impl<S: GaussSystem> Tabulate<S> for Trajectory<'_, S> {
+impl<S: GaussSystem, R: RunRecord<S> + ?Sized> Tabulate<S> for R {
     fn table(&self) -> RunTable<S> {
-        Table::new(self.samples().to_vec())
+        Table::new(self.states())
     }
 
-    fn table_at(&self, times: impl IntoIterator<Item = S::Scalar>) -> Result<RunTable<S>, IntegrationError> {
-        self.at_times(times).map(Table::new)
+    fn table_at(&self, times: impl IntoIterator<Item = S::Scalar>) -> Result<RunTable<S>, Self::Error> {
+        times.into_iter().map(|t| self.state_at(t)).collect::<Result<_, _>>().map(Table::new)
     }
 }
 
@@ -141,8 +140,8 @@ impl<S: GaussSystem> Table<Sample<S>> {
     /// Gap, normal force, and of each tangent the slip and the friction of every contact: `NAME gap`, `NAME force`,
     /// `NAME slip`, `NAME friction`, of two tangents `NAME slip 1`, and so on, with friction of drilling `NAME spin`,
     /// `NAME drilling`; of dry friction and rolling resistance slips and friction alone. `forces` are all rows of
-    /// contact forces at a state, such as those that a run with contacts has at its time; where they are unknown their
-    /// columns are NaN.
+    /// contact forces at a state, such as those that a run with contacts has at its time, `|s|
+    /// Some(*run.forces(s.t).ok()?)`; where they are unknown their columns are NaN.
     #[must_use]
     pub fn contacts(self, system: &S, forces: impl Fn(&Sample<S>) -> Option<S::ContactRows>) -> Self
     where

@@ -3,7 +3,7 @@
 use super::cells::{Row, missing, moot, refused, shown, together, unshown};
 
 const AT_A_STATE: &str = "it happens in a run; the equations at a state have no part of it";
-const NOT_IN_RUNS: &str = "`ContactRun` has `input`, `event` and `until`, and no such method";
+const NOT_IN_RUNS: &str = "`contact_events()` takes inputs and events, and nothing that changes them: a compile error";
 const BETWEEN_STEPS: &str = "what is done between two steps is the caller's";
 
 pub const SAMPLED: Row = Row {
@@ -20,7 +20,7 @@ pub const SAMPLED: Row = Row {
         ("ros", together("sampled::stiff")),
         ("imp", together("sampled::implicit")),
         ("evt", missing(NOT_IN_RUNS)),
-        ("stp", missing("`ContactSteps::input` is asked in each step; another period is a loop over `ContactStepper`")),
+        ("stp", missing("an input is asked in each step; another period is a loop over `ContactStepper`")),
         ("one", moot(BETWEEN_STEPS)),
         ("lan", missing("`Batch` and `Ensemble` have no such method")),
         ("thr", missing("`Batch` and `Ensemble` have no such method")),
@@ -80,7 +80,11 @@ pub const EVENTS: Row = Row {
                 "functions_of_the_user_are_found_between_impacts_and_at_them",
             ),
         ),
-        ("stp", missing("steps have no `event` or `until`: look at the state after each of them")),
+        (
+            "stp",
+            shown("crates/gauss-contact/tests/many/front.rs", "steps_find_events_of_the_user")
+                .but("between the ends of steps; what passes there and back within one is not seen"),
+        ),
         ("one", missing("a step knows no events: the search belongs to `Simulation`")),
         ("lan", shown("tests/tests/batch/ensembles.rs", "events_are_those_of_each_run")),
         (
@@ -132,18 +136,14 @@ pub const JUMPS: Row = Row {
         ("ros", together("jump::stiff")),
         ("imp", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
         ("evt", missing(NOT_IN_RUNS)),
-        ("stp", missing("steps have no events: begin another `ContactStepper` at the state after a jump")),
+        ("stp", missing("events of steps change nothing: begin another `ContactStepper` at the state after a jump")),
         ("one", moot(BETWEEN_STEPS)),
         ("lan", shown("tests/tests/events.rs", "runs_in_lanes_pile_up_and_are_told_as_alone")),
         ("thr", together("jump::threads")),
         ("at", shown("tests/tests/events.rs", "a_ball_bounces_by_every_method")),
         ("tab", together("jump::table_and_plot")),
         ("plt", together("jump::table_and_plot")),
-        (
-            "pag",
-            unshown("pictures are even in time")
-                .silent("a page draws straight on from picture to picture, also where the state jumps between two"),
-        ),
+        ("pag", shown("crates/gauss-playback/tests/page.rs", "a_jump_is_a_jump")),
         ("mon", together("jump::energy")),
         (
             "fwd",
@@ -195,7 +195,7 @@ pub const RANGES: Row = Row {
                 "lanes_and_derivatives_have_friction_along_driven_coordinates",
             ),
         ),
-        ("at", shown("tests/tests/touching.rs", "a_motor_holds_a_pendulum_at_its_stop").but("of `ContactRun`")),
+        ("at", shown("tests/tests/touching.rs", "a_motor_holds_a_pendulum_at_its_stop").but("by events")),
         ("pag", unshown("the example `dry_friction` writes one")),
         ("adj", refused(FALLS_THROUGH)),
         (
@@ -247,20 +247,24 @@ pub const CONTACTS: Row = Row {
                 "crates/gauss-contact/tests/laws/turning.rs",
                 "a_ball_that_spins_on_its_place_stops_when_drilling_has_taken_its_momentum",
             )
-            .but("of `ContactRun`; steps have no `at`"),
+            .but("by events; in steps `both_records_are_read_alike`"),
         ),
-        ("tab", shown("tests/tests/touching/history.rs", "a_table_has_the_columns_of_its_contacts")),
+        ("tab", shown("tests/tests/touching/history.rs", "tables_take_runs_by_events_and_in_steps_alike")),
         ("plt", unshown("the example `hopping` draws such a table")),
-        ("pag", shown("crates/gauss-playback/tests/contact.rs", "contacts_have_places_modes_and_forces")),
+        (
+            "pag",
+            shown("crates/gauss-playback/tests/contact.rs", "contacts_have_places_modes_and_forces")
+                .but("by events; in steps `the_plane_of_a_slope_is_drawn`"),
+        ),
         (
             "mon",
             shown("tests/tests/touching/history.rs", "what_friction_and_impacts_take_is_what_is_lost")
-                .but("of `ContactRun`; of steps `report.work` and `unexplained`"),
+                .but("by events; of steps `report.work` and `unexplained`"),
         ),
         (
             "fwd",
             shown("tests/tests/duals/contacts.rs", "bounces_have_the_derivatives_of_their_closed_form")
-                .but("`ContactRun` in dual numbers; `gauss-sensitivity` refuses, `contacts_are_refused`"),
+                .but("by events, in dual numbers; `gauss-sensitivity` refuses, `contacts_are_refused`"),
         ),
         ("adj", refused(FALLS_THROUGH).but("as forward; `contacts_are_refused` asks `run` alone, not `gradient`")),
         ("lin", shown("tests/tests/duals/contacts.rs", "a_system_is_linearised_in_its_mode").but(FREE_DERIVATIVES)),

@@ -190,7 +190,7 @@ fn a_block_slides_to_its_stop() {
     }
     assert!(parts(last.z[0]) == [0.0; 4] && parts(last.q[1]) == [0.0; 4]);
     // Its friction while it slid, and none now.
-    let forces = run.forces(number(0.1)).expect("slides");
+    let forces = *run.forces(number(0.1)).expect("slides");
     for (x, y) in parts(forces[1]).into_iter().zip(parts(number::<Three>(-3.0) * mu * g)) {
         assert!((x - y).abs() < 1e-13, "{x} {y}");
     }

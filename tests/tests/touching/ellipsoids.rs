@@ -43,7 +43,7 @@ fn what_lies_on_its_shortest_axis_rests() {
     let run = ContactRun::new(&kernel).adaptive(1e-10, 1e-10).run(start, SVector::zeros(), 0.0..2.0).unwrap();
     let end = run.last().unwrap();
     assert!(run.events().is_empty() && end.q == start && end.z.amax() == 0.0, "{} {}", end.q, end.z);
-    let forces = run.force_vectors(1.0).unwrap();
+    let forces = run.forces(1.0).unwrap().vectors();
     let [force] = forces.as_slice() else { panic!("one contact") };
     assert!((force.force - Vector3::z() * (MASS * G)).amax() < 1e-13, "{}", force.force);
     assert!((force.point - Vector3::new(0.3, -0.1, 0.0)).amax() < 1e-15);

@@ -300,7 +300,7 @@ fn a_tippe_top_turns_over_and_stands_on_its_stem() {
     let end = run.last().unwrap();
     assert!(end.z[5] < -90.0 && (end.q.rotation * Vector3::new(end.z[3], end.z[4], end.z[5])).z > 90.0);
     let table: RunTable<TippeTopKernel> = Table::new(run.at_times([0.5]).unwrap());
-    let table = table.contacts(&kernel, |s| run.forces(s.t).ok());
+    let table = table.contacts(&kernel, |s| Some(*run.forces(s.t).ok()?));
     let names: Vec<&str> = table.names().filter(|name| name.starts_with("head")).collect();
     let friction = ["head friction 1", "head friction 2", "head drilling"];
     assert_eq!(names[2..], ["head slip 1", friction[0], "head slip 2", friction[1], "head spin", friction[2]]);

@@ -242,7 +242,7 @@ fn walkers_of_random_numbers_stand_slide_and_lift_their_feet_by_the_laws() {
             z = SVector::from([length * numbers.any() / time, up, along, -up / (walker.l2 * q[3].sin())]);
         }
         let run = ContactRun::new(&kernel).adaptive(1e-9, 1e-9).run(q, z, 0.0..1e-9 * time).unwrap();
-        let forces = run.forces(0.0).unwrap();
+        let forces = *run.forces(0.0).unwrap();
         let w = kernel.contact_jacobian(0.0, &q);
         let (columns, matrix) = delassus(kernel.mass_matrix(0.0, &q), &w);
         let acceleration = kernel.acceleration(0.0, &q, &z, &()) + columns * forces;
@@ -315,7 +315,7 @@ fn crates_of_random_numbers_rest_slide_and_tip_by_the_laws() {
         let q = Isometry3::translation(length * numbers.any(), length * numbers.any(), 0.5 * c);
         let z = SVector::<f64, 6>::zeros();
         let run = ContactRun::new(&kernel).adaptive(1e-9, 1e-9).run(q, z, 0.0..1e-9 * time).unwrap();
-        let forces = run.forces(0.0).unwrap();
+        let forces = *run.forces(0.0).unwrap();
         let w = kernel.contact_jacobian(0.0, &q);
         let (columns, matrix) = delassus(kernel.mass_matrix(0.0, &q), &w);
         // At rest rates change by accelerations alone.

@@ -37,7 +37,7 @@ fn a_box_falls_on_a_face_and_rests() {
         assert!(end.q.rotation.angle_to(&UnitQuaternion::from_euler_angles(0.0, 0.0, yaw)) < 1e-7);
         assert_eq!(run.modes(0.9).unwrap(), [[Mode::Sticks; 4], [Mode::Open; 4]].concat());
         // Least norm: the corners bear the weight alike, and nothing along the table.
-        let forces = run.forces(0.9).unwrap();
+        let forces = *run.forces(0.9).unwrap();
         let bears = |row: usize| if row < 12 && row.is_multiple_of(3) { 0.5 * G } else { 0.0 };
         assert!((0..24).all(|row| (forces[row] - bears(row)).abs() < 1e-12), "{forces}");
         end.q.translation.vector.xy().norm()
@@ -76,7 +76,7 @@ fn a_cylinder_rolls_down_a_slope() {
         // A hundred tolerances of speeds of some m/s and rad/s.
         assert!((velocity - Vector3::x() * v).amax() < 1e-8 && (end.z[4] - w).abs() < 1e-8, "{velocity} {}", end.z);
         assert_eq!(run.modes(1.0).unwrap().iter().all(|mode| *mode == Mode::Sticks), rolls);
-        let forces = run.forces(1.0).unwrap();
+        let forces = *run.forces(1.0).unwrap();
         // In the middle between both rims: half of the weight and of the friction each.
         let sizes = [forces[0], forces[1].hypot(forces[2]), forces[3], forces[4].hypot(forces[5])];
         let half = [1.5 * onto, 0.5 * friction, 1.5 * onto, 0.5 * friction];
@@ -216,7 +216,7 @@ fn frames_of_contacts_are_where_their_forces_act() {
     let kernel = Cargo { mu: 0.1 }.kernel().unwrap();
     let start = Isometry3::translation(1.0, 2.0, 0.2);
     let run = ContactRun::new(&kernel).adaptive(1e-10, 1e-10).run(start, SVector::zeros(), 0.0..0.1).unwrap();
-    let vectors = run.force_vectors(0.05).unwrap();
+    let vectors = run.forces(0.05).unwrap().vectors();
     assert_eq!(vectors.iter().map(|vector| vector.contact).collect::<Vec<_>>(), [0, 1, 2, 3]);
     for vector in vectors {
         assert!((vector.force - Vector3::new(0.0, 0.0, 0.5 * G)).amax() < 1e-12);
@@ -249,6 +249,6 @@ fn limits_of_a_file_are_stops() {
     assert!([1, 3, 5].iter().all(|&k| gaps[k].abs() < 1e-15), "{gaps}");
     // A moment of m g l cos q; half of it along a tendon that is 2 q; the weight.
     let held = [2.0 * 0.5 * G * ends[1].cos(), 0.5 * 0.3 * G * 0.6_f64.cos(), 3.0 * G];
-    let forces = run.forces(1.0).unwrap();
+    let forces = *run.forces(1.0).unwrap();
     assert!((0..3).all(|k| (forces[2 * k + 1] - held[k]).abs() < 1e-12 && forces[2 * k] == 0.0), "{forces} {held:?}");
 }

@@ -8,21 +8,23 @@
 //! is as long as that before the change was looked for. Of a step with an impact places alone are judged: speeds jump,
 //! at a time that is known to a step.
 
-use alloc::vec::Vec;
 use core::ops::Range;
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::integrate::drive::event::{Events, NoEvents};
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::integrate::{InputSource, NoInput};
 use gauss_runtime::real::Real;
 
 use crate::error::{ContactError, ContactErrorKind};
-use crate::mode::Mode;
+use crate::mode::{InMode, Mode};
 
 use super::kept::Kept;
+use super::made::{StepSample, SteppedRun};
+use super::passing::look;
 use super::report::StepReport;
-use super::run::{ContactSteps, StepSample};
+use super::run::ContactSteps;
 use super::stepper::ContactStepper;
 
 /// The order of steps in which contacts stay as they are.
@@ -46,8 +48,8 @@ const MOST_STEPS: u64 = 10_000_000;
 /// A run in steps that keep a tolerance, in preparation: see [`ContactSteps::adaptive`].
 #[derive(Clone, Copy, Debug)]
 #[must_use = "a run does nothing before `run`"]
-pub struct AdaptiveContactSteps<'k, K, I = NoInput> {
-    steps: ContactSteps<'k, K, I>,
+pub struct AdaptiveContactSteps<'k, K, I = NoInput, E = NoEvents> {
+    steps: ContactSteps<'k, K, I, E>,
     relative: f64,
     absolute: f64,
     shortest: f64,
@@ -72,17 +74,7 @@ pub struct StepStatistics {
     pub largest_beyond: f64,
 }
 
-/// A run in steps that keep a tolerance.
-#[derive(Debug)]
-#[non_exhaustive]
-pub struct SteppedRun<K: ContactSystem<Scalar = f64>> {
-    /// The ends of the steps; each report has the estimate of its step.
-    pub samples: Vec<StepSample<K>>,
-    /// Of all steps.
-    pub statistics: StepStatistics,
-}
-
-impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
+impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
     /// Steps as long as tolerances allow: a component may err by `absolute`, plus `relative` times its size, in each
     /// step between impacts; the length that was given is that of the longest. At impacts steps are no shorter than a
     /// thousandth of it: see [`shortest`](AdaptiveContactSteps::shortest). What a contact does after an impact is off
@@ -91,13 +83,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
     /// An input is held during half of a step; where it changes with time or state, that is of first order, and steps
     /// are as short as it asks for. It is looked at eight times in a step: a push that is shorter than an eighth of the
     /// longest step may be missed.
-    pub fn adaptive(self, relative: f64, absolute: f64) -> AdaptiveContactSteps<'k, K, I> {
-        let shortest = SHORTEST * self.h;
-        AdaptiveContactSteps { steps: self, relative, absolute, shortest, limit: MOST_STEPS }
+    pub fn adaptive(self, relative: f64, absolute: f64) -> AdaptiveContactSteps<'k, K, I, E> {
+        let (shortest, limit) = (SHORTEST * self.h, self.limit.unwrap_or(MOST_STEPS));
+        AdaptiveContactSteps { steps: self, relative, absolute, shortest, limit }
     }
 }
 
-impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
+impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E> {
     /// The length at which steps with impacts are no longer shortened, in place of a thousandth of the longest.
     pub fn shortest(mut self, length: f64) -> Self {
         self.shortest = length;
@@ -115,9 +107,15 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
     /// # Errors
     /// When the end is not reached; [`attempt`](Self::attempt) then gives the part that was made. `InvalidStep`,
     /// `InvalidTolerance`, `InvalidInterval`, `StepTooSmall`, `TooManySteps`, and those of steps.
-    pub fn run(self, q0: K::Configuration, z0: K::Speeds, interval: Range<f64>) -> Result<SteppedRun<K>, ContactError>
+    pub fn run(
+        self,
+        q0: K::Configuration,
+        z0: K::Speeds,
+        interval: Range<f64>,
+    ) -> Result<SteppedRun<'k, K>, ContactError>
     where
         I: InputSource<K>,
+        E: Events<InMode<'k, K>>,
     {
         match self.attempt(q0, z0, interval) {
             (made, None) => Ok(made),
@@ -131,11 +129,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
         q0: K::Configuration,
         z0: K::Speeds,
         interval: Range<f64>,
-    ) -> (SteppedRun<K>, Option<ContactError>)
+    ) -> (SteppedRun<'k, K>, Option<ContactError>)
     where
         I: InputSource<K>,
+        E: Events<InMode<'k, K>>,
     {
-        let mut made = SteppedRun { samples: Vec::new(), statistics: StepStatistics::default() };
+        let mut made = SteppedRun::begun(self.steps.kernel, (interval.start, q0, z0));
         let error = self.go((q0, z0), interval, &mut made).err();
         (made, error)
     }
@@ -161,14 +160,16 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
     }
 
     fn go(
-        self,
+        mut self,
         (q0, z0): (K::Configuration, K::Speeds),
         interval: Range<f64>,
-        made: &mut SteppedRun<K>,
+        made: &mut SteppedRun<'k, K>,
     ) -> Result<(), ContactError>
     where
         I: InputSource<K>,
+        E: Events<InMode<'k, K>>,
     {
+        self.steps.check_every(interval.start)?;
         self.check(&interval)?;
         let mut stepper = self.steps.stepper(interval.start, q0, z0)?;
         // A step that is made in parts does not differ from its halves where these are; impacts are made short anyway.
@@ -191,6 +192,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> AdaptiveContactSteps<'k, K, I> {
                     let sample = StepSample::of(&stepper);
                     part(&mut stepper);
                     made.samples.push(sample);
+                    if look(&mut self.steps.events, made)? {
+                        return Ok(());
+                    }
                 }
                 Verdict::Shorten if lengths.next >= least && lengths.next < h => {
                     statistics.rejected += 1;

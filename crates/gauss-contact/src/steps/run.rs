@@ -1,75 +1,93 @@
 //! Runs in steps of one length.
 
-use alloc::vec::Vec;
 use core::ops::Range;
 
 use gauss_runtime::contact::ContactSystem;
-use gauss_runtime::integrate::{Feedback, InputSource, NoInput, Sample};
+use gauss_runtime::integrate::drive::event::{Events, NoEvents, Watched};
+use gauss_runtime::integrate::{Crossing, Feedback, InputSource, NoInput};
 
 use crate::error::{ContactError, ContactErrorKind};
-use crate::mode::Mode;
-use crate::sensors::ContactForces;
+use crate::mode::InMode;
 
+use super::made::{StepSample, SteppedRun};
+use super::passing::look;
 use super::relaxed::StepLaw;
-use super::report::{StepReport, StepScheme};
+use super::report::StepScheme;
 use super::stepper::ContactStepper;
 
-/// A run in steps in preparation.
+/// A run in steps in preparation: that of [`contact_steps`](crate::WithContacts::contact_steps) of a
+/// [`Simulation`](gauss_runtime::integrate::Simulation).
 #[derive(Clone, Copy, Debug)]
 #[must_use = "a run does nothing before `run`"]
-pub struct ContactSteps<'k, K, I = NoInput> {
+pub struct ContactSteps<'k, K, I = NoInput, E = NoEvents> {
     pub(super) kernel: &'k K,
     pub(super) h: f64,
     pub(super) input: I,
+    pub(super) events: E,
     scheme: StepScheme,
     law: StepLaw,
     tolerance: f64,
-}
-
-/// The end of a step.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct StepSample<K: ContactSystem<Scalar = f64>> {
-    /// The state.
-    pub state: Sample<K>,
-    /// The impulses of the step, row by row.
-    pub impulses: K::ContactRows,
-    /// What the contacts did in it.
-    pub modes: Vec<Mode>,
-    /// How the laws were solved.
-    pub report: StepReport,
-}
-
-impl<K: ContactSystem<Scalar = f64>> StepSample<K> {
-    /// The mean forces of the step, with what sensors at the contacts of the kernel measure.
-    pub fn forces<'k>(&self, kernel: &'k K) -> ContactForces<'k, K> {
-        ContactForces::new(kernel, self.state.t, self.state.q, self.report.mean(&self.impulses))
-    }
-
-    /// After a step.
-    pub(crate) fn of(stepper: &ContactStepper<'_, K>) -> Self {
-        let (t, q, z) = (stepper.time(), *stepper.configuration(), *stepper.speeds());
-        let state = Sample { t, q, z, p: stepper.kernel.momentum(t, &q, &z) };
-        let (impulses, modes) = (*stepper.impulses(), stepper.modes().into());
-        Self { state, impulses, modes, report: stepper.report() }
-    }
+    every: u64,
+    pub(super) limit: Option<u64>,
 }
 
 impl<'k, K: ContactSystem<Scalar = f64>> ContactSteps<'k, K> {
     /// Steps of length `h` of a system without inputs.
     pub fn new(kernel: &'k K, h: f64) -> Self {
-        Self { kernel, h, input: NoInput, scheme: StepScheme::default(), law: StepLaw::default(), tolerance: 1e-8 }
+        Self::of_parts(kernel, h, (NoInput, NoEvents), (1, None))
     }
 }
 
-impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
+impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
+    /// With every how many states are kept, and the most steps.
+    pub(crate) fn of_parts(kernel: &'k K, h: f64, (input, events): (I, E), (every, limit): (u64, Option<u64>)) -> Self {
+        let (scheme, law, tolerance) = (StepScheme::default(), StepLaw::default(), 1e-8);
+        Self { kernel, h, input, events, scheme, law, tolerance, every, limit }
+    }
+
     /// The input as a function of time and state; it is taken at the start of each step and held.
-    pub fn input<G>(self, input: G) -> ContactSteps<'k, K, Feedback<G>>
+    pub fn input<G>(self, input: G) -> ContactSteps<'k, K, Feedback<G>, E>
     where
         G: Fn(f64, &K::Configuration, &K::Speeds) -> K::Input,
     {
-        let Self { kernel, h, scheme, law, tolerance, .. } = self;
-        ContactSteps { kernel, h, input: Feedback(input), scheme, law, tolerance }
+        self.input_from(Feedback(input))
+    }
+
+    /// The input from a type that implements [`InputSource`], held in the same way.
+    pub fn input_from<J: InputSource<K>>(self, input: J) -> ContactSteps<'k, K, J, E> {
+        let Self { kernel, h, events, scheme, law, tolerance, every, limit, .. } = self;
+        ContactSteps { kernel, h, input, events, scheme, law, tolerance, every, limit }
+    }
+
+    /// Finds the states in which a function of time and state passes through zero, numbered as those of a
+    /// [`Simulation`](gauss_runtime::integrate::Simulation::event): [`SteppedRun::passages`]. They are looked for from
+    /// the end of one step to the end of the next, and are as accurate as states in between; what passes there and back
+    /// within a step is not seen.
+    pub fn event<G>(self, crossing: Crossing, function: G) -> ContactSteps<'k, K, I, Watched<E, G>>
+    where
+        G: Fn(f64, &K::Configuration, &K::Speeds) -> f64,
+    {
+        self.watch(crossing, false, function)
+    }
+
+    /// Ends the run at the first such state, which is then its last: [`SteppedRun::stopped_by`].
+    pub fn until<G>(self, crossing: Crossing, function: G) -> ContactSteps<'k, K, I, Watched<E, G>>
+    where
+        G: Fn(f64, &K::Configuration, &K::Speeds) -> f64,
+    {
+        self.watch(crossing, true, function)
+    }
+
+    fn watch<G>(self, crossing: Crossing, ends: bool, function: G) -> ContactSteps<'k, K, I, Watched<E, G>> {
+        let Self { kernel, h, input, events, scheme, law, tolerance, every, limit } = self;
+        let events = Watched::after(events, crossing, ends, function);
+        ContactSteps { kernel, h, input, events, scheme, law, tolerance, every, limit }
+    }
+
+    /// The most steps before the run is given up; without this there are as many as the interval takes.
+    pub fn max_steps(mut self, limit: u64) -> Self {
+        self.limit = Some(limit);
+        self
     }
 
     /// How the motion between impacts is taken.
@@ -100,9 +118,10 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
         q0: K::Configuration,
         z0: K::Speeds,
         interval: Range<f64>,
-    ) -> Result<Vec<StepSample<K>>, ContactError>
+    ) -> Result<SteppedRun<'k, K>, ContactError>
     where
         I: InputSource<K>,
+        E: Events<InMode<'k, K>>,
     {
         match self.attempt(q0, z0, interval) {
             (made, None) => Ok(made),
@@ -116,26 +135,29 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
         q0: K::Configuration,
         z0: K::Speeds,
         interval: Range<f64>,
-    ) -> (Vec<StepSample<K>>, Option<ContactError>)
+    ) -> (SteppedRun<'k, K>, Option<ContactError>)
     where
         I: InputSource<K>,
+        E: Events<InMode<'k, K>>,
     {
-        let mut made = Vec::new();
+        let mut made = SteppedRun::begun(self.kernel, (interval.start, q0, z0));
         let error = self.go((q0, z0), interval, &mut made).err();
         (made, error)
     }
 
     fn go(
-        self,
+        mut self,
         (q0, z0): (K::Configuration, K::Speeds),
         interval: Range<f64>,
-        made: &mut Vec<StepSample<K>>,
+        made: &mut SteppedRun<'k, K>,
     ) -> Result<(), ContactError>
     where
         I: InputSource<K>,
+        E: Events<InMode<'k, K>>,
     {
-        let Self { h, ref input, .. } = self;
         let Range { start, end } = interval;
+        self.check_every(start)?;
+        let h = self.h;
         let count = (end - start) / h - 1e-9;
         if !(h > 0.0 && h.is_finite() && start <= end && count < 1e15) {
             return Err(ContactError { contact: None, time: start, kind: ContactErrorKind::InvalidInterval });
@@ -143,16 +165,30 @@ impl<'k, K: ContactSystem<Scalar = f64>, I> ContactSteps<'k, K, I> {
         // Rounded up; a negative number becomes 0.
         let whole = count as u64;
         let count = whole + u64::from(count > whole as f64);
+        if let Some(limit) = self.limit.filter(|limit| *limit < count) {
+            return Err(ContactError { contact: None, time: start, kind: ContactErrorKind::TooManySteps { limit } });
+        }
         let h = (end - start) / count as f64;
         let mut stepper = self.stepper(start, q0, z0)?;
         for n in 1..=count {
             let (q, z) = (*stepper.configuration(), *stepper.speeds());
-            stepper.step(h, &input.input(stepper.time(), &q, &z))?;
+            stepper.step(h, &self.input.input(stepper.time(), &q, &z))?;
             // Times are multiples of the length, not sums of it.
             stepper.t = start + (end - start) * (n as f64 / count as f64);
-            made.push(StepSample::of(&stepper));
+            made.samples.push(StepSample::of(&stepper));
+            if look(&mut self.events, made)? {
+                break;
+            }
         }
         Ok(())
+    }
+
+    /// States in between are made from those at both ends of a step.
+    pub(super) fn check_every(&self, time: f64) -> Result<(), ContactError> {
+        if self.every == 1 {
+            return Ok(());
+        }
+        Err(ContactError { contact: None, time, kind: ContactErrorKind::EveryState { every: self.every } })
     }
 
     /// At the start of a run.

@@ -110,7 +110,7 @@ fn a_table_on_four_legs_stands_also_if_one_is_short() {
             ContactRun::new(&kernel).adaptive(1e-10, 1e-10).run(V::zeros(), V::zeros(), 0.0..1.0).expect("stands");
         let end = run.last().expect("a sample");
         assert!(end.q.amax() <= short && end.z.amax() == 0.0, "{} {}", end.q, end.z);
-        let forces = run.forces(0.5).expect("inside");
+        let forces = *run.forces(0.5).expect("inside");
         // On all legs alike; with a short one on the two of the diagonal, on which the weight is.
         let wanted = if short == 0.0 { [0.25 * G; 4] } else { [0.0, 0.5 * G, 0.5 * G, 0.0] };
         assert!((forces - V::<4>::from(wanted)).amax() < 64.0 * f64::EPSILON * G, "{forces}");

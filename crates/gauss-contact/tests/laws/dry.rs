@@ -358,7 +358,7 @@ fn joints_of_an_arm_at_rest_give_way_as_the_least_constraint_says() {
         let wanted = least(&matrix, &free, &bounds, &z);
         let run = ContactRun::new(&kernel).adaptive(1e-9, 1e-9);
         let run = run.run(q, z, 0.0..1e-9).unwrap_or_else(|error| panic!("{n} {error}"));
-        let forces = run.forces(0.0).unwrap();
+        let forces = *run.forces(0.0).unwrap();
         let found = free + matrix.cholesky().unwrap().solve(&forces);
         let size = wanted.amax().max(free.amax());
         for i in 0..4 {
@@ -462,7 +462,7 @@ fn a_sledge_slides_as_a_puck_with_the_bounds_of_its_weight() {
     }
     assert_eq!((whole.last().unwrap().z.amax(), whole.modes(3.9).unwrap()), (0.0, &[Mode::Sticks][..]));
     // Friction is against (μ₁² s₁, μ₂² s₂), but for slips that count as rest: 1e-10 and 1e-10 of 3, over slips near 1.
-    let (s, forces) = (whole.at(0.5).unwrap().z, whole.forces(0.5).unwrap());
+    let (s, forces) = (whole.at(0.5).unwrap().z, *whole.forces(0.5).unwrap());
     let off = forces[1] / forces[2] - along * along * s[0] / (across * across * s[1]);
     assert!(off.abs() < 1e-8, "{off:e}");
     let size = f64::hypot(forces[1] / along, forces[2] / across);

@@ -79,7 +79,7 @@ fn a_clause_written_twice_is_one_contact() {
         let (a, b) = (two.last().expect("a sample"), one.last().expect("a sample"));
         assert!((a.q - b.q).amax() < 1e-8 && a.z == b.z && a.z == V::<2>::zeros(), "{law:?} {} {}", a.q, b.q);
         // Of least norm: half the weight on each.
-        assert!((two.forces(2.9).expect("inside") - V::from([5.0, 0.0, 5.0, 0.0])).amax() < 1e-12);
+        assert!((*two.forces(2.9).expect("inside") - V::from([5.0, 0.0, 5.0, 0.0])).amax() < 1e-12);
     }
 }
 
@@ -237,7 +237,7 @@ fn a_plate_on_sixty_four_legs_lands() {
     let last = run.last().expect("a sample");
     assert_eq!((last.z, run.modes(0.15)), (V::<3>::zeros(), Ok(&[Mode::Closed; 64][..])));
     assert!(last.q.amax() < 1e-14, "{}", last.q);
-    let forces = run.forces(0.15).expect("inside");
+    let forces = *run.forces(0.15).expect("inside");
     // Of least Σ D_ii λ_i²: λ_i D_ii is affine in the place of the leg, and the same for all by symmetry. Each is a sum
     // of 64 terms in three solutions.
     let scaled = |n: usize| (1.0 + leg(n).0.powi(2) + leg(n).1.powi(2)) * forces[n];

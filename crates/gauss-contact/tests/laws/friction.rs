@@ -41,7 +41,7 @@ fn a_block_pushed_up_an_incline_stops_and_sticks_or_slides_back() {
             assert!((end.q[0] - top).abs() < 64.0 * f64::EPSILON && end.q[1] == 0.0);
             // It stays to the last bit.
             assert_eq!(run.at(1.0).expect("inside").q, end.q);
-            let [normal, friction] = run.forces(1.0).expect("inside").into();
+            let [normal, friction] = (*run.forces(1.0).expect("inside")).into();
             assert!((normal - m * G * angle.cos()).abs() < 1e-13 && (friction - m * G * angle.sin()).abs() < 1e-13);
         } else {
             assert!(matches!(stop.kind, EventKind::Reverses([-1.0, ..])), "{stop:?}");
@@ -119,7 +119,7 @@ fn what_two_fingers_hold_does_not_creep() {
     assert!(run.events().is_empty());
     let end = run.last().expect("a sample");
     assert_eq!((end.q, end.z), (start, V::<4>::zeros()));
-    let forces = run.forces(50.0).expect("inside");
+    let forces = *run.forces(50.0).expect("inside");
     assert!((forces - V::<4>::from([grip, 0.5 * m * G, grip, 0.5 * m * G])).amax() < 256.0 * f64::EPSILON * grip);
 }
 
@@ -264,7 +264,7 @@ fn a_square_thrown_flat_along_a_plate_never_leaves_it() {
     assert_eq!(end.z, V::<3>::zeros());
     assert!((end.q[0] - v * v / (2.0 * mu * G)).abs() < 1e-13, "{}", end.q);
     // The corner in front has more of the weight: by the torque of friction, μ m g a.
-    let [rear, _, front, _] = run.forces(0.5).expect("inside").into();
+    let [rear, _, front, _] = (*run.forces(0.5).expect("inside")).into();
     assert!((front - 0.5 * G * (1.0 + mu)).abs() < 1e-13 && (rear - 0.5 * G * (1.0 - mu)).abs() < 1e-13);
 }
 
@@ -304,7 +304,7 @@ fn a_square_that_is_pushed_below_its_friction_sticks_on_both_corners() {
     assert_eq!(run.modes(0.5).expect("inside"), [Mode::Sticks; 2]);
     let end = run.last().expect("a sample");
     assert!(run.events().is_empty() && end.z == V::<3>::zeros() && end.q[0] == 0.0, "{}", end.q);
-    let [rear, a, front, b] = run.forces(0.5).expect("inside").into();
+    let [rear, a, front, b] = (*run.forces(0.5).expect("inside")).into();
     assert!((rear + front - G).abs() < 1e-13 && (a + 0.1 * G).abs() < 1e-13 && (b + 0.1 * G).abs() < 1e-13);
 }
 

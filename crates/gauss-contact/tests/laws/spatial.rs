@@ -111,7 +111,7 @@ fn points_that_are_thrown_into_a_corner_of_a_room_come_to_rest() {
         // Steps have errors of 1e-9 of their terms, at energies below 100.
         assert!(energies.windows(2).all(|pair| pair[1] <= pair[0] + 1e-7), "{n}");
         // Coulomb's law in the end, of the forces as they are given.
-        let forces = run.forces(20.0).expect("inside");
+        let forces = *run.forces(20.0).expect("inside");
         for i in 0..3 {
             let [normal, x, y] = [0, 1, 2].map(|k| forces[3 * i + k]);
             assert!(x.hypot(y) <= kernel.friction[i] * normal + 1e-9 && normal >= 0.0, "{n} {forces}");

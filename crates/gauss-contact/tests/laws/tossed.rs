@@ -98,7 +98,7 @@ fn boxes_stay_on_slopes_up_to_the_angle_of_friction() {
                 // Roundings of roundings are left of speeds, those of lengths of 0.3 in some ten projections of places.
                 assert!(last.z.amax() < 1e-60 && last.q.translation.vector.xy().amax() < 1e-14, "{name}");
                 // Forces that do it, each within its cone.
-                let forces = run.forces(4.0).unwrap();
+                let forces = *run.forces(4.0).unwrap();
                 let mut sum = Vector3::zeros();
                 for i in 0..4 {
                     let [normal, x, y] = [0, 1, 2].map(|k| forces[3 * i + k]);

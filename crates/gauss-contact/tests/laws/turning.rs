@@ -117,7 +117,7 @@ fn a_ball_on_an_incline_rests_below_the_angle_of_rolling_resistance() {
     let kernel = Ball { lean: 0.999 * slope, ..BALL }.kernel().unwrap();
     let run = roll(&kernel, at_rest, 1.0).unwrap();
     assert!(run.events().is_empty() && run.last().unwrap().q.translation.x == 0.0, "{:?}", run.events());
-    let forces = run.forces(0.5).unwrap();
+    let forces = *run.forces(0.5).unwrap();
     let weight = BALL.m * BALL.g;
     assert!((forces[1] + 0.999 * slope * weight).abs() < 1e-14, "{forces}");
     assert!((forces[5] + 0.999 * BALL.rho * weight).abs() < 1e-15, "{forces}");
@@ -163,7 +163,7 @@ fn a_disk_that_slides_and_spins_goes_straight_and_stops_with_both_at_once() {
         let left = 1e-9 / (1.0 - part);
         assert!((constant(&state.z) / constant(&z) - 1.0).abs() < left, "{part}");
         assert!((state.z[1] / state.z[0] + 0.75).abs() < left);
-        let forces = run.forces(part * stopped.time).unwrap();
+        let forces = *run.forces(part * stopped.time).unwrap();
         let size = forces.fixed_rows::<3>(1).norm();
         assert!((size - disk.mu * disk.m * disk.g).abs() < 1e-12, "{forces}");
     }

@@ -20,7 +20,7 @@ pub fn block(mu: f64, e: f64) -> Scene<Ground, 2, 1, 2> {
     Scene::linear(V::from([1.0, 1.0]), V::from([0.0, -G]), V::zeros(), rows).friction([mu]).restitution([e])
 }
 
-type Run = SteppedRun<Scene<Ground, 2, 1, 2>>;
+type Run<'k> = SteppedRun<'k, Scene<Ground, 2, 1, 2>>;
 
 #[test]
 fn smooth_parts_keep_the_tolerance_at_the_order_of_the_scheme() {

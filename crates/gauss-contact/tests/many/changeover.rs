@@ -12,8 +12,8 @@ use crate::common::{Layout, Scene, V, numbers};
 
 const G: f64 = 9.81;
 
-fn steps<'a, K: ContactSystem<Scalar = f64>>(run: &'a ChangingTrajectory<'_, K>) -> Vec<&'a StepPart<K>> {
-    let part = |part: &'a RunPart<'_, K>| match part {
+fn steps<'a, 'k, K: ContactSystem<Scalar = f64>>(run: &'a ChangingTrajectory<'k, K>) -> Vec<&'a StepPart<'k, K>> {
+    let part = |part: &'a RunPart<'k, K>| match part {
         RunPart::Steps(part) => Some(part),
         RunPart::Events(_) => None,
     };

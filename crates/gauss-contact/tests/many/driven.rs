@@ -113,7 +113,8 @@ fn drilling_and_rolling_of_zero_are_none() {
     for z in [[0.0, 0.0, 0.0, 0.0, 0.0, 0.0], [0.5, 0.0, 0.0, 0.0, 0.0, 5.0], [0.0, 0.0, 0.0, 0.0, 0.0, 5.0]] {
         for (mu, rho) in [(0.3, 0.0), (0.3, 1e-4), (0.0, 0.0)] {
             let kernel = |l: f64| Drilled { mu, l, rho, g: 9.81 }.kernel().unwrap();
-            let run = |l: f64| ContactSteps::new(&kernel(l), 1e-3).run(start, SVector::from(z), 0.0..1.0).unwrap();
+            let run =
+                |l: f64| ContactSteps::new(&kernel(l), 1e-3).run(start, SVector::from(z), 0.0..1.0).unwrap().samples;
             let [none, small] = [0.0, 1e-6].map(run).map(|run| run.last().unwrap().state);
             // The torque 10⁻⁶ m · μ m g takes 0.01 rad/s from the spin.
             assert!((none.z - small.z).amax() < 0.03, "{z:?} {mu} {rho} {} {}", none.z, small.z);

@@ -7,6 +7,7 @@ mod changeover;
 #[allow(dead_code, reason = "scenes of the other tests")]
 mod common;
 mod driven;
+mod front;
 mod lanes;
 mod relaxed;
 mod several;

@@ -20,7 +20,7 @@ pub use events::{each, task};
 pub(in crate::integrate) use events::{jump, leaving, watched, zero};
 pub(in crate::integrate) use runs::interval;
 #[cfg(feature = "alloc")]
-pub use runs::{boxed, trajectory};
+pub use runs::{RunRecord, boxed, trajectory};
 pub use runs::{observer, run, simulation, summary};
 pub(in crate::integrate) use step_control::cubic;
 pub use step_control::{adaptive, compensated, control, fixed, logarithms, looks, step_length};

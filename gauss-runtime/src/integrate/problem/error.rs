@@ -207,7 +207,7 @@ pub enum IntegrationErrorKind {
     },
     /// An end of the interval of time is not finite.
     InvalidInterval,
-    /// The scene has [contacts](GaussSystem::HAS_CONTACTS), whose forces this run does not have.
+    /// The scene has [contacts](GaussSystem::HAS_CONTACTS), whose forces this run or step does not have.
     Contacts,
     /// The run does not cover the time of the requested state.
     OutsideRun {
@@ -358,8 +358,9 @@ impl IntegrationErrorKind {
             Self::OutsideRun { time } => write!(f, "the run does not cover t = {time}"),
             Self::InvalidInterval => f.write_str("the interval of time has an end that is not finite"),
             Self::Contacts => f.write_str(
-                "the scene has contacts, and this run has no contact forces: run it by `ContactRun` of the crate \
-                 `gauss-contact`, or leave contacts out on purpose by `without_contacts()`",
+                "the scene has contacts, and nothing here has their forces: choose `contact_events()` or \
+                 `contact_steps(h)` of a `Simulation` (trait `WithContacts` of the crate `gauss-contact`), leave \
+                 contacts out on purpose by `without_contacts()`, or take `InMode` for what holds in closed contacts",
             ),
             _ => Ok(()),
         }

@@ -4,6 +4,8 @@
 pub mod boxed;
 pub(in crate::integrate) mod interval;
 pub mod observer;
+#[cfg(feature = "alloc")]
+mod record;
 pub mod run;
 #[cfg(feature = "alloc")]
 mod sampling;
@@ -11,3 +13,6 @@ pub mod simulation;
 pub mod summary;
 #[cfg(feature = "alloc")]
 pub mod trajectory;
+
+#[cfg(feature = "alloc")]
+pub use record::RunRecord;

@@ -108,8 +108,9 @@ impl<'k, S: GaussSystem, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C
     }
 
     /// Runs a scene with contacts as if it had none: its gaps become negative, and nothing touches. Without this such
-    /// a run ends at once with [`IntegrationErrorKind::Contacts`](crate::integrate::IntegrationErrorKind::Contacts);
-    /// `ContactRun` of the crate `gauss-contact` has contact forces. A later [`form`](Self::form) undoes it.
+    /// a run ends at once with [`IntegrationErrorKind::Contacts`](crate::integrate::IntegrationErrorKind::Contacts).
+    /// Contact forces are chosen by `contact_events()`, from event to event, or `contact_steps(h)`, in steps: the trait
+    /// `WithContacts` of the crate `gauss-contact`. A later [`form`](Self::form) undoes it.
     pub fn without_contacts(self) -> Simulation<SystemProblem<'k, S, WithoutContacts<F>, I>, C, O, E> {
         self.with_problem(SystemProblem::without_contacts)
     }
@@ -399,6 +400,14 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
     #[must_use]
     pub fn limit(&self) -> Option<u64> {
         self.limit
+    }
+
+    /// What another front goes on from: the problem, the control, the events, every how many states are handed out, the
+    /// most steps.
+    #[doc(hidden)]
+    pub fn into_parts(self) -> (P, C, E, u64, Option<u64>) {
+        let Self { problem, control, events, every, limit, .. } = self;
+        (problem, control, events, every, limit)
     }
 
     pub(in crate::integrate) fn with_problem<Q>(self, change: impl FnOnce(P) -> Q) -> Simulation<Q, C, O, E> {

@@ -132,6 +132,10 @@ struct Drive<'a, S: GaussSystem, P, M> {
 }
 
 impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
+    fn tolerance(&self) -> Option<Tolerance> {
+        Some(self.tolerance)
+    }
+
     fn drive<P: Problem<System = S>>(
         &self,
         problem: &P,

@@ -4,6 +4,7 @@ use core::ops::ControlFlow;
 
 use crate::configuration::Configuration;
 use crate::integrate::drive::projection::{consistent_start, onto_constraints};
+use crate::integrate::drive::tolerance::Tolerance;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State};
@@ -60,6 +61,11 @@ pub trait Control<S: GaussSystem> {
         limit: u64,
         emit: &mut StepCallback<'_, S>,
     ) -> Result<State<S>, IntegrationError>;
+
+    /// The errors that a step may have, where the control has such a bound.
+    fn tolerance(&self) -> Option<Tolerance> {
+        None
+    }
 
     /// The state a time `h` after `state`, where the derivatives are `rates`, with the accuracy of the method: what
     /// events and states between samples are made of. `h` has the sign of the run and is at most as long as the step
