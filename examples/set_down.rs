@@ -20,7 +20,10 @@ use gauss_tables::{RunTable, Tabulate};
     gravity = 9.81,
     ground(links = [lf_foot, rf_foot, lh_foot, rh_foot], plane = [rise, 0, 1], along = [1, 0, 0],
            friction = mu),
-    frames(trunk, lf_thigh, lf_shank, rf_thigh, rf_shank, lh_thigh, lh_shank, rh_thigh, rh_shank),
+    frames(
+        trunk, lf_thigh, lf_shank, lf_foot, rf_thigh, rf_shank, rf_foot, lh_thigh, lh_shank, lh_foot, rh_thigh,
+        rh_shank, rh_foot,
+    ),
 )]
 struct Quadruped {
     mu: f64,
@@ -87,12 +90,16 @@ fn main() -> Result<(), Box<dyn Error>> {
         [table(&kernel, &exact)?, table(&kernel, &steps)?].map(|table| table.samples()[150].q.0.translation.z);
     println!("  at the end its trunk is at {:.5} m by events, at {:.5} m in steps", heights[0], heights[1]);
 
-    let page = Playback::new("A quadruped, set down on a slope", &steps)?
+    let mut page = Playback::new("A quadruped, set down on a slope", &steps)?
         .si()
         .frames(&kernel)
         .shapes_of_urdf(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/robots/quadruped.urdf"))
         .contacts(&kernel, 5e-3, &steps)
         .curve("speed of the trunk / (m/s)", "down", |s| -s.z[2])
         .energy(&kernel);
+    for leg in ["lf", "rf", "lh", "rh"] {
+        let link = |name: &str| format!("{leg}_{name}");
+        page = page.rod(&link("thigh"), &link("shank"), 0.015).rod(&link("shank"), &link("foot"), 0.01);
+    }
     write_page("set_down", &page)
 }

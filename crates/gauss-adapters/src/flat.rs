@@ -21,8 +21,8 @@ use gauss_runtime::system::GaussSystem;
 /// while it runs, as those do: accelerations satisfy constraints that were differentiated, so states leave them slowly,
 /// and [`GaussSystem::project`] of the final state repairs a short run. `f` never fails; undefined results are NaN.
 /// Contact forces are not in it: a scene with [contacts](GaussSystem::HAS_CONTACTS) is refused by the compiler, but for
-/// [`without_contacts`](Self::without_contacts). `InMode` of the crate `gauss-contact` is the system in closed contacts,
-/// as long as they stay so.
+/// [`without_contacts`](Self::without_contacts). `InMode` of the crate `gauss-contact` is the system in closed
+/// contacts, as long as they stay so.
 ///
 /// J is the way in which ∂f/∂x is computed for implicit methods.
 ///

@@ -5,7 +5,9 @@
 //! nothing (McLachlan 1993; Celledoni, Fassò, Säfström & Zanna 2008).
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::integrate::{IntegrationErrorKind, OneStep, Problem, Properties, Rates, RunPart, State, Step};
+use gauss_runtime::integrate::{
+    IntegrationErrorKind, OneStep, Problem, Properties, Rates, RunPart, State, Step, check_contacts,
+};
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
 use nalgebra::Matrix3;
@@ -168,7 +170,7 @@ where
         _: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind> {
-        problem.check_contacts()?;
+        check_contacts(problem)?;
         let system = problem.system();
         let at_rest = S::Speeds::zero();
         let kick = |t, q: &S::Configuration, p: &S::Speeds, length| {

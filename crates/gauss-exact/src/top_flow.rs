@@ -5,7 +5,9 @@ use core::fmt;
 use gauss_runtime::__crates_0_1_0::{
     Triple, add, axpy, compose, conjugate, cross, dot, quaternion, rotate, rotate_back, scaled, triple, unit_quaternion,
 };
-use gauss_runtime::integrate::{IntegrationErrorKind, OneStep, Problem, Properties, Rates, RunPart, State, Step};
+use gauss_runtime::integrate::{
+    IntegrationErrorKind, OneStep, Problem, Properties, Rates, RunPart, State, Step, check_contacts,
+};
 use gauss_runtime::lie::so3;
 use gauss_runtime::real::Real;
 use gauss_runtime::system::GaussSystem;
@@ -202,7 +204,7 @@ where
         _: &Rates<S>,
         h: f64,
     ) -> Result<Step<S>, IntegrationErrorKind> {
-        problem.check_contacts()?;
+        check_contacts(problem)?;
         let momentum = problem.momentum(state.t, &state.q, &state.y);
         let (q, momentum) = self
             .after(quaternion(&state.q), triple(&momentum), h)

@@ -50,7 +50,7 @@ pub use problem::state::{Rates, Sample, State};
 pub use rosenbrock::Rosenbrock;
 pub use runge_kutta::components::RungeKutta;
 pub use runge_kutta::tableau::{Classical4, Coefficients, DormandPrince5, DormandPrince8, Tableau, Verner9};
-pub use step::one_step::{EstimatingStep, IncrementStep, OneStep, Properties, Step};
+pub use step::one_step::{EstimatingStep, IncrementStep, OneStep, Properties, Step, check_contacts};
 pub use structure::collocation::Collocation;
 pub use structure::composition::{Composed, Composition};
 pub use structure::energy_momentum::EnergyMomentum;

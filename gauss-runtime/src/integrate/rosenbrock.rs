@@ -17,7 +17,7 @@ use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::step::checks::{check_chart, check_increment};
-use crate::integrate::step::one_step::{EstimatingStep, OneStep, Properties, Step};
+use crate::integrate::step::one_step::{EstimatingStep, OneStep, Properties, Step, check_contacts};
 use crate::linearize::{Factored, LinearModel, LinearizedSystem, brackets};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -127,7 +127,7 @@ impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
         _: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind> {
-        problem.check_contacts()?;
+        check_contacts(problem)?;
         let number = S::Scalar::from_f64;
         let one = S::Scalar::one();
         let system = problem.system();

@@ -21,7 +21,7 @@ use crate::error::{ContactError, ContactErrorKind};
 use crate::mode::{InMode, Mode};
 
 use super::kept::Kept;
-use super::made::{StepSample, SteppedRun};
+use super::made::{StepSample, StepStatistics, SteppedRun};
 use super::passing::look;
 use super::report::StepReport;
 use super::run::ContactSteps;
@@ -54,24 +54,6 @@ pub struct AdaptiveContactSteps<'k, K, I = NoInput, E = NoEvents> {
     absolute: f64,
     shortest: f64,
     limit: u64,
-}
-
-/// What became of the steps of a run with a tolerance.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct StepStatistics {
-    /// Steps that were kept, each made of two halves.
-    pub accepted: u64,
-    /// Steps that were too long.
-    pub rejected: u64,
-    /// Kept steps in which a contact changed what it does.
-    pub changes: u64,
-    /// Of these the ones that are off by more than the tolerance: they have the shortest length.
-    pub beyond: u64,
-    /// The largest estimate of the others, over the tolerance; at most 1.
-    pub largest: f64,
-    /// The largest estimate of those beyond it.
-    pub largest_beyond: f64,
 }
 
 impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {

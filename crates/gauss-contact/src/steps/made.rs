@@ -14,7 +14,6 @@ use crate::history::Passage;
 use crate::mode::Mode;
 use crate::sensors::ContactForces;
 
-use super::adaptive::StepStatistics;
 use super::report::StepReport;
 use super::stepper::ContactStepper;
 
@@ -65,6 +64,24 @@ impl<K: ContactSystem<Scalar = f64>> StepSample<K> {
 fn state<K: ContactSystem<Scalar = f64>>(stepper: &ContactStepper<'_, K>) -> Sample<K> {
     let (t, q, z) = (stepper.time(), *stepper.configuration(), *stepper.speeds());
     Sample { t, q, z, p: stepper.kernel.momentum(t, &q, &z) }
+}
+
+/// What became of the steps of a run with a tolerance.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct StepStatistics {
+    /// Steps that were kept, each made of two halves.
+    pub accepted: u64,
+    /// Steps that were too long.
+    pub rejected: u64,
+    /// Kept steps in which a contact changed what it does.
+    pub changes: u64,
+    /// Of these the ones that are off by more than the tolerance: they have the shortest length.
+    pub beyond: u64,
+    /// The largest estimate of the others, over the tolerance; at most 1.
+    pub largest: f64,
+    /// The largest estimate of those beyond it.
+    pub largest_beyond: f64,
 }
 
 /// A run in steps: the ends of all steps ([`samples`](Self::samples), which it can be used as), and states and forces

@@ -45,13 +45,13 @@ mod together;
 mod unknowns;
 mod watch;
 
-pub use adaptive::{AdaptiveContactSteps, StepStatistics};
+pub use adaptive::AdaptiveContactSteps;
 pub use derivatives::StepDerivatives;
 pub use edges::{AtChange, Change};
 pub use ensemble::ContactEnsemble;
 pub use held::HeldSteps;
 pub use lanes::{ContactLanes, LanesOf};
-pub use made::{StepSample, SteppedRun};
+pub use made::{StepSample, StepStatistics, SteppedRun};
 pub use relaxed::StepLaw;
 pub use report::{StepReport, StepScheme};
 pub use run::ContactSteps;

@@ -5,7 +5,7 @@ use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::step::checks::{check_chart, check_turn};
-use crate::integrate::step::one_step::{OneStep, Properties, Step};
+use crate::integrate::step::one_step::{OneStep, Properties, Step, check_contacts};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -37,7 +37,7 @@ impl<S: GaussSystem> OneStep<S> for CommutatorFree4 {
         rates: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind> {
-        problem.check_contacts()?;
+        check_contacts(problem)?;
         let end = Path::new(state, rates, h, |_, stage| problem.rates(stage))?.end;
         check_chart(problem.system(), state, &end)?;
         // No stage has weight 0: what is not finite reaches the end.

@@ -10,7 +10,7 @@ use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::runge_kutta::tableau::{Rational, Tableau, estimate_order};
 use crate::integrate::step::checks::{check_chart, check_increment};
-use crate::integrate::step::one_step::{EstimatingStep, IncrementStep, OneStep, Properties, Step};
+use crate::integrate::step::one_step::{EstimatingStep, IncrementStep, OneStep, Properties, Step, check_contacts};
 use crate::real::{Real, ratio_rest, rounded_ratio};
 use crate::system::GaussSystem;
 
@@ -73,7 +73,7 @@ impl<T: Real, const S: usize> Rkmk<T, S> {
         h: T,
         increment: impl Fn(usize, &[Rates<Sys>; S]) -> Rates<Sys>,
     ) -> Result<([Rates<Sys>; S], Rates<Sys>), IntegrationErrorKind> {
-        problem.check_contacts()?;
+        check_contacts(problem)?;
         let one = <Sys::Scalar as Real>::one();
         // Derivatives in the algebra: dexp_inv(σ, V) and ẏ. At σ = 0 the former is V.
         let mut stages = [*rates; S];

@@ -2,7 +2,6 @@
 
 use core::cell::Cell;
 
-use super::error::IntegrationErrorKind;
 use super::form::{Form, VelocityForm, WithoutContacts};
 use super::input::{InputSource, NoInput};
 use super::state::{Rates, Sample, State};
@@ -73,20 +72,6 @@ pub trait Problem {
     /// changes.
     fn held(&self) -> Option<&Cell<Input<Self>>> {
         None
-    }
-
-    /// Refuses a scene with [contacts](GaussSystem::HAS_CONTACTS), whose forces these equations do not have, unless
-    /// they are left out on purpose ([`WithoutContacts`]). Every run and every step of
-    /// the methods here asks it; it costs nothing.
-    ///
-    /// # Errors
-    /// [`IntegrationErrorKind::Contacts`].
-    #[inline(always)]
-    fn check_contacts(&self) -> Result<(), IntegrationErrorKind> {
-        if Self::System::HAS_CONTACTS && !Self::LEAVES_CONTACTS_OUT {
-            return Err(IntegrationErrorKind::Contacts);
-        }
-        Ok(())
     }
 
     /// The state at time t with the quasi-velocities z.

@@ -23,7 +23,7 @@ use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::runge_kutta::tableau::{Coefficients, Rational, estimate_order};
 use crate::integrate::step::checks::{check_chart, check_turn};
-use crate::integrate::step::one_step::{EstimatingStep, OneStep, Properties, Step};
+use crate::integrate::step::one_step::{EstimatingStep, OneStep, Properties, Step, check_contacts};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -129,7 +129,7 @@ impl<C: Coefficients<S>, const S: usize> RungeKutta<C, S> {
         rates: &Rates<Sys>,
         h: Sys::Scalar,
     ) -> Result<(Step<Sys>, Option<Rates<Sys>>), IntegrationErrorKind> {
-        problem.check_contacts()?;
+        check_contacts(problem)?;
         const { Self::STAGES };
         let start: Point<ComponentsOf<Sys>, Sys::Speeds> =
             Point { components: state.q.components(), variables: state.y };

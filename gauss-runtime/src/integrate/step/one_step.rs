@@ -64,7 +64,7 @@ pub trait OneStep<S: GaussSystem> {
     ///
     /// # Errors
     /// When the step cannot be made; the state given is untouched. Contacts are refused as in a run: begin with
-    /// [`Problem::check_contacts`].
+    /// [`check_contacts`].
     fn step<P: Problem<System = S>>(
         &self,
         problem: &P,
@@ -113,4 +113,15 @@ pub trait IncrementStep<S: GaussSystem>: OneStep<S> {
         rates: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Rates<S>, IntegrationErrorKind>;
+}
+
+/// Refuses a scene with [contacts](GaussSystem::HAS_CONTACTS), whose forces the equations do not have, unless they are
+/// left out on purpose ([`WithoutContacts`](crate::integrate::WithoutContacts)). Every run and every step of the
+/// methods here asks it; it costs nothing.
+///
+/// # Errors
+/// [`IntegrationErrorKind::Contacts`].
+#[inline(always)]
+pub fn check_contacts<P: Problem>(_: &P) -> Result<(), IntegrationErrorKind> {
+    if P::System::HAS_CONTACTS && !P::LEAVES_CONTACTS_OUT { Err(IntegrationErrorKind::Contacts) } else { Ok(()) }
 }

@@ -19,7 +19,7 @@ use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State, TangentOf};
 use crate::integrate::step::checks::{check_chart, check_increment};
 use crate::integrate::step::iteration::{Progress, relative_change, worst};
-use crate::integrate::step::one_step::{IncrementStep, OneStep, Properties, Step};
+use crate::integrate::step::one_step::{IncrementStep, OneStep, Properties, Step, check_contacts};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -180,7 +180,7 @@ impl<Sys: GaussSystem, const S: usize> IncrementStep<Sys> for Collocation<Sys::S
         rates: &Rates<Sys>,
         h: Sys::Scalar,
     ) -> Result<Rates<Sys>, IntegrationErrorKind> {
-        problem.check_contacts()?;
+        check_contacts(problem)?;
         let one = Sys::Scalar::one();
         let half = Sys::Scalar::ratio(1, 2);
         let middle_time = h.fma(half, state.t);

@@ -25,7 +25,7 @@ use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::step::checks::{check_chart, check_increment};
 use crate::integrate::step::iteration::{Progress, relative_change, worst};
-use crate::integrate::step::one_step::{IncrementStep, OneStep, Properties, Step};
+use crate::integrate::step::one_step::{IncrementStep, OneStep, Properties, Step, check_contacts};
 use crate::lie::se3::{join, split};
 use crate::lie::{coefficients, se2, se3, so3};
 use crate::real::Real;
@@ -262,7 +262,7 @@ where
         _: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Rates<S>, IntegrationErrorKind> {
-        problem.check_contacts()?;
+        check_contacts(problem)?;
         const { assert!(matches!(S::CHART, Chart::LeftInvariant), "`EnergyMomentum` needs the left-invariant chart") };
         let system = problem.system();
         let (one, half) = (S::Scalar::one(), S::Scalar::ratio(1, 2));

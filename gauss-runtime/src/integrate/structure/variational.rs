@@ -7,7 +7,7 @@ use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::step::checks::{check_chart, check_increment};
 use crate::integrate::step::iteration::{Progress, relative_change, worst};
-use crate::integrate::step::one_step::{OneStep, Properties, Step};
+use crate::integrate::step::one_step::{OneStep, Properties, Step, check_contacts};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -49,7 +49,7 @@ where
         _: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind> {
-        problem.check_contacts()?;
+        check_contacts(problem)?;
         const { assert!(matches!(S::CHART, Chart::LeftInvariant), "`Variational` needs the left-invariant chart") };
         let system = problem.system();
         let (one, half) = (S::Scalar::one(), h * S::Scalar::ratio(1, 2));

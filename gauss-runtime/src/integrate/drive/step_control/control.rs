@@ -9,7 +9,7 @@ use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State};
 use crate::integrate::step::checks::is_in_range;
-use crate::integrate::step::one_step::OneStep;
+use crate::integrate::step::one_step::{OneStep, check_contacts};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
@@ -181,7 +181,7 @@ pub fn prepare<S: GaussSystem, P: Problem<System = S>>(
     start: &State<S>,
     end: S::Scalar,
 ) -> Result<(f64, State<S>, Rates<S>), IntegrationErrorKind> {
-    problem.check_contacts()?;
+    check_contacts(problem)?;
     let span = end - start.t;
     if !(start.t.is_finite() && end.is_finite() && span.is_finite()) {
         return Err(IntegrationErrorKind::InvalidInterval);
