@@ -67,7 +67,7 @@ pub fn at<S: System<Scalar = f64> + ContactSystem>(
     Ok(InContact {
         acceleration: components(&free.acceleration.add_scaled(1.0, &pushed)),
         modes: modes.iter().map(word).collect(),
-        forces: components(&forces),
+        forces: components(forces.rows()),
     })
 }
 
@@ -148,13 +148,13 @@ fn rows_of<S: Touching>(
             let before = samples.get(n + 1).is_some_and(|next| next.t == t) && n > 0;
             run.forces(if before { t.next_down().max(samples[0].t) } else { t }).ok()
         };
-        return Ok(samples.iter().enumerate().map(|(n, sample)| row(system, sample, forces(n).as_ref())).collect());
+        return Ok(samples.iter().enumerate().map(|(n, sample)| row(system, sample, forces(n).as_deref())).collect());
     };
     let Some(last) = run.last() else { return Ok(Vec::new()) };
     let reached = times.iter().filter(|time| **time <= last.t);
     let found = reached.map(|time| {
         let at = run.at(*time).map_err(|error| of_contacts(&error))?;
-        Ok(row(system, &at, run.forces(*time).ok().as_ref()))
+        Ok(row(system, &at, run.forces(*time).ok().as_deref()))
     });
     found.collect()
 }

@@ -3,10 +3,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use gauss_runtime::constraint::ProjectionError;
 use gauss_runtime::prelude::*;
-
-type Velocity<S> = <<S as GaussSystem>::Configuration as Configuration>::Tangent;
 
 /// The system, and whether it shall stop.
 pub struct Stoppable<'a, S> {
@@ -21,11 +18,10 @@ impl<S> Stoppable<'_, S> {
 }
 
 impl<S: GaussSystem> GaussSystem for Stoppable<'_, S> {
-    type Scalar = S::Scalar;
-    type Configuration = S::Configuration;
-    type Speeds = S::Speeds;
-    type MassMatrix = S::MassMatrix;
-    type Input = S::Input;
+    // Methods have a dozen stages: with the kernel in each of them they would take minutes to compile.
+    gauss_runtime::forward_system! {
+        #[inline(never)] S => system: types motion momenta energies condition constraints
+    }
 
     const CHART: Chart = S::CHART;
     const CONSTRAINED: bool = S::CONSTRAINED;
@@ -33,85 +29,13 @@ impl<S: GaussSystem> GaussSystem for Stoppable<'_, S> {
     const SMOOTHNESS: Smoothness = S::SMOOTHNESS;
 
     #[inline(never)]
-    fn kinematics(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> Velocity<S> {
-        self.system.kinematics(t, q, z)
-    }
-
-    #[inline(never)]
-    fn configuration_rates(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds, input: &S::Input) -> Velocity<S> {
-        self.system.configuration_rates(t, q, z, input)
-    }
-
-    // Methods have a dozen stages: with the kernel in each of them they would take minutes to compile.
-    #[inline(never)]
     fn acceleration(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds, input: &S::Input) -> S::Speeds {
         self.or_none(self.system.acceleration(t, q, z, input))
     }
 
     #[inline(never)]
-    fn momentum(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Speeds {
-        self.system.momentum(t, q, z)
-    }
-
-    #[inline(never)]
-    fn velocity(&self, t: S::Scalar, q: &S::Configuration, p: &S::Speeds) -> S::Speeds {
-        self.system.velocity(t, q, p)
-    }
-
-    #[inline(never)]
     fn momentum_rate(&self, t: S::Scalar, q: &S::Configuration, p: &S::Speeds, input: &S::Input) -> S::Speeds {
         self.or_none(self.system.momentum_rate(t, q, p, input))
-    }
-
-    fn mass_matrix(&self, t: S::Scalar, q: &S::Configuration) -> S::MassMatrix {
-        self.system.mass_matrix(t, q)
-    }
-
-    fn kinetic_energy(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Scalar {
-        self.system.kinetic_energy(t, q, z)
-    }
-
-    fn potential_energy(&self, t: S::Scalar, q: &S::Configuration) -> S::Scalar {
-        self.system.potential_energy(t, q)
-    }
-
-    fn gauss_residual(
-        &self,
-        t: S::Scalar,
-        q: &S::Configuration,
-        z: &S::Speeds,
-        acceleration: &S::Speeds,
-        input: &S::Input,
-    ) -> S::Speeds {
-        self.system.gauss_residual(t, q, z, acceleration, input)
-    }
-
-    fn constraint_function(
-        &self,
-        t: S::Scalar,
-        q: &S::Configuration,
-        z: &S::Speeds,
-        acceleration: &S::Speeds,
-        input: &S::Input,
-    ) -> S::Scalar {
-        self.system.constraint_function(t, q, z, acceleration, input)
-    }
-
-    fn regularity(&self, t: S::Scalar, q: &S::Configuration) -> S::Scalar {
-        self.system.regularity(t, q)
-    }
-
-    fn project(
-        &self,
-        t: S::Scalar,
-        q: &S::Configuration,
-        z: &S::Speeds,
-    ) -> Result<(S::Configuration, S::Speeds), ProjectionError> {
-        self.system.project(t, q, z)
-    }
-
-    fn dependence(&self, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Speeds {
-        self.system.dependence(t, q, z)
     }
 }
 
