@@ -142,7 +142,7 @@ pub struct Lander<T> {
 #[derive(GaussDynamics)]
 #[gauss(
     python,
-    linearize,
+    linearize(without_contacts),
     coordinates(x, z),
     particle(mass = mass, position = [x, 0, z]),
     frame(puck, position = [x, 0, z]),

@@ -85,7 +85,7 @@ pub const EVENTS: Row = Row {
             shown("crates/gauss-contact/tests/many/front.rs", "steps_find_events_of_the_user")
                 .but("between the ends of steps; what passes there and back within one is not seen"),
         ),
-        ("one", missing("a step knows no events: the search belongs to `Simulation`")),
+        ("one", moot("a step knows no events: the search belongs to `Simulation`")),
         ("lan", shown("tests/tests/batch/ensembles.rs", "events_are_those_of_each_run")),
         (
             "thr",
@@ -119,7 +119,7 @@ pub const EVENTS: Row = Row {
             .but("the event that ends the run"),
         ),
         ("lin", moot(AT_A_STATE)),
-        ("dst", missing("a step ends at the time that it is given; an event within it is not looked for")),
+        ("dst", moot("a step ends at the time that it is given; an event within it is not looked for")),
         ("run", missing("as for a step: the time of an event has no part in the product")),
         ("stu", shown("guide/src/studies.md", "main")),
         ("py", shown("examples/python/tests/test_methods.py", "test_events_do_not_end_a_run")),
@@ -152,7 +152,7 @@ pub const JUMPS: Row = Row {
         ),
         ("adj", missing("`Run` has `until`, and no jumps")),
         ("lin", moot(AT_A_STATE)),
-        ("dst", missing("a step ends at the time that it is given; no jump is within it")),
+        ("dst", moot("a step ends at the time that it is given; no jump is within it")),
         ("run", missing("derivatives of a jump and of its time have no place in the product")),
         ("stu", together("jump::study")),
         (
