@@ -177,11 +177,23 @@ impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
         Batch { kernels: self.kernels, form: self.form, input }
     }
 
-    /// The accelerations ż of all states at the time `t`. They have no contact forces: a scene
-    /// with contacts is refused, but for [`without_contacts`](Self::without_contacts).
+    /// The accelerations ż of all states at the time `t`. They have no contact forces: a scene with contacts is refused
+    /// while it compiles, but for [`without_contacts`](Self::without_contacts).
+    ///
+    /// ```compile_fail,E0080
+    /// # use gauss_batch::{Batch, States};
+    /// # use gauss_runtime::prelude::*;
+    /// # #[derive(GaussDynamics)]
+    /// # #[gauss(coordinates(height), particle(mass = m, position = [0, 0, height]), contact(floor, gap = height))]
+    /// # struct Ball<T> { m: T }
+    /// # type Four = Lanes<f64, 4>;
+    /// # let kernel = Ball { m: Four::splat(1.0) }.kernel().unwrap();
+    /// # let states = States::<BallKernel<Four>>::from_fn(4, |_| (SVector::from([1.0]), SVector::from([0.0])));
+    /// let all = Batch::new(&kernel).accelerations(0.0, &states); // with `.without_contacts()` it compiles
+    /// ```
     ///
     /// # Panics
-    /// When there are fewer kernels than blocks; of a scene with contacts.
+    /// When there are fewer kernels than blocks.
     #[must_use]
     pub fn accelerations<S>(&self, t: f64, states: &States<S>) -> Packs<S::Speeds>
     where
@@ -276,13 +288,15 @@ impl<'k, K: ?Sized, F, I> Batch<'k, K, F, I> {
     }
 }
 
-/// Refuses a scene whose contact forces would be left out unasked.
+/// Refuses a scene whose contact forces would be left out unasked, while it compiles.
 fn refuse_contacts<S: GaussSystem, F: Form<S>>() {
-    assert!(
-        !S::HAS_CONTACTS || F::LEAVES_CONTACTS_OUT,
-        "the scene has contacts, whose forces accelerations of a batch do not have: leave contacts out on purpose by \
-         `without_contacts()`, or take `InMode` of gauss-contact for what holds in closed contacts"
-    );
+    const {
+        assert!(
+            !S::HAS_CONTACTS || F::LEAVES_CONTACTS_OUT,
+            "the scene has contacts, whose forces accelerations of a batch do not have: leave contacts out on purpose \
+             by `without_contacts()`, or take `InMode` of gauss-contact for what holds in closed contacts"
+        );
+    }
 }
 
 #[cfg(feature = "rayon")]

@@ -100,20 +100,6 @@ fn states() -> States<TopKernel<Four>> {
 }
 
 #[test]
-#[should_panic(expected = "leave contacts out on purpose by `without_contacts()`, or take `InMode` of gauss-contact")]
-fn accelerations_of_a_batch_refuse_contacts() {
-    let kernel = Top { g: Four::splat(9.81) }.kernel().expect("a top");
-    let _ = Batch::new(&kernel).accelerations(0.0, &states());
-}
-
-#[test]
-#[should_panic(expected = "leave contacts out on purpose by `without_contacts()`, or take `InMode` of gauss-contact")]
-fn accelerations_on_all_threads_refuse_contacts() {
-    let kernel = Top { g: Four::splat(9.81) }.kernel().expect("a top");
-    let _ = Batch::new(&kernel).accelerations_on_all_threads(0.0, &states());
-}
-
-#[test]
 fn accelerations_of_a_batch_leave_contacts_out_on_purpose() {
     let kernel = Top { g: Four::splat(9.81) }.kernel().expect("a top");
     let all = Batch::new(&kernel).without_contacts().accelerations(0.0, &states());

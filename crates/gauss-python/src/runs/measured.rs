@@ -20,7 +20,8 @@ pub fn batch_time<S: Scene>(system: &S::Packed, many: &Many<'_>) -> Result<Durat
         all.push((configuration(q)?, vector(z)));
     }
     let states = States::<S::Packed>::from_fn(many.count, |i| all[i]);
-    let batch = Batch::new(system);
+    // A time is asked for; of contacts there are other methods.
+    let batch = Batch::new(system).without_contacts();
     let input =
         |t: <S::Packed as GaussSystem>::Scalar, _: &_, _: &_| many.input.at(t, |number| Real::from_f64(number(0)));
     let batch = batch.input::<S::Packed, _>(input);
