@@ -54,11 +54,9 @@ pub struct Cell {
     pub why: &'static str,
     /// The test that shows it, or its refusal.
     pub test: Option<Test>,
-    /// The calls that give an answer without it, and say nothing; empty where there are none.
-    pub silent: &'static str,
 }
 
-pub const UNSHOWN: Cell = Cell { kind: Kind::Unshown, why: "", test: None, silent: "" };
+pub const UNSHOWN: Cell = Cell { kind: Kind::Unshown, why: "", test: None };
 
 pub const fn shown(file: &'static str, name: &'static str) -> Cell {
     Cell { kind: Kind::Shown, test: Some(Test { file, name }), ..UNSHOWN }
@@ -93,10 +91,6 @@ impl Cell {
 
     pub const fn but(self, why: &'static str) -> Self {
         Self { why, ..self }
-    }
-
-    pub const fn silent(self, silent: &'static str) -> Self {
-        Self { silent, ..self }
     }
 }
 

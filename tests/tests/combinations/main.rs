@@ -40,10 +40,6 @@ fn every_cell() -> impl Iterator<Item = Cell> {
     ROWS.iter().flat_map(|row| COLUMNS.iter().map(move |(column, ..)| cell(row, column)))
 }
 
-fn symbol(cell: &Cell) -> String {
-    format!("{}{}", cell.kind.symbol(), if cell.silent.is_empty() { "" } else { "!" })
-}
-
 const HEAD: &str = "\
 # Combinations
 
@@ -60,9 +56,6 @@ fn counts() -> String {
         let count = every_cell().filter(|cell| cell.kind == kind).count();
         writeln!(out, "| {} | {count} | {} |", kind.symbol(), kind.words()).expect("a string");
     }
-    let silent = every_cell().filter(|cell| !cell.silent.is_empty()).count();
-    writeln!(out, "| ! | {silent} of them | some way to ask gives an answer that leaves it out, without notice |")
-        .expect("a string");
     out
 }
 
@@ -70,32 +63,13 @@ fn matrix() -> String {
     let columns = COLUMNS.map(|(letters, ..)| letters).join(" | ");
     let mut out = format!("\n| | {columns} |\n|---|{}\n", "---|".repeat(COLUMNS.len()));
     for row in &ROWS {
-        let symbols = COLUMNS.map(|(column, ..)| symbol(&cell(row, column))).join(" | ");
+        let symbols = COLUMNS.map(|(column, ..)| cell(row, column).kind.symbol()).join(" | ");
         writeln!(out, "| [{}](#{}) | {symbols} |", row.name, row.name.to_lowercase().replace(' ', "-"))
             .expect("a string");
     }
     out.push_str("\n| | what is done | |\n|---|---|---|\n");
     for (letters, name, words) in COLUMNS {
         writeln!(out, "| {letters} | {name} | {words} |").expect("a string");
-    }
-    out
-}
-
-/// The list of things left out without notice, alike ones together.
-fn silent() -> String {
-    let mut found: Vec<(&str, Vec<String>)> = Vec::new();
-    for row in &ROWS {
-        for (column, Cell { silent, .. }) in row.cells.iter().filter(|(_, cell)| !cell.silent.is_empty()) {
-            let place = format!("{} ({column})", row.name);
-            match found.iter_mut().find(|(words, _)| words == silent) {
-                Some((_, places)) => places.push(place),
-                None => found.push((silent, vec![place])),
-            }
-        }
-    }
-    let mut out = String::from("\n## Left out without notice\n\n| where | what is met |\n|---|---|\n");
-    for (words, places) in found {
-        writeln!(out, "| {} | {words} |", places.join(", ")).expect("a string");
     }
     out
 }
@@ -123,7 +97,7 @@ fn section(row: &Row) -> String {
     let mut out = format!("\n## {}\n\n{}\n\n| | | shown by | |\n|---|---|---|---|\n", row.name, row.clause);
     told.sort_by_key(|(cell, _)| *cell == UNSHOWN);
     for (cell, names) in told {
-        writeln!(out, "| {} | {} | {} | {} |", symbol(&cell), names.join(", "), evidence(&cell), cell.why)
+        writeln!(out, "| {} | {} | {} | {} |", cell.kind.symbol(), names.join(", "), evidence(&cell), cell.why)
             .expect("a string");
     }
     out
@@ -131,7 +105,7 @@ fn section(row: &Row) -> String {
 
 #[test]
 fn the_table_is_as_it_is_told() {
-    let page = [HEAD.to_owned(), counts(), matrix(), silent()].concat() + &ROWS.iter().map(section).collect::<String>();
+    let page = [HEAD.to_owned(), counts(), matrix()].concat() + &ROWS.iter().map(section).collect::<String>();
     let path = repository().join("docs/combinations.md");
     if std::env::var_os("UPDATE_COMBINATIONS").is_some() {
         fs::write(&path, &page).expect("docs can be written");
