@@ -11,6 +11,8 @@ use crate::scenes::Scene;
 
 pub type Kernel<S, T = f64> = <S as gauss_sensitivity::Run<2>>::System<T>;
 pub type Q<S, T = f64> = <Kernel<S, T> as GaussSystem>::Configuration;
+/// The input of a scene's kernel.
+pub type U<S, T = f64> = InputOf<Kernel<S, T>>;
 pub type Z<S, T = f64> = <Kernel<S, T> as GaussSystem>::Speeds;
 
 /// The kernel of a scene, with its start.
@@ -24,7 +26,7 @@ pub fn made<S: Scene>(scene: &S, numbers: &[f64; 2]) -> (Kernel<S>, Q<S>, Z<S>) 
 pub fn input<'a, S: Scene, T: Real>(
     scene: &'a S,
     system: &'a Kernel<S, T>,
-) -> impl Fn(T, &Q<S, T>, &Z<S, T>) -> InputOf<Kernel<S, T>> + Copy + 'a {
+) -> impl Fn(T, &Q<S, T>, &Z<S, T>) -> U<S, T> + Copy + 'a {
     move |t, q, z| {
         let at = At { number: 0, ended: false, system, t, q, z };
         scene.input(&S::NUMBERS.map(T::from_f64), &at)
