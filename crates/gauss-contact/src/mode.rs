@@ -376,8 +376,8 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
     }
 
     /// A configuration moved by what impulses add to speeds.
-    // In a function of its own: with it in the loop of `close_gaps`, LLVM (20 and 22, optimisation 3) loses the old value of the
-    // third of three coordinates in the sum, and a block that leans lies flat.
+    // In a function of its own: with it in the loop of `close_gaps`, LLVM (20 and 22, optimisation 3) loses the old
+    // value of the third of three coordinates in the sum, and a block that leans lies flat.
     #[inline(never)]
     fn moved_by(&self, t: K::Scalar, q: &K::Configuration, speeds: &K::Speeds) -> K::Configuration {
         let still = self.kernel.kinematics(t, q, &K::Speeds::zero());
