@@ -43,7 +43,7 @@ pub struct Parameter {
 /// A number that a check is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Given {
-    /// Of the numbers of all parameters.
+    /// A place among the numbers of all parameters.
     Number(usize),
     /// Of the outputs of [`Parameters::computed`].
     Computed(usize),
@@ -55,9 +55,9 @@ pub enum Given {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Check {
-    /// What the numbers are called in messages.
+    /// The name of the numbers in messages.
     pub label: String,
-    /// What must hold of them.
+    /// The rule that they keep.
     pub rule: Rule,
     /// The numbers; of a matrix row after row.
     pub values: Vec<Given>,
@@ -65,7 +65,7 @@ pub struct Check {
     pub is_formal: bool,
 }
 
-/// What must hold of numbers: each is a method of the runtime's `ParameterCheck`, with its arguments in order. Whoever
+/// Rules of numbers: each is a method of the runtime's `ParameterCheck`, with its arguments in order. Whoever
 /// makes checks makes all of them: a rule that is added is an error of its compiler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {

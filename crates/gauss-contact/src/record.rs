@@ -24,7 +24,7 @@ pub trait ContactRecord<'k, K: ContactSystem>: RunRecord<K, Error = ContactError
     /// Where the run does not cover the time.
     fn forces(&self, t: K::Scalar) -> Result<ContactForces<'k, K>, ContactError>;
 
-    /// What contacts do at a time; at an event, after it.
+    /// The modes of contacts at a time; at an event, those after it.
     ///
     /// # Errors
     /// Where the run does not cover the time.

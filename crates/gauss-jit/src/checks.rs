@@ -1,4 +1,4 @@
-//! What `kernel()` checks of parameters, done at run time: the same rules by the same functions of the runtime.
+//! The checks of parameters by `kernel()` at run time: the same rules by the same functions of the runtime.
 
 use std::collections::HashSet;
 use std::sync::{Mutex, PoisonError};

@@ -25,7 +25,7 @@ pub enum Place {
 pub struct Mistake {
     /// Where it is.
     pub place: Place,
-    /// What is wrong, with the remedy: as the compiler says it of a struct.
+    /// The mistake with its remedy, as the compiler says it of a struct.
     pub message: String,
 }
 
@@ -91,11 +91,11 @@ pub enum KernelError {
 pub enum Misgiven {
     /// No parameter has that name.
     Unknown(String),
-    /// That parameter is not given.
+    /// A parameter that is not given.
     Missing(String),
-    /// That parameter is given more than once.
+    /// A parameter that is given more than once.
     Repeated(String),
-    /// That parameter has another count of numbers.
+    /// A parameter with another count of numbers.
     Count {
         /// Its name.
         name: String,
@@ -148,7 +148,7 @@ impl From<ParameterError> for KernelError {
 pub enum CallError {
     /// The model has no such method; those of clauses are there where the clause is.
     NoMethod {
-        /// What was asked for.
+        /// The method that was asked for.
         name: String,
         /// The methods that there are.
         known: Vec<String>,

@@ -179,12 +179,12 @@ impl Kernel {
 }
 
 impl<'k> Method<'k> {
-    /// What it takes, the constants left out.
+    /// The arguments of the method, the constants left out.
     pub fn arguments(&self) -> &'k [Argument] {
         &self.arguments[1..]
     }
 
-    /// What it gives, one after another.
+    /// The results of the method, one after another.
     pub fn results(&self) -> &'k [Results] {
         self.results
     }

@@ -21,7 +21,7 @@ pub struct Model {
     pub(crate) derived: Arc<Derived>,
 }
 
-/// What kernels of a model share.
+/// The derivation that all kernels of a model share.
 #[derive(Debug)]
 pub(crate) struct Derived {
     name: String,
@@ -168,7 +168,7 @@ impl Model {
         }
     }
 
-    /// What each method computes, by kind of operation: `OPERATIONS` of a compiled kernel, counted where no vectors are
+    /// The operations of each method by their kind: `OPERATIONS` of a compiled kernel, counted where no vectors are
     /// formed.
     pub fn operations(&self) -> impl Iterator<Item = (&str, Counts)> {
         self.derived.methods.iter().map(|program| (program.name.as_str(), program.code.counts()))
@@ -196,7 +196,7 @@ impl Model {
         self.derived.methods.iter().map(|program| program.name.as_str())
     }
 
-    /// What a method takes, the constants left out: of each argument its name and those of its components.
+    /// The arguments of a method, the constants left out: the name of each, and those of its components.
     ///
     /// # Errors
     /// [`CallError::NoMethod`].
@@ -204,7 +204,7 @@ impl Model {
         Ok(&self.derived.methods[self.method(method)?].arguments[1..])
     }
 
-    /// What a method gives: numbers, vectors and matrices, one after another; matrices row after row.
+    /// The results of a method: numbers, vectors and matrices, one after another; matrices row after row.
     ///
     /// # Errors
     /// [`CallError::NoMethod`].

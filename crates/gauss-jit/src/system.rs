@@ -9,7 +9,7 @@ use gauss_runtime::prelude::{GaussSystem, SMatrix, SVector};
 use crate::error::CallError;
 use crate::kernel::{Kernel, Method};
 
-/// What the inputs of a system are: `()` or `SVector<f64, U>`.
+/// The inputs of a system: `()` or `SVector<f64, U>`.
 pub trait Inputs: Copy + fmt::Debug + Send + Sync + 'static {
     /// How many numbers they are.
     const COUNT: usize;
@@ -40,9 +40,9 @@ impl<const U: usize> Inputs for SVector<f64, U> {
 pub enum NoSystem {
     /// The sizes are others: coordinates, speeds, inputs.
     Sizes {
-        /// Those of the model.
+        /// The sizes of the model.
         expected: [usize; 3],
-        /// Those that were asked for.
+        /// The sizes that were asked for.
         found: [usize; 3],
     },
     /// The model has what a system of plain coordinates does not tell a run: a rotation, a chart of one body,

@@ -5,7 +5,7 @@ use core::fmt;
 use alloc::vec::Vec;
 
 use crate::forces::ForcedSystem;
-use crate::integrate::{Sample, Trajectory};
+use crate::integrate::{EventSample, Sample, Trajectory};
 use crate::real::Real;
 
 /// Energy and work at one sample of a run, counted from the first; units of energy.
@@ -18,7 +18,7 @@ pub struct BalancePoint {
     pub energy: f64,
     /// `∫ supplied_power dt` from t₀.
     pub work: f64,
-    /// What jumps of the state gave since t₀; negative where they took energy away.
+    /// Energy that jumps of the state gave since t₀; negative where they took it away.
     pub jumps: f64,
     /// About how far the integral is off: the differences of two rules of quadrature, added up over the steps.
     pub uncertainty: f64,
@@ -107,10 +107,14 @@ pub fn power_balance<S: ForcedSystem>(
     let mut points = Vec::with_capacity(trajectory.len());
     let mut last = BalancePoint { t: first.t.lane(0), energy: 0.0, work: 0.0, jumps: 0.0, uncertainty: 0.0 };
     points.push(last);
+    let forward = (trajectory.last().t - first.t).lane(0).signum();
+    let mut events = trajectory.events().iter().peekable();
     for (left, after) in trajectory.iter().zip(trajectory.iter().skip(1)) {
-        // Where the state jumps, the event has the one before.
-        let at_once = |sample: &&Sample<S>| sample.t.lane(0) == after.t.lane(0);
-        let right = trajectory.events().iter().map(|event| &event.sample).find(at_once).unwrap_or(after);
+        // Where the state jumps, the first event of that time has the one before.
+        let is_behind = |event: &&EventSample<S>| forward * (event.sample.t - after.t).lane(0) < 0.0;
+        while events.next_if(is_behind).is_some() {}
+        let at_once = events.peek().filter(|event| event.sample.t.lane(0) == after.t.lane(0));
+        let right = at_once.map_or(after, |event| &event.sample);
         let length = right.t - left.t;
         let h = length.lane(0);
         // Where controllers sample, a step has the input from before its end: some roundings of the time earlier.

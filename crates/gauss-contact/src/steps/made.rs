@@ -24,7 +24,7 @@ pub struct StepSample<K: ContactSystem<Scalar = f64>> {
     pub state: Sample<K>,
     /// The impulses of the step, row by row.
     pub impulses: K::ContactRows,
-    /// What the contacts did in it.
+    /// The modes of the contacts in it.
     pub modes: Vec<Mode>,
     /// How the laws were solved.
     pub report: StepReport,
@@ -66,7 +66,7 @@ fn state<K: ContactSystem<Scalar = f64>>(stepper: &ContactStepper<'_, K>) -> Sam
     Sample { t, q, z, p: stepper.kernel.momentum(t, &q, &z) }
 }
 
-/// What became of the steps of a run with a tolerance.
+/// The statistics of the steps of a run with a tolerance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct StepStatistics {
@@ -180,7 +180,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> SteppedRun<'k, K> {
         Ok(ContactForces::new(self.kernel, t, self.at(t)?.q, rows))
     }
 
-    /// What contacts do in the step that a time is in, or that ends there.
+    /// The modes of contacts in the step that a time is in, or that ends there.
     ///
     /// # Errors
     /// `OutsideRun` where the run does not cover the time.

@@ -1,4 +1,4 @@
-//! What carries programs out: machine code, or the interpreter.
+//! The back ends that carry programs out: machine code and the interpreter.
 
 mod backend;
 #[cfg(feature = "cranelift")]
