@@ -88,6 +88,15 @@ pub enum ContactErrorKind {
         /// The length of the part.
         step: f64,
     },
+    /// A step with an impact would gain more energy for no reason than all that moves has, in sixteen parts as well.
+    EnergyFromNowhere {
+        /// The energy that nothing explains.
+        gained: f64,
+        /// The kinetic energy of it, without that.
+        kinetic: f64,
+        /// The length of the part.
+        step: f64,
+    },
     /// More steps than the run may have.
     TooManySteps {
         /// The limit.
@@ -220,6 +229,11 @@ impl ContactErrorKind {
                  a part of {step:e} as well: make steps shorter than that, and write friction that jumps with the \
                  sign of a speed as `dry_friction`"
             ),
+            Self::EnergyFromNowhere { gained, kinetic, step } => write!(
+                f,
+                "an impact would gain {gained:.1e} of energy for no reason, more than the {kinetic:.1e} of all that moves, \
+                 in a part of {step:e} as well: make steps shorter than that, or run it from event to event"
+            ),
             Self::States { states } => write!(
                 f,
                 "elements of the scene have {states} states, which steps of one length do not follow; run it from event \
@@ -283,6 +297,7 @@ impl fmt::Display for ContactErrorKind {
             | Self::States { .. }
             | Self::Displacement { .. }
             | Self::Stiff { .. }
+            | Self::EnergyFromNowhere { .. }
             | Self::TooManySteps { .. } => self.of_steps(f),
             Self::NonFinite => f.write_str("gaps, rates or coefficients are not finite"),
             Self::Inconsistent => f.write_str("no contact force agrees with rigid bodies and Coulomb's law (Painlevé)"),

@@ -16,6 +16,7 @@ use super::followed::{Same, State, part};
 use super::relaxed::StepLaw;
 use super::report::StepReport;
 use super::stepper::ContactStepper;
+use super::stiffness::LastForces;
 use super::watch::Seen;
 
 /// A step with the derivatives of its end by its start, by the input, and by parameters.
@@ -42,6 +43,9 @@ pub struct StepDerivatives<const D: usize, const U: usize, const P: usize> {
     /// How often the step was made in dual numbers.
     pub passes: usize,
 }
+
+/// The rounding of rates, as a part of the speeds, at which two systems cannot be told from one another.
+const NO_DIGITS: f64 = 1e-7;
 
 /// Time and state at the start of a step.
 type Start<K> = (f64, <K as GaussSystem>::Configuration, <K as GaussSystem>::Speeds);
@@ -99,7 +103,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
     ///
     /// # Errors
     /// As of [`step`](Self::step); `NotCoulomb` under another law; `NoDerivative` where contacts depend on one another
-    /// at the state, but not nearby; `OtherSystem` where the system in dual numbers is another one; `NonFinite` where
+    /// at the state, but not nearby, or jam; `OtherSystem` where the system in dual numbers is another one; `NonFinite` where
     /// derivatives are not finite. The state is then that before the step.
     pub fn step_with_derivatives<L, const N: usize, const D: usize, const U: usize, const P: usize>(
         &mut self,
@@ -129,12 +133,12 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
             return Err(self.error(None, ContactErrorKind::NotCoulomb));
         }
         let before = self.kept();
-        // Without the acceleration of the step before a step is a function of the state.
-        self.acceleration = None;
+        // Without the forces of the step before a step is a function of the state.
+        self.last = LastForces::default();
         let mut seen = Seen::default();
         let made = self.watched(h, input, &mut seen).and_then(|report| {
             let made = self.differentiated(dual, &(before.t, before.q, before.z), input, &seen);
-            let made = made.map_err(|kind| ContactError { contact: None, time: before.t, kind })?;
+            let made = made.map_err(|kind| ContactError { contact: None, time: before.t, kind: self.of_jam(kind) })?;
             Ok(StepDerivatives { report, ..made })
         });
         if made.is_err() {
@@ -178,6 +182,15 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         let by_parameters = own.fixed_columns::<P>(0).into_owned();
         let (at_change, report) = (same.at_change, StepReport::default());
         Ok(StepDerivatives { by_state, by_input, by_parameters, at_change, report, passes })
+    }
+
+    /// Why a step has no derivatives: the impulses of a jam leave no digits to tell the system in dual numbers by.
+    fn of_jam(&self, kind: ContactErrorKind) -> ContactErrorKind {
+        let is_jammed = self.report.residual.rounding > NO_DIGITS * (1.0 + self.z.max_norm());
+        match kind {
+            ContactErrorKind::OtherSystem { .. } if is_jammed => ContactErrorKind::NoDerivative,
+            kind => kind,
+        }
     }
 
     /// The step once more, with derivatives by N directions from a first one.

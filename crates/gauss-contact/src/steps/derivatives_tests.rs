@@ -150,7 +150,7 @@ fn compare<S, const P: usize, const N: usize, const D: usize, const U: usize>(
     S: Pair<P, N>,
 {
     let dual = S::in_duals(core::array::from_fn(|k| Dual::variable(S::PARAMETERS[k], k)));
-    stepper.acceleration = None;
+    stepper.last = Default::default();
     let kept = stepper.kept();
     let found = match stepper.step_with_derivatives::<S::InDuals, N, D, U, P>(h, input, &dual) {
         Ok(found) => found,
@@ -188,8 +188,10 @@ fn compare<S, const P: usize, const N: usize, const D: usize, const U: usize>(
             found.by_parameters.column(direction - D - U).into_owned()
         };
         let error = (column - expected).amax() / (1.0 + expected.amax());
-        // Hundreds of roundings of rates of some m/s, over the step of differences; and what differences err.
-        assert!(error < 1e-6 + own, "{direction}: {error:e} {own:e} {:?} {column} {expected}", stepper.modes());
+        // Hundreds of roundings of rates of some m/s, over the step of differences; and what differences err. Where ends
+        // are settled to a part and no better, each of the four is off by as much in either way, of which `own` shows
+        // three sevenths at least.
+        assert!(error < 1e-6 + 3.0 * own, "{direction}: {error:e} {own:e} {:?} {column} {expected}", stepper.modes());
         tally.checked += 1;
     }
     tally.count(made.kept.modes.as_ref(), stepper.modes());
@@ -369,6 +371,36 @@ fn stops_dry_joints_and_rods_have_the_derivatives_of_differences() {
     for scheme in [StepScheme::MoreauJean, StepScheme::Midpoint] {
         let tally = compare_along::<Kicking, 4, 8, 6, 1>((scheme, 5e-3), (20, 300), &mut start, 3);
         assert!(tally.checked > 2000 && tally.slides > 100 && tally.sticks > 10 && tally.impacts > 2, "{tally:?}");
+    }
+}
+
+/// Two masses on a spring of ωh = 1, one of which bounces: forces are taken at mean places, in parts.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, y),
+    particle(mass = m, position = [x, 0, 0]),
+    particle(mass = 1, position = [y, 0, 0]),
+    spring(coil, along = y - x, length = 0.2, stiffness = k),
+    contact(wall, gap = x, restitution = e),
+    input(push),
+    drive(y = push),
+)]
+struct Sprung<T> {
+    m: T,
+    k: T,
+    e: T,
+}
+
+pair! { Springing Sprung SprungKernel 3 [1.0, 5e3, 0.5] |p, number|
+Sprung { m: p[0], k: number(0.0) + p[1], e: p[2] } }
+
+#[test]
+fn stiff_springs_have_the_derivatives_of_differences() {
+    let mut number = numbers(17);
+    let mut start = || (V::from([0.1, 0.3 + 0.02 * number()]), V::from([-1.0 + 0.5 * number(), number()]));
+    for scheme in [StepScheme::MoreauJean, StepScheme::Midpoint] {
+        let tally = compare_along::<Springing, 3, 8, 4, 1>((scheme, 0.01), (20, 60), &mut start, 3);
+        assert!(tally.checked > 1000 && tally.impacts > 2, "{scheme:?} {tally:?}");
     }
 }
 

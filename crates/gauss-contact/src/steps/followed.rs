@@ -19,7 +19,7 @@ use crate::mode::{Mode, after_impulses};
 use super::active::{Active, LEFT, NOTHING, Solvable, inverse, largest_slope, multiplied};
 use super::bounds::Touched;
 use super::edges::{self, AtChange, Known};
-use super::motion::{self, Middle};
+use super::motion::{self, Mean, Middle};
 use super::projection::{Closed, Projection};
 use super::report::StepScheme;
 use super::watch::{Part, Taken};
@@ -31,6 +31,10 @@ pub(super) struct State<L: ContactSystem> {
     /// Of the part before, between impacts.
     pub(super) acceleration: Option<L::Speeds>,
 }
+
+/// How many attempts are added where they settle: derivatives settle as values do, but begin with those of speeds that
+/// were foreseen.
+const FURTHER: usize = 8;
 
 /// Roundings of equations, as a part of their terms.
 const ROUNDING: f64 = 1e-6;
@@ -57,26 +61,40 @@ pub(super) fn part<const N: usize, L: ContactSystem<Scalar = Dual<N>>>(
 ) -> Result<State<L>, ContactErrorKind> {
     let (h, number) = (part.h, Dual::constant);
     let (t, z) = (number(part.t), state.z);
-    let q = motion::half_way::<L>(h, &state.q, &kernel.kinematics(t, &state.q, &z));
     let scheme = same.scheme;
-    let mut attempt = |taken: &Taken, z: L::Speeds| {
-        let attempt = Attempt { kernel, input, state, middle: Middle { t: t + number(0.5 * h), q, z }, t: part.t, h };
+    let half = motion::half_way::<L>(h, &state.q, &kernel.kinematics(t, &state.q, &z));
+    let plain = |used: L::Speeds| Middle::new((t, h), half, z, used);
+    let to_mean = |way: L::Speeds, used| plain(used).with_mean(kernel, (t, h), (&state.q, way), used);
+    let attempt = |same: &mut Same, taken: &Taken, middle: Middle<L>| {
+        let attempt = Attempt { kernel, input, state, middle, t: part.t, h };
         attempt.end(taken, same)
     };
     let foreseen = match (scheme, state.acceleration) {
         (StepScheme::Midpoint, Some(acceleration)) => z.add_scaled(number(0.5 * h), &acceleration),
         (StepScheme::Midpoint, None) => z,
         (StepScheme::MoreauJean, _) => {
-            z.add_scaled(number(0.5 * h), &kernel.acceleration(t + number(0.5 * h), &q, &z, input))
+            z.add_scaled(number(0.5 * h), &kernel.acceleration(t + number(0.5 * h), &half, &z, input))
         }
     };
-    let mut used = foreseen;
-    for (taken, (how, by)) in &part.before {
-        let (q, after) = attempt(taken, used)?;
+    let mut middle = if part.by_mean { to_mean(foreseen, foreseen) } else { plain(foreseen) };
+    let again = |same: &mut Same, taken: &Taken, (how, by): (Mean, f64), middle: Middle<L>| {
+        let (way, used) = (middle.way, middle.z);
+        let (q, after) = attempt(same, taken, middle)?;
         let wanted = how.of(kernel, (t, h), [(&state.q, &z), (&q, &after)], input);
-        used = motion::towards(&used, &wanted, *by);
+        let way = motion::towards(&way, &motion::mean(&z, &after), by);
+        Ok(to_mean(way, motion::towards(&used, &wanted, by)))
+    };
+    for (taken, how) in &part.before {
+        middle = again(same, taken, *how, middle)?;
     }
-    let (q, after) = attempt(&part.taken, used)?;
+    if let (true, Some((_, how))) = (part.settled, part.before.last()) {
+        let solved = same.solved;
+        for _ in 0..FURTHER {
+            middle = again(same, &part.taken, *how, middle)?;
+            same.solved = solved;
+        }
+    }
+    let (q, after) = attempt(same, &part.taken, middle)?;
     let changed = after.add_scaled(number(-1.0), &z).scale(number(1.0 / h));
     Ok(State { q, z: after, acceleration: (!part.taken.struck).then_some(changed) })
 }
@@ -125,7 +143,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
 
     fn second_half(&self, z: L::Speeds) -> Moved<L> {
         let Self { kernel, middle, .. } = self;
-        let rate = kernel.kinematics(middle.t, &middle.q, &z);
+        let rate = kernel.kinematics(middle.t, &middle.half, &z);
         let end = motion::second_half(*kernel, (Dual::constant(self.t), self.h), middle, (z, &rate));
         end.map_err(ContactErrorKind::Projection)
     }

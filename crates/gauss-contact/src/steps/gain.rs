@@ -6,19 +6,24 @@
 //! that bounce without loss gain a hundredth of theirs per impact, in steps of 1 ms.
 //!
 //! So a step with an impact keeps an account: what it gains beyond the work of its impulses and beyond what the motion
-//! without contacts supplies at both ends. Where that is more than [`UNEXPLAINED`] it is made in parts, by which the
-//! impact is confined to a sixteenth of the step; what is left is told by the report. Steps without a memory are told
-//! of alone: where a step is made in parts its end jumps, and these are to be smooth.
+//! without contacts supplies at both ends. Where that is more than [`LITTLE`] it is made in parts, by which the impact
+//! is confined to a sixteenth of the step; what is left is told by the report. Steps without a memory are told
+//! of alone: where a step is made in parts its end jumps, and these are to be smooth. A step that is taken although its
+//! forces are not those at its mean speeds keeps the same account, and is refused where that is [`MUCH`].
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;
+
+use crate::error::ContactErrorKind;
 
 use super::motion;
 use super::outcome::{Attempt, End};
 use super::stepper::ContactStepper;
 
 /// The part of the kinetic energy that an impact may gain without being made in shorter parts.
-const UNEXPLAINED: f64 = 1e-3;
+const LITTLE: f64 = 1e-3;
+/// The part of it that a step may gain whose forces are not those at its mean speeds.
+const MUCH: f64 = 0.1;
 
 /// By what part of itself energy is rounded: some hundred terms.
 const ROUNDING: f64 = 128.0 * f64::EPSILON;
@@ -26,37 +31,73 @@ const ROUNDING: f64 = 128.0 * f64::EPSILON;
 /// By what part of a step states are moved for rates of energy.
 const NEAR: f64 = 1e-4;
 
+/// The energy that a step gains.
+pub(super) struct Gain {
+    /// What nothing explains of it.
+    pub(super) unexplained: f64,
+    /// The work that impulses give: Newton's law has such with friction.
+    of_law: f64,
+    /// The kinetic energy at both ends.
+    kinetic: f64,
+    /// The larger of those at both ends, without what nothing explains.
+    explained: f64,
+    /// What weight makes of rest in the step, and rounding.
+    least: f64,
+}
+
+impl Gain {
+    /// Whether it is no more than an impact may gain.
+    pub(super) fn is_little(&self) -> bool {
+        self.unexplained <= LITTLE * self.kinetic + self.least
+    }
+
+    /// Whether it is more than the energy of all that moves, beside what the law of impact gives: of an error of first
+    /// order nothing is left then.
+    pub(super) fn is_more_than_all(&self) -> bool {
+        self.unexplained - self.of_law > self.explained + self.least
+    }
+
+    /// What a step of length `h` is refused for.
+    pub(super) fn kind(&self, h: f64) -> ContactErrorKind {
+        ContactErrorKind::EnergyFromNowhere { gained: self.unexplained, kinetic: self.explained, step: h }
+    }
+
+    /// Whether it is more than the forces of a step may differ by from those at its mean speeds.
+    pub(super) fn is_much(&self) -> bool {
+        self.unexplained > MUCH * self.explained + self.least
+    }
+}
+
 impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
-    /// Reports what an impact gains that nothing explains; whether that is little.
-    pub(super) fn accounts(&self, h: f64, made: &mut Attempt<K>, input: &K::Input) -> bool {
-        if !made.end.struck {
-            return true;
-        }
+    /// What a step gains, and whether forces change with places more than it can follow.
+    pub(super) fn gain(&self, h: f64, (made, is_stiff): (&Attempt<K>, bool), input: &K::Input) -> Gain {
         let (kernel, t) = (self.kernel, self.t + h);
         let [before, after] = [(self.t, &self.q, &self.z), (t, &made.end.q, &made.end.z)];
         let [of_before, of_after] = [before, after].map(|(t, q, z)| kernel.energy(t, q, z));
         let supplied: f64 = [before, after].iter().map(|at| 0.5 * h * self.power(h, *at, input)).sum();
-        let gained = of_after - of_before - supplied - self.work(h, &made.end);
-        made.end.report.unexplained = gained;
-
-        let kinetic = [before, after].map(|(t, q, z)| kernel.kinetic_energy(t, q, z)).iter().sum::<f64>();
+        let [taken, given] = self.work(h, &made.end);
+        let gained = of_after - of_before - supplied - (taken.min(0.0) - given);
+        let [first, last] = [before, after].map(|(t, q, z)| kernel.kinetic_energy(t, q, z));
         // What comes to rest has hardly any, and weight works in the step.
-        let of_step = kernel.kinetic_energy(t, &made.end.q, &made.acceleration.scale(h));
-        let rounding = ROUNDING * (of_before.abs() + of_after.abs());
-        gained <= UNEXPLAINED * kinetic + of_step + rounding
+        let of_weight = || kernel.kinetic_energy(t, &made.end.q, &made.acceleration.scale(h));
+        let of_step = if is_stiff { 0.0 } else { of_weight() };
+        let impulses: f64 = (0..K::ContactRows::DIM).map(|row| made.end.impulses.component(row).abs()).sum();
+        let of_impulses = impulses * made.end.report.residual.rounding;
+        let rounding = ROUNDING * (of_before.abs() + of_after.abs()) + of_impulses;
+        let (kinetic, explained) = (first + last, first.max(last - gained));
+        Gain { unexplained: gained, of_law: taken.max(0.0), kinetic, explained, least: of_step + rounding }
     }
 
-    /// The work of the impulses of a step on its mean speeds, as far as it may be: they take energy away from the slip
-    /// and the approach of surfaces, and give what moves these.
-    fn work(&self, h: f64, end: &End<K>) -> f64 {
+    /// The work of the impulses of a step on its mean speeds, and of that on the speeds of surfaces that move: impulses
+    /// take energy away from the slip and the approach of surfaces, and give what moves these.
+    fn work(&self, h: f64, end: &End<K>) -> [f64; 2] {
         let (kernel, t) = (self.kernel, self.t + 0.5 * h);
         let q = motion::half_way::<K>(h, &self.q, &kernel.kinematics(self.t, &self.q, &self.z));
         let mean = self.z.add_scaled(1.0, &end.z).scale(0.5);
-        let [taken, given] = [mean, K::Speeds::zero()].map(|z| {
+        [mean, K::Speeds::zero()].map(|z| {
             let rates = kernel.contact_rates(t, &q, &z);
             (0..K::ContactRows::DIM).map(|row| end.impulses.component(row) * rates.component(row)).sum::<f64>()
-        });
-        taken.min(0.0) - given
+        })
     }
 
     /// The rate of the energy of the motion without contacts.

@@ -10,6 +10,7 @@ use crate::mode::Mode;
 
 use super::relaxed::StepLaw;
 use super::report::{StepReport, StepScheme};
+use super::stiffness::LastForces;
 use super::stepper::ContactStepper;
 
 /// What a contact did in the step before.
@@ -27,7 +28,7 @@ pub struct HeldSteps<K: ContactSystem<Scalar = f64>, M> {
     memory: M,
     impulses: K::ContactRows,
     dependent: bool,
-    acceleration: Option<K::Speeds>,
+    last: LastForces<K::Speeds>,
     modes: K::EachContact<Mode>,
     rests: K::EachContact<bool>,
     report: StepReport,
@@ -133,15 +134,15 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     /// Lets go of the kernel, so that data of its contacts may change; [`HeldSteps::step`] goes on.
     #[must_use]
     pub fn hold(self) -> HeldSteps<K, M> {
-        let Self { t, q, z, scheme, law, tolerance, memory, impulses, dependent, acceleration, .. } = self;
+        let Self { t, q, z, scheme, law, tolerance, memory, impulses, dependent, last, .. } = self;
         let Self { modes, rests, report, .. } = self;
-        HeldSteps { t, q, z, scheme, law, tolerance, memory, impulses, dependent, acceleration, modes, rests, report }
+        HeldSteps { t, q, z, scheme, law, tolerance, memory, impulses, dependent, last, modes, rests, report }
     }
 
     /// What was held, with contacts whose data may be other ones.
     fn resumed(kernel: &'k K, held: HeldSteps<K, M>, before: impl Fn(usize) -> Option<usize>) -> Self {
         let (impulses, known) = held.carried(before);
-        let HeldSteps { t, q, z, scheme, law, tolerance, memory, dependent, acceleration, report, .. } = held;
+        let HeldSteps { t, q, z, scheme, law, tolerance, memory, dependent, last, report, .. } = held;
         let (gaps, rates) = (kernel.gaps(t, &q), kernel.contact_rates(t, &q, &z));
         let open = Each::from_fn(|_| Mode::Open);
         let mut stepper = Self {
@@ -158,7 +159,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             dependent,
             gaps,
             rates,
-            acceleration,
+            last,
             modes: open,
             rests: Each::from_fn(|_| false),
             next: open,

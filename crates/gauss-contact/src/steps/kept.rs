@@ -5,6 +5,7 @@ use gauss_runtime::contact::ContactSystem;
 use crate::mode::Mode;
 
 use super::report::StepReport;
+use super::stiffness::LastForces;
 
 /// All of a stepper that a step changes, but memory.
 pub(super) struct Kept<K: ContactSystem<Scalar = f64>> {
@@ -14,7 +15,7 @@ pub(super) struct Kept<K: ContactSystem<Scalar = f64>> {
     pub(super) gaps: K::Gaps,
     pub(super) rates: K::ContactRows,
     pub(super) impulses: K::ContactRows,
-    pub(super) acceleration: Option<K::Speeds>,
+    pub(super) last: LastForces<K::Speeds>,
     pub(super) dependent: bool,
     pub(super) modes: K::EachContact<Mode>,
     pub(super) rests: K::EachContact<bool>,

@@ -249,6 +249,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         let Self { steppers, stages, halted, .. } = self;
         for (lane, (stepper, stage)) in steppers.iter().zip(stages).enumerate() {
             if !halted[lane]
+                && !stepper.last.is_stiff()
                 && let (middle, true) = stepper.middle(h, &single::<W, _, TangentOf<K>>(&rates, lane))
             {
                 *stage = if stepper.flies() { Stage::Flies(middle) } else { Stage::Middle(middle) };
@@ -407,9 +408,13 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
             };
             let (mut made, input) = (Attempt { end, acceleration }, input.extract(lane));
             // A step that is made again, or in parts, goes alone.
-            let agrees = matches!(stepper.agrees(h, &middle, &made, &input), Ok(true));
-            if agrees && stepper.accounts(h, &mut made, &input) {
-                self.outcomes[lane] = stepper.made(h, made.end);
+            let agrees = !stepper.stiffens(h, (&middle, &made), &input)
+                && stepper.strikes_stiffly(h, (&middle, &made), &input).is_none()
+                && stepper.agrees(h, (&middle, &made), &input);
+            let gain = (agrees && made.end.struck).then(|| stepper.gain(h, (&made, false), &input));
+            made.end.report.unexplained = gain.as_ref().map_or(0.0, |gain| gain.unexplained);
+            if agrees && gain.is_none_or(|gain| gain.is_little()) {
+                self.outcomes[lane] = stepper.made(h, made);
                 self.stages[lane] = Stage::Made;
             }
         }

@@ -11,7 +11,7 @@
 //! zero is pulled shut by at most what the impulse of the step does at another time of it, and stays open else. No
 //! event is sought, so that dozens of contacts, and impacts that pile up, are no more work than one; the time of an
 //! impact is known to a step. A step whose forces were taken at other speeds than its mean ones is made again
-//! (`speeds`).
+//! (`speeds`), or at another place where they change much with it (`stiffness`).
 
 mod active;
 mod adaptive;
@@ -41,6 +41,7 @@ mod rounds;
 mod run;
 mod speeds;
 mod stepper;
+mod stiffness;
 mod together;
 mod unknowns;
 mod watch;

@@ -9,11 +9,41 @@ use gauss_runtime::real::Real;
 use crate::law::carrier;
 use crate::lockstep::larger;
 
-/// The state at half of a step, with the speeds at which accelerations are taken.
+/// The state at half of a step at which forces are taken, with the speeds at which they are.
 pub(super) struct Middle<K: ContactSystem> {
     pub(super) t: K::Scalar,
     pub(super) q: K::Configuration,
     pub(super) z: K::Speeds,
+    /// The place to which half of the step leads with the speeds before it, from which the second half goes on.
+    pub(super) half: K::Configuration,
+    /// The speeds that lead to `q`.
+    pub(super) way: K::Speeds,
+    /// Whether these are the mean ones of the step, not those before it.
+    pub(super) is_mean: bool,
+}
+
+impl<K: ContactSystem> Middle<K> {
+    /// Half of a step of length `h`, with forces at the place there and at some speeds.
+    pub(super) fn new((t, h): (K::Scalar, f64), half: K::Configuration, way: K::Speeds, z: K::Speeds) -> Self {
+        Self { t: t + K::Scalar::from_f64(0.5 * h), q: half, z, half, way, is_mean: false }
+    }
+
+    /// The same with forces at the place to which mean speeds lead from that before the step.
+    pub(super) fn with_mean(
+        &self,
+        kernel: &K,
+        (t, h): (K::Scalar, f64),
+        (q, way): (&K::Configuration, K::Speeds),
+        z: K::Speeds,
+    ) -> Self {
+        let q = half_way::<K>(h, q, &kernel.kinematics(t, q, &way));
+        Self { t: self.t, q, z, half: self.half, way, is_mean: true }
+    }
+}
+
+/// The mean of the speeds at both ends.
+pub(super) fn mean<T: Real, V: VectorSpace<T>>(before: &V, after: &V) -> V {
+    before.add_scaled(T::one(), after).scale(T::from_f64(0.5))
 }
 
 /// The rule by which the speeds at half of a step follow from an attempt at it.
@@ -35,7 +65,7 @@ impl Mean {
         input: &K::Input,
     ) -> K::Speeds {
         let number = K::Scalar::from_f64;
-        let mean = z.add_scaled(K::Scalar::one(), z_after).scale(number(0.5));
+        let mean = mean(z, z_after);
         if self == Self::Ends {
             return mean;
         }
@@ -63,7 +93,7 @@ pub(super) fn second_half<K: ContactSystem>(
     middle: &Middle<K>,
     (z, rate): (K::Speeds, &TangentOf<K>),
 ) -> Result<(K::Configuration, K::Speeds), ProjectionError> {
-    let q = half_way::<K>(h, &middle.q, rate);
+    let q = half_way::<K>(h, &middle.half, rate);
     if K::CONSTRAINED { kernel.project(t + K::Scalar::from_f64(h), &q, &z) } else { Ok((q, z)) }
 }
 

@@ -75,12 +75,17 @@ pub(super) struct Solved<K: ContactSystem> {
 }
 
 impl<K: ContactSystem<Scalar = f64>> Solved<K> {
-    /// Which contacts have struck and which rest, from modes before and after the step, and for each contact the rate
-    /// that an impact passes on and whether its gap closes before the step. A gap that only comes to lie on zero, as
-    /// those that press nothing do step by step, is no impact.
-    pub(super) fn tell(&mut self, law: StepLaw, [before, after]: [&[Mode]; 2], of: impl Fn(usize) -> (f64, bool)) {
+    /// Which contacts have struck and which rest, from those that rested before the step, the modes after it, and for
+    /// each contact the rate that an impact passes on and whether its gap closes before the step. A gap that only comes
+    /// to lie on zero, as those that press nothing do step by step, is no impact.
+    pub(super) fn tell(
+        &mut self,
+        law: StepLaw,
+        (rested, after): (&[bool], &[Mode]),
+        of: impl Fn(usize) -> (f64, bool),
+    ) {
         for i in 0..K::CONTACTS.len() {
-            let (was_open, is_closed) = (!before[i].is_closed(), after[i].is_closed());
+            let (was_open, is_closed) = (!rested[i], after[i].is_closed());
             let closes = is_closed && K::CONTACTS[i].has_gap();
             let lifts = lifts::<K>(law, after, i);
             self.struck |= closes && (was_open || lifts);
@@ -96,8 +101,8 @@ impl<K: ContactSystem<Scalar = f64>> Solved<K> {
 
 /// Why a step is not made as a whole.
 pub(super) enum Refused {
-    /// An impact in it gains energy.
-    Gains,
+    /// An impact in it gains energy; the error where that is more than all that moves has.
+    Gains(Option<ContactError>),
     Error(ContactError),
 }
 

@@ -133,12 +133,12 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
         Answer { found, from_coulomb, work, states }
     }
 
-    /// The same in a lane, whose modes before the step are given, with the modes after it.
+    /// The same in a lane, of which it is given what rested before the step, with the modes after it.
     pub(super) fn solved<S: ContactSystem<Scalar = f64>>(
         &self,
         problem: &Impulses<T>,
         (answer, cones): (&Answer<T, K>, &[Cone<T>]),
-        (before, after): (&[Mode], &mut [Mode]),
+        (rested, after): (&[bool], &mut [Mode]),
         lane: usize,
     ) -> Solved<S> {
         let scales = self.laws.scales.as_ref();
@@ -150,7 +150,7 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
         let rests = Each::from_fn(|_| false);
         let mut solved = Solved { found, from_coulomb, rests, struck: false, impacts: 0, work };
         let approaches = |i: usize| self.approaches(i, lane);
-        solved.tell(self.law, [before, after], |i| (self.passed_on(i).lane(lane), approaches(i)));
+        solved.tell(self.law, (rested, after), |i| (self.passed_on(i).lane(lane), approaches(i)));
         solved
     }
 }

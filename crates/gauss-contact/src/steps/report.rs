@@ -8,13 +8,14 @@ use crate::residual::Residual;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum StepScheme {
-    /// Moreau and Jean's, θ = ½: accelerations at half of the step, with the mean of the speeds before it and after it,
-    /// from attempts with foreseen ones. A step is a function of its start alone, and is made three times; it is smooth
-    /// in its start but where it is made again, as of a body that turns by more than a tenth of a radian.
+    /// Moreau and Jean's, θ = ½: accelerations at the mean place of a step, with the mean of the speeds before it and
+    /// after it, from attempts with foreseen ones. A step is a function of its start alone, and is made three times; it
+    /// is smooth in its start but where it is made again, as of a body that turns by more than a tenth of a radian.
     MoreauJean,
-    /// The same with the speeds at half of the step that the acceleration of the step before foresees, for a third of
-    /// the work: only the first step and those after impacts are made twice, and those whose mean speeds turn out to
-    /// be other ones, as of a body that spins fast.
+    /// Accelerations at half of the step, with the speeds there that the acceleration of the step before foresees, for
+    /// a third of the work: only the first step and those after impacts are made twice, and those whose mean speeds turn
+    /// out to be other ones, as of a body that spins fast, or whose forces change much with places, as of stiff springs:
+    /// these are made until forces are those at the mean place.
     #[default]
     Midpoint,
 }
@@ -44,7 +45,7 @@ pub struct StepReport {
     /// balances of energy are formed from rates before and after the step. Newton's law with friction can give energy
     /// at an impact (T. R. Kane 1984); then it is positive.
     pub work: f64,
-    /// The energy that a step with an impact gained for no reason: beyond what impulses take and what all other forces
+    /// The energy that a step with an impact, or one whose forces do not settle, gained for no reason: beyond what impulses take and what all other forces
     /// and surfaces that move do; negative where it lost some. It is the error of a step in which speeds jump, of first
     /// order in its length, and what Newton's law gives with friction.
     pub unexplained: f64,

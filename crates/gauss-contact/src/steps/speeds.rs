@@ -13,7 +13,8 @@
 //! by at most that part, of a body that turns of its power 4/3: 10⁻⁸. What dampers differ by shrinks by itself as long
 //! as it is smaller than the difference of the speeds. Else the step is made again from the end that it had, until
 //! speeds agree; where it is too long for that, it is made in parts, and refused in the end: so this check is the watch
-//! over the energy of a step, since forces at the mean speeds do the work that they should.
+//! over the energy of a step, since forces at the mean speeds do the work that they should. A step that is made again
+//! takes them at the mean place as well (`stiffness`).
 //!
 //! A step that is made again uses `z̄ − h/12 (a⁺ − a⁻)` with the accelerations at both ends, which is the mean over
 //! time to fourth order: where a body spins evenly, h ω errs by (ωh)⁵/720, in place of (ωh)³/12, by which a ball in the
@@ -37,13 +38,8 @@ const NEAR: f64 = 1e-5;
 const ALLOWED: f64 = 1e-6;
 /// The same where a step is made again.
 const SETTLED: f64 = 1e-9;
-/// By what part of the sizes of speeds before and after a step these may change before one looks whether that is so
-/// because forces do: a quarter of a swing of a spring.
-const ROUGH: f64 = 0.5;
-/// The same of what speeds at half of a step were foreseen to be: where a spring turns back, speeds at both ends agree.
-const FAR: f64 = 0.2;
-/// By what part of a speed before a step forces may change it by changing along half of the step.
-const STEEP: f64 = 0.25;
+/// The part of a speed by which those at which forces were taken may differ from the mean ones then.
+const NEARLY: f64 = 3e-8;
 /// The part of a speed that may be left of a difference in a step that has no other end: where it cannot be shorter and
 /// contacts do one thing at some speeds and another one at those that follow from it, or where no impulses are found at
 /// these. It comes once, and not from step to step.
@@ -86,40 +82,29 @@ impl<V: VectorSpace<f64>> Used<V> {
         (0..V::DIM)
             .for_each(|i| sizes.set_component(i, self.before.component(i).abs() + self.after.component(i).abs()));
         let gained = |i: usize| self.h * self.acceleration.component(i).abs();
-        let largest = (0..V::DIM).map(|i| sizes.component(i).max(gained(i))).fold(0.0, f64::max);
+        // From rest, with speeds that turn back within the step, those at half of it are all that there is.
+        let size = |i: usize| sizes.component(i).max(gained(i)).max(self.used.component(i).abs());
+        let largest = (0..V::DIM).map(size).fold(0.0, f64::max);
         let least = part * largest + LEAST;
         (0..V::DIM).for_each(|i| sizes.set_component(i, sizes.component(i) + least));
         sizes
     }
 
-    /// Whether forces were taken at the mean speeds, as nearly as need be, and speeds change little.
+    /// The size of each speed before the step, by which its changes along half of the step are judged: with a part of
+    /// the largest, since from rest nothing moves along half of a step, and what differs is rounding.
+    pub(super) fn magnitudes(&self) -> V {
+        let (mut sizes, near) = (V::zero(), self.sizes(SMALL));
+        let before = |i: usize| self.before.component(i).abs();
+        let least = PART * (0..V::DIM).map(before).fold(0.0, f64::max);
+        (0..V::DIM).for_each(|i| sizes.set_component(i, before(i) + least + NEAR * near.component(i)));
+        sizes
+    }
+
+    /// Whether forces were taken at the mean speeds, as nearly as need be.
     pub(super) fn is_plain(&self) -> bool {
         let sizes = self.sizes(SMALL);
         let off = |i: usize| (self.mean(i) - self.used.component(i)).abs();
-        (0..V::DIM).all(|i| off(i) <= NEAR * sizes.component(i) && !self.is_rough_at(i, sizes.component(i)))
-    }
-
-    /// Whether a speed changes so much that forces may do so within the step more than it can follow.
-    pub(super) fn is_rough(&self) -> bool {
-        let sizes = self.sizes(SMALL);
-        (0..V::DIM).any(|i| self.is_rough_at(i, sizes.component(i)))
-    }
-
-    fn is_rough_at(&self, i: usize, size: f64) -> bool {
-        let changes = (self.after.component(i) - self.before.component(i)).abs() > ROUGH * size;
-        changes || (self.mean(i) - self.used.component(i)).abs() > FAR * size
-    }
-
-    /// The speed that forces change too fast along half of the step, given the acceleration at the places before it:
-    /// of a spring by (ωh)²/4 of itself, where steps of z' = −ω²q, q' = z end at ωh = 2.
-    fn steep(&self, at_start: &V) -> Option<usize> {
-        let sizes = self.sizes(SMALL);
-        let before = |i: usize| self.before.component(i).abs();
-        let least = PART * (0..V::DIM).map(before).fold(0.0, f64::max);
-        let by = |i: usize| 0.5 * self.h * (self.acceleration.component(i) - at_start.component(i)).abs();
-        // From rest nothing moves along half of the step, and what differs is rounding.
-        let allowed = |i: usize| STEEP * (before(i) + least) + NEAR * sizes.component(i);
-        (0..V::DIM).find(|i| self.is_rough_at(*i, sizes.component(*i)) && by(*i) > allowed(*i))
+        (0..V::DIM).all(|i| off(i) <= NEAR * sizes.component(i))
     }
 
     /// Whether speeds may grow by what forces differ from those at the mean speeds, whose acceleration is given. Where
@@ -133,42 +118,47 @@ impl<V: VectorSpace<f64>> Used<V> {
         })
     }
 
-    /// Whether what forces differ from those at the mean speeds is a small part of all speeds.
-    fn is_mild(&self, at_mean: &V) -> bool {
+    /// Whether an acceleration changes all speeds by less than a part of them, beside another one.
+    fn is_within(&self, part: f64, [acceleration, other]: [&V; 2]) -> bool {
         let sizes = self.sizes(SMALL);
-        let by = |i: usize| self.h * (self.acceleration.component(i) - at_mean.component(i)).abs();
-        (0..V::DIM).all(|i| by(i) <= MILD * sizes.component(i))
+        let by = |i: usize| self.h * (acceleration.component(i) - other.component(i)).abs();
+        (0..V::DIM).all(|i| by(i) <= part * sizes.component(i))
     }
 
-    /// The differences to other speeds, as parts of the sizes.
-    fn off(&self, wanted: &V) -> V {
+    /// The differences of speeds to others, as parts of the sizes.
+    fn off(&self, used: &V, wanted: &V) -> V {
         let (sizes, mut off) = (self.sizes(PART), V::zero());
         for i in (0..V::DIM).filter(|i| sizes.component(*i) > 0.0) {
-            off.set_component(i, (wanted.component(i) - self.used.component(i)) / sizes.component(i));
+            off.set_component(i, (wanted.component(i) - used.component(i)) / sizes.component(i));
         }
         off
     }
 }
 
+/// The differences of speeds at half of a step to others: of those at which forces are taken, and of those that lead to
+/// the place where they are.
+type Off<V> = [V; 2];
+
 /// The largest component, and its place.
-fn largest<V: VectorSpace<f64>>(off: &V) -> (f64, usize) {
+fn largest<V: VectorSpace<f64>>(off: &Off<V>) -> (f64, usize) {
     let larger = |worst: (f64, usize), (off, i): (f64, usize)| if off > worst.0 { (off, i) } else { worst };
-    (0..V::DIM).map(|i| (off.component(i).abs(), i)).fold((0.0, 0), larger)
+    off.iter().flat_map(|off| (0..V::DIM).map(|i| (off.component(i).abs(), i))).fold((0.0, 0), larger)
 }
 
-fn product<V: VectorSpace<f64>>(a: &V, b: &V) -> f64 {
-    (0..V::DIM).map(|i| a.component(i) * b.component(i)).sum()
+fn product<V: VectorSpace<f64>>(a: &Off<V>, b: &Off<V>) -> f64 {
+    let each = a.iter().zip(b).flat_map(|(a, b)| (0..V::DIM).map(|i| a.component(i) * b.component(i)));
+    each.sum()
 }
 
 /// Whether a difference is against the one before, as of a speed that is damped; where a body turns they are across.
-fn opposes<V: VectorSpace<f64>>(before: &V, after: &V) -> bool {
+fn opposes<V: VectorSpace<f64>>(before: &Off<V>, after: &Off<V>) -> bool {
     product(before, after) < -0.7 * Real::sqrt(product(before, before) * product(after, after))
 }
 
 /// By what part of a difference speeds are changed next, from the part before and the differences before and after it
 /// (A. C. Aitken; B. Irons & R. Tuck 1969): of one linear force that is all that is left, whatever its sign.
-fn relaxation<V: VectorSpace<f64>>(part: f64, before: &V, after: &V) -> f64 {
-    let change = after.add_scaled(-1.0, before);
+fn relaxation<V: VectorSpace<f64>>(part: f64, before: &Off<V>, after: &Off<V>) -> f64 {
+    let change = core::array::from_fn(|k| after[k].add_scaled(-1.0, &before[k]));
     let next = -part * product(before, &change) / product(&change, &change);
     if next.is_finite() { next.clamp(LEAST_PART, 1.0) } else { 1.0 }
 }
@@ -183,26 +173,49 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         (watch, last, accounts): (&mut W, bool, bool),
     ) -> Result<StepReport, Refused> {
         let dependent = self.dependent;
-        let (middle, mut made) = self.foreseen(h, input, watch)?;
-        if !self.agrees(h, &middle, &made, input)? {
-            let mean = self.mean(Mean::Ends, h, &made.end, input);
-            let at_mean = self.kernel.acceleration(middle.t, &middle.q, &mean, input);
-            let is_mild = self.used(h, &middle, &made).is_mild(&at_mean);
-            made = match self.corrected(h, (middle, made), input, (watch, last)) {
+        let (mut middle, mut made) = self.foreseen(h, input, watch)?;
+        if self.stiffens(h, (&middle, &made), input) {
+            self.last.stiffen();
+            if !middle.is_mean {
+                (middle, made) = self.again(h, (&middle, &made), input, watch)?;
+            }
+        }
+        let mut doubt = None;
+        if !self.agrees(h, (&middle, &made), input) {
+            let mean = motion::mean(&self.z, &made.end.z);
+            let mean = if middle.is_mean { self.to_mean(h, &middle, mean, mean) } else { Middle { z: mean, ..middle } };
+            let at_mean = self.kernel.acceleration(mean.t, &mean.q, &mean.z, input);
+            let is_mild = self.used(h, &middle, &made).is_within(MILD, [&made.acceleration, &at_mean]);
+            (middle, made, doubt) = match self.corrected(h, (middle, made), input, (watch, last)) {
                 // What has a solution as it was foreseen is no error for having none with forces that hardly differ.
                 Err(cause) if is_mild && (last || has_no_end(&cause)) => {
                     self.dependent = dependent;
-                    self.foreseen(h, input, watch)?.1
+                    let (middle, made) = self.foreseen(h, input, watch)?;
+                    (middle, made, Some(cause))
                 }
                 made => made?,
             };
         }
-        if !self.accounts(h, &mut made, input) && accounts {
-            return Err(Refused::Gains);
+        let stiff = self.strikes_stiffly(h, (&middle, &made), input);
+        let stiff = stiff.map(|speed| self.error(None, ContactErrorKind::Stiff { speed, step: h }));
+        let is_stiff = stiff.is_some();
+        match stiff {
+            Some(cause) if !last => return Err(cause.into()),
+            stiff => doubt = doubt.or(stiff),
         }
-        let end = made.end;
-        watch.part((self.t, h), end.attempted(self.next.as_ref()));
-        Ok(self.take(h, end)?)
+        if made.end.struck || doubt.is_some() {
+            let gain = self.gain(h, (&made, is_stiff), input);
+            made.end.report.unexplained = gain.unexplained;
+            if let Some(cause) = doubt.filter(|_| gain.is_much()) {
+                return Err(cause.into());
+            }
+            let error = gain.is_more_than_all().then(|| self.error(None, gain.kind(h)));
+            if error.is_some() || accounts && !gain.is_little() {
+                return Err(Refused::Gains(error));
+            }
+        }
+        watch.part((self.t, h), made.end.attempted(self.next.as_ref()));
+        Ok(self.take(h, made)?)
     }
 
     /// A step with forces at the speeds that are foreseen at half of it.
@@ -212,7 +225,6 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         input: &K::Input,
         watch: &mut W,
     ) -> Result<(Middle<K>, Attempt<K>), ContactError> {
-        watch.begins();
         let rate = self.kernel.kinematics(self.t, &self.q, &self.z);
         let (mut middle, known) = self.middle(h, &rate);
         let has_memory = self.scheme == StepScheme::Midpoint;
@@ -220,17 +232,40 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
             let free = self.kernel.acceleration(middle.t, &middle.q, &self.z, input);
             middle.z = self.z.add_scaled(0.5 * h, &free);
         }
+        let by_mean = !has_memory || known && self.last.is_stiff();
+        if by_mean {
+            middle = self.to_mean(h, &middle, middle.z, middle.z);
+        }
+        watch.begins(by_mean);
         let mut made = self.attempt(h, &middle, input)?;
         let again = match has_memory {
             true => usize::from(!known && !made.end.struck),
             false => 2,
         };
         for _ in 0..again {
-            watch.again(made.end.attempted(self.next.as_ref()), (Mean::Ends, 1.0));
-            middle.z = self.mean(Mean::Ends, h, &made.end, input);
-            made = self.attempt(h, &middle, input)?;
+            (middle, made) = self.again(h, (&middle, &made), input, watch)?;
         }
         Ok((middle, made))
+    }
+
+    /// A step with forces at the mean places and speeds of the attempt before.
+    fn again<W: Watch<K>>(
+        &mut self,
+        h: f64,
+        (middle, made): (&Middle<K>, &Attempt<K>),
+        input: &K::Input,
+        watch: &mut W,
+    ) -> Result<(Middle<K>, Attempt<K>), ContactError> {
+        watch.again(made.end.attempted(self.next.as_ref()), (Mean::Ends, 1.0));
+        let mean = motion::mean(&self.z, &made.end.z);
+        let middle = self.to_mean(h, middle, mean, mean);
+        let made = self.attempt(h, &middle, input)?;
+        Ok((middle, made))
+    }
+
+    /// The place to which speeds lead along half of a step, with those at which forces are taken there.
+    fn to_mean(&self, h: f64, middle: &Middle<K>, way: K::Speeds, z: K::Speeds) -> Middle<K> {
+        middle.with_mean(self.kernel, (self.t, h), (&self.q, way), z)
     }
 
     fn mean(&self, how: Mean, h: f64, end: &End<K>, input: &K::Input) -> K::Speeds {
@@ -241,47 +276,71 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         Used { h, before: self.z, used: middle.z, acceleration: made.acceleration, after: made.end.z }
     }
 
-    /// Whether speeds do not grow by forces that were taken at other ones. `Stiff` where they grow by forces that were
-    /// taken at other places.
-    pub(super) fn agrees(
-        &self,
-        h: f64,
-        middle: &Middle<K>,
-        made: &Attempt<K>,
-        input: &K::Input,
-    ) -> Result<bool, ContactError> {
+    /// Whether forces change so much with places that these are to be mean ones.
+    pub(super) fn stiffens(&self, h: f64, (middle, made): (&Middle<K>, &Attempt<K>), input: &K::Input) -> bool {
         let used = self.used(h, middle, made);
-        if used.is_plain() || !made.end.z.is_finite() {
-            return Ok(true);
-        }
-        if used.is_rough()
-            && let Some(speed) = used.steep(&self.kernel.acceleration(middle.t, &self.q, &middle.z, input))
-        {
-            return Err(self.error(None, ContactErrorKind::Stiff { speed, step: h }));
-        }
-        let mean = self.mean(Mean::Ends, h, &made.end, input);
-        Ok(!used.grows(&self.kernel.acceleration(middle.t, &middle.q, &mean, input)))
+        self.scheme == StepScheme::Midpoint
+            && self.last.may_stiffen(&used)
+            && used.stiffens(&self.kernel.acceleration(middle.t, &self.q, &middle.z, input))
     }
 
-    /// A step made again with the mean speeds of the attempt before, until they agree.
+    /// The speed on which forces act that an impact takes place on, and that change more with places than a step can
+    /// follow: what comes to rest at a contact has the same speed by whatever force.
+    pub(super) fn strikes_stiffly(
+        &self,
+        h: f64,
+        (middle, made): (&Middle<K>, &Attempt<K>),
+        input: &K::Input,
+    ) -> Option<usize> {
+        if !made.end.struck {
+            return None;
+        }
+        let at_start = self.kernel.acceleration(middle.t, &self.q, &middle.z, input);
+        let (square, speed) = self.used(h, middle, made).stiffness(&at_start);
+        (square > 4.0 * STIFF).then_some(speed)
+    }
+
+    /// Whether speeds do not grow by forces that were taken at other speeds, or at other places where these are to be
+    /// mean ones.
+    pub(super) fn agrees(&self, h: f64, (middle, made): (&Middle<K>, &Attempt<K>), input: &K::Input) -> bool {
+        let (kernel, used) = (self.kernel, self.used(h, middle, made));
+        if used.is_plain() && !self.last.is_stiff() || !made.end.z.is_finite() {
+            return true;
+        }
+        let mean = motion::mean(&self.z, &made.end.z);
+        let at_mean = kernel.acceleration(middle.t, &middle.q, &mean, input);
+        if used.grows(&at_mean) {
+            return false;
+        }
+        let at_mean_place = || kernel.acceleration(middle.t, &self.to_mean(h, middle, mean, mean).q, &mean, input);
+        !middle.is_mean || used.is_within(ALLOWED, [&at_mean, &at_mean_place()])
+    }
+
+    /// A step made again with the mean speeds of the attempt before, until they agree; or one of which they do not, with
+    /// what it would be refused for.
     fn corrected<W: Watch<K>>(
         &mut self,
         h: f64,
         (mut middle, mut made): (Middle<K>, Attempt<K>),
         input: &K::Input,
         (watch, last): (&mut W, bool),
-    ) -> Result<Attempt<K>, ContactError> {
+    ) -> Result<(Middle<K>, Attempt<K>, Option<ContactError>), ContactError> {
         let (mut part, mut before, mut speed, mut struck) = (1.0, None, 0, made.end.struck);
         for n in 0..CORRECTIONS {
             let how = if made.end.struck { Mean::Ends } else { Mean::Curved };
             let wanted = self.mean(how, h, &made.end, input);
-            let off = self.used(h, &middle, &made).off(&wanted);
+            let (used, way) = (self.used(h, &middle, &made), motion::mean(&self.z, &made.end.z));
+            let of_way = if middle.is_mean { used.off(&middle.way, &way) } else { K::Speeds::zero() };
+            let off = [used.off(&middle.z, &wanted), of_way];
             let size;
             (size, speed) = largest(&off);
-            // Forces change by what speeds do, times the part that is left of differences.
+            // Forces change by what speeds do, times the part that is left of differences, or more where it is less by
+            // the part that was taken of them.
             let left = before.map_or(1.0, |before| size / largest(&before).0);
-            if size * left.min(1.0) <= SETTLED || !made.end.z.is_finite() {
-                return Ok(made);
+            let settled = middle.is_mean && size <= NEARLY && size * left.min(1.0) <= SETTLED;
+            if settled || !made.end.z.is_finite() {
+                watch.settles();
+                return Ok((middle, made, None));
             }
             // The second difference tells how much forces depend on speeds.
             let most = match before {
@@ -295,21 +354,17 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
             part = before.filter(|_| n > 1).map_or(1.0, |before| relaxation(part, &before, &off));
             before = Some(off);
             watch.again(made.end.attempted(self.next.as_ref()), (how, part));
-            middle.z = motion::towards(&middle.z, &wanted, part);
+            let way = motion::towards(&middle.way, &way, part);
+            middle = self.to_mean(h, &middle, way, motion::towards(&middle.z, &wanted, part));
             made = self.attempt(h, &middle, input)?;
             struck |= made.end.struck;
         }
         // Whether a gap closes in this step or in the next may depend on the speeds: both are steps. From those of a
         // flight it closes where it did before, and the impact tells what it gains.
         if last && struck && !made.end.struck {
-            let wanted = self.mean(Mean::Ends, h, &made.end, input);
-            watch.again(made.end.attempted(self.next.as_ref()), (Mean::Ends, 1.0));
-            middle.z = wanted;
-            made = self.attempt(h, &middle, input)?;
+            (middle, made) = self.again(h, (&middle, &made), input, watch)?;
         }
-        if last && made.end.struck {
-            return Ok(made);
-        }
-        Err(self.error(None, ContactErrorKind::Stiff { speed, step: h }))
+        let cause = self.error(None, ContactErrorKind::Stiff { speed, step: h });
+        if last && made.end.struck { Ok((middle, made, Some(cause))) } else { Err(cause) }
     }
 }

@@ -26,6 +26,7 @@ use super::posed::Posed;
 use super::projection::{Closed, Projection};
 use super::relaxed::StepLaw;
 use super::report::{StepReport, StepScheme};
+use super::stiffness::LastForces;
 use super::unknowns::Unknowns;
 use super::watch::Watch;
 
@@ -50,8 +51,8 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     /// At the state.
     pub(super) gaps: K::Gaps,
     pub(super) rates: K::ContactRows,
-    /// Of the last step, between impacts.
-    pub(super) acceleration: Option<K::Speeds>,
+    /// Of the last step.
+    pub(super) last: LastForces<K::Speeds>,
     pub(super) modes: K::EachContact<Mode>,
     /// What is closed at the state and stays so.
     pub(super) rests: K::EachContact<bool>,
@@ -121,7 +122,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             dependent: false,
             gaps: kernel.gaps(t, &q),
             rates: kernel.contact_rates(t, &q, &z),
-            acceleration: None,
+            last: LastForces::default(),
             modes: Each::from_fn(|_| Mode::Open),
             rests: Each::from_fn(|_| false),
             next: Each::from_fn(|_| Mode::Open),
@@ -215,7 +216,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     ///
     /// # Errors
     /// `Unsolved` where no impulses were found that satisfy the laws, `Stiff` where forces depend on places or speeds
-    /// more than the step can follow, `InvalidFriction`, `NonFinite`, `Projection`, `Displacement`.
+    /// more than the step can follow, `EnergyFromNowhere` where an impact gains more than all that moves has,
+    /// `InvalidFriction`, `NonFinite`, `Projection`, `Displacement`.
     pub fn step(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
         self.watched(h, input, &mut ())
     }
@@ -236,15 +238,15 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 
     /// All that a step changes, but memory.
     pub(super) fn kept(&self) -> Kept<K> {
-        let Self { t, q, z, gaps, rates, impulses, acceleration, dependent, modes, rests, report, .. } = *self;
-        Kept { t, q, z, gaps, rates, impulses, acceleration, dependent, modes, rests, report }
+        let Self { t, q, z, gaps, rates, impulses, last, dependent, modes, rests, report, .. } = *self;
+        Kept { t, q, z, gaps, rates, impulses, last, dependent, modes, rests, report }
     }
 
     /// Back to what was kept.
     pub(super) fn restore(&mut self, kept: &Kept<K>) {
         (self.t, self.q, self.z) = (kept.t, kept.q, kept.z);
         (self.gaps, self.rates, self.impulses) = (kept.gaps, kept.rates, kept.impulses);
-        (self.acceleration, self.dependent) = (kept.acceleration, kept.dependent);
+        (self.last, self.dependent) = (kept.last, kept.dependent);
         (self.modes, self.rests, self.report) = (kept.modes, kept.rests, kept.report);
     }
 
@@ -259,6 +261,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let accounts = self.accounts && halvings > 0 && self.scheme == StepScheme::Midpoint;
         let cause = match self.whole(h, input, (watch, halvings == 0, accounts)) {
             Ok(report) => return Ok(report),
+            Err(Refused::Gains(Some(cause))) if halvings == 0 => return Err(cause),
             Err(Refused::Error(cause)) if halvings == 0 || !(has_no_end(&cause) || is_stiff(&cause)) => {
                 return Err(cause);
             }
@@ -269,7 +272,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         both.or_else(|error| {
             self.restore(&before);
             let last = match &cause {
-                Refused::Gains => false,
+                Refused::Gains(_) => false,
                 Refused::Error(cause) if is_stiff(cause) && has_no_end(&error) => true,
                 Refused::Error(_) => return Err(error),
             };
@@ -294,19 +297,21 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 
     /// Half of a step, given the rate of places before it, and whether its speeds are foreseen, not those before it.
     pub(super) fn middle(&self, h: f64, rate: &TangentOf<K>) -> (Middle<K>, bool) {
-        let (t, q) = (self.t + 0.5 * h, motion::half_way::<K>(h, &self.q, rate));
-        match (self.scheme, self.acceleration) {
-            (StepScheme::Midpoint, Some(rate)) => (Middle { t, q, z: self.z.add_scaled(0.5 * h, &rate) }, true),
-            _ => (Middle { t, q, z: self.z }, false),
-        }
+        let (z, known) = match (self.scheme, self.last.acceleration) {
+            (StepScheme::Midpoint, Some(rate)) => (self.z.add_scaled(0.5 * h, &rate), true),
+            _ => (self.z, false),
+        };
+        (Middle::new((self.t, h), motion::half_way::<K>(h, &self.q, rate), self.z, z), known)
     }
 
     /// Takes the end of a step as the state.
-    pub(super) fn take(&mut self, h: f64, end: End<K>) -> Result<StepReport, ContactError> {
+    pub(super) fn take(&mut self, h: f64, made: Attempt<K>) -> Result<StepReport, ContactError> {
+        let Attempt { end, acceleration } = made;
         if !(end.q.is_finite() && end.z.is_finite()) {
             return Err(self.error(None, ContactErrorKind::NonFinite));
         }
-        self.acceleration = (!end.struck).then(|| end.z.add_scaled(-1.0, &self.z).scale(1.0 / h));
+        let changed = || end.z.add_scaled(-1.0, &self.z).scale(1.0 / h);
+        self.last = self.last.then((h, acceleration), (!end.struck).then(changed));
         self.t += h;
         (self.q, self.z, self.impulses) = (end.q, end.z, end.impulses);
         if end.touches {
@@ -364,7 +369,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         if self.comes_to_zero(h, &kernel.contact_rates(middle.t, &middle.q, &mean)) {
             return Ok(None);
         }
-        let half = kernel.kinematics(middle.t, &middle.q, &z);
+        let half = kernel.kinematics(middle.t, &middle.half, &z);
         let (q, z) = self.second_half(h, middle, (z, &half))?;
         let gaps = kernel.gaps(self.t + h, &q);
         if Self::is_below_zero(&gaps) {
@@ -380,7 +385,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 
     /// The mean speeds of a flight to others.
     pub(super) fn mean_of_flight(&self, z: &K::Speeds) -> K::Speeds {
-        self.z.add_scaled(1.0, z).scale(0.5)
+        motion::mean(&self.z, z)
     }
 
     /// Whether a gap would not be open at the end of a step, given its mean rates.
@@ -419,7 +424,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let dynamics = kernel.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
         let ImpulseDynamics { acceleration, bias, response, .. } = &dynamics;
         let mut pushed = self.push(h, middle, &friction, (acceleration, bias, response))?;
-        let half = kernel.kinematics(middle.t, &middle.q, &pushed.z);
+        let half = kernel.kinematics(middle.t, &middle.half, &pushed.z);
         let (q, z) = self.second_half(h, middle, (pushed.z, &half))?;
         let gaps = kernel.gaps(t, &q);
         let closed = self.close(h, (response, &mut pushed), (q, gaps))?;
@@ -529,8 +534,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     }
 
     /// The end of a step as the state, with the report.
-    pub(super) fn made(&mut self, h: f64, end: End<K>) -> Result<StepReport, ContactError> {
-        self.report = self.take(h, end)?;
+    pub(super) fn made(&mut self, h: f64, made: Attempt<K>) -> Result<StepReport, ContactError> {
+        self.report = self.take(h, made)?;
         Ok(self.report)
     }
 
@@ -572,7 +577,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
         posed.drive(&mut problem, cones.as_ref());
         let answer = posed.answer(&problem, found, cones.as_ref());
-        let solved = posed.solved(&problem, (&answer, cones.as_ref()), (modes, self.next.as_mut()), 0);
+        let solved = posed.solved(&problem, (&answer, cones.as_ref()), (self.rests.as_ref(), self.next.as_mut()), 0);
         Ok((solved, posed.impulses(&problem)))
     }
 }

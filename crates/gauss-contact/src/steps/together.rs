@@ -12,7 +12,7 @@ use super::cones::Laws;
 use super::impulses::{self, Impulses};
 use super::lanes::{ContactLanes, LanesOf, PackedState, put, single};
 use super::motion::{self, Middle};
-use super::outcome::Pushed;
+use super::outcome::{Attempt, Pushed};
 use super::posed::Posed;
 use super::projection::{Closed, Projection};
 use super::relaxed::StepLaw;
@@ -38,9 +38,9 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
     fn begin_alike(&self, h: f64) -> bool {
         let of = |lane: usize| &self.steppers[lane];
         let law = |lane: usize| (of(lane).law, of(lane).tolerance.to_bits(), of(lane).dependent, of(lane).scheme);
-        let known = |lane: usize| of(lane).scheme == StepScheme::Midpoint && of(lane).acceleration.is_some();
+        let known = |lane: usize| of(lane).scheme == StepScheme::Midpoint && of(lane).last.acceleration.is_some();
         let closed = |i: usize| self.alike(|lane| (of(lane).modes[i].is_closed(), of(lane).may_bounce(i)));
-        let goes_on = |lane: usize| !self.halted[lane] && known(lane);
+        let goes_on = |lane: usize| !self.halted[lane] && known(lane) && !of(lane).last.is_stiff();
         (h > 0.0 && h.is_finite() && of(0).law == StepLaw::Coulomb && !of(0).flies())
             && (self.alike(law) && (0..self.steppers.len()).all(goes_on))
             && (0..W::CONTACTS.len()).all(closed)
@@ -56,7 +56,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
             gaps: self.vectors(|lane| of(lane).gaps),
             rates: self.vectors(|lane| of(lane).rates),
             impulses: self.vectors(|lane| of(lane).impulses),
-            acceleration: self.vectors(|lane| of(lane).acceleration.unwrap_or(of(lane).z)),
+            acceleration: self.vectors(|lane| of(lane).last.acceleration.unwrap_or(of(lane).z)),
         }
     }
 
@@ -69,7 +69,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let (half, end) = (W::Scalar::from_f64(0.5 * h), state.t + W::Scalar::from_f64(h));
         let rate = self.wide.kinematics(state.t, &state.q, &state.z);
         let z = state.z.add_scaled(half, &state.acceleration);
-        let middle = Middle::<W> { t: state.t + half, q: motion::half_way::<W>(h, &state.q, &rate), z };
+        let middle = Middle::<W>::new((state.t, h), motion::half_way::<W>(h, &state.q, &rate), state.z, z);
         let friction = self.wide.friction(middle.t, &middle.q, &middle.z, input);
         let laws = Laws::<W>::new(h, &friction).ok()?;
         let dynamics = self.wide.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
@@ -80,7 +80,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         if !self.agree_together(h, (&state, &middle), (&dynamics.acceleration, &z), input) {
             return None;
         }
-        self.take_together(h, (&state, end), &pushed, (closed, z, rates));
+        self.take_together(h, (&state, end), (&pushed, &dynamics.acceleration), (closed, z, rates));
         Some(())
     }
 
@@ -134,8 +134,8 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         self.solved.clear();
         self.solved.extend(self.steppers.iter().enumerate().map(|(lane, stepper)| {
             let mut after: K::EachContact<Mode> = Each::from_fn(|_| Mode::Open);
-            let modes = (stepper.modes.as_ref(), after.as_mut());
-            let solved = posed.solved::<K>(&problem, (&answer, cones), modes, lane);
+            let rests = (stepper.rests.as_ref(), after.as_mut());
+            let solved = posed.solved::<K>(&problem, (&answer, cones), rests, lane);
             (after, solved)
         }));
         // An impact keeps an account of its energy, alone.
@@ -212,11 +212,15 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
             acceleration: of(acceleration, lane),
             after: of(after, lane),
         };
-        let mut apart = (0..self.steppers.len()).map(used).enumerate().filter(|(_, used)| !used.is_plain()).peekable();
+        let mut all = (0..self.steppers.len()).map(used).enumerate();
+        if all.clone().any(|(lane, used)| self.steppers[lane].last.may_stiffen(&used)) {
+            return false;
+        }
+        let mut apart = all.by_ref().filter(|(_, used)| !used.is_plain()).peekable();
         apart.peek().is_none() || {
-            let mean = state.z.add_scaled(W::Scalar::one(), after).scale(W::Scalar::from_f64(0.5));
+            let mean = motion::mean(&state.z, after);
             let at_mean = self.wide.acceleration(middle.t, &middle.q, &mean, input);
-            apart.all(|(lane, used)| !used.is_rough() && !used.grows(&of(&at_mean, lane)))
+            apart.all(|(lane, used)| !used.grows(&of(&at_mean, lane)))
         }
     }
 
@@ -225,7 +229,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         &mut self,
         h: f64,
         (state, t): (&PackedState<W>, W::Scalar),
-        pushed: &PushedLanes<W>,
+        (pushed, free): (&PushedLanes<W>, &W::Speeds),
         (closed, z, rates): (Closed<W>, W::Speeds, W::ContactRows),
     ) {
         let mut goes_on = true;
@@ -243,7 +247,8 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
             let impulses = single::<W, _, K::ContactRows>(&pushed.impulses, lane);
             let of_lane_pushed = Pushed { z, impulses, dependent: pushed.dependent, solved };
             let end = stepper.end(of_lane_pushed, of_lane, (z, rates));
-            self.outcomes[lane] = stepper.made(h, end);
+            let acceleration = single::<W, _, K::Speeds>(free, lane);
+            self.outcomes[lane] = stepper.made(h, Attempt { end, acceleration });
             goes_on &= self.outcomes[lane].is_ok();
         }
         let (PushedLanes { impulses, .. }, Closed { q, gaps, .. }) = (pushed, closed);

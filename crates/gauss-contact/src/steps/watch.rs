@@ -27,11 +27,13 @@ pub(super) struct Attempted<'a, K: ContactSystem> {
 
 /// Who watches the parts of a step.
 pub(super) trait Watch<K: ContactSystem> {
-    /// A part of a step begins.
-    fn begins(&mut self);
+    /// A part of a step begins; whether its first attempt goes to the place at half of it with foreseen mean speeds.
+    fn begins(&mut self, by_mean: bool);
     /// An attempt that is not the last, and how the speeds of the next one follow from it: by what part of the
     /// difference to which mean.
     fn again(&mut self, attempted: Attempted<K>, how: (Mean, f64));
+    /// Attempts have led to one that the next would not change.
+    fn settles(&mut self);
     /// The number of parts.
     fn parts(&self) -> usize;
     /// Only the first so many parts stay.
@@ -42,8 +44,9 @@ pub(super) trait Watch<K: ContactSystem> {
 
 /// Nobody.
 impl<K: ContactSystem> Watch<K> for () {
-    fn begins(&mut self) {}
+    fn begins(&mut self, _: bool) {}
     fn again(&mut self, _: Attempted<K>, _: (Mean, f64)) {}
+    fn settles(&mut self) {}
     fn parts(&self) -> usize {
         0
     }
@@ -73,14 +76,20 @@ pub(super) struct Taken {
 pub(super) struct Part {
     pub(super) t: f64,
     pub(super) h: f64,
+    /// Whether the first attempt goes to the place at half of the part with foreseen mean speeds.
+    pub(super) by_mean: bool,
     /// The attempts that told the speeds at half of the part, and how.
     pub(super) before: Vec<(Taken, (Mean, f64))>,
+    /// Whether the last one would not be changed by another.
+    pub(super) settled: bool,
     pub(super) taken: Taken,
 }
 
 /// All parts of a step.
 #[derive(Default)]
 pub(super) struct Seen {
+    by_mean: bool,
+    settled: bool,
     before: Vec<(Taken, (Mean, f64))>,
     pub(super) parts: Vec<Part>,
 }
@@ -100,12 +109,17 @@ impl Taken {
 }
 
 impl<K: ContactSystem<Scalar = f64>> Watch<K> for Seen {
-    fn begins(&mut self) {
+    fn begins(&mut self, by_mean: bool) {
+        (self.by_mean, self.settled) = (by_mean, false);
         self.before.clear();
     }
 
     fn again(&mut self, attempted: Attempted<K>, how: (Mean, f64)) {
         self.before.push((Taken::of::<K>(&attempted), how));
+    }
+
+    fn settles(&mut self) {
+        self.settled = true;
     }
 
     fn parts(&self) -> usize {
@@ -118,6 +132,7 @@ impl<K: ContactSystem<Scalar = f64>> Watch<K> for Seen {
 
     fn part(&mut self, (t, h): (f64, f64), attempted: Attempted<K>) {
         let before = core::mem::take(&mut self.before);
-        self.parts.push(Part { t, h, before, taken: Taken::of::<K>(&attempted) });
+        let Self { by_mean, settled, .. } = *self;
+        self.parts.push(Part { t, h, by_mean, before, settled, taken: Taken::of::<K>(&attempted) });
     }
 }

@@ -70,7 +70,8 @@ fn schemes_are_of_the_order_that_they_say() {
         let end = run.last().unwrap();
         assert!(run.iter().all(|step| step.modes[0].is_closed()), "{h}");
         let rates = gauss_runtime::contact::ContactSystem::contact_rates(&kernel, 0.3, &end.state.q, &end.state.z);
-        assert!(rates[0].abs() <= 64.0 * f64::EPSILON, "{h} {rates}");
+        // Rounding of the fastest rate, which is left of what rests.
+        assert!(rates[0].abs() <= 64.0 * f64::EPSILON * rates.amax().max(1.0), "{h} {rates}");
         (end.state.q - exact.q).amax().max((end.state.z - exact.z).amax())
     };
     for scheme in [StepScheme::Midpoint, StepScheme::MoreauJean] {

@@ -12,3 +12,4 @@ mod lanes;
 mod relaxed;
 mod several;
 mod spinning;
+mod springs;
