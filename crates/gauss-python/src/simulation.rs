@@ -40,12 +40,11 @@ impl Given {
             _ => return Ok(()),
         };
         let jumps = self.watched.iter().any(|event| matches!(event.effect, given::GivenEffect::Jumps(..)));
-        let why = match (in_steps, &self.controller, &self.times) {
+        let why = match (in_steps, &self.controller) {
             _ if jumps => {
                 "jumps of one's own are those of runs without contacts: end the run by `until` and begin another"
             }
-            (false, Some(_), _) => "controllers that sample go with contacts=\"steps\", or without contacts",
-            (true, _, Some(_)) => "steps of contacts give the states at their ends, and none between: leave out times",
+            (false, Some(_)) => "controllers that sample go with contacts=\"steps\", or without contacts",
             _ => return Ok(()),
         };
         Err(PyTypeError::new_err(why))

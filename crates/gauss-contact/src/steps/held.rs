@@ -10,8 +10,8 @@ use crate::mode::Mode;
 
 use super::relaxed::StepLaw;
 use super::report::{StepReport, StepScheme};
-use super::stiffness::LastForces;
 use super::stepper::ContactStepper;
+use super::stiffness::LastForces;
 
 /// What a contact did in the step before.
 type Carried = Option<(Mode, bool)>;

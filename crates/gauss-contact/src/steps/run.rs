@@ -78,6 +78,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
         self.watch(crossing, true, function)
     }
 
+    /// Events that another front has gathered, in the place of those so far; they must not change the state.
+    #[doc(hidden)]
+    pub fn events_by<F>(self, events: F) -> ContactSteps<'k, K, I, F> {
+        let Self { kernel, h, input, scheme, law, tolerance, every, limit, .. } = self;
+        ContactSteps { kernel, h, input, events, scheme, law, tolerance, every, limit }
+    }
+
     fn watch<G>(self, crossing: Crossing, ends: bool, function: G) -> ContactSteps<'k, K, I, Watched<E, G>> {
         let Self { kernel, h, input, events, scheme, law, tolerance, every, limit } = self;
         let events = Watched::after(events, crossing, ends, function);
@@ -165,12 +172,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
         // Rounded up; a negative number becomes 0.
         let whole = count as u64;
         let count = whole + u64::from(count > whole as f64);
-        if let Some(limit) = self.limit.filter(|limit| *limit < count) {
-            return Err(ContactError { contact: None, time: start, kind: ContactErrorKind::TooManySteps { limit } });
-        }
         let h = (end - start) / count as f64;
         let mut stepper = self.stepper(start, q0, z0)?;
         for n in 1..=count {
+            if let Some(limit) = self.limit.filter(|limit| *limit < n) {
+                return Err(stepper.error(None, ContactErrorKind::TooManySteps { limit }));
+            }
             let (q, z) = (*stepper.configuration(), *stepper.speeds());
             stepper.step(h, &self.input.input(stepper.time(), &q, &z))?;
             // Times are multiples of the length, not sums of it.

@@ -180,7 +180,8 @@ fn a_bead_that_bounces_on_a_ring_gains_nothing() {
         let (scheme, h) = (SCHEMES[n % 2], [1e-3, 1.0 / 60.0][n / 2 % 2]);
         let (m, v) = (10.0_f64.powi([-6, 0, 6][n % 3]), 4.0 + 3.0 * number());
         let kernel = Ring { m, g: 9.81 }.kernel().unwrap();
-        let mut stepper = ContactStepper::new(&kernel, 0.0, [0.0, -1.0].into(), [v, 0.0].into()).unwrap().scheme(scheme);
+        let mut stepper =
+            ContactStepper::new(&kernel, 0.0, [0.0, -1.0].into(), [v, 0.0].into()).unwrap().scheme(scheme);
         let energy = |q: &_, z: &_| kernel.energy(0.0, q, z);
         let (start, scale) = (energy(stepper.configuration(), stepper.speeds()), 0.5 * m * v * v);
         let mut most = 0.0_f64;
@@ -198,7 +199,8 @@ fn a_bead_that_bounces_on_a_ring_gains_nothing() {
 fn lanes_on_springs_have_the_bits_of_single_steps() {
     let stiffness = [0.3, 1.2, 4.5, 0.1].map(|phase| (phase / H) * (phase / H));
     let kernels = stiffness.map(|k| Swing { m: 1.0, k }.kernel().unwrap());
-    let wide = Swing { m: Lanes::<f64, 4>::splat(1.0), k: Lanes::<f64, 4>::from_fn(|i| stiffness[i]) }.kernel().unwrap();
+    let wide =
+        Swing { m: Lanes::<f64, 4>::splat(1.0), k: Lanes::<f64, 4>::from_fn(|i| stiffness[i]) }.kernel().unwrap();
     let new = |kernel| ContactStepper::new(kernel, 0.0, [0.02].into(), [1.0].into()).unwrap();
     let mut lanes = ContactLanes::of(&wide, kernels.iter().map(new).collect()).unwrap();
     let mut single: Vec<_> = kernels.iter().map(new).collect();
