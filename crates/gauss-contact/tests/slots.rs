@@ -131,8 +131,8 @@ fn a_sphere_is_what_its_clause_is() {
     let a = ContactSteps::new(&clause, 1e-3).run(q, z, 0.0..1.0).unwrap();
     let b = ContactSteps::new(&slots, 1e-3).run(q, z, 0.0..1.0).unwrap();
     let apart = a.iter().zip(&b).map(|(a, b)| (a.state.q.translation.vector - b.state.q.translation.vector).amax());
-    // Some ten roundings of places of order 1 for each step; that in which it comes to stick is made again, until speeds
-    // of order 1 agree to 1e-9.
+    // Some ten roundings of places of order 1 for each step; that in which it comes to stick is made again, until
+    // speeds of order 1 agree to 1e-9.
     assert!(apart.fold(0.0, f64::max) < 1e-9);
     assert_eq!(b.last().unwrap().report.closed, 1);
 }

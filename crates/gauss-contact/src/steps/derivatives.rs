@@ -103,8 +103,8 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
     ///
     /// # Errors
     /// As of [`step`](Self::step); `NotCoulomb` under another law; `NoDerivative` where contacts depend on one another
-    /// at the state, but not nearby, or jam; `OtherSystem` where the system in dual numbers is another one; `NonFinite` where
-    /// derivatives are not finite. The state is then that before the step.
+    /// at the state, but not nearby, or jam; `OtherSystem` where the system in dual numbers is another one; `NonFinite`
+    /// where derivatives are not finite. The state is then that before the step.
     pub fn step_with_derivatives<L, const N: usize, const D: usize, const U: usize, const P: usize>(
         &mut self,
         h: f64,

@@ -188,9 +188,9 @@ fn compare<S, const P: usize, const N: usize, const D: usize, const U: usize>(
             found.by_parameters.column(direction - D - U).into_owned()
         };
         let error = (column - expected).amax() / (1.0 + expected.amax());
-        // Hundreds of roundings of rates of some m/s, over the step of differences; and what differences err. Where ends
-        // are settled to a part and no better, each of the four is off by as much in either way, of which `own` shows
-        // three sevenths at least.
+        // Hundreds of roundings of rates of some m/s, over the step of differences; and what differences err. Where
+        // ends are settled to a part and no better, each of the four is off by as much in either way, of which `own`
+        // shows three sevenths at least.
         assert!(error < 1e-6 + 3.0 * own, "{direction}: {error:e} {own:e} {:?} {column} {expected}", stepper.modes());
         tally.checked += 1;
     }

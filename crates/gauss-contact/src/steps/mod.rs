@@ -44,6 +44,7 @@ mod stepper;
 mod stiffness;
 mod together;
 mod unknowns;
+mod used;
 mod watch;
 
 pub use adaptive::AdaptiveContactSteps;

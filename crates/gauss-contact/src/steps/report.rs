@@ -13,9 +13,9 @@ pub enum StepScheme {
     /// is smooth in its start but where it is made again, as of a body that turns by more than a tenth of a radian.
     MoreauJean,
     /// Accelerations at half of the step, with the speeds there that the acceleration of the step before foresees, for
-    /// a third of the work: only the first step and those after impacts are made twice, and those whose mean speeds turn
-    /// out to be other ones, as of a body that spins fast, or whose forces change much with places, as of stiff springs:
-    /// these are made until forces are those at the mean place.
+    /// a third of the work: only the first step and those after impacts are made twice. A step whose mean speeds turn
+    /// out to be other ones, as of a body that spins fast, or whose forces change much with places, as of stiff
+    /// springs, is made until forces are those at the mean place and speeds.
     #[default]
     Midpoint,
 }
@@ -45,9 +45,9 @@ pub struct StepReport {
     /// balances of energy are formed from rates before and after the step. Newton's law with friction can give energy
     /// at an impact (T. R. Kane 1984); then it is positive.
     pub work: f64,
-    /// The energy that a step with an impact, or one whose forces do not settle, gained for no reason: beyond what impulses take and what all other forces
-    /// and surfaces that move do; negative where it lost some. It is the error of a step in which speeds jump, of first
-    /// order in its length, and what Newton's law gives with friction.
+    /// The energy that a step with an impact, or one whose forces do not settle, gained for no reason: beyond what
+    /// impulses take and what all other forces and surfaces that move do; negative where it lost some. It is the error
+    /// of a step in which speeds jump, of first order in its length, and what Newton's law gives with friction.
     pub unexplained: f64,
     /// In how many parts the step was made, where no impulses were found for all of it, gaps did not close at its end,
     /// it was too long for its forces, or an impact gained energy; else 0.

@@ -1,18 +1,18 @@
 //! The stiffness that a step meets: how much forces change with places along it.
 //!
 //! A step that takes its forces at the place to which half of it leads with the speeds before it keeps what swings from
-//! growing as long as its length stays: `(z, q) → (z, q)` is then symplectic, and energy is off by (ωh)²/8 of itself, to
-//! and fro. Where lengths change, or an impact comes in between, what it is off by at that time stays, and adds up. At
-//! the mean place of both ends instead the work of a force that is linear in places is the change of its energy, however
-//! lengths change, and whatever impulses do. But that place is not known before, so that the step is made several times.
+//! growing as long as its length stays: it is symplectic then, and energy is off by (ωh)²/8 of itself, to and fro.
+//! Where lengths change, or an impact comes in between, what it is off by at that time stays, and adds up. At the mean
+//! place of both ends instead the work of a force that is linear in places is the change of its energy, however lengths
+//! change, and whatever impulses do. But that place is not known before, so that the step is made several times.
 //!
-//! So places are mean ones once ωh is [`SWING`], from which on (ωh)²/8 is no longer small, and stay so for as long as it
-//! is and [`STAYS`] steps more: a measure that came and went with the state would change from one to the other by the
-//! phase of what swings, which feeds it.
+//! So places are mean ones once ωh is [`SWING`], from which on (ωh)²/8 is no longer small, and stay so for as long as
+//! it is and [`STAYS`] steps more: a measure that came and went with the state would change from one to the other by
+//! the phase of what swings, which feeds it.
 
 use gauss_runtime::configuration::VectorSpace;
 
-use super::speeds::Used;
+use super::used::Used;
 
 /// The square of ωh from which on forces are taken at the mean place of a step.
 const SWING: f64 = 0.0625;

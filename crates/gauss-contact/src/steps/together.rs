@@ -17,8 +17,8 @@ use super::posed::Posed;
 use super::projection::{Closed, Projection};
 use super::relaxed::StepLaw;
 use super::report::StepScheme;
-use super::speeds::Used;
 use super::unknowns::Unknowns;
+use super::used::Used;
 
 /// What impulses have made of the speeds of all lanes.
 struct PushedLanes<W: ContactSystem> {

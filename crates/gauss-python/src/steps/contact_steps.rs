@@ -10,7 +10,7 @@ use gauss_runtime::integrate::drive::each::Each;
 use gauss_runtime::prelude::*;
 
 use super::causes::of_contacts;
-use super::contacts::{Touching, named, rows_of, unless_stopped};
+use super::contact_rows::{Touching, named, rows_of, unless_stopped};
 use super::outcome::{self, Happening, Outcome, Touched};
 use super::request::{Held, Request};
 use super::watching::{input, of_numbers, watched};

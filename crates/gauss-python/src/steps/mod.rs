@@ -1,6 +1,8 @@
 //! Runs of one state, the type of their system forgotten: numbers in, columns of numbers out.
 
 mod causes;
+mod contact_events;
+mod contact_rows;
 mod contact_steps;
 mod contacts;
 mod one;

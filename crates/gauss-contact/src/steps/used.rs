@@ -1,0 +1,87 @@
+//! The speeds at which a step took its forces, beside those of its ends.
+
+use gauss_runtime::configuration::VectorSpace;
+
+/// By what part of a speed that which forces are taken at may differ from the mean one without further notice.
+const NEAR: f64 = 1e-5;
+/// The part of a speed by which forces may change it for having been taken at another one that was foreseen.
+pub(super) const ALLOWED: f64 = 1e-6;
+/// The part of the largest speed below which one counts as zero. Units of speeds may differ.
+const SMALL: f64 = 1e-3;
+/// The same where a speed that is zero for a moment is no measure of what others do to it.
+const PART: f64 = 0.1;
+/// A speed as small as that has no digits to compare.
+const LEAST: f64 = 1e-150;
+
+/// The speeds of a step: before it, those at which forces were taken, with their acceleration, and after it.
+pub(super) struct Used<V> {
+    pub(super) h: f64,
+    pub(super) before: V,
+    pub(super) used: V,
+    pub(super) acceleration: V,
+    pub(super) after: V,
+}
+
+impl<V: VectorSpace<f64>> Used<V> {
+    fn mean(&self, i: usize) -> f64 {
+        0.5 * (self.before.component(i) + self.after.component(i))
+    }
+
+    /// The size of each speed, by which differences are judged, with a part of the largest.
+    fn sizes(&self, part: f64) -> V {
+        let mut sizes = V::zero();
+        (0..V::DIM)
+            .for_each(|i| sizes.set_component(i, self.before.component(i).abs() + self.after.component(i).abs()));
+        let gained = |i: usize| self.h * self.acceleration.component(i).abs();
+        // From rest, with speeds that turn back within the step, those at half of it are all that there is.
+        let size = |i: usize| sizes.component(i).max(gained(i)).max(self.used.component(i).abs());
+        let largest = (0..V::DIM).map(size).fold(0.0, f64::max);
+        let least = part * largest + LEAST;
+        (0..V::DIM).for_each(|i| sizes.set_component(i, sizes.component(i) + least));
+        sizes
+    }
+
+    /// The size of each speed before the step, by which its changes along half of the step are judged: with a part of
+    /// the largest, since from rest nothing moves along half of a step, and what differs is rounding.
+    pub(super) fn magnitudes(&self) -> V {
+        let (mut sizes, near) = (V::zero(), self.sizes(SMALL));
+        let before = |i: usize| self.before.component(i).abs();
+        let least = PART * (0..V::DIM).map(before).fold(0.0, f64::max);
+        (0..V::DIM).for_each(|i| sizes.set_component(i, before(i) + least + NEAR * near.component(i)));
+        sizes
+    }
+
+    /// Whether forces were taken at the mean speeds, as nearly as need be.
+    pub(super) fn is_plain(&self) -> bool {
+        let sizes = self.sizes(SMALL);
+        let off = |i: usize| (self.mean(i) - self.used.component(i)).abs();
+        (0..V::DIM).all(|i| off(i) <= NEAR * sizes.component(i))
+    }
+
+    /// Whether speeds may grow by what forces differ from those at the mean speeds, whose acceleration is given. Where
+    /// that is against the difference of the speeds, as of dampers, they do not, unless it is as large.
+    pub(super) fn grows(&self, at_mean: &V) -> bool {
+        let sizes = self.sizes(SMALL);
+        (0..V::DIM).any(|i| {
+            let by = self.h * (self.acceleration.component(i) - at_mean.component(i));
+            let off = self.used.component(i) - self.mean(i);
+            by.abs() > ALLOWED * sizes.component(i) && (by * off >= 0.0 || by.abs() > 0.5 * off.abs())
+        })
+    }
+
+    /// Whether an acceleration changes all speeds by less than a part of them, beside another one.
+    pub(super) fn is_within(&self, part: f64, [acceleration, other]: [&V; 2]) -> bool {
+        let sizes = self.sizes(SMALL);
+        let by = |i: usize| self.h * (acceleration.component(i) - other.component(i)).abs();
+        (0..V::DIM).all(|i| by(i) <= part * sizes.component(i))
+    }
+
+    /// The differences of speeds to others, as parts of the sizes.
+    pub(super) fn off(&self, used: &V, wanted: &V) -> V {
+        let (sizes, mut off) = (self.sizes(PART), V::zero());
+        for i in (0..V::DIM).filter(|i| sizes.component(*i) > 0.0) {
+            off.set_component(i, (wanted.component(i) - used.component(i)) / sizes.component(i));
+        }
+        off
+    }
+}
