@@ -44,6 +44,8 @@ const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// Roundings of the time that a step takes at least.
 const ROUNDINGS: f64 = 16.0;
 const MOST_STEPS: u64 = 10_000_000;
+/// The estimate of a step that has none: it is too long.
+const UNSEEN: f64 = 1e9;
 
 /// A run in steps that keep a tolerance, in preparation: see [`ContactSteps::adaptive`].
 #[derive(Clone, Copy, Debug)]
@@ -204,7 +206,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
     {
         let input = |stepper: &ContactStepper<'k, K>| self.steps.input.input(stepper.t, &stepper.q, &stepper.z);
         stepper.step(h, &input(stepper))?;
-        let whole = stepper.kept();
+        let (whole, in_parts) = (stepper.kept(), stepper.report.parts > 0);
         let (mut impacts, closure) = (stepper.report.impacts, stepper.report.closure);
         stepper.restore(before);
         let unheld = self.unheld(stepper, h);
@@ -224,6 +226,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
         let estimate = self.estimate((before, &whole, &end), &unheld, impacts > 0);
         // A flight that is shorter than half of the step is not seen: what closes has left out its way.
         let estimate = estimate.max(closure / (self.absolute + self.relative * closure).max(f64::MIN_POSITIVE));
+        // A step that was made in parts is its halves, or nearly: what these err by is not seen.
+        let estimate = if in_parts && !changes { UNSEEN } else { estimate };
         if !estimate.is_finite() {
             return Err(stepper.error(None, ContactErrorKind::NonFinite));
         }

@@ -19,7 +19,7 @@ use crate::mode::{Mode, after_impulses};
 use super::active::{Active, LEFT, NOTHING, Solvable, inverse, largest_slope, multiplied};
 use super::bounds::Touched;
 use super::edges::{self, AtChange, Known};
-use super::motion::{self, Mean, Middle};
+use super::motion::{self, Mean, Middle, Rule};
 use super::projection::{Closed, Projection};
 use super::report::StepScheme;
 use super::watch::{Part, Taken};
@@ -32,8 +32,8 @@ pub(super) struct State<L: ContactSystem> {
     pub(super) acceleration: Option<L::Speeds>,
 }
 
-/// How many attempts are added where they settle: derivatives settle as values do, but begin with those of speeds that
-/// were foreseen.
+/// How many attempts are added for derivatives where they settle: as values do, but values may have been right at once,
+/// as at rest.
 const FURTHER: usize = 8;
 
 /// Roundings of equations, as a part of their terms.
@@ -77,26 +77,54 @@ pub(super) fn part<const N: usize, L: ContactSystem<Scalar = Dual<N>>>(
         }
     };
     let mut middle = if part.by_mean { to_mean(foreseen, foreseen) } else { plain(foreseen) };
-    let again = |same: &mut Same, taken: &Taken, (how, by): (Mean, f64), middle: Middle<L>| {
-        let (way, used) = (middle.way, middle.z);
-        let (q, after) = attempt(same, taken, middle)?;
-        let wanted = how.of(kernel, (t, h), [(&state.q, &z), (&q, &after)], input);
-        let way = motion::towards(&way, &motion::mean(&z, &after), by);
-        Ok(to_mean(way, motion::towards(&used, &wanted, by)))
+    let next = |rule: Rule, (way, used): (L::Speeds, L::Speeds), (q, after): &(L::Configuration, L::Speeds)| {
+        let wanted = rule.mean.of(kernel, (t, h), [(&state.q, &z), (q, after)], input);
+        let way = motion::towards(&way, &motion::mean(&z, after), rule.part);
+        let used = motion::towards(&used, &wanted, rule.part);
+        if rule.at_mean_place { to_mean(way, used) } else { plain(used) }
     };
-    for (taken, how) in &part.before {
-        middle = again(same, taken, *how, middle)?;
+    let mut rule = Rule { mean: Mean::Ends, part: 1.0, at_mean_place: part.by_mean };
+    for (taken, of) in &part.before {
+        let speeds = (middle.way, middle.z);
+        rule = *of;
+        middle = next(rule, speeds, &attempt(same, taken, middle)?);
     }
-    if let (true, Some((_, how))) = (part.settled, part.before.last()) {
-        let solved = same.solved;
+    let (mut speeds, solved) = ((middle.way, middle.z), same.solved);
+    let made = attempt(same, &part.taken, middle)?;
+    let (mut q, mut after) = made;
+    if part.settled {
+        let mut further = made;
+        let (mut first, mut last) = (None, 0.0);
         for _ in 0..FURTHER {
-            middle = again(same, &part.taken, *how, middle)?;
+            middle = next(rule, speeds, &further);
+            speeds = (middle.way, middle.z);
             same.solved = solved;
+            let found = attempt(same, &part.taken, middle)?;
+            last = slopes_of(&found.1.add_scaled(number(-1.0), &further.1));
+            (first, further) = (first.or(Some(last)), found);
+        }
+        // Where values settled by parts of differences, derivatives may not by the last of these.
+        if first.is_some_and(|first| last <= first) {
+            let components = with_values_of(&q.components(), &further.0.components());
+            (q, after) = (L::Configuration::from_components(&components), with_values_of(&after, &further.1));
         }
     }
-    let (q, after) = attempt(same, &part.taken, middle)?;
     let changed = after.add_scaled(number(-1.0), &z).scale(number(1.0 / h));
     Ok(State { q, z: after, acceleration: (!part.taken.struck).then_some(changed) })
+}
+
+/// The largest derivative of numbers.
+fn slopes_of<const N: usize, V: VectorSpace<Dual<N>>>(of: &V) -> f64 {
+    (0..V::DIM).map(|i| largest_slope(&of.component(i))).fold(0.0, |a: f64, b| if b.is_nan() { b } else { a.max(b) })
+}
+
+/// The derivatives of numbers, with the values of others.
+fn with_values_of<const N: usize, V: VectorSpace<Dual<N>>>(values: &V, slopes: &V) -> V {
+    let mut both = *slopes;
+    (0..V::DIM).for_each(|i| {
+        both.set_component(i, Dual { value: values.component(i).value, ..slopes.component(i) });
+    });
+    both
 }
 
 /// One attempt at a part of a step.

@@ -409,6 +409,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
             let (mut made, input) = (Attempt { end, acceleration }, input.extract(lane));
             // A step that is made again, or in parts, goes alone.
             let agrees = !stepper.stiffens(h, (&middle, &made), &input)
+                && stepper.steep(h, (&middle, &made), &input).is_none()
                 && stepper.strikes_stiffly(h, (&middle, &made), &input).is_none()
                 && stepper.agrees(h, (&middle, &made), &input);
             let gain = (agrees && made.end.struck).then(|| stepper.gain(h, (&made, false), &input));

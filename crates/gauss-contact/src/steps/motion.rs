@@ -75,6 +75,17 @@ impl Mean {
     }
 }
 
+/// How the next attempt at a step follows from one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rule {
+    /// The mean speeds that it goes to.
+    pub(super) mean: Mean,
+    /// By what part of the difference to them.
+    pub(super) part: f64,
+    /// Whether its forces are taken at the mean place.
+    pub(super) at_mean_place: bool,
+}
+
 /// Speeds changed by a part of the difference to others.
 pub(super) fn towards<T: Real, V: VectorSpace<T>>(used: &V, wanted: &V, part: f64) -> V {
     if part == 1.0 { *wanted } else { used.add_scaled(T::from_f64(part), &wanted.add_scaled(-T::one(), used)) }

@@ -26,7 +26,7 @@ use gauss_runtime::real::Real;
 
 use crate::error::{ContactError, ContactErrorKind};
 
-use super::motion::{self, Mean, Middle};
+use super::motion::{self, Mean, Middle, Rule};
 use super::outcome::{Attempt, End, Refused, has_no_end};
 use super::report::{StepReport, StepScheme};
 use super::stepper::ContactStepper;
@@ -50,6 +50,11 @@ const STIFF: f64 = 0.1;
 const STIFF_AT_LAST: f64 = 0.5;
 /// The same of damping where parts cannot be shorter: of a speed that is damped to 4 · 10⁻³ in one, an eighth is left.
 const STIFFEST: f64 = 8.0;
+/// The part of a speed by which forces may change it in a step with an impact, for what they differ by at both ends: the
+/// square of ωh at which attempts settle as [`STIFF`] has it.
+const FOLLOWED: f64 = 4.0 * STIFF;
+/// Roundings of places in a step.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// The least part of a difference by which speeds are changed.
 const LEAST_PART: f64 = 0.02;
 
@@ -95,8 +100,11 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         if self.stiffens(h, (&middle, &made), input) {
             self.last.stiffen();
             if !middle.is_mean {
-                (middle, made) = self.again(h, (&middle, &made), input, watch)?;
+                (middle, made) = self.again(h, (&middle, &made), input, (watch, true))?;
             }
+        }
+        if let Some(speed) = self.steep(h, (&middle, &made), input) {
+            return Err(self.error(None, ContactErrorKind::Stiff { speed, step: h }).into());
         }
         let mut doubt = None;
         if !self.agrees(h, (&middle, &made), input) {
@@ -150,8 +158,12 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         if !has_memory {
             let free = self.kernel.acceleration(middle.t, &middle.q, &self.z, input);
             middle.z = self.z.add_scaled(0.5 * h, &free);
+            // Parts of a step go to mean places where the whole does.
+            if !self.last.is_stiff() && self.is_stiff(h, &middle, &free, input) {
+                self.last.stiffen();
+            }
         }
-        let by_mean = !has_memory || known && self.last.is_stiff();
+        let by_mean = self.last.is_stiff() && (known || !has_memory);
         if by_mean {
             middle = self.to_mean(h, &middle, middle.z, middle.z);
         }
@@ -162,22 +174,46 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
             false => 2,
         };
         for _ in 0..again {
-            (middle, made) = self.again(h, (&middle, &made), input, watch)?;
+            // Where speeds jump, or have jumped before the step, impulses do the work of their mean rates there.
+            let at_mean_place = has_memory || middle.is_mean || made.end.struck;
+            (middle, made) = self.again(h, (&middle, &made), input, (watch, at_mean_place))?;
         }
         Ok((middle, made))
     }
 
-    /// A step with forces at the mean places and speeds of the attempt before.
+    /// Whether forces change much with places in a step of which nothing is known but its start: there, or on the way
+    /// to which the acceleration at half of it leads.
+    fn is_stiff(&self, h: f64, middle: &Middle<K>, free: &K::Speeds, input: &K::Input) -> bool {
+        let after = self.z.add_scaled(h, free);
+        let used = Used { h, least: self.least(h), before: self.z, used: self.z, acceleration: *free, after };
+        let of_places = |q: &K::Configuration| self.of_places(middle.t, q, input);
+        let (half, far) = (of_places(&middle.half), || of_places(&self.to_mean(h, middle, middle.z, self.z).q));
+        used.stiffens([&half, &of_places(&self.q)]) || used.stiffens_on_way([&half, &far()])
+    }
+
+    /// The acceleration by forces that depend on places alone: those that come with speeds, as of arms that turn, do not
+    /// swing.
+    fn of_places(&self, t: f64, q: &K::Configuration, input: &K::Input) -> K::Speeds {
+        self.kernel.acceleration(t, q, &K::Speeds::zero(), input)
+    }
+
+    /// The speeds that places have for rounding alone, in a step.
+    pub(super) fn least(&self, h: f64) -> f64 {
+        ROUNDING * motion::magnitude(&self.q) / h
+    }
+
+    /// A step with forces at the mean speeds of the attempt before, and at the mean place or where they were.
     fn again<W: Watch<K>>(
         &mut self,
         h: f64,
         (middle, made): (&Middle<K>, &Attempt<K>),
         input: &K::Input,
-        watch: &mut W,
+        (watch, at_mean_place): (&mut W, bool),
     ) -> Result<(Middle<K>, Attempt<K>), ContactError> {
-        watch.again(made.end.attempted(self.next.as_ref()), (Mean::Ends, 1.0));
+        let rule = Rule { mean: Mean::Ends, part: 1.0, at_mean_place };
+        watch.again(made.end.attempted(self.next.as_ref()), rule);
         let mean = motion::mean(&self.z, &made.end.z);
-        let middle = self.to_mean(h, middle, mean, mean);
+        let middle = if at_mean_place { self.to_mean(h, middle, mean, mean) } else { Middle { z: mean, ..*middle } };
         let made = self.attempt(h, &middle, input)?;
         Ok((middle, made))
     }
@@ -192,15 +228,36 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
     }
 
     fn used(&self, h: f64, middle: &Middle<K>, made: &Attempt<K>) -> Used<K::Speeds> {
-        Used { h, before: self.z, used: middle.z, acceleration: made.acceleration, after: made.end.z }
+        Used {
+            h,
+            least: self.least(h),
+            before: self.z,
+            used: middle.z,
+            acceleration: made.acceleration,
+            after: made.end.z,
+        }
     }
 
     /// Whether forces change so much with places that these are to be mean ones.
     pub(super) fn stiffens(&self, h: f64, (middle, made): (&Middle<K>, &Attempt<K>), input: &K::Input) -> bool {
+        if self.scheme != StepScheme::Midpoint {
+            return false;
+        }
+        let (used, of_places) = (self.used(h, middle, made), |q: &K::Configuration| self.of_places(middle.t, q, input));
+        match self.last.may_stiffen(&used) {
+            Some(may) => may && used.stiffens([&of_places(&middle.q), &of_places(&self.q)]),
+            None => self.is_stiff(h, middle, &made.acceleration, input),
+        }
+    }
+
+    /// The speed that forces change too fast along half of a step, where they are not taken at its mean place: those that
+    /// come with speeds as well, as of arms that turn by a radian.
+    pub(super) fn steep(&self, h: f64, (middle, made): (&Middle<K>, &Attempt<K>), input: &K::Input) -> Option<usize> {
         let used = self.used(h, middle, made);
-        self.scheme == StepScheme::Midpoint
-            && self.last.may_stiffen(&used)
-            && used.stiffens(&self.kernel.acceleration(middle.t, &self.q, &middle.z, input))
+        if middle.is_mean || !used.is_rough() || !made.end.z.is_finite() {
+            return None;
+        }
+        used.steep(&self.kernel.acceleration(middle.t, &self.q, &middle.z, input))
     }
 
     /// The speed on which forces act that an impact takes place on, and that change more with places than a step can
@@ -214,9 +271,8 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         if !made.end.struck {
             return None;
         }
-        let at_start = self.kernel.acceleration(middle.t, &self.q, &middle.z, input);
-        let (square, speed) = self.used(h, middle, made).stiffness(&at_start);
-        (square > 4.0 * STIFF).then_some(speed)
+        let of_places = |q: &K::Configuration| self.of_places(middle.t, q, input);
+        self.used(h, middle, made).changes_beyond(FOLLOWED, [&of_places(&self.q), &of_places(&made.end.q)])
     }
 
     /// Whether speeds do not grow by forces that were taken at other speeds, or at other places where these are to be
@@ -256,7 +312,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
             // Forces change by what speeds do, times the part that is left of differences, or more where it is less by
             // the part that was taken of them.
             let left = before.map_or(1.0, |before| size / largest(&before).0);
-            let settled = middle.is_mean && size <= NEARLY && size * left.min(1.0) <= SETTLED;
+            let settled = size <= NEARLY && size * left.min(1.0) <= SETTLED;
             if settled || !made.end.z.is_finite() {
                 watch.settles();
                 return Ok((middle, made, None));
@@ -272,16 +328,17 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
             }
             part = before.filter(|_| n > 1).map_or(1.0, |before| relaxation(part, &before, &off));
             before = Some(off);
-            watch.again(made.end.attempted(self.next.as_ref()), (how, part));
-            let way = motion::towards(&middle.way, &way, part);
-            middle = self.to_mean(h, &middle, way, motion::towards(&middle.z, &wanted, part));
+            let rule = Rule { mean: how, part, at_mean_place: middle.is_mean };
+            watch.again(made.end.attempted(self.next.as_ref()), rule);
+            let (way, z) = (motion::towards(&middle.way, &way, part), motion::towards(&middle.z, &wanted, part));
+            middle = if middle.is_mean { self.to_mean(h, &middle, way, z) } else { Middle { z, ..middle } };
             made = self.attempt(h, &middle, input)?;
             struck |= made.end.struck;
         }
         // Whether a gap closes in this step or in the next may depend on the speeds: both are steps. From those of a
         // flight it closes where it did before, and the impact tells what it gains.
         if last && struck && !made.end.struck {
-            (middle, made) = self.again(h, (&middle, &made), input, watch)?;
+            (middle, made) = self.again(h, (&middle, &made), input, (watch, true))?;
         }
         let cause = self.error(None, ContactErrorKind::Stiff { speed, step: h });
         if last && made.end.struck { Ok((middle, made, Some(cause))) } else { Err(cause) }

@@ -6,16 +6,17 @@
 //! place of both ends instead the work of a force that is linear in places is the change of its energy, however lengths
 //! change, and whatever impulses do. But that place is not known before, so that the step is made several times.
 //!
-//! So places are mean ones once ωh is [`SWING`], from which on (ωh)²/8 is no longer small, and stay so for as long as
-//! it is and [`STAYS`] steps more: a measure that came and went with the state would change from one to the other by
-//! the phase of what swings, which feeds it.
+//! So places are mean ones where the square of ωh is more than [`SWING`], and stay so for [`STAYS`] steps more: a
+//! measure that came and went with the state would change from one to the other by the phase of what swings, which feeds
+//! it. Steps without a memory have the measure alone. Forces that come with speeds do not count: masses that change with
+//! places, as of arms, do better with those at half of the way, whose step is then nearly that of a discrete action.
 
 use gauss_runtime::configuration::VectorSpace;
 
 use super::used::Used;
 
 /// The square of ωh from which on forces are taken at the mean place of a step.
-const SWING: f64 = 0.0625;
+const SWING: f64 = 0.09;
 /// For how many steps that is so after the last with such a force: more than two swings of it.
 const STAYS: u32 = 64;
 
@@ -52,33 +53,35 @@ impl<V: VectorSpace<f64>> LastForces<V> {
         self.stays > 0
     }
 
-    /// Whether forces have changed so much since the step before that they may do so with places.
-    pub(super) fn may_stiffen(&self, used: &Used<V>) -> bool {
+    /// Whether forces have changed so much since the step before that they may do so with places; nothing where there was
+    /// no step before.
+    pub(super) fn may_stiffen(&self, used: &Used<V>) -> Option<bool> {
         // From half of the step before to half of this one.
-        self.free.is_some_and(|(h, free)| used.change(&free, 2.0 * used.h / (used.h + h)).0 > SWING)
+        self.free.map(|(h, free)| used.change([&used.acceleration, &free], 2.0 * used.h / (used.h + h)) > SWING)
     }
 }
 
 impl<V: VectorSpace<f64>> Used<V> {
-    /// The square of ωh of the forces that change most with places, given the acceleration at the place before the
-    /// step, and the speed on which they act.
-    pub(super) fn stiffness(&self, at_start: &V) -> (f64, usize) {
-        self.change(at_start, 2.0)
+    /// Whether forces are to be taken at mean places, given the accelerations by places at half of the step and before it.
+    pub(super) fn stiffens(&self, accelerations: [&V; 2]) -> bool {
+        self.change(accelerations, 2.0) > SWING
     }
 
-    /// Whether forces are to be taken at mean places.
-    pub(super) fn stiffens(&self, at_start: &V) -> bool {
-        self.stiffness(at_start).0 > SWING
+    /// The same, given those at half of the step and at the mean place, to which the change of speeds in the step leads
+    /// along half of its half.
+    pub(super) fn stiffens_on_way(&self, accelerations: [&V; 2]) -> bool {
+        !self.is_within(0.25 * SWING, accelerations)
     }
 
-    /// The part of itself by which a speed would change in a step by what the acceleration differs from another one,
-    /// times as much as the way between them is shorter than that of the step: the largest, and its speed.
-    fn change(&self, other: &V, times: f64) -> (f64, usize) {
+    /// The largest part of itself by which a speed would change in a step by what two accelerations differ, times as much
+    /// as the way between them is shorter than that of the step: the square of ωh.
+    fn change(&self, [one, other]: [&V; 2], times: f64) -> f64 {
+        let by = |i: usize| times * self.h * (one.component(i) - other.component(i)).abs();
+        // Mostly forces change by nothing that the speeds alone would not show.
+        if (0..V::DIM).all(|i| by(i) <= SWING * self.before.component(i).abs()) {
+            return 0.0;
+        }
         let sizes = self.magnitudes();
-        let part = |i: usize| {
-            let by = times * self.h * (self.acceleration.component(i) - other.component(i)).abs();
-            if sizes.component(i) > 0.0 { by / sizes.component(i) } else { 0.0 }
-        };
-        (0..V::DIM).map(|i| (part(i), i)).fold((0.0, 0), |most, part| if part.0 > most.0 { part } else { most })
+        (0..V::DIM).map(|i| by(i) / sizes.component(i)).fold(0.0, f64::max)
     }
 }

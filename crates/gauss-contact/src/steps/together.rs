@@ -207,13 +207,17 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let of = |vectors: &W::Speeds, lane: usize| single::<W, _, K::Speeds>(vectors, lane);
         let used = |lane: usize| Used {
             h,
+            least: self.steppers[lane].least(h),
             before: of(&state.z, lane),
             used: of(&middle.z, lane),
             acceleration: of(acceleration, lane),
             after: of(after, lane),
         };
         let mut all = (0..self.steppers.len()).map(used).enumerate();
-        if all.clone().any(|(lane, used)| self.steppers[lane].last.may_stiffen(&used)) {
+        let is_plain = |(lane, used): (usize, Used<K::Speeds>)| {
+            self.steppers[lane].last.may_stiffen(&used) == Some(false) && !used.is_rough()
+        };
+        if !all.clone().all(is_plain) {
             return false;
         }
         let mut apart = all.by_ref().filter(|(_, used)| !used.is_plain()).peekable();

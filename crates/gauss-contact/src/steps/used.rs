@@ -6,6 +6,13 @@ use gauss_runtime::configuration::VectorSpace;
 const NEAR: f64 = 1e-5;
 /// The part of a speed by which forces may change it for having been taken at another one that was foreseen.
 pub(super) const ALLOWED: f64 = 1e-6;
+/// By what part of the sizes of speeds before and after a step these may change before one looks whether that is so
+/// because forces do: a quarter of a swing.
+const ROUGH: f64 = 0.5;
+/// The same of what speeds at half of a step were foreseen to be: where a motion turns back, speeds at both ends agree.
+const FAR: f64 = 0.2;
+/// By what part of a speed before a step forces may change it by changing along half of the step.
+const STEEP: f64 = 0.25;
 /// The part of the largest speed below which one counts as zero. Units of speeds may differ.
 const SMALL: f64 = 1e-3;
 /// The same where a speed that is zero for a moment is no measure of what others do to it.
@@ -16,6 +23,8 @@ const LEAST: f64 = 1e-150;
 /// The speeds of a step: before it, those at which forces were taken, with their acceleration, and after it.
 pub(super) struct Used<V> {
     pub(super) h: f64,
+    /// A speed as small as that is rounding of places.
+    pub(super) least: f64,
     pub(super) before: V,
     pub(super) used: V,
     pub(super) acceleration: V,
@@ -36,7 +45,7 @@ impl<V: VectorSpace<f64>> Used<V> {
         // From rest, with speeds that turn back within the step, those at half of it are all that there is.
         let size = |i: usize| sizes.component(i).max(gained(i)).max(self.used.component(i).abs());
         let largest = (0..V::DIM).map(size).fold(0.0, f64::max);
-        let least = part * largest + LEAST;
+        let least = part * largest + self.least + LEAST;
         (0..V::DIM).for_each(|i| sizes.set_component(i, sizes.component(i) + least));
         sizes
     }
@@ -69,11 +78,35 @@ impl<V: VectorSpace<f64>> Used<V> {
         })
     }
 
-    /// Whether an acceleration changes all speeds by less than a part of them, beside another one.
-    pub(super) fn is_within(&self, part: f64, [acceleration, other]: [&V; 2]) -> bool {
+    /// Whether a speed changes so much that forces may do so within the step more than it can follow.
+    pub(super) fn is_rough(&self) -> bool {
+        let sizes = self.sizes(SMALL);
+        (0..V::DIM).any(|i| self.is_rough_at(i, sizes.component(i)))
+    }
+
+    fn is_rough_at(&self, i: usize, size: f64) -> bool {
+        let changes = (self.after.component(i) - self.before.component(i)).abs() > ROUGH * size;
+        changes || (self.mean(i) - self.used.component(i)).abs() > FAR * size
+    }
+
+    /// The speed that forces change too fast along half of the step, given the acceleration at the places before it: by
+    /// (ωh)²/4 of itself where they swing.
+    pub(super) fn steep(&self, at_start: &V) -> Option<usize> {
+        let (sizes, magnitudes) = (self.sizes(SMALL), self.magnitudes());
+        let by = |i: usize| 0.5 * self.h * (self.acceleration.component(i) - at_start.component(i)).abs();
+        (0..V::DIM).find(|i| self.is_rough_at(*i, sizes.component(*i)) && by(*i) > STEEP * magnitudes.component(*i))
+    }
+
+    /// The first speed that an acceleration changes by more than a part of it, beside another one.
+    pub(super) fn changes_beyond(&self, part: f64, [acceleration, other]: [&V; 2]) -> Option<usize> {
         let sizes = self.sizes(SMALL);
         let by = |i: usize| self.h * (acceleration.component(i) - other.component(i)).abs();
-        (0..V::DIM).all(|i| by(i) <= part * sizes.component(i))
+        (0..V::DIM).find(|i| by(*i) > part * sizes.component(*i))
+    }
+
+    /// Whether an acceleration changes all speeds by less than a part of them, beside another one.
+    pub(super) fn is_within(&self, part: f64, accelerations: [&V; 2]) -> bool {
+        self.changes_beyond(part, accelerations).is_none()
     }
 
     /// The differences of speeds to others, as parts of the sizes.

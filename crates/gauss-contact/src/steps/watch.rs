@@ -7,7 +7,7 @@ use gauss_runtime::contact::ContactSystem;
 
 use crate::mode::Mode;
 
-use super::motion::Mean;
+use super::motion::Rule;
 
 /// What an attempt at a part of a step came to.
 pub(super) struct Attempted<'a, K: ContactSystem> {
@@ -29,9 +29,8 @@ pub(super) struct Attempted<'a, K: ContactSystem> {
 pub(super) trait Watch<K: ContactSystem> {
     /// A part of a step begins; whether its first attempt goes to the place at half of it with foreseen mean speeds.
     fn begins(&mut self, by_mean: bool);
-    /// An attempt that is not the last, and how the speeds of the next one follow from it: by what part of the
-    /// difference to which mean.
-    fn again(&mut self, attempted: Attempted<K>, how: (Mean, f64));
+    /// An attempt that is not the last, and how the next one follows from it.
+    fn again(&mut self, attempted: Attempted<K>, how: Rule);
     /// Attempts have led to one that the next would not change.
     fn settles(&mut self);
     /// The number of parts.
@@ -45,7 +44,7 @@ pub(super) trait Watch<K: ContactSystem> {
 /// Nobody.
 impl<K: ContactSystem> Watch<K> for () {
     fn begins(&mut self, _: bool) {}
-    fn again(&mut self, _: Attempted<K>, _: (Mean, f64)) {}
+    fn again(&mut self, _: Attempted<K>, _: Rule) {}
     fn settles(&mut self) {}
     fn parts(&self) -> usize {
         0
@@ -79,7 +78,7 @@ pub(super) struct Part {
     /// Whether the first attempt goes to the place at half of the part with foreseen mean speeds.
     pub(super) by_mean: bool,
     /// The attempts that told the speeds at half of the part, and how.
-    pub(super) before: Vec<(Taken, (Mean, f64))>,
+    pub(super) before: Vec<(Taken, Rule)>,
     /// Whether the last one would not be changed by another.
     pub(super) settled: bool,
     pub(super) taken: Taken,
@@ -90,7 +89,7 @@ pub(super) struct Part {
 pub(super) struct Seen {
     by_mean: bool,
     settled: bool,
-    before: Vec<(Taken, (Mean, f64))>,
+    before: Vec<(Taken, Rule)>,
     pub(super) parts: Vec<Part>,
 }
 
@@ -114,7 +113,7 @@ impl<K: ContactSystem<Scalar = f64>> Watch<K> for Seen {
         self.before.clear();
     }
 
-    fn again(&mut self, attempted: Attempted<K>, how: (Mean, f64)) {
+    fn again(&mut self, attempted: Attempted<K>, how: Rule) {
         self.before.push((Taken::of::<K>(&attempted), how));
     }
 
