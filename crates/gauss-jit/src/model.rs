@@ -28,6 +28,7 @@ pub(crate) struct Derived {
     equations: [String; 2],
     accuracy: Vec<(String, [f64; 2])>,
     remarks: Vec<String>,
+    files: Vec<String>,
     pub parameters: Parameters,
     pub unit_components: Vec<Range<usize>>,
     pub constants: Program,
@@ -125,6 +126,7 @@ impl Model {
             equations: [Notation::Text, Notation::Latex].map(|notation| derivation.equations(notation).to_owned()),
             accuracy: derivation.accuracy().to_vec(),
             remarks: derivation.remarks().to_vec(),
+            files: derivation.files().to_vec(),
             parameters: derivation.parameters().clone(),
             unit_components: derivation.unit_components().to_vec(),
             constants: functions.constants.clone(),
@@ -138,13 +140,14 @@ impl Model {
     /// The same model whose programs are carried out in another way.
     #[must_use]
     pub fn with_backend(&self, backend: impl Backend + 'static) -> Self {
-        let Derived { name, equations, accuracy, remarks, parameters, unit_components, constants, methods, .. } =
-            &*self.derived;
+        let Derived { name, equations, accuracy, remarks, files, .. } = &*self.derived;
+        let Derived { parameters, unit_components, constants, methods, .. } = &*self.derived;
         let derived = Derived {
             name: name.clone(),
             equations: equations.clone(),
             accuracy: accuracy.clone(),
             remarks: remarks.clone(),
+            files: files.clone(),
             parameters: parameters.clone(),
             unit_components: unit_components.clone(),
             constants: constants.clone(),
@@ -183,6 +186,17 @@ impl Model {
     /// Remarks about a robot from a file: names that were changed, elements that do not act in the equations.
     pub fn remarks(&self) -> &[String] {
         &self.derived.remarks
+    }
+
+    /// The files that its scene was read from, by their paths: of robots, and those that these name.
+    pub fn files(&self) -> &[String] {
+        &self.derived.files
+    }
+
+    /// The components of a configuration that have the length one together, as those of a unit quaternion have: where
+    /// they are among all.
+    pub fn unit_components(&self) -> &[Range<usize>] {
+        &self.derived.unit_components
     }
 
     /// The parameters: the fields of the struct; a body is three of them, `arm.mass`, `arm.center_of_mass`,
