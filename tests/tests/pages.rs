@@ -26,6 +26,7 @@ const FOLDERS: &[&str] = &[
     "crates/gauss-files",
     "crates/gauss-jit",
     "crates/gauss-playback",
+    "crates/gauss-py",
     "crates/gauss-python",
     "crates/gauss-rerun",
     "crates/gauss-robots",

@@ -1,0 +1,333 @@
+"""Models and kernels: scenes and robots that are derived and compiled at run time."""
+
+import os
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+
+from . import _native
+from ._calls import Plan, numbers
+from ._errors import ContactError, SceneError
+
+#: Methods of one frame, `pose_of_tool`, which kernels have under the names of compiled classes: `pose("tool", q)`.
+FRAMED = ("pose", "twist", "jacobian", "bias", "jacobian_rate")
+#: Methods about contacts themselves; all others with an input lack their forces.
+OF_CONTACTS = {"friction", "impulse_dynamics", "element_forces", "powers", "supplied_power"}
+
+
+@dataclass(frozen=True)
+class Field:
+    """A parameter of a scene: its unit ("kg m^2", or None), its type as in Rust ("Vector3<f64>", "RigidBody<f64>"),
+    what it is to the body ("gravity", "mass", "inertia", "body"), and what the equations say of it."""
+
+    unit: str | None = None
+    type: str = "f64"
+    role: str | None = None
+    doc: str = ""
+
+    def line(self, name):
+        """The field of the struct."""
+        if not name.isidentifier():
+            raise ValueError(f"{name!r} is no name of a parameter")
+        quoted = {key: '"' + own.replace("\\", "\\\\").replace('"', '\\"') + '"' for key, own in self._texts()}
+        doc = f"#[doc = {quoted['doc']}] " if self.doc else ""
+        role = f"#[gauss({self.role})] " if self.role else ""
+        unit = f"#[gauss(unit = {quoted['unit']})] " if self.unit else ""
+        return f"    {doc}{role}{unit}{name}: {self.type},"
+
+    def _texts(self):
+        return (("doc", " ".join(self.doc.split())), ("unit", self.unit or ""))
+
+
+class _Described:
+    """What models and their kernels say of themselves."""
+
+    _native_model: _native.Model
+
+    @property
+    def name(self):
+        return self._native_model.name
+
+    @property
+    def equations(self):
+        return self._native_model.equations
+
+    @property
+    def latex(self):
+        return self._native_model.latex
+
+    @property
+    def remarks(self):
+        return self._native_model.remarks
+
+    @property
+    def methods(self):
+        return self._native_model.methods
+
+    @property
+    def operations(self):
+        kinds = ("additions", "multiplications", "divisions", "roots", "transcendentals")
+        return {name: dict(zip(kinds, counts)) for name, counts in self._native_model.operations}
+
+    @property
+    def accuracy(self):
+        return {name: tuple(lost) for name, lost in self._native_model.accuracy}
+
+    def _names(self, argument):
+        return next((own for name, own in self._native_model.signature("acceleration")[0] if name == argument), [])
+
+    @property
+    def coordinate_names(self):
+        return self._names("q")
+
+    @property
+    def speed_names(self):
+        return self._names("z")
+
+    @property
+    def input_names(self):
+        return self._names("input")
+
+    def _repr_latex_(self):
+        return f"$$\n{self.latex}\n$$"
+
+
+class Model(_Described):
+    """A scene with its equations. Called with its parameters as keywords, in their units, it gives a `Kernel`."""
+
+    def __init__(self, native, recipe):
+        self._native_model, self._recipe = native, recipe
+
+    @property
+    def parameters(self):
+        """The parameters: of each how many numbers it has (matrices row after row), its unit, its documentation."""
+        return {name: (count, unit, doc) for name, count, unit, doc in self._native_model.parameters}
+
+    def __call__(self, **parameters):
+        return Kernel(self, parameters)
+
+    def __repr__(self):
+        return f"<gauss.Model {self.name}({', '.join(self.parameters)})>"
+
+    def __eq__(self, other):
+        return self._recipe == other._recipe if isinstance(other, Model) else NotImplemented
+
+    def __hash__(self):
+        return hash(self._recipe)
+
+    def __reduce__(self):
+        return _restored, (self._recipe,)
+
+
+class Kernel(_Described):
+    """A model with numbers for its parameters, which were checked: it never changes, and threads share it.
+
+    Its methods take q, z, input and others as arrays of shape (..., n), of which the last axis has the numbers of one
+    state; one without leading axes is for all states. `t=` is one time or one for each state, `threads=` says how many
+    threads share the rows of a batch. In q come, part by part, of rotations the unit quaternion x, y, z, w, of poses
+    this and then the position, of poses in the plane cosine, sine and position; plain coordinates come last:
+    `coordinate_names` has them all. A quaternion off norm 1, or one that is no number, is a ValueError; other numbers
+    that are not finite give such results.
+    """
+
+    def __init__(self, model, parameters, *, _contacts=True):
+        self.model, self._native_model = model, model._native_model
+        self._parameters = _flat(model.parameters, parameters)
+        self._native = self._native_model.kernel(list(self._parameters.items()))
+        self._plans, self._all = {}, frozenset(self.methods)
+        self._contacts = _contacts and "contact_rates" in self._all
+
+    @property
+    def parameters(self):
+        """The numbers of each parameter, in their units."""
+        return {name: own[0] if len(own) == 1 else np.array(own) for name, own in self._parameters.items()}
+
+    def without_contacts(self):
+        """The same kernel of which all gaps are open and nothing rubs, whatever the state."""
+        return Kernel(self.model, self._parameters, _contacts=False)
+
+    def _known(self, method):
+        plan = self._plans.get(method)
+        if plan is None:
+            if method not in self._all:
+                raise AttributeError(f"{self.name} has no method `{method}`; it has {', '.join(self.methods)}")
+            plan = self._plans[method] = Plan(method, self._native_model.signature(method))
+        return plan
+
+    def _plan(self, method):
+        plan = self._known(method)
+        if self._contacts and "input" in plan.sizes and method not in OF_CONTACTS:
+            raise ContactError(
+                f"{method} has no forces of contacts, and the scene has some; with "
+                f"`kernel.without_contacts().{method}` all gaps are open, and nothing rubs"
+            )
+        return plan
+
+    def call(self, method, *arguments, t=0.0, threads=1, **named):
+        """Calls a method by its name."""
+        return self._plan(method).call(self._native, arguments, named, t, threads)
+
+    def __getattr__(self, name):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        if name in self._all:
+
+            def method(*arguments, t=0.0, threads=1, **named):
+                return self.call(name, *arguments, t=t, threads=threads, **named)
+
+            method.__name__ = name
+            method.__doc__ = self._known(name).documentation()
+            return method
+        if name in FRAMED and any(own.startswith(f"{name}_of_") for own in self._all):
+            return lambda frame, *arguments, **named: self._framed(name, frame, *arguments, **named)
+        raise AttributeError(f"{self.name} has no `{name}`; its methods are {', '.join(self.methods)}")
+
+    def _framed(self, name, frame, *arguments, **named):
+        frames = [own.removeprefix("pose_of_") for own in self.methods if own.startswith("pose_of_")]
+        if frame not in frames:
+            raise ValueError(f"{self.name} has no frame {frame!r}; it has {', '.join(frames)}")
+        found = self.call(f"{name}_of_{frame}", *arguments, **named)
+        if name != "pose":
+            return found
+        pose = np.zeros((*found.shape[:-1], 4, 4))
+        pose[..., :3, :3] = found[..., 3:].reshape(*found.shape[:-1], 3, 3)
+        pose[..., :3, 3], pose[..., 3, 3] = found[..., :3], 1.0
+        return pose
+
+    def __dir__(self):
+        return [*super().__dir__(), *self.methods]
+
+    def __repr__(self):
+        given = ", ".join(f"{name}={own[0] if len(own) == 1 else list(own)}" for name, own in self._parameters.items())
+        return f"<gauss.Kernel {self.name}({given})>"
+
+    def _key(self):
+        return self.model, tuple(self._parameters.items()), self._contacts
+
+    def __eq__(self, other):
+        return self._key() == other._key() if isinstance(other, Kernel) else NotImplemented
+
+    def __hash__(self):
+        return hash(self._key())
+
+    def __reduce__(self):
+        return _kernel, (self.model, self._parameters, self._contacts or "contact_rates" not in self._all)
+
+
+def _kernel(model, parameters, contacts):
+    return Kernel(model, parameters, _contacts=contacts)
+
+
+def _flat(known, given):
+    """The numbers of each parameter: of a body, a mapping, those of its parts."""
+    flat = {}
+    for name, value in given.items():
+        if isinstance(value, dict):
+            value = {"center_of_mass": (0.0, 0.0, 0.0)} | value
+            flat |= {f"{name}.{part}": own for part, own in value.items()}
+        else:
+            flat[name] = value
+    for name, value in flat.items():
+        own = numbers(name, value).ravel()
+        if name.endswith(".inertia") and own.size == 3:
+            own = np.diag(own).ravel()
+        flat[name] = tuple(own.tolist())
+    order = {name: place for place, name in enumerate(known)}
+    return dict(sorted(flat.items(), key=lambda item: order.get(item[0], len(order))))
+
+
+def scene(text, /, **fields):
+    """The model of a scene in words: clauses as in `#[gauss(...)]`, and its parameters as keywords, each with its unit
+    (None where it has none) or a `Field`; or a text with the struct itself, and no keywords.
+
+    Raises `SceneError` with all mistakes.
+    """
+    if "struct" in text.split():
+        if fields:
+            raise TypeError("a text with a struct has its parameters in it; remove the keywords")
+        return _restored(("text", text, 0, ()))
+    lines = [(own if isinstance(own, Field) else Field(own)).line(name) for name, own in fields.items()]
+    source = "\n".join(["#[gauss(", text, ")]", "struct Scene {", *lines, "}", ""])
+    return _restored(("text", source, 1, ()))
+
+
+def load(path, clauses=(), *, gravity=None):
+    """The robot of a URDF or MJCF file as a kernel, with clauses as of structs: "linearize", "base = floating".
+
+    `gravity` is a number, along -z, in m/s², or three. A URDF file says none, so it must be given (0 is none); an MJCF
+    file has its own. Raises `SceneError` with all mistakes, OSError where no file can be read.
+    """
+    clauses = [clauses] if isinstance(clauses, str) else list(clauses)
+    path = Path(path)
+    format = _format(path)
+    if gravity is not None:
+        clauses.append(f"gravity = {_written(gravity)}")
+    elif format == "urdf" and not any(clause.replace(" ", "").startswith("gravity=") for clause in clauses):
+        raise TypeError("a URDF file says nothing of gravity: give gravity=9.81, or gravity=0 for none")
+    return _of_file(format, path, tuple(clauses))()
+
+
+def _written(gravity):
+    own = numbers("gravity", gravity)
+    if own.shape not in ((), (3,)) or not np.isfinite(own).all():
+        raise ValueError(f"gravity is {gravity!r}; expected a finite number, or three")
+    return repr(float(own)) if own.shape == () else f"[{', '.join(repr(float(x)) for x in own)}]"
+
+
+def _format(path):
+    """By the root of its elements; by its name where there is none, so that its mistakes are told with their places."""
+    with open(path, "rb") as file:
+        try:
+            _, root = next(ElementTree.iterparse(file, ("start",)))
+        except (ElementTree.ParseError, StopIteration):
+            return "urdf" if path.suffix == ".urdf" else "mjcf"
+    known = {"robot": "urdf", "mujoco": "mjcf"}
+    if root.tag not in known:
+        raise ValueError(f"{path} is no robot: its root is <{root.tag}>; expected <robot> (URDF) or <mujoco> (MJCF)")
+    return known[root.tag]
+
+
+def _of_file(format, path, clauses):
+    native = _native.Model.of_file(format, str(path), list(clauses))
+    files = tuple((own, Path(own).read_bytes()) for own in native.files)
+    return Model(native, ("file", format, clauses, files))
+
+
+def _restored(recipe):
+    """The model of a recipe: a text, or all files that were read, which are written anew where they have changed."""
+    if recipe[0] == "text":
+        _, source, offset, files = recipe
+        changed = [own for own, content in files if not _is(own, content)]
+        if changed:
+            raise OSError(f"the scene reads {', '.join(changed)}, which is not as it was")
+        try:
+            native = _native.Model.of_text(source)
+        except SceneError as error:
+            # Lines are those of the text that was given.
+            lines = [(max(1, line - offset), column, message) for line, column, message in error.mistakes]
+            raise SceneError(lines, "\n".join(source.split("\n")[offset:])) from None
+        files = tuple((own, Path(own).read_bytes()) for own in native.files)
+        return Model(native, ("text", source, offset, files))
+    _, format, clauses, files = recipe
+    first = files[0][0]
+    if all(_is(own, content) for own, content in files):
+        native = _native.Model.of_file(format, first, list(clauses))
+        return Model(native, recipe)
+    common = os.path.commonpath([os.path.dirname(own) for own, _ in files])
+    with tempfile.TemporaryDirectory() as folder:
+        for own, content in files:
+            place = Path(folder, os.path.relpath(own, common))
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_bytes(content)
+        native = _native.Model.of_file(format, str(Path(folder, os.path.relpath(first, common))), list(clauses))
+    return Model(native, recipe)
+
+
+def _is(path, content):
+    try:
+        return Path(path).read_bytes() == content
+    except OSError:
+        return False

@@ -1,0 +1,115 @@
+//! A model: a scene with its equations.
+
+use gauss_jit::Notation;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::errors;
+use crate::kernel::Kernel;
+
+/// A scene with its equations, and the programs that compute them.
+#[pyclass(frozen, module = "gauss._native")]
+pub struct Model {
+    model: gauss_jit::Model,
+}
+
+/// The name that Python has for a program: inverse dynamics is a residual to the equations.
+fn shown(program: &str) -> String {
+    if program == "gauss_residual" { "inverse_dynamics" } else { program }.to_owned()
+}
+
+type Signature = (Vec<(String, Vec<String>)>, Vec<(String, usize, usize)>);
+
+#[pymethods]
+impl Model {
+    /// The model of the struct in a text.
+    #[staticmethod]
+    fn of_text(py: Python<'_>, source: &str) -> PyResult<Self> {
+        let derived = py.detach(|| gauss_jit::Model::from_source(source));
+        derived.map(|model| Self { model }).map_err(|mistakes| errors::scene(py, &mistakes))
+    }
+
+    /// The model of a robot's file.
+    #[staticmethod]
+    #[expect(clippy::needless_pass_by_value, reason = "what Python hands over")]
+    fn of_file(py: Python<'_>, format: &str, path: &str, clauses: Vec<String>) -> PyResult<Self> {
+        let clauses: Vec<&str> = clauses.iter().map(String::as_str).collect();
+        let derived = py.detach(|| match format {
+            "urdf" => Some(gauss_jit::Model::from_urdf(path, &clauses)),
+            "mjcf" => Some(gauss_jit::Model::from_mjcf(path, &clauses)),
+            _ => None,
+        });
+        let derived = derived.ok_or_else(|| PyValueError::new_err(format!("`{format}` is neither urdf nor mjcf")))?;
+        derived.map(|model| Self { model }).map_err(|mistakes| errors::scene(py, &mistakes))
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        self.model.name()
+    }
+
+    #[getter]
+    fn equations(&self) -> &str {
+        self.model.equations(Notation::Text)
+    }
+
+    #[getter]
+    fn latex(&self) -> &str {
+        self.model.equations(Notation::Latex)
+    }
+
+    #[getter]
+    fn remarks(&self) -> Vec<String> {
+        self.model.remarks().to_vec()
+    }
+
+    #[getter]
+    fn files(&self) -> Vec<String> {
+        self.model.files().to_vec()
+    }
+
+    /// Name, count of numbers, unit, documentation of each.
+    #[getter]
+    fn parameters(&self) -> Vec<(String, usize, Option<String>, String)> {
+        let list = self.model.parameters().iter();
+        list.map(|own| (own.name.clone(), own.count, own.unit.clone(), own.documentation.clone())).collect()
+    }
+
+    #[getter]
+    fn methods(&self) -> Vec<String> {
+        self.model.methods().map(shown).collect()
+    }
+
+    /// Additions, multiplications, divisions, roots and transcendental functions of each method.
+    #[getter]
+    fn operations(&self) -> Vec<(String, [u32; 5])> {
+        let counts = self.model.operations().map(|(name, of)| {
+            (shown(name), [of.additions, of.multiplications, of.divisions, of.roots, of.transcendentals])
+        });
+        counts.collect()
+    }
+
+    #[getter]
+    fn accuracy(&self) -> Vec<(String, [f64; 2])> {
+        self.model.accuracy().iter().map(|(name, lost)| (shown(name), *lost)).collect()
+    }
+
+    /// Arguments of a method with the names of their numbers, time first; its results with rows and columns.
+    fn signature(&self, method: &str) -> PyResult<Signature> {
+        let unknown = |error: gauss_jit::CallError| PyValueError::new_err(error.to_string());
+        let arguments = self.model.arguments(method).map_err(unknown)?.iter();
+        let results = self.model.results(method).map_err(unknown)?.iter();
+        Ok((
+            arguments.map(|own| (own.name.clone(), own.components.clone())).collect(),
+            results.map(|own| (own.name.clone(), own.rows, own.columns)).collect(),
+        ))
+    }
+
+    /// A kernel: numbers of the parameters by name.
+    #[expect(clippy::needless_pass_by_value, reason = "what Python hands over")]
+    fn kernel(&self, py: Python<'_>, parameters: Vec<(String, Vec<f64>)>) -> PyResult<Kernel> {
+        let list: Vec<(&str, &[f64])> = parameters.iter().map(|(name, own)| (&name[..], &own[..])).collect();
+        let made = py.detach(|| self.model.kernel(&list));
+        made.map(Kernel::new).map_err(|error| errors::kernel(py, &error))
+    }
+}
