@@ -39,8 +39,9 @@ impl Kernel {
         for row in 0..if q.is_shared { 1 } else { rows } {
             for Range { start, end } in self.kernel.model().unit_components().iter().cloned() {
                 let squares: f64 = q.row(row)[start..end].iter().map(|x| x * x).sum();
-                // Of what is not a number neither holds.
-                if !((squares - 1.0).abs() <= 2.0 * f64::EPSILON.sqrt()) {
+                let is_near = (squares - 1.0).abs() <= 2.0 * f64::EPSILON.sqrt();
+                // What is not a number is not near either.
+                if !is_near {
                     return Err(format!(
                         "q[{start}:{end}] of row {row} is no rotation: squares of its numbers add up to {squares:.6}, \
                          and to 1 of every rotation"

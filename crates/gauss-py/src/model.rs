@@ -31,7 +31,6 @@ impl Model {
 
     /// The model of a robot's file.
     #[staticmethod]
-    #[expect(clippy::needless_pass_by_value, reason = "what Python hands over")]
     fn of_file(py: Python<'_>, format: &str, path: &str, clauses: Vec<String>) -> PyResult<Self> {
         let clauses: Vec<&str> = clauses.iter().map(String::as_str).collect();
         let derived = py.detach(|| match format {
@@ -106,7 +105,6 @@ impl Model {
     }
 
     /// A kernel: numbers of the parameters by name.
-    #[expect(clippy::needless_pass_by_value, reason = "what Python hands over")]
     fn kernel(&self, py: Python<'_>, parameters: Vec<(String, Vec<f64>)>) -> PyResult<Kernel> {
         let list: Vec<(&str, &[f64])> = parameters.iter().map(|(name, own)| (&name[..], &own[..])).collect();
         let made = py.detach(|| self.model.kernel(&list));
