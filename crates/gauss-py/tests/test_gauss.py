@@ -75,6 +75,9 @@ def test_arm_is_that_of_two_rods(arm):
     np.testing.assert_allclose(pose[:3, 3], expected, atol=8 * EPS)
     turned = [[np.cos(0.5), 0, np.sin(0.5)], [0, 1, 0], [-np.sin(0.5), 0, np.cos(0.5)]]
     np.testing.assert_allclose(pose[:3, :3], turned, atol=8 * EPS)
+    with pytest.raises(ValueError, match="no frame 'hand'; it has tool"):
+        arm.pose("hand", q)
+    assert arm.pose("tool", q).shape == (50, 4, 4) and arm.twist("tool", q, z).shape == (50, 6)
     assert arm.jacobian("tool", q).shape == (50, 6, 2) and arm.input_names == ["shoulder_effort", "elbow_effort"]
 
 
@@ -162,8 +165,9 @@ def test_arguments_of_other_shapes(pendulum, arm):
     for value in ("a", [1j], [None]):
         with pytest.raises(TypeError, match="q is no array of real numbers"):
             pendulum.acceleration(value, [0])
-    with pytest.raises(AttributeError):
-        pendulum.simulate
+    for name in ("simulate", "ensemble", "pose"):
+        with pytest.raises(AttributeError, match=f"no `{name}`; its methods are"):
+            getattr(pendulum, name)
     with pytest.raises(TypeError, match="`u` is none of them"):
         arm.acceleration([0, 0], [0, 0], u=[0, 0])
     # As of compiled classes.
