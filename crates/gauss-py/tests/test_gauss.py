@@ -299,5 +299,5 @@ def test_stubs_are_those_of_the_module(tmp_path):
         "import gauss\narm = gauss.load('a.urdf', gravity=9.81)\nx = arm.linearize([1], [0]).by_state.shape\n"
         "y = gauss.scene('', m='kg')(m=1).acceleration([1], [0]).sum()\n"
     )
-    told, _, code = mypy.run(["--strict", str(file)])
+    told, _, code = mypy.run(["--strict", "--cache-dir", str(tmp_path), str(file)])
     assert code == 0, told
