@@ -72,8 +72,8 @@ fn sixteen_boxes_stand_without_creep() {
         for n in 0..200 {
             let report = steps.step(2e-3, &()).unwrap();
             assert!(report.residual.worst() <= 1e-8, "{n} {report:?}");
-            // Rounding of heights up to 3.2, of sixteen boxes on one another: where corners share their load anew, all of
-            // them move by as much.
+            // Rounding of heights up to 3.2, of sixteen boxes on one another: where corners share their load anew, all
+            // of them move by as much.
             assert!(report.penetration <= 16.0 * 32.0 * f64::EPSILON * 3.2, "{n} {report:?}");
         }
         let end = BoxesState::of(steps.configuration(), steps.speeds());

@@ -50,8 +50,8 @@ const STIFF: f64 = 0.1;
 const STIFF_AT_LAST: f64 = 0.5;
 /// The same of damping where parts cannot be shorter: of a speed that is damped to 4 · 10⁻³ in one, an eighth is left.
 const STIFFEST: f64 = 8.0;
-/// The part of a speed by which forces may change it in a step with an impact, for what they differ by at both ends: the
-/// square of ωh at which attempts settle as [`STIFF`] has it.
+/// The part of a speed by which forces may change it in a step with an impact, for what they differ by at both ends:
+/// the square of ωh at which attempts settle as [`STIFF`] has it.
 const FOLLOWED: f64 = 4.0 * STIFF;
 /// Roundings of places in a step.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -191,8 +191,8 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         used.stiffens([&half, &of_places(&self.q)]) || used.stiffens_on_way([&half, &far()])
     }
 
-    /// The acceleration by forces that depend on places alone: those that come with speeds, as of arms that turn, do not
-    /// swing.
+    /// The acceleration by forces that depend on places alone: those that come with speeds, as of arms that turn, do
+    /// not swing.
     fn of_places(&self, t: f64, q: &K::Configuration, input: &K::Input) -> K::Speeds {
         self.kernel.acceleration(t, q, &K::Speeds::zero(), input)
     }
@@ -250,8 +250,8 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         }
     }
 
-    /// The speed that forces change too fast along half of a step, where they are not taken at its mean place: those that
-    /// come with speeds as well, as of arms that turn by a radian.
+    /// The speed that forces change too fast along half of a step, where they are not taken at its mean place: those
+    /// that come with speeds as well, as of arms that turn by a radian.
     pub(super) fn steep(&self, h: f64, (middle, made): (&Middle<K>, &Attempt<K>), input: &K::Input) -> Option<usize> {
         let used = self.used(h, middle, made);
         if middle.is_mean || !used.is_rough() || !made.end.z.is_finite() {

@@ -7,9 +7,10 @@
 //! change, and whatever impulses do. But that place is not known before, so that the step is made several times.
 //!
 //! So places are mean ones where the square of ωh is more than [`SWING`], and stay so for [`STAYS`] steps more: a
-//! measure that came and went with the state would change from one to the other by the phase of what swings, which feeds
-//! it. Steps without a memory have the measure alone. Forces that come with speeds do not count: masses that change with
-//! places, as of arms, do better with those at half of the way, whose step is then nearly that of a discrete action.
+//! measure that came and went with the state would change from one to the other by the phase of what swings, which
+//! feeds it. Steps without a memory have the measure alone. Forces that come with speeds do not count: masses that
+//! change with places, as of arms, do better with those at half of the way, whose step is then nearly that of a
+//! discrete action.
 
 use gauss_runtime::configuration::VectorSpace;
 
@@ -53,8 +54,8 @@ impl<V: VectorSpace<f64>> LastForces<V> {
         self.stays > 0
     }
 
-    /// Whether forces have changed so much since the step before that they may do so with places; nothing where there was
-    /// no step before.
+    /// Whether forces have changed so much since the step before that they may do so with places; nothing where there
+    /// was no step before.
     pub(super) fn may_stiffen(&self, used: &Used<V>) -> Option<bool> {
         // From half of the step before to half of this one.
         self.free.map(|(h, free)| used.change([&used.acceleration, &free], 2.0 * used.h / (used.h + h)) > SWING)
@@ -62,7 +63,8 @@ impl<V: VectorSpace<f64>> LastForces<V> {
 }
 
 impl<V: VectorSpace<f64>> Used<V> {
-    /// Whether forces are to be taken at mean places, given the accelerations by places at half of the step and before it.
+    /// Whether forces are to be taken at mean places, given the accelerations by places at half of the step and before
+    /// it.
     pub(super) fn stiffens(&self, accelerations: [&V; 2]) -> bool {
         self.change(accelerations, 2.0) > SWING
     }
@@ -73,8 +75,8 @@ impl<V: VectorSpace<f64>> Used<V> {
         !self.is_within(0.25 * SWING, accelerations)
     }
 
-    /// The largest part of itself by which a speed would change in a step by what two accelerations differ, times as much
-    /// as the way between them is shorter than that of the step: the square of ωh.
+    /// The largest part of itself by which a speed would change in a step by what two accelerations differ, times as
+    /// much as the way between them is shorter than that of the step: the square of ωh.
     fn change(&self, [one, other]: [&V; 2], times: f64) -> f64 {
         let by = |i: usize| times * self.h * (one.component(i) - other.component(i)).abs();
         // Mostly forces change by nothing that the speeds alone would not show.

@@ -191,8 +191,8 @@ fn a_bead_that_bounces_on_a_ring_gains_little() {
             told += stepper.step(h, &()).unwrap().unexplained.max(0.0);
             most = most.max(energy(stepper.configuration(), stepper.speeds()) - start);
         }
-        // A pendulum of ω = 3 rad/s and a way of vh on the circle, to second order; impacts add none, but by `Midpoint`,
-        // whose steps with an impact take their forces where the way before it leads.
+        // A pendulum of ω = 3 rad/s and a way of vh on the circle, to second order; impacts add none, but by
+        // `Midpoint`, whose steps with an impact take their forces where the way before it leads.
         let second = (h * v) * (h * v) + (3.0 * h) * (3.0 * h);
         let of_impacts = if scheme == StepScheme::MoreauJean { 0.0 } else { told };
         assert!(most < second * scale + of_impacts, "{scheme:?} {h} {v}: {}", most / scale);
