@@ -62,6 +62,9 @@ const LEAST_PART: f64 = 0.02;
 /// the place where they are.
 type Off<V> = [V; 2];
 
+/// A step that was made again, and what it would be refused for.
+type Corrected<K> = (Middle<K>, Attempt<K>, Option<ContactError>);
+
 /// The largest component, and its place.
 fn largest<V: VectorSpace<f64>>(off: &Off<V>) -> (f64, usize) {
     let larger = |worst: (f64, usize), (off, i): (f64, usize)| if off > worst.0 { (off, i) } else { worst };
@@ -299,7 +302,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         (mut middle, mut made): (Middle<K>, Attempt<K>),
         input: &K::Input,
         (watch, last): (&mut W, bool),
-    ) -> Result<(Middle<K>, Attempt<K>, Option<ContactError>), ContactError> {
+    ) -> Result<Corrected<K>, ContactError> {
         let (mut part, mut before, mut speed, mut struck) = (1.0, None, 0, made.end.struck);
         for n in 0..CORRECTIONS {
             let how = if made.end.struck { Mean::Ends } else { Mean::Curved };
