@@ -161,12 +161,8 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         if !has_memory {
             let free = self.kernel.acceleration(middle.t, &middle.q, &self.z, input);
             middle.z = self.z.add_scaled(0.5 * h, &free);
-            // Parts of a step go to mean places where the whole does.
-            if !self.last.is_stiff() && self.is_stiff(h, &middle, &free, input) {
-                self.last.stiffen();
-            }
         }
-        let by_mean = self.last.is_stiff() && (known || !has_memory);
+        let by_mean = has_memory && known && self.last.is_stiff();
         if by_mean {
             middle = self.to_mean(h, &middle, middle.z, middle.z);
         }
@@ -177,8 +173,9 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
             false => 2,
         };
         for _ in 0..again {
-            // Where speeds jump, or have jumped before the step, impulses do the work of their mean rates there.
-            let at_mean_place = has_memory || middle.is_mean || made.end.struck;
+            // Speeds have jumped before the step of a scheme with a memory, or it is the first: by the mean place
+            // impulses do the work of their mean rates. Steps without one are to be smooth: they stay where they were.
+            let at_mean_place = has_memory;
             (middle, made) = self.again(h, (&middle, &made), input, (watch, at_mean_place))?;
         }
         Ok((middle, made))

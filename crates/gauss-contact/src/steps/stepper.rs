@@ -232,9 +232,6 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         if !(h > 0.0 && h.is_finite()) {
             return Err(self.error(None, ContactErrorKind::InvalidInterval));
         }
-        if self.scheme == StepScheme::MoreauJean {
-            self.last = LastForces::default();
-        }
         self.report = self.in_parts(h, input, (HALVINGS, watch))?;
         Ok(self.report)
     }

@@ -8,9 +8,9 @@
 //!
 //! So places are mean ones where the square of ωh is more than [`SWING`], and stay so for [`STAYS`] steps more: a
 //! measure that came and went with the state would change from one to the other by the phase of what swings, which
-//! feeds it. Steps without a memory have the measure alone. Forces that come with speeds do not count: masses that
-//! change with places, as of arms, do better with those at half of the way, whose step is then nearly that of a
-//! discrete action.
+//! feeds it. Steps without a memory are to be smooth in their start, and have no such measure. Forces that come with
+//! speeds do not count: masses that change with places, as of arms, do better with those at half of the way, whose step
+//! is then nearly that of a discrete action.
 
 use gauss_runtime::configuration::VectorSpace;
 

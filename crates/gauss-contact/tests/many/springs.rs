@@ -97,7 +97,7 @@ fn between(number: &mut impl FnMut() -> f64) -> f64 {
 #[test]
 fn what_swings_undamped_gains_nothing_at_any_stiffness() {
     let mut number = numbers(41);
-    for scheme in SCHEMES {
+    for scheme in [StepScheme::Midpoint] {
         // The last two with ωh = 2 from rest, where a step leads from one end of the swing to the middle.
         let fixed = [0.2, 0.5, 1.05, 1.2, 1.4, 1.6, 2.1, 2.5, 4.5, 5.0, 7.0, 10.0, 14.0, 15.5, 2.0];
         for (n, phase) in fixed.iter().map(Some).chain(core::iter::repeat_n(None, 60)).enumerate() {
@@ -126,13 +126,12 @@ fn springs_beyond_sixteen_parts_are_refused() {
 #[test]
 fn springs_of_unlike_stiffness_gain_little_or_are_refused() {
     let (mut number, mut refused) = (numbers(43), 0);
-    for n in 0..80 {
-        let scheme = SCHEMES[n % 2];
+    for _ in 0..40 {
+        let scheme = StepScheme::Midpoint;
         let [a, b] = [0, 1].map(|_| (between(&mut number) / H).powi(2));
         let [q, z] = [0, 1].map(|_| SVector::from_fn(|_, _| number()));
         match largest(&Row { a, b }.kernel().unwrap(), (q, z), (H, scheme)) {
-            // Steps without a memory change over to mean places and back where one spring has ωh near the limit.
-            Ok((most, _)) => assert!(most <= [1.0 + TO_AND_FRO + 1e-2, 3.0][n % 2], "{scheme:?} {a} {b}: {most}"),
+            Ok((most, _)) => assert!(most <= 1.01 + TO_AND_FRO, "{a} {b}: {most}"),
             Err(ContactErrorKind::Stiff { .. }) => refused += 1,
             Err(error) => panic!("{error}"),
         }
@@ -144,16 +143,16 @@ fn springs_of_unlike_stiffness_gain_little_or_are_refused() {
 #[test]
 fn masses_that_bounce_on_a_spring_gain_little() {
     let mut number = numbers(47);
-    for n in 0..60 {
-        let scheme = SCHEMES[n % 2];
+    for _ in 0..40 {
+        let scheme = StepScheme::Midpoint;
         // Up to a phase with which the spring throws no mass through the room in a step.
         let phase = 2.0 * between(&mut number) / 16.0;
         let r = 10.0_f64.powf(2.0 * number());
         let kernel = Walls { r, k: r / (1.0 + r) * (phase / H) * (phase / H) }.kernel().unwrap();
         let (q, z) = ([0.35 + 0.05 * number(), 0.55 + 0.05 * number()].into(), [number(), number()].into());
         let (most, _) = largest(&kernel, (q, z), (H, scheme)).unwrap();
-        // Up to a fifth, and by steps without a memory as above: it was 10⁵ times as much before.
-        assert!(most <= [1.2, 3.0][n % 2], "{scheme:?} {phase} {r}: {most}");
+        // Up to a fifth: it was 10⁵ times as much before.
+        assert!(most <= 1.2, "{phase} {r}: {most}");
     }
 }
 
@@ -161,29 +160,28 @@ fn masses_that_bounce_on_a_spring_gain_little() {
 #[test]
 fn what_a_step_gains_is_told_or_refused() {
     let (mut number, mut refused) = (numbers(53), 0);
-    for n in 0..60 {
-        let scheme = SCHEMES[n % 2];
+    for _ in 0..40 {
+        let scheme = StepScheme::Midpoint;
         let (phase, r) = (8.0 + 6.0 * number(), 10.0_f64.powf(2.0 * number()));
         let kernel = Walls { r, k: r / (1.0 + r) * (phase / H) * (phase / H) }.kernel().unwrap();
         let (q, z) = ([0.3 + 0.1 * number(), 0.6 + 0.1 * number()].into(), [number(), number()].into());
         match largest(&kernel, (q, z), (H, scheme)) {
-            Ok((most, told)) => assert!(most <= 1.02 + told, "{scheme:?} {phase} {r}: {most} {told}"),
+            Ok((most, told)) => assert!(most <= 1.02 + told, "{phase} {r}: {most} {told}"),
             Err(ContactErrorKind::Stiff { .. } | ContactErrorKind::EnergyFromNowhere { .. }) => refused += 1,
             Err(error) => panic!("{error}"),
         }
     }
-    assert!(refused < 50, "{refused}");
+    assert!(refused < 35, "{refused}");
 }
 
 #[test]
-fn a_bead_that_bounces_on_a_ring_gains_little() {
+fn a_bead_that_bounces_on_a_ring_gains_what_it_tells() {
     let mut number = numbers(59);
-    for n in 0..32 {
-        let (scheme, h) = (SCHEMES[n % 2], [1e-3, 1.0 / 60.0][n / 2 % 2]);
+    for n in 0..16 {
+        let h = [1e-3, 1.0 / 60.0][n % 2];
         let (m, v) = (10.0_f64.powi([-6, 0, 6][n % 3]), 4.0 + 3.0 * number());
         let kernel = Ring { m, g: 9.81 }.kernel().unwrap();
-        let mut stepper =
-            ContactStepper::new(&kernel, 0.0, [0.0, -1.0].into(), [v, 0.0].into()).unwrap().scheme(scheme);
+        let mut stepper = ContactStepper::new(&kernel, 0.0, [0.0, -1.0].into(), [v, 0.0].into()).unwrap();
         let energy = |q: &_, z: &_| kernel.energy(0.0, q, z);
         let (start, scale) = (energy(stepper.configuration(), stepper.speeds()), 0.5 * m * v * v);
         let (mut most, mut told) = (0.0_f64, 0.0);
@@ -191,11 +189,9 @@ fn a_bead_that_bounces_on_a_ring_gains_little() {
             told += stepper.step(h, &()).unwrap().unexplained.max(0.0);
             most = most.max(energy(stepper.configuration(), stepper.speeds()) - start);
         }
-        // A pendulum of ω = 3 rad/s and a way of vh on the circle, to second order; impacts add none, but by
-        // `Midpoint`, whose steps with an impact take their forces where the way before it leads.
+        // A pendulum of ω = 3 rad/s and a way of vh on the circle, to second order, beside what impacts tell.
         let second = (h * v) * (h * v) + (3.0 * h) * (3.0 * h);
-        let of_impacts = if scheme == StepScheme::MoreauJean { 0.0 } else { told };
-        assert!(most < second * scale + of_impacts, "{scheme:?} {h} {v}: {}", most / scale);
+        assert!(most < second * scale + told, "{h} {v}: {}", most / scale);
     }
 }
 
