@@ -92,7 +92,7 @@ pub enum ContactErrorKind {
     EnergyFromNowhere {
         /// The energy that nothing explains.
         gained: f64,
-        /// The kinetic energy of it, without that.
+        /// The kinetic energy that is explained, at the end of the step that has more of it.
         kinetic: f64,
         /// The length of the part.
         step: f64,

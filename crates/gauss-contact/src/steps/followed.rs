@@ -32,8 +32,8 @@ pub(super) struct State<L: ContactSystem> {
     pub(super) acceleration: Option<L::Speeds>,
 }
 
-/// How many attempts are added for derivatives where they settle: as values do, but values may have been right at once,
-/// as at rest.
+/// How many attempts are added for derivatives where values have settled: they begin with those of speeds that were
+/// foreseen.
 const FURTHER: usize = 8;
 
 /// Roundings of equations, as a part of their terms.

@@ -9,7 +9,8 @@
 //! without contacts supplies at both ends. Where that is more than [`LITTLE`] it is made in parts, by which the impact
 //! is confined to a sixteenth of the step; what is left is told by the report. Steps without a memory are told
 //! of alone: where a step is made in parts its end jumps, and these are to be smooth. A step that is taken although its
-//! forces are not those at its mean speeds keeps the same account, and is refused where that is [`MUCH`].
+//! forces are not those at its mean speeds keeps the same account, and is refused where that is [`MUCH`]; any is where
+//! it is more than all that moves has (`EnergyFromNowhere`).
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;
@@ -69,7 +70,8 @@ impl Gain {
 }
 
 impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
-    /// What a step gains, and whether forces change with places more than it can follow.
+    /// The energy that a step gains; with weight as a reason where forces do not change with places (`is_stiff`) more
+    /// than it can follow.
     pub(super) fn gain(&self, h: f64, (made, is_stiff): (&Attempt<K>, bool), input: &K::Input) -> Gain {
         let (kernel, t) = (self.kernel, self.t + h);
         let [before, after] = [(self.t, &self.q, &self.z), (t, &made.end.q, &made.end.z)];

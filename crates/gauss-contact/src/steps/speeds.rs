@@ -13,7 +13,7 @@
 //! by at most that part, of a body that turns of its power 4/3: 10⁻⁸. What dampers differ by shrinks by itself as long
 //! as it is smaller than the difference of the speeds. Else the step is made again from the end that it had, until
 //! speeds agree; where it is too long for that, it is made in parts, and refused in the end: so this check is the watch
-//! over the energy of a step, since forces at the mean speeds do the work that they should. A step that is made again
+//! over the energy of a step, since forces at the mean speeds do the work that they should. Where springs are stiff it
 //! takes them at the mean place as well (`stiffness`).
 //!
 //! A step that is made again uses `z̄ − h/12 (a⁺ − a⁻)` with the accelerations at both ends, which is the mean over
