@@ -5,6 +5,7 @@
 mod accuracy;
 mod algebra;
 mod derivation;
+pub mod description;
 mod emit;
 mod error;
 mod expand;

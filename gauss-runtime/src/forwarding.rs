@@ -6,7 +6,7 @@
 /// |---|---|
 /// | `types` | all types |
 /// | `constants` | all constants |
-/// | `motion` | `kinematics`, `configuration_rates` |
+/// | `motion` | `kinematics`, `configuration_rates`, `smoothness` |
 /// | `dynamics` | `acceleration`, `momentum_rate` |
 /// | `momenta` | `momentum`, `velocity` |
 /// | `energies` | `mass_matrix`, `kinetic_energy`, `potential_energy` |
@@ -61,6 +61,10 @@ macro_rules! forward_system {
         const SMOOTHNESS: $crate::system::Smoothness = <$system as $crate::system::GaussSystem>::SMOOTHNESS;
     };
     (@motion $attributes:tt $system:ty, $field:ident) => {
+        #[inline]
+        fn smoothness(&self) -> $crate::system::Smoothness {
+            self.$field.smoothness()
+        }
         $crate::forward_system!(@method $attributes $field
             kinematics(q: &Self::Configuration, z: &Self::Speeds)
                 -> <Self::Configuration as $crate::configuration::Configuration>::Tangent);

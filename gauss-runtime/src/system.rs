@@ -61,6 +61,12 @@ pub trait GaussSystem {
     /// are not.
     const SMOOTHNESS: Smoothness = Smoothness::Smooth;
 
+    /// [`SMOOTHNESS`](Self::SMOOTHNESS), which a system whose equations come at run time knows by itself alone.
+    #[inline(always)]
+    fn smoothness(&self) -> Smoothness {
+        Self::SMOOTHNESS
+    }
+
     /// The velocity of the configuration, q̇ = ψ(t, q, z) (3.2), as seen from the body (left-trivialised). It is affine
     /// in z: states of elements stand still in it, as when speeds jump or constraints are restored.
     fn kinematics(

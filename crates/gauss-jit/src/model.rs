@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::{Arc, Once, OnceLock};
 
+use gauss_codegen::description::Description;
 use gauss_codegen::parameters::{Parameter, Parameters};
 use gauss_codegen::program::{Argument, Counts, Instruction, Program, Results};
 use gauss_codegen::{Derivation, Notation, Scene};
@@ -31,6 +32,7 @@ pub(crate) struct Derived {
     files: Vec<String>,
     pub parameters: Parameters,
     pub unit_components: Vec<Range<usize>>,
+    description: Description,
     pub constants: Program,
     pub methods: Vec<Program>,
     compiled: Vec<OnceLock<Box<dyn Compiled>>>,
@@ -129,6 +131,7 @@ impl Model {
             files: derivation.files().to_vec(),
             parameters: derivation.parameters().clone(),
             unit_components: derivation.unit_components().to_vec(),
+            description: derivation.description().clone(),
             constants: functions.constants.clone(),
             methods: functions.methods.clone(),
             compiled: functions.methods.iter().map(|_| OnceLock::new()).collect(),
@@ -141,7 +144,7 @@ impl Model {
     #[must_use]
     pub fn with_backend(&self, backend: impl Backend + 'static) -> Self {
         let Derived { name, equations, accuracy, remarks, files, .. } = &*self.derived;
-        let Derived { parameters, unit_components, constants, methods, .. } = &*self.derived;
+        let Derived { parameters, unit_components, description, constants, methods, .. } = &*self.derived;
         let derived = Derived {
             name: name.clone(),
             equations: equations.clone(),
@@ -150,6 +153,7 @@ impl Model {
             files: files.clone(),
             parameters: parameters.clone(),
             unit_components: unit_components.clone(),
+            description: description.clone(),
             constants: constants.clone(),
             methods: methods.clone(),
             compiled: methods.iter().map(|_| OnceLock::new()).collect(),
@@ -197,6 +201,11 @@ impl Model {
     /// they are among all.
     pub fn unit_components(&self) -> &[Range<usize>] {
         &self.derived.unit_components
+    }
+
+    /// The scene in words: names of coordinates, speeds, inputs, frames, joints and contacts.
+    pub fn description(&self) -> &Description {
+        &self.derived.description
     }
 
     /// The parameters: the fields of the struct; a body is three of them, `arm.mass`, `arm.center_of_mass`,

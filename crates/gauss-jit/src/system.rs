@@ -1,12 +1,13 @@
-//! Kernels as systems that `Simulation` integrates, where the program knows the sizes of the model.
+//! Kernels as systems that `Simulation` integrates: the program has room for so many numbers, the model fills a part.
 
 use std::fmt;
 
-use gauss_codegen::program::Smoothness;
-use gauss_runtime::__private_0_1_0::Chart;
-use gauss_runtime::prelude::{GaussSystem, SMatrix, SVector};
+use gauss_codegen::description::QuantityKind;
+use gauss_codegen::program;
+use gauss_runtime::__private_0_1_0::{Chart, ProjectionError, dependence, project};
+use gauss_runtime::prelude::{ConstrainedSystem, GaussSystem, SMatrix, SVector, Smoothness, VectorSpace};
 
-use crate::error::CallError;
+use crate::configuration::{Group, Groups, MOST_GROUPS, MixedConfiguration, MixedVector};
 use crate::kernel::{Kernel, Method};
 
 /// The inputs of a system: `()` or `SVector<f64, U>`.
@@ -38,15 +39,15 @@ impl<const U: usize> Inputs for SVector<f64, U> {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NoSystem {
-    /// The sizes are others: coordinates, speeds, inputs.
+    /// The model has more numbers than the system has room for: of the configuration, speeds, inputs.
     Sizes {
         /// The sizes of the model.
         expected: [usize; 3],
-        /// The sizes that were asked for.
+        /// The room that was asked for.
         found: [usize; 3],
     },
-    /// The model has what a system of plain coordinates does not tell a run: a rotation, a chart of one body,
-    /// constraints, contacts, states of elements, accelerations that are not smooth.
+    /// The model has no equations of motion, more rotations than a system has, or constraints where the type says that
+    /// it has none, or none where it says that it has some.
     Has(&'static str),
 }
 
@@ -54,89 +55,196 @@ impl fmt::Display for NoSystem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Sizes { expected: [q, z, u], found } => {
-                write!(f, "the model has {q} coordinates, {z} speeds and {u} inputs, and {found:?} are asked for")
+                write!(
+                    f,
+                    "the model has {q} numbers of the configuration, {z} speeds and {u} inputs, and {found:?} are asked for"
+                )
             }
-            Self::Has(what) => write!(f, "the model has {what}; derive its struct where the program is compiled"),
+            Self::Has(what) => write!(f, "the model has {what}"),
         }
     }
 }
 
 impl std::error::Error for NoSystem {}
 
-/// A kernel of plain coordinates as a [`GaussSystem`]: Q coordinates, Z speeds, and inputs of the type I.
+/// A kernel as a [`GaussSystem`]: room for Q components of the configuration, Z speeds, and inputs of the type I.
 ///
-/// The model comes at run time, its sizes stand in the program, and are compared when the system is made. A call costs
-/// what a call of a [`Method`] costs: some nanoseconds beside the code.
+/// The model comes at run time, the room stands in the program, and is compared when the system is made. Numbers that
+/// the model does not have are zero and stand still, of unit mass. Adaptive methods take the root of the mean square of
+/// all errors: tolerances times [`share`](Self::share) leave these out. A call costs what a call of a [`Method`] costs:
+/// some nanoseconds beside the code.
+///
+/// Contacts are open: the forces of contacts are those of runs of compiled kernels.
 #[derive(Clone, Copy, Debug)]
-pub struct System<'k, const Q: usize, const Z: usize, I> {
-    methods: [Method<'k>; METHODS.len()],
+pub struct System<'k, const Q: usize, const Z: usize, I, const CONSTRAINED: bool = false> {
+    methods: [Option<Method<'k>>; METHODS.len()],
+    groups: Groups,
+    sizes: Sizes,
+    smoothness: Smoothness,
     inputs: std::marker::PhantomData<I>,
 }
 
-const METHODS: [&str; 10] = [
-    "kinematics",
-    "acceleration",
-    "momentum",
-    "velocity",
-    "momentum_rate",
-    "mass_matrix",
-    "kinetic_energy",
-    "potential_energy",
-    "gauss_residual",
-    "constraint_function",
+/// The sizes of a model.
+#[derive(Clone, Copy, Debug)]
+struct Sizes {
+    configuration: usize,
+    speeds: usize,
+    inputs: usize,
+    multipliers: usize,
+}
+
+/// Methods by name, each with whether every model has it.
+const METHODS: [(&str, bool); 17] = [
+    ("kinematics", true),
+    ("acceleration", true),
+    ("momentum", true),
+    ("velocity", true),
+    ("momentum_rate", true),
+    ("mass_matrix", true),
+    ("kinetic_energy", true),
+    ("potential_energy", true),
+    ("gauss_residual", true),
+    ("constraint_function", true),
+    ("configuration_rates", false),
+    ("regularity", false),
+    ("multipliers", false),
+    ("position_residual", false),
+    ("velocity_residual", false),
+    ("position_correction", false),
+    ("velocity_correction", false),
 ];
 
-/// Methods that a model has with what no [`System`] can have.
-const OTHERS: [(&str, &str); 5] = [
-    ("body_twist", "a chart of one body"),
-    ("regularity", "a chart of one body"),
-    ("multipliers", "constraints"),
-    ("contact_rates", "contacts"),
-    ("configuration_rates", "states of elements"),
-];
+/// The place of a method in the list.
+const fn place_of(name: &str) -> usize {
+    let mut place = 0;
+    while place < METHODS.len() {
+        let (own, name, mut k) = (METHODS[place].0.as_bytes(), name.as_bytes(), 0);
+        while k < own.len() && k < name.len() && own[k] == name[k] {
+            k += 1;
+        }
+        if k == own.len() && k == name.len() {
+            return place;
+        }
+        place += 1;
+    }
+    panic!("no such method")
+}
 
 impl Kernel {
-    /// The kernel as a system for [`Simulation`](gauss_runtime::prelude::Simulation), with Q coordinates, Z speeds, and
-    /// inputs I: `kernel.system::<9, 9, SVector<f64, 9>>()`. All of its methods are compiled.
+    /// The groups at the beginning of a configuration.
     ///
     /// # Errors
-    /// Other sizes; what a system of plain coordinates has not.
+    /// More than a system has.
+    pub(crate) fn groups(&self) -> Result<Groups, NoSystem> {
+        let groups = self.model().description().coordinates.iter().filter_map(|part| match part.kind {
+            QuantityKind::Rotation => Some(Group::Rotation),
+            QuantityKind::Pose => Some(Group::Pose),
+            QuantityKind::Plane => Some(Group::Plane),
+            QuantityKind::Scalar | QuantityKind::Vector(_) => None,
+        });
+        const { assert!(MOST_GROUPS == 32, "the message below names it") };
+        Groups::new(&groups.collect::<Vec<_>>()).ok_or(NoSystem::Has("more than 32 rotations and poses"))
+    }
+
+    /// The kernel as a system for [`Simulation`](gauss_runtime::prelude::Simulation), with room for Q components of the
+    /// configuration, Z speeds, and inputs I: `kernel.system::<9, 9, SVector<f64, 9>>()`. All of its methods are
+    /// compiled.
+    ///
+    /// # Errors
+    /// Less room than the model needs; constraints.
     pub fn system<const Q: usize, const Z: usize, I: Inputs>(&self) -> Result<System<'_, Q, Z, I>, NoSystem> {
-        let model = self.model();
-        if !model.derived.unit_components.is_empty() {
-            return Err(NoSystem::Has("rotations"));
-        }
-        let has = OTHERS.iter().find(|(method, _)| model.methods().any(|name| name == *method));
-        if let Some((_, what)) = has {
-            return Err(NoSystem::Has(what));
-        }
-        let missing = |_: CallError| NoSystem::Has("no equations of motion");
-        let acceleration = model.method("acceleration").map_err(missing)?;
-        let program = &model.derived.methods[acceleration];
-        if program.code.smoothness() != Smoothness::Smooth {
-            return Err(NoSystem::Has("accelerations that are not smooth"));
-        }
-        let counts: Vec<usize> = program.arguments[2..].iter().map(|argument| argument.components.len()).collect();
-        let [q, z, u] = counts[..] else { return Err(NoSystem::Has("no equations of motion")) };
-        if [q, z, u] != [Q, Z, I::COUNT] {
-            return Err(NoSystem::Sizes { expected: [q, z, u], found: [Q, Z, I::COUNT] });
-        }
-        let mut methods = [self.method("acceleration").map_err(missing)?; METHODS.len()];
-        for (place, name) in methods.iter_mut().zip(METHODS) {
-            *place = self.method(name).map_err(missing)?;
-        }
-        Ok(System { methods, inputs: std::marker::PhantomData })
+        System::new(self)
+    }
+
+    /// The same of a model with constraints, onto which runs project states.
+    ///
+    /// # Errors
+    /// Less room than the model needs; no constraints.
+    pub fn constrained_system<const Q: usize, const Z: usize, I: Inputs>(
+        &self,
+    ) -> Result<System<'_, Q, Z, I, true>, NoSystem> {
+        System::new(self)
     }
 }
 
-impl<const Q: usize, const Z: usize, I: Inputs> System<'_, Q, Z, I> {
-    /// The results of the method at that place of the list.
+impl<'k, const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> System<'k, Q, Z, I, CONSTRAINED> {
+    fn new(kernel: &'k Kernel) -> Result<Self, NoSystem> {
+        let (model, groups) = (kernel.model(), kernel.groups()?);
+        match (model.description().is_constrained, CONSTRAINED) {
+            (true, false) => return Err(NoSystem::Has("constraints: `constrained_system` has them")),
+            (false, true) => return Err(NoSystem::Has("no constraints: `system` is for it")),
+            _ => {}
+        }
+        let mut methods = [None; METHODS.len()];
+        for (own, (name, always)) in methods.iter_mut().zip(METHODS) {
+            *own = kernel.method(name).ok();
+            if own.is_none() && always {
+                return Err(NoSystem::Has("no equations of motion"));
+            }
+        }
+        let acceleration = model.method("acceleration").map_err(|_| NoSystem::Has("no equations of motion"))?;
+        let program = &model.derived.methods[acceleration];
+        let counts: Vec<usize> = program.arguments[2..].iter().map(|argument| argument.components.len()).collect();
+        let [q, z, u] = counts[..] else { return Err(NoSystem::Has("no equations of motion")) };
+        let multipliers = methods[place_of("multipliers")].map_or(0, |method: Method<'_>| method.outputs());
+        if q > Q || z > Z || u > I::COUNT || multipliers > Z {
+            return Err(NoSystem::Sizes { expected: [q, z.max(multipliers), u], found: [Q, Z, I::COUNT] });
+        }
+        let smoothness = match program.code.smoothness() {
+            program::Smoothness::Smooth => Smoothness::Smooth,
+            program::Smoothness::Kinks => Smoothness::Kinks,
+            program::Smoothness::Jumps => Smoothness::Jumps,
+        };
+        let sizes = Sizes { configuration: q, speeds: z, inputs: u, multipliers };
+        Ok(Self { methods, groups, sizes, smoothness, inputs: std::marker::PhantomData })
+    }
+
+    /// The root of the part of the room for increments and speeds that the model fills: the factor of tolerances with
+    /// which the mean error is that of the model's own numbers.
+    pub fn share(&self) -> f64 {
+        let increments = self.methods[const { place_of("kinematics") }].map_or(0, |method| method.outputs());
+        ((increments + self.sizes.speeds).max(1) as f64 / (Q + Z).max(1) as f64).sqrt()
+    }
+
+    /// The configuration with these components: those of rotations have norm 1.
+    pub fn configuration(&self, components: &[f64]) -> MixedConfiguration<Q> {
+        let list =
+            SVector::from_fn(|i, _| components.get(i).copied().filter(|_| i < self.sizes.configuration).unwrap_or(0.0));
+        MixedConfiguration::new(list, self.groups)
+    }
+
+    /// The numbers of the model among these.
+    fn own<'a>(&self, q: &'a MixedConfiguration<Q>) -> &'a [f64] {
+        &q.as_slice()[..self.sizes.configuration]
+    }
+
+    fn speeds<'a>(&self, z: &'a SVector<f64, Z>) -> &'a [f64] {
+        &z.as_slice()[..self.sizes.speeds]
+    }
+
+    fn inputs<'a>(&self, input: &'a I) -> &'a [f64] {
+        &input.numbers()[..self.sizes.inputs]
+    }
+
+    fn multipliers<'a>(&self, residual: &'a SVector<f64, Z>) -> &'a [f64] {
+        &residual.as_slice()[..self.sizes.multipliers]
+    }
+
+    /// The results of the method at that place of the list, and zeros.
     fn vector<const N: usize>(&self, method: usize, arguments: &[&[f64]]) -> SVector<f64, N> {
         let mut results = SVector::<f64, N>::zeros();
-        // The sizes were compared when it was made: those of all methods are the same three.
-        let called = self.methods[method].call(arguments, results.as_mut_slice());
-        debug_assert_eq!(called, Ok(()));
-        if called.is_ok() { results } else { results.map(|_| f64::NAN) }
+        let called = self.methods[method].is_some_and(|method| {
+            let own = &mut results.as_mut_slice()[..method.outputs().min(N)];
+            // The sizes were compared when it was made: those of all methods are the same.
+            let called = method.call(arguments, own);
+            debug_assert_eq!(called, Ok(()));
+            called.is_ok()
+        });
+        if called { results } else { results.map(|_| f64::NAN) }
+    }
+
+    fn increment(&self, method: usize, arguments: &[&[f64]]) -> MixedVector<Q> {
+        MixedVector::new(self.vector(method, arguments), self.groups)
     }
 
     fn number(&self, method: usize, arguments: &[&[f64]]) -> f64 {
@@ -144,70 +252,159 @@ impl<const Q: usize, const Z: usize, I: Inputs> System<'_, Q, Z, I> {
     }
 }
 
-impl<const Q: usize, const Z: usize, I: Inputs> GaussSystem for System<'_, Q, Z, I> {
+/// Results of a method by its name, which is looked up when this is compiled.
+macro_rules! results {
+    ($self:ident.$kind:ident($name:literal, $($argument:expr),*)) => {
+        $self.$kind(const { place_of($name) }, &[$($argument),*])
+    };
+}
+
+impl<const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> GaussSystem
+    for System<'_, Q, Z, I, CONSTRAINED>
+{
     type Scalar = f64;
-    type Configuration = SVector<f64, Q>;
+    type Configuration = MixedConfiguration<Q>;
     type Speeds = SVector<f64, Z>;
     type MassMatrix = SMatrix<f64, Z, Z>;
     type Input = I;
 
     const CHART: Chart = Chart::Own;
+    const CONSTRAINED: bool = CONSTRAINED;
 
-    fn kinematics(&self, t: f64, q: &SVector<f64, Q>, z: &SVector<f64, Z>) -> SVector<f64, Q> {
-        self.vector(0, &[&[t], q.as_slice(), z.as_slice()])
+    fn smoothness(&self) -> Smoothness {
+        self.smoothness
     }
 
-    fn acceleration(&self, t: f64, q: &SVector<f64, Q>, z: &SVector<f64, Z>, input: &I) -> SVector<f64, Z> {
-        self.vector(1, &[&[t], q.as_slice(), z.as_slice(), input.numbers()])
+    fn kinematics(&self, t: f64, q: &MixedConfiguration<Q>, z: &SVector<f64, Z>) -> MixedVector<Q> {
+        results!(self.increment("kinematics", &[t], self.own(q), self.speeds(z)))
     }
 
-    fn momentum(&self, t: f64, q: &SVector<f64, Q>, z: &SVector<f64, Z>) -> SVector<f64, Z> {
-        self.vector(2, &[&[t], q.as_slice(), z.as_slice()])
+    fn configuration_rates(&self, t: f64, q: &MixedConfiguration<Q>, z: &SVector<f64, Z>, input: &I) -> MixedVector<Q> {
+        if self.methods[const { place_of("configuration_rates") }].is_none() {
+            return self.kinematics(t, q, z);
+        }
+        results!(self.increment("configuration_rates", &[t], self.own(q), self.speeds(z), self.inputs(input)))
     }
 
-    fn velocity(&self, t: f64, q: &SVector<f64, Q>, p: &SVector<f64, Z>) -> SVector<f64, Z> {
-        self.vector(3, &[&[t], q.as_slice(), p.as_slice()])
+    fn acceleration(&self, t: f64, q: &MixedConfiguration<Q>, z: &SVector<f64, Z>, input: &I) -> SVector<f64, Z> {
+        results!(self.vector("acceleration", &[t], self.own(q), self.speeds(z), self.inputs(input)))
     }
 
-    fn momentum_rate(&self, t: f64, q: &SVector<f64, Q>, p: &SVector<f64, Z>, input: &I) -> SVector<f64, Z> {
-        self.vector(4, &[&[t], q.as_slice(), p.as_slice(), input.numbers()])
+    fn momentum(&self, t: f64, q: &MixedConfiguration<Q>, z: &SVector<f64, Z>) -> SVector<f64, Z> {
+        results!(self.vector("momentum", &[t], self.own(q), self.speeds(z)))
     }
 
-    fn mass_matrix(&self, t: f64, q: &SVector<f64, Q>) -> SMatrix<f64, Z, Z> {
-        let mut results = SMatrix::<f64, Z, Z>::zeros();
-        // Symmetric: rows are columns.
-        let called = self.methods[5].call(&[&[t], q.as_slice()], results.as_mut_slice());
-        debug_assert_eq!(called, Ok(()));
-        if called.is_ok() { results } else { results.map(|_| f64::NAN) }
+    fn velocity(&self, t: f64, q: &MixedConfiguration<Q>, p: &SVector<f64, Z>) -> SVector<f64, Z> {
+        results!(self.vector("velocity", &[t], self.own(q), self.speeds(p)))
     }
 
-    fn kinetic_energy(&self, t: f64, q: &SVector<f64, Q>, z: &SVector<f64, Z>) -> f64 {
-        self.number(6, &[&[t], q.as_slice(), z.as_slice()])
+    fn momentum_rate(&self, t: f64, q: &MixedConfiguration<Q>, p: &SVector<f64, Z>, input: &I) -> SVector<f64, Z> {
+        results!(self.vector("momentum_rate", &[t], self.own(q), self.speeds(p), self.inputs(input)))
     }
 
-    fn potential_energy(&self, t: f64, q: &SVector<f64, Q>) -> f64 {
-        self.number(7, &[&[t], q.as_slice()])
+    fn mass_matrix(&self, t: f64, q: &MixedConfiguration<Q>) -> SMatrix<f64, Z, Z> {
+        let (count, mut own) = (self.sizes.speeds, SMatrix::<f64, Z, Z>::zeros());
+        let method = self.methods[const { place_of("mass_matrix") }];
+        let numbers = &mut own.as_mut_slice()[..count * count];
+        let called = method.is_some_and(|method| method.call(&[&[t], self.own(q)], numbers).is_ok());
+        debug_assert!(called);
+        // What the model does not have is of unit mass.
+        SMatrix::from_fn(|i, j| match (i < count && j < count, i == j) {
+            _ if !called => f64::NAN,
+            (true, _) => own.as_slice()[count * i + j],
+            (false, is_own) => f64::from(u8::from(is_own)),
+        })
+    }
+
+    fn kinetic_energy(&self, t: f64, q: &MixedConfiguration<Q>, z: &SVector<f64, Z>) -> f64 {
+        results!(self.number("kinetic_energy", &[t], self.own(q), self.speeds(z)))
+    }
+
+    fn potential_energy(&self, t: f64, q: &MixedConfiguration<Q>) -> f64 {
+        results!(self.number("potential_energy", &[t], self.own(q)))
     }
 
     fn gauss_residual(
         &self,
         t: f64,
-        q: &SVector<f64, Q>,
+        q: &MixedConfiguration<Q>,
         z: &SVector<f64, Z>,
         acceleration: &SVector<f64, Z>,
         input: &I,
     ) -> SVector<f64, Z> {
-        self.vector(8, &[&[t], q.as_slice(), z.as_slice(), acceleration.as_slice(), input.numbers()])
+        let acceleration = self.speeds(acceleration);
+        results!(self.vector("gauss_residual", &[t], self.own(q), self.speeds(z), acceleration, self.inputs(input)))
     }
 
     fn constraint_function(
         &self,
         t: f64,
-        q: &SVector<f64, Q>,
+        q: &MixedConfiguration<Q>,
         z: &SVector<f64, Z>,
         acceleration: &SVector<f64, Z>,
         input: &I,
     ) -> f64 {
-        self.number(9, &[&[t], q.as_slice(), z.as_slice(), acceleration.as_slice(), input.numbers()])
+        let acceleration = self.speeds(acceleration);
+        results!(self.number(
+            "constraint_function",
+            &[t],
+            self.own(q),
+            self.speeds(z),
+            acceleration,
+            self.inputs(input)
+        ))
+    }
+
+    fn regularity(&self, t: f64, q: &MixedConfiguration<Q>) -> f64 {
+        if self.methods[const { place_of("regularity") }].is_none() {
+            return 1.0;
+        }
+        results!(self.number("regularity", &[t], self.own(q)))
+    }
+
+    fn project(
+        &self,
+        t: f64,
+        q: &MixedConfiguration<Q>,
+        z: &SVector<f64, Z>,
+    ) -> Result<(MixedConfiguration<Q>, SVector<f64, Z>), ProjectionError> {
+        if CONSTRAINED { project(self, t, q, z) } else { Ok((*q, *z)) }
+    }
+
+    fn dependence(&self, t: f64, q: &MixedConfiguration<Q>, z: &SVector<f64, Z>) -> SVector<f64, Z> {
+        if CONSTRAINED { dependence(self, t, q, z) } else { SVector::zero() }
+    }
+}
+
+/// Multipliers are as many as there are constraints; what is behind them is zero.
+impl<const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> ConstrainedSystem
+    for System<'_, Q, Z, I, CONSTRAINED>
+{
+    type Multipliers = SVector<f64, Z>;
+
+    fn multipliers(&self, t: f64, q: &MixedConfiguration<Q>, z: &SVector<f64, Z>, input: &I) -> SVector<f64, Z> {
+        results!(self.vector("multipliers", &[t], self.own(q), self.speeds(z), self.inputs(input)))
+    }
+
+    fn position_residual(&self, t: f64, q: &MixedConfiguration<Q>) -> SVector<f64, Z> {
+        results!(self.vector("position_residual", &[t], self.own(q)))
+    }
+
+    fn velocity_residual(&self, t: f64, q: &MixedConfiguration<Q>, z: &SVector<f64, Z>) -> SVector<f64, Z> {
+        results!(self.vector("velocity_residual", &[t], self.own(q), self.speeds(z)))
+    }
+
+    fn position_correction(&self, t: f64, q: &MixedConfiguration<Q>, residual: &SVector<f64, Z>) -> MixedVector<Q> {
+        results!(self.increment("position_correction", &[t], self.own(q), self.multipliers(residual)))
+    }
+
+    fn velocity_correction(
+        &self,
+        t: f64,
+        q: &MixedConfiguration<Q>,
+        z: &SVector<f64, Z>,
+        residual: &SVector<f64, Z>,
+    ) -> SVector<f64, Z> {
+        results!(self.vector("velocity_correction", &[t], self.own(q), self.speeds(z), self.multipliers(residual)))
     }
 }

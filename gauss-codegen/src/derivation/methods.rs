@@ -60,6 +60,9 @@ fn of_method<'g>(
             let lines = derived.subject.system.contacts.rates.len();
             signature.program(name, &arguments, code, results(count / lines, lines))
         }
+        Method::Kinematics | Method::ConfigurationRates | Method::PositionCorrection => {
+            signature.program(name, &arguments, &with_increment_first(derived, code), results(count, 1))
+        }
         Method::Regularity => signature.program(name, &arguments, &regularity(code), results(1, 1)),
         _ => signature.program(name, &arguments, code, results(count, 1)),
     }
@@ -76,6 +79,14 @@ fn regularity<'g>(code: &kernel::Program<'g>) -> kernel::Program<'g> {
     code
 }
 
+/// The program whose first outputs are an increment of the configuration, which lowering has in the order of the
+/// coordinates, and configurations have groups first.
+fn with_increment_first<'g>(derived: &Derived<'_, 'g>, code: &kernel::Program<'g>) -> kernel::Program<'g> {
+    let places = derived.subject.increment_places();
+    let (first, rest) = (places.iter().map(|&k| code.outputs[k]), code.outputs.iter().skip(places.len()).copied());
+    kernel::Program { instructions: code.instructions.clone(), outputs: first.chain(rest).collect() }
+}
+
 fn evaluate<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<Program, Unbound> {
     let (increments, speeds) = (derived.increments(), derived.degrees_of_freedom());
     let results = vec![
@@ -85,7 +96,7 @@ fn evaluate<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<
         Results::new("potential_energy", 1, 1),
     ];
     let arguments = with(OF_EQUATIONS);
-    signature.program("evaluate", &arguments, &derived.kernel.joined, results)
+    signature.program("evaluate", &arguments, &with_increment_first(derived, &derived.kernel.joined), results)
 }
 
 fn of_derivative<'g>(

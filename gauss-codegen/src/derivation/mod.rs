@@ -1,5 +1,6 @@
 //! The public face of the pipeline: a struct in; programs, equations and Rust out.
 
+mod description;
 #[cfg(test)]
 mod elements_tests;
 mod methods;
@@ -19,6 +20,7 @@ use proc_macro2::TokenStream;
 use syn::DeriveInput;
 
 use crate::algebra::Notation;
+use crate::description::Description;
 use crate::emit::{Derived, Equations, emit, figures};
 use crate::error::Result;
 use crate::expand::derive;
@@ -39,6 +41,7 @@ pub struct Derivation {
     functions: Functions,
     parameters: Parameters,
     unit_components: Vec<Range<usize>>,
+    description: Description,
     accuracy: Vec<(String, [f64; 2])>,
     remarks: Vec<String>,
     files: Vec<String>,
@@ -88,6 +91,7 @@ impl Derivation {
         let programs = programs(derived, &signature).map_err(|malformed| refused(&malformed))?;
         let parameters = parameters::parameters(derived, &signature).map_err(|malformed| refused(&malformed))?;
         let unit_components = parameters::unit_components(derived);
+        let description = description::description(derived);
         let equations = Equations::of(derived);
         let rust = emit(derived, &equations);
         let accuracy = figures(derived).map(|(_, name, figure)| (name.to_owned(), figure.rounded())).collect();
@@ -97,7 +101,18 @@ impl Derivation {
         let Equations { text, latex } = equations;
         let functions = Functions { name: ident.unraw().to_string(), equations: text, constants, methods: programs };
         let sections = derived.printed.clone();
-        Ok(Self { functions, parameters, unit_components, accuracy, remarks, files, latex, sections, rust })
+        Ok(Self {
+            functions,
+            parameters,
+            unit_components,
+            description,
+            accuracy,
+            remarks,
+            files,
+            latex,
+            sections,
+            rust,
+        })
     }
 
     /// The name of the struct.
@@ -124,6 +139,11 @@ impl Derivation {
     /// they are among all.
     pub fn unit_components(&self) -> &[Range<usize>] {
         &self.unit_components
+    }
+
+    /// The scene in words: names of coordinates, speeds, inputs, frames, joints and contacts.
+    pub fn description(&self) -> &Description {
+        &self.description
     }
 
     /// One program for each method of the kernel, then `evaluate`, and `linearize`, `by_parameters`,

@@ -5,7 +5,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 
 use crate::emit::derived::Derived;
-use crate::emit::records::record::{Part, PartKind};
+use crate::emit::records::record::Part;
 use crate::emit::records::{input, state};
 use crate::methods::DerivativeKind;
 use crate::terms::{Field, Remark, Scalar, WantedMethod};
@@ -22,9 +22,7 @@ pub fn scene(derived: &Derived<'_, '_>) -> TokenStream {
         Scalar::F64 | Scalar::F32 => TokenStream::new(),
     };
     let fields = item.fields.iter().map(field);
-    let [coordinates, speeds] = state::parts(derived).map(|parts| parts.iter().map(part).collect::<Vec<_>>());
-    let inputs = input::parts(derived);
-    let inputs = inputs.iter().map(part);
+    let [coordinates, speeds, inputs] = parts(derived).map(|parts| parts.iter().map(part).collect::<Vec<_>>());
     let (offers, steps) = (offers(derived), steps(derived));
     let remarks = item.described.iter().flat_map(|file| &file.remarks);
     let remarks = remarks.map(|Remark { text, ignored }| {
@@ -48,8 +46,14 @@ pub fn scene(derived: &Derived<'_, '_>) -> TokenStream {
     }
 }
 
+/// Coordinates, speeds and inputs by name.
+pub fn parts(derived: &Derived<'_, '_>) -> [Vec<Part>; 3] {
+    let [coordinates, speeds] = state::parts(derived);
+    [coordinates, speeds, input::parts(derived)]
+}
+
 /// A remark without words of Rust: runs with contacts are those of `simulate`.
-fn without_rust(text: &str) -> String {
+pub fn without_rust(text: &str) -> String {
     text.replace(", which a `ContactRun` runs,", ",")
 }
 
@@ -61,12 +65,7 @@ fn field(Field { ident, ty, unit, documentation, .. }: &Field) -> TokenStream {
 
 /// `"craft" 7 4 "R and b";`: the numbers that it consists of, and how many of them in the beginning have norm 1.
 fn part(part: &Part) -> TokenStream {
-    let unit = match part.kind {
-        PartKind::Scalar | PartKind::Vector(_) => 0,
-        PartKind::Rotation | PartKind::Pose => 4,
-        PartKind::Plane => 2,
-    };
-    let [size, unit] = [part.names().len(), unit].map(Literal::usize_unsuffixed);
+    let [size, unit] = [part.names().len(), part.kind.unit_components()].map(Literal::usize_unsuffixed);
     let (word, label) = (part.ident.unraw().to_string(), &part.label);
     quote!(#word #size #unit #label;)
 }

@@ -145,6 +145,19 @@ impl<'g> Subject<'_, 'g> {
         self.configuration_of(private, &values.collect::<Vec<_>>())
     }
 
+    /// Where each component of an increment of the configuration is among those in the order of the coordinates:
+    /// groups come first, then all scalars.
+    pub fn increment_places(&self) -> Vec<usize> {
+        let mut next = 0;
+        let (mut groups, mut scalars) = (Vec::new(), Vec::new());
+        for coordinate in self.coordinates() {
+            let own = next..next + coordinate.size();
+            next = own.end;
+            if matches!(coordinate, Coordinate::Scalar(_)) { &mut scalars } else { &mut groups }.extend(own);
+        }
+        [groups, scalars].concat()
+    }
+
     /// The components of an increment of the configuration, in the order of the coordinates, as its type.
     pub fn tangent(&self, private: &TokenStream, outputs: &[TokenStream]) -> TokenStream {
         let mut groups = Vec::new();

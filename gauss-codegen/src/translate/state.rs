@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, Span};
 use quote::format_ident;
 
+pub use crate::description::QuantityKind;
 use crate::model::{CoordinateKind, Model, SpeedKind};
 use crate::terms::{Chart, InChart, Motion};
 use crate::words::Unraw;
@@ -14,16 +15,6 @@ pub struct Quantity {
     pub kind: QuantityKind,
     /// What it is, in words.
     pub label: String,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum QuantityKind {
-    Scalar,
-    /// This many numbers.
-    Vector(usize),
-    Rotation,
-    Pose,
-    Plane,
 }
 
 impl Quantity {

@@ -276,7 +276,7 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
             return Err(IntegrationErrorKind::InvalidStep { step: first });
         }
         let this = &mut memory.lanes[lane];
-        this.lengths = StepLength::new(self.method.estimate_order(), S::SMOOTHNESS);
+        this.lengths = StepLength::new(self.method.estimate_order(), problem.system().smoothness());
         (this.length, this.looked, this.rejected) = (first.min(memory.longest), 0.0, 0);
         this.looks = Looks::new(self.input_changes, number(group.state.t, lane), group.span);
         this.shorter = None;

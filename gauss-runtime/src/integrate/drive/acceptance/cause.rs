@@ -84,7 +84,7 @@ pub fn cause<S: GaussSystem, P: Problem<System = S>>(
     if !(used_up || vanish || run_away || undefined && shrunk) {
         return kind;
     }
-    if lost && S::SMOOTHNESS == Smoothness::Jumps {
+    if lost && problem.system().smoothness() == Smoothness::Jumps {
         return IntegrationErrorKind::StepTooSmall { step: length };
     }
     let moves = change(state, rates, lanes);

@@ -153,7 +153,7 @@ impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
         }
         let lengths = self.first_and_longest(problem, &start, &rates, span, limit);
         let (length, longest) = lengths.map_err(|kind| stopped(&start, kind))?;
-        let lengths = StepLength::new(self.method.estimate_order(), S::SMOOTHNESS);
+        let lengths = StepLength::new(self.method.estimate_order(), problem.system().smoothness());
         let (state, floor) = (start, None);
         let looks = Looks::new(self.input_changes, start.t.lane(0), span);
         let mut run = Drive {

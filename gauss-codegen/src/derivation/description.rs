@@ -1,0 +1,29 @@
+//! The names of a scene as plain data.
+
+use crate::description::{Description, Quantity, Remark};
+use crate::emit::{Derived, parts, without_rust};
+use crate::translate::Quantity as Part;
+use crate::words::Unraw;
+
+/// The names of what is derived.
+pub fn description(derived: &Derived<'_, '_>) -> Description {
+    let item = derived.item();
+    let [coordinates, speeds, inputs] = parts(derived).map(|parts| parts.iter().map(quantity).collect());
+    let remarks = item.described.iter().flat_map(|file| &file.remarks);
+    Description {
+        documentation: item.documentation.clone(),
+        coordinates,
+        speeds,
+        inputs,
+        frames: derived.frames().iter().map(|frame| frame.unraw().to_string()).collect(),
+        joints: item.wanted.reactions.iter().map(|joint| joint.name.unraw().to_string()).collect(),
+        contacts: derived.subject.system.scene.contacts.iter().map(|contact| contact.name.clone()).collect(),
+        remarks: remarks.map(|own| Remark { text: without_rust(&own.text), ignored: own.ignored }).collect(),
+        is_constrained: derived.subject.can_drift,
+    }
+}
+
+fn quantity(part: &Part) -> Quantity {
+    let name = part.ident.unraw().to_string();
+    Quantity { name, kind: part.kind, label: part.label.clone(), numbers: part.names() }
+}
