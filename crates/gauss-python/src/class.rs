@@ -17,21 +17,21 @@ use crate::tuples;
 /// The scene of a class, as its attribute `_scene`.
 #[pyclass(frozen, module = "gauss_python")]
 pub struct SceneHandle {
-    scene: &'static dyn AnyScene,
+    scene: Arc<dyn AnyScene>,
 }
 
 impl SceneHandle {
     /// The attribute of the class of a scene.
-    pub fn new(scene: &'static dyn AnyScene) -> Self {
+    pub fn new(scene: Arc<dyn AnyScene>) -> Self {
         Self { scene }
     }
 }
 
 /// The scene of a class.
-fn scene_of(class: &Bound<'_, PyType>) -> PyResult<&'static dyn AnyScene> {
+fn scene_of(class: &Bound<'_, PyType>) -> PyResult<Arc<dyn AnyScene>> {
     let handle = class.getattr(pyo3::intern!(class.py(), "_scene"));
     match handle.ok().and_then(|handle| handle.cast_into::<SceneHandle>().ok()) {
-        Some(handle) => Ok(handle.get().scene),
+        Some(handle) => Ok(Arc::clone(&handle.get().scene)),
         None => Err(PyTypeError::new_err("Kernel is the base of the classes of scenes, and none itself")),
     }
 }
@@ -56,13 +56,13 @@ impl Kernel {
     }
 
     /// Its scene.
-    pub fn scene(&self) -> &'static dyn AnyScene {
+    pub fn scene(&self) -> &dyn AnyScene {
         self.kernel.scene()
     }
 
     /// Whether contacts act, of which only runs know the forces.
     pub fn touches(&self) -> bool {
-        !self.open && !self.scene().contacts().is_empty()
+        !self.open && !self.scene().contact_names().is_empty()
     }
 
     /// Refuses to answer what forces do where those of contacts are among them.
@@ -70,7 +70,7 @@ impl Kernel {
         if !self.touches() {
             return Ok(());
         }
-        let contacts: Vec<&str> = self.scene().contacts().iter().map(|contact| contact.name).collect();
+        let contacts = self.scene().contact_names();
         let message = format!(
             "{what} has no forces of contacts, and the scene has {}: `in_contact` and `simulate` have them; with \
              `{way}` all gaps are open, and nothing rubs",
@@ -118,7 +118,7 @@ impl Kernel {
             Some(parameters) => parameters.call_method1("pop", (OPEN, false))?.is_truthy()?,
             None => false,
         };
-        Ok(Self { kernel: parameters::kernel(py, scene, parameters.as_ref())?.into(), open })
+        Ok(Self { kernel: parameters::kernel(py, &scene, parameters.as_ref())?.into(), open })
     }
 
     /// The same kernel with all gaps open, and without dry friction: its accelerations, derivatives, runs and functions
@@ -164,7 +164,7 @@ impl Kernel {
     /// The names of contacts, ranges and dry joints.
     #[getter]
     fn contact_names(&self) -> Vec<&'static str> {
-        self.scene().contacts().iter().map(|contact| contact.name).collect()
+        self.scene().contact_names()
     }
 
     /// The parameters by name.
@@ -182,30 +182,30 @@ impl Kernel {
 
     /// The equations of motion as they were derived.
     #[getter]
-    fn equations(&self) -> &'static str {
-        self.scene().equations().text
+    fn equations(&self) -> &str {
+        self.scene().equations()[0]
     }
 
     /// The equations in LaTeX.
     #[getter]
-    fn latex(&self) -> &'static str {
-        self.scene().equations().latex
+    fn latex(&self) -> &str {
+        self.scene().equations()[1]
     }
 
     fn _repr_latex_(&self) -> String {
-        format!("$$\n{}\n$$", self.scene().equations().latex)
+        format!("$$\n{}\n$$", self.scene().equations()[1])
     }
 
     /// What every method costs.
     #[getter]
     fn operations(&self) -> String {
-        self.scene().operations().to_string()
+        self.scene().operations()
     }
 
     /// What methods lose to rounding.
     #[getter]
     fn accuracy(&self) -> String {
-        self.scene().accuracy().to_string()
+        self.scene().accuracy()
     }
 
     /// The names of the numbers of q.
@@ -223,7 +223,8 @@ impl Kernel {
     /// The names of the numbers of the input.
     #[getter]
     fn input_names(&self) -> Vec<String> {
-        let numbers = |part: &'static crate::Part| {
+        let numbers = |part: &crate::Part| {
+            let part = *part;
             (0..part.size).map(move |k| match part.size {
                 1 => part.name.to_owned(),
                 _ => format!("{}_{}", part.name, ["x", "y", "z"].get(k).unwrap_or(&"")),
@@ -333,7 +334,7 @@ pub fn place(scene: &dyn AnyScene, name: &str, values: &[f64], [q, z]: &mut [Vec
         (first, part)
     });
     let of_speeds: Vec<_> = of_speeds.collect();
-    let find = |parts: &[(usize, &'static crate::Part)], names: &[&str]| {
+    let find = |parts: &[(usize, &crate::Part)], names: &[&str]| {
         let whole = parts.iter().find(|(_, part)| part.name == name).map(|&(first, part)| (first, part.size));
         whole.or_else(|| names.iter().position(|other| *other == name).map(|place| (place, 1)))
     };

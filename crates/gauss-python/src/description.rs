@@ -59,29 +59,28 @@ pub struct Remark {
 }
 
 /// All that is known of a scene.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Description {
     /// The name of the struct and of the class.
     pub name: &'static str,
     /// The doc comment of the struct.
     pub documentation: &'static str,
     /// The fields of the struct, in order.
-    pub fields: &'static [Field],
+    pub fields: Vec<Field>,
     /// Coordinates, in the order of the struct's clauses.
-    pub coordinates: &'static [Part],
+    pub coordinates: Vec<Part>,
     /// Speeds, in their order.
-    pub speeds: &'static [Part],
+    pub speeds: Vec<Part>,
     /// Inputs, in their order.
-    pub inputs: &'static [Part],
+    pub inputs: Vec<Part>,
     /// What there is to know of its file.
-    pub remarks: &'static [Remark],
+    pub remarks: Vec<Remark>,
 }
 
 impl Description {
     /// Parts of the configuration, with the place of the first number of each: scalars are behind all others.
-    pub fn configuration(&self) -> impl Iterator<Item = (usize, &'static Part)> + use<> {
-        let coordinates = self.coordinates;
-        let of = move |scalar: bool| coordinates.iter().filter(move |part| (part.size == 1) == scalar);
+    pub fn configuration(&self) -> impl Iterator<Item = (usize, &Part)> {
+        let of = |scalar: bool| self.coordinates.iter().filter(move |part| (part.size == 1) == scalar);
         of(false).chain(of(true)).scan(0, |next, part| {
             let place = *next;
             *next += part.size;
@@ -90,7 +89,7 @@ impl Description {
     }
 
     /// Blocks of a configuration whose squares add up to 1: the first number, and how many.
-    pub fn unit_blocks(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+    pub fn unit_blocks(&self) -> impl Iterator<Item = (usize, usize)> {
         self.configuration().filter(|(_, part)| part.unit > 0).map(|(place, part)| (place, part.unit))
     }
 

@@ -14,7 +14,7 @@ pub fn documentation(scene: &dyn AnyScene) -> String {
     let mut text = description.documentation.to_owned();
     if !description.fields.is_empty() {
         text.push_str("\n\nParameters:\n");
-        for field in description.fields {
+        for field in &description.fields {
             let shape = match field.shape {
                 Shape::Array([]) => "number".to_owned(),
                 Shape::Array(axes) => format!("array {}", shown(axes)),
@@ -25,7 +25,7 @@ pub fn documentation(scene: &dyn AnyScene) -> String {
         }
     }
     let parts =
-        [("Coordinates", description.coordinates), ("Speeds", description.speeds), ("Inputs", description.inputs)];
+        [("Coordinates", &description.coordinates), ("Speeds", &description.speeds), ("Inputs", &description.inputs)];
     for (title, parts) in parts.into_iter().filter(|(_, parts)| !parts.is_empty()) {
         text.push_str(&format!("\n{title}:\n"));
         for part in parts {

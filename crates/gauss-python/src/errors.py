@@ -15,9 +15,11 @@ class _Raised:
 
 
 class ParameterError(_Raised, ValueError):
-    """Parameters that cannot be: `fields` has a pair (name, what is wrong) for each mistake."""
+    """Parameters that cannot be: `fields` has a pair (name, what is wrong) for each mistake, `violations` of each number
+    that breaks a rule the field, the number, the rule by its name, and all of it in words."""
 
     fields = []
+    violations = []
 
 
 class IntegrationError(_Raised, RuntimeError):

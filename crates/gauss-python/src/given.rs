@@ -431,7 +431,7 @@ pub fn own_parameters(
     let mut own = Vec::new();
     for (name, values) in given.into_iter().flat_map(|given| given.iter()) {
         let name: String = name.extract()?;
-        let fields = scene.description().fields;
+        let fields = &scene.description().fields;
         let Some(number) = fields.iter().position(|field| field.name == name && field.shape.size() == 1) else {
             let names: Vec<&str> =
                 fields.iter().filter(|field| field.shape.size() == 1).map(|field| field.name).collect();

@@ -1,11 +1,11 @@
 //! Scenes and their kernels with their types forgotten.
 
 use std::ops::Range;
+use std::sync::Arc;
 use std::time::Duration;
 
-use gauss_runtime::accuracy::Accuracy;
 use gauss_runtime::contact::Contact;
-use gauss_runtime::description::{Equations, Operations};
+use gauss_runtime::description::Equations;
 use gauss_runtime::error::ParameterError;
 use gauss_runtime::prelude::{DescribedSystem, GaussSystem};
 use gauss_runtime::simd::Packed;
@@ -21,23 +21,27 @@ use crate::steps::{self, Control, InContact, Methods, Outcome, Request};
 /// A scene, its type forgotten.
 pub trait AnyScene: Send + Sync {
     /// The struct in words.
-    fn description(&self) -> &'static Description;
-    /// The equations.
-    fn equations(&self) -> Equations;
+    fn description(&self) -> &Description;
+    /// The equations as text and in LaTeX.
+    fn equations(&self) -> [&str; 2];
     /// What methods cost.
-    fn operations(&self) -> Operations;
+    fn operations(&self) -> String;
     /// What methods lose to rounding.
-    fn accuracy(&self) -> Accuracy;
+    fn accuracy(&self) -> String;
     /// Names of the numbers of q and of z.
-    fn names(&self) -> [&'static [&'static str]; 2];
+    fn names(&self) -> [&[&'static str]; 2];
     /// Sizes of vectors.
     fn sizes(&self) -> Sizes;
     /// Frames.
     fn frames(&self) -> &[&'static str];
     /// Joints whose reactions are methods.
     fn joints(&self) -> &[&'static str];
-    /// Contacts, ranges and dry joints.
-    fn contacts(&self) -> &'static [Contact];
+    /// Contacts, ranges and dry joints, of which runs have the forces.
+    fn contacts(&self) -> &[Contact];
+    /// The names of all that touches or rubs.
+    fn contact_names(&self) -> Vec<&'static str> {
+        self.contacts().iter().map(|contact| contact.name).collect()
+    }
     /// Whether kernels have the method.
     fn has(&self, id: Id) -> bool;
     /// The numbers of q and z at rest in the origin.
@@ -46,13 +50,42 @@ pub trait AnyScene: Send + Sync {
     ///
     /// # Errors
     /// Parameters that no body can have.
-    fn kernel(&'static self, numbers: Vec<f64>) -> Result<Box<dyn AnyKernel>, ParameterError>;
+    fn kernel(self: Arc<Self>, numbers: Vec<f64>) -> Result<Box<dyn AnyKernel>, Vec<Violation>>;
+}
+
+/// A number that breaks a rule of parameters.
+#[derive(Clone, Debug)]
+pub struct Violation {
+    /// The field.
+    pub field: String,
+    /// The number.
+    pub value: f64,
+    /// The rule by its name.
+    pub rule: String,
+    /// All of it in words.
+    pub message: String,
+}
+
+impl Violation {
+    /// All of an error.
+    pub fn all(error: &ParameterError) -> Vec<Self> {
+        let one = |violation: &gauss_runtime::error::Violation| {
+            let rule = format!("{:?}", violation.rule);
+            Self {
+                field: violation.field.to_owned(),
+                value: violation.value,
+                rule: rule.split([' ', '{', '(']).next().unwrap_or_default().to_owned(),
+                message: violation.to_string(),
+            }
+        };
+        error.violations().iter().map(one).collect()
+    }
 }
 
 /// A kernel, its type forgotten.
 pub trait AnyKernel: Send + Sync {
     /// Its scene.
-    fn scene(&self) -> &'static dyn AnyScene;
+    fn scene(&self) -> &dyn AnyScene;
     /// Its parameters.
     fn numbers(&self) -> &[f64];
     /// What of the scene's file does not act, and what is likely not meant.
@@ -106,6 +139,7 @@ pub struct Registered<S: Scene> {
     single: Table<S::Single>,
     packed: Table<S::Packed>,
     steps: Methods<S::Single>,
+    description: Description,
     sizes: Sizes,
     blocks: Vec<(usize, usize)>,
 }
@@ -117,7 +151,9 @@ impl<S: Scene> Registered<S> {
         let (mut single, mut packed, mut steps) = (Table::new(), Table::new(), Methods::new());
         S::offer(&mut single, &mut packed, &mut steps);
         let sizes = Sizes::of::<S::Single>(single.multipliers);
-        Self { single, packed, steps, sizes, blocks: S::DESCRIPTION.unit_blocks().collect() }
+        let description = S::description();
+        let blocks = description.unit_blocks().collect();
+        Self { single, packed, steps, description, sizes, blocks }
     }
 }
 
@@ -128,23 +164,24 @@ impl<S: Scene> Default for Registered<S> {
 }
 
 impl<S: Scene> AnyScene for Registered<S> {
-    fn description(&self) -> &'static Description {
-        const { &S::DESCRIPTION }
+    fn description(&self) -> &Description {
+        &self.description
     }
 
-    fn equations(&self) -> Equations {
-        <S::Single as DescribedSystem>::EQUATIONS
+    fn equations(&self) -> [&str; 2] {
+        let Equations { text, latex, .. } = <S::Single as DescribedSystem>::EQUATIONS;
+        [text, latex]
     }
 
-    fn operations(&self) -> Operations {
-        <S::Single as DescribedSystem>::OPERATIONS
+    fn operations(&self) -> String {
+        <S::Single as DescribedSystem>::OPERATIONS.to_string()
     }
 
-    fn accuracy(&self) -> Accuracy {
-        <S::Single as DescribedSystem>::ACCURACY
+    fn accuracy(&self) -> String {
+        <S::Single as DescribedSystem>::ACCURACY.to_string()
     }
 
-    fn names(&self) -> [&'static [&'static str]; 2] {
+    fn names(&self) -> [&[&'static str]; 2] {
         [<S::Single as DescribedSystem>::COORDINATE_NAMES, <S::Single as DescribedSystem>::SPEED_NAMES]
     }
 
@@ -160,7 +197,7 @@ impl<S: Scene> AnyScene for Registered<S> {
         &self.single.joints
     }
 
-    fn contacts(&self) -> &'static [Contact] {
+    fn contacts(&self) -> &[Contact] {
         self.steps.touching()
     }
 
@@ -173,17 +210,17 @@ impl<S: Scene> AnyScene for Registered<S> {
         [steps::numbers_of(&q), steps::components(&z)]
     }
 
-    fn kernel(&'static self, numbers: Vec<f64>) -> Result<Box<dyn AnyKernel>, ParameterError> {
-        let single = S::single(&numbers)?;
+    fn kernel(self: Arc<Self>, numbers: Vec<f64>) -> Result<Box<dyn AnyKernel>, Vec<Violation>> {
+        let single = S::single(&numbers).map_err(|error| Violation::all(&error))?;
         let repeated: Vec<_> = numbers.iter().map(ScalarOf::<S::Packed>::repeat).collect();
-        let packed = S::packed(&repeated)?;
+        let packed = S::packed(&repeated).map_err(|error| Violation::all(&error))?;
         Ok(Box::new(Instance { scene: self, single, packed, numbers }))
     }
 }
 
 /// Kernels of one set of parameters.
 struct Instance<S: Scene> {
-    scene: &'static Registered<S>,
+    scene: Arc<Registered<S>>,
     single: S::Single,
     packed: S::Packed,
     numbers: Vec<f64>,
@@ -192,7 +229,7 @@ struct Instance<S: Scene> {
 impl<S: Scene> Instance<S> {
     /// The configuration of a state.
     fn state(&self, q: &[f64], z: &[f64]) -> Result<<S::Single as GaussSystem>::Configuration, String> {
-        steps::state(&S::DESCRIPTION, self.scene.names(), q, z).map_err(|mistakes| mistakes.join("; "))
+        steps::state(&self.scene.description, self.scene.names(), q, z).map_err(|mistakes| mistakes.join("; "))
     }
 
     /// The first rotation in these rows that is none, as what is not a number is.
@@ -312,8 +349,8 @@ impl<S: Scene> Instance<S> {
 }
 
 impl<S: Scene> AnyKernel for Instance<S> {
-    fn scene(&self) -> &'static dyn AnyScene {
-        self.scene
+    fn scene(&self) -> &dyn AnyScene {
+        &*self.scene
     }
 
     fn numbers(&self) -> &[f64] {
@@ -322,7 +359,7 @@ impl<S: Scene> AnyKernel for Instance<S> {
 
     fn warnings(&self) -> Vec<String> {
         let of_file =
-            S::DESCRIPTION.remarks.iter().filter(|remark| remark.ignored).map(|remark| remark.text.to_owned());
+            self.scene.description.remarks.iter().filter(|remark| remark.ignored).map(|remark| remark.text.to_owned());
         of_file.chain(S::warnings(&self.numbers).iter().map(ToString::to_string)).collect()
     }
 
@@ -362,9 +399,9 @@ impl<S: Scene> AnyKernel for Instance<S> {
     fn ensemble(&self, many: &Many<'_>) -> Result<ManyEnds, String> {
         match many.control {
             Control::ContactEvents(..) | Control::ContactSteps(..) => {
-                runs::touching::<S>(&self.scene.steps, &self.single, &self.numbers, many)
+                runs::touching::<S>((&self.scene.description, &self.scene.steps), &self.single, &self.numbers, many)
             }
-            _ => runs::ensemble::<S>(&self.packed, &self.numbers, many),
+            _ => runs::ensemble::<S>(&self.scene.description, &self.packed, &self.numbers, many),
         }
     }
 

@@ -1,5 +1,7 @@
 //! Classes of a module: one for each struct, with its documentation and keywords.
 
+use std::sync::Arc;
+
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCFunction, PyDict, PyList, PyTuple, PyType};
@@ -30,26 +32,25 @@ pub fn begin(module: &Bound<'_, PyModule>) -> PyResult<()> {
 }
 
 /// Adds the class of a struct.
-pub fn add<S: Scene>(module: &Bound<'_, PyModule>) -> PyResult<&'static dyn AnyScene> {
+pub fn add<S: Scene>(module: &Bound<'_, PyModule>) -> PyResult<Arc<dyn AnyScene>> {
     let py = module.py();
-    // Classes live as long as the process.
-    let scene: &'static dyn AnyScene = Box::leak(Box::new(Registered::<S>::new()));
+    let scene: Arc<dyn AnyScene> = Arc::new(Registered::<S>::new());
     let description = scene.description();
     let attributes = PyDict::new(py);
-    attributes.set_item("_scene", Py::new(py, SceneHandle::new(scene))?)?;
+    attributes.set_item("_scene", Py::new(py, SceneHandle::new(Arc::clone(&scene)))?)?;
     attributes.set_item("__module__", module.name()?)?;
     attributes.set_item("__qualname__", description.name)?;
-    attributes.set_item("__doc__", documentation(scene))?;
+    attributes.set_item("__doc__", documentation(&*scene))?;
     attributes.set_item("__slots__", PyTuple::empty(py))?;
     attributes.set_item("__signature__", signature(py, description)?)?;
     let bases = (py.get_type::<Kernel>(),);
     let class = py.get_type::<PyType>().call1((description.name, bases, attributes))?;
-    module.add(description.name, class)?;
+    module.add(scene.description().name, class)?;
     Ok(scene)
 }
 
 /// Adds `stubs()`, the text of the module's `.pyi`, and `__all__`.
-pub fn finish(module: &Bound<'_, PyModule>, scenes: Vec<&'static dyn AnyScene>) -> PyResult<()> {
+pub fn finish(module: &Bound<'_, PyModule>, scenes: Vec<Arc<dyn AnyScene>>) -> PyResult<()> {
     let py = module.py();
     let names = ["Kernel", "Run", "Ends", "jax", "stubs"].into_iter().chain(errors::NAMES);
     let names = names.map(str::to_owned).chain(tuples::names());

@@ -1,12 +1,14 @@
 //! Keywords of Python as the parameters of a struct, and back.
 
+use std::sync::Arc;
+
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{self, shown};
 use crate::description::{Field, Shape};
 use crate::errors;
-use crate::kernels::{AnyKernel, AnyScene};
+use crate::kernels::{AnyKernel, AnyScene, Violation};
 use crate::steps::{off_group, off_group_words};
 
 /// What is wrong: the name of a field, and why.
@@ -18,11 +20,11 @@ const BODY: [(&str, &[usize]); 3] = [("mass", &[]), ("center_of_mass", &[3]), ("
 /// The kernel with these parameters.
 pub fn kernel(
     py: Python<'_>,
-    scene: &'static dyn AnyScene,
+    scene: &Arc<dyn AnyScene>,
     given: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Box<dyn AnyKernel>> {
-    let (mut mistakes, mut numbers) = (Mistakes::new(), Vec::new());
-    let fields = scene.description().fields;
+    let (mut mistakes, mut numbers, mut violations) = (Mistakes::new(), Vec::new(), Vec::new());
+    let fields = &scene.description().fields;
     for field in fields {
         match given.map(|given| given.get_item(field.name)).transpose()?.flatten() {
             Some(value) => read(field, &value, &mut numbers, &mut mistakes),
@@ -37,22 +39,28 @@ pub fn kernel(
         }
     }
     if mistakes.is_empty() {
-        match scene.kernel(numbers) {
+        match Arc::clone(scene).kernel(numbers) {
             Ok(kernel) => return Ok(kernel),
-            Err(error) => mistakes
-                .extend(error.violations().iter().map(|violation| (violation.field.to_owned(), violation.to_string()))),
+            Err(all) => violations = all,
         }
+        mistakes.extend(violations.iter().map(|violation| (violation.field.clone(), violation.message.clone())));
     }
-    Err(raised(py, scene, mistakes))
+    Err(raised(py, &**scene, mistakes, violations))
 }
 
-fn raised(py: Python<'_>, scene: &dyn AnyScene, mistakes: Mistakes) -> PyErr {
+fn raised(py: Python<'_>, scene: &dyn AnyScene, mistakes: Mistakes, violations: Vec<Violation>) -> PyErr {
     let lines = mistakes.iter().map(|(name, why)| match why.starts_with(name.as_str()) || why.starts_with('`') {
         true => format!("\n  {why}"),
         false => format!("\n  {name} {why}"),
     });
     let message = format!("{}:{}", scene.description().name, lines.collect::<Vec<_>>().concat());
-    errors::new(py, "ParameterError", message, ("fields", mistakes))
+    let error = errors::new(py, "ParameterError", message, ("fields", mistakes));
+    let all: Vec<_> =
+        violations.into_iter().map(|Violation { field, value, rule, message }| (field, value, rule, message)).collect();
+    match error.value(py).setattr("violations", all) {
+        Ok(()) => error,
+        Err(other) => other,
+    }
 }
 
 /// ` (kg): of the hull`.
@@ -121,7 +129,7 @@ fn body(name: &str, value: &Bound<'_, PyAny>) -> Result<Vec<f64>, String> {
 /// The parameters of a kernel by name: numbers as floats, others as arrays.
 pub fn as_dict<'py>(py: Python<'py>, kernel: &dyn AnyKernel) -> PyResult<Bound<'py, PyDict>> {
     let (parameters, mut rest) = (PyDict::new(py), kernel.numbers());
-    for field in kernel.scene().description().fields {
+    for field in &kernel.scene().description().fields {
         let (own, others) = rest.split_at(field.shape.size());
         rest = others;
         match field.shape {

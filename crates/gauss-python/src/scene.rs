@@ -28,7 +28,7 @@ pub trait Scene: Sized + 'static {
         >;
 
     /// The struct in words.
-    const DESCRIPTION: Description;
+    fn description() -> Description;
 
     /// The kernel with these parameters.
     ///
@@ -77,12 +77,12 @@ macro_rules! scene {
                 type Single = $crate::__in_scalar!($kernel [$($scalar)?] ::core::primitive::f64);
                 type Packed = $crate::__in_scalar!($kernel [$($scalar)?] $crate::Pack);
 
-                const DESCRIPTION: $crate::Description = {
+                fn description() -> $crate::Description {
                     $(type $scalar = ::core::primitive::f64;)?
                     $crate::Description {
                         name: ::core::stringify!($name),
                         documentation: $documentation,
-                        fields: &[$($crate::Field {
+                        fields: ::std::vec![$($crate::Field {
                             name: $word,
                             unit: $unit,
                             documentation: $label,
@@ -91,9 +91,9 @@ macro_rules! scene {
                         coordinates: $crate::__parts!($($coordinate)*),
                         speeds: $crate::__parts!($($speed)*),
                         inputs: $crate::__parts!($($input)*),
-                        remarks: &[$($crate::Remark { text: $remark, ignored: $ignored }),*],
+                        remarks: ::std::vec![$($crate::Remark { text: $remark, ignored: $ignored }),*],
                     }
-                };
+                }
 
                 fn single(
                     numbers: &[::core::primitive::f64],
@@ -167,6 +167,6 @@ macro_rules! __from_numbers {
 #[macro_export]
 macro_rules! __parts {
     ($($word:literal $size:literal $unit:literal $label:literal;)*) => {
-        &[$($crate::Part { name: $word, size: $size, unit: $unit, label: $label }),*]
+        ::std::vec![$($crate::Part { name: $word, size: $size, unit: $unit, label: $label }),*]
     };
 }

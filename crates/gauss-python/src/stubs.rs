@@ -1,6 +1,7 @@
 //! The stubs of a module, `.pyi`: what editors show and type checkers read, with shapes and units.
 
 use std::fmt::Write;
+use std::sync::Arc;
 
 use crate::arrays::shown;
 use crate::description::Shape;
@@ -11,7 +12,7 @@ use crate::methods::{Argument, Id, SPECS, Size, Spec};
 const HEAD: &str = include_str!("stubs.pyi.txt");
 
 /// The text.
-pub fn text(scenes: &[&'static dyn AnyScene]) -> String {
+pub fn text(scenes: &[Arc<dyn AnyScene>]) -> String {
     let mut text = HEAD.to_owned();
     for spec in SPECS.iter().filter(|spec| spec.results.len() > 1) {
         let _ = write!(text, "\nclass {}(NamedTuple):\n", spec.class_name());
@@ -19,7 +20,7 @@ pub fn text(scenes: &[&'static dyn AnyScene]) -> String {
             let _ = writeln!(text, "    {}: Array", result.name);
         }
     }
-    scenes.iter().for_each(|scene| text.push_str(&class(*scene)));
+    scenes.iter().for_each(|scene| text.push_str(&class(&**scene)));
     text
 }
 

@@ -8,6 +8,7 @@ use gauss_runtime::integrate::VelocityForm;
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
+use crate::description::Description;
 use crate::scene::{ScalarOf, Scene};
 use crate::steps::{self, Control, Input, Stoppable, Until, Watched, components, numbers_of, vector};
 use crate::threads;
@@ -80,10 +81,15 @@ type Refused = BTreeMap<usize, Vec<String>>;
 ///
 /// # Errors
 /// The system has no threads to give.
-pub fn ensemble<S: Scene>(shared: &Packs<S>, numbers: &[f64], many: &Many<'_>) -> Result<ManyEnds, String> {
+pub fn ensemble<S: Scene>(
+    description: &Description,
+    shared: &Packs<S>,
+    numbers: &[f64],
+    many: &Many<'_>,
+) -> Result<ManyEnds, String> {
     let pool = threads::pool().map_err(|error| format!("an ensemble runs on threads of its own: {error}"))?;
     let mut refused = Refused::new();
-    let first = first_states::<S>(many, &mut refused);
+    let first = first_states::<S>(description, many, &mut refused);
     let mut runs: Vec<usize> = (0..many.count).collect();
     let kernels = loop {
         let mut wrong = Refused::new();
@@ -107,10 +113,14 @@ pub fn ensemble<S: Scene>(shared: &Packs<S>, numbers: &[f64], many: &Many<'_>) -
 }
 
 /// The first states; of those that are none all that is wrong is noted.
-fn first_states<S: Scene>(many: &Many<'_>, refused: &mut Refused) -> Vec<Option<StateOf<Packs<S>>>> {
+fn first_states<S: Scene>(
+    description: &Description,
+    many: &Many<'_>,
+    refused: &mut Refused,
+) -> Vec<Option<StateOf<Packs<S>>>> {
     let state = |i: usize| {
         let [q, z] = many.first(i);
-        match steps::state(&S::DESCRIPTION, names::<S>(), q, z) {
+        match steps::state(description, names::<S>(), q, z) {
             Ok(q) => Some((q, vector(z))),
             Err(mistakes) => {
                 refused.entry(i).or_default().extend(mistakes);

@@ -6,6 +6,7 @@ use std::sync::atomic::Ordering;
 use rayon::prelude::*;
 
 use super::many::{Many, ManyEnds, names};
+use crate::description::Description;
 use crate::scene::{ConfigurationOf, Scene};
 use crate::steps::{self, Methods, Outcome, Request};
 use crate::threads;
@@ -19,14 +20,14 @@ pub const TOUCHED: [&str; 2] = ["impacts", "velocity_residual"];
 /// # Errors
 /// The system has no threads to give.
 pub fn touching<S: Scene>(
-    methods: &Methods<S::Single>,
+    (description, methods): (&Description, &Methods<S::Single>),
     shared: &S::Single,
     numbers: &[f64],
     many: &Many<'_>,
 ) -> Result<ManyEnds, String> {
     let pool = threads::pool().map_err(|error| format!("an ensemble runs on threads of its own: {error}"))?;
     let one = |i: usize| {
-        let outcome = one::<S>(methods, shared, numbers, (many, i));
+        let outcome = one::<S>((description, methods), shared, numbers, (many, i));
         many.ended.fetch_add(1, Ordering::Relaxed);
         outcome
     };
@@ -50,13 +51,13 @@ pub fn touching<S: Scene>(
 }
 
 fn one<S: Scene>(
-    methods: &Methods<S::Single>,
+    (description, methods): (&Description, &Methods<S::Single>),
     shared: &S::Single,
     numbers: &[f64],
     (many, i): (&Many<'_>, usize),
 ) -> Result<Outcome, String> {
     let [q, z] = many.first(i);
-    let of_state = steps::state::<ConfigurationOf<S::Single>>(&S::DESCRIPTION, names::<S>(), q, z).err();
+    let of_state = steps::state::<ConfigurationOf<S::Single>>(description, names::<S>(), q, z).err();
     let own = (!many.parameters.is_empty()).then(|| S::single(&many.own(numbers, i))).transpose();
     let of_parameters = own.as_ref().err().map(|error| error.violations().iter().map(ToString::to_string).collect());
     let mistakes: Vec<String> = of_state.into_iter().chain(of_parameters).flatten().collect();
