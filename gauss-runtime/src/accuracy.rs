@@ -68,44 +68,45 @@ by_method! {
     #[derive(Clone, Copy, Debug, Default, PartialEq)]
     #[non_exhaustive]
     Accuracy of Loss = Loss::NONE;
-    /// Of [`GaussSystem::kinematics`](crate::system::GaussSystem::kinematics).
+    /// Loss of [`GaussSystem::kinematics`](crate::system::GaussSystem::kinematics).
     kinematics,
-    /// Of [`GaussSystem::acceleration`](crate::system::GaussSystem::acceleration).
+    /// Loss of [`GaussSystem::acceleration`](crate::system::GaussSystem::acceleration).
     acceleration,
-    /// Of [`GaussSystem::momentum`](crate::system::GaussSystem::momentum).
+    /// Loss of [`GaussSystem::momentum`](crate::system::GaussSystem::momentum).
     momentum,
-    /// Of [`GaussSystem::velocity`](crate::system::GaussSystem::velocity).
+    /// Loss of [`GaussSystem::velocity`](crate::system::GaussSystem::velocity).
     velocity,
-    /// Of [`GaussSystem::momentum_rate`](crate::system::GaussSystem::momentum_rate).
+    /// Loss of [`GaussSystem::momentum_rate`](crate::system::GaussSystem::momentum_rate).
     momentum_rate,
-    /// Of [`GaussSystem::mass_matrix`](crate::system::GaussSystem::mass_matrix).
+    /// Loss of [`GaussSystem::mass_matrix`](crate::system::GaussSystem::mass_matrix).
     mass_matrix,
-    /// Of [`GaussSystem::kinetic_energy`](crate::system::GaussSystem::kinetic_energy).
+    /// Loss of [`GaussSystem::kinetic_energy`](crate::system::GaussSystem::kinetic_energy).
     kinetic_energy,
-    /// Of [`GaussSystem::potential_energy`](crate::system::GaussSystem::potential_energy).
+    /// Loss of [`GaussSystem::potential_energy`](crate::system::GaussSystem::potential_energy).
     potential_energy,
-    /// Of [`GaussSystem::gauss_residual`](crate::system::GaussSystem::gauss_residual).
+    /// Loss of [`GaussSystem::gauss_residual`](crate::system::GaussSystem::gauss_residual).
     gauss_residual,
-    /// Of [`GaussSystem::constraint_function`](crate::system::GaussSystem::constraint_function).
+    /// Loss of [`GaussSystem::constraint_function`](crate::system::GaussSystem::constraint_function).
     constraint_function,
-    /// Of [`GaussSystem::configuration_rates`](crate::system::GaussSystem::configuration_rates), where elements have
-    /// states.
+    /// Loss of [`GaussSystem::configuration_rates`](crate::system::GaussSystem::configuration_rates), where elements
+    /// have states.
     configuration_rates,
-    /// Of [`ConstrainedSystem::multipliers`](crate::constraint::ConstrainedSystem::multipliers).
+    /// Loss of [`ConstrainedSystem::multipliers`](crate::constraint::ConstrainedSystem::multipliers).
     multipliers,
-    /// Of [`ForcedSystem::powers`](crate::forces::ForcedSystem::powers).
+    /// Loss of [`ForcedSystem::powers`](crate::forces::ForcedSystem::powers).
     powers,
-    /// Of [`GaussSystem::evaluate`](crate::system::GaussSystem::evaluate).
+    /// Loss of [`GaussSystem::evaluate`](crate::system::GaussSystem::evaluate).
     evaluate,
-    /// Of [`LinearizedSystem::linearize`](crate::linearize::LinearizedSystem::linearize).
+    /// Loss of [`LinearizedSystem::linearize`](crate::linearize::LinearizedSystem::linearize).
     linearize,
-    /// Of [`ParametricSystem::by_parameters`](crate::identification::ParametricSystem::by_parameters).
+    /// Loss of [`ParametricSystem::by_parameters`](crate::identification::ParametricSystem::by_parameters).
     by_parameters,
-    /// Of [`InverseLinearizedSystem::linearize_inverse`](crate::inverse::InverseLinearizedSystem::linearize_inverse).
+    /// Loss of
+    /// [`InverseLinearizedSystem::linearize_inverse`](crate::inverse::InverseLinearizedSystem::linearize_inverse).
     linearize_inverse,
-    /// Of [`HessianSystem::hessian`](crate::hessian::HessianSystem::hessian).
+    /// Loss of [`HessianSystem::hessian`](crate::hessian::HessianSystem::hessian).
     hessian,
-    /// Of [`InertialRegressor::regressor`](crate::identification::InertialRegressor::regressor).
+    /// Loss of [`InertialRegressor::regressor`](crate::identification::InertialRegressor::regressor).
     regressor,
 }
 

@@ -1,4 +1,4 @@
-//! How well a mass matrix can be inverted.
+//! Condition number of a mass matrix: the digits that its inversion loses.
 
 use nalgebra::SMatrix;
 

@@ -1,4 +1,4 @@
-//! Where a system is: configurations that are groups, and the linear spaces of their increments.
+//! Configurations of a system, which are elements of groups, and the linear spaces of their increments.
 //!
 //! | configuration | increment (`Tangent`) | `retract` |
 //! |---|---|---|
@@ -130,7 +130,7 @@ pub trait Configuration: Copy + Debug {
         ""
     }
 
-    /// That of component `i` of an increment per time.
+    /// The unit of component `i` of an increment per time; empty where the scene decides.
     #[must_use]
     fn rate_unit(i: usize) -> &'static str {
         let _ = i;

@@ -53,8 +53,8 @@ pub trait ContactSystem: GaussSystem {
     /// `SMatrix<Scalar, DOF, R>`, one column for each row of the contacts.
     type ContactColumns: Columns<Self::Speeds> + Copy + Debug;
 
-    /// What makes velocities of contact impulses at a (t, q): A⁻¹Wᵀ, or of long trees the factors of A and L⁻¹ of each
-    /// row of W.
+    /// Factors from which [`impulse_velocities`](Self::impulse_velocities) makes A⁻¹WᵀP at a (t, q): A⁻¹Wᵀ, or of long
+    /// trees the factors of A and L⁻¹ of each row of W.
     type ImpulseFactors: Copy + Debug;
 
     /// `SMatrix<Scalar, R, R>`, with entries by `(row, column)`.
@@ -81,8 +81,8 @@ pub trait ContactSystem: GaussSystem {
     /// Wᵀ, `W = ∂(ġ, s)/∂z`: the generalised force of a unit contact force, column by column.
     fn contact_jacobian(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::ContactColumns;
 
-    /// Where a contact is, by its number among [`CONTACTS`](Self::CONTACTS); `None` of gaps and slips that are written
-    /// as expressions, of ranges and of dry friction.
+    /// Point, normal and tangents of a contact, by its number among [`CONTACTS`](Self::CONTACTS); `None` of gaps and
+    /// slips that are written as expressions, of ranges and of dry friction.
     fn contact_frame(
         &self,
         contact: usize,
@@ -107,7 +107,7 @@ pub trait ContactSystem: GaussSystem {
     /// The coefficient of restitution e of each contact; 0 where none is given.
     fn restitution(&self) -> Self::Gaps;
 
-    /// What contact impulses do at (t, q), as it is needed for some of them: in steps.
+    /// Factors of A⁻¹Wᵀ and the matrix `W A⁻¹ Wᵀ` at (t, q): enough where some impulses act, as in steps.
     fn impulse_response(&self, t: Self::Scalar, q: &Self::Configuration) -> ImpulseResponse<Self>;
 
     /// The motion without contact forces at (t, q, z), with b = `W ż + γ` of it and what contact impulses do.
@@ -122,13 +122,14 @@ pub trait ContactSystem: GaussSystem {
     /// `A⁻¹WᵀP`: what impulses P add to the speeds.
     fn impulse_velocities(&self, factors: &Self::ImpulseFactors, impulses: &Self::ContactRows) -> Self::Speeds;
 
-    /// Of each of them the sizes of the terms that it is the sum of: what is no more than their rounding is none.
+    /// Sizes of the terms that each component of [`impulse_velocities`](Self::impulse_velocities) is the sum of: a
+    /// component that is no larger than their rounding is zero.
     fn impulse_terms(&self, factors: &Self::ImpulseFactors, impulses: &Self::ContactRows) -> Self::Speeds;
 
     /// `A⁻¹ Wᵀ`: the velocities that unit impulses make, column by column.
     fn contact_columns(&self, factors: &Self::ImpulseFactors) -> Self::ContactColumns;
 
-    /// What contact impulses do at (t, q), column by column.
+    /// Columns of A⁻¹Wᵀ and the matrix `W A⁻¹ Wᵀ` at (t, q).
     #[inline]
     fn contact_response(&self, t: Self::Scalar, q: &Self::Configuration) -> ContactResponse<Self> {
         let ImpulseResponse { factors, delassus } = self.impulse_response(t, q);
@@ -212,11 +213,11 @@ pub struct Contact {
     /// Its first row in [`ContactRows`](ContactSystem::ContactRows): the normal, which the tangents follow; of dry
     /// friction the first tangent.
     pub normal: usize,
-    /// How many tangents it has: 0 without friction, 1 where motion or scene is plane, else 2.
+    /// Number of its tangents: 0 without friction, 1 where motion or scene is plane, else 2.
     pub tangents: usize,
     /// Whether a row of friction of drilling follows the tangents.
     pub drills: bool,
-    /// What bounds its friction.
+    /// Kind of force that bounds its friction.
     pub kind: ContactKind,
     /// The body that has the point that touches, then the one that is touched, by their names in the scene, which may
     /// be those of frames, or of links of a robot's file; `None` of what is fixed, of the only body of a chart, and of
@@ -224,11 +225,12 @@ pub struct Contact {
     pub bodies: [Option<&'static str>; 2],
 }
 
-/// Where a contact is. Components are along the observer's axes, points are from the observer's origin Ω.
+/// Point, normal and tangents of a contact. Components are along the observer's axes, points are from the observer's
+/// origin Ω.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ContactFrame<T> {
-    /// Where it touches; of an open contact the point of the first body that would.
+    /// Point of contact; of an open contact the point of the first body that would touch.
     pub point: Vector3<T>,
     /// The normal, towards the first body; of length one.
     pub normal: Vector3<T>,
@@ -258,7 +260,7 @@ impl<T: Real> ContactFrame<T> {
     }
 }
 
-/// What bounds the friction of a contact.
+/// Kind of force that bounds the friction of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ContactKind {
@@ -268,7 +270,7 @@ pub enum ContactKind {
     DryFriction,
     /// The force along the normal of another contact: a torque resists rolling of at most ρ times it. There is no gap.
     Rolling {
-        /// That contact, by its place in [`CONTACTS`](ContactSystem::CONTACTS); it comes before this one.
+        /// Place of that contact in [`CONTACTS`](ContactSystem::CONTACTS), before this one.
         on: usize,
     },
 }
@@ -292,7 +294,7 @@ impl Contact {
         Self { name, normal: first, tangents, drills: false, kind: ContactKind::Rolling { on }, bodies: [None; 2] }
     }
 
-    /// With a row of friction of drilling after its tangents.
+    /// Adds a row of friction of drilling after its tangents.
     #[must_use]
     pub const fn with_drilling(self) -> Self {
         Self { drills: true, ..self }
@@ -346,10 +348,10 @@ impl fmt::Display for Contact {
     }
 }
 
-/// What contact impulses do: the result of [`ContactSystem::impulse_response`].
+/// Response of the speeds to contact impulses: the result of [`ContactSystem::impulse_response`].
 #[non_exhaustive]
 pub struct ImpulseResponse<S: ContactSystem + ?Sized> {
-    /// What makes velocities of impulses: for [`impulse_velocities`](ContactSystem::impulse_velocities).
+    /// Factors of A⁻¹Wᵀ, for [`impulse_velocities`](ContactSystem::impulse_velocities).
     pub factors: S::ImpulseFactors,
     /// `D = W A⁻¹ Wᵀ`, symmetric and positive semidefinite.
     pub delassus: S::Delassus,
@@ -362,7 +364,7 @@ pub struct ImpulseDynamics<S: ContactSystem + ?Sized> {
     pub acceleration: S::Speeds,
     /// `b = W A⁻¹ r + γ`: the rates of ġ and s without contact forces.
     pub bias: S::ContactRows,
-    /// What contact impulses do.
+    /// Response of the speeds to contact impulses.
     pub response: ImpulseResponse<S>,
 }
 
@@ -382,7 +384,7 @@ impl<S: ContactSystem + ?Sized> ImpulseDynamics<S> {
     }
 }
 
-/// What contact impulses do: the result of [`ContactSystem::contact_response`].
+/// Response of the speeds to contact impulses, column by column: the result of [`ContactSystem::contact_response`].
 #[non_exhaustive]
 pub struct ContactResponse<S: ContactSystem + ?Sized> {
     /// `A⁻¹ Wᵀ`: the velocities that unit impulses make, column by column.
@@ -398,7 +400,7 @@ pub struct ContactDynamics<S: ContactSystem + ?Sized> {
     pub acceleration: S::Speeds,
     /// `b = W A⁻¹ r + γ`: the rates of ġ and s without contact forces.
     pub bias: S::ContactRows,
-    /// What contact forces add.
+    /// Response of the speeds to contact impulses, which is that of ż to contact forces.
     pub response: ContactResponse<S>,
 }
 

@@ -11,16 +11,16 @@ pub trait DescribedSystem {
     /// The equations, as they were derived.
     const EQUATIONS: Equations = Equations::new("", "");
 
-    /// What each method costs.
+    /// Cost of each method.
     const OPERATIONS: Operations = Operations::NONE;
 
-    /// What each method loses to rounding.
+    /// Loss of each method to rounding.
     const ACCURACY: Accuracy = Accuracy::NONE;
 
-    /// What the numbers are called that a configuration consists of, in their order; nothing where they have no names.
+    /// Names of the numbers that a configuration consists of, in their order; nothing where they have no names.
     const COORDINATE_NAMES: &'static [&'static str] = &[];
 
-    /// What the speeds are called, component by component; nothing where they have no names.
+    /// Names of the speeds, component by component; nothing where they have no names.
     const SPEED_NAMES: &'static [&'static str] = &[];
 }
 
@@ -106,103 +106,105 @@ by_method! {
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     #[non_exhaustive]
     Operations of OperationCount = OperationCount::new(0, 0, 0, 0, 0);
-    /// Of `kernel()`: work done once, when the kernel is made.
+    /// Cost of `kernel()`: work done once, when the kernel is made.
     kernel,
-    /// Of [`GaussSystem::kinematics`](crate::system::GaussSystem::kinematics).
+    /// Cost of [`GaussSystem::kinematics`](crate::system::GaussSystem::kinematics).
     kinematics,
-    /// Of [`GaussSystem::acceleration`](crate::system::GaussSystem::acceleration).
+    /// Cost of [`GaussSystem::acceleration`](crate::system::GaussSystem::acceleration).
     acceleration,
-    /// Of [`GaussSystem::momentum`](crate::system::GaussSystem::momentum).
+    /// Cost of [`GaussSystem::momentum`](crate::system::GaussSystem::momentum).
     momentum,
-    /// Of [`GaussSystem::velocity`](crate::system::GaussSystem::velocity).
+    /// Cost of [`GaussSystem::velocity`](crate::system::GaussSystem::velocity).
     velocity,
-    /// Of [`GaussSystem::momentum_rate`](crate::system::GaussSystem::momentum_rate).
+    /// Cost of [`GaussSystem::momentum_rate`](crate::system::GaussSystem::momentum_rate).
     momentum_rate,
-    /// Of [`GaussSystem::mass_matrix`](crate::system::GaussSystem::mass_matrix).
+    /// Cost of [`GaussSystem::mass_matrix`](crate::system::GaussSystem::mass_matrix).
     mass_matrix,
-    /// Of [`GaussSystem::kinetic_energy`](crate::system::GaussSystem::kinetic_energy).
+    /// Cost of [`GaussSystem::kinetic_energy`](crate::system::GaussSystem::kinetic_energy).
     kinetic_energy,
-    /// Of [`GaussSystem::potential_energy`](crate::system::GaussSystem::potential_energy).
+    /// Cost of [`GaussSystem::potential_energy`](crate::system::GaussSystem::potential_energy).
     potential_energy,
-    /// Of [`GaussSystem::gauss_residual`](crate::system::GaussSystem::gauss_residual).
+    /// Cost of [`GaussSystem::gauss_residual`](crate::system::GaussSystem::gauss_residual).
     gauss_residual,
-    /// Of [`GaussSystem::constraint_function`](crate::system::GaussSystem::constraint_function).
+    /// Cost of [`GaussSystem::constraint_function`](crate::system::GaussSystem::constraint_function).
     constraint_function,
-    /// Of [`GaussSystem::evaluate`](crate::system::GaussSystem::evaluate).
+    /// Cost of [`GaussSystem::evaluate`](crate::system::GaussSystem::evaluate).
     evaluate,
-    /// Of [`GaussSystem::configuration_rates`](crate::system::GaussSystem::configuration_rates), where elements have
-    /// states; else it is that of the kinematics.
+    /// Cost of [`GaussSystem::configuration_rates`](crate::system::GaussSystem::configuration_rates), where elements
+    /// have states; else it is that of the kinematics.
     configuration_rates,
-    /// Of [`ConstrainedSystem::multipliers`](crate::constraint::ConstrainedSystem::multipliers); none without
+    /// Cost of [`ConstrainedSystem::multipliers`](crate::constraint::ConstrainedSystem::multipliers); none without
     /// constraints.
     multipliers,
-    /// Of [`ForcedSystem::powers`](crate::forces::ForcedSystem::powers); none where nothing acts.
+    /// Cost of [`ForcedSystem::powers`](crate::forces::ForcedSystem::powers); none where nothing acts.
     powers,
-    /// Of [`LinearizedSystem::linearize`](crate::linearize::LinearizedSystem::linearize).
+    /// Cost of [`LinearizedSystem::linearize`](crate::linearize::LinearizedSystem::linearize).
     linearize,
-    /// Of [`ParametricSystem::by_parameters`](crate::identification::ParametricSystem::by_parameters).
+    /// Cost of [`ParametricSystem::by_parameters`](crate::identification::ParametricSystem::by_parameters).
     by_parameters,
-    /// Of [`InverseLinearizedSystem::linearize_inverse`](crate::inverse::InverseLinearizedSystem::linearize_inverse).
+    /// Cost of
+    /// [`InverseLinearizedSystem::linearize_inverse`](crate::inverse::InverseLinearizedSystem::linearize_inverse).
     linearize_inverse,
-    /// Of [`HessianSystem::hessian`](crate::hessian::HessianSystem::hessian).
+    /// Cost of [`HessianSystem::hessian`](crate::hessian::HessianSystem::hessian).
     hessian,
-    /// Of [`InertialRegressor::regressor`](crate::identification::InertialRegressor::regressor).
+    /// Cost of [`InertialRegressor::regressor`](crate::identification::InertialRegressor::regressor).
     regressor,
-    /// Of [`FramedSystem::frames`](crate::frames::FramedSystem::frames).
+    /// Cost of [`FramedSystem::frames`](crate::frames::FramedSystem::frames).
     frames,
-    /// Of [`Reactions::reactions_at`](crate::reactions::Reactions::reactions_at): of all joints together.
+    /// Cost of [`Reactions::reactions_at`](crate::reactions::Reactions::reactions_at): of all joints together.
     reactions_at,
-    /// Of [`ContactReactions::contact_reactions`](crate::reactions::ContactReactions::contact_reactions).
+    /// Cost of [`ContactReactions::contact_reactions`](crate::reactions::ContactReactions::contact_reactions).
     contact_reactions,
-    /// Of [`CentroidalSystem::center_of_mass`](crate::centroidal::CentroidalSystem::center_of_mass).
+    /// Cost of [`CentroidalSystem::center_of_mass`](crate::centroidal::CentroidalSystem::center_of_mass).
     center_of_mass,
-    /// Of [`CentroidalSystem::centroidal_momentum`](crate::centroidal::CentroidalSystem::centroidal_momentum).
+    /// Cost of [`CentroidalSystem::centroidal_momentum`](crate::centroidal::CentroidalSystem::centroidal_momentum).
     centroidal_momentum,
-    /// Of [`CentroidalSystem::centroidal_matrix`](crate::centroidal::CentroidalSystem::centroidal_matrix).
+    /// Cost of [`CentroidalSystem::centroidal_matrix`](crate::centroidal::CentroidalSystem::centroidal_matrix).
     centroidal_matrix,
-    /// Of [`CentroidalSystem::centroidal_bias`](crate::centroidal::CentroidalSystem::centroidal_bias).
+    /// Cost of [`CentroidalSystem::centroidal_bias`](crate::centroidal::CentroidalSystem::centroidal_bias).
     centroidal_bias,
-    /// Of [`GaussSystem::nonlinear_effects`](crate::system::GaussSystem::nonlinear_effects), where it is a program of
-    /// its own.
+    /// Cost of [`GaussSystem::nonlinear_effects`](crate::system::GaussSystem::nonlinear_effects), where it is a program
+    /// of its own.
     nonlinear_effects,
-    /// Of [`GravityTorques::gravity_torques`](crate::centroidal::GravityTorques::gravity_torques).
+    /// Cost of [`GravityTorques::gravity_torques`](crate::centroidal::GravityTorques::gravity_torques).
     gravity_torques,
-    /// Of [`ContactSystem::gaps`](crate::contact::ContactSystem::gaps); none without contacts.
+    /// Cost of [`ContactSystem::gaps`](crate::contact::ContactSystem::gaps); none without contacts.
     gaps,
-    /// Of [`ContactSystem::contact_rates`](crate::contact::ContactSystem::contact_rates).
+    /// Cost of [`ContactSystem::contact_rates`](crate::contact::ContactSystem::contact_rates).
     contact_rates,
-    /// Of [`ContactSystem::contact_jacobian`](crate::contact::ContactSystem::contact_jacobian).
+    /// Cost of [`ContactSystem::contact_jacobian`](crate::contact::ContactSystem::contact_jacobian).
     contact_jacobian,
-    /// Of [`ContactSystem::contact_frame`](crate::contact::ContactSystem::contact_frame): of all contacts together.
+    /// Cost of [`ContactSystem::contact_frame`](crate::contact::ContactSystem::contact_frame): of all contacts
+    /// together.
     contact_frames,
-    /// Of [`ContactSystem::friction`](crate::contact::ContactSystem::friction).
+    /// Cost of [`ContactSystem::friction`](crate::contact::ContactSystem::friction).
     friction,
-    /// Of [`ContactSystem::impulse_response`](crate::contact::ContactSystem::impulse_response).
+    /// Cost of [`ContactSystem::impulse_response`](crate::contact::ContactSystem::impulse_response).
     impulse_response,
-    /// Of [`ContactSystem::impulse_dynamics`](crate::contact::ContactSystem::impulse_dynamics).
+    /// Cost of [`ContactSystem::impulse_dynamics`](crate::contact::ContactSystem::impulse_dynamics).
     impulse_dynamics,
-    /// Of [`ContactSystem::impulse_velocities`](crate::contact::ContactSystem::impulse_velocities), of long trees.
+    /// Cost of [`ContactSystem::impulse_velocities`](crate::contact::ContactSystem::impulse_velocities), of long trees.
     impulse_velocities,
     ;
-    /// Of the other methods of [`FramedSystem`](crate::frames::FramedSystem), frame by frame in their order.
+    /// Costs of the other methods of [`FramedSystem`](crate::frames::FramedSystem), frame by frame in their order.
     of_frames: &'static [FrameOperations] = &[]
 }
 
-/// What it costs to ask for one frame.
+/// Costs of the methods that take one frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FrameOperations {
     /// The name of the frame.
     pub name: &'static str,
-    /// Of `pose_of`.
+    /// Cost of `pose_of`.
     pub pose: OperationCount,
-    /// Of `twist_of`.
+    /// Cost of `twist_of`.
     pub twist: OperationCount,
-    /// Of `jacobian_of`.
+    /// Cost of `jacobian_of`.
     pub jacobian: OperationCount,
-    /// Of `bias_of`.
+    /// Cost of `bias_of`.
     pub bias: OperationCount,
-    /// Of `jacobian_rate_of`, with `methods(jacobian_rates)`.
+    /// Cost of `jacobian_rate_of`, with `methods(jacobian_rates)`.
     pub jacobian_rate: OperationCount,
 }
 
@@ -214,7 +216,7 @@ impl FrameOperations {
         Self { name, pose, twist, jacobian, bias, jacobian_rate }
     }
 
-    /// With the cost of the rate of the Jacobian.
+    /// Sets the cost of the rate of the Jacobian.
     #[must_use]
     pub const fn with_jacobian_rate(self, jacobian_rate: OperationCount) -> Self {
         Self { jacobian_rate, ..self }

@@ -60,7 +60,7 @@ pub enum Rule {
         axis: usize,
         /// The sum of the other two moments.
         sum: f64,
-        /// By how much the largest moment exceeds the sum.
+        /// Excess of the largest moment over the sum.
         excess: f64,
         /// Whether the moments are those about the centre of mass, rather than about O as given.
         about_center_of_mass: bool,
@@ -278,7 +278,7 @@ impl fmt::Display for ParameterError {
 
 impl core::error::Error for ParameterError {}
 
-/// How a matrix of drag acts on the velocity V = (u, ω) of a body relative to the medium.
+/// Effect of a matrix of drag on the velocity V = (u, ω) of a body relative to the medium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DragKind {

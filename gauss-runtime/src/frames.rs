@@ -1,5 +1,4 @@
-//! Where frames of a system are and how they move: pose, twist, Jacobian and acceleration of bodies and frames by their
-//! names.
+//! Frames of a system and their motion: pose, twist, Jacobian and acceleration of bodies and frames by their names.
 //!
 //! `#[gauss(frames(tool, left_foot))]` has the derive write them: its kernel then implements [`FramedSystem`].
 //!
@@ -167,7 +166,7 @@ pub trait FrameName: Copy + Debug + PartialEq + 'static {
     }
 }
 
-/// Where a frame is and how it moves: see [`FramedSystem`].
+/// Pose, twist, Jacobian and acceleration bias of a frame: see [`FramedSystem`].
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct FrameMotion<T, J> {

@@ -83,11 +83,11 @@ pub trait HessianSystem: LinearizedSystem {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Hessian<T, const D: usize, const U: usize> {
-    /// By (σ, δz) twice; symmetric.
+    /// Second derivatives by (σ, δz) twice; symmetric.
     pub by_state: SMatrix<T, D, D>,
-    /// By a component of the input, row by row, and one of (σ, δz).
+    /// Mixed second derivatives by a component of the input, row by row, and one of (σ, δz).
     pub by_input_and_state: SMatrix<T, U, D>,
-    /// By the input twice; symmetric. Zero where inputs enter linearly.
+    /// Second derivatives by the input twice; symmetric. Zero where inputs enter linearly.
     pub by_input: SMatrix<T, U, U>,
 }
 

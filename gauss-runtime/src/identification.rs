@@ -1,5 +1,5 @@
-//! What identification of parameters needs of a system: the derivatives of its motion by them, and its forces of
-//! inertia as a linear function of masses, first moments and inertias.
+//! Derivatives for identification of parameters: those of the motion by the parameters, and the forces of inertia as a
+//! linear function of masses, first moments and inertias.
 //!
 //! `#[gauss(linearize(parameters))]` on a struct has the derive write [`ParametricSystem`], `#[gauss(regressor)]`
 //! [`InertialRegressor`].

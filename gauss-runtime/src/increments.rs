@@ -93,9 +93,9 @@ pub trait Increments: GaussSystem {
         join::<Self, N>(&q.difference(to.0), &to.1.add_scaled(-Self::Scalar::one(), z))
     }
 
-    /// How small changes ε of an increment move the state that it leads to, seen from there:
-    /// `retract(x + ε)` is `retract(retract(x), dexp(x) ε)` to first order. A filter that has moved its estimate by x
-    /// carries its covariance by it, `J P Jᵀ`. Blocks of scalars and speeds are the identity.
+    /// Matrix by which small changes ε of an increment move the state that it leads to, seen from there: `retract(x +
+    /// ε)` is `retract(retract(x), dexp(x) ε)` to first order. A filter that has moved its estimate by x carries its
+    /// covariance by it, `J P Jᵀ`. Blocks of scalars and speeds are the identity.
     #[must_use]
     fn dexp<const N: usize>(&self, increment: &SVector<Self::Scalar, N>) -> SMatrix<Self::Scalar, N, N> {
         const { holds::<Self>(N) };

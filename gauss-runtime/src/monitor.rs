@@ -77,7 +77,7 @@ impl<const N: usize> Drift<N> {
         }
     }
 
-    /// How many values were seen.
+    /// Number of the values that were seen.
     #[must_use]
     pub fn count(&self) -> u64 {
         self.count

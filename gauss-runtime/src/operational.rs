@@ -20,7 +20,7 @@ pub struct Factor<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Factor<T, N> {
-    /// Of a symmetric matrix, of which the entries on and below the diagonal are read.
+    /// Factors a symmetric matrix, of which the entries on and below the diagonal are read.
     ///
     /// # Errors
     /// [`OperationalError::NotPositive`] at the first row that is not positive definite together with those before it.
@@ -84,7 +84,8 @@ impl<T: Real, const N: usize> Factor<T, N> {
     }
 }
 
-/// What a task with K rows sees of a system with N speeds. Components are those of the rows of its Jacobian.
+/// Inertia and generalised inverse of a task with K rows in a system with N speeds. Components are those of the rows of
+/// its Jacobian.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct OperationalSpace<T, const K: usize, const N: usize> {

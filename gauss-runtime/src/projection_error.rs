@@ -37,7 +37,7 @@ pub enum ProjectionFailure {
 pub struct ProjectionError {
     /// Positions come first, velocities after them.
     pub level: ConstraintLevel,
-    /// What happened.
+    /// Cause of the failure.
     pub failure: ProjectionFailure,
     /// The largest component of the residual of the state that was given, in the unit of that constraint; NaN where it
     /// is undefined.

@@ -130,8 +130,8 @@ pub trait ContactReactions: Reactions + ContactSystem {
     /// [`ByFrame`](crate::frames::ByFrame) of all joints: `SMatrix<Scalar, 6, ROWS>` each.
     type ContactReactions: Copy + Debug;
 
-    /// What a unit contact force of each row adds to (f, m) of every joint at given ż, column by column: it is less by
-    /// what the contact already holds.
+    /// Change of (f, m) of every joint by a unit contact force of each row at given ż, column by column: it is less by
+    /// the force that the contact already holds.
     fn contact_reactions(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::ContactReactions;
 
     /// (f, m) of a joint at ż, where contacts act with `forces` (normal and tangents, row by row).

@@ -42,7 +42,7 @@ pub trait Real:
     + MulAssign
     + DivAssign
 {
-    /// How many independent numbers a value holds: 1 for a plain scalar.
+    /// Number of independent numbers in a value: 1 for a plain scalar.
     const LANES: usize;
 
     /// Distance from 1 to the next larger number of a lane. Sets the length of power series and the slack of checks.

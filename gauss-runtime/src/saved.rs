@@ -182,7 +182,7 @@ impl<'de, S: GaussSystem<Scalar: Deserialize<'de>> + DescribedSystem> Deserializ
     }
 }
 
-/// What is kept of a run: its samples, at which times nothing else is known, and its events. What takes samples, as
+/// Record of a run as data: its samples, at which times nothing else is known, and its events. What takes samples, as
 /// `Table::new` of the crate `gauss-tables` does, goes on from there.
 #[cfg(feature = "alloc")]
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -233,8 +233,8 @@ impl<S: GaussSystem<Scalar: Serialize> + DescribedSystem> Serialize for Trajecto
     }
 }
 
-/// For fields of your own structs, `#[serde(with = "gauss_runtime::saved::checked")] pose: Isometry3<f64>`: written as
-/// `nalgebra` writes it, and [checked](check) when it is read, which `nalgebra` does not.
+/// Serialisation of fields of your own structs, `#[serde(with = "gauss_runtime::saved::checked")] pose:
+/// Isometry3<f64>`: written as `nalgebra` writes it, and [checked](check) when it is read, which `nalgebra` does not.
 pub mod checked {
     use super::{Configuration, Deserialize, Deserializer, Error, Serialize, Serializer, check};
 

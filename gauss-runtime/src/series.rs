@@ -27,8 +27,8 @@ pub trait TaylorSystem: GaussSystem<Input = ()> {
     /// The coefficients of all variables.
     type Series: PowerSeries<Self::Scalar>;
 
-    /// How many variables are measured together, group by group in the order of the variables: a unit quaternion, a
-    /// translation, a scalar, a speed.
+    /// Numbers of variables that are measured together, group by group in the order of the variables: a unit
+    /// quaternion, a translation, a scalar, a speed.
     const GROUPS: &'static [usize];
 
     /// The series of the solution through (t, q, z) up to the given order, at most [`MAX_ORDER`] and at least 1:
@@ -106,7 +106,7 @@ pub struct Series<T, const V: usize, const D: usize, const L: usize> {
     factors: [[T; MAX_ORDER + 1]; D],
     left: [Row<T, L>; MAX_ORDER + 1],
     right: [Row<T, L>; MAX_ORDER + 1],
-    /// What is known of the sums of the next order.
+    /// Terms of the sums of the next order that are known already.
     ahead: Row<T, L>,
 }
 

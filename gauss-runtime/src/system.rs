@@ -1,5 +1,4 @@
-//! What a generated kernel offers: the equations of motion in two forms, energies, and the pieces of the Gauss
-//! condition.
+//! Traits of a generated kernel: the equations of motion in two forms, energies, and the pieces of the Gauss condition.
 //!
 //! Time first, then what a method depends on: `t, &q, &z, &input`. q is the configuration, z the quasi-velocities,
 //! `p = ∂T/∂z` the momenta.
@@ -52,13 +51,13 @@ pub trait GaussSystem {
     /// but for [`Simulation::without_contacts`](crate::integrate::Simulation::without_contacts).
     const HAS_CONTACTS: bool = false;
 
-    /// How many states elements have (`states(…)`): scalars of the configuration behind all others, which move no body.
-    /// They stand still in [`kinematics`](Self::kinematics) and change in
+    /// Number of the states of elements (`states(…)`): scalars of the configuration behind all others, which move no
+    /// body. They stand still in [`kinematics`](Self::kinematics) and change in
     /// [`configuration_rates`](Self::configuration_rates).
     const STATES: usize = 0;
 
-    /// How smooth the accelerations are as functions of the state: adaptive integrators step with more care where they
-    /// are not.
+    /// Smoothness of the accelerations as functions of the state: adaptive integrators step with more care where they
+    /// are not smooth.
     const SMOOTHNESS: Smoothness = Smoothness::Smooth;
 
     /// [`SMOOTHNESS`](Self::SMOOTHNESS), which a system whose equations come at run time knows by itself alone.
@@ -207,7 +206,7 @@ pub trait GaussSystem {
         input: &Self::Input,
     ) -> Self::Scalar;
 
-    /// How far the coordinates are from a singularity: 0 at one, where it vanishes with the distance, and ±1 at best.
+    /// Distance of the coordinates from a singularity: 0 at one, where it vanishes with the distance, and ±1 at best.
     /// For Euler angles the sine or cosine of the middle angle (det ∂ω/∂q̇ over the lengths of its columns), of
     /// opposite signs on the two sides; for Rodrigues' parameters, which become infinite, 1/√(1 + |g|²), the cosine of
     /// half the angle of the rotation, and for modified ones 1/√(1 + |σ|²), that of a quarter; 1 in charts without
@@ -305,7 +304,7 @@ impl<S: GaussSystem + ?Sized> Evaluated<S> {
     }
 }
 
-/// How smooth the accelerations of a system are as functions of time and state. The least smooth element decides: the
+/// Smoothness of the accelerations of a system as functions of time and state. The least smooth element decides: the
 /// order is that of growing roughness.
 ///
 /// A method of order p has local errors of order h^(p+1) only where p derivatives of the acceleration exist. On a step
@@ -431,8 +430,8 @@ pub trait RigidBodySystem: GaussSystem {
         pose: &Isometry3<Self::Scalar>,
     ) -> Result<Self::Configuration, ChartError>;
 
-    /// How well a twist determines the speeds here: 1 where the twists of all speeds are orthogonal, 0 where some of
-    /// them depend on the others, as in polar coordinates at the pole. 1 in charts, which have their
+    /// Degree to which a twist determines the speeds here: 1 where the twists of all speeds are orthogonal, 0 where
+    /// some of them depend on the others, as in polar coordinates at the pole. 1 in charts, which have their
     /// [`regularity`](GaussSystem::regularity).
     #[inline]
     fn determinacy(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Scalar {

@@ -28,7 +28,7 @@ pub struct Cubic<const N: usize>(Pieces<N>);
 /// Polynomials about points: each from its point to the next, the first also before it, and one after the last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Pieces<const N: usize> {
-    /// Where each begins.
+    /// Point at which each polynomial begins.
     start: [f64; N],
     /// Coefficients of powers of the distance from there.
     coefficients: [[f64; 4]; N],
@@ -191,7 +191,7 @@ mod tests {
         assert!(LINEAR.value(f64::NAN).is_nan() && CUBIC.slope(f64::NAN).is_nan());
     }
 
-    /// Of a spline the first two derivatives are continuous, and differences agree with them.
+    /// The first two derivatives of a spline are continuous, and differences agree with them.
     #[test]
     fn the_spline_has_two_continuous_derivatives() {
         for [x, _] in POINTS {

@@ -133,7 +133,7 @@ fn constants<P: Pack>([a, b, c, d, e, f]: [f64; 6]) -> [P; 6] {
     [P::splat(a), P::splat(b), P::splat(c), P::splat(d), P::splat(e), P::splat(f)]
 }
 
-/// What the nearest multiple of π/2 leaves of an angle.
+/// Remainder of an angle by the nearest multiple of π/2.
 struct Reduced<P> {
     /// Its last digits give the quadrant.
     shifted: P,
@@ -174,9 +174,9 @@ fn series<P: Pack>(terms: [P; 6], z: P, fma: impl MultiplyAdd) -> P {
     fma(fma(fma(f, z, e), z2, fma(d, z, c)), z2, fma(b, z, a))
 }
 
-/// What makes a sine of [`fused`], and what a cosine.
+/// Coefficients that make a sine of [`fused`], or a cosine.
 struct Wanted<P> {
-    /// Of the series.
+    /// Coefficients of the series.
     terms: [P; 6],
     /// The part of y beside it.
     part: P,
@@ -184,8 +184,8 @@ struct Wanted<P> {
     start: P,
 }
 
-/// By fused products: sin(y − e) = y − (s y³ + e), cos(y − e) = 1 + (c y³ + (e − y/2)) y, with at most 0.15 and 0.04
-/// ulp of e left out. One form for both, so that both can be places of one vector.
+/// Sine or cosine by fused products: sin(y − e) = y − (s y³ + e), cos(y − e) = 1 + (c y³ + (e − y/2)) y, with at most
+/// 0.15 and 0.04 ulp of e left out. One form for both, so that both can be places of one vector.
 #[inline(always)]
 fn fused<P: Pack>(y: P, excess: P, wanted: Wanted<P>, fma: impl MultiplyAdd) -> P {
     let z = y * y;
@@ -355,8 +355,8 @@ mod vectors {
         halves_of_eight: 4 of f64x8, f64x4::new, f64x4::to_array;
     }
 
-    /// How many places of a vector may repeat the last angle. Where two vectors stand for one, they would cost more
-    /// than the rest alone.
+    /// Largest number of places of a vector that may repeat the last angle. Where two vectors stand for one, they would
+    /// cost more than the rest alone.
     const REPEATED: usize = if cfg!(target_feature = "avx") { 1 } else { 0 };
 
     /// The same of eight: five angles are less work in one vector than in two with both halves.

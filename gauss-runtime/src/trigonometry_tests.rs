@@ -111,7 +111,7 @@ fn hard_arguments() {
     }
 }
 
-/// Where the library's result is right: both are within 1 ulp of the true value.
+/// Agrees with the library where that is right: both are within 1 ulp of the true value.
 #[test]
 fn agree_with_the_library_within_an_ulp() {
     let place = |x: f64| {

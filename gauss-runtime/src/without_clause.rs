@@ -1,4 +1,4 @@
-//! What the compiler says of a method that a clause of the scene brings, where the clause is not written.
+//! Messages of the compiler about a method that a clause of the scene brings, where the clause is not written.
 //!
 //! Of a method that no type has the compiler says that some trait could be implemented, which is not what a user
 //! should do. It shows a message of ours only where a trait has the method for types with a bound, and the bound alone

@@ -17,7 +17,7 @@ pub enum StateError {
     /// The components of a rotation belong to none: of a quaternion, of cosine and sine, the squares do not add up to
     /// 1.
     OffGroup {
-        /// By how much.
+        /// Difference between the sum of the squares and 1, without a sign.
         excess: f64,
     },
 }

@@ -70,8 +70,8 @@ pub trait ConstrainedSystem: GaussSystem {
 const MOST_CORRECTIONS: u32 = 60;
 /// Halvings of a correction before it is given up: near a singular J the first correction can be 2³⁰ times too long.
 const MOST_HALVINGS: i32 = 30;
-/// Where the search begins anew when it fails: multiples of the first correction away from the given state, both ways
-/// along the normal of the constraints.
+/// Starts of further searches when the first fails: multiples of the first correction away from the given state, both
+/// ways along the normal of the constraints.
 const OTHER_STARTS: [f64; 10] = [-0.5, 2.0, -1.0, 3.0, -2.0, 5.0, -4.0, 9.0, -8.0, 16.0];
 
 /// The state nearest to (q, z), measured by the kinetic energy, that satisfies the constraints up to rounding:

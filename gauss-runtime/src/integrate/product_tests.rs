@@ -11,7 +11,7 @@ use crate::real::Real;
 use crate::simd::Lanes;
 use crate::testing::coasting::{Coasting, increment};
 
-/// What systems with coordinates `pose: Pose, attitude: Rotation, x, y` have.
+/// Configuration of systems with coordinates `pose: Pose, attitude: Rotation, x, y`.
 type Mixed<T> = (Isometry3<T>, (UnitQuaternion<T>, SVector<T, 2>));
 
 fn start<T: Real>() -> Mixed<T> {

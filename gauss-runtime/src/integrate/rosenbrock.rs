@@ -186,7 +186,7 @@ impl<S: LinearizedSystem> EstimatingStep<S> for Rosenbrock {
     }
 }
 
-/// Where a step starts, in z.
+/// State at which a step starts, in z.
 struct Start<S: GaussSystem> {
     t: S::Scalar,
     q: S::Configuration,

@@ -55,7 +55,7 @@ const FRICTION: Scene = Scene {
     },
 };
 
-/// What a run leaves: its largest error of x and ẋ, its steps, its evaluations.
+/// Result of a run: its largest error of x and ẋ, its steps, its evaluations.
 struct Outcome {
     error: f64,
     steps: u32,

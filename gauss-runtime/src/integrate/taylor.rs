@@ -152,8 +152,8 @@ impl Taylor {
     }
 }
 
-/// What a step costs, relatively: a part for each step, one for each order, one for each product of two orders.
-/// Measured on bodies.
+/// Relative cost of a step: a part for each step, one for each order, one for each product of two orders. Measured on
+/// bodies.
 fn cost(order: usize) -> f64 {
     let p = order as f64;
     1.0 + p / 3.0 + p * p / 200.0
@@ -220,7 +220,7 @@ impl Shortened {
         self.reason.map(|(_, kind)| kind)
     }
 
-    /// How the step was taken at last.
+    /// Returns the statistics of the step that was taken at last, and starts anew.
     pub fn taken(&mut self, excess: f64) -> StepStatistics {
         StepStatistics { rejected: core::mem::take(self).rejected, excess }
     }

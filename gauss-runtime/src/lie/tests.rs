@@ -122,7 +122,7 @@ fn packs_take_both_branches_lane_by_lane() {
     }
 }
 
-/// What the laws need beside [`Configuration`].
+/// Operations that the laws need beside [`Configuration`].
 trait Group: Configuration<Scalar = f64> {
     const NAME: &'static str;
     fn identity() -> Self;

@@ -468,11 +468,11 @@ fn out_of_range(tensor: &[[f64; 3]; 3]) -> Option<(f64, Rule)> {
     value.map(|&value| (value, Rule::OutOfRange))
 }
 
-/// How principal moments are judged.
+/// Thresholds by which principal moments are judged.
 struct Moments {
-    /// What the smallest may be below zero, exclusively.
+    /// Bound of the smallest moment below zero, exclusively.
     rounding: f64,
-    /// What the largest may exceed the sum of the others by.
+    /// Bound of the excess of the largest over the sum of the others.
     slack: f64,
     about_center_of_mass: bool,
     /// The triangle inequality is waived.

@@ -1,4 +1,4 @@
-//! Where a kernel has halves of A⁻¹Wᵀ: the sizes of terms of velocities of impulses, and columns.
+//! Contact columns and sizes of the terms of velocities of impulses, for kernels that have halves of A⁻¹Wᵀ.
 
 use core::ops::Range;
 

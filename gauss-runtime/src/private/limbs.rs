@@ -67,12 +67,12 @@ macro_rules! functions {
     };
 }
 
-/// Of two limbs.
+/// Vectors for two limbs.
 pub mod two {
     functions!(Two, 2);
 }
 
-/// Of three or four limbs.
+/// Vectors for three or four limbs.
 pub mod four {
     functions!(Four, 4);
 }

@@ -1,4 +1,4 @@
-//! What generated code calls, and nothing else should: no promise of stability is made here.
+//! Functions for generated code, and for nothing else: no promise of stability is made here.
 //!
 //! Generated code is arithmetic on scalars; this module takes the user's containers apart and puts results together,
 //! turns poses into configurations and back, checks parameters, and has the traits and types that generated code

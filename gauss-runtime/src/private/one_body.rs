@@ -57,7 +57,7 @@ pub fn speeds_of_twist<S: RigidBodySystem, const N: usize>(
     speeds
 }
 
-/// How much of a twist is left, at least, once those of the other speeds are taken out of it.
+/// Least part of a twist that is left once those of the other speeds are taken out of it.
 pub fn determinacy_of_speeds<S: RigidBodySystem, const N: usize>(
     system: &S,
     t: S::Scalar,
@@ -225,9 +225,9 @@ fn within<T: Real>(value: T, bound: f64) -> bool {
 struct LeastSquares<T, const N: usize> {
     columns: [Twist<T>; N],
     orthogonal: [Twist<T>; N],
-    /// Of their squares; 0 for a column that those before it can make.
+    /// Inverses of the squares of the orthogonal columns; 0 for a column that those before it can make.
     inverses: [T; N],
-    /// What is in column k of the orthogonal ones before it.
+    /// Shares of the orthogonal columns before it in column k.
     shares: [[T; N]; N],
     over_lever: T,
     /// The least part of a column that those before it cannot make.

@@ -17,7 +17,7 @@ macro_rules! __with_vectors_0_1_0 {
 pub struct Rows<const N: usize>([[f64; 4]; N]);
 
 impl<const N: usize> Rows<N> {
-    /// Of these numbers.
+    /// Rows that hold these numbers.
     pub fn new(rows: [[f64; 4]; N]) -> Self {
         Self(rows)
     }
@@ -29,7 +29,7 @@ impl<const N: usize> Rows<N> {
     }
 }
 
-/// What is in them is shown as constants.
+/// The name alone is shown: the numbers are shown as constants.
 impl<const N: usize> fmt::Debug for Rows<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Rows")

@@ -1,4 +1,4 @@
-//! What is likely not meant, although a kernel can be made of it.
+//! Warnings about parameters that are likely not meant, although a kernel can be made of them.
 
 use core::marker::PhantomData;
 

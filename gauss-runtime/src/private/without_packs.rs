@@ -1,4 +1,4 @@
-//! What stands in for vectors where there are none.
+//! Substitutes for vectors where there are none.
 
 /// The second of two blocks: the first has vectors.
 #[doc(hidden)]
@@ -12,7 +12,7 @@ macro_rules! __with_vectors_0_1_0 {
 pub struct Rows<const N: usize>;
 
 impl<const N: usize> Rows<N> {
-    /// Of these numbers.
+    /// Rows that hold nothing of these numbers.
     #[inline]
     pub fn new(_: [[f64; 4]; N]) -> Self {
         Self

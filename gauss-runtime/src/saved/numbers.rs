@@ -9,7 +9,7 @@ use serde::ser::{Serialize, SerializeStruct, SerializeTuple, Serializer};
 use crate::configuration::VectorSpace;
 use crate::real::Real;
 
-/// What the numbers of a vector are called.
+/// Names of the numbers of a vector.
 #[derive(Clone, Copy)]
 pub struct Names {
     known: &'static [&'static str],

@@ -1,4 +1,4 @@
-//! What several states hold in lockstep, and how one of them is put in and taken out.
+//! Numbers, vectors and configurations of several states in lockstep, and how one state is put in and taken out.
 
 use nalgebra::{Isometry2, Isometry3, SMatrix, UnitQuaternion};
 
@@ -13,7 +13,7 @@ pub trait Packed: Copy {
     /// The value of one state.
     type Single: Copy;
 
-    /// How many states there are.
+    /// Number of the states.
     const WIDTH: usize;
 
     /// One value for every state.

@@ -1,10 +1,10 @@
-//! What is done with the numbers of lanes at once.
+//! Operations on the numbers of lanes at once.
 
 use crate::real::Real;
 
 /// An operation on numbers, lane by lane: of as many of the four as it needs.
 pub trait Operation {
-    /// What it gives.
+    /// Computes the result.
     fn of<V: Real>(numbers: [V; 4]) -> V;
 }
 

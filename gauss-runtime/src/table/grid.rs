@@ -3,15 +3,15 @@
 use super::spline::{slopes_of_parabolas, slopes_of_spline};
 use crate::real::Real;
 
-/// How the points of a table are joined, along each of its axes.
+/// Interpolation between the points of a table, along each of its axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joined {
-    /// By straight lines: continuous, and derivatives jump at the points.
+    /// Straight lines: continuous, and derivatives jump at the points.
     Linear,
-    /// By cubics whose slopes at the points are those of parabolas through three neighbours (Bessel's): one
-    /// continuous derivative. A change of one value acts two cells around.
+    /// Cubics whose slopes at the points are those of parabolas through three neighbours (Bessel's): one continuous
+    /// derivative. A change of one value acts two cells around.
     Hermite,
-    /// By the natural cubic spline: two continuous derivatives.
+    /// Natural cubic spline: two continuous derivatives.
     Cubic,
 }
 
@@ -36,7 +36,7 @@ pub enum Joined {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid<const N: usize, const M: usize, const L: usize, const K: usize> {
     axes: ([f64; N], [f64; M], [f64; L]),
-    /// Of each point; number k is differentiated once by the variables whose bits are in k.
+    /// Values and slopes of each point; number k is differentiated once by the variables whose bits are in k.
     points: [[[[f64; K]; L]; M]; N],
 }
 
@@ -72,7 +72,7 @@ impl<const N: usize, const K: usize> Grid<N, 1, 1, K> {
         Self::of_one(&x, &y, joined)
     }
 
-    /// Of one variable: `values[i]` is the value at `x[i]`.
+    /// Table of one variable: `values[i]` is the value at `x[i]`.
     ///
     /// # Panics
     /// As [`of_three`](Grid::of_three).
@@ -89,7 +89,7 @@ impl<const N: usize, const K: usize> Grid<N, 1, 1, K> {
 }
 
 impl<const N: usize, const M: usize, const K: usize> Grid<N, M, 1, K> {
-    /// Of two variables: `values[i][j]` is the value at `x[i]` and `y[j]`.
+    /// Table of two variables: `values[i][j]` is the value at `x[i]` and `y[j]`.
     ///
     /// # Panics
     /// As [`of_three`](Grid::of_three).
@@ -110,7 +110,7 @@ impl<const N: usize, const M: usize, const K: usize> Grid<N, M, 1, K> {
 }
 
 impl<const N: usize, const M: usize, const L: usize, const K: usize> Grid<N, M, L, K> {
-    /// Of three variables: `values[i][j][l]` is the value at `x[i]`, `y[j]` and `z[l]`.
+    /// Table of three variables: `values[i][j][l]` is the value at `x[i]`, `y[j]` and `z[l]`.
     ///
     /// # Panics
     /// Of axes of fewer than two numbers, or of numbers that do not increase, of numbers that are not finite, and of a
@@ -141,7 +141,7 @@ impl<const N: usize, const M: usize, const L: usize, const K: usize> Grid<N, M, 
         Self { axes: (axis(x), axis(y), axis(z)), points }.joined(3, joined)
     }
 
-    /// With slopes along its first axes, of which there are `variables`.
+    /// Adds slopes along the first axes, of which there are `variables`.
     const fn joined(mut self, variables: usize, joined: Joined) -> Self {
         let mut i = 0;
         while i < N * M * L {
@@ -179,7 +179,7 @@ impl<const N: usize, const M: usize, const L: usize, const K: usize> Grid<N, M, 
         [number / (M * L), number / L % M, number % L]
     }
 
-    /// Of number k of each point, along the lines of the grid of the first axis.
+    /// Adds the slopes of number k of each point, along the lines of the grid of the first axis.
     const fn slopes_along_first(&mut self, k: usize, spline: bool) {
         let mut line = 0;
         while line < M * L {
@@ -257,7 +257,7 @@ impl<const N: usize, const M: usize, const L: usize, const K: usize> Grid<N, M, 
         )
     }
 
-    /// What is kept of the points times its weights, axis by axis from the last one.
+    /// Sums values and slopes of the points times the weights, axis by axis from the last one.
     #[inline(always)]
     fn sum<T: Real>(&self, first: &Weights<T, N>, second: &Weights<T, M>, third: &Weights<T, L>) -> T {
         let mut sum = T::zero();
@@ -282,7 +282,7 @@ impl<const N: usize, const M: usize, const L: usize, const K: usize> Grid<N, M, 
     }
 }
 
-/// How much the values, and the slopes, at the points of an axis count at a place between them.
+/// Weights of the values, and of the slopes, at the points of an axis for a place between them.
 struct Weights<T, const N: usize> {
     /// The first and the last point that counts in some lane.
     from: usize,
@@ -292,7 +292,7 @@ struct Weights<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Weights<T, N> {
-    /// Of the derivative of that order at x.
+    /// Weights for the derivative of that order at x.
     #[inline(always)]
     fn new(axis: &[f64; N], smooth: bool, (order, x): (u8, T)) -> Self {
         let (zero, mut own) = (T::zero(), Self { from: 0, to: 0, values: [T::zero(); N], slopes: [T::zero(); N] });
@@ -324,7 +324,7 @@ impl<T: Real, const N: usize> Weights<T, N> {
         own
     }
 
-    /// That of the slope at a point, if `slope` is not zero, else of the value.
+    /// Weight of the slope at a point, if `slope` is not zero, else of the value.
     #[inline(always)]
     fn of(&self, point: usize, slope: usize) -> T {
         if slope == 0 { self.values[point] } else { self.slopes[point] }

@@ -171,7 +171,7 @@ fn what_is_of_their_kind_is_reproduced() {
     }
 }
 
-/// Of a product of two functions the table is the product of their tables; of one variable it is the same curve.
+/// The table of a product of two functions is the product of their tables; of one variable it is the same curve.
 #[test]
 fn products_and_single_curves() {
     let (f, g) = ([1.0, -1.0, 0.5, 2.0, 0.0], [0.5, 1.0, -2.0, 1.0]);

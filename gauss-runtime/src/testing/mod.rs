@@ -1,5 +1,5 @@
-//! What tests of several modules share: dual numbers, a free rigid body and constrained systems typed by hand. Runs of
-//! 10⁵ steps and more are in `tests/long_runs/tests/rounding`, which includes this folder and is optimised.
+//! Systems that tests of several modules share: dual numbers, a free rigid body and constrained systems typed by hand.
+//! Runs of 10⁵ steps and more are in `tests/long_runs/tests/rounding`, which includes this folder and is optimised.
 //!
 //! The hand-typed Euler equations are an independent check of the integrators; kernels proper are derived.
 

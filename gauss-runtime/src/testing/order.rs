@@ -39,7 +39,7 @@ pub(crate) fn march<S: GaussSystem<Scalar = f64>>(
     state
 }
 
-/// How far apart two states are: the largest component of the increment, and of the difference of y.
+/// Distance between two states: the largest component of the increment, and of the difference of y.
 pub(crate) fn distance<S: GaussSystem<Scalar = f64>>(a: &State<S>, b: &State<S>) -> f64 {
     a.q.difference(&b.q).max_norm().max(a.y.add_scaled(-1.0, &b.y).max_norm())
 }

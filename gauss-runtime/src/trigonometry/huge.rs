@@ -107,7 +107,7 @@ fn shifted(number: [u64; 3], by: u32) -> [u64; 3] {
     core::array::from_fn(|i| ((u128::from(word(i)) << 64 | u128::from(word(i + 1))) << bits >> 64) as u64)
 }
 
-/// Of a normal number.
+/// Power of two as a normal number.
 fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }

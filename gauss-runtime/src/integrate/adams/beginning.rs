@@ -1,5 +1,5 @@
-//! How a run begins: with fewer and longer steps of a Runge–Kutta method than are wanted, and states between their ends
-//! by Hermite's polynomial through all of these.
+//! Beginning of a run: fewer and longer steps of a Runge–Kutta method than are wanted, and states between their ends by
+//! Hermite's polynomial through all of these.
 //!
 //! A step of an Adams method is a third of what a Runge–Kutta method of order 8 needs for the same error, so two or
 //! three are one of the latter: 12 evaluations, and one for each state between. The polynomial through m + 1 ends and
@@ -26,17 +26,17 @@ const ENDS: usize = 7;
 /// A state between: what it is made of the states at the ends and the derivatives there.
 #[derive(Clone, Copy)]
 struct Between {
-    /// How many short steps from the start.
+    /// Number of short steps from the start.
     at: usize,
     /// The end next to it.
     near: usize,
-    /// Of the differences of all ends from that.
+    /// Weights of the differences of all ends from that.
     values: [f64; ENDS],
-    /// Of derivatives, for steps of length 1.
+    /// Weights of the derivatives, for steps of length 1.
     slopes: [f64; ENDS],
 }
 
-/// How an Adams method of K steps begins.
+/// The first states of an Adams method of K steps.
 pub(super) struct Beginning<const K: usize>;
 
 impl<const K: usize> Beginning<K> {
@@ -85,8 +85,8 @@ impl<const K: usize> Beginning<K> {
         (all, count)
     };
 
-    /// Of the value and of the slope at an end, in Hermite's polynomial: `(1 − 2(t − tᵢ)ℓᵢ′(tᵢ)) ℓᵢ²` and
-    /// `(t − tᵢ) ℓᵢ²`.
+    /// Weights of the value and of the slope at an end, in Hermite's polynomial: `(1 − 2(t − tᵢ)ℓᵢ′(tᵢ)) ℓᵢ²` and `(t −
+    /// tᵢ) ℓᵢ²`.
     const fn weights(at: usize, i: usize) -> (f64, f64) {
         let (t, own) = (at as f64, Self::NODES[i] as f64);
         let (mut lagrange, mut slope, mut j) = (1.0, 0.0, 0);
@@ -203,8 +203,8 @@ pub fn point<S: GaussSystem>(q: &S::Configuration, rates: &Rates<S>) -> Point<Co
 mod tests {
     use super::*;
 
-    /// Of powers up to 2m + 1 Hermite's polynomial is all there is; of the next one `Π(t − tᵢ)²` is left. Each weight,
-    /// of a size up to `size`, and each sum is rounded, some hundred times in all.
+    /// Hermite's polynomial is exact for powers up to 2m + 1; of the next one `Π(t − tᵢ)²` is left. Each weight, of a
+    /// size up to `size`, and each sum is rounded, some hundred times in all.
     #[test]
     fn states_between_are_those_of_polynomials() {
         fn check<const K: usize>() -> f64 {

@@ -48,7 +48,7 @@ pub(super) struct Formula<const K: usize>;
 impl<const K: usize> Formula<K> {
     const STEPS: () = assert!(2 <= K && K <= MOST, "an Adams method has 2 to 12 steps");
 
-    /// Of fₙ, fₙ₋₁, …: Σ γᵢ ∇ⁱfₙ.
+    /// Weights of fₙ, fₙ₋₁, … in the explicit formula: Σ γᵢ ∇ⁱfₙ.
     pub(super) const EXPLICIT: [f64; K] = {
         const { Self::STEPS };
         let (mut weights, mut first, mut j) = ([0.0; K], 1.0, K - 1);
@@ -66,7 +66,7 @@ impl<const K: usize> Formula<K> {
         weights
     };
 
-    /// Of fₙ₊₁ at the state that the explicit formula predicts: γ_K.
+    /// Weight of fₙ₊₁ at the state that the explicit formula predicts: γ_K.
     pub(super) const AHEAD: f64 = short(GAMMA[K]);
 
     /// Beside that of fₙ, fₙ₋₁, …: the explicit formula and γ_K ∇ᴷfₙ₊₁.
@@ -81,7 +81,7 @@ impl<const K: usize> Formula<K> {
         weights
     };
 
-    /// Those of the explicit formula and of the implicit one, side by side.
+    /// Weights of the explicit formula and of the implicit one, side by side.
     pub(super) const BOTH: [[f64; 2]; K] = {
         let (mut both, mut j) = ([[0.0; 2]; K], 0);
         while j < K {

@@ -66,8 +66,8 @@ impl<T: Real, const K: usize> Adams<T, K> {
 pub struct History<C, Y, const K: usize, const ROOM: usize> {
     derivatives: [Point<C, Y>; ROOM],
     newest: usize,
-    /// Of the explicit and of the implicit formula. A field, so that compilers need not know their number: where a
-    /// history is behind a pointer, as that of lanes, loops over it stay loops, whose sums are in registers.
+    /// Weights of the explicit and of the implicit formula. A field, so that compilers need not know their number:
+    /// where a history is behind a pointer, as that of lanes, loops over it stay loops, whose sums are in registers.
     weights: &'static [[f64; 2]],
 }
 
@@ -246,7 +246,7 @@ impl<S: GaussSystem, const K: usize> Control<S> for Adams<S::Scalar, K> {
         Ok(run.state)
     }
 
-    /// By one step of the method that begins runs, whose steps may be longer.
+    /// Makes one step of the method that begins runs, whose steps may be longer.
     fn within<P: Problem<System = S>>(
         &self,
         problem: &P,

@@ -293,7 +293,7 @@ impl<T: Real, const D: usize> Exponential<T, D> {
         }
     }
 
-    /// What (σ, δz) becomes behind the factor, when v and z change by `change`.
+    /// Computes (σ, δz) behind the factor, when v and z change by `change`.
     #[inline(always)]
     fn behind<const C: usize>(&self, state: &Rows<T, D, C>, change: &Rows<T, D, C>) -> Rows<T, D, C> {
         let mut sum = Rows::zero();
@@ -320,8 +320,8 @@ struct Chain<'s, S: GaussSystem, const D: usize, const U: usize> {
 }
 
 impl<T: Real, S: LinearizedSystem<Scalar = T>, const D: usize, const U: usize> Chain<'_, S, D, U> {
-    /// What the end moves by when the start moves by (σ, δz), and h times the rates (V, ż) of each stage change by
-    /// `forced` of the stage and its time over h beside what they change with the state.
+    /// Computes the change of the end when the start moves by (σ, δz), and h times the rates (V, ż) of each stage
+    /// change by `forced` of the stage and its time over h beside their change with the state.
     #[inline]
     fn block<const C: usize>(
         &self,

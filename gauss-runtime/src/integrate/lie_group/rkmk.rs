@@ -209,7 +209,7 @@ fn head<T: Real>((p, q): Rational) -> T {
     T::from_f64(rounded_ratio(p, q, digits))
 }
 
-/// What [`head`] leaves out, so that 80 binary digits of the coefficient are right.
+/// The rest of a coefficient that [`head`] leaves out, so that 80 binary digits of the coefficient are right.
 fn tail<T: Real>((p, q): Rational) -> T {
     if T::EPSILON < f64::EPSILON {
         return T::zero();

@@ -1,4 +1,4 @@
-//! What a method integrates, whatever the form and the input: `q̇ = q·V(t, q, y)`, `ẏ = f(t, q, y)`.
+//! Equations that a method integrates, whatever the form and the input: `q̇ = q·V(t, q, y)`, `ẏ = f(t, q, y)`.
 
 use core::cell::Cell;
 
@@ -14,7 +14,7 @@ type Input<P> = <<P as Problem>::System as GaussSystem>::Input;
 
 /// The equations of motion as a method sees them: those of a system, in the variables y of one form, under an input.
 pub trait Problem {
-    /// What moves.
+    /// System that moves.
     type System: GaussSystem;
 
     /// Whether the equations leave out [contacts](GaussSystem::HAS_CONTACTS) on purpose.

@@ -89,7 +89,7 @@ pub enum IntegrationErrorKind {
     TooManyJumps {
         /// The event of the last jump, by its number.
         event: usize,
-        /// How many there were.
+        /// Number of the jumps.
         jumps: u64,
         /// The time between the last two.
         interval: f64,
@@ -164,9 +164,9 @@ pub enum IntegrationErrorKind {
     },
     /// The equations of an implicit step are not solved by iteration: a shorter step may do.
     NotConverged {
-        /// How many iterations were made.
+        /// Number of the iterations that were made.
         iterations: u32,
-        /// How much the last one still changed, relative to the size of the state.
+        /// Change by the last iteration, relative to the size of the state.
         residual: f64,
     },
     /// The state cannot be brought back onto the constraints.
@@ -180,7 +180,7 @@ pub enum IntegrationErrorKind {
     ProjectionTooFar {
         /// Whether it moves the configuration so far, or the speeds (momenta in the momentum form).
         level: ConstraintLevel,
-        /// How far: a component of the increment.
+        /// Distance of the projection: a component of the increment.
         distance: f64,
         /// The largest distance that is allowed.
         allowed: f64,
@@ -190,7 +190,7 @@ pub enum IntegrationErrorKind {
     InconsistentStart {
         /// Whether the configuration is wrong, or the velocity only.
         level: ConstraintLevel,
-        /// How far the nearest state is that satisfies them: the largest component of the increment.
+        /// Distance of the nearest state that satisfies them: the largest component of the increment.
         distance: f64,
     },
     /// The given step is zero or not finite.
@@ -254,7 +254,7 @@ impl fmt::Display for SamplingMistake {
     }
 }
 
-/// Where a number that is not finite was seen first.
+/// Part of a run where a number that is not finite was seen first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum RunPart {
@@ -271,7 +271,7 @@ pub enum RunPart {
 }
 
 impl RunPart {
-    /// What was found there, and the remedy.
+    /// Describes the number that was found there, and the remedy.
     fn finding(self) -> &'static str {
         match self {
             Self::Event => "the function of an event is undefined; give it a value wherever the run may come",
@@ -306,7 +306,7 @@ impl IntegrationErrorKind {
         }
     }
 
-    /// What is wrong with the jump of an event.
+    /// Describes an error in the jump of an event.
     fn of_jump(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TooManyJumps { event, jumps, interval } => write!(
@@ -347,7 +347,7 @@ impl IntegrationErrorKind {
         }
     }
 
-    /// What a run was given that it cannot have.
+    /// Describes a setting that a run cannot have.
     fn of_request(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::InvalidStep { step } => write!(f, "the step is {step}; it must be finite and not zero"),

@@ -1,11 +1,11 @@
-//! Where the values of the input come from during a run.
+//! Sources of the values of the input during a run.
 
 use core::cell::Cell;
 
 use crate::sealed::Sealed;
 use crate::system::GaussSystem;
 
-/// Where the values of the input come from during a run: a closure
+/// Source of the values of the input during a run: a closure
 /// ([`Simulation::input`](crate::integrate::Simulation::input)), or a type of your own
 /// ([`Simulation::input_from`](crate::integrate::Simulation::input_from)). It is called at every stage of every step,
 /// also of steps that are rejected: its value should depend on the arguments only, and smoothly. What changes something

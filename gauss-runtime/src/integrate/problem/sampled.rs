@@ -54,7 +54,7 @@ impl<S: GaussSystem, R> fmt::Debug for Sampled<S, R> {
     }
 }
 
-/// What a run may have when a controller that samples is added.
+/// Inputs that a run may have when a controller that samples is added.
 #[diagnostic::on_unimplemented(
     message = "a controller that samples cannot be added to `{Self}`",
     note = "it adds to a closure, `.input(|t, q, z| …)`, to other controllers that sample, or to nothing: put what a type \
@@ -64,11 +64,11 @@ pub trait Samples<S: GaussSystem>: Sealed {
     /// The part that is a function of time and state.
     type Rest: Rest<S>;
 
-    /// That part.
+    /// Returns that part.
     fn rest(self) -> Self::Rest;
 }
 
-/// What is added to the inputs that are held.
+/// Input that is added to the inputs that are held.
 pub trait Rest<S: GaussSystem>: Sealed {
     /// The sum.
     fn with(&self, held: S::Input, t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Input;
@@ -125,7 +125,7 @@ impl<S: GaussSystem, R: Rest<S>> Samples<S> for Sampled<S, R> {
     }
 }
 
-/// What the input is outside a run: no number, so that nobody goes on with it.
+/// Input outside a run: no number, so that nobody goes on with it.
 fn undefined<S: GaussSystem<Input: VectorSpace<S::Scalar>>>() -> S::Input {
     let mut none = S::Input::zero();
     (0..S::Input::DIM).for_each(|i| none.set_component(i, S::Scalar::from_f64(f64::NAN)));
@@ -133,7 +133,7 @@ fn undefined<S: GaussSystem<Input: VectorSpace<S::Scalar>>>() -> S::Input {
 }
 
 impl<S: GaussSystem<Input: VectorSpace<S::Scalar>>, R> Sampled<S, R> {
-    /// With what is a function of time and state.
+    /// Adds controllers to a function of time and state.
     pub(in crate::integrate) fn with(rest: R) -> Self {
         Self { rest, held: Cell::new(undefined::<S>()) }
     }

@@ -43,9 +43,9 @@ pub type ComponentsOf<S> = <<S as GaussSystem>::Configuration as Configuration>:
 /// A point of the linear space in which a step is made, or a derivative there.
 #[derive(Clone, Copy)]
 pub struct Point<C, Y> {
-    /// Of the components of the configuration.
+    /// Part of the components of the configuration.
     pub components: C,
-    /// Of the quasi-velocities, or of the momenta.
+    /// Part of the quasi-velocities, or of the momenta.
     pub variables: Y,
 }
 

@@ -1,4 +1,5 @@
-//! What no step may do: pass over a singularity of the coordinates, or turn so far that the increment is ambiguous.
+//! Checks of a step: it may not pass over a singularity of the coordinates, nor turn so far that the increment is
+//! ambiguous.
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::problem::error::IntegrationErrorKind;

@@ -1,4 +1,4 @@
-//! What a method of one step is: the seam at which methods are added.
+//! Methods of one step: the seam at which methods are added.
 
 pub(in crate::integrate) mod checks;
 pub(in crate::integrate) mod iteration;

@@ -1,4 +1,4 @@
-//! What a method of one step is: the seam at which methods are added.
+//! Trait of the methods of one step: the seam at which methods are added.
 
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;

@@ -240,8 +240,8 @@ fn total<S: GaussSystem, const N: usize>(parts: &[Rates<S>; N]) -> Rates<S> {
     sum
 }
 
-/// How much a part of the increment changes, relative to the state and its increment: angles to 1 rad, translations to
-/// the distance from the origin, variables to the largest of them.
+/// Change of a part of the increment, relative to the state and its increment: angles to 1 rad, translations to the
+/// distance from the origin, variables to the largest of them.
 fn change<S: GaussSystem>(state: &State<S>, sum: &Rates<S>, old: &Rates<S>, new: &Rates<S>) -> f64 {
     let mut result = 0.0_f64;
     let mut see = |old, new, size| result = worst(result, relative_change(old, new, size));

@@ -36,8 +36,8 @@ use crate::triple::{Triple, add, cross, dot, quaternion, rotate_back, scaled, su
 ///
 /// Momenta are dual to body twists: Γ_O, (Q, Γ_O), or (Q₁, Q₂, Γ_O), body axes, pole O.
 pub trait CoadjointAction: Configuration {
-    /// What is added to the components of a momentum in space when they are taken in q ∘ exp(σ) instead of q: the
-    /// change, so that its rounding is relative to it.
+    /// Computes the change of the components of a momentum in space when they are taken in q ∘ exp(σ) instead of q: the
+    /// change itself, so that its rounding is relative to it.
     fn coadjoint_change(momentum: &Self::Tangent, sigma: &Self::Tangent) -> Self::Tangent;
 
     /// The same per unit of time for a body with the twist z: ad*_z p, which is ṗ without forces.

@@ -1,4 +1,5 @@
-//! How accurate the energy–momentum method is, on a top typed by hand; what it keeps is in `tests/long_runs`.
+//! Accuracy of the energy–momentum method, on a top typed by hand; tests of the integrals that it keeps are in
+//! `tests/long_runs`.
 
 use super::*;
 use crate::integrate::SystemProblem;

@@ -10,7 +10,7 @@ use crate::integrate::step::iteration::worst;
 use crate::real::Real;
 use crate::system::{GaussSystem, Smoothness};
 
-/// How a run came to its end.
+/// Ways in which a run comes to its end.
 #[derive(Clone, Copy, Debug)]
 pub enum Gave {
     /// A step of the length that it had to have cannot be made.
@@ -26,7 +26,7 @@ pub enum Gave {
     },
 }
 
-/// Where a run came to its end.
+/// State and step at which a run came to its end.
 pub struct Place<'a, S: GaussSystem> {
     /// The last state that it reached.
     pub state: &'a State<S>,
@@ -57,7 +57,7 @@ const RUN_AWAY: f64 = 1e12;
 /// Time constants of which no run is long enough to hold so many.
 const OUT_OF_REACH: f64 = 1e10;
 
-/// What is behind the end of a run.
+/// Finds the cause of the end of a run.
 pub fn cause<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     place: &Place<'_, S>,
@@ -126,7 +126,8 @@ struct Fastest {
     decays: bool,
 }
 
-/// By the power method, with differences in place of derivatives; none where these are undefined.
+/// Estimates the fastest rate by the power method, with differences in place of derivatives; none where these are
+/// undefined.
 fn fastest<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     (state, rates): (&State<S>, &Rates<S>),
@@ -164,7 +165,7 @@ fn fastest<S: GaussSystem, P: Problem<System = S>>(
     rate.is_finite().then_some(Fastest { rate, decays: along < -0.5 && back > 0.5 })
 }
 
-/// How fast the state changes relative to its own size, per unit of time: the largest of the components.
+/// Rate of change of the state relative to its own size, per unit of time: the largest of the components.
 pub fn change<S: GaussSystem>(state: &State<S>, rates: &Rates<S>, lanes: &Range<usize>) -> f64 {
     let relative = scaled(rates, &sizes(state, lanes), |rate, size| rate / size);
     largest(&relative.configuration, lanes).max(largest(&relative.variables, lanes))

@@ -1,4 +1,4 @@
-//! What a step is held to: its error, the constraints, and the prospect of the run.
+//! Conditions for the acceptance of a step: its error, the constraints, and the prospect of the run.
 
 pub mod cause;
 pub mod pace;

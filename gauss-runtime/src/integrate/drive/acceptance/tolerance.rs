@@ -30,17 +30,17 @@ const SUMS: f64 = 16.0;
 /// The tolerances of an adaptive method.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerance {
-    /// Of the size of a component.
+    /// Tolerance relative to the size of a component.
     pub relative: f64,
-    /// For components near zero.
+    /// Tolerance for components near zero.
     pub absolute: f64,
 }
 
-/// What rounding does to a step of some length from a state, component by component: at least so much is tolerated.
+/// Rounding errors of a step of some length from a state, component by component: at least so much is tolerated.
 pub struct Floor<S: GaussSystem> {
-    /// What derivatives differ by within a rounding of the state.
+    /// Differences of derivatives within a rounding of the state.
     derivatives: Rates<S>,
-    /// What the state itself is rounded by at the end of a step, relatively; 0 in lanes without a floor.
+    /// Relative rounding of the state itself at the end of a step; 0 in lanes without a floor.
     unit: S::Scalar,
     /// The errors of the speeds by a rounding of q and of momenta, where they are more than a rounding of theirs.
     speeds: S::Speeds,
@@ -53,7 +53,7 @@ impl<S: GaussSystem> Floor<S> {
         Self { derivatives, unit: S::Scalar::zero(), speeds: S::Speeds::zero() }
     }
 
-    /// That of `other` in lanes where `of_other` is 1, else this one.
+    /// Takes the floor of `other` in lanes where `of_other` is 1, else this one.
     pub fn or(&self, of_other: S::Scalar, other: &Self) -> Self {
         let choose = |mine: S::Scalar, other: S::Scalar| S::Scalar::select_lt(S::Scalar::zero(), of_other, other, mine);
         let (mut derivatives, mut speeds) = (self.derivatives, self.speeds);
@@ -140,9 +140,9 @@ pub struct Trial<'a, S: GaussSystem> {
     pub from: &'a State<S>,
     /// Its end.
     pub to: &'a State<S>,
-    /// How long it takes, without a sign.
+    /// Duration of the step, without a sign.
     pub length: S::Scalar,
-    /// What rounding does to it, where that is known.
+    /// Rounding errors of the step, where they are known.
     pub floor: Option<&'a Floor<S>>,
 }
 
@@ -211,8 +211,8 @@ impl Tolerance {
         self.errors(&Trial { from, to, length, floor: Some(floor) }, fine, coarse)
     }
 
-    /// How many times the tolerance rounding is where it is more, the largest of the components and lanes; 0 where it
-    /// is nowhere.
+    /// Largest ratio of rounding to the tolerance, of the components and lanes, where rounding is more; 0 where it is
+    /// nowhere.
     #[cold]
     #[inline(never)]
     pub fn excess<S: GaussSystem>(&self, trial: &Trial<'_, S>) -> f64 {
@@ -220,7 +220,7 @@ impl Tolerance {
         if largest > 1.0 { largest } else { 0.0 }
     }
 
-    /// How many times the tolerance rounding is, at least 1, the largest of the components, lane by lane.
+    /// Ratio of rounding to the tolerance, at least 1, the largest of the components, lane by lane.
     #[cold]
     #[inline(never)]
     pub fn excesses<S: GaussSystem>(&self, trial: &Trial<'_, S>) -> S::Scalar {

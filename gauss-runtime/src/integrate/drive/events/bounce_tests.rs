@@ -26,8 +26,8 @@ fn pair(x: f64, y: f64) -> Pair {
     Pair::from([x, y])
 }
 
-/// How far below the floor an impact may be: zeros are found to four roundings of the time, or of a step up to the end
-/// of the run, and a little more for roundings of the numbers.
+/// Bound of the depth of an impact below the floor: zeros are found to four roundings of the time, or of a step up to
+/// the end of the run, and a little more for roundings of the numbers.
 fn depth(speed: f64, end: f64, size: f64) -> f64 {
     8.0 * UNIT * speed * end + 16.0 * UNIT * size
 }
@@ -173,7 +173,7 @@ fn a_jump_of_the_wrong_velocity_is_told_and_a_gate_is_passed() {
     assert_eq!(error, None);
 }
 
-/// Of what it keeps all but a ten thousandth: rest is 160,000 impacts away.
+/// Each impact keeps all but a ten thousandth of the speed: rest is 160,000 impacts away.
 #[test]
 fn a_run_whose_steps_are_jumps_is_told_so() {
     let system = particle();

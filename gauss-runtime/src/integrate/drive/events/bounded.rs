@@ -74,7 +74,7 @@ struct Followed<'a, S: GaussSystem, G, A> {
     along: A,
     crossing: Crossing,
     start: (f64, f64),
-    /// By how much it changes at most in a step.
+    /// Largest change of the function in a step.
     most: f64,
     /// The error of the function on the curve in the middle of the step.
     off: f64,

@@ -147,7 +147,7 @@ where
     }
 }
 
-/// How long configuration or speeds take to change by their size.
+/// Time in which configuration or speeds change by their size.
 fn slow<S: GaussSystem>(state: &State<S>, rates: &Rates<S>) -> f64 {
     let place = (0..TangentOf::<S>::DIM).map(|i| state.q.magnitude(i)).fold(0.0, f64::max);
     let times = [place / rates.configuration.max_norm(), state.y.max_norm() / rates.variables.max_norm()];

@@ -64,7 +64,7 @@ impl<G> Each<NoEvents, G> {
         Self { others: NoEvents, functions: functions.into_iter().map(marked).collect(), jump: NoJump }
     }
 
-    /// With jumps: a function of the place in the list and the state, which tells whether it has changed that.
+    /// Adds jumps: a function of the place in the list and the state, which tells whether it has changed that.
     #[doc(hidden)]
     pub fn then<J>(self, jump: J) -> Each<NoEvents, G, NoBound, JumpFunction<J>> {
         let Self { others, functions, .. } = self;

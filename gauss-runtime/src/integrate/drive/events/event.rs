@@ -69,7 +69,7 @@ use crate::integrate::problem::state::{State, TangentOf};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// What the events of a step come to.
+/// Outcome of the events of a step.
 pub enum Outcome<S: GaussSystem> {
     /// The step stands as it is.
     On,
@@ -77,7 +77,7 @@ pub enum Outcome<S: GaussSystem> {
     Here {
         /// The state at the event.
         state: State<S>,
-        /// What it jumped to.
+        /// The state after the jump.
         after: Option<State<S>>,
         /// The event that made it jump, or ended the run.
         number: usize,
@@ -86,7 +86,7 @@ pub enum Outcome<S: GaussSystem> {
     },
 }
 
-/// Where a run may be cut: the state, what it jumped to, the first event there, and the one that ends the run.
+/// Cut of a run: the state, the state after the jump, the first event there, and the one that ends the run.
 type Here<S> = (State<S>, Option<State<S>>, usize, Option<usize>);
 
 impl Mark {
@@ -163,7 +163,7 @@ where
     C: Control<S>,
     E: Events<S>,
 {
-    /// Of a run in some of the numbers of a pack.
+    /// Events of a run in some of the numbers of a pack.
     pub fn new(control: &'a C, problem: &'a P, events: E, lanes: Range<usize>) -> Self {
         Self { control, problem, events, lanes }
     }

@@ -171,7 +171,8 @@ fn jumps_and_what_goes_there_and_back_are_found_and_touches_are_not() {
     assert_eq!(run.fixed_step(0.1).run(q0, z0, 0.0..3.0).expect("runs").events()[0].sample.t, 3.0);
 }
 
-/// What starts on zero, leaves it and is back within the first step passes there; what only leaves it does not.
+/// A function that starts on zero, leaves it and is back within the first step passes zero there; one that only leaves
+/// it does not.
 #[test]
 fn what_starts_on_zero_and_comes_back_within_a_step_is_seen() {
     let (q0, z0) = origin();

@@ -1,4 +1,4 @@
-//! What an event does to the state, and whether it has done something.
+//! Jumps: the effect of an event on the state, and whether the state has changed.
 
 use core::ops::Range;
 

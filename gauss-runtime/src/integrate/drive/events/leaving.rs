@@ -1,4 +1,4 @@
-//! How the function of an event leaves zero: to which side, and whether it comes back at once.
+//! Departure of the function of an event from zero: to which side, and whether it comes back at once.
 //!
 //! After a jump, and at a start on zero, the value of the function is rounding, and so is its sign. Where the motion
 //! leads decides. The function is followed on the parabola of the motion (state, velocity, acceleration) at parts of
@@ -34,13 +34,13 @@ const DIFFERS: f64 = 1e-6;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::integrate) struct OnZero {
     value: f64,
-    /// What rounding does to values here.
+    /// Rounding error of the values here.
     rounding: f64,
-    /// Of an event whose jump has to lead back: the side that the function came from, and its rate before the jump.
+    /// Side that the function came from, and its rate before the jump, of an event whose jump has to lead back.
     back: Option<(f64, f64)>,
 }
 
-/// How a function leaves zero.
+/// Departure of a function from zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::integrate) struct Leaving {
     /// The part of the step at which it is on a side, and a number of that sign and nothing of a size.
@@ -99,7 +99,8 @@ impl OnZero {
     }
 }
 
-/// What rounding of time, configuration and speeds does to a function: what it changes by with each of them.
+/// Estimates the change of a function by rounding of time, configuration and speeds: the sum of its changes with each
+/// of them.
 pub(in crate::integrate) fn rounding<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     function: Function<'_, S>,
@@ -186,7 +187,8 @@ where
     P: Problem<System = S>,
     C: Control<S>,
 {
-    /// How a function that is on zero at the start of the step leaves it; none where it does not in this step.
+    /// Finds the side to which a function that is on zero at the start of the step leaves it; none where it does not in
+    /// this step.
     pub(in crate::integrate) fn leaves(
         &self,
         function: Function<'_, S>,
@@ -222,7 +224,7 @@ where
         Ok(on.leaves(&points[..=count]))
     }
 
-    /// How a function goes on that had a value, perhaps zero, at a part of the step.
+    /// Finds the side on which a function goes on that had a value, perhaps zero, at a part of the step.
     pub(in crate::integrate) fn going_on(
         &self,
         function: Function<'_, S>,

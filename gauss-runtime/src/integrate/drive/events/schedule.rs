@@ -24,6 +24,6 @@ pub trait Scheduled<S: GaussSystem> {
     /// When it samples, or another of its inputs acts, next.
     fn next(&self) -> S::Scalar;
 
-    /// What acts, added to what others hold.
+    /// Returns the input that acts, added to the inputs that others hold.
     fn added_to(&self, others: Option<S::Input>) -> S::Input;
 }

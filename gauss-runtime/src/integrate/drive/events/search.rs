@@ -122,7 +122,7 @@ where
         self.control.within(self.problem, state, rates, self.length() * S::Scalar::from_f64(part))
     }
 
-    /// How long the step takes.
+    /// Duration of the step, without a sign.
     pub(in crate::integrate) fn duration(&self) -> f64 {
         self.length().lane(self.made.lane).abs()
     }

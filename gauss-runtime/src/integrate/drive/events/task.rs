@@ -55,7 +55,7 @@ impl<S: GaussSystem<Input: VectorSpace<S::Scalar>>, C> Task<S, C> {
         Self { delay: Delay::Samples(samples), ..self }
     }
 
-    /// What is held until the first sample acts.
+    /// Sets the input that is held until the first sample acts.
     pub(in crate::integrate) fn initially(self, input: S::Input) -> Self {
         Self { initially: input, ..self }
     }

@@ -17,29 +17,29 @@ pub struct Mark {
     /// Whether its jump may let the function go on through zero.
     pub(super) through: bool,
     pub(super) value: f64,
-    /// Where in the present step the next one is, if there is one, with the value there.
+    /// Part of the present step at which the next event is, if there is one, with the value there.
     pub(super) next: Option<(f64, f64)>,
-    /// Where in the present step the last one was, and the value before it.
+    /// Part of the present step at which the last event was, and the value before it.
     pub(super) last: Option<(f64, f64)>,
     /// Whether that is where the run is cut, and whether the state has jumped by it there.
     pub(super) here: bool,
     pub(super) jumped: bool,
     /// Whether a jump has led over it.
     pub(super) passed: bool,
-    /// What is known of the function before a jump.
+    /// Side and rate of the function before a jump.
     pub(super) cut: Option<BeforeJump>,
     /// The function has not been seen to leave zero.
     pub(super) resting: Option<OnZero>,
 }
 
-/// What is known of a function where the state jumps at its zero.
+/// Side and rate of a function where the state jumps at its zero.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BeforeJump {
     /// The side that it came from.
     pub(super) side: f64,
     /// Per unit of time in the direction of integration.
     pub(super) rate: f64,
-    /// How far beyond zero it may be, since zeros are found to a part of the step.
+    /// Distance beyond zero at which it may be, since zeros are found to a part of the step.
     pub(super) beyond: f64,
 }
 
@@ -175,7 +175,7 @@ impl<E, G> Watched<E, G> {
         Self { others, function, jump: NoJump, mark: Mark::new(crossing, terminal, false) }
     }
 
-    /// With a jump, after which the function may go on through zero or has to be led back.
+    /// Adds a jump, after which the function may go on through zero or has to be led back.
     #[doc(hidden)]
     pub fn then<J>(self, jump: J, through: bool) -> Watched<E, G, JumpFunction<J>> {
         let Self { others, function, mark, .. } = self;

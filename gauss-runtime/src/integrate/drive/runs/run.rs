@@ -21,7 +21,7 @@ use crate::integrate::problem::state::{Rates, State};
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// What a run passes on.
+/// Items that a run passes on.
 pub(in crate::integrate) enum Seen<'a, S: GaussSystem> {
     Sample(&'a State<S>),
     Event(usize, &'a State<S>),
@@ -51,7 +51,7 @@ impl<'a, P, C> Run<'a, P, C> {
     }
 }
 
-/// How far a run came.
+/// Summary of a run, and the event that stopped it.
 #[derive(Default)]
 pub(in crate::integrate) struct Reached {
     pub(in crate::integrate) summary: Summary,
@@ -103,7 +103,7 @@ impl Jumps {
     }
 }
 
-/// What a run has passed on since its start or the last jump.
+/// Record of the states that a run has passed on since its start or the last jump.
 struct Passing<S: GaussSystem> {
     count: u64,
     /// The state before, for events.
@@ -127,7 +127,7 @@ impl<S: GaussSystem> Passing<S> {
     }
 }
 
-/// How a part of a run between two jumps or instants ended, unless it reached its end.
+/// End of a part of a run between two jumps or instants, unless it reached its end.
 enum Cut<S: GaussSystem> {
     Stopped(State<S>),
     Jumped(State<S>),

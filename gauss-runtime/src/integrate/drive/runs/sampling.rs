@@ -112,7 +112,7 @@ where
         self.with_events(|Controlled { others, task }| Controlled { others, task: task.delayed_samples(samples) })
     }
 
-    /// What the controller that was added last holds until its first sample acts, instead of zero.
+    /// Sets the input that the controller that was added last holds until its first sample acts, instead of zero.
     pub fn initially(self, input: S::Input) -> Self {
         self.with_events(|Controlled { others, task }| Controlled { others, task: task.initially(input) })
     }

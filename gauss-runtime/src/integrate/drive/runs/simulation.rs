@@ -390,7 +390,7 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
         self.with_events(|events| Each::after(events, crossing, terminal, plain))
     }
 
-    /// What is integrated: the kernel, the form of its equations, the input.
+    /// Returns the problem that is integrated: the kernel, the form of its equations, the input.
     #[must_use]
     pub fn problem(&self) -> &P {
         &self.problem
@@ -402,8 +402,8 @@ impl<P, C, O, E> Simulation<P, C, O, E> {
         self.limit
     }
 
-    /// What another front goes on from: the problem, the control, the events, every how many states are handed out, the
-    /// most steps.
+    /// Returns the parts from which another front goes on: the problem, the control, the events, every how many states
+    /// are handed out, the most steps.
     #[doc(hidden)]
     pub fn into_parts(self) -> (P, C, E, u64, Option<u64>) {
         let Self { problem, control, events, every, limit, .. } = self;

@@ -1,4 +1,4 @@
-//! What an integration hands out: samples, and the states between them.
+//! Results of an integration: samples, and the states between them.
 
 use core::fmt;
 

@@ -35,7 +35,7 @@ use crate::system::GaussSystem;
 pub struct Adaptive<M = RungeKutta<DormandPrince8, 12>> {
     /// The method.
     pub method: M,
-    /// What the error of a step is measured against.
+    /// Tolerances that the error of a step is measured against.
     pub tolerance: Tolerance,
     /// The length of the first step; an estimate where there is none.
     pub first_step: Option<f64>,

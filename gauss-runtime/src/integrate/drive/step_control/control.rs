@@ -1,4 +1,4 @@
-//! What carries a state over an interval: a method with its choice of steps.
+//! Control of a run: a method with its choice of steps, which carries a state over an interval.
 
 use core::ops::ControlFlow;
 

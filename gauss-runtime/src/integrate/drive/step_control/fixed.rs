@@ -52,8 +52,8 @@ impl<T: Real, M> Fixed<T, M> {
 /// The end of a step, and the derivatives there where they came with it.
 pub type Advanced<S> = (State<S>, Option<Rates<S>>);
 
-/// How many steps of a length fill a span of time. A remainder of a few roundings of the count is that of the length
-/// and of the ends, not a step.
+/// Number of steps of a length that fill a span of time. A remainder of a few roundings of the count is that of the
+/// length and of the ends, not a step.
 fn number_of_steps<T: Real>(span: f64, length: f64) -> f64 {
     let count = span.abs() / length;
     let unit = T::EPSILON.max(f64::EPSILON);
@@ -61,8 +61,8 @@ fn number_of_steps<T: Real>(span: f64, length: f64) -> f64 {
     if whole { round(count).max(1.0) } else { floor(count) + 1.0 }
 }
 
-/// How many steps of a length fill a span of time that comes as far from zero as `time`, where these are no more than
-/// the limit and follow one another: neighbouring times are numbers that differ where a step is no less than their
+/// Number of steps of a length that fill a span of time that comes as far from zero as `time`, where these are no more
+/// than the limit and follow one another: neighbouring times are numbers that differ where a step is no less than their
 /// distance there.
 ///
 /// # Errors
@@ -86,14 +86,14 @@ pub fn further(a: f64, b: f64) -> f64 {
 
 /// A run by steps of one length, the last one ending where it should.
 pub(in crate::integrate) struct OneLength<S: GaussSystem> {
-    /// Where the run is, and the derivatives there.
+    /// State of the run, and the derivatives there.
     pub state: State<S>,
     pub rates: Rates<S>,
     start: S::Scalar,
     end: S::Scalar,
-    /// With the sign of the direction.
+    /// Length of a step, with the sign of the direction.
     h: S::Scalar,
-    /// How many steps there are, and how many are made.
+    /// Numbers of all steps, and of those that are made.
     pub steps: u64,
     pub made: u64,
     /// Whether the method is stable where steps are longer than the fastest decay.
@@ -137,7 +137,7 @@ impl<S: GaussSystem> OneLength<S> {
         time(self.start, self.h, made)
     }
 
-    /// With the sign of the direction.
+    /// Length of a step, with the sign of the direction.
     pub fn length(&self) -> S::Scalar {
         self.h
     }

@@ -23,7 +23,7 @@ const UNLIMITED: f64 = 1e-4;
 /// Shorter steps, in distances of looks, have stages enough.
 const SHORT: f64 = 4.0;
 
-/// Where something was seen, looks are so many times as near.
+/// Factor by which looks are nearer after something was seen.
 const FINER: f64 = 16.0;
 
 /// Accelerations may leave the range that the ends and the curve of a step show by this part of it.
@@ -35,7 +35,7 @@ pub struct Looks {
     distance: f64,
     /// Whether the distance is that of the user.
     given: bool,
-    /// Where looks are nearer, in time since the start of the run.
+    /// Interval in which looks are nearer, in time since the start of the run.
     fine: [f64; 2],
     start: f64,
     /// Whether the length of the step was chosen after one that limits none.

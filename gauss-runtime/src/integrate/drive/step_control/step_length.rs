@@ -95,7 +95,8 @@ impl StepLength {
         self.grow(logarithm, exponential(self.exponent(logarithm)))
     }
 
-    /// What the controller makes of an error: logarithms have no zero, and steps that are far too short grow no faster.
+    /// Bounds the error that the controller is told from below: logarithms have no zero, and steps that are far too
+    /// short grow no faster.
     pub fn told(error: f64) -> f64 {
         error.max(1e-10)
     }
