@@ -172,7 +172,7 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
         }
     }
 
-    /// What is to be tried next, and whether there is anything. The error of a step does not tell which lanes fail.
+    /// Chooses the next trial, if there is anything left to try. The error of a step does not tell which lanes fail.
     /// They are independent, and a step of length zero succeeds from every good state: so each is tried while the
     /// others stand still; those that are to blame stop, and the others make the step.
     #[cold]
@@ -206,7 +206,7 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
         self.failures.iter().all(|failure| failure.state != state)
     }
 
-    /// What is left stops as well.
+    /// Stops the states that are left as well.
     fn fail_the_rest(&mut self, time: f64, kind: IntegrationErrorKind) {
         for state in 0..self.states {
             if self.failures.iter().all(|failure| failure.state != state) {

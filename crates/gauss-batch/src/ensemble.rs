@@ -259,7 +259,7 @@ struct Part<'a, S: BatchSystem> {
     z: &'a mut [S::Speeds],
     /// The number of the first state.
     first: usize,
-    /// Of those here, the one to start next.
+    /// Place among these states of the one to start next.
     next: usize,
     /// Whether the last state of all is here, which the rest of its block repeats.
     last: bool,

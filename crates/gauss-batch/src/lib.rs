@@ -124,7 +124,7 @@ impl<S: GaussSystem> Kernels<S> for [S] {
     }
 }
 
-/// What is done with many states: the kernels, the form of the equations and the input.
+/// Kernels of many states, with the form of the equations and the input.
 ///
 /// See the [module](self) for an example.
 #[derive(Debug)]

@@ -41,7 +41,7 @@ impl<V: Packed> Packs<V> {
         Self { blocks, count }
     }
 
-    /// How many states there are.
+    /// Number of the states.
     #[must_use]
     pub fn len(&self) -> usize {
         self.count
@@ -129,7 +129,7 @@ impl<S: BatchSystem> States<S> {
         }
     }
 
-    /// How many states there are.
+    /// Number of the states.
     #[must_use]
     pub fn len(&self) -> usize {
         self.configurations.len()

@@ -17,7 +17,7 @@ use crate::states::{ComponentsOf, by_increments, in_numbers, numbers_of};
 use crate::steps::Steps;
 use crate::tape::{Adjoints, Recording, Taped};
 
-/// What a gradient took.
+/// Work and memory that a gradient took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Effort {
@@ -44,7 +44,7 @@ pub struct Gradient<const P: usize> {
     pub by_q: Vec<f64>,
     /// Its derivatives by the initial quasi-velocities, with the numbers held.
     pub by_z: Vec<f64>,
-    /// What it took.
+    /// Work and memory that it took.
     pub effort: Effort,
 }
 
@@ -57,9 +57,9 @@ struct Back<'a, R: Run<P>, C, const P: usize> {
     /// The nodes of the numbers, the system and the initial state: they stay.
     kept: usize,
     adjoints: Adjoints,
-    /// What the cost changes with the components of q and with z where the way back has come to.
+    /// Derivatives of the cost by the components of q and by z where the way back has come to.
     by_state: Vec<f64>,
-    /// What each instant adds to the cost.
+    /// Contribution of each instant to the cost.
     costs: Vec<f64>,
 }
 

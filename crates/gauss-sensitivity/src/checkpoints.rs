@@ -12,8 +12,8 @@ fn binomial(s: usize, r: usize) -> usize {
     (1..=few).try_fold(1_usize, |product, k| product.checked_mul(all - few + k).map(|n| n / k)).unwrap_or(usize::MAX)
 }
 
-/// How far from the last state kept the next one is, on the way back through `steps` ≥ 2 steps with room for `states`
-/// ≥ 2 of them, the last one kept among them.
+/// Number of steps from the last state kept to the next one, on the way back through `steps` ≥ 2 steps with room for
+/// `states` ≥ 2 of them, the last one kept among them.
 pub(crate) fn split(steps: usize, states: usize) -> usize {
     let mut r = 1;
     while binomial(states, r) < steps {

@@ -21,7 +21,7 @@ pub struct Fit<const P: usize> {
     pub covariance: SMatrix<f64, P, P>,
     /// The sum of the squares of all residuals: about their number less P where residuals are in standard deviations.
     pub misfit: f64,
-    /// How many times the derivatives were computed.
+    /// Number of times that the derivatives were computed.
     pub iterations: usize,
 }
 
@@ -43,7 +43,7 @@ pub enum FitError {
     Undetermined,
     /// No better numbers are found, and these are not the best either.
     NotConverged {
-        /// How many times the derivatives were computed.
+        /// Number of times that the derivatives were computed.
         iterations: usize,
         /// The sum of the squares of all residuals.
         misfit: f64,

@@ -12,7 +12,7 @@ use crate::steps::Steps;
 pub(crate) struct Mesh {
     /// The start, then the end of each step.
     pub(crate) times: Vec<f64>,
-    /// How many steps are made at each instant that is reached.
+    /// Number of steps that are made at each instant that is reached.
     reached: Vec<usize>,
     /// Whether an event ended the run.
     pub(crate) ended: bool,
@@ -61,7 +61,7 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// How many steps there are.
+    /// Number of the steps.
     pub(crate) fn steps(&self) -> usize {
         self.times.len() - 1
     }
@@ -80,7 +80,7 @@ impl Mesh {
         }
     }
 
-    /// How many instants are reached, the end by an event among them.
+    /// Number of instants that are reached, the end by an event among them.
     pub(crate) fn instants(&self) -> usize {
         self.reached.len() + usize::from(self.ended)
     }

@@ -1,4 +1,4 @@
-//! What is differentiated: a run as a function of numbers.
+//! Runs as functions of numbers, which are differentiated.
 
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::error::ParameterError;
@@ -15,14 +15,14 @@ pub type ConfigurationOf<S> = <S as GaussSystem>::Configuration;
 /// The quasi-velocities z of a system.
 pub type SpeedsOf<S> = <S as GaussSystem>::Speeds;
 
-/// Where a run starts: q and z.
+/// Initial state of a run: q and z.
 pub type Start<S> = (ConfigurationOf<S>, SpeedsOf<S>);
 
 /// A state of a run, as inputs, events, costs and residuals see it.
 pub struct At<'a, S: GaussSystem> {
-    /// Of costs and residuals: which of the [instants](Run::instants) it is, from 0. Where an [event](Run::until)
-    /// ended the run it is the instant that would have come next. Of inputs and events: which of the intervals between
-    /// instants the state is in, from 0.
+    /// Number of the [instant](Run::instants), from 0, in costs and residuals. Where an [event](Run::until) ended the
+    /// run it is the instant that would have come next. In inputs and events: the number of the interval between
+    /// instants that the state is in, from 0.
     pub number: usize,
     /// Whether the run was ended by its event here.
     pub ended: bool,
@@ -128,7 +128,7 @@ pub trait Run<const P: usize> {
 
 /// A run with a cost: the sum of one number for each instant.
 pub trait Cost<const P: usize>: Run<P> {
-    /// What an instant adds to the cost, the first one included; 0 where nothing is asked.
+    /// Computes the contribution of an instant to the cost, the first one included; 0 where nothing is asked.
     fn cost<T: Real>(&self, numbers: &[T; P], at: &At<'_, Self::System<T>>) -> T;
 }
 
@@ -139,7 +139,7 @@ pub trait Residuals<const P: usize, const R: usize>: Run<P> {
     fn residuals<T: Real>(&self, numbers: &[T; P], at: &At<'_, Self::System<T>>) -> [T; R];
 }
 
-/// What a system is fed with in one interval between instants.
+/// Input of a system in one interval between instants.
 pub(crate) struct Fed<'a, R: Run<P>, T: Real, const P: usize> {
     pub(crate) run: &'a R,
     pub(crate) numbers: &'a [T; P],
@@ -175,7 +175,7 @@ impl<'a, T: Real, R: Run<P>, const P: usize> Fed<'a, R, T, P> {
 pub(crate) type Equations<'a, R, T, const P: usize> =
     SystemProblem<'a, <R as Run<P>>::System<T>, VelocityForm, Fed<'a, R, T, P>>;
 
-/// Those of the first interval.
+/// Equations of the first interval.
 pub(crate) fn equations<'a, R: Run<P>, T: Real, const P: usize>(
     run: &'a R,
     numbers: &'a [T; P],

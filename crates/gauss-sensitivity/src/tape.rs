@@ -242,7 +242,7 @@ impl Recording {
         leaf.recorded(value, [NONE; 2], [0.0; 2])
     }
 
-    /// How many nodes there are.
+    /// Number of the nodes.
     pub(crate) fn len(&self) -> usize {
         TAPE.with_borrow(|tape| tape.nodes.len())
     }

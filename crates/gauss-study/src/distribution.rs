@@ -1,11 +1,11 @@
-//! What a parameter is drawn from.
+//! Distributions from which parameters are drawn.
 
 use serde::Serialize;
 
 use crate::normal::{normal_probability, normal_quantile, truncated_quantile};
 
-/// What a parameter is drawn from: made by [`fixed`], [`uniform`], [`normal`], [`truncated_normal`], [`log_normal`],
-/// [`triangular`], [`list`] and [`grid`].
+/// Distribution from which a parameter is drawn: made by [`fixed`], [`uniform`], [`normal`], [`truncated_normal`],
+/// [`log_normal`], [`triangular`], [`list`] and [`grid`].
 ///
 /// Each is an increasing function of one uniform number (a list: of its place), so that plans that fill the unit cube
 /// evenly do so here, too. Numbers that make no distribution are refused by
@@ -70,7 +70,7 @@ pub enum Distribution {
         from: f64,
         /// The last number.
         to: f64,
-        /// How many numbers there are.
+        /// Number of the values.
         count: u32,
     },
 }
@@ -149,7 +149,7 @@ impl Distribution {
         }
     }
 
-    /// Of a sweep, how many numbers it has.
+    /// Number of the values of a sweep; none of other distributions.
     pub(crate) fn steps(&self) -> Option<u64> {
         match self {
             Self::Grid { count, .. } => Some(u64::from(*count)),
@@ -171,7 +171,7 @@ impl Distribution {
         matches!(self, Self::Fixed { .. } | Self::List { .. } | Self::Grid { .. })
     }
 
-    /// What makes it no distribution.
+    /// Mistake in the numbers, which makes them no distribution.
     pub(crate) fn mistake(&self) -> Option<&'static str> {
         let finite = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
         match self {
@@ -207,7 +207,7 @@ impl Distribution {
     }
 }
 
-/// Of a normal distribution that is cut: bounds that leave nothing.
+/// Mistake in the bounds of a truncated normal distribution: they leave nothing.
 fn cut_mistake([mean, deviation]: [f64; 2], bounds: [f64; 2]) -> Option<&'static str> {
     let [from, to] = bounds;
     if from.is_nan() || to.is_nan() || from >= to {

@@ -5,7 +5,7 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
-/// What is wrong with a declaration, all of it.
+/// Mistakes in a declaration, all of them.
 #[derive(Debug)]
 pub struct DeclarationError {
     pub(crate) mistakes: Vec<String>,
@@ -63,9 +63,9 @@ pub enum StudyError {
     },
     /// Runs are missing that a merged file would need.
     Missing {
-        /// How many parts.
+        /// Number of missing parts.
         parts: u64,
-        /// Of how many.
+        /// Number of all parts.
         of: u64,
     },
     /// There is no such column.

@@ -1,4 +1,4 @@
-//! What a run hands back.
+//! Row of values that a run hands back.
 
 use std::fmt::Display;
 use std::marker::PhantomData;
@@ -26,7 +26,7 @@ impl<T> Column<T> {
     }
 }
 
-/// What a column holds.
+/// Type of the values in a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -53,7 +53,7 @@ pub enum Value {
     Text(String),
 }
 
-/// What columns can hold: `f64`, `i64`, `bool`, `String`.
+/// Types of values that columns can hold: `f64`, `i64`, `bool`, `String`.
 pub trait ColumnType: sealed::Sealed + Into<Value> {
     #[doc(hidden)]
     const KIND: Kind;

@@ -1,6 +1,6 @@
 //! Which parameter matters: Sobol' indices of a result, from the runs of [`Plan::Saltelli`](crate::Plan::Saltelli).
 
-/// How much of the variance of a result a parameter brings.
+/// Share of a parameter in the variance of a result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Index {
     /// The share that would go if the parameter were known: by itself.

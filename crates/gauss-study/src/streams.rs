@@ -9,7 +9,7 @@ use chacha20::rand_core::{Rng, SeedableRng};
 
 use crate::normal::normal_quantile;
 
-/// What the numbers are for: draws of one parameter for one purpose say nothing of those for another.
+/// Purpose of the numbers: draws of one parameter for one purpose say nothing of those for another.
 #[derive(Clone, Copy)]
 pub enum Purpose {
     /// A parameter of a run.
@@ -54,7 +54,7 @@ impl Stream {
         unit(self.bits())
     }
 
-    /// Of mean 0 and standard deviation 1.
+    /// Draws a normally distributed number of mean 0 and standard deviation 1.
     pub fn normal(&mut self) -> f64 {
         normal_quantile(self.uniform())
     }
@@ -108,7 +108,7 @@ mod tests {
         assert_eq!(hash("foobar"), 0x343e_1662_793c_64bf_6f0d_3597_ba44_6f18);
     }
 
-    /// What studies have drawn stays: the numbers by an independent ChaCha, `tests/chacha.py`.
+    /// Draws of earlier studies stay: the numbers by an independent ChaCha, `tests/chacha.py`.
     #[test]
     fn draws_stay_what_they_are() {
         let bits = |seed, run| Stream::new(seed, Purpose::Parameter, "slope", run).bits();

@@ -49,14 +49,14 @@ impl Shard {
     }
 }
 
-/// How far a study, or a shard of it, is.
+/// Progress of a study, or of a shard of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Progress {
     /// Runs that are in files.
     pub runs: u64,
-    /// Of so many.
+    /// Number of all runs.
     pub of: u64,
-    /// Those of them that failed.
+    /// Runs in files that failed.
     pub failed: u64,
     /// Parts that were there, but not whole or of another study, and are made anew.
     pub damaged: u64,
@@ -199,7 +199,7 @@ impl<'a> Study<'a> {
         rows
     }
 
-    /// How far the study in a folder is.
+    /// Progress of the study in a folder.
     ///
     /// # Errors
     /// [`StudyError::None`] and those of [`run`](Self::run).
@@ -220,7 +220,7 @@ impl<'a> Study<'a> {
         Folder::open(folder, &self.declaration)?.merge()
     }
 
-    /// What there is of the results, also while runs are made.
+    /// Results that are there so far, also while runs are made.
     ///
     /// # Errors
     /// [`StudyError::None`] and those of [`run`](Self::run).

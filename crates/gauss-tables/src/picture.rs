@@ -119,7 +119,7 @@ fn by_units<'a>(columns: &[Column<'a>]) -> Vec<Panel<'a>> {
     panels
 }
 
-/// Where a panel lies.
+/// Part of the drawing that a panel fills.
 type Area<'s> = DrawingArea<SVGBackend<'s>, Shift>;
 
 impl Panel<'_> {
@@ -129,7 +129,7 @@ impl Panel<'_> {
         Some(one.to_string()).filter(|name| name.chars().count() <= LETTERS)
     }
 
-    /// What stands on the right.
+    /// Names on the right of the panel.
     fn names(&self) -> impl Iterator<Item = &str> {
         let named = if self.alone().is_none() { &self.columns[..] } else { &[] };
         named.iter().map(|column| column.name)
@@ -140,7 +140,7 @@ impl Panel<'_> {
         lowest.max(2 * MARGIN + LABELS.1 + (TEXT + 6) * self.names().count() as u32)
     }
 
-    /// What stands at the axis.
+    /// Label of the vertical axis.
     fn label(&self) -> String {
         self.alone().unwrap_or_else(|| self.columns[0].unit.unwrap_or_default().to_owned())
     }

@@ -233,7 +233,7 @@ impl<S: GaussSystem> Table<Sample<S>> {
     }
 }
 
-/// What all of these names begin with, if they end so.
+/// Common stem of all of these names, if they end so.
 fn stem<'n>(names: &[&'n str], ends: &[&str]) -> Option<&'n str> {
     let stem = names.first()?.strip_suffix(ends[0])?;
     let is_next = |(name, end): (&&str, &&str)| name.strip_suffix(*end) == Some(stem);

@@ -56,7 +56,7 @@ pub struct Column<'a> {
 }
 
 impl fmt::Display for Column<'_> {
-    /// What stands at an axis and above a column: `angle / rad`, or the name alone.
+    /// Label of an axis or a column: `angle / rad`, or the name alone.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.unit {
             Some(unit) if unit.contains(['/', ' ']) => write!(f, "{} / ({unit})", self.name),
@@ -66,7 +66,7 @@ impl fmt::Display for Column<'_> {
     }
 }
 
-/// What is wrong with names or lengths of columns: all of it.
+/// Mistakes in names or lengths of columns: all of one kind.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ColumnError {
@@ -74,7 +74,7 @@ pub enum ColumnError {
     Unknown(Vec<String>),
     /// Columns, and how many numbers they have, of a table whose first column has another number of them.
     Unequal {
-        /// How many numbers the first column has.
+        /// Number of rows in the first column.
         rows: usize,
         /// The others, by name.
         columns: Vec<(String, usize)>,
@@ -289,13 +289,13 @@ impl<Row> Table<Row> {
         &self.panels
     }
 
-    /// What its rows are about.
+    /// Returns the states or instants that its rows are about.
     #[must_use]
     pub fn rows(&self) -> &[Row] {
         &self.rows
     }
 
-    /// How many rows it has.
+    /// Number of its rows.
     #[must_use]
     pub fn len(&self) -> usize {
         self.length

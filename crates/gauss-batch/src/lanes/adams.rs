@@ -38,7 +38,7 @@ pub struct Memory<S: BatchSystem, const K: usize> {
     steps: Box<Steps<S, K>>,
 }
 
-/// What makes the steps.
+/// Length, history and known starts, from which steps are made.
 struct Steps<S: BatchSystem, const K: usize> {
     length: f64,
     history: History<ComponentsOf<S>, S::Speeds, K, ROOM>,
@@ -49,12 +49,12 @@ struct Steps<S: BatchSystem, const K: usize> {
     looked: Vec<bool>,
 }
 
-/// How a lane makes a step.
+/// Way in which a lane makes a step.
 #[derive(Clone, Copy, PartialEq)]
 enum Way {
-    /// By the Adams method.
+    /// A step of the Adams method.
     On,
-    /// By the method that begins runs.
+    /// A step of the method that begins runs.
     Begins,
     /// It is known, after so many others.
     Known(usize),

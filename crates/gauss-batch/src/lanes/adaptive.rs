@@ -25,7 +25,7 @@ use gauss_runtime::simd::Packed;
 use super::system::BatchSystem;
 use super::{Group, LaneControl, Sealed, Verdict, chosen_rates, chosen_state, largest, number, numbers_of, ones_in};
 
-/// What one lane remembers: the fields of the same names of a run of its own.
+/// Memory of one lane: the fields of the same names of a run of its own.
 #[derive(Clone, Copy)]
 struct Lane {
     length: f64,
@@ -35,7 +35,7 @@ struct Lane {
     rejected: u32,
     /// Whether the floor is known.
     floored: bool,
-    /// Of the present trial: the length that is tried, whether it is the last, its error.
+    /// Present trial: the length that is tried, whether it is the last, its error.
     used: f64,
     last: bool,
     error: f64,
@@ -202,7 +202,7 @@ impl<S: BatchSystem> Memory<S> {
 /// So many lanes have their logarithms and exponentials formed together.
 const TOGETHER: usize = 8;
 
-/// How many times the tolerance rounding is in some lanes, the first of which is given; 0 where it is not more.
+/// Ratios of rounding to the tolerance in some lanes, the first of which is given; 0 where rounding is not more.
 #[cold]
 #[inline(never)]
 fn excesses<T: Real + Packed<Single: Real>>(floors: T, first: usize, lanes: &[Lane]) -> [f64; TOGETHER] {

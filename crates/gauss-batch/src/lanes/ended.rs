@@ -1,4 +1,4 @@
-//! How runs of an ensemble end.
+//! Ends of the runs of an ensemble.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -37,7 +37,7 @@ pub struct EventState<Q, Z> {
     pub z: Z,
 }
 
-/// How one run of an ensemble ended.
+/// Outcome of one run of an ensemble.
 pub type RunOutcome<S> = Result<Ended<SingleConfiguration<S>, SingleSpeeds<S>>, RunError>;
 
 /// A state that did not reach the end: the batch holds the last good one, at `time`.
@@ -48,7 +48,7 @@ pub struct RunError {
     pub state: usize,
     /// The last time that it reached.
     pub time: f64,
-    /// What went wrong in the step from there.
+    /// Cause of the failure in the step from there.
     pub kind: IntegrationErrorKind,
 }
 

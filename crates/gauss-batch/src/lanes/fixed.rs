@@ -18,7 +18,7 @@ use gauss_runtime::simd::Packed;
 use super::system::BatchSystem;
 use super::{Group, LaneControl, Sealed, Verdict, chosen_state, number, ones_in};
 
-/// Where a lane is on its way.
+/// Progress of a lane on its way.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Lane {
     /// Steps that it has made since it began, and how many there are.
@@ -44,7 +44,7 @@ pub(super) struct Trial<T> {
     pub(super) fewest: u64,
     /// Whether it is the last one in any of them.
     pub(super) last: bool,
-    /// How many steps have been made, where it is the same in all lanes that make this one.
+    /// Number of steps that have been made, where it is the same in all lanes that make this one.
     together: Option<u64>,
     /// The times at which the lanes began.
     starts: T,
@@ -53,7 +53,7 @@ pub(super) struct Trial<T> {
     alone: Option<T>,
 }
 
-/// What makes steps of one length.
+/// Maker of steps of one length.
 pub(super) trait Advance<S: BatchSystem> {
     /// Whether all lanes go on in the same way once they have made so many steps, but for the last one.
     fn settled(&self, made: u64) -> bool;
@@ -80,7 +80,7 @@ pub struct March<S: BatchSystem> {
 }
 
 impl<S: BatchSystem> March<S> {
-    /// With steps of length |step|, in the direction of the span.
+    /// Prepares steps of length |step|, in the direction of the span.
     pub(super) fn new(step: S::Scalar, span: f64) -> Result<Self, IntegrationErrorKind> {
         let first = step.lane(0);
         if !(first.is_finite() && first != 0.0) {

@@ -33,7 +33,7 @@ use gauss_runtime::simd::Packed;
 /// [`Taylor`](gauss_runtime::integrate::Taylor), [`Fixed`](gauss_runtime::integrate::Fixed) by any method, and
 /// [`Adams`](gauss_runtime::integrate::Adams). Its functions are for the runs of this crate, which alone implements it.
 pub trait LaneControl<S: BatchSystem>: Control<S> + Sealed {
-    /// What is remembered from step to step.
+    /// Memory of the lanes from step to step.
     #[doc(hidden)]
     type Memory;
 
@@ -90,7 +90,7 @@ pub trait LaneControl<S: BatchSystem>: Control<S> + Sealed {
 /// The bound that makes [`LaneControl`] a trait of this crate alone: its path is private.
 pub trait Sealed {}
 
-/// What became of a step in a lane.
+/// Outcome of a step in a lane.
 #[derive(Clone, Copy, Debug)]
 #[doc(hidden)]
 pub enum Verdict {

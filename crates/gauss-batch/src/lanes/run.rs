@@ -27,7 +27,7 @@ type First<S> = (usize, SingleConfiguration<S>, SingleSpeeds<S>);
 /// The span of time, the state and the derivatives at the start of all lanes.
 type Start<S> = Result<(f64, State<S>, Rates<S>), IntegrationErrorKind>;
 
-/// Where runs come from, and where their ends go: by their numbers.
+/// Source of runs, and receiver of their ends: by their numbers.
 pub trait Runs<S: BatchSystem> {
     /// The number of the next one, and its start.
     fn next(&mut self) -> Option<First<S>>;
@@ -48,13 +48,13 @@ struct Running<'a, S: BatchSystem, P, C, E> {
     found: Vec<EventState<SingleConfiguration<S>, SingleSpeeds<S>>>,
 }
 
-/// What all runs have in common.
+/// Settings that all runs have in common.
 pub struct InLanes<'a, P, C, E> {
     /// The choice of steps.
     pub control: &'a C,
     /// The kernel, the form of its equations, the input.
     pub problem: &'a P,
-    /// What is looked for in each run.
+    /// Events that are looked for in each run.
     pub events: &'a E,
     /// The beginning and the end.
     pub times: (f64, f64),
@@ -261,7 +261,7 @@ where
         runs.end(running.number, last, outcome);
     }
 
-    /// What is behind the end of a run that cannot go on.
+    /// Ends a run that cannot go on, with the cause that is found.
     fn give_up(&mut self, lane: usize, gave: Gave, runs: &mut dyn Runs<S>) {
         let place = Place {
             state: &self.group.state,

@@ -1,4 +1,4 @@
-//! What is asked of a system of which there are many states.
+//! Requirements of a system of which there are many states.
 
 use gauss_runtime::real::Real;
 use gauss_runtime::simd::Packed;

@@ -16,7 +16,7 @@ use gauss_runtime::simd::Packed;
 use super::system::BatchSystem;
 use super::{Group, LaneControl, Sealed, Verdict, chosen_state, number, numbers_of, ones_in};
 
-/// What one lane remembers.
+/// Memory of one lane.
 #[derive(Clone, Copy)]
 struct Lane {
     /// About the length of the last step; 0 before the first.

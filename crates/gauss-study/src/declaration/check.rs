@@ -1,4 +1,4 @@
-//! What is wrong with a declaration, all of it at once.
+//! Mistakes in a declaration, all of them at once.
 
 use std::collections::HashSet;
 

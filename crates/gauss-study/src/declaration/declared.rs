@@ -9,13 +9,13 @@ use crate::draw::Parameter;
 use crate::plan::Plan;
 use crate::row::{Column, ColumnType, Kind};
 
-/// What a study is: a name and a version of its model, a seed, how many runs, parameters and results.
+/// Declaration of a study: a name and a version of its model, a seed, the number of runs, parameters and results.
 ///
 /// It is kept beside the results; another one does not resume them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[must_use = "a declaration does nothing before `study`"]
 pub struct Declaration {
-    /// Of the folder: another format would be another number.
+    /// Version of the format of the folder: another format would be another number.
     format: u32,
     pub(crate) name: String,
     pub(crate) version: String,
@@ -70,14 +70,14 @@ impl Declaration {
         self
     }
 
-    /// How the runs fill the space of the parameters; by default they are independent.
+    /// Sets how the runs fill the space of the parameters; by default they are independent.
     pub fn plan(mut self, plan: Plan) -> Self {
         self.plan = plan;
         self
     }
 
-    /// How many runs a file holds: what is lost at most, of each worker, when it is killed. By default a 256th of all,
-    /// 256 at least and 65,536 at most.
+    /// Sets the number of runs in a file: the runs that each worker loses at most when it is killed. By default a 256th
+    /// of all, 256 at least and 65,536 at most.
     pub fn runs_per_part(mut self, runs: u64) -> Self {
         self.part = runs;
         self

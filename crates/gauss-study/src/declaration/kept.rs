@@ -11,7 +11,7 @@ impl Declaration {
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 
-    /// How a kept one differs: a line for each field, as it is kept and as it is here.
+    /// Differences from a kept declaration: a line for each field, as it is kept and as it is here.
     pub(crate) fn differences(&self, kept: &str) -> Result<Vec<String>, serde_json::Error> {
         let (kept, here) = (serde_json::from_str(kept)?, serde_json::from_str(&self.to_json())?);
         let mut differences = Vec::new();

@@ -1,4 +1,4 @@
-//! What a study is: its seed, its parameters, its results.
+//! Declaration of a study: its seed, its parameters, its results.
 
 mod check;
 mod declared;

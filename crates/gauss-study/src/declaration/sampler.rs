@@ -51,7 +51,7 @@ pub struct Sampler {
 #[derive(Clone, Debug)]
 enum Source {
     Axis(Axis),
-    /// Of a sweep: how many runs a number stays, and how many there are.
+    /// Steps of a sweep: the number of runs that a value stays, and the number of values.
     Steps {
         stride: u64,
         steps: u64,
@@ -69,8 +69,8 @@ impl Sampler {
         Draw { seed: self.seed, run, values: self.axes.iter().map(value).collect() }
     }
 
-    /// What becomes of all runs, in the order of their numbers, on all threads and in memory: for studies of a size
-    /// that needs no files.
+    /// Results of a function of all runs, in the order of their numbers, on all threads and in memory: for studies of a
+    /// size that needs no files.
     ///
     /// A run that fails or panics is its cause.
     pub fn map<T: Send, E: std::fmt::Display>(

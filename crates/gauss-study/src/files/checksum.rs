@@ -13,10 +13,10 @@ use crate::error::StudyError;
 /// Under which word a file holds its checksum.
 pub const KEY: &str = "gauss_checksum";
 
-/// What stands there before the sum is known: `crc32:` and eight zeros.
+/// Placeholder that stands there before the sum is known: `crc32:` and eight zeros.
 pub const OPEN: &str = "crc32:00000000";
 
-/// How many of these are digits of the sum.
+/// Number of digits of the sum among these.
 const DIGITS: usize = 8;
 
 /// Writes the sum of a file into its place.
@@ -46,7 +46,7 @@ fn holds(bytes: &[u8]) -> bool {
     digits == format!("{:08x}", sum.finalize()).as_bytes()
 }
 
-/// Where the digits are: behind the last of the words that they follow. What stands behind them in a file, the schema
+/// Place of the digits: behind the last of the words that they follow. What stands behind them in a file, the schema
 /// and the sizes of columns, is of some kilobytes.
 fn place(bytes: &[u8]) -> Option<usize> {
     let word = &OPEN.as_bytes()[..OPEN.len() - DIGITS];

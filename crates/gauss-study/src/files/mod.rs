@@ -67,8 +67,8 @@ impl<'a> Folder<'a> {
         self.path.join(format!("part-{part:08}.parquet"))
     }
 
-    /// What there is of a part: the end of its file is read, which is written last and says how many rows there are and
-    /// of which study.
+    /// State of a part: the end of its file is read, which is written last and says how many rows there are and of
+    /// which study.
     pub fn state(&self, part: u64) -> Result<PartState, StudyError> {
         let file = self.part(part);
         match fs::File::open(&file) {

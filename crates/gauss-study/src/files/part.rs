@@ -12,11 +12,11 @@ use crate::declaration::Declaration;
 use crate::draw::Draw;
 use crate::row::{Kind, Row, Value};
 
-/// What there is of a part.
+/// State of a part.
 #[derive(Debug, PartialEq, Eq)]
 pub enum PartState {
     Missing,
-    /// With so many failed runs.
+    /// A whole part, with so many failed runs.
     Whole {
         failed: u64,
     },
@@ -108,13 +108,13 @@ pub fn state(file: &impl ChunkReader, declaration: &Declaration, runs: u64) -> P
     }
 }
 
-/// What a file holds under a word.
+/// Value that a file holds under a key.
 fn value<'a>(metadata: &'a ParquetMetaData, key: &str) -> Option<&'a str> {
     let pairs = metadata.file_metadata().key_value_metadata()?;
     pairs.iter().find(|pair| pair.key == key)?.value.as_deref()
 }
 
-/// How many runs have no cause of failure, by the statistics of the last column.
+/// Number of runs without a cause of failure, by the statistics of the last column.
 fn without_cause(metadata: &ParquetMetaData) -> u64 {
     let last = metadata.row_groups().iter().filter_map(|group| group.columns().last()?.statistics()?.null_count_opt());
     last.sum()

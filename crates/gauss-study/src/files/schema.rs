@@ -47,7 +47,7 @@ fn field(
     builder.with_logical_type(logical).build().map(Arc::new)
 }
 
-/// How they are written: what repeats in a dictionary, the numbers of runs by their differences, all else as it is.
+/// Encodings of the columns: what repeats in a dictionary, the numbers of runs by their differences, all else as it is.
 pub fn properties(declaration: &Declaration) -> Arc<WriterProperties> {
     let kept = KeyValue::new(KEY.to_owned(), declaration.to_json());
     let column = |name: &str| ColumnPath::from(name.to_owned());

@@ -1,8 +1,8 @@
 //! Direction numbers of Sobol' sequences: S. Joe and F. Y. Kuo, Constructing Sobol' sequences with better
 //! two-dimensional projections, SIAM J. Sci. Comput. 30 (2008), the file `new-joe-kuo-6.21201` up to dimension 100.
 
-/// Of the dimensions from the second on: the inner coefficients of the primitive polynomial as bits, and the initial
-/// numbers m₁, m₂, …, as many as the degree of the polynomial.
+/// Numbers for the dimensions from the second on: the inner coefficients of the primitive polynomial as bits, and the
+/// initial numbers m₁, m₂, …, as many as the degree of the polynomial.
 pub const JOE_KUO: [(u32, &[u32]); 99] = [
     (0, &[1]),
     (1, &[1, 3]),

@@ -1,4 +1,4 @@
-//! How the runs of a study fill the unit cube of its parameters.
+//! Plans by which the runs of a study fill the unit cube of its parameters.
 
 mod joe_kuo;
 mod permutation;
@@ -10,16 +10,17 @@ use crate::streams::{Purpose, Stream, unit};
 use permutation::Permutation;
 use sobol::Directions;
 
-/// How the runs of a study fill the space of its parameters. In every plan run i is a function of the seed and i.
+/// Plan by which the runs of a study fill the space of its parameters. In every plan run i is a function of the seed
+/// and i.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Plan {
     /// Runs that are independent of each other. A parameter more changes no number of the others.
     #[default]
     Random,
-    /// Of each parameter all runs together have one number in each of as many parts of equal probability; which run
-    /// has which is random (McKay, Beckman, Conover 1979). A parameter more changes no number of the others; another
-    /// number of runs changes all.
+    /// Latin hypercube: of each parameter all runs together have one number in each of as many parts of equal
+    /// probability; which run has which is random (McKay, Beckman, Conover 1979). A parameter more changes no number of
+    /// the others; another number of runs changes all.
     LatinHypercube,
     /// A Sobol' sequence with the direction numbers of Joe and Kuo (2008), shifted at random (a digital shift by the
     /// seed). A parameter's dimension is its place in the declaration: what is declared later changes nothing. Up to
@@ -32,7 +33,7 @@ pub enum Plan {
 }
 
 impl Plan {
-    /// How many random parameters it can fill.
+    /// Largest number of random parameters that it can fill.
     pub(crate) fn most(self) -> usize {
         match self {
             Self::Random | Self::LatinHypercube => usize::MAX,
@@ -41,7 +42,7 @@ impl Plan {
         }
     }
 
-    /// How many runs belong together.
+    /// Number of runs that belong together.
     pub(crate) fn group(self, dimensions: usize) -> u64 {
         if self == Self::Saltelli { dimensions as u64 + 2 } else { 1 }
     }
@@ -59,7 +60,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// That of the parameter with a name, number `place` of so many random ones.
+    /// Axis of the parameter with a name, number `place` of so many random ones.
     pub fn new(plan: Plan, (seed, runs): (u64, u64), name: &str, (place, count): (usize, usize)) -> Self {
         let mut shifts = Stream::new(seed, Purpose::Shift, name, 0);
         let mut dimension = |number: usize| (Directions::new(number), shifts.bits());

@@ -14,18 +14,18 @@ pub struct Permutation {
 const ROUNDS: usize = 6;
 
 impl Permutation {
-    /// Of `len` things, at least one, by random keys.
+    /// Permutation of `len` things, at least one, by random keys.
     pub fn new(len: u64, mut key: impl FnMut() -> u64) -> Self {
         let bits = u64::BITS - len.saturating_sub(1).leading_zeros();
         Self { len, half: bits.div_ceil(2).max(1), keys: std::array::from_fn(|_| key()) }
     }
 
-    /// How many things there are.
+    /// Number of the things.
     pub fn len(&self) -> u64 {
         self.len
     }
 
-    /// Where thing `i` comes.
+    /// Place of thing `i`.
     pub fn at(&self, i: u64) -> u64 {
         let mut place = self.network(i);
         while place >= self.len {

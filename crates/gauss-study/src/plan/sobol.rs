@@ -2,7 +2,7 @@
 
 use super::joe_kuo::JOE_KUO;
 
-/// How many dimensions there are numbers for.
+/// Number of dimensions for which there are numbers.
 pub const DIMENSIONS: usize = JOE_KUO.len() + 1;
 
 /// The direction numbers of a dimension, as fractions of 2⁶⁴.
@@ -10,7 +10,7 @@ pub const DIMENSIONS: usize = JOE_KUO.len() + 1;
 pub struct Directions(Box<[u64; 64]>);
 
 impl Directions {
-    /// Of the dimension with a number from zero on, less than [`DIMENSIONS`].
+    /// Direction numbers of the dimension with a number from zero on, less than [`DIMENSIONS`].
     pub fn new(dimension: usize) -> Self {
         let mut v = Box::new([0_u64; 64]);
         let Some(first) = dimension.checked_sub(1) else {

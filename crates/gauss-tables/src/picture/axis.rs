@@ -10,7 +10,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Of all numbers that are finite, with a margin of this part of their range.
+    /// Axis for all numbers that are finite, with a margin of this part of their range.
     pub fn of<'a>(numbers: impl IntoIterator<Item = &'a f64>, margin: f64) -> Self {
         // Beyond this differences overflow.
         let drawn = numbers.into_iter().copied().filter(|number| number.abs() < 1e300);

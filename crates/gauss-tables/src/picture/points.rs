@@ -30,7 +30,7 @@ pub fn cloud(x: &[f64], y: &[f64], (over, of): (Range<f64>, Range<f64>), cells: 
     x.iter().copied().zip(y.iter().copied()).filter(|point| is_new(point)).collect()
 }
 
-/// Of the points in each of many narrow strips the first, the last, and those farthest up and down: the same picture.
+/// Thins points out to the first, the last, the lowest and the highest in each of many narrow strips: the same picture.
 fn thinned(points: &[(f64, f64)], over: &Range<f64>) -> Vec<(f64, f64)> {
     if points.len() <= 4 * PLACES {
         return points.to_vec();
