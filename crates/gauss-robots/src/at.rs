@@ -3,7 +3,7 @@
 /// A place in the file, counted from one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct At {
-    /// Of the files that are read, that of the clause being 0, those that it includes after it.
+    /// Number of the file among those that are read: 0 is that of the clause, those that it includes come after it.
     pub file: u32,
     /// From one; 0 where the whole file is meant.
     pub line: u32,

@@ -16,9 +16,9 @@ pub struct Collision {
     pub position: Triple,
     /// From its axes to those of the link.
     pub rotation: Matrix,
-    /// What it is.
+    /// Form and size of the shape.
     pub shape: Shape,
-    /// How it touches, where the format says that.
+    /// Contact parameters of its surface, where the format gives them.
     pub surface: Option<Surface>,
 }
 
@@ -32,7 +32,7 @@ pub enum Shape {
     },
     /// A cylinder along the third axis with half spheres at its ends.
     Capsule {
-        /// Of the half spheres.
+        /// Radius of the half spheres.
         radius: f64,
         /// Half the distance of their centres.
         half: f64,
@@ -56,7 +56,7 @@ pub enum Shape {
     },
     /// All that lies below, the third axis being out of it.
     Plane,
-    /// What is not read, in words: `a mesh`.
+    /// A shape that is not read, in words: `a mesh`.
     Unread(String),
 }
 
@@ -85,7 +85,7 @@ impl Pair {
     }
 }
 
-/// What MJCF says of how a geom touches.
+/// Contact parameters that MJCF gives for a geom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     /// Bits of which another shape is to have one in its `affinity`.
@@ -94,7 +94,7 @@ pub struct Surface {
     pub affinity: u32,
     /// 1 without friction, 3 with friction of sliding, 4 and 6 also of turning and rolling.
     pub dimension: u32,
-    /// Of two surfaces the one with more says all.
+    /// Priority: of two surfaces the one with more gives all parameters.
     pub priority: i64,
     /// The coefficient of friction of sliding.
     pub friction: f64,
@@ -102,7 +102,7 @@ pub struct Surface {
     pub unread: Vec<&'static str>,
 }
 
-/// Of two shapes that touch.
+/// Law by which two shapes touch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Touch {
     /// The coefficient of friction of sliding.
@@ -112,7 +112,7 @@ pub struct Touch {
 }
 
 impl Default for Surface {
-    /// That of a geom which says nothing.
+    /// Surface of a geom that gives no parameters.
     fn default() -> Self {
         Surface { kind: 1, affinity: 1, dimension: 3, priority: 0, friction: 1.0, unread: Vec::new() }
     }

@@ -6,25 +6,25 @@ pub use super::at::At;
 use super::collision::{Collision, Pair};
 use super::rotation::{Matrix, Rotation, Triple};
 
-/// What is wrong, and where.
+/// A mistake and its place in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
-    /// Where.
+    /// Place of the mistake.
     pub at: At,
-    /// What, and how it can be mended.
+    /// The mistake, and how it can be mended.
     pub message: String,
 }
 
-/// What a reader of the equations should know.
+/// A remark for a reader of the equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Note {
-    /// Where.
+    /// Place that the note is about.
     pub at: At,
-    /// What.
+    /// Words of the note.
     pub text: String,
     /// Something that acts in the file does not act in the equations: what it is called there.
     pub ignored: Option<String>,
-    /// What it is about, where one note can stand for many.
+    /// Topic, where one note can stand for many.
     pub topic: Option<&'static str>,
 }
 
@@ -78,7 +78,7 @@ pub struct Description {
     pub links: Vec<Link>,
     /// In the order of the file.
     pub joints: Vec<Joint>,
-    /// What transmissions and actuators drive, in the order of the file.
+    /// Drives of transmissions and actuators, in the order of the file.
     pub drives: Vec<Drive>,
     /// The others are driven by nothing.
     pub only_driven: bool,
@@ -104,7 +104,7 @@ pub struct Description {
     pub postures: Vec<Posture>,
     /// The acceleration of free fall in observer's axes, if the file gives one.
     pub gravity: Option<Triple>,
-    /// What was left out, renamed or assumed.
+    /// Notes on everything that was left out, renamed or assumed.
     pub notes: Vec<Note>,
     /// Files besides those of the text, such as meshes, whose numbers the description holds.
     pub files: Vec<PathBuf>,
@@ -128,7 +128,7 @@ pub struct Link {
     pub at: At,
     /// Its own mass data, without those of links that are fixed to it.
     pub inertial: Option<Inertial>,
-    /// How much of its weight is held by a force at its centre of mass, as part of all.
+    /// Part of its weight that is held by a force at its centre of mass.
     pub held: f64,
 }
 
@@ -147,7 +147,7 @@ impl Inertial {
     /// Moments of a body that is smaller than this are what rounding left of those of a point, in metres.
     const LEAST: f64 = 1e-8;
 
-    /// With another density.
+    /// Scales the density by a factor.
     pub fn scaled(self, factor: f64) -> Inertial {
         let inertia = self.inertia.map(|row| row.map(|entry| entry * factor));
         Inertial { mass: self.mass * factor, inertia, ..self }
@@ -170,24 +170,24 @@ pub struct Nonlinear {
     pub damping: [f64; 2],
 }
 
-/// What a link moves by, relative to its parent.
+/// The motion of a link relative to its parent.
 #[derive(Clone, Debug)]
 pub struct Joint {
     /// As the file has it.
     pub name: String,
     /// Its element.
     pub at: At,
-    /// How the child moves.
+    /// Way in which the child moves.
     pub kind: JointKind,
     /// Names of links.
     pub parent: String,
     /// The link that hangs by it.
     pub child: String,
-    /// Where the child is while the coordinates are zero, in the axes of the parent.
+    /// Position of the child while the coordinates are zero, in the axes of the parent.
     pub position: Triple,
     /// From axes of the child to those of the parent.
     pub rotation: Rotation,
-    /// Of length one, in the axes of the child; of a plane its normal.
+    /// Axis of length one, in the axes of the child; of a plane its normal.
     pub axis: Triple,
     /// The joint that this one follows.
     pub mimic: Option<Mimic>,
@@ -209,7 +209,7 @@ pub struct Joint {
     pub armature: f64,
     /// The value of the coordinate where nothing is turned or moved.
     pub reference: f64,
-    /// Where a floating link is in the world while nothing moves.
+    /// Position and rotation of a floating link in the world while nothing moves.
     pub start: (Triple, Rotation),
 }
 
@@ -240,8 +240,8 @@ impl Joint {
     }
 }
 
-/// What drives joints by a control u: along the length l = Σ c q the force (g₀ + g₁ l + g₂ l̇) u + b₀ + b₁ l + b₂ l̇;
-/// or by a wrench on a frame, whose l stays zero, or at a joint with several coordinates.
+/// A drive of joints by a control u: along the length l = Σ c q the force (g₀ + g₁ l + g₂ l̇) u + b₀ + b₁ l + b₂ l̇; or
+/// by a wrench on a frame, whose l stays zero, or at a joint with several coordinates.
 #[derive(Clone, Debug)]
 pub struct Drive {
     /// As the file has it.
@@ -343,7 +343,7 @@ pub struct Polynomial {
     pub along: Vec<(String, f64)>,
     /// Joints of the sum x that the polynomial is of; the constant alone without it.
     pub of: Option<Vec<(String, f64)>>,
-    /// Of 1, x, x², x³, x⁴.
+    /// Coefficients of 1, x, x², x³, x⁴.
     pub coefficients: [f64; 5],
 }
 
@@ -377,13 +377,13 @@ pub struct Closure {
 /// A rotation relative to another link: what it is at rest, or another.
 #[derive(Clone, Copy, Debug)]
 pub enum Turn {
-    /// What it is while no joint is turned or moved.
+    /// The rotation while no joint is turned or moved.
     AsAtRest,
     /// This one: from axes of the second to those of the first.
     To(Matrix),
 }
 
-/// How a joint moves.
+/// Kinds of motion of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JointKind {
     /// Not at all.
@@ -407,9 +407,9 @@ pub struct Mimic {
     pub at: At,
     /// The joint that is followed.
     pub joint: String,
-    /// Of its coordinate.
+    /// Factor of its coordinate.
     pub multiplier: f64,
-    /// What is added.
+    /// Constant that is added.
     pub offset: f64,
 }
 

@@ -150,7 +150,7 @@ fn first(points: &[Triple], flat: f64) -> Option<Vec<[usize; 3]>> {
     Some(vec![[a, b, c], [a, c, d], [c, b, d], [b, a, d]])
 }
 
-/// How far a point is in front of a face.
+/// Height of a point in front of a face.
 fn height(points: &[Triple], [a, b, c]: [usize; 3], point: usize) -> f64 {
     let from = |k: usize| minus(&points[k], &points[a]);
     let normal = cross(&from(b), &from(c));

@@ -23,7 +23,7 @@ pub struct Mesh {
     pub unsure: f64,
 }
 
-/// What has mass, and how it is counted, as `inertia` of MuJoCo's `<mesh>` has it
+/// Rule that says which part of a mesh has mass, and how it is counted, as `inertia` of MuJoCo's `<mesh>` has it
 /// (<https://mujoco.readthedocs.io/en/stable/XMLreference.html#asset-mesh-inertia>).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
@@ -57,7 +57,7 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// Of density one: the mass is the volume, or the area.
+    /// Computes mass data for density one: the mass is the volume, or the area.
     ///
     /// # Errors
     /// Why it has no such mass.

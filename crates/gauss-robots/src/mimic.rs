@@ -9,9 +9,9 @@ use super::rotation::{Rotation, about_direction, multiply, turned};
 pub struct Coupling {
     /// Its index.
     pub joint: usize,
-    /// Of its coordinate.
+    /// Factor of its coordinate.
     pub multiplier: f64,
-    /// What is added.
+    /// Constant that is added.
     pub offset: f64,
 }
 
@@ -45,7 +45,7 @@ pub fn hold_followers_of_fixed(description: &mut Description) {
     }
 }
 
-/// What the coordinate of each joint is.
+/// Coordinate of each joint as a function of the one that it follows.
 pub fn couplings(description: &Description, faults: &mut Vec<Fault>) -> Vec<Coupling> {
     let joints = &description.joints;
     (0..joints.len())

@@ -1,4 +1,4 @@
-//! What becomes of every element and attribute of a format: one table for each, which the readers go by.
+//! Verdicts on every element and attribute of a format: one table for each, which the readers go by.
 //!
 //! What is in no table is a warning of the compiler: nothing is left out in silence. Tests read the tables, too: each
 //! attribute that acts changes the description, each of the others does not.
@@ -6,7 +6,7 @@
 #[cfg(test)]
 pub mod checks;
 
-/// What becomes of an element or an attribute.
+/// Effect of an element or an attribute on the description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// The description depends on it.
@@ -28,7 +28,7 @@ pub struct Element {
     pub within: &'static str,
     /// Names, separated by blanks.
     pub names: &'static str,
-    /// Of the element itself. What is in it has verdicts of its own only if it acts.
+    /// Verdict on the element itself. What is in it has verdicts of its own only if it acts.
     pub verdict: Verdict,
     pub attributes: &'static [&'static [Attributes]],
 }
@@ -56,7 +56,7 @@ impl Element {
         })
     }
 
-    /// What becomes of an attribute.
+    /// Verdict on an attribute; none where it is not in the table.
     pub fn of(&self, name: &str) -> Option<Verdict> {
         let all = self.attributes.iter().copied().flatten();
         all.copied().find(|(names, _)| has(names, name)).map(|(_, verdict)| verdict)

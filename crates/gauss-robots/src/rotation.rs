@@ -7,7 +7,7 @@ pub type Triple = [f64; 3];
 /// Rows.
 pub type Matrix = [Triple; 3];
 
-/// What is nearer to zero than this is what rounding left of a zero, where lengths are one.
+/// Bound of the rounding that is left of a zero, where lengths are one.
 const RESIDUE: f64 = 1e-15;
 
 /// R = R_z(yaw) R_y(pitch) R_x(roll).

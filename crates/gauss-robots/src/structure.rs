@@ -1,4 +1,4 @@
-//! What must hold between links and joints, and what follows: which link hangs on which, what moves as one.
+//! Conditions that links and joints must meet, and what follows: which link hangs on which, what moves as one.
 
 use std::collections::HashMap;
 
@@ -19,9 +19,9 @@ pub struct Structure {
     pub owner_of: Vec<usize>,
     /// The links that move as one with each, in their order.
     owned_by: Vec<Vec<usize>>,
-    /// Where each is in the axes of its owner.
+    /// Position and rotation of each in the axes of its owner.
     place_in_owner: Vec<(Triple, Matrix)>,
-    /// What the coordinate of each joint is: that of a joint, times a number, and another.
+    /// Coordinate of each joint: that of a joint, times a number, and another.
     pub coupling_of: Vec<Coupling>,
 }
 
@@ -77,7 +77,7 @@ impl Structure {
         (self.owner_of[link], self.place_in_owner[link]) = (owner, place);
     }
 
-    /// Where a link is in the axes of the root while no joint is turned or moved.
+    /// Position and rotation of a link in the axes of the root while no joint is turned or moved.
     pub fn at_rest(&self, description: &Description, link: usize) -> (Triple, Matrix) {
         self.moved(description, link, |_| 0.0)
     }
@@ -156,7 +156,7 @@ pub fn placed(own: Inertial, (position, matrix): &(Triple, Matrix)) -> Inertial 
     }
 }
 
-/// Of several, all in the same axes.
+/// Sum of several mass data, all in the same axes.
 pub fn sum(all: &[Inertial]) -> Inertial {
     let mass: f64 = all.iter().map(|part| part.mass).sum();
     let weighted = |i: usize| all.iter().map(|part| part.mass * part.center[i]).sum::<f64>();
@@ -175,7 +175,7 @@ pub fn sum(all: &[Inertial]) -> Inertial {
     Inertial { mass, center, inertia }
 }
 
-/// What drives, couples or ties joints names joints that there are.
+/// Refuses drives, couplings and ties of joints that there are not.
 fn refuse_strange_joints(description: &Description, faults: &mut Vec<Fault>) {
     let drives = description
         .drives
@@ -213,7 +213,7 @@ fn refuse_twice<'a>(noun: &str, names: impl Iterator<Item = (&'a String, At)>, f
     }
 }
 
-/// Of each link the joint that it hangs by, and its parent.
+/// Finds the joint that each link hangs by, and its parent.
 fn parents(description: &Description, faults: &mut Vec<Fault>) -> (Vec<Option<usize>>, Vec<Option<usize>>) {
     let count = description.links.len();
     let (mut joint_of, mut parent_of): (Vec<Option<usize>>, Vec<Option<usize>>) =

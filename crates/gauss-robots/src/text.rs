@@ -23,11 +23,11 @@ const ORDER: char = '\u{feff}';
 pub struct Written {
     /// As messages name it.
     pub shown: String,
-    /// Where it is.
+    /// Path of the file.
     pub path: PathBuf,
-    /// What is in it.
+    /// Text of the file.
     pub text: String,
-    /// What stands in the text and not in the file.
+    /// Range of the text that was added and does not stand in the file.
     added: Range<usize>,
     /// Places from which others are counted.
     marks: Vec<Mark>,
@@ -58,8 +58,8 @@ impl Written {
         Written { shown, path, text, added, marks }
     }
 
-    /// Where the file is written at an offset in its text; `index` is that of the file. Lines and columns are counted
-    /// from one, in characters.
+    /// Place in the file of an offset in its text; `index` is that of the file. Lines and columns are counted from one,
+    /// in characters.
     pub fn place(&self, index: usize, offset: usize) -> At {
         let (line, mut column) = self.counted(offset);
         if offset >= self.added.end && line == self.counted(self.added.end).0 {
@@ -113,7 +113,7 @@ struct Piece {
 pub struct Text {
     /// All of it.
     pub whole: String,
-    /// What it was put together from.
+    /// Files that it was put together from.
     pub files: Vec<Written>,
     pieces: Vec<Piece>,
     /// The index of the first file among those of all texts that are read together.
@@ -123,12 +123,12 @@ pub struct Text {
 }
 
 impl Text {
-    /// Of one file, nothing of which is in the whole yet.
+    /// Text of one file, nothing of which is in the whole yet.
     pub fn empty(main: Written) -> Text {
         Text { files: vec![main], ..Text::default() }
     }
 
-    /// Of one file, all of it.
+    /// Text of one file, all of it.
     pub fn of(main: Written) -> Text {
         let range = 0..main.text.len();
         let mut text = Text::empty(main);
@@ -178,12 +178,12 @@ impl Text {
         Some((piece.file, if piece.written { piece.offset + offset - piece.start } else { piece.offset }))
     }
 
-    /// Where the whole is written at an offset.
+    /// Place in a file of an offset in the whole.
     pub fn at(&self, offset: usize) -> At {
         self.origin(offset).map_or_else(At::default, |(file, offset)| self.files[file].place(self.first + file, offset))
     }
 
-    /// Of all files, those of models after the others.
+    /// Names of all files, those of models after the others.
     pub fn names(&self) -> Vec<String> {
         self.all().map(|file| file.shown.clone()).collect()
     }

@@ -55,7 +55,7 @@ pub fn read(text: &Text) -> Result<Description, Vec<Fault>> {
     if reading.faults.is_empty() { Ok(description) } else { Err(reading.faults) }
 }
 
-/// What is to become a URDF file only.
+/// Refuses macros, which are to become a URDF file first.
 fn refuse_macros<'a>(robot: Node<'a, 'a>, reading: &mut Reading<'a>) {
     let is_macro = |node: &Node<'a, 'a>| node.tag_name().namespace().is_some_and(|space| space.contains("xacro"));
     if let Some(first) = robot.descendants().find(is_macro) {
@@ -379,7 +379,7 @@ mod tests {
         read(&text).map(|description| description.collisions)
     }
 
-    /// By <https://wiki.ros.org/urdf/XML/link> sizes are whole ones: edges, and the length of a cylinder about its
+    /// Sizes are whole ones by <https://wiki.ros.org/urdf/XML/link>: edges, and the length of a cylinder about its
     /// centre; that of a capsule, which newer versions have, is between the centres of its ends.
     #[test]
     fn shapes_that_touch() {

@@ -1,5 +1,5 @@
-//! What becomes of every element and attribute of URDF, by its specification (<https://wiki.ros.org/urdf/XML>) and by
-//! what urdfdom 5.1 reads besides.
+//! Verdicts on every element and attribute of URDF, by its specification (<https://wiki.ros.org/urdf/XML>) and by what
+//! urdfdom 5.1 reads besides.
 
 use super::reference::Verdict::{self, Acts, Harmless, Warned};
 use super::reference::{Element, element, whole};

@@ -20,9 +20,9 @@ pub struct Reading<'a> {
     pub notes: Vec<Note>,
     /// Elements that were looked at; what else there is has been ignored.
     seen: RefCell<HashSet<NodeId>>,
-    /// Those of which all that matters is noted elsewhere.
+    /// Elements of which all that matters is noted elsewhere.
     passed: RefCell<HashSet<NodeId>>,
-    /// What becomes of every element and attribute of the format.
+    /// Verdicts on every element and attribute of the format.
     elements: &'static [Element],
 }
 
@@ -86,7 +86,7 @@ fn qualified<'a>(node: Node<'a, 'a>) -> &'a str {
 }
 
 impl<'a> Reading<'a> {
-    /// Of a text, parsed.
+    /// Begins to read a text that is parsed.
     pub fn new(document: &'a Document<'a>, text: &'a Text, elements: &'static [Element]) -> Self {
         let reading = Self {
             document,
@@ -153,7 +153,7 @@ impl<'a> Reading<'a> {
         self.seen.borrow_mut().insert(node.id());
     }
 
-    /// Of this element, and what is in it, nothing more is to be noted.
+    /// Marks an element, with all that is in it, as one of which nothing more is to be noted.
     pub fn pass(&self, node: Node<'a, 'a>) {
         self.passed.borrow_mut().insert(node.id());
     }
@@ -328,7 +328,7 @@ fn is_usual(value: &str, usual: &str) -> bool {
     value.split_whitespace().all(|word| usual.split_whitespace().any(|other| same(word, other)))
 }
 
-/// What is not read, by its name.
+/// Elements and attributes that are not read, by their names.
 #[derive(Default)]
 struct Unread<'a> {
     kinds: Vec<Kind<'a>>,

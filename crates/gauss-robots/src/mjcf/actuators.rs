@@ -9,11 +9,11 @@ use crate::names::unknown;
 use crate::rotation::Triple;
 use crate::xml::shown;
 
-/// What an actuator acts on.
+/// Joints or link that an actuator acts on.
 enum ActsOn {
-    /// With what its length changes by each.
+    /// Joints, with the change of its length by each.
     Joints(Vec<(String, f64)>),
-    /// With the force and the torque there.
+    /// A link, with the force and the torque there.
     Link(String, [Triple; 2]),
     /// A ball or a joint that moves freely.
     Turned(Turned),
@@ -105,7 +105,7 @@ impl<'a> File<'a> {
         }
     }
 
-    /// What defaults and an element say.
+    /// Gains that defaults and an element give.
     fn gains(&mut self, node: Node<'a, 'a>) -> Gains<'a> {
         let mut said: Vec<Node<'a, 'a>> = self.classes.nearest((node, ACTUATOR), None, &self.reading).collect();
         said.reverse();
@@ -129,7 +129,7 @@ impl<'a> File<'a> {
         gains
     }
 
-    /// Those of the control, and of the force, that limit.
+    /// Ranges of the control, and of the force, that limit.
     fn ranges(&mut self, node: Node<'a, 'a>, gains: &Gains<'a>, along: &[(String, f64)]) -> [Option<[f64; 2]>; 2] {
         let mut ranges = gains.ranges;
         if gains.inherited() > 0.0 {
@@ -199,7 +199,7 @@ impl<'a> File<'a> {
         Some(Turned { name: name.to_owned(), wrench, in_parent: own.is_none() })
     }
 
-    /// What a site is called among links.
+    /// Name of the link of a site.
     pub fn link_of_site(&self, site: &str) -> Option<String> {
         self.sites.iter().find(|(name, _)| name == site).map(|(_, link)| link.clone())
     }

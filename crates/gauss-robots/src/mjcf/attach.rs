@@ -118,7 +118,7 @@ fn put((at, matrix): &Place, (position, rotation): (Triple, Rotation)) -> (Tripl
     (std::array::from_fn(|i| at[i] + moved[i]), turn)
 }
 
-/// What becomes of a range of the text.
+/// Replacement of a range of the text.
 enum Becomes<'a> {
     Nothing,
     Renamed(Node<'a, 'a>),

@@ -1,4 +1,4 @@
-//! What the compiler of MuJoCo makes of mass data that it does not take as they are.
+//! Bounds by which the compiler of MuJoCo changes mass data.
 
 use roxmltree::Node;
 
@@ -6,7 +6,7 @@ use crate::description::Inertial;
 use crate::rotation::{Matrix, Triple, principal, turned_tensor};
 use crate::xml::Reading;
 
-/// What the compiler makes of mass data that are too small, or are of no body.
+/// Bounds for mass data that are too small, or are of no body: the compiler changes them.
 #[derive(Clone, Copy, Default)]
 pub struct Bounds {
     mass: f64,

@@ -19,7 +19,7 @@ struct Class<'a> {
 /// All of them; the first is that of elements without a class.
 pub struct Classes<'a> {
     all: Vec<Class<'a>>,
-    /// Of what each is called the index.
+    /// Names of the classes, with their indices.
     names: Vec<(&'a str, usize)>,
 }
 
@@ -39,7 +39,7 @@ impl<'a> Classes<'a> {
         classes
     }
 
-    /// What is in a `<default>` comes to a class.
+    /// Adds the elements of a `<default>` to a class.
     fn add(&mut self, node: Node<'a, 'a>, index: usize, reading: &mut Reading<'a>) {
         let is_class = |child: &Node<'a, 'a>| child.tag_name().name() == "default";
         let (inner, own): (Vec<_>, Vec<_>) = reading.elements(node).into_iter().partition(is_class);

@@ -1,6 +1,6 @@
-//! What a file switches off.
+//! Forces and filters that a file switches off.
 
-/// What `<option>` and its `<flag>` switch off.
+/// Forces and filters that `<option>` and its `<flag>` switch off.
 #[derive(Clone, Default, PartialEq)]
 pub struct Disabled {
     pub actuation: bool,

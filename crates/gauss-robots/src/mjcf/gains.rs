@@ -1,4 +1,4 @@
-//! What actuators do with their controls: gains, biases, ranges.
+//! Laws of actuators: gains, biases and ranges of their controls.
 //!
 //! All elements of actuators, and of their defaults, set the same values, one after another, whatever they are called:
 //! so MuJoCo's `mjXReader::OneActuator` and `mjs_setToPosition` and the like have it (3.9): `<position>` without `kp`
@@ -26,7 +26,7 @@ pub const ACTUATOR: &[&str] = &[
     "plugin",
 ];
 
-/// Of what an actuator is made.
+/// Parameters of an actuator.
 #[derive(Clone, Debug)]
 pub struct Gains<'a> {
     /// Its state, its gain and its bias by their words.
@@ -36,7 +36,7 @@ pub struct Gains<'a> {
     pub gain: Triple,
     /// b₀ + b₁ l + b₂ l̇.
     pub bias: Triple,
-    /// Of the control, and of the force, with whether it limits.
+    /// Ranges of the control, and of the force, with whether they limit.
     pub ranges: [([f64; 2], Option<&'a str>); 2],
     /// The control has the range of its joint, times this.
     inherited: f64,
@@ -57,19 +57,19 @@ impl<'a> Gains<'a> {
         }
     }
 
-    /// What elements say, one after another.
+    /// Gains that elements give, one after another.
     pub fn of(elements: &[Node<'a, 'a>], reading: &mut Reading<'a>) -> Self {
         let mut gains = Self::usual();
         elements.iter().for_each(|element| gains.set(*element, reading));
         gains
     }
 
-    /// What the force is, for a comparison.
+    /// Law of the force, for a comparison.
     pub fn law(&self) -> ([&'a str; 3], [Triple; 2], f64) {
         (self.kinds, self.acting(), self.inherited())
     }
 
-    /// How much of the range of its joint the control of a servo has, if it has that; zero otherwise.
+    /// Part of the range of its joint that the control of a servo has, if it has that; zero otherwise.
     pub fn inherited(&self) -> f64 {
         let [gain, bias] = self.acting();
         if gain[0] == -bias[1] { self.inherited } else { 0.0 }

@@ -43,7 +43,7 @@ fn gathered(main: Written, first: usize, models: &mut Models) -> (Text, Vec<Faul
 struct Models {
     /// Files each of which is attached by the one before.
     around: Vec<PathBuf>,
-    /// How many more are read.
+    /// Number of models that may still be read.
     left: usize,
 }
 
@@ -93,7 +93,7 @@ fn is_same(path: &Path, other: &Path) -> bool {
     path == other || path.canonicalize().is_ok_and(|path| other.canonicalize().is_ok_and(|other| path == other))
 }
 
-/// How messages name a file in the folder of another.
+/// Name of a file in the folder of another, as messages show it.
 fn beside(shown: &str, name: &str) -> String {
     Path::new(shown).with_file_name(name).to_string_lossy().into_owned()
 }

@@ -5,7 +5,7 @@ use roxmltree::Node;
 use super::File;
 use crate::description::{JointKind, Posture};
 
-/// How many numbers say where a joint is, and how it moves.
+/// Numbers of the coordinates and of the rates of a joint.
 fn sizes(kind: JointKind) -> [usize; 2] {
     match kind {
         JointKind::Fixed => [0, 0],

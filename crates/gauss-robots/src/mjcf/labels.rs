@@ -15,7 +15,7 @@ pub const SECTIONS: [&str; 4] = ["tendon", "equality", "contact", "actuator"];
 /// An element with a name, as others refer to it: what it is, and its name.
 pub type Named<'a> = (&'static str, &'a str);
 
-/// What is added to names, and to what refers to them.
+/// Prefix and suffix of names, and of references to them.
 pub struct Affix<'n> {
     pub named: &'n BTreeSet<Named<'n>>,
     pub before: String,
@@ -50,7 +50,7 @@ impl Affix<'_> {
     }
 }
 
-/// What an element of a tree, or of a section, is called.
+/// Kind and name of an element of a tree, or of a section.
 pub fn name_of<'a>(node: Node<'a, 'a>) -> Option<Named<'a>> {
     let around = node.parent_element().map_or("", |parent| parent.tag_name().name());
     let kind = match node.tag_name().name() {
@@ -68,7 +68,7 @@ pub fn name_of<'a>(node: Node<'a, 'a>) -> Option<Named<'a>> {
     Some((kind, node.attribute("name")?.trim()))
 }
 
-/// What an element refers to, by its attributes.
+/// References of an element to others, by its attributes.
 pub fn references<'a>(node: Node<'a, 'a>) -> Vec<(&'static str, Named<'a>)> {
     /// Kinds with the attributes that refer to them, in the elements of trees and sections.
     const ALL: [(&str, &[&str]); 5] = [

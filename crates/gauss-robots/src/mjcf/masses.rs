@@ -19,7 +19,7 @@ const GEOM: &[&str] = &["geom"];
 const DENSITY: f64 = 1000.0;
 
 impl<'a> File<'a> {
-    /// Of what is written for a body, in its axes.
+    /// Mass data that are written for a body, in its axes.
     pub fn inertial(&mut self, node: Node<'a, 'a>, class: Option<&'a str>) -> Option<Inertial> {
         let own = self.said(node, class);
         self.bounds.kept(own)

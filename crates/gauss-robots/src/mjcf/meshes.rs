@@ -15,7 +15,7 @@ use crate::xml::shown;
 const MESH: &[&str] = &["mesh"];
 
 impl<'a> File<'a> {
-    /// Of density one, in the axes of the geom; `None` where it is wrong, which is noted.
+    /// Mass data of a mesh for density one, in the axes of the geom; `None` where it is wrong, which is noted.
     pub fn of_mesh(&mut self, geom: Node<'a, 'a>, kind: &str, name: &str) -> Option<Inertial> {
         if kind != "mesh" {
             self.reading.fault(
@@ -132,7 +132,7 @@ impl<'a> File<'a> {
         Some(mesh)
     }
 
-    /// What stands in the element.
+    /// Mesh that is written in the element itself.
     fn points(&mut self, node: Node<'a, 'a>) -> Option<Mesh> {
         let (points, corners) = (self.reading.list(node, "vertex"), self.reading.list(node, "face"));
         let Some(points) = points else {
@@ -152,7 +152,7 @@ impl<'a> File<'a> {
         Some(Mesh { vertices, faces, unsure: 0.0 })
     }
 
-    /// By `meshdir`, or `assetdir`, from the folder of the first file.
+    /// Path of a mesh by `meshdir`, or `assetdir`, from the folder of the first file.
     fn path_of_mesh(&mut self, node: Node<'a, 'a>, file: &str) -> PathBuf {
         let (mut folder, mut strip) = ([None; 2], false);
         for compiler in self.reading.children(node.document().root_element(), "compiler") {
@@ -166,7 +166,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// By its name, or else by that of its file.
+/// Name of a mesh, or else that of its file.
 fn called(mesh: Node<'_, '_>) -> Option<String> {
     let of_file = || Some(Path::new(mesh.attribute("file")?.trim()).file_stem()?.to_string_lossy().into_owned());
     mesh.attribute("name").map(|name| name.trim().to_owned()).or_else(of_file)
@@ -186,7 +186,7 @@ mod tests {
 
     const GEOM: &str = "<geom type=\"mesh\" mesh=\"prism\" pos=\"1 2 3\" euler=\"10 20 30\" density=\"100\"/>";
 
-    /// Of a file in a folder with the prism.
+    /// Describes a file in a folder with the prism.
     fn described(compiler: &str, mesh: &str, geom: &str) -> Result<Description, Vec<Fault>> {
         described_beside(PRISM, compiler, mesh, geom)
     }

@@ -146,7 +146,7 @@ fn model(text: &Text, around: Option<(&str, &File<'_>)>) -> Result<Model, Vec<Fa
 /// Which bodies have the masses of their geoms.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Geoms {
-    /// Those without `<inertial>`.
+    /// Bodies without `<inertial>`.
     Missing,
     All,
     None,
@@ -165,13 +165,13 @@ struct File<'a> {
     groups: [f64; 2],
     bounds: Bounds,
     disabled: Disabled,
-    /// What all bodies weigh together, where masses are to be scaled to that.
+    /// Mass of all bodies together, where masses are to be scaled to that.
     total_mass: Option<f64>,
     /// Names of bodies.
     bodies: Vec<String>,
     /// Names of sites, with those of their links.
     sites: Vec<(String, String)>,
-    /// Of each actuator the index of its drive, if it is read.
+    /// Index of the drive of each actuator, if it is read.
     controls: Vec<Option<usize>>,
     /// Meshes that were read, of density one; `None` of those with a mistake.
     meshes: Vec<(String, Option<Inertial>)>,

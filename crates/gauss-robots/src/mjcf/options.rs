@@ -1,4 +1,4 @@
-//! What acts on everything, and what is switched off.
+//! Gravity and other forces on every body, and what is switched off.
 
 use roxmltree::Node;
 

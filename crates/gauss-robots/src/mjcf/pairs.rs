@@ -9,7 +9,8 @@ use crate::names::unknown;
 const PAIR: &[&str] = &["pair"];
 
 impl<'a> File<'a> {
-    /// What touches by itself, and what does not, once all geoms are known; nothing where contacts are switched off.
+    /// Reads the pairs that touch by themselves, and those that do not, once all geoms are known; nothing where
+    /// contacts are switched off.
     pub fn contacts(&mut self, root: Node<'a, 'a>) {
         for section in self.reading.children(root, "contact") {
             self.exclusions(section);

@@ -92,7 +92,7 @@ fn inertia_at_rest(structure: &Structure, description: &Description, joint: usiz
     joint.armature + carried.filter_map(of).sum::<f64>()
 }
 
-/// What hangs on a joint moves by that alone, and what it hangs on does not move.
+/// Tells whether all that hangs on a joint moves by that alone, so that what it hangs on does not move.
 fn moves_alone(structure: &Structure, description: &Description, joint: usize) -> bool {
     let joints = |link: usize| {
         let all = chain(structure, link).filter_map(|link| structure.joint_of[link]);

@@ -1,4 +1,4 @@
-//! What becomes of every element and attribute of MJCF, by MuJoCo's reference
+//! Verdicts on every element and attribute of MJCF, by MuJoCo's reference
 //! (<https://mujoco.readthedocs.io/en/stable/XMLreference.html>; the schema of version 4.0, and what earlier ones had).
 
 use crate::reference::Verdict::{self, Acts, Harmless, Warned};
@@ -13,13 +13,13 @@ const SPEED: Verdict = Harmless("how fast and with how much memory MuJoCo runs")
 const FITTED: Verdict = Harmless("how shapes are fitted to meshes: where a mass depends on that, it is a mistake");
 const KIND: Attributes =
     ("content_type", Warned("the end of its name says what a file is", "model/stl model/obj text/xml"));
-/// Of meshes and their defaults.
+/// Attributes of meshes and of their defaults.
 const MESH: &[Attributes] = &[("inertia scale maxhullvert", Acts)];
 const STATES: Verdict = Harmless("of actuators with states, each of which is warned of");
 const UNKNOWN_LAW: Verdict = Warned("it is not linear in its control, or has a state of its own", "");
 const DELAY: Verdict = Warned("controls act without delay", "0");
 const FILTERED: Attributes = ("timeconst", Warned("it is not linear in its control, or has a state of its own", "0"));
-/// Of tendons through geoms.
+/// Reason against tendons through geoms.
 pub const WRAPPED: &str = "it wraps around a geom; through sites alone tendons are read";
 const CLASS: Attributes = ("class", Acts);
 const PLACE: &[Attributes] = &[("pos quat axisangle euler xyaxes zaxis", Acts)];

@@ -19,7 +19,7 @@ use crate::xml::{Reading, own_descendants, own_elements, parse, shown};
 
 const REPLICATE: &str = "replicate";
 
-/// What is read of it. MuJoCo's schema has `prefix`, too.
+/// Attributes of `<replicate>` that are read. MuJoCo's schema has `prefix`, too.
 const KNOWN: [&str; 5] = ["count", "offset", "euler", "sep", "childclass"];
 
 /// Copies of one element.
@@ -42,7 +42,7 @@ pub fn replicated(mut text: Text) -> (Text, Vec<Fault>) {
     (text, vec![Fault { at, message }])
 }
 
-/// With the copies of one element; `None` if there is none.
+/// Writes the copies of one element out; `None` if there is none.
 fn once(text: &Text) -> Result<Option<Text>, Fault> {
     // What is no XML is told by whoever reads it next.
     let Ok(document) = parse(&text.whole) else { return Ok(None) };
@@ -84,7 +84,7 @@ struct Copies<'a> {
     count: usize,
     separator: &'a str,
     class: Option<&'a str>,
-    /// Of each copy, where it is, and its angles as they are written in the file.
+    /// Position of each copy, and its angles as they are written in the file.
     places: Vec<[Triple; 2]>,
 }
 
@@ -122,7 +122,7 @@ impl<'a> Copies<'a> {
         Copies { count: places.len(), separator, class: node.attribute("childclass"), places }
     }
 
-    /// Of the index as many digits as the count has.
+    /// Suffix of the names of a copy: its index, with as many digits as the count has.
     fn affix<'n>(&self, named: &'n BTreeSet<Named<'n>>, index: usize) -> Affix<'n> {
         let digits = self.count.to_string().len();
         Affix { named, before: String::new(), after: format!("{}{index:0digits$}", self.separator) }

@@ -8,9 +8,9 @@ use crate::xml::Reading;
 /// The attributes that write a rotation.
 pub const ORIENTATION: [&str; 5] = ["quat", "axisangle", "euler", "xyaxes", "zaxis"];
 
-/// How angles are meant in a file.
+/// Units and conventions of the angles in a file.
 pub struct Angles {
-    /// What one is in radians.
+    /// Size of a unit of angle in radians.
     pub unit: f64,
     /// The axes of `euler`, in the order in which they are turned about; `fixed` are those of the parent.
     sequence: [usize; 3],

@@ -50,7 +50,8 @@ fn tube(r: f64, h: f64) -> (f64, Triple) {
 mod tests {
     use super::*;
 
-    /// What one shape has in another that is larger by a little, both full: the moments of volumes are other formulas.
+    /// A shell is the difference between a shape that is larger by a little and the shape, both full: the moments of
+    /// volumes are other formulas.
     #[test]
     fn shells_as_differences_of_volumes() {
         let thin = 1e-5;

@@ -1,5 +1,4 @@
-//! What becomes of every attribute of MJCF: no attribute of MuJoCo's is missing from the table, and its verdicts are
-//! true.
+//! Verdicts on every attribute of MJCF are true, and no attribute of MuJoCo's is missing from the table.
 
 use std::path::{Path, PathBuf};
 
@@ -122,7 +121,7 @@ fn verdicts_are_true() {
     assert!(untrue.is_empty(), "{}", untrue.join("\n"));
 }
 
-/// With its copies written out, in a folder with another model and a mesh.
+/// Reads a text with its copies written out, in a folder with another model and a mesh.
 fn beside_others(text: &Text) -> Result<Description, Vec<Fault>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/mjcf/tests/main.xml");
     let (text, faults) = included(Written::new(String::new(), path, text.whole.clone()));
@@ -297,7 +296,7 @@ fn ratios_of_damping() {
     assert!(near(alone, -257.07936379), "{alone}");
 }
 
-/// Where defaults of several kinds stand in a class, versions of MuJoCo differ: kp is 7 in 3.3 and 1 in 4.0.
+/// Versions of MuJoCo differ where defaults of several kinds stand in a class: kp is 7 in 3.3 and 1 in 4.0.
 #[test]
 fn defaults_of_other_actuators_are_told() {
     let read = described(&format!(

@@ -8,10 +8,10 @@ use crate::text::{Text, Written};
 pub struct Format {
     pub elements: &'static [Element],
     pub read: fn(&Text) -> Result<Description, Vec<Fault>>,
-    /// With places `@body/joint{…}` where the attributes of an element stand, those in the braces unless others are
-    /// tried, and `@in/body{}` where an element comes into another.
+    /// Text with places `@body/joint{…}` where the attributes of an element stand, those in the braces unless others
+    /// are tried, and `@in/body{}` where an element comes into another.
     pub file: &'static str,
-    /// Of every attribute that acts: its element, other attributes that it needs, itself.
+    /// Samples of every attribute that acts: its element, other attributes that it needs, itself.
     pub samples: &'static [(&'static str, &'static str, &'static str)],
 }
 
@@ -61,7 +61,7 @@ impl Format {
         after.split_once('}').unwrap().0
     }
 
-    /// What is read with something at a place, and without it; both texts have the same length, so that places stay.
+    /// Reads the file with something at a place, and without it; both texts have the same length, so that places stay.
     fn both(&self, place: &str, others: &str, own: &str) -> [Result<Read, Vec<Fault>>; 2] {
         let blanks = " ".repeat(own.len());
         [blanks.as_str(), own].map(|own| self.read(place, &format!("{others} {own}")))
@@ -123,7 +123,7 @@ impl Format {
         }
     }
 
-    /// What is wrong, if something is not warned of in its words, or if what is harmless acts.
+    /// Describes the mistake if something is not warned of in its words, or if what is harmless acts.
     fn not_silent(&self, place: &str, others: &str, own: &str, verdict: Verdict) -> Option<String> {
         let (without, with) = match self.both(place, others, own) {
             [Ok(without), Ok(with)] => (without, with),
@@ -137,7 +137,8 @@ impl Format {
         (!is_true).then(|| format!("{place} {own}: {verdict:?}, but {new:?}"))
     }
 
-    /// What is wrong, if the description is the same with the attribute; with `!` one of the two is to be a mistake.
+    /// Describes the mistake if the description is the same with the attribute; with `!` one of the two is to be a
+    /// mistake.
     fn not_acting(&self, place: &str, others: &str, own: &str) -> Option<String> {
         let is_mistake = own.starts_with('!');
         let own = own.trim_start_matches('!');
