@@ -144,7 +144,7 @@ where
     /// The length of x.
     pub const DIM: usize = Self::COMPONENTS + S::Speeds::DIM;
 
-    /// How many of them are those of the configuration.
+    /// Number of those that are components of the configuration.
     const COMPONENTS: usize = <<S::Configuration as Configuration>::Components as VectorSpace<S::Scalar>>::DIM;
 
     /// x of a state as an array. Its length is checked when the program is compiled.

@@ -1,6 +1,6 @@
 //! Ways to find ∂f/∂x times a vector.
 
-/// By central differences: two evaluations a product, right to ∛ε² of the third derivative (some 1e-10 in double
+/// Central differences: two evaluations a product, right to ∛ε² of the third derivative (some 1e-10 in double
 /// precision) where all components of x are of one size. Implicit methods converge with less; their accuracy does not
 /// depend on it.
 ///
@@ -9,6 +9,6 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Differences;
 
-/// By a function `(t, x, v, result)`: exact derivatives of your own.
+/// A function `(t, x, v, result)`: exact derivatives of your own.
 #[derive(Clone, Copy, Debug)]
 pub struct JacobianFunction<G>(pub G);

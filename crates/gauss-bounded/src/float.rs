@@ -1,4 +1,4 @@
-//! What bounds ask of a floating-point format.
+//! Properties that bounds need of a floating-point format.
 
 use core::fmt::Display;
 
@@ -38,8 +38,8 @@ pub trait Float: Real + PartialOrd + Display + sealed::Sealed {
     #[doc(hidden)]
     fn is_power_of_two(self) -> bool;
 
-    /// What rounding to nearest can have changed in a result, gradual underflow included. What u·|value| itself loses
-    /// to underflow is less than the least number.
+    /// Bound of the rounding to nearest of a result, gradual underflow included. What u·|value| itself loses to
+    /// underflow is less than the least number.
     #[doc(hidden)]
     #[inline(always)]
     fn half_unit(value: Self) -> Self {

@@ -7,7 +7,7 @@ use gauss_runtime::real::Real;
 
 use crate::{Bounded, Float};
 
-/// What one evaluation of a function rounds, in units of 2u, which is one unit in the last place or more.
+/// Rounding error of one evaluation of a function, in units of 2u, which is one unit in the last place or more.
 const SINE: f64 = 1.0;
 const HYPERBOLIC: f64 = 4.0;
 const OTHER: f64 = 2.0;
@@ -303,7 +303,7 @@ impl<T: Float> Real for Bounded<T> {
         self.value.is_finite()
     }
 
-    /// What is not chosen leaves a trace where the choice is open: the bound then covers it.
+    /// Chooses one of two values; the other leaves a trace where the choice is open: the bound then covers it.
     #[inline]
     fn select_lt(a: Self, b: Self, x: Self, y: Self) -> Self {
         let (chosen, other) = if a.value < b.value { (x, y) } else { (y, x) };

@@ -1,4 +1,4 @@
-//! How many digits of a result are right: a scalar that carries a guaranteed bound on its own rounding.
+//! Scalar that carries a guaranteed bound on its own rounding: it shows how many digits of a result are right.
 //!
 //! Every generic kernel, [`linearize`](gauss_runtime::linearize), energies and integrators of fixed step take
 //! [`Bounded`] as they take `f64`. Its `value` is, to the last bit, what the same code computes in the plain scalar;

@@ -10,7 +10,7 @@ use crate::{Bounded, Float};
 
 /// Numbers and what is made of them: vectors, matrices, rotations, poses, [`RigidBody`], arrays and pairs.
 pub trait Lift {
-    /// What the numbers are.
+    /// Type of the numbers.
     type Number: Float;
     /// The same of bounded numbers.
     type Lifted;

@@ -40,8 +40,8 @@ impl<T: Float> Bounded<T> {
         Self { value, bound: if known { bound.abs() } else { T::INFINITY } }
     }
 
-    /// How many decimal digits of the value are right: −log₁₀ of the bound relative to the value, between 0 and what
-    /// the scalar holds (15.95 for `f64`, 7.22 for `f32`).
+    /// Number of decimal digits of the value that are right: −log₁₀ of the bound relative to the value, between 0 and
+    /// what the scalar holds (15.95 for `f64`, 7.22 for `f32`).
     ///
     /// A number that is zero up to its bound has none: see [`digits_beside`](Self::digits_beside).
     #[must_use]

@@ -83,7 +83,7 @@ pub struct DriftingBody<T, M> {
 ///
 /// Momenta are in body axes, those of left-invariant charts: Γ_O for attitudes, (Q, Γ_O) for poses.
 pub trait BodyConfiguration: Configuration {
-    /// That of a kernel.
+    /// Mass matrix of a kernel.
     type MassMatrix;
 
     /// Mass and inertia about O.

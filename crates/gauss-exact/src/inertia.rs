@@ -6,7 +6,7 @@ use gauss_runtime::lie::so3;
 use gauss_runtime::real::Real;
 use nalgebra::{Matrix3, SVector, UnitQuaternion, Vector3};
 
-/// What a span of free motion does to a body, in its principal axes.
+/// Effect of a span of free motion on a body, in its principal axes.
 #[derive(Clone, Copy, Debug)]
 pub struct Turn<T> {
     /// δ: the attitude goes from R to R∘δ.

@@ -129,7 +129,7 @@ mod tests {
         }
     }
 
-    /// For a harmonic oscillator steps are products of shears; their trace is 2 cos h + O(h^(order + 2)). All schemes,
+    /// Steps of a harmonic oscillator are products of shears; their trace is 2 cos h + O(h^(order + 2)). All schemes,
     /// not only compositions, have to pass.
     #[test]
     fn an_oscillator_sees_the_order() {

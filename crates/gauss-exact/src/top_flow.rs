@@ -32,7 +32,7 @@ use crate::top_orbit::Top;
 /// For `f64`: the number of operations depends on the state. It belongs to the kernel that it was made for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TopFlow {
-    /// Of the moments, across to along.
+    /// Ratio of the moments of inertia, across to along the axis.
     ratio: f64,
     /// √(2 P A) and √(2 P/A), P the weight times its lever.
     momentum: f64,
@@ -78,7 +78,7 @@ impl core::error::Error for TopError {
     }
 }
 
-/// Of what is computed with numbers of the sizes of the result.
+/// Bound of the rounding of what is computed with numbers of the sizes of the result.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl TopFlow {

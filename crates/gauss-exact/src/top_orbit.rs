@@ -115,14 +115,14 @@ fn shifted_kind(values: &Jacobi, g: f64, complement: f64) -> f64 {
     (square * (1.0 - g)).fma(part, argument)
 }
 
-/// Of an argument from the upper end.
+/// Functions of an argument that is counted from the upper end.
 fn from_above(Jacobi { sn, cn, dn }: Jacobi, complement: f64, sign: f64) -> Jacobi {
     Jacobi { sn: sign * cn / dn, cn: complement * sn.abs() / dn, dn: complement / dn }
 }
 
 /// A nutation: what of it does not depend on time.
 struct Nutation {
-    /// Of u from where the motion starts, the lower and the upper end.
+    /// Lower and upper end of u, measured from its value at the start.
     ends: [f64; 2],
     /// 1 − u₁, 1 − u₂.
     below: [f64; 2],
@@ -133,7 +133,7 @@ struct Nutation {
     start: Jacobi,
     complement: f64,
     modulus: Modulus,
-    /// Of the argument.
+    /// Rate of the argument.
     rate: f64,
 }
 

@@ -44,7 +44,7 @@ pub fn write_new(file: impl AsRef<Path>, contents: impl AsRef<[u8]>) -> io::Resu
     create(file, contents.as_ref())
 }
 
-/// How the names of files begin that are not whole: such a file is left where a program was killed while it wrote.
+/// Prefix of the names of files that are not whole: such a file is left where a program was killed while it wrote.
 pub const UNFINISHED: &str = ".gauss-";
 
 fn make_folder(file: &Path) -> io::Result<()> {

@@ -1,4 +1,4 @@
-//! Where examples leave their files.
+//! Folder in which examples leave their files.
 
 use std::env;
 use std::ffi::OsString;

@@ -26,16 +26,16 @@ pub enum ParryErrorKind {
     Unknown,
     /// The pair has more points than [`Shapes::most`](crate::Shapes::most) allows.
     PairPoints {
-        /// How many it has.
+        /// Number of its points.
         points: usize,
-        /// How many it may have.
+        /// Number of points that it may have.
         most: usize,
     },
     /// All pairs together have more points than there are slots.
     Points {
-        /// How many they have.
+        /// Number of their points.
         points: usize,
-        /// How many slots there are.
+        /// Number of slots.
         slots: usize,
     },
     /// A gap is below zero by more than [`Shapes::deepest`](crate::Shapes::deepest): shapes passed into one another
@@ -43,16 +43,16 @@ pub enum ParryErrorKind {
     TooDeep {
         /// The gap.
         gap: f64,
-        /// How deep it may be.
+        /// Depth that is allowed.
         deepest: f64,
     },
     /// A number that is not what it must be.
     Number {
-        /// Of what.
+        /// Name of the setting.
         field: &'static str,
         /// The number.
         value: f64,
-        /// What it must be.
+        /// Condition that the number must meet.
         rule: &'static str,
     },
     /// The data of a contact are refused.

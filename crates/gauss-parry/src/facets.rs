@@ -71,8 +71,8 @@ impl Facets {
         Some(Self(triangles.iter().enumerate().map(facet).collect()))
     }
 
-    /// Where these triangles of a shape touch another one or come nearer than the reach, with the other at a pose in
-    /// the axes of the shape. In the manifolds the shape is the second of both where `second` says so.
+    /// Finds where these triangles of a shape touch another one or come nearer than the reach, with the other at a pose
+    /// in the axes of the shape. In the manifolds the shape is the second of both where `second` says so.
     pub(crate) fn touch(
         &self,
         shape: &dyn Shape,

@@ -2,11 +2,11 @@
 
 use gauss_runtime::nalgebra::Vector3;
 
-/// How points of a pair are left out, where that is asked for.
+/// Rule by which points of a pair are left out, where that is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Reduction {
-    /// Of the points of a pair with one normal (to 1°) four, which have nearly the largest area: the one that is
+    /// Keeps, of the points of a pair with one normal (to 1°), four that have nearly the largest area: the one that is
     /// farthest from the mean of all, the one that is farthest from that, and on both sides of the line through the two
     /// those that are farthest from it; and the deepest, where it is deeper than these. Where faces of boxes touch
     /// these are the corners of what they have in common if that is a rectangle, and no other point can go below zero;
@@ -14,8 +14,8 @@ pub enum Reduction {
     Quadrilateral,
 }
 
-/// Of what length on the scale of all points differences are rounding: which of two equal points is kept is then not
-/// decided by it.
+/// Length, on the scale of all points, below which differences are rounding: which of two equal points is kept is then
+/// not decided by it.
 const SAME: f64 = 1e-7;
 /// The cosine of 1°.
 const ONE_NORMAL: f64 = 0.999_847_695_156_391_3;

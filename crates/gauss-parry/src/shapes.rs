@@ -16,7 +16,7 @@ use crate::facets::{Facets, Manifold};
 use crate::id::ShapeId;
 use crate::reduce::{Place, Reduction};
 
-/// How a surface rubs and bounces.
+/// Friction and restitution of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
     /// μ of Coulomb's friction.
@@ -25,7 +25,7 @@ pub struct Surface {
     pub restitution: f64,
 }
 
-/// What touches what: the features of both shapes, by which a contact of one step is known in the next.
+/// The features of both shapes that touch, by which a contact of one step is known in the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Feature {
     /// The shapes, in the order in which they were added.
@@ -43,7 +43,7 @@ pub struct Feature {
 pub struct Found<F> {
     /// The data of a slot.
     pub slot: Slot<F>,
-    /// What it is of.
+    /// Features that it is between.
     pub feature: Feature,
 }
 
@@ -110,7 +110,8 @@ impl<F: FrameName> Shapes<F> {
         self
     }
 
-    /// How a pair rubs and bounces. Without this its friction is √(μ₁ μ₂) and its restitution the larger of both.
+    /// Sets friction and restitution of a pair. Without this its friction is √(μ₁ μ₂) and its restitution the larger of
+    /// both.
     #[must_use]
     pub fn between(mut self, first: ShapeId, second: ShapeId, surface: Surface) -> Self {
         self.between.push((in_order(first, second), surface));
@@ -125,15 +126,15 @@ impl<F: FrameName> Shapes<F> {
         self
     }
 
-    /// How far a gap may be below zero before a step. Steps leave gaps at zero to rounding; where shapes are round, or
-    /// new features meet, it is the order of what they move in a step.
+    /// Sets how far a gap may be below zero before a step. Steps leave gaps at zero to rounding; where shapes are
+    /// round, or new features meet, it is the order of what they move in a step.
     #[must_use]
     pub fn deepest(mut self, deepest: f64) -> Self {
         self.deepest = deepest;
         self
     }
 
-    /// How many points a pair may have, after [`reduce`](Self::reduce); more are an error.
+    /// Sets how many points a pair may have, after [`reduce`](Self::reduce); more are an error.
     #[must_use]
     pub fn most(mut self, most: usize) -> Self {
         self.most = most;
@@ -147,7 +148,7 @@ impl<F: FrameName> Shapes<F> {
         self
     }
 
-    /// What was found last.
+    /// Returns the contacts that were found last.
     pub fn found(&self) -> &[Found<F>] {
         &self.found
     }

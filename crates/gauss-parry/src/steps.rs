@@ -56,7 +56,7 @@ where
         Ok(Self { shapes, slots, before, held })
     }
 
-    /// How the motion between impacts is taken.
+    /// Sets the scheme of the motion between impacts.
     #[must_use]
     pub fn scheme(self, scheme: StepScheme) -> Self {
         Self { held: self.held.scheme(scheme), ..self }
@@ -115,7 +115,7 @@ where
         &self.slots
     }
 
-    /// What they did in it, slot by slot.
+    /// Modes of the contacts in the last step, slot by slot.
     pub fn modes(&self) -> &[Mode] {
         self.held.modes()
     }

@@ -94,7 +94,7 @@ mod of_runs {
         }
     }
 
-    /// How many roundings a plane may seem to move by: points, normals and gaps are short sums.
+    /// Number of roundings by which a plane may seem to move: points, normals and gaps are short sums.
     const ROUNDINGS: f64 = 64.0;
 
     /// The plane that a contact touches, as its normal and height, where it stands still.

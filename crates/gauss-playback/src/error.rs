@@ -1,4 +1,4 @@
-//! What can be wrong with a playback.
+//! Errors of a playback.
 
 use std::error::Error;
 use std::{fmt, io};

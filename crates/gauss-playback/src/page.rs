@@ -1,4 +1,4 @@
-//! What the page holds, and the page itself.
+//! Data of the page, and the page itself.
 
 use serde::{Serialize, Serializer};
 
@@ -23,7 +23,7 @@ pub struct Page {
     pub si: bool,
     /// Which way is up on the screen, observer's axes.
     pub up: [f64; 3],
-    /// Where the camera is at first.
+    /// View of the camera at first.
     pub view: &'static str,
     /// The body that the camera goes with at first.
     pub follow: Option<usize>,
@@ -70,7 +70,7 @@ pub struct Arrow {
 #[derive(Serialize)]
 pub struct Contact {
     pub name: String,
-    /// What it does at each time.
+    /// State of the contact at each time.
     pub touches: Vec<Touch>,
     /// Point and force for each time.
     #[serde(serialize_with = "short")]

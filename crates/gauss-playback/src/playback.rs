@@ -1,4 +1,4 @@
-//! What is shown, gathered call by call.
+//! A motion to be shown, gathered call by call.
 
 #[cfg(feature = "urdf")]
 use std::fs;
@@ -14,7 +14,7 @@ use crate::shape::Shape;
 /// Pictures of a run: at 60 a second it takes ten seconds to play.
 const PICTURES: u32 = 600;
 
-/// Of a number that cannot be shown.
+/// Message for a number that cannot be shown.
 const OUT_OF_RANGE: &str = "is not finite, or larger than a page can show (1.7e38)";
 
 /// A motion to be shown. What is added to it is computed at once, for all times; mistakes are gathered and told by

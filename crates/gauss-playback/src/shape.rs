@@ -1,4 +1,4 @@
-//! What bodies look like.
+//! Shapes of bodies, as the page shows them.
 
 use gauss_runtime::prelude::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 use serde::Serialize;

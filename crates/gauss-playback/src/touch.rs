@@ -1,8 +1,8 @@
-//! What contacts do.
+//! States of contacts.
 
 use serde::Serialize;
 
-/// What a contact does at a time: the colour of its dot and of its arrow.
+/// State of a contact at a time: the colour of its dot and of its arrow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Touch {

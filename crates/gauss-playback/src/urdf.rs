@@ -58,7 +58,7 @@ pub fn is_called(body: &str, link: &str) -> bool {
         || [("link_", ""), ("", "_link")].iter().any(|(a, b)| body == format!("{a}{changed}{b}"))
 }
 
-/// Those of URDF: what has another prefix than its parent is something else, whatever its name.
+/// Elements of URDF with a name: one with another prefix than its parent is something else, whatever its name.
 fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
     elements(node).filter(move |child| child.tag_name().name() == name)
 }

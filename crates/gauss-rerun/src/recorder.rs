@@ -72,7 +72,7 @@ impl<'r, S: GaussSystem<Scalar = f64>> Recorder<'r, S> {
         Ok(self)
     }
 
-    /// What a body looks like, in body axes about O: any of Rerun's shapes, such as `Boxes3D`, `Ellipsoids3D`,
+    /// Adds a shape to a body, in body axes about O: any of Rerun's shapes, such as `Boxes3D`, `Ellipsoids3D`,
     /// `Cylinders3D`, `Asset3D` of a mesh.
     ///
     /// # Errors

@@ -19,7 +19,7 @@ use proc_macro2::TokenStream;
 use self::store::Store;
 use self::tokens::{Places, read, text_of, written};
 
-/// What is derived faster is derived again: reading a file is not free either.
+/// Time from which an expansion is worth keeping: reading a file is not free either.
 const WORTH_KEEPING: Duration = Duration::from_millis(10);
 
 /// The code of a struct: what was kept of an earlier build, else what `derive` makes of it.

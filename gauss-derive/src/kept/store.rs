@@ -1,4 +1,4 @@
-//! Where expansions are kept, and whether they still hold.
+//! Files of expansions that are kept, and whether they still hold.
 
 use std::env;
 use std::fs::{self, File};
@@ -12,14 +12,14 @@ use super::tokens::{Bytes, Output};
 /// Beyond this, what was not used for the longest time is removed.
 const MOST_BYTES: u64 = 256 << 20;
 
-/// How much earlier than it was a change of a file may seem: file systems look at the clock a few hundred times a
+/// Span by which a change of a file may seem earlier than it was: file systems look at the clock a few hundred times a
 /// second.
 const CLOCK: Duration = Duration::from_millis(10);
 
 /// A folder of expansions, each a file that is named by a hash of what it depends on and says all of it.
 pub struct Store {
     folder: PathBuf,
-    /// What every expansion of this build depends on: the macro and the package.
+    /// Dependencies of every expansion of this build: the macro and the package.
     build: Vec<u8>,
 }
 
@@ -117,7 +117,7 @@ impl Store {
     }
 }
 
-/// What is known of a file's content: its length and hashes.
+/// Content of a file by its length and hashes.
 fn about(file: &Path) -> io::Result<Vec<u8>> {
     let content = fs::read(file)?;
     let mut about = Output::default();

@@ -8,7 +8,7 @@ use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenS
 
 const DELIMITERS: [Delimiter; 4] = [Delimiter::Parenthesis, Delimiter::Brace, Delimiter::Bracket, Delimiter::None];
 
-/// What a token is, as a byte; that of a group is `GROUP` and the place of its delimiter in `DELIMITERS`.
+/// Kind of a token, as a byte; that of a group is `GROUP` and the place of its delimiter in `DELIMITERS`.
 const END: u64 = 0;
 const IDENT: u64 = 1;
 const LITERAL: u64 = 2;
@@ -126,7 +126,7 @@ impl Output {
     }
 }
 
-/// What is left of bytes of `Output`.
+/// Rest of the bytes of `Output`.
 pub struct Bytes<'a>(pub &'a [u8]);
 
 impl<'a> Bytes<'a> {
