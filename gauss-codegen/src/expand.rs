@@ -124,7 +124,7 @@ mod tests {
         }
     }
 
-    /// What only the derivation sees of gaps and slips, all at once and each at its place.
+    /// Mistakes in gaps and slips that only the derivation sees are told all at once, each at its place.
     #[test]
     fn contacts_that_nothing_changes() {
         let found = mistakes(
@@ -181,7 +181,7 @@ mod tests {
         expand(&input).expect("equations of motion");
     }
 
-    /// Of the first every way to accelerations is the one link by link, of the second as well, with powers besides.
+    /// The first source has accelerations link by link only, the second as well, with powers besides.
     #[test]
     fn some_arrangement_is_left() {
         let springs = "k * powi(a - d, 2) + k * powi(b - e, 2) + k * powi(f - i, 2)";

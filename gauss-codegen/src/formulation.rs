@@ -22,7 +22,7 @@ use crate::translate::{Given, Parameter, Translated};
 pub struct Formulation<'g> {
     pub given: Given<'g>,
     pub system: System<'g>,
-    /// How its speeds were found, where constraints are solved for the others.
+    /// Elimination by which its speeds were found, where constraints are solved for the others.
     pub elimination: Option<Elimination<'g>>,
     pub formulas: Formulas<'g>,
     /// The derivatives that are wanted.
@@ -270,7 +270,7 @@ fn leave_out_needless<'g>(given: &Given<'g>, system: &mut System<'g>) -> Vec<usi
     Vec::new()
 }
 
-/// What the numbers of fields are called, by their symbols.
+/// Names of the numbers of fields, by their symbols.
 fn names_of(parameters: &[Parameter<'_>]) -> Map<u32, String> {
     parameters.iter().map(|parameter| (parameter.symbol.key(), parameter.name.clone())).collect()
 }

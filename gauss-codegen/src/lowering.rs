@@ -82,7 +82,7 @@ fn programs<'g>(formulation: &Formulation<'g>) -> Result<Kernel<'g>> {
     Ok(kernel)
 }
 
-/// What states are made from at which the programs are tried.
+/// Symbols and formulas from which states are made at which the programs are tried.
 pub fn states<'a, 'g>(formulation: &'a Formulation<'g>) -> States<'a, 'g> {
     let Formulation { given, system, formulas, definitions, units, .. } = formulation;
     let parameters = given.parameters.iter();
@@ -104,7 +104,7 @@ fn foldable<'a, 'g>(scalar: &Scalar, literals: &'a [(Rational, Expr<'g>)]) -> Li
     (!matches!(scalar, Scalar::Parameter(_))).then_some(literals)
 }
 
-/// What a formula is lowered from.
+/// Arrangements that a formula is lowered from, and the aim.
 fn candidates<'g>(method: Method, arrangements: &Arrangements<'g>) -> Candidates<'g> {
     let aim = if method == Method::ComponentRates { Aim::Series } else { Aim::Values };
     Candidates { arrangements: arrangements.clone(), aim }

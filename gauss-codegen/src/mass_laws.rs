@@ -1,4 +1,4 @@
-//! What must hold of mass data and gravity: laws that `kernel()` checks, in their order.
+//! Laws of mass data and gravity that `kernel()` checks, in their order.
 
 use proc_macro2::Ident;
 
@@ -8,11 +8,11 @@ use crate::terms::{Field, Role, Shape};
 use crate::translate::{BodyData, ClauseValue, Given};
 use crate::words::Unraw;
 
-/// What must hold of mass data.
+/// Laws that mass data must keep.
 pub struct MassLaws<'g> {
-    /// Of fields and clauses, one by one.
+    /// Laws of the data of fields and clauses, one by one.
     pub of_data: Vec<Group<'g>>,
-    /// Of fluids, and of bodies in all motions that they can have.
+    /// Laws of fluids, and of bodies in all motions that they can have.
     pub of_motions: Vec<Group<'g>>,
     /// Bodies without mass may move with others; then the mass matrix of all is checked.
     pub in_sum: bool,
@@ -48,7 +48,7 @@ pub enum MassRule<'g> {
     KineticMatrix(Vec<Vec<Expr<'g>>>),
 }
 
-/// Where numbers are read.
+/// Place where numbers are read.
 #[derive(Clone, Copy)]
 pub enum Datum {
     Field(usize),
@@ -60,7 +60,7 @@ pub enum Datum {
     Own(Role),
 }
 
-/// What must hold of an inertia.
+/// Rules that an inertia must keep.
 pub struct InertiaRules {
     pub rules: Vec<InertiaRule>,
     pub tensor: Datum,
@@ -84,7 +84,7 @@ pub enum InertiaRule {
     AboutAxis(usize),
     /// No moment enters: the body does not turn.
     Still,
-    /// Of a body that moves with others.
+    /// Inertia of a body that moves with others.
     InSum,
 }
 
@@ -123,7 +123,7 @@ impl<'g> Laws<'_, 'g> {
         self.scene.chart().is_some()
     }
 
-    /// What plays a role of the body without a name.
+    /// Place of the data that play a role of the body without a name.
     fn datum(&self, role: Role) -> Option<Datum> {
         let field = self.given.item.fields.iter().position(|field| field.role == Some(role)).map(Datum::Field);
         field.or_else(|| self.given.mass_data.unnamed(role).map(|_| Datum::Clause(role)))
@@ -152,7 +152,7 @@ impl<'g> Laws<'_, 'g> {
         vec![MassLaw { label, rule }]
     }
 
-    /// Of mass data of the body without a name, and of gravity.
+    /// Rule for mass data of the body without a name, and for gravity.
     fn of_role(&self, role: Role, shape: Shape, datum: Datum) -> MassRule<'g> {
         match (role, shape) {
             (Role::Mass, _) if self.is_charted_body() => MassRule::Mass(datum),
@@ -164,7 +164,7 @@ impl<'g> Laws<'_, 'g> {
         }
     }
 
-    /// Of the inertia of the body without a name.
+    /// Rules for the inertia of the body without a name.
     fn of_inertia(&self, role: Role, shape: Shape, tensor: Datum) -> InertiaRules {
         let body = self.given.body(None);
         // Where O is held at Ω only m·c and I_O enter, and m by itself says nothing.
@@ -199,8 +199,8 @@ impl<'g> Laws<'_, 'g> {
         }
     }
 
-    /// Of a body with a name: mass, centre of mass from O, inertia about O or about the centre of mass (`is_central`),
-    /// which is called `word`.
+    /// Laws of a body with a name: mass, centre of mass from O, inertia about O or about the centre of mass
+    /// (`is_central`), which is called `word`.
     fn of_body(
         &self,
         name: &Ident,
@@ -226,7 +226,7 @@ impl<'g> Laws<'_, 'g> {
         laws
     }
 
-    /// Of a body with a name whose mass data stand in its clause.
+    /// Laws of a body with a name whose mass data stand in its clause.
     fn of_clauses(&self, body: &BodyData<'g>) -> Option<Group<'g>> {
         let name = body.name.as_ref()?;
         let value_of = |role: Role| body.values.iter().find(|value| value.own.quantity == role);
@@ -240,8 +240,8 @@ impl<'g> Laws<'_, 'g> {
         Some(Group { values: values.collect(), laws })
     }
 
-    /// What clauses of a body with a name say of the fluid about it, and that the body and its added mass together have
-    /// a positive definite kinetic energy in every motion that the body can have.
+    /// Laws of the clauses of a body with a name about the fluid around it: the body and its added mass together have a
+    /// positive definite kinetic energy in every motion that the body can have.
     fn of_fluid(&self, body: &BodyData<'g>) -> Vec<Group<'g>> {
         let name = body.name.as_ref();
         let of_clause = |ClauseValue { own, shape, .. }: &ClauseValue<'g>| {
@@ -265,7 +265,7 @@ impl<'g> Laws<'_, 'g> {
         groups
     }
 
-    /// Of the kinetic energy of the body without a name, on the axes of its motion: with a centre of mass off O its
+    /// Law of the kinetic energy of the body without a name, on the axes of its motion: with a centre of mass off O its
     /// parts can be fine one by one, and not together.
     fn of_motion(&self, system: &System<'g>) -> Option<Group<'g>> {
         let body = self.given.body(None)?;

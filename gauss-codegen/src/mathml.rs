@@ -61,7 +61,7 @@ pub(crate) fn terms(latex: &str) -> Vec<&str> {
     out
 }
 
-/// What ends a row.
+/// Ends of a row.
 #[derive(Clone, Copy, PartialEq)]
 enum End {
     Line,

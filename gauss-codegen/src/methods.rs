@@ -1,4 +1,4 @@
-//! What a kernel offers: its methods by name, and the derivatives that it has on request.
+//! Methods of a kernel by name, and the derivatives that it has on request.
 
 /// The methods that a kernel has, in the order in which they are generated and counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -42,18 +42,20 @@ pub enum Method {
     /// π, and the generalised forces that are no part of Y π; only where the regressor is wanted.
     InertialParameters,
     OtherForces,
-    /// Of one frame that is wanted, by its number; of all of them, one after the other.
+    /// A quantity of one frame that is wanted, by its number; the quantities of all of them, one after the other.
     OfFrame(FrameQuantity, usize),
     Frames,
-    /// Of all matter, by words of `methods(…)`: its mass and centre, momenta about that, and what they depend on.
+    /// Quantities of all matter, by words of `methods(…)`: its mass and centre, momenta about that, and what they
+    /// depend on.
     TotalMass,
     CenterOfMass,
     CentroidalMomentum,
     CentroidalMatrix,
     CentroidalBias,
-    /// Of the joints that are wanted, one after the other: force and torque.
+    /// Force and torque of the joints that are wanted, one after the other.
     Reactions,
-    /// What unit contact forces take from them, row by row; only with contacts, and without constraints.
+    /// Change of these forces and torques by unit contact forces, row by row; only with contacts, and without
+    /// constraints.
     ContactReactions,
     /// ∂C/∂ż at ż = 0; what holds weight and buoyancy.
     NonlinearEffects,
@@ -83,12 +85,12 @@ pub enum FrameQuantity {
     Jacobian,
     /// The acceleration of the origin and ω̇ at ż = 0.
     Bias,
-    /// Of the Jacobian, row by row, as the observer sees it; by `methods(jacobian_rates)`.
+    /// Rate of the Jacobian, row by row, as the observer sees it; by `methods(jacobian_rates)`.
     JacobianRate,
 }
 
 impl FrameQuantity {
-    /// Those of every frame that is wanted, in their order.
+    /// Quantities of every frame that is wanted, in their order.
     pub const ALL: [Self; 4] = [Self::Pose, Self::Twist, Self::Jacobian, Self::Bias];
 
     fn name(self) -> &'static str {
@@ -103,11 +105,11 @@ impl FrameQuantity {
 }
 
 impl Method {
-    /// Those of momenta about the centre of mass.
+    /// Quantities of all matter, for momenta about the centre of mass.
     pub const CENTROIDAL: [Self; 5] =
         [Self::TotalMass, Self::CenterOfMass, Self::CentroidalMomentum, Self::CentroidalMatrix, Self::CentroidalBias];
 
-    /// What a kernel has on request, but single frames, and with contacts.
+    /// Methods that a kernel has on request, but single frames, and with contacts.
     pub const ASKED_FOR: [Self; 17] = [
         Self::Frames,
         Self::Reactions,
@@ -128,7 +130,7 @@ impl Method {
         Self::ImpulseVelocities,
     ];
 
-    /// What the generated method is called.
+    /// Name of the generated method.
     pub fn name(self) -> &'static str {
         match self {
             Method::Kinematics => "kinematics",
@@ -207,7 +209,7 @@ impl<T> Methods<T> {
         [self.configuration_rates(), &self.acceleration, &self.kinetic_energy, &self.potential_energy]
     }
 
-    /// That of q̇: of the kinematics, where no element has states.
+    /// Value of q̇: that of the kinematics, where no element has states.
     pub fn configuration_rates(&self) -> &T {
         self.get(Method::ConfigurationRates).unwrap_or(&self.kinematics)
     }

@@ -225,7 +225,7 @@ pub fn eliminate<'g>(
     })
 }
 
-/// What the check of a system finds, each at the token that is wrong.
+/// Errors of the faults that the check of a system finds, each at the token that is wrong.
 pub fn system_faults<'g>(given: &Given<'g>, system: &System<'g>, faults: &[SystemFault]) -> Error {
     let clause = |k: usize, text: &str| {
         let place = &given.constraints[system.scene.constraints[k].clause];

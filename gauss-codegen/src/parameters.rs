@@ -16,8 +16,8 @@ pub struct Parameters {
     pub read: Vec<usize>,
     /// In the order in which they are made.
     pub checks: Vec<Check>,
-    /// What checks are about and nobody gives: from the arguments of [`Derivation::constants`](crate::Derivation) the
-    /// numbers of [`Given::Computed`].
+    /// Program of the numbers that checks are about and nobody gives: from the arguments of
+    /// [`Derivation::constants`](crate::Derivation) the numbers of [`Given::Computed`].
     pub computed: Program,
     /// The field that speaks for constants that leave the range of numbers.
     pub label: String,
@@ -32,7 +32,7 @@ pub struct Parameters {
 pub struct Parameter {
     /// `m`, `arm.center_of_mass`.
     pub name: String,
-    /// How many numbers it has; a matrix is row after row.
+    /// Count of its numbers; a matrix is row after row.
     pub count: usize,
     /// The unit, if one is written.
     pub unit: Option<String>,
@@ -45,9 +45,9 @@ pub struct Parameter {
 pub enum Given {
     /// A place among the numbers of all parameters.
     Number(usize),
-    /// Of the outputs of [`Parameters::computed`].
+    /// Place among the outputs of [`Parameters::computed`].
     Computed(usize),
-    /// Where nothing is given.
+    /// Zero, where nothing is given.
     Zero,
 }
 
@@ -71,9 +71,9 @@ pub struct Check {
 pub enum Rule {
     /// All are finite.
     Finite,
-    /// Of a body alone.
+    /// Mass of a body alone.
     Mass,
-    /// Of one of several bodies.
+    /// Mass of one of several bodies.
     MassInSum,
     /// Finite and zero or greater.
     NonNegative,
@@ -89,11 +89,11 @@ pub enum Rule {
     InertiaInSum,
     /// A kinetic energy that is positive for all motions: a square matrix.
     KineticMatrix,
-    /// Of a spring or a stop.
+    /// Stiffness of a spring or a stop.
     Stiffness,
-    /// Of a stop.
+    /// Width of a stop.
     Width,
-    /// Of a stop, the lower one first.
+    /// Both limits of a stop, the lower one first.
     Limits,
     /// The inertia of a rate.
     Armature,

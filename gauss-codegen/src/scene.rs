@@ -67,12 +67,12 @@ pub struct Field {
     documentation: String,
 }
 
-/// What is wrong with a scene, and where.
+/// A mistake in a scene, and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
     /// The clause as it begins, `body(rod, …)`; the name of a field; the name of the scene where it is of the whole.
     pub clause: String,
-    /// What is wrong, with the remedy.
+    /// The mistake, with the remedy.
     pub message: String,
 }
 
@@ -194,7 +194,7 @@ impl Field {
         Self { name: name.into(), ty: ty.into(), roles: Vec::new(), documentation: String::new() }
     }
 
-    /// What it is: `mass`, `body`, `inertia = principal`.
+    /// Adds a role: `mass`, `body`, `inertia = principal`.
     #[must_use]
     pub fn role(mut self, role: impl Into<String>) -> Self {
         self.roles.push(role.into());
@@ -207,7 +207,7 @@ impl Field {
         self.role(format!("unit = {unit:?}"))
     }
 
-    /// What the equations say of it.
+    /// Sets the words of the equations about it.
     #[must_use]
     pub fn documentation(mut self, text: impl Into<String>) -> Self {
         self.documentation = text.into();
@@ -384,7 +384,7 @@ fn one_line(text: &impl fmt::Display) -> String {
     text.to_string().replace(['\n', '\r'], " ")
 }
 
-/// What makes a text more or less than one piece between commas.
+/// Mistake of a text that is more or less than one piece between commas.
 fn wrong_text(text: &str) -> Option<String> {
     let Ok(tokens) = TokenStream::from_str(text) else {
         return Some(format!(

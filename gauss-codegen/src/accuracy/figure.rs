@@ -1,4 +1,4 @@
-//! What is said of the loss of a program.
+//! Figures and words for the loss of a program.
 
 /// A loss of which no digit is left.
 pub const NO_DIGIT: f64 = 1e16;
@@ -23,14 +23,14 @@ const ROUND: [f64; 52] = {
     bounds
 };
 
-/// What a program loses, in units of what a change of every input in its last place does.
+/// Loss of a program to rounding, in units of the effect of a change of every input in its last place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// At the worst state that was found.
     pub worst: f64,
     /// In the middle of the sample states.
     pub median: f64,
-    /// What distinguishes the worst state from a sample state.
+    /// Words for the differences between the worst state and a sample state.
     pub at: Vec<String>,
 }
 

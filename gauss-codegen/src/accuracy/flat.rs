@@ -8,7 +8,7 @@ use crate::program::{Code, Instruction, Operand};
 
 use super::random::Random;
 
-/// Where a number is kept.
+/// Place where a number is kept.
 pub type Slot = u32;
 
 #[derive(Clone, Copy)]
@@ -39,7 +39,7 @@ struct Step {
 pub struct Flat {
     steps: Vec<Step>,
     slots: usize,
-    /// Where what a key of a symbol or an expression names is kept.
+    /// Slots of the symbols and expressions, by their keys.
     known: Map<u32, Slot>,
     inputs: Vec<(u32, Slot)>,
     numbers: Vec<(Rational, Slot)>,
@@ -71,7 +71,7 @@ impl Flat {
         slot
     }
 
-    /// Of a symbol: an input, unless it was [defined](Self::define).
+    /// Slot of a symbol: an input, unless it was [defined](Self::define).
     fn symbol(&mut self, key: u32) -> Slot {
         if let Some(&slot) = self.known.get(&key) {
             return slot;
@@ -87,17 +87,17 @@ impl Flat {
         self.known.insert(symbol, slot);
     }
 
-    /// Where an input is kept, if that symbol is one.
+    /// Slot of an input, if that symbol is one.
     pub fn input(&self, symbol: Expr<'_>) -> Option<Slot> {
         self.inputs.iter().find(|(key, _)| *key == symbol.key()).map(|(_, slot)| *slot)
     }
 
-    /// How many steps there are.
+    /// Number of the steps.
     pub fn len(&self) -> usize {
         self.steps.len()
     }
 
-    /// How many numbers are kept.
+    /// Number of the numbers that are kept.
     pub fn slots(&self) -> usize {
         self.slots
     }
@@ -288,7 +288,7 @@ impl Traced {
     }
 }
 
-/// What a change of every input in its last place does to a number, which several traces may have changed.
+/// Effect of a change of every input in its last place on a number, which several traces may have changed.
 pub fn unit(traced: &[Traced]) -> f64 {
     let mut squares = 0.0;
     for Traced { first, second, .. } in traced {
@@ -411,7 +411,7 @@ impl Flat {
     }
 }
 
-/// What the change of the number in a slot depends on.
+/// Seed of the change of the number in a slot.
 fn name(slot: Slot, changes: u64) -> u64 {
     changes << 32 | u64::from(slot)
 }

@@ -1,5 +1,5 @@
-//! How many digits a program loses: its error in double precision at sample states, in units of what a change of every
-//! input and parameter in its last place does.
+//! Losses of programs to rounding: errors in double precision at sample states, in units of the effect of a change of
+//! every input and parameter in its last place.
 //!
 //! - `states`: states of a scene that reach what makes digits cancel.
 //! - `random`: choices that are the same in every run.

@@ -11,7 +11,7 @@ use super::states::{Seen, States, Values};
 const SIZES: [f64; 2] = [-4.5, 4.5];
 const PLACES: [f64; 2] = [-9.0, 7.0];
 const ANGLES: [f64; 2] = [-9.0, 3.0];
-/// How near zero a sum is brought at most, as a power of ten of its terms.
+/// Least size to which a sum is brought near zero, as a power of ten of its terms.
 const CLOSEST: f64 = -9.0;
 /// Sums that are brought near zero together: the components of a vector.
 const TOGETHER: usize = 3;
@@ -20,16 +20,16 @@ const SHORT: usize = 40;
 /// Sums in momenta that are brought near zero, and symbols by which a sum is.
 const RATES: usize = 32;
 const SYMBOLS: usize = 8;
-/// How near quarter turns the angle of a spin is, and how many of them it is: others give the same sums, but for signs.
-/// Sums are near zero by the square of that, of which double precision still has four digits.
+/// Distance of the angle of a spin from quarter turns, as powers of ten, and how many of them it is: others give the
+/// same sums, but for signs. Sums are near zero by the square of that, of which double precision still has four digits.
 const LEANING: [f64; 2] = [-6.0, -3.0];
 const QUARTERS: [f64; 2] = [0.0, 1.0];
-/// By how many powers of ten places are smaller than those that they are added to.
+/// Power of ten by which places are smaller than those that they are added to.
 const APART: f64 = -9.0;
-/// By how many powers of ten all coordinates are smaller together.
+/// Powers of ten by which all coordinates are smaller together.
 const SMALLER: [f64; 4] = [-8.0, -6.0, -4.0, -2.0];
-/// By how many powers of ten each mass and each length between joints is larger than the one before, and how far they
-/// are apart from one at most: along chains in both directions, alone and together.
+/// Powers of ten by which each mass and each length between joints is larger than the one before, and how far they are
+/// apart from one at most: along chains in both directions, alone and together.
 const GRADED: [[f64; 2]; 12] = [
     [2.0, 0.0],
     [-2.0, 0.0],
@@ -53,7 +53,7 @@ const SECANTS: usize = 6;
 pub struct Draft<'n> {
     pub values: Values<'n>,
     pub masses: Vec<(u64, f64)>,
-    /// How it was made from a sample state, and the number of that.
+    /// Moves that made it from a sample state, and the number of that.
     pub moves: Vec<Move>,
     pub sample: usize,
 }
@@ -238,7 +238,7 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
         self.sums.iter().skip(sum).take(TOGETHER).map(move |sum| (sum, sum.by[seed % sum.by.len()]))
     }
 
-    /// What moves make of a sample state, in words.
+    /// Description of a sample state after moves, in words.
     pub fn described(&self, moves: &[Move]) -> Vec<String> {
         let name = |k: usize| print(self.free[k].symbol, Notation::Text);
         let mut words: Vec<String> = Vec::new();
@@ -353,7 +353,7 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
         }
     }
 
-    /// By the secant method; what it does not find stays as it was.
+    /// Brings a sum near zero by the secant method; a number that it does not find stays as it was.
     fn bring_near(&self, sum: &Sum<'g>, by: usize, closeness: f64, draft: &mut Draft<'_>) {
         if !self.states.definitions.is_empty() {
             self.states.define(&mut draft.values);

@@ -21,7 +21,7 @@ pub struct Sought<'a, 'g> {
     pub symbols: &'a [Expr<'g>],
     /// Constants that literals alone determine, with their definitions.
     pub folded: &'a [(Expr<'g>, Expr<'g>)],
-    /// With their losses at sample states, by measurement.
+    /// Programs with their losses at sample states, by measurement.
     pub functions: Vec<&'a Code<Expr<'g>>>,
     pub measured: Vec<&'a Loss>,
     /// Which of them gives p.
@@ -30,17 +30,17 @@ pub struct Sought<'a, 'g> {
     pub besides: Vec<&'a Code<Expr<'g>>>,
 }
 
-/// What is said of programs; nothing of those that have no value at any state.
+/// Figures of programs; none of those that have no value at any state.
 #[derive(Default)]
 pub struct Found {
     pub functions: Vec<Option<Figure>>,
     pub besides: Vec<Option<Figure>>,
 }
 
-/// What could be taken in place of a program, by its number in the lists of [`Sought`].
+/// Forms that could be taken in place of a program, by its number in the lists of [`Sought`].
 pub struct Forms<'f, 'g> {
     pub of_function: &'f dyn Fn(usize) -> Vec<Vec<Expr<'g>>>,
-    /// Of derivatives, as programs that read parameters, not constants.
+    /// Forms of derivatives, as programs that read parameters, not constants.
     pub of_derivative: &'f dyn Fn(usize) -> Vec<Code<Expr<'g>>>,
 }
 
@@ -65,7 +65,8 @@ const ORDINARY: f64 = 10.0;
 /// what equally good programs differ by.
 const MUCH: f64 = 1e6;
 const LESS: f64 = 32.0;
-/// What is smaller than its error, or than other components, by that factor at every sample state vanishes identically.
+/// Factor by which a result is smaller than its error, or than other components, at every sample state where it
+/// vanishes identically.
 const NOTHING: f64 = (1_u64 << 40) as f64;
 
 /// Programs whose losses are sought: their outputs, and the steps that they take, once p is known.
@@ -134,7 +135,7 @@ impl<'s, 'g> Samples<'s, '_, 'g> {
     }
 }
 
-/// How many of the first states are sample states.
+/// Number of the first states that are sample states.
 fn sampled(drafts: &[Draft<'_>]) -> usize {
     drafts.iter().take_while(|draft| draft.moves.is_empty()).count()
 }
@@ -294,8 +295,8 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         }
     }
 
-    /// What functions lose at a state, and what is written besides; what has no value in double precision may have one
-    /// besides.
+    /// Losses of functions at a state, and of the programs besides; a function that has no value in double precision
+    /// may have one besides.
     fn losses_at(&self, draft: &Draft<'_>, traces: &mut [Trace; 2]) -> (Vec<Option<f64>>, Vec<Option<f64>>) {
         let [trace, again] = traces;
         self.try_to(self.ends[2], draft, trace);
@@ -319,7 +320,8 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
         (losses, of_besides)
     }
 
-    /// Where another form would keep what a function or a derivative (`None`) loses by its motion alone.
+    /// States where another form would keep the digits that a function or a derivative (`None`) loses by its motion
+    /// alone.
     fn deciding<'n>(
         &mut self,
         drafts: &[Draft<'n>],

@@ -9,7 +9,7 @@ use crate::terms::Role;
 use super::random::Random;
 use super::trial::Point;
 
-/// What the states of a scene are made from.
+/// Symbols and formulas that the states of a scene are made from.
 pub struct States<'a, 'g> {
     pub system: &'a System<'g>,
     /// p as a function of (t, q, z).
@@ -20,14 +20,14 @@ pub struct States<'a, 'g> {
     pub literals: Vec<(Rational, Expr<'g>)>,
     /// Symbols that are scaled to have the norm 1, list by list.
     pub units: &'a [Vec<Expr<'g>>],
-    /// Of what second derivatives are summed with.
+    /// Weights with which second derivatives are summed.
     pub weights: &'a [Expr<'g>],
     /// Symbols that stand for expressions of others.
     pub definitions: &'a Map<u32, Expr<'g>>,
     pub numbers: Numbers,
 }
 
-/// How a state is chosen.
+/// Settings for the choice of a state.
 pub(super) struct Profile {
     /// Powers of ten up and down from one that a number can be apart from it.
     pub decades: f64,
@@ -93,7 +93,7 @@ impl Values<'_> {
 }
 
 impl<'g> States<'_, 'g> {
-    /// With a number for each symbol.
+    /// States with a number for each symbol.
     #[must_use]
     pub fn numbered(mut self) -> Self {
         let scene = &self.system.scene;
@@ -148,7 +148,7 @@ impl<'g> States<'_, 'g> {
         values
     }
 
-    /// What follows from numbers that are given: what is defined, and p.
+    /// Computes the values that follow from numbers that are given: those of definitions, and p.
     pub(super) fn finish(&self, values: &mut Values<'_>) {
         self.define(values);
         let momenta: Vec<f64> = self.momentum.iter().map(|e| values.of(*e)).collect();
@@ -333,7 +333,7 @@ fn put_inertia(values: &mut Values<'_>, symbols: &[Expr<'_>], principal: [f64; 3
     }
 }
 
-/// What a scene is written with.
+/// Angles and sums of a scene as it is written.
 #[derive(Default)]
 pub(super) struct Seen<'g> {
     done: Map<u32, ()>,
@@ -342,7 +342,7 @@ pub(super) struct Seen<'g> {
     /// Sums, and those of them that have a symbol.
     pub sums: Vec<Vec<(Rational, Expr<'g>)>>,
     differences: Vec<Vec<(Rational, Expr<'g>)>>,
-    /// How many of them are enough.
+    /// Number of them that is enough.
     room: usize,
 }
 

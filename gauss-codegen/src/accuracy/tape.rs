@@ -3,7 +3,7 @@
 use crate::algebra::{Expr, Map, Number, Rational};
 use crate::program::{Code, Operand};
 
-/// What a place in the list is filled with.
+/// Symbol or number that a place in the list is filled with.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Place {
     Symbol(u32),

@@ -13,7 +13,7 @@ pub struct Deciding {
     pub point: Point,
 }
 
-/// By how much inputs are changed, relatively: far above 2⁻¹⁰⁴, and so little that results change in proportion.
+/// Relative change of inputs: far above 2⁻¹⁰⁴, and so little that results change in proportion.
 const CHANGE: f64 = 1.0 / (1_u64 << 30) as f64;
 /// Changes of all inputs at once, each by something else.
 const CHANGES: u64 = 2;
@@ -68,7 +68,7 @@ fn factor(place: u64, n: u64) -> Doubled {
     Doubled::number(1.0) + Doubled::number(CHANGE * 3.0_f64.sqrt() * share)
 }
 
-/// What a function should give at one state, and what a change of everything in its last place does to it.
+/// Exact values of a function at one state, and the effect of a change of everything in its last place on them.
 struct Reference {
     values: Vec<Doubled>,
     units: Vec<f64>,
@@ -113,7 +113,7 @@ pub struct Trial {
     /// The only functions that are tried at the last of them, `None` of derivatives, and which of them is tried now.
     deciding: Vec<Option<usize>>,
     function: Option<usize>,
-    /// How many constants have their values.
+    /// Number of constants that have their values.
     defined: usize,
 }
 
@@ -122,7 +122,7 @@ impl Trial {
         Self { points, ..Self::default() }
     }
 
-    /// With states where one function each is tried as well.
+    /// Adds states where one function each is tried as well.
     pub fn with(mut self, deciding: &[Deciding]) -> Self {
         self.deciding = deciding.iter().map(|deciding| deciding.function).collect();
         self.points.extend(deciding.iter().map(|deciding| deciding.point.clone()));
@@ -216,7 +216,7 @@ pub struct Tried {
     pub losses: Vec<Loss>,
     /// States where there is a value, by their numbers, with what it should be.
     there: Vec<(usize, Reference)>,
-    /// How many of them are sample states.
+    /// Number of them that are sample states.
     samples: usize,
 }
 
@@ -237,8 +237,8 @@ impl Tried {
         self.losses.iter().map(|loss| Loss(loss.0[..self.samples].to_vec())).collect()
     }
 
-    /// Of programs with their costs the one that is taken: by all states, unless that costs more than [`DEAR`] times
-    /// what is taken by the sample states.
+    /// Chooses one of the programs with their costs: by all states, unless that costs more than [`DEAR`] times the
+    /// choice by the sample states.
     pub fn taken(&self, costs: &[u32]) -> usize {
         let ordinary = taken(&self.sampled(), costs);
         if self.samples == self.there.len() {
@@ -256,8 +256,8 @@ impl Tried {
     }
 }
 
-/// How many times the loss of the best a program may have at a state, and what loss may be had anyhow. The errors of n
-/// roundings that do not amplify each other add up to some √n, and now and then to the one or to n: of programs of up
+/// Ratio to the loss of the best that a program may have at a state, and the loss that may be had anyhow. The errors of
+/// n roundings that do not amplify each other add up to some √n, and now and then to the one or to n: of programs of up
 /// to a thousand operations two that are equally good differ by that much, and at the next state the other way round.
 const FACTOR: f64 = 32.0;
 /// The same of a program whose sums are in another order: each partial sum is bounded by three that were rounded
@@ -274,7 +274,7 @@ const TOLERABLE: f64 = 1e3;
 const TOLERABLE_WHERE_DEAR: f64 = 1e5;
 const ORDINARY: f64 = 10.0;
 
-/// What a form may cost at the most that keeps digits at a state that was sought, where nearly all are lost otherwise.
+/// Largest ratio of costs of a form that keeps digits at a state that was sought, where nearly all are lost otherwise.
 const DEAR: u32 = 2;
 
 /// The program that is taken of those with these costs: the cheapest that keeps the digits; or, where that is dear, the
@@ -328,7 +328,8 @@ fn compute_in<N: Number>(values: &mut Map<u32, N>, tape: &Tape, symbols: &[u32])
 }
 
 impl Point {
-    /// By one program, beside what it and others found in double precision; `None` where the function has no value.
+    /// Reference by one program, beside what it and others found in double precision; `None` where the function has no
+    /// value.
     fn reference(&self, tape: &Tape, found: &[Vec<f64>]) -> Option<Reference> {
         let values = tape.run(&self.exact);
         let mut squares = vec![0.0; values.len()];

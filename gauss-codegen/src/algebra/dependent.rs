@@ -89,7 +89,7 @@ fn guarded<'g>(square: Expr<'g>, negligible: Expr<'g>, whole: Expr<'g>) -> (Expr
     (kept, kept * (square + left_out * (graph.one() + whole).group()).group().recip())
 }
 
-/// What constraints make of a system.
+/// Solution of a system with constraints.
 pub struct Dependent<'g> {
     /// x with `A x + Jᵀ μ = right` and `J x = bias`, and μ: of all that belong to x that of least `Σ S_kk μ_k²`, which
     /// no factor of a row of J changes.

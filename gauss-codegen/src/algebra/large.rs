@@ -13,9 +13,9 @@ use num_rational::BigRational;
 /// Numerators and denominators up to this length are exact: products of a hundred literals of three digits.
 const EXACT_BITS: u64 = 1024;
 
-/// What is left of longer ones. Rounding by 2⁻²⁵⁶ is sixty decimal places below that of double precision. A sum that
-/// would be zero in exact arithmetic becomes a few such units instead, which the check of a system takes for the zero
-/// that it is.
+/// Binary digits that are left of longer ones. Rounding by 2⁻²⁵⁶ is sixty decimal places below that of double
+/// precision. A sum that would be zero in exact arithmetic becomes a few such units instead, which the check of a
+/// system takes for the zero that it is.
 const ROUNDED_BITS: i64 = 256;
 
 /// Powers of two between which numbers are numbers: four times the exponents of double precision, for what comes back

@@ -260,7 +260,7 @@ pub struct Factored<'g> {
 /// L and D of a factored matrix, all by the order of elimination.
 pub struct FactoredColumns<'g> {
     pub order: Vec<usize>,
-    /// What is left of each column below its pivot, with the rows.
+    /// Entries of each column below its pivot, with the rows.
     pub below: Vec<Vec<(usize, Expr<'g>)>>,
     /// Reciprocals.
     pub pivots: Vec<Expr<'g>>,
@@ -272,7 +272,7 @@ impl<'g> FactoredColumns<'g> {
         self.pivots.iter().copied().chain(self.below.iter().flatten().map(|(_, entry)| *entry))
     }
 
-    /// With other entries, in that order.
+    /// The same matrix with other entries, in that order.
     pub fn with_entries(&self, entries: impl IntoIterator<Item = Expr<'g>>) -> Self {
         let mut entries = entries.into_iter();
         let pivots = entries.by_ref().take(self.pivots.len()).collect();
@@ -379,7 +379,7 @@ impl<'g> FactoredBlock<'g> {
         block
     }
 
-    /// By what multiples a row is taken away from those after it.
+    /// Multiples by which a row is taken away from those after it.
     fn below(&self, k: usize) -> Vec<(usize, Expr<'g>)> {
         let pivot_inverse = self.rest[k][k].group().recip();
         let rows = (k + 1..self.order.len()).filter(|&i| !self.rest[i][k].is_zero());

@@ -60,12 +60,12 @@ impl<A: Key, B: Key, C: Key> Key for (A, B, C) {
 pub(super) struct Places {
     /// The first half of the spread word, then one more than the place; zero where free.
     slots: Box<[u64]>,
-    /// What leaves the digits of a slot of a spread word.
+    /// Shift that leaves the digits of a slot of a spread word.
     shift: u32,
     count: usize,
 }
 
-/// Where the half of a word stands in a slot.
+/// Bits of a slot where the half of a word stands.
 const TAG: u64 = !0 << 32;
 
 impl Places {
@@ -226,7 +226,7 @@ impl<K: Key, V> Map<K, V> {
         &mut self.entries[place].1
     }
 
-    /// How many keys have values.
+    /// Number of keys that have values.
     pub fn len(&self) -> usize {
         self.entries.len()
     }
@@ -338,7 +338,7 @@ mod tests {
         (0..2000_u32).map(|k| k.wrapping_mul(2_654_435_761) >> 22)
     }
 
-    /// What the standard map holds after the same, in the order in which keys came.
+    /// A map holds the same as the standard map after the same work, in the order in which keys came.
     fn as_the_standard<K: Key + Copy + Ord + std::fmt::Debug>(key: impl Fn(u32) -> K) {
         let (mut map, mut standard, mut order) = (Map::default(), BTreeMap::new(), Vec::new());
         for (k, n) in numbers().enumerate() {

@@ -9,7 +9,7 @@ use crate::algebra::parts::leaves_of;
 use crate::algebra::rational::Rational;
 
 impl Graph {
-    /// What comes of some work, as far as the graph had it before; it has nothing more afterwards.
+    /// Results of some work, as far as the graph had them before; it has nothing more afterwards.
     pub fn existing<'g>(&'g self, work: impl FnOnce() -> Vec<Expr<'g>>) -> Vec<Option<Expr<'g>>> {
         let before = self.nodes().len() as Id;
         let ids: Vec<Id> = self.aside(|| work().into_iter().map(|e| e.id).collect());
@@ -18,8 +18,8 @@ impl Graph {
 }
 
 impl<'g> Expr<'g> {
-    /// With symbols in the places of parts, each wherever it is a term, a factor or an argument as it was written, or a
-    /// multiple of that.
+    /// The expression with symbols in the places of parts, each wherever it is a term, a factor or an argument as it
+    /// was written, or a multiple of that.
     pub fn with_named(self, named: &[(Self, Self)]) -> Self {
         let graph = self.graph;
         let mut by_part: Map<Id, Self> = Map::default();
@@ -39,7 +39,7 @@ impl<'g> Expr<'g> {
         Substitution::of_parts(by_part).of(self)
     }
 
-    /// With symbols read as so many quarters of a turn, wherever they are within a sine or a cosine.
+    /// The expression with symbols read as so many quarters of a turn, wherever they are within a sine or a cosine.
     pub fn with_quarter_turns(self, quarters: &[(Self, i64)]) -> Self {
         let graph = self.graph;
         let parts = |graph: &Graph, id: Id| graph.node(id).children();

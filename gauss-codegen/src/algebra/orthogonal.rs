@@ -22,9 +22,9 @@ struct Step<'g> {
     /// Times the weights.
     weighted: Vec<Expr<'g>>,
     weights: Vec<Expr<'g>>,
-    /// Of its square.
+    /// Inverse of its square.
     inverse: Expr<'g>,
-    /// What it has in later columns.
+    /// Shares of it in later columns.
     shares: Vec<(usize, Expr<'g>)>,
 }
 
@@ -56,7 +56,7 @@ fn weighted_sum<'g>(weighted: &[Expr<'g>], other: &[Expr<'g>]) -> Expr<'g> {
 }
 
 impl<'g> LeastSquares<'g> {
-    /// Of rows with their weights.
+    /// Factors rows with their weights.
     pub fn new(rows: Vec<Vec<Expr<'g>>>, weights: &[Expr<'g>]) -> Self {
         let n = rows.first().map_or(0, Vec::len);
         let mut columns: Vec<Vec<Expr<'g>>> = (0..n).map(|j| rows.iter().map(|row| row[j].group()).collect()).collect();

@@ -18,12 +18,13 @@ pub struct Parts<'g> {
     long: Map<Id, ()>,
     /// In text and in LaTeX.
     names: Map<Id, [String; 2]>,
-    /// What the numbers stand for, those first that others are made of.
+    /// Expressions that the numbers stand for, those first that others are made of.
     values: Vec<Expr<'g>>,
 }
 
 impl<'g> Parts<'g> {
-    /// Of expressions that are printed together; some of them say what a name (in text and in LaTeX) stands for.
+    /// Names parts of expressions that are printed together; some of them say what a name (in text and in LaTeX) stands
+    /// for.
     pub fn of(printed: &[(Option<[String; 2]>, Expr<'g>)]) -> Self {
         let Some((_, first)) = printed.first() else { return Self::default() };
         let graph = first.graph;
@@ -50,7 +51,7 @@ impl<'g> Parts<'g> {
         Self { long: long.into_iter().map(|id| (id, ())).collect(), names, values }
     }
 
-    /// What the numbers stand for.
+    /// Expressions that the numbers stand for.
     pub(super) fn values(&self) -> &[Expr<'g>] {
         &self.values
     }
@@ -73,7 +74,7 @@ fn numbered_name(letter: &str, k: usize) -> [String; 2] {
     [format!("{letter}{index}"), format!("{letter}_{{{k}}}")]
 }
 
-/// What a reader sees in it: groups are no brackets of their own.
+/// Parts that a reader sees in it: groups are no brackets of their own.
 fn parts_of(graph: &Graph, id: Id) -> Vec<Id> {
     graph.node(id).children().into_iter().map(|id| graph.ungrouped(id)).collect()
 }

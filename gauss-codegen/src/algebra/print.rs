@@ -7,7 +7,7 @@ use crate::algebra::expressions::graph::{Expr, Graph, NodeView};
 use crate::algebra::parts::{Parts, leaves_of};
 use crate::algebra::rational::Rational;
 
-/// How to write.
+/// Ways to write expressions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Notation {
     /// Plain text.
@@ -41,7 +41,7 @@ pub fn print_with<'g>(e: Expr<'g>, notation: Notation, parts: &Parts<'g>) -> Str
     Printer::new(notation, parts).sum(e)
 }
 
-/// What is defined, in terms of other parts.
+/// Writes a definition in terms of other parts.
 pub fn print_definition<'g>(e: Expr<'g>, notation: Notation, parts: &Parts<'g>) -> String {
     if !parts.is_long(e) {
         return print(e, notation);
@@ -49,7 +49,7 @@ pub fn print_definition<'g>(e: Expr<'g>, notation: Notation, parts: &Parts<'g>) 
     joined(Printer::new(notation, parts).terms_of(e))
 }
 
-/// What each numbered name stands for, in an order in which every one is made of those before it.
+/// Writes the expression that each numbered name stands for, in an order in which every one is made of those before it.
 pub fn print_parts(notation: Notation, parts: &Parts<'_>) -> Vec<(String, String)> {
     let printer = Printer::new(notation, parts);
     let printed = |e: &Expr<'_>| Some((printer.name_of(*e)?, joined(printer.terms_of(*e))));
@@ -123,7 +123,7 @@ impl<'a, 'g> Printer<'a, 'g> {
         }
     }
 
-    /// Of an expression itself, whatever its name.
+    /// Terms of an expression itself, whatever its name.
     fn terms_of(&self, e: Expr<'g>) -> Vec<Term> {
         match e.view() {
             NodeView::Group(inner) | NodeView::Opaque(inner) => self.terms_of(inner),
@@ -147,7 +147,7 @@ impl<'a, 'g> Printer<'a, 'g> {
         }
     }
 
-    /// What a term is a product of.
+    /// Factors of a term.
     fn factors(&self, e: Expr<'g>) -> Vec<(Expr<'g>, i32)> {
         match e.view() {
             NodeView::Product(factors) if self.parts.name(e).is_none() => factors,
@@ -207,7 +207,7 @@ impl<'a, 'g> Printer<'a, 'g> {
         Term { negative, text }
     }
 
-    /// What an expression is the root of.
+    /// Radicand of an expression that is a root.
     fn radicand(&self, e: Expr<'g>) -> Option<Expr<'g>> {
         match visible(e).view() {
             NodeView::Call(Function::Sqrt, inner) if self.name_of(e).is_none() => Some(inner),
@@ -356,7 +356,7 @@ fn arc<'g>(y: Expr<'g>, x: Expr<'g>) -> Option<(&'static str, Expr<'g>)> {
     }
 }
 
-/// What a reader sees: brackets stand around sums alone.
+/// The expression as a reader sees it: brackets stand around sums alone.
 fn visible(e: Expr<'_>) -> Expr<'_> {
     match e.view() {
         NodeView::Group(inner) | NodeView::Opaque(inner) if !matches!(inner.view(), NodeView::Sum(_)) => visible(inner),

@@ -25,7 +25,7 @@ use crate::algebra::map::Key;
     serde(from = "(String, String)", into = "(String, String)")
 )]
 pub struct Rational {
-    /// Of a large fraction: its index.
+    /// Numerator; of a large fraction its index.
     numerator: i64,
     /// Positive; zero without a value, [`LARGE`] where 64 bits are too few.
     denominator: i64,
@@ -158,7 +158,7 @@ impl Rational {
         BigRational::new(m.abs(), a.denom() * b.denom()).into()
     }
 
-    /// What both have in common as they are written: the greatest common divisor of the numerators over that of the
+    /// Common divisor of both as they are written: the greatest common divisor of the numerators over that of the
     /// denominators.
     pub fn shared_with(self, other: Self) -> Self {
         if self.denominator > 0 && other.denominator > 0 {
@@ -319,7 +319,7 @@ impl Sub for Rational {
     }
 }
 
-/// By value, whatever the index of a large one.
+/// Key by value, whatever the index of a large one.
 impl Key for Rational {
     fn word(&self) -> u64 {
         match self.denominator {
@@ -335,7 +335,7 @@ impl Hash for Rational {
     }
 }
 
-/// By value; 128 bits hold the cross products. What has no value comes first.
+/// Order by value; 128 bits hold the cross products. What has no value comes first.
 impl Ord for Rational {
     fn cmp(&self, other: &Self) -> Ordering {
         if self.denominator > 0 && other.denominator > 0 {

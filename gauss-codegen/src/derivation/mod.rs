@@ -120,12 +120,12 @@ impl Derivation {
         &self.functions.name
     }
 
-    /// What a target writes: the constants, the programs, and the equations as text.
+    /// Functions that a target writes: the constants, the programs, and the equations as text.
     pub fn functions(&self) -> &Functions {
         &self.functions
     }
 
-    /// What `kernel()` computes: the constants, from the numbers of the fields.
+    /// Program of the constants that `kernel()` computes from the numbers of the fields.
     pub fn constants(&self) -> &Program {
         &self.functions.constants
     }

@@ -99,7 +99,7 @@ fn first_numbers(fields: &[Field]) -> Vec<usize> {
     fields.iter().map(first).collect()
 }
 
-/// Of one number within its field.
+/// Place of one number within its field.
 fn place(part: Part, shape: Shape) -> usize {
     match part {
         Part::Scalar => 0,
@@ -130,7 +130,7 @@ impl<'g> Laws<'_, '_, 'g> {
         (first..self.computed.len()).map(Given::Computed).collect()
     }
 
-    /// What a clause says: of half a matrix all of it.
+    /// Values of a clause: of half a matrix all of it.
     fn clause(&mut self, own: &QuantityValues<'g>) -> Vec<Given> {
         let values = self.computed(&own.values);
         let whole = |n: usize, place: &dyn Fn(usize, usize) -> usize| {
@@ -221,7 +221,7 @@ impl<'g> Laws<'_, '_, 'g> {
         }
     }
 
-    /// Of constants of elements. Of what depends on the state nothing is known when the kernel is made.
+    /// Checks of constants of elements. Of what depends on the state nothing is known when the kernel is made.
     fn of_constants(&mut self, of_kind: impl Fn(LawKind) -> bool) -> Vec<Check> {
         let mut checks = Vec::new();
         for Law { label, kind, values } in self.derived.subject.given.laws.iter().filter(|law| of_kind(law.kind)) {

@@ -1,4 +1,4 @@
-//! What each pass over programs gains: instructions of some scenes with all of them, and with one left out.
+//! Gain of each pass over programs: instructions of some scenes with all of them, and with one left out.
 
 #[path = "../../examples/structures/mod.rs"]
 mod structures;
@@ -79,7 +79,7 @@ fn every_pass_gains() {
     }
 }
 
-/// What several sums read is formed in each of them, and what else is read too is not.
+/// Products that only sums read are formed in each of them, and those that something else reads too are not.
 #[test]
 fn products_go_into_sums() {
     let of = |source| Derivation::of_source(source, "P").unwrap_or_else(|error| panic!("{error}"));

@@ -1,4 +1,4 @@
-//! What rounding costs beyond what the scene excuses: programs in double precision against the same in 256 digits.
+//! Rounding errors beyond what the scene excuses: programs in double precision against the same in 256 digits.
 
 use crate::algebra::{Number, Precise, Scalar};
 use crate::derivation::Derivation;

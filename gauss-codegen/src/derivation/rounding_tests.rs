@@ -20,7 +20,7 @@ fn quaternion() -> [f64; 4] {
     q.map(|x| x / length)
 }
 
-/// How a base that floats is described: clauses of its motion, its configuration, its speeds, and which of them are
+/// Description of a base that floats: clauses of its motion, its configuration, its speeds, and which of them are
 /// translations.
 struct Base {
     clauses: &'static str,
@@ -140,7 +140,7 @@ fn uniform_gravity_leaves_no_rounding_in_what_it_cannot_change() {
     }
 }
 
-/// What all have of an acceleration does not reach the hinge either: at any speed of the base the rest is the same.
+/// The common part of all accelerations does not reach the hinge either: at any speed of the base the rest is the same.
 #[test]
 fn a_fast_base_leaves_no_rounding_in_the_hinge() {
     for base in bases() {

@@ -102,7 +102,7 @@ impl<'g> Signature<'g> {
         program.map(|program| program.with_functions(self.functions.clone())).map_err(Unbound::Malformed)
     }
 
-    /// What computes the constants from the parameters.
+    /// Program that computes the constants from the parameters.
     pub fn constants(&self, derived: &Derived<'_, 'g>) -> Result<Program, Unbound> {
         let code = &derived.kernel.constants;
         self.program("kernel", &[ArgumentKind::Parameters], code, vec![Results::new("k", code.outputs.len(), 1)])

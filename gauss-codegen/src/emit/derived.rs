@@ -44,7 +44,7 @@ pub struct Derived<'a, 'g> {
     pub inertial_parameters: &'a [InertialParameter<'g>],
     /// Methods that are written with vectors, once these have been looked for.
     packs: OnceCell<Packs<'g>>,
-    /// What symbols are to limbs that are alike.
+    /// Relation of symbols to limbs that are alike.
     limbs: OnceCell<Limbs>,
     /// Asked for by every method: see `private`, `arguments`.
     private: TokenStream,
@@ -154,7 +154,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         self.kernel.functions.get(method).map(|function| &function.program)
     }
 
-    /// What a method is called: of a frame with its name, `pose_of_tool`.
+    /// Name of a method: of a frame with its name, `pose_of_tool`.
     pub fn name_of(&self, method: Method) -> String {
         match method {
             Method::OfFrame(_, frame) => format!("{}_{}", method.name(), self.frames()[frame].unraw()),
@@ -167,7 +167,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         &self.item().wanted.frames
     }
 
-    /// How many components an increment of the configuration has.
+    /// Number of components of an increment of the configuration.
     pub fn increments(&self) -> usize {
         self.kernel.functions.kinematics.program.outputs.len()
     }
@@ -176,7 +176,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         self.subject.system.accounts()
     }
 
-    /// Of the accelerations and the rates of states: kinematics are smooth where they are regular.
+    /// Smoothness of the accelerations and the rates of states: kinematics are smooth where they are regular.
     pub fn smoothness(&self) -> Smoothness {
         let of_states = self.program(Method::ConfigurationRates).map(|program| program.smoothness());
         let of_loads = self.kernel.functions.acceleration.program.smoothness();
@@ -188,7 +188,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         self.private.clone()
     }
 
-    /// How the constants that a program reads are written in methods.
+    /// Tokens of the constants that a program reads, in methods.
     pub fn constant_names(&self, program: &Program<'g>) -> Map<u32, TokenStream> {
         let read: Set<u32> = program.symbols().iter().map(|symbol| symbol.key()).collect();
         let mut names = Map::default();
@@ -405,7 +405,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         }
     }
 
-    /// How many operations a program has, as a value of the runtime.
+    /// Numbers of operations of a program, as a value of the runtime.
     pub fn count(&self, counts: Counts) -> TokenStream {
         let private = self.private();
         let Counts { additions, multiplications, divisions, roots, transcendentals } = counts;

@@ -1,4 +1,4 @@
-//! What is emitted of a struct with mistakes: the mistakes, and what other code names of the kernel.
+//! Code that is emitted for a struct with mistakes: the mistakes, and what other code names of the kernel.
 //!
 //! The type of a kernel depends on clauses that may be the ones that are wrong, so no implementation of a trait would
 //! fit the code that uses it. `NameKernel` is a type that contains the first mistake instead, as the length of an

@@ -91,7 +91,7 @@ fn offers(derived: &Derived<'_, '_>) -> Vec<proc_macro2::Ident> {
     words.into_iter().map(|word| format_ident!("{}", word)).collect()
 }
 
-/// What runs the kernel has besides those of every kernel, a word for each.
+/// Words for the kinds of runs that the kernel has besides those of every kernel.
 fn steps(derived: &Derived<'_, '_>) -> Vec<proc_macro2::Ident> {
     let has_jacobian = derived.kernel.derivatives.iter().any(|other| matches!(other.kind, DerivativeKind::ByState));
     let touches = !derived.subject.system.contacts.is_empty();

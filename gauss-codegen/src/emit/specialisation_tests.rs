@@ -1,4 +1,4 @@
-//! What is absent leaves nothing behind: the code of a scene without an element is the code of the scene that never
+//! Absent elements leave nothing behind: the code of a scene without an element is the code of the scene that never
 //! heard of it.
 
 use super::tests::{function, generate};
@@ -91,7 +91,7 @@ fn a_system_forgets_elements_as_well() {
     assert_eq!(bare, methods("", fields));
 }
 
-/// What a body is says what its momentum is; what acts on it does not.
+/// Momentum depends on the body alone, and not on what acts on it.
 #[test]
 fn what_acts_is_not_in_the_methods_of_the_motion() {
     for chart in CHARTS {
@@ -106,7 +106,7 @@ fn what_acts_is_not_in_the_methods_of_the_motion() {
     }
 }
 
-/// What is known to be zero when the code is made is not in it.
+/// Zeros that are known when the code is made are not in it.
 #[test]
 fn an_element_of_zeros_is_no_code() {
     let acceleration = |clauses: &str| function(&body("hybrid", clauses, FIELDS), "acceleration");

@@ -1,4 +1,5 @@
-//! What is derived: its configuration as a product, its constraints, and where what its author wrote is read.
+//! The system that is derived: its configuration as a product, its constraints, and where what its author wrote is
+//! read.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -10,9 +11,9 @@ use crate::translate::Given;
 use crate::emit::chart::chart_tokens;
 use crate::emit::dialect::arguments::Argument;
 
-/// What is derived.
+/// The system that is derived.
 pub struct Subject<'a, 'g> {
-    /// What is only written down.
+    /// Names, units and other data that are only written down.
     pub given: &'a Given<'g>,
     pub system: &'a System<'g>,
     /// The constraints, and whether a run can drift away from them.

@@ -109,7 +109,7 @@ fn words(tokens: TokenStream, found: &mut Vec<String>) {
     }
 }
 
-/// Where there are no vectors their form is not written, nor looked for; all else is the same.
+/// Targets without vectors have no form for them, nor is one looked for; all else is the same.
 #[test]
 fn without_vectors_there_is_one_form() {
     let input = syn::parse_str(VEHICLE).expect("a struct");
@@ -152,7 +152,7 @@ fn a_mistake_is_one_message_and_no_code() {
     assert_eq!(messages.len(), 2, "{messages:?}");
 }
 
-/// Of literals alone: the numbers themselves, divided and multiplied out.
+/// Literals alone become the numbers themselves, divided and multiplied out.
 #[test]
 fn acceleration_of_a_body_of_literals() {
     let source = "#[gauss(mass = 2.5, center_of_mass = [0, 0, 0.125], inertia = [0.5, 0.5, 0.34375], gravity = 9.80665)] struct Body {}";

@@ -26,7 +26,7 @@ pub fn gradient<'g>(program: &Program<'g>, directions: &[Direction<'g>]) -> Prog
 struct Sweep<'a, 'g> {
     pass: Pass<'a, 'g>,
     of_symbols: Map<u32, Rate<'g>>,
-    /// Of sines and cosines by the angle.
+    /// Derivatives by the instructions; of sines and cosines by the angle.
     of_instructions: Vec<Rate<'g>>,
 }
 
@@ -54,7 +54,7 @@ impl<'g> Sweep<'_, 'g> {
         sum.map_or(Operand::Number(Rational::zero()), |sum| self.pass.writer.written(sum))
     }
 
-    /// Of what an operand adds to the output: the slope of what reads it, times that of the reader by the operand.
+    /// Adds a part of the derivative by an operand: the slope of its reader, times that of the reader by the operand.
     fn add(&mut self, operand: Operand<'g>, slope: Rate<'g>, by: Tangent<'g>) {
         let slope = signed(slope, by);
         match operand {

@@ -29,7 +29,7 @@ pub(super) struct Checked<'a, 'g> {
     pub constants: &'a Program<'g>,
     pub constant_symbols: &'a [Expr<'g>],
     pub functions: Vec<(&'a Program<'g>, Expected<'a, 'g>)>,
-    /// Of these the point need not be in the domain.
+    /// Derivatives, for which the point need not be in the domain.
     pub derivatives: &'a [Lowered<'a, 'g>],
 }
 
@@ -95,7 +95,7 @@ fn compare<N: Number>(function: usize, found: &[N], expected: &[N]) -> Result<()
     Ok(())
 }
 
-/// What the points of checks must have.
+/// Conditions on the points of checks.
 pub(super) struct Sample<'a, 'g> {
     /// Symbols that stand for expressions of the arguments.
     pub definitions: &'a Map<u32, Expr<'g>>,

@@ -12,7 +12,7 @@ pub struct Candidates<'g> {
     pub aim: Aim,
 }
 
-/// What a function is to be cheap for.
+/// Aims of a choice: the results that a function is to be cheap for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aim {
     /// Its values.
@@ -49,7 +49,7 @@ pub(super) struct Taken<'g> {
     /// The same as it is carried out, and whether sums that are begun by what is added to them keep its digits.
     pub carried_out: Program<'g>,
     pub begun: bool,
-    /// Of what is carried out.
+    /// Rounding loss of `carried_out`.
     pub loss: Loss,
 }
 
@@ -100,8 +100,8 @@ pub(super) fn programs_of<'g>(arrangements: &[Vec<Expr<'g>>]) -> Vec<Program<'g>
 }
 
 impl<'g> Pool<'g> {
-    /// Of equal outputs, hoisted in one way or the other. Where the best loses much, or derivatives do somewhere, each
-    /// is tried without its differences of like functions as well.
+    /// Programs of equal outputs, hoisted in one way or the other. Where the best loses much, or derivatives do
+    /// somewhere, each is tried without its differences of like functions as well.
     pub fn of<'a>(
         arrangements: &[Vec<Expr<'g>>],
         aim: Aim,

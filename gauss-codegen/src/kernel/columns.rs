@@ -17,16 +17,16 @@ const FEW: usize = 400;
 
 /// Outputs whose derivatives are in part solutions of a linear system.
 pub struct Columns<'g> {
-    /// What the program computes: values; of every direction what is known or added to the solution; L below its
-    /// diagonal; D⁻¹; the right-hand sides of the directions that have some.
+    /// Outputs of the program: values; of every direction what is known or added to the solution; L below its diagonal;
+    /// D⁻¹; the right-hand sides of the directions that have some.
     before: Vec<Expr<'g>>,
     shape: Shape,
 }
 
-/// What is where.
+/// Layout of the outputs.
 #[derive(Clone)]
 pub struct Shape {
-    /// How many outputs there are, and how many of them, at the beginning, are no solutions.
+    /// Numbers of all outputs, and of those at the beginning that are no solutions.
     pub height: usize,
     pub known: usize,
     pub directions: usize,
@@ -46,7 +46,8 @@ pub struct LoweredColumns<'g> {
 }
 
 impl<'g> Columns<'g> {
-    /// Of each direction `added` has the derivatives of the known outputs, then what is added to the solution.
+    /// Columns of which `added` has, for each direction, the derivatives of the known outputs, then what is added to
+    /// the solution.
     pub fn new(
         values: Vec<Expr<'g>>,
         added: Vec<Expr<'g>>,
@@ -84,7 +85,7 @@ impl<'g> Columns<'g> {
 /// The outputs of the program, part by part.
 pub struct Parts<T> {
     pub values: Vec<T>,
-    /// Of every direction.
+    /// Derivatives of the known outputs, then what is added to the solution, of every direction.
     pub added: Vec<Vec<T>>,
     pub below: Vec<T>,
     pub pivots: Vec<T>,
@@ -122,7 +123,7 @@ impl Shape {
 }
 
 impl<'g> LoweredColumns<'g> {
-    /// For each bundle of columns and each group of unknowns, whether its elimination would add nothing but zeros.
+    /// Tells for each bundle of columns and each group of unknowns whether its elimination would add nothing but zeros.
     pub fn idle(&self) -> Vec<Vec<bool>> {
         let zero = Operand::Number(Rational::zero());
         let rights = self.shape.parts(&self.program.outputs).rights;

@@ -14,14 +14,14 @@ pub(super) struct Constants<'g> {
 /// The constants that are read.
 pub(super) struct Hoisted<'g> {
     pub constants: Constants<'g>,
-    /// Those that literals alone determine, with their values and with their definitions.
+    /// Constants that literals alone determine, with their values and with their definitions.
     pub known: Vec<(Expr<'g>, f64)>,
     pub folded: Vec<(Expr<'g>, Expr<'g>)>,
 }
 
-/// What constants are found from, beside what a hoister has gathered.
+/// Symbols and literals that constants are found from, beside those that a hoister has gathered.
 pub(super) struct Source<'a, 'g> {
-    /// What all programs read but those that are asked about.
+    /// Symbols that all programs read but those that are asked about.
     pub read: &'a [Expr<'g>],
     /// Symbols that stand for literals, where their values are known.
     pub literals: Option<&'a Map<u32, f64>>,

@@ -73,7 +73,7 @@ impl<'g> Differentiated<'g> {
         ((program.carried_out(), columns), Expected::along(outputs, &self.directions, kept))
     }
 
-    /// What could be taken: programs whose constants are not computed before.
+    /// Forms that could be taken: programs whose constants are not computed before.
     pub(super) fn forms(&self, kept: Kept) -> Vec<Program<'g>> {
         let definitions = Program::lower(&self.defined);
         let differentiate = if kept == Kept::ValuesToo { with_tangents } else { tangents_alone };

@@ -1,4 +1,4 @@
-//! What programs should compute, from the expressions that they were made from.
+//! Expected results of programs, from the expressions that they were made from.
 
 use std::borrow::Cow;
 
@@ -14,7 +14,7 @@ pub(super) enum Kept {
     DerivativesAlone,
 }
 
-/// What a program of derivatives should compute.
+/// Expected results of a program of derivatives.
 pub(super) struct Expected<'a, 'g> {
     outputs: Cow<'a, [Expr<'g>]>,
     directions: Cow<'a, [Direction<'g>]>,
@@ -49,7 +49,7 @@ impl<'a, 'g> Expected<'a, 'g> {
         &self.outputs
     }
 
-    /// By dual numbers through the expressions.
+    /// Computes the expected results by dual numbers through the expressions.
     pub fn values<N: Number>(&self, evaluation: &mut Evaluation<'_, N>) -> Vec<N> {
         if let Some(second) = self.second {
             return second.values(evaluation);

@@ -57,7 +57,7 @@ impl<'g> Curved<'g> {
         ways.swap_remove(tried.taken(&costs)).carried_out()
     }
 
-    /// What could be taken: programs whose constants are not computed before.
+    /// Forms that could be taken: programs whose constants are not computed before.
     pub(super) fn forms(&self) -> Vec<Program<'g>> {
         let definitions = Program::lower(&self.defined);
         let arrangements: Vec<Vec<Expr<'g>>> = self.arrangements.iter().map(|e| vec![*e]).collect();
@@ -85,7 +85,7 @@ impl<'g> Curved<'g> {
         with_outputs(&Program { instructions, outputs: Vec::new() }, outputs)
     }
 
-    /// By dual numbers of dual numbers through the expressions.
+    /// Computes the second derivatives by dual numbers of dual numbers through the expressions.
     pub fn values<N: Number>(&self, evaluation: &mut Evaluation<'_, N>) -> Vec<N> {
         let output = self.arrangements[0];
         let moving: Vec<Map<u32, Dual<N>>> = self
@@ -129,7 +129,7 @@ fn mean<'g>(instructions: &mut Vec<Operation<'g>>, a: Operand<'g>, b: Operand<'g
     push(Operation::Multiply(sum, Operand::Number(Rational::new(1, 2))))
 }
 
-/// How many instructions give something else along a direction.
+/// Number of instructions that give something else along a direction.
 fn reach<'g>(program: &Program<'g>, direction: &Direction<'g>) -> usize {
     let mut moves = vec![false; program.instructions.len()];
     for k in 0..moves.len() {

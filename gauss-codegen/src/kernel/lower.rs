@@ -21,7 +21,7 @@ pub struct Kernel<'g> {
     /// `evaluate`: the outputs of several functions, one after the other, what they have in common computed once.
     pub joined: Program<'g>,
     pub figure_of_joined: Option<Figure>,
-    /// Those that are wanted, in the order of their kinds.
+    /// Derivatives that are wanted, in the order of their kinds.
     pub derivatives: Vec<Derivative<'g>>,
     /// The constants as symbols, in the order of the outputs of `constants`.
     pub constant_symbols: Vec<Expr<'g>>,
@@ -34,13 +34,13 @@ pub struct Kernel<'g> {
 /// A function as it is carried out.
 pub struct Function<'g> {
     pub program: Program<'g>,
-    /// What it loses at sample states.
+    /// Loss at sample states.
     pub loss: Loss,
-    /// What it loses at the worst state that is found; `None` where it has no value.
+    /// Loss at the worst state that is found; `None` where it has no value.
     pub figure: Option<Figure>,
 }
 
-/// What is differentiated beside the functions of a kernel.
+/// Derivatives that are wanted beside the functions of a kernel.
 #[derive(Default)]
 pub struct Derivatives<'a, 'g> {
     pub list: &'a [Wanted<'g>],
@@ -157,7 +157,7 @@ impl<'g> Kernel<'g> {
         deciding
     }
 
-    /// What is sought.
+    /// Programs of the kernel whose losses are sought.
     pub fn sought(&self) -> Sought<'_, 'g> {
         let functions = || self.functions.iter().map(|(_, function)| function);
         let derivatives = self.derivatives.iter().map(|derivative| &derivative.program);
@@ -173,7 +173,7 @@ impl<'g> Kernel<'g> {
     }
 }
 
-/// Of each function the arrangement that is taken.
+/// Chooses the arrangement of each function.
 fn taken_of_each<'g>(
     functions: &Methods<Candidates<'g>>,
     hoister: &mut Hoister<'_, 'g>,

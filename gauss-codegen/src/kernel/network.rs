@@ -66,7 +66,7 @@ impl Key for Node<'_> {
 }
 
 impl Node<'_> {
-    /// What it is made of.
+    /// Nodes that it is made of.
     pub fn parts(&self) -> Vec<Place> {
         match self {
             Node::Number(_) | Node::Leaf(_) => Vec::new(),
@@ -84,7 +84,7 @@ pub struct Network<'g> {
     pub nodes: Vec<Node<'g>>,
     /// The first node that each is alike to: orders go by these, then by places.
     ranks: Vec<Place>,
-    /// Those, by what they are made of; nothing where no symbols are alike.
+    /// First nodes, by their structure; nothing where no symbols are alike.
     first: Option<HashMap<u64, Place>>,
     /// (coefficient, node) of every output.
     pub outputs: Vec<(Rational, Place)>,
@@ -158,7 +158,7 @@ impl<'g> Network<'g> {
         *self.index.or_insert_of(node, new)
     }
 
-    /// What is alike has the same place in an order.
+    /// Place in an order in which nodes that are alike have the same place.
     fn rank(&self, place: Place) -> (Place, Place) {
         (self.ranks[place], place)
     }
@@ -406,7 +406,7 @@ fn likeness(node: &Node<'_>, ranks: &[Place]) -> u64 {
     }
 }
 
-/// What is shared: terms of sums, or factors of products.
+/// Kinds of shared parts: terms of sums, or factors of products.
 #[derive(Clone, Copy)]
 enum Kind {
     Sums,
@@ -432,7 +432,7 @@ impl Kind {
         }
     }
 
-    /// Those that are `wanted`, in their order.
+    /// Parts that are `wanted`, in their order.
     fn parts_of(self, node: &Node<'_>, wanted: &[bool]) -> Parts {
         let mut parts = Vec::new();
         match (self, node) {

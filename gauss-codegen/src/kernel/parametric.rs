@@ -16,7 +16,7 @@ pub struct ByParameters<'g> {
     pub parameters: Vec<Expr<'g>>,
     /// The outputs of the kinematics in another order.
     pub order: Vec<usize>,
-    /// What the acceleration solves, where nothing else restricts it.
+    /// Equation that the acceleration solves, where nothing else restricts it.
     pub equation: Option<Equation<'g>>,
     /// Derivatives of both in forms of their own, parameter by parameter.
     pub derived: Vec<Vec<Expr<'g>>>,
@@ -133,7 +133,7 @@ struct ConstantRates<'g> {
     symbols: Vec<Expr<'g>>,
     /// Derivatives that are neither numbers nor constants already.
     added: Vec<(Operand<'g>, Expr<'g>)>,
-    /// For each parameter the constants that depend on it, and how.
+    /// Constants that depend on each parameter, and their derivatives.
     directions: Vec<Direction<'g>>,
 }
 

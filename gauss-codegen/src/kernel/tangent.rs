@@ -87,7 +87,7 @@ pub fn implicit_tangents<'g>(
     writer.finish(outputs)
 }
 
-/// What computes the outputs and their derivatives, and where these are.
+/// Writes the instructions of the outputs and their derivatives, and tells where these are.
 fn differentiated<'g>(
     program: &Program<'g>,
     bound: (&[Expr<'g>], &Program<'g>),
@@ -257,7 +257,7 @@ pub(super) struct Pass<'a, 'g> {
     pub(super) program: &'a Program<'g>,
     symbols: &'a Map<u32, Operand<'g>>,
     pub(super) places: &'a [usize],
-    /// Of symbols that move.
+    /// Rates of symbols that move.
     pub(super) rates: Map<u32, Rate<'g>>,
 }
 
@@ -440,7 +440,7 @@ impl<'a, 'g> Pass<'a, 'g> {
         self.writer.plus(by_base, by_exponent)
     }
 
-    /// That of the smaller or larger of two numbers.
+    /// Derivative of the smaller or larger of two numbers.
     fn selected(&mut self, function: BinaryFunction, [a, b]: [Operand<'g>; 2], tangents: &[Rate<'g>]) -> Rate<'g> {
         let [da, db] = self.both([a, b], tangents)?;
         let (a, b) = (self.here(a), self.here(b));
@@ -474,7 +474,8 @@ impl<'a, 'g> Pass<'a, 'g> {
         })
     }
 
-    /// How much of each derivative the larger or smaller of two numbers has: 1 and 0, or ½ and ½ where they are equal.
+    /// Shares of both derivatives in that of the larger or smaller of two numbers: 1 and 0, or ½ and ½ where they are
+    /// equal.
     pub(super) fn shares(&mut self, function: BinaryFunction, a: Operand<'g>, b: Operand<'g>) -> [Operand<'g>; 2] {
         let half = Operand::Number(Rational::new(1, 2));
         let (x, y) = if function == BinaryFunction::Max { (a, b) } else { (b, a) };

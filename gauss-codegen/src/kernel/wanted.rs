@@ -17,7 +17,7 @@ pub struct Wanted<'g> {
     pub differentiation: Differentiation<'g>,
 }
 
-/// What is differentiated, and how.
+/// Functions that are differentiated, and the kind of derivative.
 pub enum Differentiation<'g> {
     /// Functions and then their derivatives along the first direction, and so on.
     WithValues(Differentiated<'g>),
@@ -36,7 +36,7 @@ pub struct Derivative<'g> {
     pub program: Program<'g>,
     /// The same where the columns of derivatives are the solutions of one linear system: what is written then.
     pub columns: Option<LoweredColumns<'g>>,
-    /// What it loses at the states where functions lose most; `None` where it has no value.
+    /// Loss at the states where functions lose most; `None` where it has no value.
     pub figure: Option<Figure>,
 }
 
@@ -55,7 +55,7 @@ pub(super) struct Lowered<'a, 'g> {
 }
 
 impl<'g> Wanted<'g> {
-    /// What does not wait for the constants of everything else.
+    /// Lowers a derivative that does not wait for the constants of everything else.
     pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Option<Lowered<'_, 'g>> {
         let ((program, columns), expected) = match &self.differentiation {
             Differentiation::WithValues(functions) => functions.lower(hoister, Kept::ValuesToo, trial),
@@ -66,7 +66,8 @@ impl<'g> Wanted<'g> {
         Some(Lowered { kind: self.kind, program, columns, expected })
     }
 
-    /// What could be taken in place of its program; nothing of derivatives by parameters, which follow the functions.
+    /// Forms that could be taken in place of its program; nothing of derivatives by parameters, which follow the
+    /// functions.
     pub(super) fn forms(&self) -> Vec<Program<'g>> {
         match &self.differentiation {
             Differentiation::WithValues(functions) => functions.forms(Kept::ValuesToo),

@@ -8,7 +8,7 @@ use super::network::{Network, Node, Place};
 
 /// Straight-line code whose inputs are symbols.
 pub type Program<'g> = Code<Expr<'g>>;
-/// What it works on.
+/// Operand of an instruction.
 pub type Operand<'g> = crate::program::Operand<Expr<'g>>;
 /// One step of it.
 pub type Operation<'g> = Instruction<Expr<'g>>;
@@ -47,11 +47,11 @@ impl<'g> Program<'g> {
 /// Writes a network as instructions, each node where it is first needed: values are short-lived that way.
 struct Writer<'g> {
     network: Network<'g>,
-    /// How many nodes and outputs use each node.
+    /// Number of nodes and outputs that use each node.
     uses: Vec<usize>,
     written: Map<Place, Operand<'g>>,
     negated: Map<usize, Operand<'g>>,
-    /// Where sines and cosines are computed.
+    /// Instructions in which sines and cosines are computed.
     pairs: Vec<usize>,
     instructions: Vec<Operation<'g>>,
 }

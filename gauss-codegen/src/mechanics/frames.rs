@@ -6,7 +6,7 @@ use crate::mechanics::formula::{Formula, FrameQuantity, Method};
 use crate::mechanics::system::System;
 
 impl<'g> System<'g> {
-    /// Of the links with these numbers.
+    /// Formulas of the links with these numbers.
     pub fn frame_formulas(&self, links: &[usize]) -> Vec<Formula<'g>> {
         if links.is_empty() {
             return Vec::new();

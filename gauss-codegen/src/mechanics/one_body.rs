@@ -69,8 +69,7 @@ impl<'g> System<'g> {
         ])
     }
 
-    /// For each component of an increment of the configuration the twist in body axes that it makes: u = Rᵀ ḃ, [ω]× =
-    /// Rᵀ Ṙ.
+    /// Twist in body axes that each component of an increment of the configuration makes: u = Rᵀ ḃ, [ω]× = Rᵀ Ṙ.
     fn twists_of_increments(&self, link: &Link<'g>) -> Vec<Expr<'g>> {
         let frame = Frame { graph: self.scene.graph, rotation: link.rotation };
         let twist = |along: &Map<u32, Expr<'g>>| -> [Triple<'g>; 2] {

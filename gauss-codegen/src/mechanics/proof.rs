@@ -23,7 +23,7 @@ pub const GENERAL: BodyShape = BodyShape {
     center_of_buoyancy: true,
 };
 
-/// What the symbols of the configuration satisfy.
+/// Relations that the symbols of the configuration satisfy.
 pub fn relations<'g>(graph: &'g Graph, system: &System<'g>) -> Ideal<'g> {
     match &system.scene.coordinates[0] {
         Coordinate::Pose(rotation, _) | Coordinate::Rotation(rotation) => Ideal::of_rotation(graph, rotation),

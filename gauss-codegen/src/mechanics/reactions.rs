@@ -27,7 +27,7 @@ impl LetGo<'_> {
     }
 }
 
-/// What the condition for these speeds says where they and their coordinates are zero.
+/// The condition for these speeds where they and their coordinates are zero.
 pub struct Reactions<'g> {
     /// The system that has them.
     pub system: System<'g>,
@@ -58,7 +58,7 @@ impl<'g> Reactions<'g> {
         self.jacobian.len() == constraints && self.of_contacts.len() == rows
     }
 
-    /// What unit contact forces give of the forces and torques, row by row. Multipliers of constraints change with
+    /// Change of the forces and torques by unit contact forces, row by row. Multipliers of constraints change with
     /// contact forces, so there must be none.
     pub fn of_contacts(&self) -> Option<Formula<'g>> {
         let rows = 0..self.rows[0].len();

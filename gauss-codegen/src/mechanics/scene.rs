@@ -35,7 +35,7 @@ pub enum Coordinate<'g> {
 }
 
 impl<'g> Coordinate<'g> {
-    /// How many components its rate has.
+    /// Number of components of its rate.
     pub fn size(&self) -> usize {
         match self {
             Coordinate::Scalar(_) => 1,
@@ -44,7 +44,7 @@ impl<'g> Coordinate<'g> {
         }
     }
 
-    /// Of several coordinates the one that a component of their rates belongs to.
+    /// Number of the coordinate that a component of the rates of all belongs to.
     pub fn of_component(all: &[Self], component: usize) -> usize {
         let mut end = 0;
         let ends = all.iter().map(|coordinate| {
@@ -83,7 +83,7 @@ pub struct SystemScene<'g> {
     pub states: Range<usize>,
     pub speeds: Vec<Expr<'g>>,
     pub charted: Option<Charted>,
-    /// What the momenta and the forces are called.
+    /// Names of the momenta and of the forces.
     pub momentum_names: Vec<Name>,
     pub force_names: Vec<Name>,
     pub speed_rates: Vec<Expr<'g>>,
@@ -97,7 +97,7 @@ pub struct SystemScene<'g> {
     pub constraints: Vec<Constraint<'g>>,
     /// Constraints may depend on one another.
     pub redundant: bool,
-    /// What may touch.
+    /// Contacts of the scene.
     pub contacts: Vec<Contact<'g>>,
     /// Values that arrive at run time.
     pub inputs: Vec<Expr<'g>>,

@@ -34,12 +34,12 @@ const SQUARES: [usize; 2] = [6, 12];
 /// A system with what its equations are made of.
 pub struct System<'g> {
     pub scene: SystemScene<'g>,
-    /// Of all elements together.
+    /// Potential and forces of all elements together.
     pub potential: Option<Expr<'g>>,
     pub forces: Vec<Force<'g>>,
     /// Loads on links, fields among them.
     pub(in crate::mechanics) loads: Loads<'g>,
-    /// By other poles, where that is shorter.
+    /// The links about other poles, where that is shorter.
     working: Option<Working<'g>>,
     /// The links in their own axes for sums of squares, where they work in those of the observer: differences of angles
     /// do not come in.
@@ -54,7 +54,7 @@ pub struct System<'g> {
     pub along: Map<u32, Expr<'g>>,
     /// A.
     pub matrix: Vec<Vec<Expr<'g>>>,
-    /// Those of A⁻¹Wᵀ, once they have been asked for.
+    /// Factors of A⁻¹Wᵀ, computed on first use.
     halves: OnceCell<Option<Halves<'g>>>,
 }
 
@@ -69,7 +69,7 @@ struct Arrangement<'g> {
 }
 
 impl<'g> System<'g> {
-    /// Of a scene whose equations are only written down, not solved: A is not formed.
+    /// System of a scene whose equations are only written down, not solved: A is not formed.
     pub fn unsolved(scene: SystemScene<'g>) -> Self {
         let mut along = scene.rates.clone();
         along.extend(scene.speeds.iter().zip(&scene.speed_rates).map(|(z, rate)| (z.key(), *rate)));

@@ -89,7 +89,7 @@ impl<'g> Charted<'g> {
         Self::acted_upon(graph, motion, chart, shape, |_| Vec::new())
     }
 
-    /// With elements, in terms of the kinematics.
+    /// A body under elements, in terms of the kinematics.
     pub fn acted_upon(
         graph: &'g Graph,
         motion: Motion,

@@ -26,7 +26,7 @@ const MASS_DATA: [(&str, Role); 4] = [
 const MODES: &str = "modes";
 const COMMENT: &str = "comment";
 
-/// What a file says, at the token that names it.
+/// Contents of a file, at the token that names it.
 struct Contents {
     role_clauses: Vec<RoleClause>,
     integrals: Vec<GivenIntegral>,

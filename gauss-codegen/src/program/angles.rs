@@ -32,7 +32,7 @@ impl<S: Copy> Code<S> {
         self.in_order(&order).verified()
     }
 
-    /// Of each sine and cosine, how many others it waits for one after another; `None` of other instructions.
+    /// Number of sines and cosines that each of them waits for one after another; `None` of other instructions.
     fn angle_stages(&self) -> Vec<Option<usize>> {
         let mut waits: Vec<usize> = Vec::with_capacity(self.instructions.len());
         for instruction in &self.instructions {

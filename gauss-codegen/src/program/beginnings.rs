@@ -186,12 +186,12 @@ impl<S: Copy> Sums<S> {
     }
 }
 
-/// How a sum is begun.
+/// Path from the last sum to the product that it begins with, and the operand that is added.
 struct Beginning<S> {
     /// Its partial sums from the last to the product that it begins with, and its sign.
     path: Vec<usize>,
     negative: bool,
-    /// What is added to it, and whether it is subtracted.
+    /// Operand that is added to it, and whether it is subtracted.
     added: Operand<S>,
     subtracted: bool,
 }
@@ -271,7 +271,7 @@ mod tests {
         assert_eq!(products(&begun(vec![product, sum, Instruction::Add(value(1), input(4)), twice])), 2);
     }
 
-    /// What is there last is added last.
+    /// An operand that is there last is added last.
     #[test]
     fn no_chain_becomes_longer() {
         let mut instructions = vec![

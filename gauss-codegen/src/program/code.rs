@@ -9,7 +9,7 @@ use super::instruction::{Instruction, Operand};
 pub struct Code<S = Input> {
     /// In the order in which they are carried out; each reads only results of earlier ones.
     pub instructions: Vec<Instruction<S>>,
-    /// What the function gives.
+    /// Results of the function.
     pub outputs: Vec<Operand<S>>,
 }
 
@@ -40,7 +40,7 @@ impl<S: Copy> Code<S> {
         inputs
     }
 
-    /// How often instructions and outputs read each instruction.
+    /// Number of readers of each instruction among instructions and outputs.
     pub fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.instructions.len()];
         for operand in self.operands() {

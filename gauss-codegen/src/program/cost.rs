@@ -1,4 +1,4 @@
-//! How much a program computes, how long its chains are, how smooth its outputs.
+//! Costs of a program, the length of its chains, and the smoothness of its outputs.
 
 use std::fmt;
 
@@ -48,7 +48,7 @@ impl fmt::Display for Counts {
     }
 }
 
-/// What a call costs.
+/// Cost of a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cost {
     /// All instructions, in units of one addition: [`Counts::weighted`].
@@ -66,7 +66,7 @@ impl Cost {
     }
 }
 
-/// How smooth the outputs of a program are, away from singularities.
+/// Smoothness of the outputs of a program, away from singularities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Smoothness {
     /// All derivatives exist.
@@ -133,7 +133,7 @@ impl<S: Copy + Key> Code<S> {
         counts
     }
 
-    /// What it costs to call it.
+    /// Cost of a call.
     pub fn cost(&self) -> Cost {
         Cost { operations: self.counts().weighted(), chain: self.chain() }
     }
@@ -147,7 +147,7 @@ impl<S: Copy + Key> Code<S> {
         self.outputs.iter().map(|output| output.ready(&ready)).max().unwrap_or(0)
     }
 
-    /// That of its roughest instruction.
+    /// Smoothness of its roughest instruction.
     pub fn smoothness(&self) -> Smoothness {
         let of = |instruction: &Instruction<S>| match instruction {
             Instruction::Call(Function::Signum, _) => Smoothness::Jumps,

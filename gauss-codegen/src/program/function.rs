@@ -23,7 +23,7 @@ pub struct Program {
     pub numbers: Vec<f64>,
     /// The instructions.
     pub code: Code,
-    /// What the outputs of the code are, in their order.
+    /// Meaning of the outputs of the code, in their order.
     pub results: Vec<Results>,
     /// Names of functions of the user's own, by their index. [`run`](Self::run) does not know them: they give NaN.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -33,9 +33,9 @@ pub struct Program {
 /// Arguments of a call that are not those of the program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrongArguments {
-    /// How many numbers each argument has.
+    /// Lengths of the arguments of the program.
     pub expected: Vec<usize>,
-    /// How many were given.
+    /// Lengths of the arguments that were given.
     pub found: Vec<usize>,
 }
 

@@ -1,4 +1,4 @@
-//! What programs read and give: arguments, their components, results.
+//! Arguments and results of programs, with their components.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use crate::algebra::{Key, joined};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Argument {
-    /// What it is.
+    /// Meaning of the argument.
     pub kind: ArgumentKind,
     /// A short name: `q`, `z`.
     pub name: String,
@@ -41,7 +41,7 @@ pub enum ArgumentKind {
     Twist,
     /// The residuals of the constraints.
     Residuals,
-    /// What makes velocities of contact impulses: numbers of A and W, as `impulse_dynamics` gives them.
+    /// Factors of the velocities of contact impulses: numbers of A and W, as `impulse_dynamics` gives them.
     Factors,
     /// Contact impulses, row by row.
     Impulses,
@@ -100,7 +100,7 @@ impl Key for Input {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Results {
-    /// What they are.
+    /// Name of the results.
     pub name: String,
     /// Rows of the matrix.
     pub rows: usize,
@@ -121,7 +121,7 @@ impl Results {
         Self { name: name.into(), rows, columns }
     }
 
-    /// How many outputs it is made of.
+    /// Number of outputs that it is made of.
     #[expect(clippy::len_without_is_empty, reason = "the size of a matrix; no collection")]
     pub fn len(&self) -> usize {
         self.rows * self.columns

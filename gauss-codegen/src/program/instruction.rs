@@ -4,8 +4,8 @@ use crate::algebra::{BinaryFunction, Function, Key, MOST_VARIABLES, OwnFunction,
 
 use super::input::Input;
 
-/// What an instruction works on. `S` is what inputs are called: an [`Input`] of a finished [`Program`](super::Program),
-/// a symbol while it is made.
+/// Operand of an instruction. `S` is what inputs are called: an [`Input`] of a finished [`Program`](super::Program), a
+/// symbol while it is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Operand<S = Input> {
@@ -132,7 +132,7 @@ impl<S: Copy> Instruction<S> {
         }
     }
 
-    /// What it works on, in the order in which it is written.
+    /// Operands, in the order in which they are written.
     pub fn operands(&self) -> impl Iterator<Item = Operand<S>> + use<'_, S> {
         Operands { instruction: self, next: 0 }
     }
@@ -172,7 +172,7 @@ impl<S: Copy> Instruction<S> {
     }
 }
 
-/// What an instruction works on: adapters of arrays take ten times as long where nothing is optimised.
+/// Iterator over the operands of an instruction: adapters of arrays take ten times as long where nothing is optimised.
 struct Operands<'a, S> {
     instruction: &'a Instruction<S>,
     next: u8,

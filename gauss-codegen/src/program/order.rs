@@ -40,23 +40,23 @@ pub(super) fn order_of(reads: Vec<Vec<usize>>, cycles: Vec<u32>) -> Vec<usize> {
 
 /// A program that is ordered, instruction by instruction.
 struct Scheduler {
-    /// What each one reads, and what reads it, each once.
+    /// Instructions that each one reads, and those that read it, each once.
     reads: Vec<Vec<usize>>,
     readers: Vec<Vec<usize>>,
     /// Cycles to its result, and from its start to the end of the program.
     cycles: Vec<u32>,
     height: Vec<u32>,
-    /// How many of those that it reads are not written, and how many of its readers.
+    /// Number of those that it reads that are not written, and of its readers that are not.
     open: Vec<usize>,
     unread: Vec<usize>,
-    /// How many results nobody needs after it.
+    /// Number of results that nobody needs after it.
     frees: Vec<usize>,
     /// The first cycle in which its operands are there.
     start: Vec<u32>,
-    /// Where it is written.
+    /// Place at which it is written.
     place: Vec<Option<usize>>,
-    /// What waits for nothing but its cycle: by that, by height once it can start, and by what it frees. What is
-    /// written, or has come to free more, is passed over.
+    /// Instructions that wait for nothing but their cycle: by that, by height once they can start, and by what they
+    /// free. What is written, or has come to free more, is passed over.
     later: BinaryHeap<Reverse<(u32, usize)>>,
     now: BinaryHeap<(u32, Reverse<usize>)>,
     freeing: BinaryHeap<(usize, usize, Reverse<usize>)>,
@@ -128,7 +128,7 @@ impl Scheduler {
         if waiting < ROOM { self.longest() } else { self.most_freeing() }
     }
 
-    /// Of what can start, that after which most cycles are left.
+    /// Takes, of the instructions that can start, the one after which most cycles are left.
     fn longest(&mut self) -> Option<usize> {
         loop {
             while let Some(&Reverse((start, k))) = self.later.peek()
@@ -146,7 +146,7 @@ impl Scheduler {
         }
     }
 
-    /// What lets most results go; of several, what reads the latest.
+    /// Takes the instruction that lets most results go; of several, the one that reads the latest.
     fn most_freeing(&mut self) -> Option<usize> {
         while let Some((frees, _, Reverse(k))) = self.freeing.pop() {
             if self.place[k].is_none() && frees == self.frees[k] {

@@ -34,7 +34,7 @@ impl Pass {
         left_out != Some(self) && !fused
     }
 
-    /// What comes out where it is left out, on this thread.
+    /// Result of some work where the pass is left out, on this thread.
     #[cfg(test)]
     pub(crate) fn left_out<T>(left_out: Option<Pass>, of: impl FnOnce() -> T) -> T {
         LEFT_OUT.set(left_out);

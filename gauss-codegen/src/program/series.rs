@@ -1,4 +1,4 @@
-//! What power series of the outputs need to know of code: what moves, what is added up within another sum, what it
+//! Properties of code that power series of the outputs need: what moves, what is added up within another sum, what it
 //! costs.
 
 use crate::algebra::{BinaryFunction, Function};
@@ -6,8 +6,8 @@ use crate::algebra::{BinaryFunction, Function};
 use super::code::Code;
 use super::instruction::{Instruction, Operand};
 
-/// What a product of series costs in one order, where a sum costs 1: a lane of multiply-adds over the lower orders and
-/// two more.
+/// Cost of a product of series in one order, where a sum costs 1: a lane of multiply-adds over the lower orders and two
+/// more.
 const PRODUCT: u32 = 5;
 
 impl<S: Copy> Code<S> {

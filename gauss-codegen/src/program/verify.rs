@@ -8,7 +8,7 @@ use super::code::Code;
 use super::input::Input;
 use super::instruction::{Instruction, Operand};
 
-/// What is wrong with the shape of a program.
+/// Faults in the shape of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Malformed {

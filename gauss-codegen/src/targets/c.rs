@@ -103,7 +103,7 @@ fn signature(program: &Program, prefix: &str) -> String {
     format!("{kind} {prefix}_{}({lines})", program.name)
 }
 
-/// What must not end a comment early does not.
+/// Writes a comment in which nothing of the text ends it early.
 fn comment(text: &str) -> String {
     let text = text.replace("*/", "* /").replace("/*", "/ *").replace('\\', "/");
     let lines = text.lines().map(|line| format!(" * {line}").trim_end().to_owned() + "\n");

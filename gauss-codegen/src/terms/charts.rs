@@ -26,7 +26,7 @@ pub enum RotationChart {
     Angle,
 }
 
-/// What the body is free to do.
+/// Freedom of motion of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
     /// Six degrees of freedom.
@@ -42,7 +42,7 @@ pub enum Motion {
 pub struct InChart {
     /// The quasi-velocities that the equations are written in.
     pub chart: Chart,
-    /// What the body is free to do.
+    /// Freedom of motion of the body.
     pub motion: Motion,
 }
 

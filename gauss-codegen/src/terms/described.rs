@@ -5,16 +5,16 @@ use proc_macro2::{Ident, Span};
 /// A robot that was read from a file.
 #[derive(Clone)]
 pub struct Described {
-    /// Where the file is, and those that it includes: the generated code names them, so that an edit compiles the
+    /// Paths of the file and of those that it includes: the generated code names them, so that an edit compiles the
     /// struct anew.
     pub paths: Vec<String>,
     /// As it is written.
     pub file: String,
     /// The string of the clause.
     pub span: Span,
-    /// What a reader of the equations should know of the file.
+    /// Remarks on the file for a reader of the equations.
     pub remarks: Vec<Remark>,
-    /// What the bodies and frames of the file are called in it, where that differs from their names.
+    /// Names of the bodies and frames in the file, where they differ from those here.
     pub called: Vec<(Ident, String)>,
     /// Bodies that are fields, with the mass data of the file.
     pub bodies: Vec<BodyOfFile>,

@@ -7,9 +7,9 @@ use proc_macro2::{Ident, Span, TokenStream};
 pub struct UserFunction {
     /// Its name in expressions.
     pub name: Ident,
-    /// What it is.
+    /// Kind of the function.
     pub kind: FunctionKind,
-    /// Where the function, or the points or values of the table, are named.
+    /// Place where the function, or the points or values of the table, are named.
     pub span: Span,
 }
 
@@ -29,7 +29,7 @@ pub struct Table {
     pub axes: Vec<Axis>,
     /// The path of a constant array, of as many dimensions as there are axes.
     pub values: TokenStream,
-    /// What is between the points.
+    /// Interpolation between the points.
     pub joined: Joined,
 }
 
@@ -38,25 +38,25 @@ pub struct Table {
 pub struct Axis {
     /// The path of a constant array of numbers that increase.
     pub path: TokenStream,
-    /// What the variable is called in messages: the last word of the path, in small letters.
+    /// Name of the variable in messages: the last word of the path, in small letters.
     pub variable: String,
-    /// Where it is named.
+    /// Place where it is named.
     pub span: Span,
 }
 
-/// How the points of a table are joined.
+/// Interpolation between the points of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joined {
-    /// By straight lines.
+    /// Straight lines.
     Linear,
-    /// By cubics with the slopes of parabolas through three neighbours.
+    /// Cubics with the slopes of parabolas through three neighbours.
     Hermite,
-    /// By the natural cubic spline.
+    /// Natural cubic spline.
     Cubic,
 }
 
 impl FunctionKind {
-    /// How often it can be differentiated by each variable: of a table, until nothing is left.
+    /// Number of derivatives by each variable: of a table, until nothing is left.
     pub fn derivatives(&self) -> u8 {
         match self {
             FunctionKind::Rust(paths) => paths.len().saturating_sub(1) as u8,
@@ -65,7 +65,7 @@ impl FunctionKind {
         }
     }
 
-    /// How many derivatives by each variable are continuous; `None`: it is smooth.
+    /// Number of continuous derivatives by each variable; `None`: it is smooth.
     pub fn continuous(&self) -> Option<u8> {
         match self {
             FunctionKind::Rust(_) => None,
@@ -77,7 +77,7 @@ impl FunctionKind {
         }
     }
 
-    /// What it is a function of, in words for messages.
+    /// Variables of the function, in words for messages.
     pub fn variables(&self) -> Vec<String> {
         match self {
             FunctionKind::Table(Table { axes, .. }) if !axes.is_empty() => {

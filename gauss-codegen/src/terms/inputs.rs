@@ -7,15 +7,15 @@ use proc_macro2::Ident;
 pub struct InputName {
     /// Its name.
     pub ident: Ident,
-    /// How many it stands for.
+    /// Number of values that it stands for.
     pub kind: InputKind,
     /// The unit, if one is written; a wrench is in N and N m.
     pub unit: Option<String>,
-    /// What it is called outside of expressions.
+    /// Name outside of expressions.
     pub called: Ident,
 }
 
-/// How many values are under one name.
+/// Number of values under one name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InputKind {
     /// One.

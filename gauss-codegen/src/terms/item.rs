@@ -8,7 +8,7 @@ use super::inputs::InputName;
 use super::roles::{Role, Shape};
 use super::wanted::Wanted;
 
-/// What the struct is, whatever it describes.
+/// The struct, whatever it describes.
 #[derive(Clone)]
 pub struct Item {
     /// Name of the struct.
@@ -21,7 +21,7 @@ pub struct Item {
     pub generics: Generics,
     /// The one scalar of every field with a role and of every field that an expression names; `f64` if there are none.
     pub scalar: Scalar,
-    /// Where the generated code finds the runtime: `::gauss_runtime`, or the path of `crate = path`.
+    /// Path by which the generated code finds the runtime: `::gauss_runtime`, or the path of `crate = path`.
     pub runtime: TokenStream,
     /// The methods and derivatives to generate besides the equations.
     pub wanted: Wanted,
@@ -64,7 +64,7 @@ pub struct Field {
     pub ident: Ident,
     /// Its type.
     pub ty: TokenStream,
-    /// What the field means to the body without a name, or that it is one with a name; `None` for a plain parameter.
+    /// Role of the field in the body without a name, or a body with a name; `None` for a plain parameter.
     pub role: Option<Role>,
     /// Shape of the value. A plain parameter whose scalar is not the scalar of the struct is [`Shape::Other`].
     pub shape: Shape,

@@ -1,13 +1,13 @@
-//! What constants must obey.
+//! Laws that constants must obey.
 
-/// What `kernel()` checks of constants, and `warnings()` finds.
+/// Laws of constants that `kernel()` checks, and `warnings()` looks at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LawKind {
-    /// Of a spring or a stop.
+    /// The stiffness of a spring or a stop.
     Stiffness,
-    /// Of a stop.
+    /// The width of a stop.
     Width,
-    /// Of a stop, both of them.
+    /// The two positions of a stop.
     Limits,
     /// A coefficient of a spring or a stop.
     Damping,
@@ -19,9 +19,9 @@ pub enum LawKind {
     Length,
     /// The mass of a particle.
     MassInSum,
-    /// Of a bushing or of modes, row by row.
+    /// The stiffness matrix of a bushing or of modes, row by row.
     StiffnessMatrix,
-    /// Of a bushing or of modes, row by row.
+    /// The damping matrix of a bushing or of modes, row by row.
     DampingMatrix,
     /// Mass, first moment, inertia, participations and modal masses of a body that deforms: a matrix, row by row.
     Modes,

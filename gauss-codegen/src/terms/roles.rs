@@ -1,4 +1,4 @@
-//! What fields mean, and the shapes that their values have.
+//! Roles of fields, and the shapes of their values.
 
 /// Shape of a field's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +28,7 @@ impl Shape {
     }
 }
 
-/// What a field means to the body.
+/// Role of a field in the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// The mass m: scalar.
@@ -45,7 +45,7 @@ pub enum Role {
     Gravity,
     /// Mass of the displaced fluid: scalar.
     DisplacedMass,
-    /// Where buoyancy acts, body axes from O: vector.
+    /// The point where buoyancy acts, body axes from O: vector.
     CenterOfBuoyancy,
     /// A body, named like the field.
     Body,

@@ -1,4 +1,4 @@
-//! What a kernel has on request.
+//! Methods and derivatives that a kernel has on request.
 
 use proc_macro2::Ident;
 

@@ -1,5 +1,5 @@
-//! Where a formula may be broken: before signs of a sum, between factors, inside brackets, which then have a fixed
-//! size; a long fraction becomes a product or a quotient in one line, a long root a power.
+//! Places where a formula may be broken: before signs of a sum, between factors, inside brackets, which then have a
+//! fixed size; a long fraction becomes a product or a quotient in one line, a long root a power.
 
 use super::read::{Kind, Piece};
 use super::width::{bracket, fractions, width, width_of};
@@ -9,7 +9,7 @@ use super::width::{bracket, fractions, width, width_of};
 pub struct Part {
     pub tex: String,
     pub width: f64,
-    /// What stands between it and the part before it in one line.
+    /// Joint between it and the part before it in one line.
     pub joint: Joint,
     /// Brackets that are open where it begins.
     pub level: usize,
@@ -17,7 +17,7 @@ pub struct Part {
     pub begins: bool,
 }
 
-/// What stands between two parts in one line, and what a line begins with.
+/// Joints between two parts in one line, and the begin of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Joint {
     /// A sign of a sum, which the part begins with, or a sign of equality.
@@ -52,7 +52,7 @@ impl Joint {
 pub const DEEPEST: usize = 6;
 pub const QUAD: f64 = 10.1;
 
-/// What stands before and after a formula without a break.
+/// Text before and after a formula without a break.
 #[derive(Clone, Default)]
 struct Around {
     before: String,
@@ -68,7 +68,7 @@ pub fn parts(row: &[Piece<'_>], room: f64) -> Vec<Part> {
 }
 
 struct Breaker {
-    /// Of a line that is not indented.
+    /// Room of a line that is not indented.
     room: f64,
     parts: Vec<Part>,
 }
@@ -105,7 +105,7 @@ fn cut<'p, 'a>(row: &'p [Piece<'a>], ends: Vec<usize>) -> Vec<&'p [Piece<'a>]> {
     out
 }
 
-/// What pieces are read from, with what is between them.
+/// Text that pieces are read from, with the spaces between them.
 fn tex(row: &[Piece<'_>]) -> String {
     let mut out = String::new();
     for piece in row {
@@ -118,7 +118,7 @@ fn tex(row: &[Piece<'_>]) -> String {
 }
 
 impl Breaker {
-    /// Of a line in so many brackets.
+    /// Room of a line in so many brackets.
     fn room(&self, level: usize) -> f64 {
         self.room - QUAD * level.min(DEEPEST) as f64
     }
@@ -277,7 +277,7 @@ impl Breaker {
     }
 }
 
-/// Of what stands around a sequence, what is before its first part and after its last.
+/// Text around one part of a sequence: the text before it at its first part, and after it at its last.
 fn ends_of(around: &Around, first: bool, last: bool) -> Around {
     let mut own = around.clone();
     if !first {

@@ -63,13 +63,13 @@ const COMMANDS: [(&str, u8); 38] = [
     ("ell", 42),
 ];
 
-/// Of a digit, and of anything that is not in the tables.
+/// Width of a digit, and of anything that is not in the tables.
 const DIGIT: u8 = 51;
-/// Of a space between words, and no less than of points and commas.
+/// Width of a space between words, and no less than of points and commas.
 const SPACE: f64 = 3.4;
-/// Of `\_`.
+/// Width of `\_`.
 const UNDERSCORE: u8 = 36;
-/// Of a digit in `\mathit`.
+/// Width of a digit in `\mathit`.
 const ITALIC_DIGIT: u8 = 52;
 /// The largest italic correction, after a word and before `\_`.
 const CORRECTION: f64 = 1.7;
@@ -83,23 +83,23 @@ fn letter(alphabet: &Alphabet, sign: char) -> Option<f64> {
     Some(f64::from(alphabet[place]) / 10.0)
 }
 
-/// Of one sign of a formula.
+/// Width of one sign of a formula.
 pub fn variable(sign: char) -> f64 {
     letter(&VARIABLES, sign).unwrap_or(f64::from(DIGIT) / 10.0)
 }
 
-/// Of a letter by its command; the widest of letters where it is not known.
+/// Width of a letter by its command; the widest of letters where it is not known.
 pub fn command(name: &str) -> f64 {
     let known = COMMANDS.iter().find(|(command, _)| *command == name);
     known.map_or(10.9, |(_, width)| f64::from(*width) / 10.0)
 }
 
-/// Of letters of `\text`, `\operatorname` and the names of functions.
+/// Width of letters of `\text`, `\operatorname` and the names of functions.
 pub fn upright(words: &str) -> f64 {
     of_words(words, &UPRIGHT, DIGIT)
 }
 
-/// Of letters of `\mathit`.
+/// Width of letters of `\mathit`.
 pub fn italic(words: &str) -> f64 {
     of_words(words, &WORDS, ITALIC_DIGIT) + CORRECTION * (1 + words.matches("\\_").count()) as f64
 }

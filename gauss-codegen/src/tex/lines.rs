@@ -40,7 +40,7 @@ pub fn environments(sections: &[(String, Vec<String>)]) -> String {
 struct Sides<'a> {
     left: &'a str,
     right: &'a str,
-    /// Of the left side.
+    /// Width of the left side.
     width: f64,
     /// The left side stands before the others' signs of equality.
     aligned: bool,
@@ -112,7 +112,7 @@ fn filled(begin: &str, begin_width: f64, parts: &[Part], room: f64) -> Vec<Strin
     lines.into_iter().map(|line| line.trim_end().to_owned()).collect()
 }
 
-/// What a line has before a part that it begins with, and how wide that is.
+/// Indentation of a line that begins with a part, and its width.
 fn indentation(part: &Part) -> (String, f64) {
     let quads = 1 + part.level.min(DEEPEST);
     let (joint, space) = part.joint.at_begin();

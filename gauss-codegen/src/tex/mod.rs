@@ -1,4 +1,4 @@
-//! How wide formulas are on paper, and lines that fit a page.
+//! Widths of formulas on paper, and lines that fit a page.
 //!
 //! Read from the LaTeX that the printer writes, as [`mathml`](crate::mathml) does. No TeX is run: widths are estimated
 //! from those of the letters of Computer Modern at 10 pt, a little too large rather than too small.

@@ -15,7 +15,7 @@ pub struct Piece<'a> {
     pub primes: usize,
 }
 
-/// What stands there.
+/// Kind of a piece.
 #[derive(Clone, Debug)]
 pub enum Kind<'a> {
     Letter(char),
@@ -73,7 +73,7 @@ impl<'a> Reader<'a> {
         rest.is_some()
     }
 
-    /// What has been read since.
+    /// Text that has been read since.
     fn since(&self, begin: &'a str) -> &'a str {
         &begin[..begin.len() - self.rest.len()]
     }

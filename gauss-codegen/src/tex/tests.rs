@@ -52,7 +52,7 @@ fn lines_of(equation: &str) -> Vec<String> {
         .collect()
 }
 
-/// Of a line as it is set: what is before `&` ends where what is after it begins.
+/// Width of a line as it is set: the part before `&` ends where the part after it begins.
 fn width_of_line(line: &str) -> f64 {
     let (left, right) = line.split_once('&').expect("an alignment");
     // Brackets of a fixed size are no pair for the reader, which takes them for symbols of the widest letter.

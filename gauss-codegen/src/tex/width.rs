@@ -10,13 +10,13 @@ const SIZES: [f64; 4] = [1.0, 1.0, 0.82, 0.72];
 const THIN: f64 = 1.7;
 const MEDIUM: f64 = 2.3;
 const THICK: f64 = 2.8;
-/// Of + and −, and of =.
+/// Width of + and −, and of =.
 const SIGN: f64 = 7.8;
 /// `\scriptspace`, and the rounding of widths of indices.
 const AFTER_SCRIPTS: f64 = 0.8;
-/// What the italic correction of a letter is outside of its accent.
+/// Part of the italic correction of a letter that is outside of its accent.
 const BESIDE_ACCENT: f64 = 0.6;
-/// What tenths of points lose of words.
+/// Width that words lose by tenths of points.
 const ROUNDED: f64 = 0.3;
 /// `\nulldelimiterspace` on both sides of a fraction.
 const BESIDE_FRACTION: f64 = 2.4;
@@ -27,7 +27,7 @@ const AROUND_ACCENTS: f64 = 6.0;
 /// A radical sign.
 const RADICAL: f64 = 10.0;
 
-/// What TeX puts space between.
+/// Classes of signs that TeX puts space between.
 #[derive(Clone, Copy, PartialEq)]
 enum Class {
     /// Nothing yet.
@@ -43,17 +43,17 @@ enum Class {
     Space,
 }
 
-/// Of a formula.
+/// Width of a formula.
 pub fn width(row: &[Piece<'_>]) -> f64 {
     row_width(row, 0)
 }
 
-/// Of one piece without what is beside it.
+/// Width of one piece without what is beside it.
 pub fn width_of(piece: &Piece<'_>) -> f64 {
     piece_width(piece, 0)
 }
 
-/// Of brackets around a formula, one of two.
+/// Width of brackets around a formula, one of two.
 pub fn bracket(inside: &[Piece<'_>]) -> f64 {
     match fractions(inside) {
         0 if accented(inside) => AROUND_ACCENTS,
@@ -69,7 +69,7 @@ fn accented(row: &[Piece<'_>]) -> bool {
     })
 }
 
-/// How many fractions stand within one another.
+/// Number of fractions that stand within one another.
 pub fn fractions(row: &[Piece<'_>]) -> usize {
     let of = |piece: &Piece<'_>| match &piece.kind {
         Kind::Fraction([above, below]) => 1 + fractions(above).max(fractions(below)),

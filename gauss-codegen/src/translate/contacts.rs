@@ -1,4 +1,4 @@
-//! What may touch, in symbols: gaps, slips, coefficients.
+//! Contacts in symbols: gaps, slips, coefficients.
 
 use proc_macro2::Ident;
 
@@ -12,7 +12,7 @@ use crate::words::Unraw;
 use super::shapes::{Asked, Form, Slips};
 use super::translator::Translator;
 
-/// What is known of the friction and the impacts of all contacts of a clause.
+/// Coefficients of the friction and the impacts of all contacts of a clause.
 struct Coefficients<'g> {
     friction: Vec<Expr<'g>>,
     restitution: Option<Expr<'g>>,
@@ -108,7 +108,7 @@ impl<'g> Translator<'_, 'g> {
         Ok(contacts)
     }
 
-    /// With the names of links of a file.
+    /// Adds the names of links of a file.
     fn named(&self, form: Form<'g>, written: &ContactClause) -> Form<'g> {
         let [first, other] = written.links.each_ref().map(|link| link.as_ref().map(|link| link.unraw().to_string()));
         let [own, touched] = form.bodies;

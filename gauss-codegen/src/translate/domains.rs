@@ -15,7 +15,7 @@ const LIMIT: usize = 100;
 const EXTREME: f64 = 1e19;
 
 impl<'g> Translator<'_, 'g> {
-    /// What is divided by; if that is always zero, the mistake is noted and one stands in its place.
+    /// Checks a divisor; if it is always zero, the mistake is noted and one stands in its place.
     pub(super) fn divisor(&self, value: Expr<'g>, span: Span) -> Expr<'g> {
         if !self.vanishes(value) {
             return value;
@@ -104,7 +104,7 @@ impl<'g> Translator<'_, 'g> {
         self.mistake(written.span, "this number is beyond the range of double precision".to_owned())
     }
 
-    /// Of every term the product of what literals alone determine in it.
+    /// Product of the factors that literals alone determine, for every term.
     fn factors(&self, value: Expr<'g>) -> Vec<Precise> {
         let terms = match value.view() {
             NodeView::Sum(terms) => terms,

@@ -89,7 +89,7 @@ impl<'g> Translator<'_, 'g> {
         Ok(elements)
     }
 
-    /// How a clause acts: a spring with a damper is one element that acts in two ways.
+    /// Actions of a clause: a spring with a damper is one element that acts in two ways.
     fn actions(&self, clause: &ForceClause, name: &str, tree: &Tree<'g>) -> Result<Vec<Action<'g>>> {
         let forces = match clause.row.kind {
             ElementKind::Force => match clause.body() {
@@ -285,7 +285,7 @@ impl<'g> Translator<'_, 'g> {
         self.sprung(name, clause, [length, rest.map_or(square, |rest| (length - rest).powi(2))], tree)
     }
 
-    /// With `stiffness`, by the square of what is stretched, and `damping`, by its rate.
+    /// Spring and damper: `stiffness` by the square of what is stretched, and `damping` by its rate.
     fn sprung(
         &self,
         name: &str,
@@ -303,8 +303,9 @@ impl<'g> Translator<'_, 'g> {
         Ok(actions)
     }
 
-    /// By the twist θ about e₃ of the relative rotation R, at which the turn Q about e₃ is nearest to R: tr(QᵀR) =
-    /// (R₁₁ + R₂₂) cos θ + (R₂₁ − R₁₂) sin θ + R₃₃ is largest. Less the angle without torque it is between −π and π.
+    /// Torsional spring by the twist θ about e₃ of the relative rotation R, at which the turn Q about e₃ is nearest to
+    /// R: tr(QᵀR) = (R₁₁ + R₂₂) cos θ + (R₂₁ − R₁₂) sin θ + R₃₃ is largest. Less the angle without torque it is between
+    /// −π and π.
     fn torsional_spring(&self, name: &str, clause: &ForceClause, tree: &Tree<'g>) -> Result<Vec<Action<'g>>> {
         let r = self.rotation_between(self.both(clause)?, tree);
         let (sine, cosine) = ((r[1][0] - r[0][1]).group(), (r[0][0] + r[1][1]).group());
@@ -325,7 +326,7 @@ impl<'g> Translator<'_, 'g> {
         self.sprung(name, clause, [twist, twist.powi(2)], tree)
     }
 
-    /// By the place of one body relative to the other.
+    /// Bushing by the place of one body relative to the other.
     fn bushing(&self, name: &str, clause: &ForceClause, tree: &Tree<'g>) -> Result<Vec<Action<'g>>> {
         let links = self.both(clause)?;
         let r = self.rotation_between(links, tree);
@@ -478,7 +479,7 @@ impl<'g> Translator<'_, 'g> {
         })
     }
 
-    /// What the velocity of the medium changes beside drag.
+    /// Forces of the velocity of the medium beside drag.
     fn medium(&self, tree: &Tree<'g>) -> Result<Vec<Force<'g>>> {
         let Some(stream) = self.stream(tree)? else { return Ok(Vec::new()) };
         let rate = stream.map(|e| e.derivative(&self.rates));

@@ -1,11 +1,11 @@
-//! What a joint moves by when it is let go.
+//! Coordinates by which a joint that is let go moves.
 
 use crate::algebra::{Expr, Graph};
 use crate::mechanics::{Coordinate, Name};
 
 use super::symbols::Declared;
 
-/// What a joint that is let go moves by.
+/// Coordinates, speeds and rates by which a joint that is let go moves.
 #[derive(Clone)]
 pub(super) struct LetGoBy<'g> {
     /// The name of the body or frame that it carries.

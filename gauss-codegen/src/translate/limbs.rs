@@ -40,7 +40,7 @@ pub fn slot(twin: Twin, kind: usize) -> Twin {
     Twin { slot: twin.slot * KINDS + kind, ..twin }
 }
 
-/// What each input is called, and its first component.
+/// Name of each input, and its first component.
 fn inputs(model: &Model) -> Vec<(String, usize)> {
     let mut place = 0;
     let mut all = Vec::new();

@@ -1,4 +1,4 @@
-//! What clauses say of bodies and of gravity, in the place of symbols.
+//! Mass data and gravity by clauses, in the place of symbols.
 
 use crate::algebra::Expr;
 use crate::error::Result;
@@ -11,9 +11,9 @@ use super::translated::{BodyData, ClauseValue, MassData};
 use super::translator::{Translator, bug};
 use super::value::Value;
 
-/// What follows from mass data in clauses.
+/// Quantities that follow from mass data in clauses.
 pub(super) struct Assigned<'g> {
-    /// Of the body without a name, and gravity.
+    /// Quantities of the body without a name, and gravity.
     pub unnamed: Vec<ClauseValue<'g>>,
     /// Clause by clause of the bodies with names.
     pub named: Vec<Vec<ClauseValue<'g>>>,
@@ -24,7 +24,7 @@ pub(super) struct Assigned<'g> {
 }
 
 impl<'g> Translator<'_, 'g> {
-    /// What clauses say, in the place of symbols.
+    /// Reads the mass data of clauses, in the place of symbols.
     ///
     /// # Errors
     /// Only what the model should have refused: a bug of this crate.
@@ -83,7 +83,7 @@ impl<'g> Translator<'_, 'g> {
 }
 
 impl<'g> Assigned<'g> {
-    /// With the bodies that have them.
+    /// Adds the bodies that have them.
     pub(super) fn of_bodies(self, model: &Model, links: &[usize]) -> MassData<'g> {
         let bodies = model.bodies.iter().zip(links).zip(self.named).map(|((clause, &link), values)| BodyData {
             name: clause.name.clone(),

@@ -15,11 +15,11 @@ use super::translator::{Translator, bug};
 
 type Triple<'g> = [Expr<'g>; 3];
 
-/// Where xx, yy, zz, xy, xz, yz of a symmetric tensor are.
+/// Places of xx, yy, zz, xy, xz, yz of a symmetric tensor.
 const PAIRS: [[usize; 3]; 3] = [[0, 3, 4], [3, 1, 5], [4, 5, 2]];
 
 impl<'g> Translator<'_, 'g> {
-    /// What modes add to the links of their bodies.
+    /// Contributions of modes to the links of their bodies.
     pub(super) fn deformations(&self, tree: &Tree<'g>) -> Result<Vec<Deformation<'g>>> {
         let of = |clause: &ModesClause| {
             let link = self.link(&clause.body)?;

@@ -1,4 +1,4 @@
-//! What is noted on the way, wherever the expressions stand that it is about.
+//! Notes that translation takes on the way, wherever the expressions stand that they are about.
 
 use std::cell::{Ref, RefCell, RefMut};
 
@@ -17,7 +17,7 @@ pub struct Notes<'g>(RefCell<Noted<'g>>);
 pub struct Noted<'g> {
     /// Literal numbers that are constants of their own.
     pub literals: Vec<(Rational, Expr<'g>)>,
-    /// Of these those of limbs that are alike.
+    /// Symbols among these of limbs that are alike.
     pub twins: Vec<(Expr<'g>, Twin)>,
     /// Numbers with which checks may not be sure, where they are written.
     pub extreme: Vec<(Span, Rational)>,
@@ -34,7 +34,7 @@ impl<'g> Notes<'g> {
         Self(RefCell::new(Noted { literals, ..Noted::default() }))
     }
 
-    /// With the literal numbers of others: noted more than once they would be other symbols.
+    /// Notes with the literal numbers of others: noted more than once they would be other symbols.
     pub fn with_literals_of(other: &Self) -> Self {
         let Noted { literals, twins, .. } = &*other.read();
         Self(RefCell::new(Noted { literals: literals.clone(), twins: twins.clone(), ..Noted::default() }))

@@ -1,4 +1,4 @@
-//! Where bodies, frames and points are.
+//! Places of bodies, frames and points.
 
 use proc_macro2::Ident;
 

@@ -1,4 +1,4 @@
-//! What printed equations call by the names of `define`, and angles of files that are meant to be quarter turns.
+//! Names of `define` in printed equations, and angles of files that are meant to be quarter turns.
 
 use crate::algebra::{Expr, Rational};
 use crate::mechanics::{Readings, Tree};

@@ -21,7 +21,7 @@ const LIMIT: usize = 400;
 /// Slips with the number of their tangent.
 pub(super) type Slips<'g> = Vec<(usize, Expr<'g>)>;
 
-/// What is derived of a contact.
+/// Gap, slips and place of a contact.
 pub(super) struct Form<'g> {
     pub(super) gap: Option<Expr<'g>>,
     pub(super) slips: Slips<'g>,
@@ -29,13 +29,13 @@ pub(super) struct Form<'g> {
     pub(super) spin: Option<Expr<'g>>,
     /// Angular velocities about the tangents.
     pub(super) rolls: Slips<'g>,
-    /// Where it touches, if that is known.
+    /// Point and axes, if these are known.
     pub(super) frame: Option<ContactFrame<'g>>,
     /// Names of the bodies that touch, where they are known.
     pub(super) bodies: [Option<String>; 2],
 }
 
-/// What friction a contact is to have.
+/// Friction that a contact is to have.
 pub(super) struct Asked<'g> {
     pub(super) rubs: bool,
     /// The radius of drilling.
@@ -52,7 +52,7 @@ struct Part<'g> {
     body: Option<String>,
 }
 
-/// What is about each place of a shape.
+/// Surface about each place of a shape.
 enum About<'g> {
     /// A sphere of this radius.
     Sphere(Expr<'g>),
@@ -62,15 +62,15 @@ enum About<'g> {
     Ellipsoid(Triple<'g>, Span),
 }
 
-/// What a place is opposite to.
+/// Counterpart of a place.
 struct Facing<'g> {
-    /// How far away it is.
+    /// Distance of the counterpart.
     gap: Expr<'g>,
     /// Out of it, of length one.
     normal: Triple<'g>,
     /// None without friction.
     tangents: Vec<Triple<'g>>,
-    /// Of the point of it that is touched.
+    /// Velocity of the point of it that is touched.
     velocity: Triple<'g>,
     /// The body that is touched, where it turns.
     link: Option<usize>,
@@ -132,7 +132,7 @@ impl<'g> Translator<'_, 'g> {
         self.model.bodies.iter().any(is_body).then_some(word)
     }
 
-    /// What is about each place of a shape.
+    /// Surface about each place of a shape.
     fn about(&self, name: &str, contact: &PointContact, tree: &Tree<'g>) -> Result<About<'g>> {
         if let Some(semi_axes) = &contact.semi_axes {
             let mut lengths = [self.graph.zero(); 3];
@@ -453,7 +453,7 @@ impl<'g> Translator<'_, 'g> {
         vector.map(|component| component * length.recip())
     }
 
-    /// What of a vector is normal to n, over its length.
+    /// Part of a vector that is normal to n, over its length.
     fn tangent(&self, argument: (&str, &str), e: &Expression, vector: Triple<'g>, n: &Triple<'g>) -> Triple<'g> {
         let along = dot(&vector, n);
         let normal = n.map(|component| along * component);

@@ -1,4 +1,4 @@
-//! What a state is made of, as its author calls it: coordinates, speeds.
+//! Parts of a state, as its author calls them: coordinates, speeds.
 
 use proc_macro2::{Ident, Span};
 use quote::format_ident;
@@ -13,7 +13,7 @@ use crate::words::Unraw;
 pub struct Quantity {
     pub ident: Ident,
     pub kind: QuantityKind,
-    /// What it is, in words.
+    /// Description in words.
     pub label: String,
 }
 
@@ -22,7 +22,7 @@ impl Quantity {
         Self { ident, kind, label: label.into() }
     }
 
-    /// How many numbers of a vector it is.
+    /// Number of components of a vector; else 1.
     pub fn size(&self) -> usize {
         if let QuantityKind::Vector(size) = self.kind { size } else { 1 }
     }

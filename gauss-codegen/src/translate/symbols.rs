@@ -18,7 +18,7 @@ pub enum Part {
     Scalar,
     Component(usize),
     Entry(usize, usize),
-    /// Of a `RigidBody`.
+    /// A number of a `RigidBody`.
     Body(Role, usize, usize),
 }
 
@@ -31,21 +31,21 @@ pub struct Source<'g> {
     pub part: Part,
 }
 
-/// What a scene declares, in symbols.
+/// Declarations of a scene, in symbols.
 #[derive(Clone)]
 pub struct Declared<'g> {
     graph: &'g Graph,
     pub time: Expr<'g>,
-    /// That of the chart, whose coordinates and speeds come before the declared ones.
+    /// Body of the chart, whose coordinates and speeds come before the declared ones.
     pub chart: Option<ChartedBody<'g>>,
     pub coordinates: Vec<Coordinate<'g>>,
-    /// How many of them are the chart's.
+    /// Number of coordinates of the chart.
     pub before: usize,
     pub coordinate_names: Vec<Name>,
     /// Which of the coordinates are states of elements.
     pub states: Range<usize>,
     pub speeds: Vec<Expr<'g>>,
-    /// Of the momenta and of the forces: after the coordinate, where its rate is the speed.
+    /// Names of the momenta and of the forces: after the coordinate, where its rate is the speed.
     pub momentum_names: Vec<Name>,
     pub force_names: Vec<Name>,
     pub speed_rates: Vec<Expr<'g>>,
@@ -63,7 +63,7 @@ pub struct Declared<'g> {
     pub sources: Vec<Source<'g>>,
 }
 
-/// How many speeds are under one name.
+/// Number of speeds under one name.
 pub fn size_of_speed(kind: SpeedKind) -> usize {
     match kind {
         SpeedKind::Scalar => 1,
@@ -186,7 +186,7 @@ impl<'g> Declared<'g> {
         declared
     }
 
-    /// What parameters are, and nothing else yet.
+    /// Declares the symbols of parameters, and nothing else yet.
     fn of_parameters(graph: &'g Graph, model: &Model) -> Self {
         let mut declared = Self {
             graph,
@@ -215,12 +215,12 @@ impl<'g> Declared<'g> {
         declared
     }
 
-    /// How many components ψ has.
+    /// Number of components of ψ.
     pub fn size(&self) -> usize {
         self.coordinates.iter().map(Coordinate::size).sum()
     }
 
-    /// Of all components of ψ those of one coordinate, the chart's among them.
+    /// Components of ψ that are those of one coordinate, the chart's among them.
     pub fn rate_of<'a>(&self, coordinate: usize, kinematics: &'a [Expr<'g>]) -> &'a [Expr<'g>] {
         let first: usize = self.coordinates[..coordinate].iter().map(Coordinate::size).sum();
         &kinematics[first..first + self.coordinates[coordinate].size()]
@@ -373,7 +373,7 @@ pub fn free_fall<'g>(model: &Model, zero: Expr<'g>, g: Expr<'g>) -> [Expr<'g>; 3
     std::array::from_fn(|i| if i == up(model) { -g } else { zero })
 }
 
-/// What a body has, from the shapes of what plays the roles.
+/// Quantities that a body has, from the shapes of the values that play the roles.
 pub fn body_shape(shape_of: impl Fn(Role) -> Option<Shape>) -> BodyShape {
     let central = shape_of(Role::CentralInertia);
     BodyShape {

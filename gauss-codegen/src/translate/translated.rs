@@ -1,4 +1,4 @@
-//! What comes out of the translation: plain data.
+//! Result of the translation: plain data.
 
 use proc_macro2::{Ident, Span};
 
@@ -21,10 +21,10 @@ pub struct Translated<'g> {
     pub given: Given<'g>,
 }
 
-/// What is known of a scene beside its equations: what is only written down, and where things were written.
+/// Names, units and spans of a scene, for messages and print, beside its equations.
 pub struct Given<'g> {
     pub item: Item,
-    /// Where the symbols of parameters are read.
+    /// Places where the symbols of parameters are read.
     pub sources: Vec<Source<'g>>,
     /// The numbers of fields.
     pub parameters: Vec<Parameter<'g>>,
@@ -32,7 +32,7 @@ pub struct Given<'g> {
     pub literals: Vec<(Rational, Expr<'g>)>,
     /// Symbols of limbs that are alike.
     pub twins: Vec<(Expr<'g>, Twin)>,
-    /// What the author named, and what is read as something else in print.
+    /// Names of the author, and numbers that are read as something else in print.
     pub readings: Readings<'g>,
     /// Numbers with which checks may not be sure, where they are written.
     pub extreme: Vec<(Span, Rational)>,
@@ -44,7 +44,7 @@ pub struct Given<'g> {
     pub mass_data: MassData<'g>,
     /// The links of the frames that are wanted, in their order.
     pub frames: Vec<usize>,
-    /// What the speeds are called.
+    /// Names of the speeds.
     pub speeds: Vec<Named>,
     /// Coordinates and speeds of a state.
     pub state: [Vec<Quantity>; 2],
@@ -60,7 +60,7 @@ pub struct Given<'g> {
 
 /// Mass data and gravity that are written in clauses, and the bodies that have them.
 pub struct MassData<'g> {
-    /// Of the body without a name, and gravity.
+    /// Values of the body without a name, and gravity.
     pub unnamed: Vec<ClauseValue<'g>>,
     /// Bodies and frames, clause by clause.
     pub bodies: Vec<BodyData<'g>>,
@@ -78,7 +78,7 @@ pub struct BodyData<'g> {
     pub link: usize,
     /// Its principal moments need not obey the triangle inequality.
     pub is_formal: bool,
-    /// What its clause says of a body with a name.
+    /// Values that the clause of a body with a name gives.
     pub values: Vec<ClauseValue<'g>>,
 }
 
@@ -96,7 +96,7 @@ pub struct Named {
     pub span: Span,
 }
 
-/// Where a constraint is written.
+/// Places where a constraint is written.
 pub struct ConstraintPlace {
     /// The word `constraint`.
     pub word: Span,
@@ -107,13 +107,13 @@ pub struct ConstraintPlace {
     pub is_vector: bool,
 }
 
-/// Where gap and slips of a contact are written.
+/// Places where gap and slips of a contact are written.
 pub struct ContactPlace {
     /// `None`: it has none.
     pub gap: Option<Span>,
-    /// With the spin.
+    /// Places of the slips, with the spin.
     pub slips: Vec<Span>,
-    /// Of the rolling resistance that goes with it.
+    /// Places of the rolling resistance that goes with it.
     pub rolls: Vec<Span>,
 }
 
@@ -142,7 +142,7 @@ impl<'g> Given<'g> {
         self.sources.iter().any(|source| source.field == field)
     }
 
-    /// What a role of a body is called: by its field, or by its word after the name of the body.
+    /// Name of a role of a body: by its field, or by its word after the name of the body.
     pub fn role_name(&self, body: Option<&Ident>, role: Role) -> String {
         match (body, self.item.field(role)) {
             (Some(name), _) => format!("{}.{}", name.unraw(), role.word()),

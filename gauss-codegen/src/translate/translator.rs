@@ -119,7 +119,7 @@ fn contact_place(clause: &model::ContactClause) -> ContactPlace {
 /// ḃ and ω̂, where they are known.
 pub(super) type ObservedRates<'g> = [Option<[Expr<'g>; 3]>; 2];
 
-/// What expressions are translated with.
+/// Translator of expressions, with all that they name.
 #[derive(Clone)]
 pub(super) struct Translator<'a, 'g> {
     pub(super) graph: &'g Graph,
@@ -129,7 +129,7 @@ pub(super) struct Translator<'a, 'g> {
     pub(super) functions: &'a HashMap<String, OwnFunction>,
     pub(super) notes: &'a Notes<'g>,
     pub(super) pi: Expr<'g>,
-    /// What names stand for, those of bodies and frames excepted.
+    /// Values of names, those of bodies and frames excepted.
     pub(super) names: HashMap<String, Value<'g>>,
     /// Indices of bodies and frames among the links, by name.
     pub(super) links: HashMap<String, usize>,
@@ -144,7 +144,7 @@ pub(super) struct Translator<'a, 'g> {
     pub(super) observed: Option<Observed<'g>>,
     /// The horizontal coordinates over which a height is given, while it is translated.
     pub(super) place: Option<[Expr<'g>; 2]>,
-    /// Of joints that are let go, while the scene is translated for their reactions.
+    /// Coordinates of joints that are let go, while the scene is translated for their reactions.
     pub(super) let_go: Vec<LetGoBy<'g>>,
 }
 
@@ -348,7 +348,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         }
     }
 
-    /// How many of the speeds are the chart's.
+    /// Number of the speeds of the chart.
     pub(super) fn speeds_of_chart(&self) -> usize {
         self.declared.chart.as_ref().map_or(0, |chart| chart.kinematics.speeds.len())
     }

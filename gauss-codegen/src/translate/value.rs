@@ -1,11 +1,11 @@
-//! What expressions stand for.
+//! Values of expressions.
 
 use crate::algebra::{Expr, Graph, Map};
 use crate::mechanics::{Tree, Turn, about_axis, add, common, identity, point_seen_from, subtract, turned};
 
 type Triple<'g> = [Expr<'g>; 3];
 
-/// What an expression stands for.
+/// Value of an expression.
 #[derive(Clone)]
 pub enum Value<'g> {
     Scalar(Expr<'g>),
@@ -67,7 +67,7 @@ impl<'g> Local<'g> {
         if self.is_point { None } else { turned(&tree.links, [self.link, link], &self.components) }
     }
 
-    /// Of two vectors the components in the axes of the last link that both hang on.
+    /// Components of two vectors in the axes of the last link that both hang on.
     pub fn together(&self, other: &Self, tree: &Tree<'g>) -> Option<(usize, [Triple<'g>; 2])> {
         let link = common(&tree.links, [self.link, other.link])?;
         Some((link, [self.seen_by(link, tree)?, other.seen_by(link, tree)?]))
@@ -101,7 +101,7 @@ impl<'g> Local<'g> {
 /// One factor of a rotation.
 #[derive(Clone, Copy)]
 pub enum Piece<'g> {
-    /// By an angle about an axis.
+    /// A turn by an angle about an axis.
     About(usize, Expr<'g>),
     /// A coordinate, or a quarter turn, whose entries are integers.
     Given(Turn<'g>),

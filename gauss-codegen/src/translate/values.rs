@@ -18,8 +18,8 @@ type Triple<'g> = [Expr<'g>; 3];
 /// Numerators and denominators up to which literals are fractions in the algebra.
 const EXACT: i64 = 1000;
 
-/// How many quarters of a turn a literal angle is: `1.5707963267948966` is meant to be π/2, and its sine and cosine to
-/// be one and zero, not 6e-17.
+/// Number of quarter turns of a literal angle: `1.5707963267948966` is meant to be π/2, and its sine and cosine to be
+/// one and zero, not 6e-17.
 fn quarter_turns(angle: &Expression) -> Option<usize> {
     if let Some((turns, 1)) = angle.turns_of_pi().and_then(|turns| (turns * Rational::from_integer(2)).parts()) {
         return usize::try_from(turns.rem_euclid(4)).ok();

@@ -1,4 +1,4 @@
-//! What derivatives lose, beside the same programs in 256 binary digits, and what is said of it.
+//! Losses of derivatives, beside the same programs in 256 binary digits, and the figures for them.
 
 use crate::accuracy::random::Random;
 use crate::algebra::{Evaluation, Map, Notation, Number, print};
@@ -11,7 +11,7 @@ use super::{MOST, WITHIN, above, loss_beside, number_from, state, values_of, val
 
 /// Two of each kind: some seconds.
 const SCENES: u64 = 16;
-/// What derivatives may lose at a state where accelerations keep their digits: two decimal places.
+/// Largest loss of derivatives at a state where accelerations keep their digits: two decimal places.
 const FEW: f64 = 100.0;
 
 /// The loss of a derivative at a state, and what its kernel says.
@@ -21,7 +21,7 @@ struct Lost {
     text: String,
 }
 
-/// With constants from the parameters of a state.
+/// Runs a derivative with constants from the parameters of a state.
 fn computed<'g, N: Number>(kernel: &Kernel<'g>, derivative: &Derivative<'g>, mut state: Map<u32, N>) -> Vec<N> {
     let mut evaluation = Evaluation::new(&state);
     let folded: Vec<(u32, N)> = kernel.folded.iter().map(|(symbol, e)| (symbol.key(), evaluation.value(*e))).collect();
@@ -31,7 +31,7 @@ fn computed<'g, N: Number>(kernel: &Kernel<'g>, derivative: &Derivative<'g>, mut
     derivative.program.run(&state)
 }
 
-/// Of all derivatives of a kernel that have a value.
+/// Losses of all derivatives of a kernel that have a value.
 fn losses_at(derived: &Derived<'_, '_>, mut values: Vec<(u32, f64)>, seed: u64) -> Vec<Lost> {
     let mut random = Random::new(seed ^ 0x0123);
     let rates = &derived.subject.system.scene.speed_rates;
@@ -46,7 +46,7 @@ fn losses_at(derived: &Derived<'_, '_>, mut values: Vec<(u32, f64)>, seed: u64) 
     derived.kernel.derivatives.iter().filter_map(lost).collect()
 }
 
-/// Of scenes whose kernels have all derivatives.
+/// Losses in scenes whose kernels have all derivatives.
 fn losses_of(source: &str, values: impl Fn(&Derived<'_, '_>) -> Vec<(u32, f64)>, seed: u64) -> Vec<Lost> {
     let source = source.replace(")] struct", ", linearize(inverse, hessian))] struct");
     let input: syn::DeriveInput = syn::parse_str(&source).expect("the source is a struct");
@@ -76,7 +76,7 @@ fn derivatives_of_random_scenes_lose_what_is_said() {
     }
 }
 
-/// What derivatives lose at one state of a scene of scalars, with the values of the fields of its struct.
+/// Losses of derivatives at one state of a scene of scalars, with the values of the fields of its struct.
 fn losses_there(scene: &str, fields: &[(&str, f64)], configuration: &[f64], speeds: &[f64]) -> Vec<Lost> {
     let configuration: Vec<Vec<f64>> = configuration.iter().map(|number| vec![*number]).collect();
     let values = |derived: &Derived<'_, '_>| {

@@ -1,5 +1,5 @@
-//! What is said of losses: beside 106 binary digits at the states that are found, and beside states that are known to
-//! be bad.
+//! Figures for losses: beside 106 binary digits at the states that are found, and beside states that are known to be
+//! bad.
 
 use crate::accuracy::flat::{Slot, Trace};
 use crate::accuracy::moves::Draft;
@@ -16,10 +16,10 @@ use super::Random;
 const WITHIN: f64 = 10.0;
 /// The loss from which on first order is not enough to say more.
 const ALL: f64 = 1e12;
-/// Of what vanishes identically the changes are roundings of 106 digits, 2⁻¹⁰⁴, over what inputs are changed by; those
-/// of double precision are their 2⁵⁹ times, by chance some of them less.
+/// Bound of the changes of a result that vanishes identically: they are roundings of 106 digits, 2⁻¹⁰⁴, over what
+/// inputs are changed by; those of double precision are their 2⁵⁹ times, by chance some of them less.
 const VANISHING: f64 = 1.0 / (1_u64 << 55) as f64;
-/// What is not worth a word.
+/// Loss up to which nothing is said.
 const LITTLE: f64 = 10.0;
 
 /// A method of a scene, with its figure before it is rounded, its loss where the search found it, and its loss at a
@@ -32,8 +32,8 @@ struct Seen {
     given: f64,
 }
 
-/// What the losses of functions and of what is written besides are by measurement: beside 106 digits, and what changes
-/// of all inputs do.
+/// Losses of functions and of the programs besides by measurement: beside 106 digits, and the effects of changes of all
+/// inputs.
 fn measured(search: &Search<'_, '_, '_>, draft: &Draft<'_>, trace: &mut Trace) -> [Vec<f64>; 2] {
     // Far below what sums are near zero by, and far above 2⁻¹⁰⁴.
     const CHANGE: f64 = 1.0 / (1_u64 << 45) as f64;
@@ -116,7 +116,7 @@ fn seen(clauses: &str, fields: &str, given: &[(&str, f64)]) -> Vec<Seen> {
     all
 }
 
-/// What is written beside methods: all of them together, and derivatives.
+/// Name of the programs beside methods: all of them together, and derivatives.
 const DERIVATIVES: &str = "derivatives";
 
 /// A scene with its fields, a method, and a state where that is known to lose digits, or not.
@@ -197,7 +197,7 @@ fn what_is_said_is_lost_where_the_search_found_it() {
     }
 }
 
-/// By state, by parameters, and second ones.
+/// Figures of derivatives by state, by parameters, and of second ones hold at the states of the search.
 #[test]
 fn what_is_said_of_derivatives_is_lost_at_the_states_of_the_search() {
     for (clauses, fields) in [

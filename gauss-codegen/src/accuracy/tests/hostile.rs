@@ -11,7 +11,7 @@ use crate::mechanics::{Method, rotation_of_quaternion};
 
 use super::{computed, loss_beside, values_of};
 
-/// What may be lost: two digits, in units of what a change of every number in its last place does.
+/// Largest loss: two digits, in units of the effect of a change of every number in its last place.
 const MOST: f64 = 100.0;
 const METHODS: [Method; 6] = [
     Method::Acceleration,

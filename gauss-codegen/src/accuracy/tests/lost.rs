@@ -72,7 +72,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// What is lost, and what is said of it.
+/// The loss, and the figure for it.
 fn lost(derived: &Derived<'_, '_>, case: &Case) -> (f64, f64) {
     let values = values_of(derived, &case.configuration, case.speeds.iter().copied());
     let formulas = derived.subject.system.formulas();

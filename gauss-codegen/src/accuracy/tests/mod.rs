@@ -25,21 +25,21 @@ use crate::mechanics::{Coordinate, Method, acceleration_by_definition};
 use super::random::Random;
 use scenes::Scene;
 
-/// How many by default: some seconds. Of half as many one is expected to lose much, a number of which nothing can be
-/// said.
+/// Number of scenes by default: some seconds. Of half as many one is expected to lose much, a number of which nothing
+/// can be said.
 const SCENES: u64 = 208;
 /// Changes of all numbers at once, with signs of their own, and their size.
 const CHANGES: u64 = 2;
 const CHANGE: f64 = 1.0 / (1_u64 << 44) as f64;
 
-/// What scenes are counted by that lose more, and what no scene may lose unless its kernel says so.
+/// Loss from which scenes are counted, and the loss that no scene may have unless its kernel says so.
 const MOST: f64 = 1e3;
 const SELDOM: f64 = 30.0;
 /// A loss is at most so many times what the kernel says, whose search tries some hundred states of all that there are:
 /// at two neighbouring states the roundings of one program amount to losses that differ by as much.
 const WITHIN: f64 = 10.0;
-/// What half of a kind may lose: the roundings of some ten operations that do not amplify each other, in units of one
-/// rounding of every number, are of the order of one.
+/// Loss that half of a kind may have: the roundings of some ten operations that do not amplify each other, in units of
+/// one rounding of every number, are of the order of one.
 const ORDINARY: f64 = 2.0;
 /// Results below this share of the largest vanish identically; the largest is not below this.
 const VANISHING: f64 = 1.0 / (1_u64 << 60) as f64;
@@ -84,7 +84,7 @@ fn loss_beside(
     Some(worst).filter(|(loss, _)| !loss.is_nan())
 }
 
-/// What a scene is given at a state, with speeds by a seed.
+/// Values that a scene is given at a state, with speeds by a seed.
 fn values_of_scene(derived: &Derived<'_, '_>, scene: &Scene, seed: u64) -> Vec<(u32, f64)> {
     let mut random = Random::new(seed ^ 0xabcdef);
     values_of(derived, &scene.values, std::iter::repeat_with(|| scene.speed * random.signed(0.5)))
@@ -119,7 +119,7 @@ fn values_of(
     values
 }
 
-/// What all symbols are, with all numbers changed where a sequence of signs is given.
+/// Values of all symbols, with all numbers changed where a sequence of signs is given.
 fn state<N: Number>(derived: &Derived<'_, '_>, values: &[(u32, f64)], mut changes: Option<&mut Random>) -> Map<u32, N> {
     let subject = &derived.subject;
     let mut state: Map<u32, N> = Map::default();
@@ -187,7 +187,7 @@ fn losses(seeds: impl Iterator<Item = u64>) -> Vec<Lost> {
     seeds.filter_map(of).collect()
 }
 
-/// What is said of accelerations.
+/// Figure of the accelerations.
 fn said(derived: &Derived<'_, '_>) -> Option<f64> {
     Some(derived.kernel.functions.acceleration.figure.as_ref()?.rounded()[0])
 }

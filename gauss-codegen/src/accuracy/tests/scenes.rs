@@ -8,7 +8,7 @@ pub struct Scene {
     pub kind: &'static str,
     clauses: Vec<String>,
     coordinates: Vec<String>,
-    /// Of scalars one number, of poses a quaternion (to be scaled) and a position.
+    /// Values of the coordinates: of scalars one number, of poses a quaternion (to be scaled) and a position.
     pub values: Vec<Vec<f64>>,
     /// Speeds are of this size.
     pub speed: f64,
@@ -31,7 +31,7 @@ pub fn scene(seed: u64) -> Scene {
     scene
 }
 
-/// With more digits than those that stay exact.
+/// A number with more digits than those that stay exact.
 fn number(value: f64) -> String {
     format!("{value:.12e}")
 }
@@ -41,7 +41,7 @@ fn vector(numbers: [f64; 3]) -> String {
 }
 
 impl Scene {
-    /// With coordinates and clauses as they are written.
+    /// A scene with coordinates and clauses as they are written.
     pub fn written(coordinates: &[&str], clauses: &str, values: &[&[f64]], speed: f64) -> Self {
         Self {
             kind: "written",

@@ -1,4 +1,4 @@
-//! How much may be made of one graph: memory and time are bounded by counts, so that builds repeat.
+//! Limits of one graph: memory and time are bounded by counts, so that builds repeat.
 
 use std::cell::Cell;
 
@@ -13,7 +13,7 @@ const USUAL: usize = 3_000_000;
 /// known needs; and as many rewritings of them. What would take more stays as it is.
 const TERMS: u64 = 1_000_000;
 
-/// What is left.
+/// Counts that are left.
 #[derive(Clone)]
 pub(in crate::algebra) struct Budget {
     /// Nodes and edges, and how many there may be.

@@ -22,7 +22,7 @@ pub enum Function {
     Tanh,
 }
 
-/// Of how many numbers a function of the user's own may be.
+/// Largest number of variables of a function of the user's own.
 pub const MOST_VARIABLES: usize = 3;
 
 /// A function that the user gives, of one number or several, or a derivative of it: only its name is known when code is
@@ -33,11 +33,11 @@ pub const MOST_VARIABLES: usize = 3;
 pub struct OwnFunction {
     /// Which of them: an index into a list of names.
     pub index: u16,
-    /// Of how many numbers it is, at least one.
+    /// Number of its variables, at least one.
     pub variables: u8,
-    /// How often it is differentiated by each of them.
+    /// Order of the derivative by each of them.
     pub orders: [u8; MOST_VARIABLES],
-    /// How many derivatives by each variable are continuous, of a table; `None`: it is smooth.
+    /// Number of continuous derivatives by each variable, of a table; `None`: it is smooth.
     pub continuous: Option<u8>,
 }
 
@@ -54,7 +54,7 @@ impl OwnFunction {
         self
     }
 
-    /// How often it is differentiated by the variable by which it is most often.
+    /// The largest of the orders by its variables.
     pub const fn order(self) -> u8 {
         let [mut most, second, third] = self.orders;
         if second > most {
@@ -63,15 +63,15 @@ impl OwnFunction {
         if third > most { third } else { most }
     }
 
-    /// What follows its name where it is a function of its own: nothing of the function itself, the order of a
-    /// derivative by the only variable, the orders by each of several: `_2`, `_1_0`.
+    /// Suffix of its name where it is a function of its own: nothing of the function itself, the order of a derivative
+    /// by the only variable, the orders by each of several: `_2`, `_1_0`.
     pub(crate) fn suffix(self) -> String {
         let orders = self.of(&self.orders);
         let orders = if self.order() == 0 { &[] } else { orders };
         orders.iter().map(|order| format!("_{order}")).collect()
     }
 
-    /// Those of its arguments that are not mere filling.
+    /// Arguments that are not mere filling.
     pub(crate) fn of<T>(self, arguments: &[T; MOST_VARIABLES]) -> &[T] {
         &arguments[..usize::from(self.variables)]
     }
@@ -103,7 +103,7 @@ pub enum BinaryFunction {
 }
 
 impl Function {
-    /// What users write.
+    /// Name as users write it.
     pub const fn name(self) -> &'static str {
         match self {
             Function::Sin => "sin",
@@ -135,7 +135,7 @@ impl Function {
 }
 
 impl BinaryFunction {
-    /// What users write.
+    /// Name as users write it.
     pub const fn name(self) -> &'static str {
         match self {
             BinaryFunction::Atan2 => "atan2",

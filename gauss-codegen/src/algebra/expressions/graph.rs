@@ -10,7 +10,7 @@ use crate::algebra::expressions::node::{Id, Node};
 use crate::algebra::map::{Key, Places};
 use crate::algebra::rational::Rational;
 
-/// What a symbol stands for, as far as algebra cares: its names, and whether it is fixed once the parameters are known.
+/// A symbol, as far as algebra cares: its names, and whether it is fixed once the parameters are known.
 #[derive(Clone, Debug)]
 pub struct Symbol {
     /// Name in plain text.
@@ -28,7 +28,7 @@ const LONG: usize = 32;
 pub(super) const ZERO: Id = 0;
 pub(super) const ONE: Id = 1;
 
-/// What a node is, with its children as expressions.
+/// A node, with its children as expressions.
 pub enum NodeView<'g> {
     Number(Rational),
     Symbol(u32),
@@ -41,7 +41,7 @@ pub enum NodeView<'g> {
     Opaque(Expr<'g>),
 }
 
-/// What is known of a node as soon as it is made.
+/// Properties of a node that are known as soon as it is made.
 #[derive(Clone, Copy)]
 struct Traits {
     /// Every symbol in it is constant.
@@ -56,7 +56,7 @@ struct Traits {
 pub struct Graph {
     nodes: RefCell<Vec<Node>>,
     traits: RefCell<Vec<Traits>>,
-    /// How much more may be made of it.
+    /// Limits of what more may be made of it.
     pub(in crate::algebra) budget: Budget,
     index: RefCell<Places>,
     symbols: RefCell<Vec<Symbol>>,
@@ -92,7 +92,7 @@ impl Graph {
         self.undefined.get()
     }
 
-    /// What comes of some work, or `None` where that divides by zero; the rest keeps its meaning.
+    /// Result of some work, or `None` where that divides by zero; the rest keeps its meaning.
     pub fn defined<R>(&self, work: impl FnOnce() -> R) -> Option<R> {
         let earlier = self.undefined.replace(false);
         let result = work();
@@ -141,7 +141,7 @@ impl Graph {
         self.symbols.borrow().iter().any(holds)
     }
 
-    /// What a group is a group of.
+    /// The expression inside a group.
     pub(in crate::algebra) fn ungrouped(&self, mut id: Id) -> Id {
         while let Node::Group(inner) | Node::Opaque(inner) = self.node(id) {
             id = inner;
@@ -195,8 +195,8 @@ impl Graph {
         Expr { graph: self, id }
     }
 
-    /// What comes of some work, without the expressions that it makes: the graph is afterwards what it was before.
-    /// Nothing that is kept may refer to them.
+    /// Result of some work, without the expressions that it makes: the graph is afterwards what it was before. Nothing
+    /// that is kept may refer to them.
     pub fn aside<R: 'static>(&self, work: impl FnOnce() -> R) -> R {
         let (nodes, symbols, functions) =
             (self.nodes.borrow().len(), self.symbols.borrow().len(), self.functions.borrow().len());
@@ -423,7 +423,7 @@ impl Graph {
         if terms[0].0.is_negative() { -content } else { content }
     }
 
-    /// What all coefficients of a sum have in common, with the sign of the first.
+    /// Common divisor of all coefficients of a sum, with the sign of the first.
     pub(super) fn shared_content(&self, terms: &[(Rational, Id)]) -> Rational {
         let mut content = terms[0].0;
         for &(c, _) in &terms[1..] {

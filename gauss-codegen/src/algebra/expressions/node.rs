@@ -1,4 +1,4 @@
-//! What expressions are made of: nodes with their children by index.
+//! Nodes that expressions are made of, with their children by index.
 
 use std::rc::Rc;
 
@@ -28,7 +28,7 @@ pub(in crate::algebra) enum Node {
 }
 
 impl Node {
-    /// How many parts it has.
+    /// Number of its parts.
     pub(super) fn edges(&self) -> usize {
         match self {
             Node::Sum(terms) => terms.len(),
@@ -69,7 +69,7 @@ impl Key for Node {
 }
 
 impl Node {
-    /// What it is made of.
+    /// Nodes that it is made of.
     pub(in crate::algebra) fn children(&self) -> Vec<Id> {
         match self {
             Node::Number(_) | Node::Symbol(_) => Vec::new(),

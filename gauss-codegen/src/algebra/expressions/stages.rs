@@ -1,4 +1,4 @@
-//! How large and how deep expressions are, and what they are made of in order: parts before what is made of them.
+//! Size and depth of expressions, and their parts in order: parts before what is made of them.
 
 use std::cell::RefCell;
 

@@ -69,12 +69,12 @@ pub struct Substitution<'g> {
 }
 
 impl<'g> Substitution<'g> {
-    /// By the keys of the symbols.
+    /// Substitutes symbols, by their keys.
     pub fn new(replacement: Map<u32, Expr<'g>>) -> Self {
         Self { replacement, rebuilt: RefCell::default() }
     }
 
-    /// With expressions in the places of parts that are no symbols, by their keys.
+    /// Substitutes parts that are no symbols, by their keys.
     pub(in crate::algebra) fn of_parts(parts: Map<Id, Expr<'g>>) -> Self {
         Self { replacement: Map::default(), rebuilt: RefCell::new(parts) }
     }

@@ -32,8 +32,8 @@ pub fn without_differences<'g>(outputs: &[Expr<'g>]) -> Vec<Vec<Expr<'g>>> {
     found
 }
 
-/// What zero is taken for in sums of roots that are divided by: no length is as small, so that their sum stays as it
-/// is, and a difference that is zero stays zero.
+/// Stand-in for zero in sums of roots that are divided by: no length is as small, so that their sum stays as it is, and
+/// a difference that is zero stays zero.
 fn tiny() -> Rational {
     Rational::new(1, 1 << 50).pow(2)
 }

@@ -118,7 +118,7 @@ fn series<N: ManyDigits>(first: N, factor: N, from: u32, step: u32) -> N {
     sum
 }
 
-/// Of what is left of x without powers of two, below ln 2/128, squared six times.
+/// Exponential of what is left of x without powers of two, below ln 2/128, squared six times.
 fn exp<N: ManyDigits>(x: N) -> N {
     let near = x.to_f64();
     if near.abs() > LARGEST_EXPONENT {
@@ -129,7 +129,7 @@ fn exp<N: ManyDigits>(x: N) -> N {
     (0..6).fold(small, |power, _| power * power).times_two_to(halvings as i64)
 }
 
-/// By Halley's iteration on the exponential.
+/// Logarithm by Halley's iteration on the exponential.
 fn ln<N: ManyDigits>(x: N) -> N {
     let size = x.magnitude();
     let guess = x.times_two_to(-size).to_f64().ln() + size as f64 * LN_2[0];
@@ -139,7 +139,7 @@ fn ln<N: ManyDigits>(x: N) -> N {
     })
 }
 
-/// By Halley's iteration.
+/// Square root by Halley's iteration.
 fn sqrt<N: ManyDigits>(x: N) -> N {
     if x == N::number(0.0) {
         return x;
@@ -153,7 +153,7 @@ fn sqrt<N: ManyDigits>(x: N) -> N {
     root.times_two_to(half)
 }
 
-/// By series near zero, where the exponentials cancel.
+/// Hyperbolic tangent, by series near zero, where the exponentials cancel.
 fn tanh<N: ManyDigits>(x: N) -> N {
     let size = x.to_f64().abs();
     if size < 0.5 {
@@ -167,7 +167,7 @@ fn tanh<N: ManyDigits>(x: N) -> N {
     (up - down) / (up + down)
 }
 
-/// Of a base that is not negative.
+/// Power of a base that is not negative.
 fn powf<N: ManyDigits>(base: N, exponent: N) -> N {
     let zero = N::number(0.0);
     if exponent == zero {
@@ -179,7 +179,7 @@ fn powf<N: ManyDigits>(base: N, exponent: N) -> N {
     }
 }
 
-/// By Newton's iteration on the tangent of the remaining angle.
+/// Angle by Newton's iteration on the tangent of the remaining angle.
 fn atan2<N: ManyDigits>(y: N, x: N) -> N {
     let zero = N::number(0.0);
     if y == zero && x >= zero {

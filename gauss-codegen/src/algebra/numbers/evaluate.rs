@@ -8,8 +8,8 @@ use crate::algebra::expressions::node::{Id, Node};
 use crate::algebra::map::Map;
 use crate::algebra::rational::Rational;
 
-/// What expressions are evaluated in, and a program can be run on: `f64`, `f32`, and with a few lines dual numbers,
-/// intervals or numbers of more digits.
+/// Numbers that expressions are evaluated in, and a program can be run on: `f64`, `f32`, and with a few lines dual
+/// numbers, intervals or numbers of more digits.
 pub trait Scalar:
     Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
@@ -74,10 +74,10 @@ macro_rules! primitive {
 primitive!(f64);
 primitive!(f32);
 
-/// What checks are made in.
+/// Numbers that checks are made in.
 pub trait Number: Scalar + Copy + PartialOrd {
-    /// What is left of an unknown when numbers of order one are eliminated from it, and should be zero: some thousand
-    /// roundings.
+    /// Bound of the rest of an unknown when numbers of order one are eliminated from it, which should be zero: some
+    /// thousand roundings.
     const NEGLIGIBLE: f64;
 
     /// The nearest one.
@@ -121,7 +121,7 @@ pub trait Number: Scalar + Copy + PartialOrd {
     }
 }
 
-/// How fast the stand-in of a function of the user's own changes with each of its arguments.
+/// Rates of the stand-in of a function of the user's own by each of its arguments.
 const FREQUENCIES: [f64; MOST_VARIABLES] = [1.0, 0.6, 1.7];
 
 impl Number for f64 {

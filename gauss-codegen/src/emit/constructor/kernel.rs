@@ -115,7 +115,7 @@ fn constant(name: &Ident, table: &Table, span: Span, private: &TokenStream) -> T
     }
 }
 
-/// What the scalar must be, where it is a type parameter.
+/// Bound of the scalar, where it is a type parameter.
 pub fn bound(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (ty, real) = (derived.scalar().ty(), derived.scalar().real);
     derived.is_generic().then(|| quote!(#ty: #real,))

@@ -16,12 +16,12 @@ use crate::emit::dialect::program::statements;
 /// States at which a dissipation function is looked at.
 const STATES: usize = 4;
 
-/// What must hold of masses of particles.
+/// Checks of the masses of particles.
 pub fn masses(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     written(derived, symbols, |kind| kind == LawKind::MassInSum)
 }
 
-/// What must hold of constants of springs and stops.
+/// Checks of the constants of springs and stops.
 pub fn checked(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     written(derived, symbols, |kind| kind != LawKind::MassInSum)
 }

@@ -27,7 +27,7 @@ fn part(quantity: Role) -> &'static str {
     }
 }
 
-/// How the value of a symbol is written where the locals are.
+/// Tokens of the value of a symbol where the locals are.
 pub fn element(source: &Source<'_>) -> TokenStream {
     let plain = local(source.field, "");
     match source.part {
@@ -45,7 +45,7 @@ pub fn element(source: &Source<'_>) -> TokenStream {
     }
 }
 
-/// How the symbols of parameters are written, where they are read.
+/// Tokens of the symbols of parameters, where they are read.
 pub fn symbols_of_parameters(derived: &Derived<'_, '_>) -> Map<u32, TokenStream> {
     let (given, scalar) = (derived.subject.given, derived.scalar());
     let mut symbols: Map<u32, TokenStream> = given.sources.iter().map(|s| (s.symbol.key(), element(s))).collect();

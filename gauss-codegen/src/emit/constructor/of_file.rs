@@ -1,4 +1,4 @@
-//! What a file says in numbers that fields and states can begin with: bodies, postures.
+//! Numbers of a file that fields and states can begin with: bodies, postures.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;

@@ -8,8 +8,8 @@ use crate::kernel::{LoweredColumns, Operand, Parts, TOGETHER};
 
 use crate::emit::derived::Derived;
 
-/// What a program computes before a linear system is solved, the substitution for bundles of columns, and the results
-/// where they belong.
+/// Code of the program before a linear system is solved, the substitution for bundles of columns, and the results where
+/// they belong.
 pub fn solved_together<'g>(derived: &Derived<'_, 'g>, columns: &LoweredColumns<'g>, states: usize) -> TokenStream {
     let (private, scalar) = (derived.private(), derived.scalar());
     let zero = scalar.number(&Rational::zero());
@@ -41,7 +41,7 @@ pub fn solved_together<'g>(derived: &Derived<'_, 'g>, columns: &LoweredColumns<'
     }
 }
 
-/// Where a column of derivatives is kept.
+/// Matrix and column where a column of derivatives is kept.
 fn place(states: usize, direction: usize) -> (TokenStream, usize) {
     match direction.checked_sub(states) {
         None => (quote!(by_state), direction),
@@ -50,7 +50,7 @@ fn place(states: usize, direction: usize) -> (TokenStream, usize) {
     }
 }
 
-/// Where the columns of every bundle go: `__targets`. Those that fill up the last bundle go nowhere.
+/// Places where the columns of every bundle go: `__targets`. Those that fill up the last bundle go nowhere.
 fn targets(columns: &LoweredColumns<'_>, private: &TokenStream, states: usize) -> TokenStream {
     let shape = &columns.shape;
     let name = |direction: usize| format_ident!("__column{}", direction, span = Span::mixed_site());
@@ -141,8 +141,8 @@ fn substitution(columns: &LoweredColumns<'_>, private: &TokenStream) -> TokenStr
     }
 }
 
-/// What is known of derivatives before the system is solved, entry by entry, but for zeros; and statements that put
-/// `__known` where it belongs: beside what is solved for.
+/// Parts of derivatives that are known before the system is solved, entry by entry, but for zeros; and statements that
+/// put `__known` where it belongs: beside what is solved for.
 fn known_derivatives(
     columns: &LoweredColumns<'_>,
     outputs: &[TokenStream],

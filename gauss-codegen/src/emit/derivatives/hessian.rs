@@ -38,8 +38,8 @@ pub fn hessian_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     Some(derived.implementation(quote!(HessianSystem), items))
 }
 
-/// Of the matrices by states, by inputs and states, by inputs, row by row, which output each entry is. Outputs are rows
-/// of the lower triangle.
+/// Numbers of the outputs that are the entries of the matrices by states, by inputs and states, by inputs, row by row.
+/// Outputs are rows of the lower triangle.
 pub fn blocks(states: usize, inputs: usize) -> [Vec<Vec<usize>>; 3] {
     let output = |i: usize, j: usize| {
         let (row, column) = (i.max(j), i.min(j));

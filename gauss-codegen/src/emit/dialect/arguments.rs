@@ -90,13 +90,13 @@ pub fn arguments_of(method: Method) -> &'static [ArgumentKind] {
     }
 }
 
-/// Those of the equations at a state: of `evaluate`, `linearize` and `by_parameters` as well.
+/// Arguments of the equations at a state: of `evaluate`, `linearize` and `by_parameters` as well.
 pub const OF_EQUATIONS: &[ArgumentKind] = &[ArgumentKind::Speeds, ArgumentKind::Inputs];
-/// Those of `gauss_residual` and its derivatives.
+/// Arguments of `gauss_residual` and its derivatives.
 pub const OF_RESIDUAL: &[ArgumentKind] = &[ArgumentKind::Speeds, ArgumentKind::Accelerations, ArgumentKind::Inputs];
-/// Those of `hessian`.
+/// Arguments of `hessian`.
 pub const OF_HESSIAN: &[ArgumentKind] = &[ArgumentKind::Speeds, ArgumentKind::Inputs, ArgumentKind::Weights];
-/// Those of `regressor`.
+/// Arguments of `regressor`.
 pub const OF_REGRESSOR: &[ArgumentKind] = &[ArgumentKind::Speeds, ArgumentKind::Accelerations];
 
 /// `__z: &Self::Speeds`, …: as methods declare them.
@@ -108,7 +108,7 @@ pub fn declared(private: &TokenStream, kinds: &[ArgumentKind]) -> Vec<TokenStrea
     kinds.iter().map(one).collect()
 }
 
-/// What an argument is called in generated code.
+/// Name of an argument in generated code.
 pub fn variable(kind: ArgumentKind) -> Ident {
     let name = match kind {
         ArgumentKind::Parameters => "__parameters",

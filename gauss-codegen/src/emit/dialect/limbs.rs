@@ -19,12 +19,12 @@ use crate::emit::dialect::program::{KernelDialect, ScalarTokens};
 /// Instructions from which on a program is written so, and up to which it is one function.
 const LENGTHS: std::ops::RangeInclusive<usize> = 256..=65_536;
 
-/// What symbols are to limbs.
+/// Relation of symbols to limbs.
 #[derive(Default)]
 pub struct Limbs(Map<u32, Leaf>);
 
 impl Limbs {
-    /// Of coordinates, speeds and so on, of numbers, and of constants that these determine.
+    /// Limbs of coordinates, speeds and so on, of numbers, and of constants that these determine.
     pub fn of<'g>(twins: &[(Expr<'g>, Twin)], kernel: &Kernel<'g>) -> Self {
         let mut limbs_of: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (_, twin) in twins {

@@ -34,7 +34,7 @@ pub fn are_wanted(method: Method, scalar: &Scalar) -> bool {
     matches!(scalar, Scalar::F64) && PACKED.contains(&method)
 }
 
-/// Where the symbols of a program are found, and how they are written.
+/// Sources of the symbols of a program, and the tokens that read them.
 pub struct Sources<'a, 'g> {
     pub kernel: &'a Kernel<'g>,
     pub arguments: &'a [Argument<'g>],
@@ -126,7 +126,7 @@ fn argument<'g>(arguments: &[Argument<'g>], symbol: Expr<'g>) -> Option<(usize, 
     })
 }
 
-/// How vectors are written in methods of a kernel.
+/// Writer of vectors in methods of a kernel.
 struct InKernel<'a, 'g> {
     packs: &'a Packs<'g>,
     private: &'a TokenStream,

@@ -1,4 +1,4 @@
-//! How kernels are written: their scalar, their symbols, the user's own functions.
+//! Tokens of kernels: their scalar, their symbols, the user's own functions.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
@@ -8,7 +8,7 @@ use crate::kernel::Program;
 use crate::targets::rust::{self, Dialect, Kept};
 use crate::terms::{FunctionKind, Joined, Scalar, Table, UserFunction};
 
-/// How numbers are written for a scalar type.
+/// Tokens of numbers for a scalar type.
 pub struct ScalarTokens<'a> {
     pub scalar: &'a Scalar,
     /// `::gauss_runtime::real::Real`.
@@ -122,7 +122,7 @@ pub fn statements<'g>(
     rust::statements(program, &KernelDialect { symbols, scalar }, Kept::AsRead)
 }
 
-/// How a function of the user's own, or a derivative of it, is called: by its path, or as a method of a table.
+/// Call of a function of the user's own, or of a derivative of it: by its path, or as a method of a table.
 fn own_function(scalar: &ScalarTokens<'_>, own: OwnFunction, arguments: &[TokenStream]) -> TokenStream {
     let (table, order) = (table_name(own.index), usize::from(own.order()));
     match &scalar.functions[usize::from(own.index)].kind {

@@ -46,7 +46,7 @@ fn types(derived: &Derived<'_, '_>) -> TokenStream {
     }
 }
 
-/// How many states elements have.
+/// Number of the states of elements, as a constant.
 fn states(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let states = derived.subject.system.scene.states.len();
     (states > 0).then(|| {
@@ -66,7 +66,7 @@ fn contacts(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     })
 }
 
-/// Of the loads and the rates of states: kinematics are smooth where they are regular.
+/// Smoothness of the loads and the rates of states: kinematics are smooth where they are regular.
 fn smoothness(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let word = match derived.smoothness() {
         Smoothness::Smooth => return None,

@@ -41,13 +41,13 @@ struct Order<'a, 'g> {
     coefficients: &'a Map<u32, TokenStream>,
     scalar: &'a ScalarTokens<'a>,
     moving: Vec<bool>,
-    /// What is added up within the one instruction that reads it.
+    /// Whether an instruction is added up within the one that reads it.
     inlined: Vec<bool>,
     /// The series that are factors, in order k.
     factors: Vec<TokenStream>,
     /// The two factors of each lane.
     lanes: Vec<[usize; 2]>,
-    /// What is computed once, after order 0.
+    /// Statements that are computed once, after order 0.
     once: TokenStream,
 }
 
@@ -128,7 +128,7 @@ impl<'a, 'g> Order<'a, 'g> {
         quote!(#name)
     }
 
-    /// What an instruction adds up, with what is added up for it alone.
+    /// Gathers the terms of an instruction that adds, with those that are added up for it alone.
     fn gather(&mut self, instruction: &Operation<'g>, negative: bool, sum: &mut Sum) {
         match instruction {
             Operation::Add(a, b) => {
@@ -173,7 +173,7 @@ impl<'a, 'g> Order<'a, 'g> {
         sum.products.extend(bk.map(|bk| (signed(negative, bk), a0)));
     }
 
-    /// What one instruction comes to, with names.
+    /// Names and values of one instruction.
     fn statements(&mut self, k: usize, instruction: &Operation<'g>) -> Vec<(Ident, TokenStream)> {
         let fma = self.scalar.fma.clone();
         let (zero, w, v0) = (self.zero(), named("w", k), self.first(&Operand::Value(k)));
@@ -337,7 +337,7 @@ fn named(prefix: &str, k: usize) -> TokenStream {
 struct Variables {
     names: Vec<Ident>,
     declarations: TokenStream,
-    /// How symbols are written in order 0, and those that move in order k.
+    /// Tokens of symbols in order 0, and of those that move in order k.
     first: Map<u32, TokenStream>,
     coefficients: Map<u32, TokenStream>,
 }
@@ -424,7 +424,7 @@ pub fn taylor_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     Some(derived.implementation(quote!(TaylorSystem), items))
 }
 
-/// How many components of the configuration are measured together, and each speed by itself.
+/// Numbers of components of the configuration that are measured together, and each speed by itself.
 fn component_groups(derived: &Derived<'_, '_>) -> Vec<usize> {
     let coordinates = &derived.subject.system.scene.coordinates;
     let group = |coordinate: &Coordinate<'_>| match coordinate {

@@ -85,7 +85,7 @@ pub fn enumerated(
     [names, named]
 }
 
-/// What a frame is called in the file that it comes from, or in the scene.
+/// Name of a frame in the file that it comes from, or in the scene.
 fn word(derived: &Derived<'_, '_>, frame: &Ident) -> String {
     let mut called = derived.item().described.iter().flat_map(|file| &file.called);
     let own = called.find(|(ident, _)| ident.unraw() == frame.unraw());
@@ -154,7 +154,7 @@ fn method(derived: &Derived<'_, '_>, quantity: FrameQuantity, result: &TokenStre
     }
 }
 
-/// How many numbers a quantity has in a system of n speeds.
+/// Number of entries of a quantity in a system of n speeds.
 fn size_of(quantity: FrameQuantity, n: usize) -> usize {
     match quantity {
         FrameQuantity::Pose => 12,

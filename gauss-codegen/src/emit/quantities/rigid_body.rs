@@ -19,7 +19,7 @@ pub fn rigid_body_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     Some(derived.implementation(quote!(RigidBodySystem), quote!(#placed #twist #momentum)))
 }
 
-/// Of one body whose pose is the configuration: both ways are known.
+/// Methods of one body whose pose is the configuration: both ways are known.
 fn placed_by_chart(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     derived.program(Method::Speeds)?;
     let (pose, configuration) = pose_bodies(derived, derived.subject.system.scene.chart())?;
@@ -40,7 +40,7 @@ fn placed_by_chart(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     })
 }
 
-/// Of one body whose pose is a function of the configuration: the inverse is found by its derivatives.
+/// Methods of one body whose pose is a function of the configuration: the inverse is found by its derivatives.
 fn placed_by_coordinates(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (private, speeds) = (derived.private(), derived.degrees_of_freedom());
     let start = derived.subject.unmoved(&derived.private());

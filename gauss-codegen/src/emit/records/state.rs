@@ -37,7 +37,7 @@ pub fn ordered_parts(derived: &Derived<'_, '_>) -> [Vec<Part>; 2] {
     [coordinates, speeds]
 }
 
-/// What every number of a state is called: those of the configuration and the speeds.
+/// Names of all numbers of a state: those of the configuration and the speeds.
 pub fn component_names(derived: &Derived<'_, '_>) -> [Vec<String>; 2] {
     ordered_parts(derived).map(|parts| parts.iter().flat_map(Part::names).collect())
 }

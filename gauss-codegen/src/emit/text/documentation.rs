@@ -55,7 +55,7 @@ fn text(derived: &Derived<'_, '_>, printed: &Printed) -> String {
     out
 }
 
-/// What the letters of the equations stand for: (letter, field, what its author says of it).
+/// Legend of the letters of the equations: (letter, field, what its author says of it).
 fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
     let fields = derived.item().fields.iter().map(|f| (f.role, &f.ident, &f.documentation, &f.unit));
     fields
@@ -107,13 +107,13 @@ const TOO_LONG: usize = 12_000;
 
 /// Rustdoc of the kernel: what it is, what it takes, its equations, its costs. What a scene does not have is not on it.
 pub struct Documentation {
-    /// What stands before the equations.
+    /// Sections before the equations.
     pub before: String,
     /// The equations as text: what editors show, which set no formulas.
     pub text: String,
     /// The same as formulas, unless they are very long.
     pub formulas: Option<String>,
-    /// What stands after them.
+    /// Sections after them.
     pub after: String,
 }
 
@@ -173,7 +173,7 @@ fn code(text: &str) -> String {
     format!("`{text}`")
 }
 
-/// What letters and marks of the equations mean, of those that occur.
+/// Explanations of letters and marks of the equations, of those that occur.
 fn letters(derived: &Derived<'_, '_>, equations: &str) -> String {
     const HAT: char = '\u{302}';
     let has = |text: &str| equations.contains(text);
@@ -201,7 +201,7 @@ fn letters(derived: &Derived<'_, '_>, equations: &str) -> String {
     sentences.join(" ")
 }
 
-/// What is written besides the formulas, with what it costs and loses.
+/// Names of the programs besides the formulas, with their costs and losses.
 fn besides<'d, 'g>(derived: &'d Derived<'_, 'g>) -> impl Iterator<Item = (&'static str, Counts, Option<&'d Figure>)> {
     let kernel = derived.kernel;
     let derivatives = kernel.derivatives.iter();
@@ -210,7 +210,7 @@ fn besides<'d, 'g>(derived: &'d Derived<'_, 'g>) -> impl Iterator<Item = (&'stat
     std::iter::once(("evaluate", kernel.joined.counts(), kernel.figure_of_joined.as_ref())).chain(derivatives)
 }
 
-/// What each method loses, then `evaluate` and the derivatives, by their names.
+/// Losses of each method, then of `evaluate` and the derivatives, by their names.
 pub fn figures<'d>(derived: &'d Derived<'_, '_>) -> impl Iterator<Item = (Option<Method>, &'static str, &'d Figure)> {
     let functions = derived.kernel.functions.iter();
     let functions =
@@ -218,7 +218,7 @@ pub fn figures<'d>(derived: &'d Derived<'_, '_>) -> impl Iterator<Item = (Option
     functions.chain(besides(derived).filter_map(|(name, _, figure)| Some((None, name, figure?))))
 }
 
-/// What each method costs and loses.
+/// Table of the cost and the loss of each method.
 fn costs(derived: &Derived<'_, '_>) -> String {
     let functions = derived.kernel.functions.iter().map(|(method, Function { program, figure, .. })| {
         (call_of(derived, method), program.counts(), figure.as_ref())
@@ -235,7 +235,7 @@ fn costs(derived: &Derived<'_, '_>) -> String {
     )
 }
 
-/// What a method loses, and where, if that is much.
+/// Loss of a method, and the state where it is, if it is much.
 fn loss(figure: &Figure) -> String {
     let [worst, median] = figure.rounded();
     let at = match &figure.at[..] {
@@ -246,7 +246,7 @@ fn loss(figure: &Figure) -> String {
     format!("{worst} ({median}){warning}")
 }
 
-/// What a method is called, as it is called: `pose_of(tool)`.
+/// Call of a method as users write it: `pose_of(tool)`.
 fn call_of(derived: &Derived<'_, '_>, method: Method) -> String {
     match method {
         Method::OfFrame(_, frame) => format!("{}({})", method.name(), derived.frames()[frame].unraw()),
@@ -254,7 +254,7 @@ fn call_of(derived: &Derived<'_, '_>, method: Method) -> String {
     }
 }
 
-/// What a configuration and speeds are made of, in words and in a call.
+/// Components of a configuration and of speeds, in words and in a call.
 fn states(derived: &Derived<'_, '_>) -> String {
     let (name, [coordinates, speeds]) = (state_name(derived), parts(derived));
     let row = |of: &str, part: &Part| vec![of.to_owned(), code(&part.shown()), part.label.clone()];

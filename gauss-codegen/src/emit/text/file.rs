@@ -43,7 +43,7 @@ pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
     }
 }
 
-/// What is to be known of the file, for the page of the kernel.
+/// Remarks on the file, for the page of the kernel.
 pub fn documentation(derived: &Derived<'_, '_>) -> String {
     let Some(Described { file, remarks, .. }) = &derived.item().described else { return String::new() };
     let mut out = format!("\n# The file\n\nBodies, joints and inputs are those of `{file}`.\n\n");

@@ -47,7 +47,7 @@ struct Pivot<'g> {
     speed: usize,
     row: Pair<'g>,
     response: Pair<'g>,
-    /// What rotors add to the pivot.
+    /// Contribution of rotors to the pivot.
     armature: Expr<'g>,
     inverse: Expr<'g>,
 }
@@ -290,7 +290,7 @@ fn joint_speeds<'g>(tree: &Tree<'g>) -> Option<Vec<JointSpeed<'g>>> {
     (joints.len() == count && substituted(&combinations, &zeros).is_some()).then_some(joints)
 }
 
-/// What rotors add to the pivot of each joint, if each turns with a single one.
+/// Contribution of rotors to the pivot of each joint, if each turns with a single one.
 fn armatures<'g>(tree: &Tree<'g>, joints: &[JointSpeed<'g>]) -> Option<Vec<Expr<'g>>> {
     let mut armatures = vec![tree.graph.zero(); joints.len()];
     for rotor in &tree.rotors {
@@ -368,7 +368,7 @@ impl<'g> Pivot<'g> {
     }
 }
 
-/// Of a linear and an angular part, counted on.
+/// Component of a linear and an angular part, counted on.
 fn component<'a, 'g>(pair: &'a mut Pair<'g>, axis: usize) -> &'a mut Expr<'g> {
     if axis < 3 { &mut pair.0[axis] } else { &mut pair.1[axis - 3] }
 }
@@ -397,7 +397,7 @@ impl<'g> ArticulatedInertia<'g> {
         (force, torque)
     }
 
-    /// What is left when the speed takes the value that is best for every motion of the rest.
+    /// Inertia that is left when the speed takes the value that is best for every motion of the rest.
     fn without(&self, pivot: &Pivot<'g>) -> Self {
         let (force, torque) = &pivot.response;
         let share = |a: &Triple<'g>| a.map(|e| (e * pivot.inverse).group());

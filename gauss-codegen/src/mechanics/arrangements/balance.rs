@@ -138,7 +138,7 @@ impl<'g> Weights<'g> {
         self.gravity.iter().chain(&self.field)
     }
 
-    /// With the formal components of each acceleration.
+    /// Weights with the formal components of each acceleration.
     fn with<'a>(&'a self, formal: &'a Formal<'g>) -> impl Iterator<Item = (&'a Weight<'g>, &'a Triple<'g>)> {
         let gravity = self.gravity.iter().map(|weight| (weight, &formal.gravity));
         gravity.chain(self.field.iter().map(|weight| (weight, &formal.field)))
@@ -164,7 +164,7 @@ impl<'g> Weight<'g> {
         Some(Self { gravity, effective_mass, effective_moment })
     }
 
-    /// Of all matter, in a field that is uniform over it.
+    /// Weight of all matter, in a field that is uniform over it.
     pub fn of_matter(body: &Body<'g>, field: Triple<'g>) -> Self {
         Self { gravity: field, effective_mass: body.mass, effective_moment: body.first_moment() }
     }
@@ -194,7 +194,8 @@ pub struct Formal<'g> {
     /// ĝ, and the acceleration of a field.
     pub gravity: Triple<'g>,
     pub field: Triple<'g>,
-    /// What else acts: its resultant, the parts that are given in body and in observer's axes, and its torque about O.
+    /// Load beside the weights: its resultant, the parts that are given in body and in observer's axes, and its torque
+    /// about O.
     pub force: Triple<'g>,
     pub observed_force: Triple<'g>,
     pub torque: Triple<'g>,
@@ -255,7 +256,7 @@ impl<'g> Formal<'g> {
     }
 }
 
-/// What is made explicit while the balance is solved; the cheapest result wins.
+/// Forms in which the balance is solved; the cheapest result wins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arrangement {
     /// Momentum and force components stay quantities of their own.
@@ -282,8 +283,8 @@ pub enum LinearAcceleration<'g> {
 
 /// Accelerations from the balance, in formal body components (see [`Formal`]).
 pub struct Balance<'g> {
-    /// What is left of `dQ/dt` and of `dΓ_O/dt + v_O × Q` when the unknown accelerations are zero, minus the forces;
-    /// body axes. Without the space part of the forces where the translation is isotropic.
+    /// Values of `dQ/dt` and of `dΓ_O/dt + v_O × Q` when the unknown accelerations are zero, minus the forces; body
+    /// axes. Without the space part of the forces where the translation is isotropic.
     pub linear_bias: Triple<'g>,
     pub angular_bias: Triple<'g>,
     pub linear: LinearAcceleration<'g>,

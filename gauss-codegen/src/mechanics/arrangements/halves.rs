@@ -1,5 +1,5 @@
-//! What makes velocities of contact impulses, as numbers: A = LDLᵀ, eliminated joint by joint, and L⁻¹ of each row of
-//! W.
+//! Factors of the velocities of contact impulses, as numbers: A = LDLᵀ, eliminated joint by joint, and L⁻¹ of each row
+//! of W.
 //!
 //! Of a tree a row of W has entries on the way from its link to the root, and so has L⁻¹ of it, where A⁻¹ fills all
 //! limbs. D = W A⁻¹Wᵀ is a product of these halves (R. Featherstone 2010, "Exploiting sparsity in operational-space
@@ -13,15 +13,15 @@ use crate::mechanics::links::tree::Tree;
 /// The halves of A⁻¹Wᵀ, and symbols for all numbers in them.
 pub struct Halves<'g> {
     factors: FactoredColumns<'g>,
-    /// Of each row what is not zero, by the order of elimination.
+    /// Entries of each row that are not zero, by the order of elimination.
     rows: Vec<Vec<(usize, Expr<'g>)>>,
-    /// Of the entries, and of an impulse for each row.
+    /// Symbols of the entries, and of an impulse for each row.
     pub symbols: Vec<Expr<'g>>,
     pub impulses: Vec<Expr<'g>>,
 }
 
 impl<'g> Halves<'g> {
-    /// Of rows by the speeds of a tree; `None` where its joints are not moved by these.
+    /// Halves of rows by the speeds of a tree; `None` where its joints are not moved by these.
     pub fn new(tree: &Tree<'g>, rows: &[Vec<Expr<'g>>]) -> Option<Self> {
         let joints = Articulated::eliminated(tree)?.joint_factors();
         let factors = joints.columns()?;
@@ -38,7 +38,7 @@ impl<'g> Halves<'g> {
         Some(Self { factors, rows, symbols, impulses })
     }
 
-    /// How many numbers are those of the factors: the pivots, one for each speed, then what is below them.
+    /// Number of the entries of the factors: the pivots, one for each speed, then the entries below them.
     pub fn first_of_rows(&self) -> usize {
         self.factors.entries().count()
     }

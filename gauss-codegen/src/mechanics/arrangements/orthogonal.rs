@@ -25,7 +25,7 @@ pub struct Elements<'a, 'g> {
     forms: Vec<(usize, Form<'g>)>,
 }
 
-/// How much of the unknown of a hinge is due to the rate of another speed.
+/// Share of the rate of another speed in the unknown of a hinge.
 struct Share<'g> {
     hinge: usize,
     other: usize,
@@ -51,8 +51,8 @@ impl<'g> Form<'g> {
 }
 
 impl<'a, 'g> Elements<'a, 'g> {
-    /// Of all matter; `None` where fluid is moved or displaced: its impulse is no sum of squares of this kind. `planar`
-    /// is the axis that every turn is about, if there is one.
+    /// Elements of all matter; `None` where fluid is moved or displaced: its impulse is no sum of squares of this kind.
+    /// `planar` is the axis that every turn is about, if there is one.
     pub fn new(tree: &'a Tree<'g>, planar: Option<usize>) -> Option<Self> {
         let dry =
             |link: &Link<'g>| link.body().is_none_or(|body| body.added_mass.is_none() && body.displaced.is_none());

@@ -6,7 +6,7 @@ use crate::mechanics::tidy;
 
 use super::free_link::FreeLink;
 
-/// What is short when it is multiplied out.
+/// Formulas that are short when they are multiplied out.
 #[derive(Default)]
 pub struct Short<'g> {
     pub acceleration: Option<Vec<Expr<'g>>>,

@@ -1,4 +1,4 @@
-//! What the definition gives and what formulas do, held against one another.
+//! Agreement between the definition and the formulas.
 
 use std::fmt;
 

@@ -67,7 +67,7 @@ fn active_forces<'g>(body: &Body<'g>, partial: &AffineField<'g>) -> Expr<'g> {
     }
 }
 
-/// What the impulse (Q_f, Γ_f) = M_A (u, ω) of the fluid adds: it pairs with w_α as the body's own momentum does.
+/// Contribution of the impulse (Q_f, Γ_f) = M_A (u, ω) of the fluid: it pairs with w_α as the body's own momentum does.
 fn fluid<'g>(motion: &Motion<'_, 'g>, body: &Body<'g>, z: Expr<'g>, along: &Map<u32, Expr<'g>>) -> Expr<'g> {
     let frame = motion.frame;
     let Some(added) = &body.added_mass else { return frame.graph.zero() };

@@ -35,7 +35,7 @@ fn needless<'g, N: Number>(system: &System<'g>, literals: &[(Rational, Expr<'g>)
 /// A constraint whose velocity is a combination of those before it.
 pub struct Dependency {
     pub number: usize,
-    /// Of positions, with the same coefficients everywhere.
+    /// Whether it is a combination of positions, with the same coefficients everywhere.
     constant: bool,
     /// It does not hold together with them.
     pub contradicts: bool,

@@ -11,7 +11,7 @@ use super::dependent::{Dependency, dependencies};
 use super::pushed::Pushed;
 use super::witness::{Witness, largest, sample_state};
 
-/// What is found wrong with a system at a pseudo-random state.
+/// A fault that is found in a system at a pseudo-random state.
 #[derive(Debug)]
 pub enum SystemFault {
     /// An error of this crate.
@@ -33,7 +33,7 @@ impl SystemFault {
     }
 }
 
-/// What is held against the definition, in all its arrangements.
+/// Formulas that are compared with the definition, in all their arrangements.
 #[derive(Default)]
 pub struct Claims<'a, 'g> {
     /// ∂C/∂ż − Jᵀλ at any ż, with the multipliers of the motion.

@@ -13,12 +13,12 @@ const MOST_GAPS: usize = 6;
 /// The definition with contact forces.
 pub struct Pushed<'w, 'a, 'g, N> {
     pub witness: &'w Witness<'a, 'g, N>,
-    /// Of the constraints, speed by speed, and their multipliers without contact forces.
+    /// Jacobian of the constraints, speed by speed, and their multipliers without contact forces.
     pub jacobian: &'w [Vec<N>],
     pub multipliers: &'w [N],
 }
 
-/// What the formulas give at one state.
+/// Values of the formulas at one state.
 struct Claim<'v, N> {
     /// ż without contact forces, and b.
     still: &'v [N],

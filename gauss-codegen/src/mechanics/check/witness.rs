@@ -33,7 +33,7 @@ pub struct Witness<'a, 'g, N> {
     still: OnceCell<Still<N>>,
 }
 
-/// What the condition at one state has whatever the accelerations are.
+/// Terms of the condition at one state that do not depend on the accelerations.
 struct Still<N> {
     /// Derivatives of the fields of all links with respect to every speed.
     partials: Vec<Vec<N>>,
@@ -221,7 +221,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
 
 /// Matter that deforms.
 impl<'g, N: Number> Witness<'_, 'g, N> {
-    /// What (3.4) has of a body that deforms beyond the rigid one, from `T = ½ νᵀGν`: zero without modes. The twist is
+    /// Terms of (3.4) of a body that deforms beyond the rigid one, from `T = ½ νᵀGν`: zero without modes. The twist is
     /// that of the positions, and a field of gravity acts with the acceleration of O.
     fn modes(&self, flow: &Map<u32, N>) -> Vec<N> {
         let scene = &self.system.scene;

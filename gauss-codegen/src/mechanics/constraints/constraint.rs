@@ -2,7 +2,7 @@
 
 use crate::algebra::Expr;
 
-/// What a constraint holds at zero.
+/// Kinds of functions that a constraint holds at zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConstraintKind {
     /// A function of t and q.

@@ -4,7 +4,7 @@
 
 use crate::algebra::{Expr, Substitution};
 
-/// What may touch: a gap that is not negative, and slips along tangents; or dry friction, which has no gap.
+/// A contact: a gap that is not negative, and slips along tangents; or dry friction, which has no gap.
 #[derive(Clone)]
 pub struct Contact<'g> {
     pub name: String,
@@ -14,13 +14,13 @@ pub struct Contact<'g> {
     pub slips: Vec<Expr<'g>>,
     /// Whether the last of the slips is that of drilling.
     pub drills: bool,
-    /// Of each slip μ, or the bound of dry friction, or ρ: functions of t, q, z and inputs.
+    /// Coefficient μ of each slip, or the bound of dry friction, or ρ: functions of t, q, z and inputs.
     pub friction: Vec<Expr<'g>>,
-    /// Of rolling resistance the contact whose normal force bounds it, by its number; it comes before this one.
+    /// Number of the contact whose normal force bounds rolling resistance; it comes before this one.
     pub rolls_on: Option<usize>,
     /// e, a constant.
     pub restitution: Option<Expr<'g>>,
-    /// Where it is, if that is known.
+    /// Point and axes, if these are known.
     pub frame: Option<ContactFrame<'g>>,
     /// Names of the bodies that touch, where they are known: of the one that has the point, and of the other.
     pub bodies: [Option<String>; 2],
@@ -31,14 +31,14 @@ pub struct Contact<'g> {
 /// Functions of t and q, components along the observer's axes.
 #[derive(Clone)]
 pub struct ContactFrame<'g> {
-    /// Where it touches, from Ω: of an open contact the point of the first body that would.
+    /// Point of contact, from Ω: of an open contact the point of the first body that would touch.
     pub point: [Expr<'g>; 3],
     /// The normal, then the tangents of the slips, without drilling; of length one.
     pub axes: Vec<[Expr<'g>; 3]>,
 }
 
 impl<'g> Contact<'g> {
-    /// With expressions in the place of speeds.
+    /// The contact with expressions in the place of speeds.
     pub fn in_speeds(&self, replacement: &Substitution<'g>) -> Self {
         let replaced = |all: &[Expr<'g>]| all.iter().map(|e| replacement.of(*e)).collect();
         Self { slips: replaced(&self.slips), friction: replaced(&self.friction), ..self.clone() }

@@ -78,13 +78,13 @@ impl<'g> Elimination<'g> {
         self.whole.scene.reduced(&Substitution::new(self.replacement()), &self.kept)
     }
 
-    /// What the dependent speeds are.
+    /// Values of the dependent speeds.
     pub fn replacement(&self) -> Map<u32, Expr<'g>> {
         let symbols = self.whole.scene.speeds.iter().zip(&self.values).filter(|(z, value)| z != value);
         symbols.map(|(z, value)| (z.key(), *value)).collect()
     }
 
-    /// What the dependent speeds and their rates are in the motion of the reduced system.
+    /// Values of the dependent speeds and of their rates in the motion of the reduced system.
     pub fn motion(&self, reduced: &System<'g>) -> Map<u32, Expr<'g>> {
         let mut motion = self.replacement();
         let dependent = (0..self.values.len()).filter(|k| !self.kept.contains(k));

@@ -1,4 +1,4 @@
-//! What coordinates and speeds do not solve by themselves, and what may touch.
+//! Constraints that coordinates and speeds do not solve by themselves, and contacts.
 
 pub mod constraint;
 pub mod contact;

@@ -13,7 +13,7 @@ use crate::mechanics::formula::Formulas;
 use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::mechanics::system::System;
 
-/// What is differentiated twice.
+/// Weighted sum of the rates, which is differentiated twice.
 pub struct Hessian<'g> {
     /// Along the components of an increment, the speeds and the inputs, in this order.
     pub curved: Curved<'g>,
@@ -53,7 +53,7 @@ struct Recursion<'a, 'g> {
     weights: &'a [Expr<'g>],
     /// Symbols for μ.
     solved: Vec<Expr<'g>>,
-    /// Those that are wanted, then along ż.
+    /// Directions that are wanted, then that along ż.
     directions: Vec<Rates<'g>>,
     /// Which second derivatives of the residual are needed, by what follows what.
     pairs: Vec<(usize, usize)>,
@@ -131,7 +131,7 @@ impl<'a, 'g> Recursion<'a, 'g> {
     }
 }
 
-/// Of each direction the element of a group that it moves.
+/// Element of a group that each direction moves.
 fn groups(scene: &SystemScene<'_>, count: usize) -> Vec<Option<usize>> {
     let elements = scene.coordinates.iter().filter(|coordinate| !matches!(coordinate, Coordinate::Scalar(_)));
     let sizes = elements.enumerate().flat_map(|(k, element)| std::iter::repeat_n(Some(k), element.size()));

@@ -12,7 +12,7 @@ use crate::mechanics::tidy::sums;
 /// A, ready for right-hand sides.
 pub(super) enum Factors<'g> {
     Dense(Factored<'g>),
-    /// By what an elimination link by link leaves at each joint: no large terms are taken from one another.
+    /// Factors of an elimination link by link at each joint: no large terms are taken from one another.
     Joints(JointFactors<'g>),
 }
 
@@ -74,7 +74,7 @@ pub struct AccelerationsWithDerivatives<'g> {
     pub outputs: Vec<Vec<Expr<'g>>>,
     /// A⁻¹ times what else was to be solved for.
     pub solved: Vec<Expr<'g>>,
-    /// What gives the same derivatives where all right-hand sides are solved for together.
+    /// Columns and right-hand sides that give the same derivatives where all are solved for together.
     pub unsolved: Option<Unsolved<'g>>,
 }
 

@@ -8,7 +8,7 @@ use crate::mechanics::derivatives::rigid::Rates;
 use crate::mechanics::formula::Formulas;
 use crate::mechanics::system::System;
 
-/// What is differentiated: the rows of ∂C/∂ż.
+/// Derivatives of the rows of ∂C/∂ż.
 pub struct InverseLinearization<'g> {
     /// Along the components of an increment, the speeds, their rates, time, and the inputs, in this order.
     pub differentiated: Differentiated<'g>,

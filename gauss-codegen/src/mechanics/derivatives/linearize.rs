@@ -1,5 +1,5 @@
-//! What the derivatives of the equations by the state are taken along: a direction for each component of an increment
-//! of the configuration, for each speed, for time and for each input.
+//! Directions of the derivatives of the equations by the state: one for each component of an increment of the
+//! configuration, for each speed, for time and for each input.
 //!
 //! Increments are those of the runtime, seen from the body: along `q ∘ exp(σ)` the rate of R is R σ̂ and that of b is R
 //! σ_u, as under a velocity V = σ. So the directions of the configuration are its rates with V a unit vector.
@@ -15,11 +15,11 @@ use crate::mechanics::kinematics::vector::Triple;
 use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::mechanics::system::System;
 
-/// What is differentiated: V, component by component in the order of increments, then ż.
+/// Derivatives of V, component by component in the order of increments, then of ż.
 pub struct Linearization<'g> {
     /// Along the components of an increment, the speeds, time, and the inputs, in this order.
     pub differentiated: Differentiated<'g>,
-    /// How many components an increment has, and how many speeds there are.
+    /// Numbers of components of an increment, and of speeds.
     increments: usize,
     speeds: usize,
     /// The components of an increment in the order of ψ.
@@ -28,9 +28,9 @@ pub struct Linearization<'g> {
 
 /// The components of an increment of the configuration: elements of groups come first, then all scalars.
 pub struct Increments<'g> {
-    /// What the configuration is moved along, component by component.
+    /// Directions in which the configuration is moved, component by component.
     pub directions: Vec<Direction<'g>>,
-    /// Where each of them is in ψ, which is in the order of the coordinates.
+    /// Place of each of them in ψ, which is in the order of the coordinates.
     pub order: Vec<usize>,
 }
 

@@ -1,4 +1,4 @@
-//! What the equations are differentiated along, and rates of all numbers of a state.
+//! Directions in which the equations are differentiated, and rates of all numbers of a state.
 
 pub mod component_rates;
 pub mod hessian;

@@ -20,7 +20,7 @@ use crate::mechanics::matter::moments::Moments;
 use crate::mechanics::system::System;
 use crate::mechanics::tidy::{sums, tidy};
 
-/// How pushes on links are solved for.
+/// Ways in which pushes on links are solved for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Pushed {
     /// Gathered and projected, then as any other right-hand side.
@@ -34,7 +34,7 @@ struct Change<'g> {
     rows: Vec<Expr<'g>>,
     /// Forces of inertia of links that have more of matter, at their O.
     pushes: Vec<(usize, Pair<'g>)>,
-    /// What speeds of links that float take of the change of their accelerations at once.
+    /// Part that the speeds of floating links take of the change of their accelerations at once.
     taken: Vec<Expr<'g>>,
 }
 
@@ -79,7 +79,7 @@ impl<'g> System<'g> {
     }
 }
 
-/// What the acceleration of a link does to its moments.
+/// Acceleration field of a link, which acts on its moments.
 struct Accelerated<'g> {
     acceleration: Triple<'g>,
     spin_rate: Triple<'g>,
@@ -106,8 +106,8 @@ impl<'g> Accelerated<'g> {
     }
 }
 
-/// By the moments of each link by itself: what moves with a parent as well is left where it is. Where joints change,
-/// which say what moves with a parent, by those that are left.
+/// Pushes on links by the moments of each link by itself: matter that moves with a parent as well is left where it is.
+/// Where joints change, which say what moves with a parent, by those that are left.
 fn pushes<'g>(
     motion: &Motion<'_, 'g>,
     accelerated: &[Accelerated<'g>],

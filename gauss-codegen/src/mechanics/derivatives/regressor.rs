@@ -13,7 +13,7 @@ use crate::mechanics::links::link::Matter;
 use crate::mechanics::matter::body::Body;
 use crate::mechanics::system::System;
 
-/// What is affine in the inertial parameters, and what they are.
+/// Forces of inertia, affine in the inertial parameters, and these.
 pub struct Regressor<'g> {
     /// The forces of inertia, in terms of a symbol for each parameter, along which they are differentiated.
     pub differentiated: Differentiated<'g>,
@@ -27,8 +27,8 @@ pub struct InertialParameter<'g> {
     /// In terms of what the user calls its factors.
     pub name: String,
     value: Expr<'g>,
-    /// What stands for it where forces of inertia are differentiated: their derivatives do not read it, unless a mass
-    /// is something else besides.
+    /// Symbol that stands for it where forces of inertia are differentiated: their derivatives do not read it, unless a
+    /// mass is something else besides.
     pub symbol: Expr<'g>,
 }
 
@@ -46,7 +46,7 @@ pub struct InertialParameters<'a, 'g> {
 }
 
 impl<'a, 'g> InertialParameters<'a, 'g> {
-    /// Of all bodies and particles; `names` are those of the numbers of fields.
+    /// Parameters of all bodies and particles; `names` are those of the numbers of fields.
     pub fn new(system: &System<'g>, names: &'a Map<u32, String>) -> Self {
         let graph = system.scene.graph;
         let (replacement, centers, about_o) = (Map::default(), Map::default(), Map::default());

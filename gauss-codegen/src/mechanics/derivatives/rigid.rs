@@ -28,7 +28,7 @@ pub type Rates<'g> = Map<u32, Expr<'g>>;
 /// A linear and an angular part.
 pub type Pair<'g> = (Triple<'g>, Triple<'g>);
 
-/// What one joint adds to the changes of all that hangs on it.
+/// Contribution of one joint to the changes of all that hangs on it.
 #[derive(Clone)]
 pub struct Change<'g> {
     /// Turn of the link and displacement of its O beyond its parent's, in its axes.
@@ -42,7 +42,7 @@ pub struct Change<'g> {
     pub twice_spin: Triple<'g>,
 }
 
-/// What a joint between two links is told of their motion.
+/// Motion of two links as their joint reads it.
 pub struct Above<'g> {
     /// ω and ω̇ of the parent, in its axes.
     pub spin: Triple<'g>,
@@ -82,7 +82,7 @@ pub struct Motion<'a, 'g> {
     along: &'a Rates<'g>,
     /// ż in place of its symbols, where it is known.
     solved: Substitution<'g>,
-    /// Of all links, with ż.
+    /// Accelerations of all links, with ż.
     accelerations: Pairs<'g>,
     /// Inertia of all that hangs on a link, at its O.
     pub forces: Vec<Pair<'g>>,
@@ -94,7 +94,7 @@ pub struct Motion<'a, 'g> {
 pub struct Derivative<'g> {
     /// Rows of ∂C/∂ż, but for what `taken` has of it.
     pub residual: Vec<Expr<'g>>,
-    /// What speeds of links that float take of the change of their accelerations at once.
+    /// Part that the speeds of floating links take of the change of their accelerations at once.
     pub taken: Vec<Expr<'g>>,
 }
 
@@ -158,7 +158,7 @@ impl<'a, 'g> Motion<'a, 'g> {
         derivatives
     }
 
-    /// Of every joint that changes.
+    /// Changes by every joint that changes.
     fn changes(&self, direction: &Rates<'g>, taken: &mut [Expr<'g>]) -> Vec<Option<Change<'g>>> {
         (0..self.tree.links.len()).map(|k| self.change(k, direction, taken)).collect()
     }
@@ -190,7 +190,7 @@ impl<'a, 'g> Motion<'a, 'g> {
         (turn, link.own_joint.offset.map(|e| self.rate(e, direction)))
     }
 
-    /// What turns are turned by along a direction, in the innermost axes.
+    /// Angles by which turns are turned along a direction, in the innermost axes.
     pub fn turned(&self, turns: &[Turn<'g>], direction: &Rates<'g>) -> Triple<'g> {
         let none = [self.tree.graph.zero(); 3];
         turns.iter().fold(none, |sum, turn| add(&turn.back(&sum), &turn.displacement(direction)).map(Expr::group))
@@ -235,7 +235,7 @@ impl<'a, 'g> Motion<'a, 'g> {
         }
     }
 
-    /// Of the motion as it is.
+    /// Motion of two links as it is.
     pub fn above(&self, k: usize, parent: usize) -> Above<'g> {
         let link = &self.tree.links[k];
         Above {
@@ -246,7 +246,7 @@ impl<'a, 'g> Motion<'a, 'g> {
         }
     }
 
-    /// That of a joint between two links.
+    /// Change by a joint between two links.
     pub fn change_below(
         &self,
         k: usize,
@@ -289,7 +289,7 @@ impl<'a, 'g> Motion<'a, 'g> {
         }
     }
 
-    /// What changes of a link and of its ancestors do to one row of the link.
+    /// Adds the effect of changes of a link and of its ancestors on one row of the link.
     fn add_from_above(
         &self,
         k: usize,
@@ -326,8 +326,8 @@ impl<'a, 'g> Motion<'a, 'g> {
         Row { linear, angular, twice_spin: spin }
     }
 
-    /// What changes of joints do to the rows of the links that they hang on, and changes of partial velocities to their
-    /// own.
+    /// Adds the effect of changes of joints on the rows of the links that they hang on, and of changes of partial
+    /// velocities on their own.
     fn add_from_below(&self, direction: &Rates<'g>, changes: &[Option<Change<'g>>], residual: &mut [Expr<'g>]) {
         let links = &self.tree.links;
         let mut pending: Vec<Option<Pair<'g>>> = vec![None; links.len()];
@@ -363,7 +363,7 @@ impl<'a, 'g> Motion<'a, 'g> {
 }
 
 impl<'g> Gathered<'g> {
-    /// Of a link by itself: y = ω × x.
+    /// Moments of a link by itself: y = ω × x.
     fn of(link: &Link<'g>) -> Self {
         let (omega, moments) = (&link.angular_velocity, link.moments);
         let turn = cross_matrix(omega);
@@ -384,8 +384,7 @@ impl<'g> Gathered<'g> {
         })
     }
 
-    /// What a change of the joint does to the forces that it hands on, about the O that is displaced; `forces` are
-    /// those of now.
+    /// Change of the forces that the joint hands on, about the O that is displaced; `forces` are those of now.
     pub fn force(&self, change: &Change<'g>, forces: &Pair<'g>) -> Pair<'g> {
         let Moments { mass, first, .. } = self.moments;
         let inertia = self.moments.inertia();
@@ -414,7 +413,7 @@ impl<'g> Row<'g> {
     }
 }
 
-/// Of all links, leaves first.
+/// Gathered moments of all links, leaves first.
 fn gathered<'g>(tree: &Tree<'g>) -> Vec<Gathered<'g>> {
     let mut gathered: Vec<Gathered<'g>> = tree.links.iter().map(Gathered::of).collect();
     for k in (0..tree.links.len()).rev() {

@@ -16,7 +16,7 @@ use crate::mechanics::kinematics::turn::{inward, outward};
 use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, cross_matrix, dot, is_zero, scale, subtract};
 use crate::mechanics::links::link::Link;
 
-/// What one joint adds to the changes of all that hangs on it, virtual velocities among them.
+/// Contribution of one joint to the changes of all that hangs on it, virtual velocities among them.
 struct Shift<'g> {
     change: Change<'g>,
     /// ε and η.
@@ -78,7 +78,7 @@ impl<'a, 'g> Weighted<'a, 'g> {
         derivatives
     }
 
-    /// What a joint adds twice.
+    /// Adds the second-order contribution of a joint alone.
     fn add_own(
         &self,
         k: usize,
@@ -99,7 +99,7 @@ impl<'a, 'g> Weighted<'a, 'g> {
         }
     }
 
-    /// What a joint and those that it hangs on add together.
+    /// Adds the contribution of a joint together with those that it hangs on.
     fn add_from_above(
         &self,
         k: usize,
@@ -218,7 +218,7 @@ impl<'a, 'g> Weighted<'a, 'g> {
         })
     }
 
-    /// By what a link is turned along a direction beyond its working axes, which may stand still.
+    /// Angles by which a link is turned along a direction beyond its working axes, which may stand still.
     fn turn_beyond_axes(&self, k: usize, direction: &Rates<'g>) -> Triple<'g> {
         let link = &self.motion.tree.links[k];
         let (turn, _) = self.motion.displacement(link, direction);
@@ -228,14 +228,14 @@ impl<'a, 'g> Weighted<'a, 'g> {
         add(&inward(&link.joint.turns, &above), &own).map(Expr::group)
     }
 
-    /// Of what changes a joint adds, to `μ · ∂C/∂ż`.
+    /// Coefficients of the changes that a joint adds, in `μ · ∂C/∂ż`.
     fn coefficients(&self, k: usize) -> LongRow<'g> {
         let Sums { linear, angular, turning, .. } = &self.sums[k];
         let row = Row { linear: *linear, angular: *angular, twice_spin: *turning };
         LongRow { row, of_virtual: self.motion.forces[k] }
     }
 
-    /// What a change of all that hangs on a link does to the coefficients, times what its joint adds.
+    /// Effect of a change of all that hangs on a link on the coefficients, as a row for the change that its joint adds.
     fn row_of_moments(&self, k: usize, shift: &Shift<'g>) -> LongRow<'g> {
         let gathered = &self.motion.gathered[k];
         let none = [self.motion.tree.graph.zero(); 3];
@@ -252,7 +252,7 @@ impl<'a, 'g> Weighted<'a, 'g> {
         LongRow { row: Row { linear, angular, twice_spin }, of_virtual }.named()
     }
 
-    /// What a change that comes from the parent does to what a joint adds.
+    /// Effect of a change that comes from the parent on the contribution of a joint.
     fn row(&self, k: usize, shift: &Shift<'g>) -> LongRow<'g> {
         let Change { turn, shift: moved, drift, twice_spin, .. } = &shift.change;
         let Sums { linear: p, angular: pi, turning: q, .. } = &self.sums[k];
@@ -323,7 +323,7 @@ impl<'g> LongRow<'g> {
 }
 
 impl<'g> Sums<'g> {
-    /// Of a link by itself. `∫(ω × x) × (ν × x) dm = J (ω × ν)`.
+    /// Sums over a link by itself. `∫(ω × x) × (ν × x) dm = J (ω × ν)`.
     fn of(motion: &Motion<'_, 'g>, k: usize, (w, nu): &Pair<'g>) -> Self {
         let link = &motion.tree.links[k];
         let (omega, moments) = (&link.angular_velocity, link.moments);
@@ -343,7 +343,7 @@ impl<'g> Sums<'g> {
         Self { linear: named(linear), angular: named(angular), turning: named(turning), mixed }
     }
 
-    /// Of all links, leaves first.
+    /// Sums over all links, leaves first.
     fn gathered(motion: &Motion<'_, 'g>, velocities: &[Pair<'g>]) -> Vec<Self> {
         let tree = motion.tree;
         let mut sums: Vec<Self> = velocities.iter().enumerate().map(|(k, pair)| Self::of(motion, k, pair)).collect();

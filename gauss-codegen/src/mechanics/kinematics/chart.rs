@@ -72,7 +72,7 @@ impl<'g> ChartedBody<'g> {
     }
 }
 
-/// What the speeds and the momenta of a chart are called; the axes of the linear and of the angular ones.
+/// Names of the speeds and the momenta of a chart; the axes of the linear and of the angular ones.
 struct Letters {
     speeds: Vec<Name>,
     momenta: Vec<Name>,
@@ -198,7 +198,7 @@ impl<'g> Builder<'g> {
         })
     }
 
-    /// What speeds and momenta are called, and in which axes they are.
+    /// Names of speeds and momenta, and their axes.
     fn letters(&self, translations: &[usize], rotations: &[usize]) -> Letters {
         let planar = self.motion == Motion::Planar;
         let (u, omega, q, gamma) =

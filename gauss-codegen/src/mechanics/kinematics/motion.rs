@@ -1,4 +1,4 @@
-//! How one body moves: its pose, its velocities in terms of the speeds, and the rates of all that these depend on.
+//! Kinematics of one body: its pose, its velocities in terms of the speeds, and the rates of all that these depend on.
 
 use crate::algebra::{Expr, Map};
 
@@ -6,7 +6,7 @@ use crate::algebra::{Expr, Map};
 use crate::mechanics::kinematics::vector::Motion;
 use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, Vector};
 
-/// How one body moves.
+/// Kinematics of one body.
 #[derive(Clone)]
 pub struct Kinematics<'g> {
     pub frame: Frame<'g>,

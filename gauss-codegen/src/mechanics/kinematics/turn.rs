@@ -17,7 +17,7 @@ pub struct Turn<'g> {
 }
 
 impl<'g> Turn<'g> {
-    /// By an angle about an axis of the axes before (and after).
+    /// Turn by an angle about an axis of the axes before (and after).
     pub fn about(graph: &'g Graph, axis: usize, angle: Expr<'g>, rates: &Map<u32, Expr<'g>>) -> Self {
         let rate = angle.derivative(rates);
         let spin = std::array::from_fn(|i| if i == axis { rate } else { graph.zero() });
@@ -41,7 +41,7 @@ impl<'g> Turn<'g> {
         Self { matrix, spin, about: self.about.map(|(axis, angle)| (axis, -angle)) }
     }
 
-    /// By what angles it is turned on in a direction, in the turned axes: the axial vector of RᵀδR, where R is
+    /// Angles by which it is turned on in a direction, in the turned axes: the axial vector of RᵀδR, where R is
     /// orthogonal.
     pub fn displacement(&self, direction: &Map<u32, Expr<'g>>) -> Triple<'g> {
         let graph = self.spin[0].graph();

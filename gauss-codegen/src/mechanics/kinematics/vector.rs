@@ -21,7 +21,7 @@ pub struct Vector<'g> {
     pub space: Triple<'g>,
 }
 
-/// How a body moves: its frame, the velocity of O and the angular velocity.
+/// Motion of a body: its frame, the velocity of O and the angular velocity.
 #[cfg(test)]
 pub struct Motion<'a, 'g> {
     pub frame: &'a Frame<'g>,

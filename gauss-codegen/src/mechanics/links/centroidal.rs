@@ -25,7 +25,7 @@ impl<'g> Whole<'g> {
 }
 
 impl<'g> Tree<'g> {
-    /// Of all matter, also of what keeps still, so not of moments that are regrouped.
+    /// Mass and first moment of all matter, also of what keeps still, so not of moments that are regrouped.
     pub fn whole(&self) -> Whole<'g> {
         let zero = self.graph.zero();
         let own = |link: &Link<'g>| match &link.matter {
@@ -160,7 +160,7 @@ impl<'g> Tree<'g> {
     }
 }
 
-/// What pairs with u and ω, in working axes.
+/// Components that pair with u and ω, in working axes.
 fn pair_of<'g>(link: &Link<'g>, values: &[Expr<'g>]) -> (Triple<'g>, Triple<'g>) {
     let turned = |at: usize| link.in_working_axes(&[values[at], values[at + 1], values[at + 2]], Axes::Body);
     (turned(0), turned(3))

@@ -16,8 +16,8 @@ pub struct Floating<'g> {
 }
 
 impl<'g> Floating<'g> {
-    /// How each link floats. The matter above it would be left behind, and fluid is not moved with the observer: then
-    /// it does not.
+    /// Finds the speeds by which each link floats. Matter above it would be left behind, and fluid is not moved with
+    /// the observer: then it does not float.
     pub fn of(links: &[Link<'g>], speeds: usize) -> Vec<Option<Self>> {
         (0..links.len()).map(|k| Self::new(links, k, speeds)).collect()
     }
@@ -50,7 +50,7 @@ impl<'g> Floating<'g> {
         self.along.iter().any(|(own, ..)| *own == speed)
     }
 
-    /// What is left of the acceleration of O; what speeds that are not held take of it goes to their rates.
+    /// Rest of the acceleration of O; the part that speeds that are not held take of it goes to their rates.
     pub fn taken_from(
         &self,
         link: &Link<'g>,

@@ -36,8 +36,8 @@ impl<'g> Tree<'g> {
         (0..self.speed_count()).map(|k| self.speed(k)).collect()
     }
 
-    /// With its forces of inertia, less what fields do to it, with ż by its rates in `along`, and with `a_O − g` and ω̇
-    /// of the links as observers see them.
+    /// Adds the forces of inertia of formal matter to the rows, less those of fields on it, with ż by its rates in
+    /// `along`, and with `a_O − g` and ω̇ of the links as observers see them.
     pub fn with_formal(
         &self,
         rows: Vec<Expr<'g>>,
@@ -60,13 +60,13 @@ impl<'g> Tree<'g> {
         subtract(&a, &apply(&gradient, &link.shift)).map(Expr::group)
     }
 
-    /// With its momenta.
+    /// Adds the momenta of formal matter to the rows.
     pub fn with_formal_momenta(&self, rows: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
         let rows = add_projected(&self.rotors, &self.all_speeds(), rows, Rotor::momentum);
         self.with_modes(rows, Deformation::momenta)
     }
 
-    /// With what a field, observer's axes, does on each link to what deforms.
+    /// Adds the forces of a field, observer's axes, on the modes of each link.
     pub fn with_formal_weights(&self, rows: Vec<Expr<'g>>, fields: &[Option<Triple<'g>>]) -> Vec<Expr<'g>> {
         let still = [self.graph.zero(); 3];
         self.with_modes(rows, |modes| {

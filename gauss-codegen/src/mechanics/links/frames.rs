@@ -1,5 +1,5 @@
-//! Where a link is and how it moves: pose, twist, its partial velocities and its acceleration at ż = 0. Components are
-//! in the axes of the link, the pole is its O; the pose is seen by the observer.
+//! Pose and motion of a link: twist, its partial velocities and its acceleration at ż = 0. Components are in the axes
+//! of the link, the pole is its O; the pose is seen by the observer.
 
 use crate::algebra::Expr;
 
@@ -38,7 +38,7 @@ impl<'g> Tree<'g> {
         [outward, self.columns_from(k)].map(|columns: Vec<Pair<'g>>| self.rows_in_axes_of(k, &columns))
     }
 
-    /// Of the Jacobian as the observer sees it, with components in the axes of the link: Rᵀ d(R J)/dt, row by row.
+    /// Rate of the Jacobian as the observer sees it, with components in the axes of the link: Rᵀ d(R J)/dt, row by row.
     pub fn jacobian_rates_of(&self, k: usize) -> [Vec<Expr<'g>>; 2] {
         let (_, spin) = self.links[k].twist();
         self.jacobians_of(k).map(|rows| {

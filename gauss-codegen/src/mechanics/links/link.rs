@@ -11,7 +11,7 @@ use crate::mechanics::matter::body::Body;
 use crate::mechanics::matter::moments::Moments;
 use crate::mechanics::tidy::compact;
 
-/// What has mass.
+/// Matter of a link.
 #[derive(Clone)]
 pub enum Matter<'g> {
     /// A frame.
@@ -39,15 +39,15 @@ pub struct Placement<'g> {
     /// Index of an earlier link.
     pub parent: Option<usize>,
     pub position: Triple<'g>,
-    /// Of O and of the axes of a root, each part in the axes where it is simplest, where they are known so; else they
-    /// follow from the position and the turns.
+    /// Velocities of O and of the axes of a root, each part in the axes where it is simplest, where they are known so;
+    /// else they follow from the position and the turns.
     pub velocity: Option<Vector<'g>>,
     pub angular_velocity: Option<Vector<'g>>,
     pub turns: Vec<Turn<'g>>,
 }
 
 impl<'g> Placement<'g> {
-    /// With other expressions in place of those that depend on speeds.
+    /// The placement with other expressions in place of those that depend on speeds.
     pub fn map_velocities(&self, f: impl Fn(Expr<'g>) -> Expr<'g>) -> Self {
         Self {
             velocity: self.velocity.map(|v| v.map(&f)),
@@ -58,7 +58,7 @@ impl<'g> Placement<'g> {
     }
 }
 
-/// How a link hangs on its parent.
+/// Position and turns of a link relative to its parent.
 #[derive(Clone)]
 pub struct Joint<'g> {
     /// From the link's axes to the parent's (to k for a root).
@@ -91,7 +91,7 @@ pub struct Link<'g> {
     pub turned: Option<Turn<'g>>,
     /// From O to the pole that is worked with, body axes.
     pub shift: Triple<'g>,
-    /// Of O. Below a root, in working axes alone.
+    /// Velocity of O. Below a root, in working axes alone.
     pub velocity: Vector<'g>,
     /// Working axes.
     pub angular_velocity: Triple<'g>,
@@ -145,7 +145,7 @@ impl<'g> Joint<'g> {
     }
 }
 
-/// Where a link is and how it moves; its own velocity is what its parent does not give it.
+/// Position and velocities of a link; its own velocity is the part that its parent does not give it.
 struct Moved<'g> {
     position: Triple<'g>,
     velocity: Vector<'g>,
@@ -154,7 +154,7 @@ struct Moved<'g> {
 }
 
 impl<'g> Moved<'g> {
-    /// With its parent. In the plane its own angular velocity is added.
+    /// Motion of a link that its parent carries. In the plane its own angular velocity is added.
     fn with(parent: &Link<'g>, frame: &Frame<'g>, joint: &Joint<'g>, planar: Option<&Triple<'g>>) -> Self {
         let angular_velocity = match planar {
             Some(spin) => add(&parent.angular_velocity, spin),
@@ -208,7 +208,7 @@ impl<'g> Link<'g> {
         Self::hung(hung, (matter, index), parent, (known, known_spin), (planar.is_some(), speeds))
     }
 
-    /// Where it is and how it moves.
+    /// Computes position and motion of a link that hangs.
     fn hung(
         hung: Hung<'g>,
         (matter, index): (Matter<'g>, Option<usize>),

@@ -1,4 +1,4 @@
-//! What moves with the parent just as well is given to the parent: the base parameters of identification theory, found
+//! Regrouping of matter that moves with the parent just as well: the base parameters of identification theory, found
 //! from the velocities alone.
 
 use crate::algebra::{Expr, Graph};

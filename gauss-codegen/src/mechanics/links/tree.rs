@@ -17,7 +17,7 @@ use crate::mechanics::matter::rotor::Rotor;
 /// A linear and an angular part at the pole O of each link: momenta, forces or accelerations.
 pub type Pairs<'g> = Vec<(Vector<'g>, Triple<'g>)>;
 
-/// What links that float have of their accelerations at once, seen by observers who move so.
+/// Observers who move with the accelerations that floating links have at once.
 enum Observers<'a, 'g> {
     /// Nobody moves.
     Still,
@@ -31,7 +31,7 @@ enum Observers<'a, 'g> {
 pub struct UnderWay<'g> {
     /// Forces of inertia of every link by itself, less the loads on it.
     pub wrenches: Pairs<'g>,
-    /// What rotors and modes add.
+    /// Contributions of rotors and modes.
     pub rows: Vec<Expr<'g>>,
     /// ζ.
     pub taken: Vec<Expr<'g>>,
@@ -52,7 +52,7 @@ pub struct Tree<'g> {
     floating: Vec<Option<Floating<'g>>>,
     /// Inertia of rates, added to that of the links.
     pub rotors: Vec<Rotor<'g>>,
-    /// What links have that deform.
+    /// Modes of links that deform.
     pub deformations: Vec<Deformation<'g>>,
 }
 
@@ -299,8 +299,8 @@ impl<'g> Tree<'g> {
         matrix
     }
 
-    /// What the fluid around a link adds to A through the motion of its ancestors alone: it is no moment, so it is not
-    /// in what moves together with them.
+    /// Adds to A the inertia of the fluid around a link in the motion of its ancestors alone: it is no moment, so it is
+    /// not in what moves together with them.
     fn add_carried_fluid(&self, matrix: &mut [Vec<Expr<'g>>]) {
         for (k, link) in self.links.iter().enumerate() {
             let added = link.body().and_then(|body| body.added_mass.as_ref());

@@ -34,7 +34,7 @@ impl<'g> Tree<'g> {
     }
 }
 
-/// What is pulled down of a link, and its first moment about O in body axes.
+/// Mass of a link that weight acts on, and its first moment about O in body axes.
 fn heavy<'g>(link: &Link<'g>) -> (Expr<'g>, Triple<'g>) {
     let graph = link.frame.graph;
     match &link.matter {

@@ -16,13 +16,13 @@ use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::{Force, Loads};
 use crate::mechanics::tidy::tidy;
 
-/// How often the poles are gone through; what has not settled by then is as good as it is.
+/// Number of rounds through the poles; a pole that has not settled by then is as good as it is.
 const ROUNDS: usize = 4;
 
 /// The axis of a link that turns about it, with O on it.
 #[derive(Clone, Copy)]
 struct Hinge {
-    /// Of the link.
+    /// Axis of the link.
     axis: usize,
     /// The axis of the parent that it is, if it is one and at rest there with O, and whether it points the other way.
     in_parent: Option<(usize, bool)>,
@@ -50,7 +50,7 @@ impl Hinge {
         Some(Self { axis, in_parent: in_parent.map(|i| (i, seen[i] != graph.one())) })
     }
 
-    /// Of something along the axis, components in the parent's axes.
+    /// Vector along the axis, components in the parent's axes.
     fn along<'g>(&self, way: Expr<'g>) -> Triple<'g> {
         let zero = way.graph().zero();
         let component = |i: usize| match self.in_parent {
@@ -67,7 +67,7 @@ impl Hinge {
     }
 }
 
-/// How far the pole of each link is moved along its axis.
+/// Distances by which the pole of each link is moved along its axis.
 struct Poles<'a, 'g> {
     tree: &'a Tree<'g>,
     hinges: Vec<Option<Hinge>>,
@@ -149,7 +149,7 @@ struct Angles<'g> {
 }
 
 impl<'g> Angles<'g> {
-    /// Of links of which `may_stay` is true.
+    /// Angles of links of which `may_stay` is true.
     fn new(poles: &Poles<'_, 'g>, may_stay: impl Fn(usize) -> bool) -> Self {
         let (tree, hinges) = (poles.tree, &poles.hinges);
         // The axis of a child stays where it is in these axes only if it is the same.

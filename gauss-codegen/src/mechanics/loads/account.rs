@@ -16,7 +16,7 @@ pub struct Account<'g> {
     pub outside: Option<Expr<'g>>,
 }
 
-/// What weight and buoyancy are called.
+/// Name of weight and buoyancy.
 pub const GRAVITY: &str = "gravity";
 /// Powers, generalised forces (speeds by elements, row by row), and dE/dt: the powers of what is not in the energy, and
 /// ∂U/∂t.

@@ -76,7 +76,7 @@ impl<'g> System<'g> {
         sorted(accounts)
     }
 
-    /// What moves them does work: whatever changes the kinetic energy and is done by nothing else. It has no
+    /// Account of the work of guides: it is all that changes the kinetic energy and is done by nothing else. It has no
     /// generalised force: its forces do no work in ∂v_P/∂z, or are multipliers.
     fn account_of_guides(&self, others: &[Account<'g>]) -> Account<'g> {
         let scene = &self.scene;

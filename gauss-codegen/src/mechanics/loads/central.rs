@@ -25,7 +25,7 @@ pub struct CentralField<'g> {
 struct Expansion<'g> {
     arm: Triple<'g>,
     inverse: Expr<'g>,
-    /// Of order 0, 1 and 2.
+    /// Energies of order 0, 1 and 2.
     energies: [Expr<'g>; 3],
 }
 
@@ -90,7 +90,7 @@ impl<'g> CentralField<'g> {
         }
     }
 
-    /// How the field acts on all matter of a tree.
+    /// Action of the field on all matter of a tree.
     pub fn action(&self, tree: &Tree<'g>) -> Action<'g> {
         let graph = tree.graph;
         let sum = |links: &mut dyn Iterator<Item = &Link<'g>>| {
@@ -134,7 +134,7 @@ impl<'g> CentralField<'g> {
         self.energy_at(link, &link.moments, &self.arm_in_body(link))
     }
 
-    /// Of moments about O of a link; `arm` in the axes of the moments.
+    /// Energy of moments about O of a link; `arm` in the axes of the moments.
     fn energy_at(&self, link: &Link<'g>, moments: &Moments<'g>, arm: &Triple<'g>) -> Expr<'g> {
         let expansion = Expansion::new(self.mu, moments);
         let energy: Expr<'g> = expansion.energies.into_iter().sum();
@@ -147,10 +147,9 @@ impl<'g> CentralField<'g> {
         scale((-self.mu * inverse_length(arm).powi(3)).group(), arm)
     }
 
-    /// What the field does to a link beside what it does to the pole: the difference of the accelerations, and what the
-    /// first and the second moments add. With d = O − pole the difference is that of Encke, in which nothing cancels:
-    /// `|ρ + d|² = |ρ|² w`,
-    /// `w = 1 + q`, `q = d·(2ρ + d)/|ρ|²`, and
+    /// Forces of the field on a link beside that on the pole: the difference of the accelerations, and the parts of the
+    /// first and the second moments. With d = O − pole the difference is that of Encke, in which nothing cancels: `|ρ +
+    /// d|² = |ρ|² w`, `w = 1 + q`, `q = d·(2ρ + d)/|ρ|²`, and
     ///
     /// `γ(ρ + d) − γ(ρ) = −μ/|ρ|³ (d − f (ρ + d))`, `f = 1 − 1/h = q (3 + 3q + q²)/(h (1 + h))`, `h = w√w`.
     fn tide(&self, tree: &Tree<'g>, pole: usize, k: usize) -> Vec<Force<'g>> {

@@ -9,7 +9,8 @@ use crate::mechanics::matter::body::Body;
 /// Terms that a component may have while what cancels is looked for.
 const LIMIT: usize = 2000;
 
-/// What a uniform stream changes beside the relative velocity that drag feels: forces and a torque about O, body axes.
+/// Forces of a uniform stream beside those of the relative velocity that drag feels: a force and a torque about O, body
+/// axes.
 ///
 /// The fluid's impulse is that of the motion relative to the stream (Galilei), so the fluid reacts to u − c where it
 /// reacted to u: the difference of the two reactions acts. In a stream that accelerates there is a gradient of pressure

@@ -22,7 +22,7 @@ impl<'g> Element<'g> {
         Self { name, action, on_link: None }
     }
 
-    /// With other expressions in place of those that it is made of.
+    /// The element with other expressions in place of those that it is made of.
     pub fn map(&self, f: impl Fn(Expr<'g>) -> Expr<'g>) -> Self {
         let action = match &self.action {
             Action::Potential(potential) => Action::Potential(f(*potential)),
@@ -34,14 +34,14 @@ impl<'g> Element<'g> {
     }
 }
 
-/// How an element acts.
+/// Ways in which an element acts.
 #[derive(Clone)]
 pub enum Action<'g> {
-    /// By a potential, a function of t and q: part of the energy.
+    /// A potential, a function of t and q: part of the energy.
     Potential(Expr<'g>),
-    /// By a potential of which the forces are known, in part, link by link.
+    /// A potential of which the forces are known, in part, link by link.
     Field(Field<'g>),
-    /// By forces that act together.
+    /// Forces that act together.
     Forces(Vec<Force<'g>>),
 }
 
@@ -50,14 +50,14 @@ pub enum Action<'g> {
 pub struct Field<'g> {
     /// All of it.
     pub potential: Expr<'g>,
-    /// What acts by its derivatives.
+    /// Part that acts by its derivatives.
     pub rest: Expr<'g>,
-    /// What the remainder does.
+    /// Loads of the remainder.
     pub loads: Loads<'g>,
 }
 
 impl<'g> Field<'g> {
-    /// With other expressions in place of those that it is made of.
+    /// The field with other expressions in place of those that it is made of.
     pub fn map(&self, f: impl Fn(Expr<'g>) -> Expr<'g>) -> Self {
         let uniform = self.loads.uniform.iter().map(|&(root, field)| (root, field.map(&f)));
         let forces = self.loads.forces.iter().map(|force| force.map(&f));
@@ -75,7 +75,7 @@ pub struct Loads<'g> {
 }
 
 impl<'g> Loads<'g> {
-    /// Of all elements together.
+    /// Loads of all elements together.
     pub fn of(elements: &[Element<'g>]) -> Self {
         let mut all = Self::default();
         for element in elements {
@@ -112,7 +112,7 @@ pub fn potential_of<'g>(elements: &[Element<'g>]) -> Option<Expr<'g>> {
     potentials.reduce(|sum, potential| sum + potential)
 }
 
-/// What of it acts by its derivatives.
+/// Potential that acts by its derivatives.
 pub fn potential_of_forces<'g>(elements: &[Element<'g>]) -> Option<Expr<'g>> {
     let potentials = elements.iter().filter_map(|element| match element.action {
         Action::Potential(potential) => Some(potential),
@@ -147,7 +147,7 @@ pub enum Force<'g> {
 }
 
 impl<'g> Force<'g> {
-    /// Of a force on a link: its wrench, each part in the axes in which it is given.
+    /// Wrench of a force on a link, each part in the axes in which it is given.
     pub fn wrench(&self, frame: &Frame<'g>) -> Option<Wrench<'g>> {
         let Force::OnLink { at, force, torque, axes, .. } = self else { return None };
         Some(match axes {
@@ -164,7 +164,7 @@ impl<'g> Force<'g> {
         })
     }
 
-    /// With other expressions in place of those that it is made of.
+    /// The force with other expressions in place of those that it is made of.
     pub fn map(&self, f: impl Fn(Expr<'g>) -> Expr<'g>) -> Self {
         match *self {
             Force::AtPoint { at, force } => Force::AtPoint { at: at.map(&f), force: force.map(&f) },

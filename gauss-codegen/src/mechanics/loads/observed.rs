@@ -74,7 +74,7 @@ impl<'g> Observed<'g> {
         Element { name: element.name.clone(), action, on_link: Some((0, wrench.map(real))) }
     }
 
-    /// What the symbols are in a chart.
+    /// Values of the symbols in a chart.
     fn values(&self, kinematics: &Kinematics<'g>) -> Map<u32, Expr<'g>> {
         let frame = &kinematics.frame;
         let entries = |matrix: &[Triple<'g>; 3]| matrix.iter().flatten().copied().collect::<Vec<_>>();

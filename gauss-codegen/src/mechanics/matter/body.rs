@@ -6,7 +6,7 @@ use crate::terms::{Role, Shape};
 use crate::mechanics::kinematics::vector::Triple;
 use crate::mechanics::print::names::Name;
 
-/// What the scene's body has.
+/// Quantities that the scene's body has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BodyShape {
     pub inertia: Shape,
@@ -28,7 +28,7 @@ pub struct ParameterSymbol<'g> {
     pub column: usize,
 }
 
-/// What a quantity is, where it is not read from a parameter of its own: one value, or the components in order.
+/// Values of a quantity that is not read from a parameter of its own: one value, or the components in order.
 #[derive(Clone, Debug)]
 pub struct QuantityValues<'g> {
     pub quantity: Role,

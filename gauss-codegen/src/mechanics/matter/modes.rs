@@ -37,7 +37,7 @@ pub struct ModalIntegrals<'g> {
     pub second_inertia: Vec<Vec<[Triple<'g>; 3]>>,
 }
 
-/// What modes add to the kinetic energy of a link: `½ νᵀGν` without the rigid body's part.
+/// Contribution of modes to the kinetic energy of a link: `½ νᵀGν` without the rigid body's part.
 #[derive(Clone)]
 pub struct Deformation<'g> {
     pub link: usize,
@@ -123,7 +123,7 @@ impl<'g> Deformation<'g> {
         self.momenta_of(&self.rates)
     }
 
-    /// What is added to dπ/dt because axes turn, O moves and G depends on η.
+    /// Terms of dπ/dt because axes turn, O moves and G depends on η.
     fn drift(&self, rates: &[Expr<'g>], momenta: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let (u, w) = (triple(rates, 0), triple(rates, 3));
         let (q, gamma) = (triple(momenta, 0), triple(momenta, 3));
@@ -222,7 +222,7 @@ impl<'g> Deformation<'g> {
         turning.sum::<Expr<'g>>() - self.projected(&self.drift(&self.rates, &momenta), speed)
     }
 
-    /// With other expressions in place of the rates.
+    /// Replaces the rates by other expressions.
     pub fn map_rates(&mut self, f: impl Fn(Expr<'g>) -> Expr<'g>) {
         self.rates.iter_mut().for_each(|rate| *rate = f(*rate));
     }

@@ -36,7 +36,7 @@ impl Page<'_> {
 pub(in crate::mechanics) struct PrintedForces<'g> {
     /// One for each speed: where one is too long to read, all are sums over the elements, each under its name.
     pub rows: Vec<Expr<'g>>,
-    /// What each element adds, if they are.
+    /// Contribution of each element, if they are.
     pub sections: Vec<Section<'g>>,
 }
 

@@ -35,7 +35,7 @@ impl<'g> Row<'g> {
         }
     }
 
-    /// What is printed of it, with the name of what it defines.
+    /// Expressions that are printed of it, with the name of the one that it defines.
     pub fn expressions(&self) -> Vec<(Option<[String; 2]>, Expr<'g>)> {
         match self {
             Row::Definition(Name { text, latex }, e) => vec![(Some([text.clone(), latex.clone()]), *e)],

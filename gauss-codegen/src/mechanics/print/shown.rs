@@ -7,7 +7,7 @@ use crate::mechanics::print::names::Name;
 use crate::mechanics::print::rows::{Row, Section};
 use crate::mechanics::tidy;
 
-/// What is called something else in print than in kernels.
+/// Names and angles that are other in print than in kernels.
 #[derive(Clone, Default)]
 pub struct Readings<'g> {
     /// Expressions with names, each after those that it is made of.
@@ -27,7 +27,7 @@ pub(in crate::mechanics) struct Shown<'g> {
 }
 
 impl<'g> Shown<'g> {
-    /// Of speeds that constraints were solved for, what they are comes into the place of the names.
+    /// Prepares the readings; values of speeds that constraints were solved for come into the place of the names.
     pub fn new(readings: &Readings<'g>, replacement: Option<&Substitution<'g>>) -> Self {
         let whole = |e: Expr<'g>| replacement.map_or(e, |replacement| replacement.of(e));
         let named = readings.names.iter().map(|(name, value)| {
@@ -38,7 +38,7 @@ impl<'g> Shown<'g> {
         Self { angles: readings.angles.clone(), named: named.collect(), names, turned: RefCell::default() }
     }
 
-    /// With angles of files read as what they are meant to be.
+    /// The expression with angles of files read as the quarter turns that they are meant to be.
     fn turned(&self, e: Expr<'g>) -> Expr<'g> {
         if self.angles.is_empty() {
             return e;
@@ -52,12 +52,12 @@ impl<'g> Shown<'g> {
         e.with_quarter_turns(&self.angles)
     }
 
-    /// With names, where that is no longer than without.
+    /// The expression with names, where that is no longer than without.
     pub fn legible(&self, e: Expr<'g>) -> Expr<'g> {
         self.with(e, self.named.len(), tidy::legible)
     }
 
-    /// With the first so many names.
+    /// The expression with the first so many names.
     fn with(&self, e: Expr<'g>, names: usize, set: impl Fn(Expr<'g>) -> Expr<'g>) -> Expr<'g> {
         let e = self.turned(e);
         let plain = set(e);
@@ -86,7 +86,7 @@ impl<'g> Shown<'g> {
         renamed.collect()
     }
 
-    /// What the names in some rows stand for, and the names in that.
+    /// Definitions of the names in some rows, and of the names in those.
     pub fn definitions(&self, rows: &[Expr<'g>]) -> Section<'g> {
         let mut used = vec![false; self.named.len()];
         let mut found = Vec::new();

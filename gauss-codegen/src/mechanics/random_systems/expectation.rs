@@ -1,4 +1,4 @@
-//! What the methods of a kernel should compute at a state, from the witness.
+//! Expected results of the methods of a kernel at a state, from the witness.
 
 use crate::mechanics::formula::Method;
 
@@ -22,7 +22,8 @@ fn solution_size(w: &Witness<'_>) -> f64 {
     first * w.saddle.inverse_norm * behind
 }
 
-/// Of γ: second derivatives of a constraint are of the order of its first ones, and twice as many speeds as in J enter.
+/// Size of γ: second derivatives of a constraint are of the order of its first ones, and twice as many speeds as in J
+/// enter.
 fn bias_size(w: &Witness<'_>) -> f64 {
     largest(&w.bias) + norm(&w.jacobian) * (1.0 + largest(&w.state().speeds)).powi(2)
 }
@@ -70,7 +71,7 @@ fn residual_size(w: &Witness<'_>, values: &[f64], state: &State) -> f64 {
     10.0 + largest(values) + norm(&w.jacobian) * (1.0 + largest(&state.speeds))
 }
 
-/// Of a system with all its speeds, at any ż and any residuals that corrections are asked for.
+/// Expectations of a system with all its speeds, at any ż and any residuals that corrections are asked for.
 pub fn of_whole(w: &Witness<'_>, plan: &Plan, rates: &[f64], wanted: &[f64]) -> Vec<Expectation> {
     let (n, sizes) = (w.matrix.len(), &w.sizes);
     let expectation = |method, values: Vec<f64>, size: f64| Expectation { method, values, size };
@@ -161,8 +162,8 @@ impl Reduction {
     }
 }
 
-/// Of a system whose constraints are solved for some of its speeds, at a state that satisfies them: what the whole one
-/// does, with `z = V z_kept + …`, `V = (1, −J_d⁻¹ J_k)`.
+/// Expectations of a system whose constraints are solved for some of its speeds, at a state that satisfies them: those
+/// of the whole one, with `z = V z_kept + …`, `V = (1, −J_d⁻¹ J_k)`.
 pub fn of_reduced(
     w: &Witness<'_>,
     plan: &Plan,

@@ -6,7 +6,7 @@ use std::ops::{Add, Mul, Sub};
 use crate::algebra::{Expr, Rational};
 use crate::mechanics::tests::Random;
 
-/// What a smooth function can be evaluated with.
+/// Numbers that a smooth function can be evaluated with.
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// A constant, of the same kind as `self`.
     fn fraction(self, numerator: i64, denominator: i64) -> Self;
@@ -54,12 +54,12 @@ impl Jet {
         Self { value, ..Self::default() }
     }
 
-    /// What starts at a value and goes on, and aside, at a rate.
+    /// A jet that starts at a value and goes on, and aside, at a rate.
     pub fn integral(value: f64, rate: Self) -> Self {
         Self { value, rate: rate.value, second: rate.rate, side: rate.side, side_rate: rate.side_rate }
     }
 
-    /// What goes on at the rate of `self`, and aside as that does: ∂v/∂z is ∂x/∂q·∂ψ/∂z.
+    /// A jet that goes on at the rate of `self`, and aside as that does: ∂v/∂z is ∂x/∂q·∂ψ/∂z.
     pub fn velocity(self) -> Self {
         Self { value: self.rate, rate: self.second, second: f64::NAN, side: self.side, side_rate: self.side_rate }
     }
@@ -193,7 +193,7 @@ impl Smooth {
         Self::constant(below(random, 17) as i64 - 8)
     }
 
-    /// With so many terms in the given variables, of order ½ each.
+    /// A function with so many terms in the given variables, of order ½ each.
     pub fn random(random: &mut Random, terms: usize, variables: &[usize]) -> Self {
         const SHAPES: [Shape; 6] =
             [Shape::Itself, Shape::Square, Shape::Sine, Shape::Cosine, Shape::Root, Shape::Quotient];

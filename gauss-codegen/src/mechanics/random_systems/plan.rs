@@ -10,7 +10,7 @@ use super::numbers::{Number, Smooth, below};
 pub enum CoordinateKind {
     Scalar,
     Rotation,
-    /// With ḃ in observer's axes for its first three rates, or u in its own.
+    /// A pose with ḃ in observer's axes for its first three rates, or u in its own.
     Pose {
         observed: bool,
     },
@@ -82,7 +82,7 @@ pub struct LinkPlan {
 
 #[derive(Clone, Debug)]
 pub enum ConstraintPlan {
-    /// Of t, q and, for velocities, z.
+    /// A function of t, q and, for velocities, z.
     Function(ConstraintKind, Smooth),
     /// Between the origins of links, or from Ω: its square, less a constant.
     Distance(usize, Option<usize>),
@@ -111,7 +111,7 @@ pub struct Plan {
     pub constraints: Vec<ConstraintPlan>,
 }
 
-/// How z is chosen.
+/// Choices of z.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SpeedChoice {
     /// The rates of the coordinates themselves.
@@ -302,7 +302,7 @@ impl Plan {
     }
 }
 
-/// How a random tree is built.
+/// Shape of a random tree.
 #[derive(Clone, Copy, Debug)]
 pub struct TreeShape {
     pub bodies: usize,

@@ -260,7 +260,7 @@ impl Motion {
     }
 }
 
-/// What (3.1) and the constraints say at one state.
+/// Values of (3.1) and of the constraints at one state.
 pub struct Witness<'a> {
     plan: &'a Plan,
     state: &'a State,

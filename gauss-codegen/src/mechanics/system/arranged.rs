@@ -111,7 +111,7 @@ impl<'g> System<'g> {
         stateful.then(|| Formula { method: Method::ConfigurationRates, arrangements: outputs() })
     }
 
-    /// By the balance of the free link that is all of the system.
+    /// Formulas by the balance of the free link that is all of the system.
     fn arranged_as_body(&self, body: &FreeLink<'g>) -> Formulas<'g> {
         let balances = body.balances();
         let short = body.short();
@@ -159,7 +159,7 @@ impl<'g> System<'g> {
         }
     }
 
-    /// By a factorisation of A, where speeds are rates of coordinates.
+    /// Accelerations by a factorisation of A, where speeds are rates of coordinates.
     fn dense_accelerations(&self, body: &FreeLink<'g>, residuals: &[Vec<Expr<'g>>]) -> Vec<Vec<Expr<'g>>> {
         if !body.in_coordinates || !self.constraints.is_empty() {
             return Vec::new();

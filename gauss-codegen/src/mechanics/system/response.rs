@@ -1,4 +1,4 @@
-//! What contact forces do: A⁻¹Wᵀ or its halves, Delassus' matrix D = W A⁻¹Wᵀ, and the motion without them.
+//! Response to contact forces: A⁻¹Wᵀ or its halves, Delassus' matrix D = W A⁻¹Wᵀ, and the motion without them.
 
 use crate::algebra::Expr;
 
@@ -17,7 +17,7 @@ struct Response<'g> {
 }
 
 impl<'g> System<'g> {
-    /// What the kernel says of its contacts; `accelerations` are those of the balance of a free link.
+    /// Formulas of the kernel's contacts; `accelerations` are those of the balance of a free link.
     pub(super) fn contact_formulas(&self, accelerations: &Arrangements<'g>) -> Vec<Formula<'g>> {
         if self.contacts.is_empty() {
             return Vec::new();
@@ -76,7 +76,7 @@ impl<'g> System<'g> {
         }
     }
 
-    /// Of long trees with contacts, where the speeds of the joints are those of the system.
+    /// Halves of A⁻¹Wᵀ of long trees with contacts, where the speeds of the joints are those of the system.
     pub fn halves(&self) -> Option<&Halves<'g>> {
         let halves = || {
             let has = !self.contacts.is_empty() && self.is_long() && self.is_sum_over_links();

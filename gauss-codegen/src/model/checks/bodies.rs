@@ -1,4 +1,4 @@
-//! What must hold between the bodies and frames of a scene: their names, their fields and their parents.
+//! Rules between the bodies and frames of a scene: their names, their fields and their parents.
 
 use super::masses;
 use crate::model::language::context::Context;
@@ -21,7 +21,7 @@ pub fn check(statements: &Statements, reader: &Reader<'_>, wanted: &Wanted, scal
 }
 
 impl BodyClause {
-    /// What it is called in expressions and clauses.
+    /// Name in expressions and clauses.
     pub fn word(&self) -> String {
         self.name.as_ref().map_or_else(|| UNNAMED.to_owned(), word)
     }
@@ -139,7 +139,7 @@ fn refuse_no_field(name: &Ident, table: &[(&str, ())], scalar: &str, context: &m
     near
 }
 
-/// Where bodies and frames are in a list, by what they are called; of two with one name the first.
+/// Places of bodies and frames in a list, by their names; of two with one name the first.
 fn places(bodies: &[BodyClause]) -> HashMap<String, usize> {
     let mut places = HashMap::new();
     bodies.iter().enumerate().for_each(|(k, body)| _ = places.entry(body.word()).or_insert(k));

@@ -1,4 +1,4 @@
-//! What must hold of constraints, and of the speeds that stay independent under them.
+//! Rules for constraints, and for the speeds that stay independent under them.
 
 use crate::model::language::context::Context;
 use crate::model::language::kind::Kind;

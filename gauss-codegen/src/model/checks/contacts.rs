@@ -1,4 +1,4 @@
-//! What must hold of contacts.
+//! Rules for contacts.
 
 use crate::model::language::context::Context;
 use crate::model::language::statements::Statements;

@@ -1,4 +1,4 @@
-//! What must hold between the fields: shapes that fit their roles, one scalar, no role missing, doubled or alone.
+//! Rules between the fields: shapes that fit their roles, one scalar, no role missing, doubled or alone.
 
 use crate::model::language::context::Context;
 use crate::model::language::fields::{Claim, ReadField, Reader};

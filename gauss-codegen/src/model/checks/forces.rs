@@ -1,4 +1,4 @@
-//! What must hold of forces and inputs.
+//! Rules for forces and inputs.
 
 use crate::model::language::context::Context;
 use crate::model::language::statements::Statements;
@@ -11,7 +11,7 @@ use crate::model::scene::forces::ForceClause;
 use proc_macro2::Ident;
 use std::collections::{HashMap, HashSet};
 
-/// What names and numbers alone show: which coordinates are driven, reactions, limits.
+/// Checks which coordinates are driven, reactions and limits, as far as names and numbers alone show mistakes.
 pub fn check(statements: &Statements, context: &mut Context) {
     let coordinates = statements.coordinates.iter().flat_map(|names| &names.names);
     let mut kinds = HashMap::new();
@@ -52,7 +52,7 @@ fn check_limits(clause: &ForceClause, context: &mut Context) {
     }
 }
 
-/// What an armature does, in words.
+/// Description of an armature, in words.
 const ARMATURE: &str = "an armature turns with the rates";
 
 /// Scalar coordinates, of armatures all, each of them once; what is done to them, and what does it, in words.

@@ -1,4 +1,4 @@
-//! What must hold of mass data: something has mass, roles belong to a body, nothing is said twice.
+//! Rules for mass data: something has mass, roles belong to a body, nothing is said twice.
 
 use super::field_shapes;
 use crate::model::language::context::Context;
@@ -166,8 +166,8 @@ pub fn check(list: &mut [RoleClause], alone: bool, fields: &[ReadField<'_>], sco
     }
 }
 
-/// What literal numbers alone show to be wrong. The rest is checked when a kernel is made, because it depends on the
-/// motion: of a body in the plane one moment of inertia matters.
+/// Rule that literal numbers alone show to be broken. The rest is checked when a kernel is made, because it depends on
+/// the motion: of a body in the plane one moment of inertia matters.
 fn broken_rule(clause: &RoleClause, alone: bool) -> Option<(Span, String)> {
     let RoleValue::Expression(value) = &clause.value else { return None };
     let parts: Vec<&Expression> = match &value.kind {
@@ -185,7 +185,7 @@ fn broken_rule(clause: &RoleClause, alone: bool) -> Option<(Span, String)> {
     Some((part.span, format!("`{word}` must be {least}, found {}", part.literal()?)))
 }
 
-/// What a field says is not said by a clause too; `known` are the roles that something plays.
+/// Refuses clauses for quantities that a field gives already; `known` are the roles that something plays.
 pub fn check_twice(
     list: &[RoleClause],
     fields: &[ReadField<'_>],
@@ -206,7 +206,7 @@ pub fn check_twice(
     }
 }
 
-/// What the fluid does to a body with a name needs gravity, and something that it displaces.
+/// Checks that a body with a name in a fluid has gravity, and something that it displaces.
 pub fn check_fluid(body: &BodyClause, gravity: bool, scalar: &str, context: &mut Context) {
     let Some(name) = &body.name else { return };
     for clause in &body.role_clauses {

@@ -1,4 +1,4 @@
-//! What must hold of a scene as a whole, beyond its single expressions.
+//! Rules for a scene as a whole, beyond its single expressions.
 
 pub mod bodies;
 pub mod coefficients;

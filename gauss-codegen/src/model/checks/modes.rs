@@ -1,4 +1,4 @@
-//! What must hold of modes: whose they are, which coordinates they move by, and what numbers alone show.
+//! Rules for modes: whose they are, which coordinates they move by, and what numbers alone show.
 
 use crate::model::language::context::Context;
 use crate::model::language::statements::{Statement, Statements};

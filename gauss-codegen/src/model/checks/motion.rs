@@ -1,4 +1,4 @@
-//! What must hold between coordinates, speeds and kinematics.
+//! Rules between coordinates, speeds and kinematics.
 
 use crate::model::language::context::Context;
 use crate::model::language::declarations::{Kinematics, Names};
@@ -12,7 +12,7 @@ use proc_macro2::Ident;
 use std::collections::HashSet;
 use syn::ext::IdentExt;
 
-/// With speeds of its own a system needs one equation for each coordinate; without, it needs none.
+/// Checks that a system with speeds of its own has one equation for each coordinate, and without them none.
 pub fn check_kinematics(statements: &Statements, uncertain: bool, context: &mut Context) {
     let coordinates = statements.coordinates.as_ref();
     if statements.in_chart && coordinates.is_none() {
@@ -190,7 +190,7 @@ fn equation(coordinate: &Coordinate) -> String {
 }
 
 impl CoordinateKind {
-    /// How many independent rates it has.
+    /// Number of its independent rates.
     fn dimension(self) -> usize {
         match self {
             CoordinateKind::Scalar => 1,
@@ -201,7 +201,7 @@ impl CoordinateKind {
 }
 
 impl SpeedKind {
-    /// How many numbers it is.
+    /// Number of its components.
     pub fn dimension(self) -> usize {
         match self {
             SpeedKind::Scalar => 1,

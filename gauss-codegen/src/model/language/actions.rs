@@ -58,7 +58,7 @@ fn read_arguments(row: &'static Row, clause: &Clause, in_chart: bool, context: &
     whole.then_some(read)
 }
 
-/// What an argument is said to be; `None` if it is wrong, which is noted.
+/// Reads the value of an argument; `None` if it is wrong, which is noted.
 fn read_value(row: &Row, argument: &Argument, clause: &Clause, context: &mut Context) -> Option<Value> {
     Some(match argument.takes {
         Takes::Body | Takes::Other => Value::Reference(read_reference(clause, "a body or a frame", context)?),

@@ -1,4 +1,4 @@
-//! What stands in the brackets of a clause: its arguments, names, values and units.
+//! Contents of the brackets of a clause: its arguments, names, values and units.
 
 use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
@@ -59,7 +59,7 @@ pub fn value(argument: &Clause, example: &str, context: &mut Context) -> Option<
     arithmetic::read(&argument.word(), equals(argument, example, context)?, context)
 }
 
-/// What follows `=`.
+/// Tokens after `=`.
 pub fn equals<'a>(argument: &'a Clause, example: &str, context: &mut Context) -> Option<&'a [TokenTree]> {
     let name = &argument.name;
     match &argument.value {
@@ -110,7 +110,7 @@ pub fn known<T: Copy>(
     true
 }
 
-/// What is written in the place of an argument that is none, but a law of friction.
+/// Replacement for an argument that is none, but a law of friction.
 pub fn law<T: Copy>(word: &str, table: &Table<T>) -> Option<&'static str> {
     let is_one = table.iter().any(|(name, _)| *name == word);
     synonyms::instead(word, synonyms::LAWS).filter(|_| !is_one)

@@ -19,7 +19,7 @@ use syn::{
     Member, Token, UnOp,
 };
 
-/// What there is, for messages about what there is not.
+/// Parts of expressions that there are, for messages about those that there are not.
 pub const ALLOWED: &str = "expressions are made of numbers, names, `+ - * /`, brackets, vectors `[a, b, c]`, \
      components `a.x` or `a[0]`, positions and rotations such as `arm.position`, and the functions sin, cos, tan, exp, \
      ln, sqrt, powi, powf, asin, acos, atan, tanh, atan2, dot, cross, rotation_x, rotation_y, rotation_z, inverse, twist, rate, abs, min, max, hypot, \
@@ -28,7 +28,7 @@ pub const ALLOWED: &str = "expressions are made of numbers, names, `+ - * /`, br
 /// More factors than any law of forces has.
 pub const LARGEST_EXPONENT: u32 = 100;
 
-/// What is said of powers of more.
+/// Message about powers of more.
 pub fn too_many_factors() -> String {
     format!("powers become products, of {LARGEST_EXPONENT} factors at most; write `powf`")
 }
@@ -490,7 +490,7 @@ fn power(base: Expression, exponent: &Expr, context: &mut Context) -> Option<Exp
     Some(ExpressionKind::Power(Box::new(base), power))
 }
 
-/// What is wrong with limits that are literals, and where.
+/// Mistake in limits that are literals, and its place.
 fn wrong_limits(function: FunctionName, values: &[Expression]) -> Option<(Span, &'static str)> {
     let [_, low, high] = values else { return None };
     let (a, b) = low.literal().zip(high.literal())?;

@@ -9,7 +9,7 @@ use quote::ToTokens;
 use syn::ext::IdentExt;
 use syn::{Attribute, Expr, ExprLit, Lit, LitStr, MacroDelimiter, Meta};
 
-/// Where an attribute stands, for the wording of messages.
+/// Owner of an attribute, for the wording of messages.
 #[derive(Clone, Copy)]
 pub enum Owner {
     Struct,
@@ -75,7 +75,7 @@ pub struct Clause {
     pub value: Content,
 }
 
-/// What follows the name of a clause.
+/// Tokens after the name of a clause.
 pub enum Content {
     /// Nothing.
     Absent,
@@ -340,7 +340,7 @@ pub fn flat(tokens: TokenStream) -> Vec<TokenTree> {
     flattened
 }
 
-/// Where a mistake at `token` is shown: a bracketed group by its opening bracket.
+/// Place at which a mistake at `token` is shown: a bracketed group by its opening bracket.
 pub fn start(token: &TokenTree) -> Span {
     match token {
         TokenTree::Group(group) => group.span_open(),

@@ -231,7 +231,7 @@ fn three(lengths: Expression, [what, word]: [&str; 2], context: &mut Context) ->
     }
 }
 
-/// What `over = …` calls the horizontal coordinates.
+/// Names of the horizontal coordinates by `over = …`.
 fn horizontal(argument: &Clause, context: &mut Context) -> Option<Vec<Ident>> {
     let wording = ("name or two, those of the horizontal coordinates", ["x", "[x, y]"]);
     let names = arithmetic::read_one_or_two("over", wording, equals(argument, "[x, y]", context)?, context)?;
@@ -319,7 +319,7 @@ impl Written {
         context.error(span, format!("{article}{what} needs {why}; write `{noun}({example})`"));
     }
 
-    /// What a gap is said to be, with slips.
+    /// Reads a gap with slips.
     fn of_gap(&self, context: &mut Context) -> Option<Touching> {
         let (gap, spin) = (self.value("gap", "z - r", context), self.value("spin", "w", context));
         let (slips, rolls) = (self.one_or_two("slip", "v", context), self.one_or_two("roll", "w", context));
@@ -355,7 +355,7 @@ impl Written {
         arithmetic::read_one_or_two(word, wording, equals(argument, example, context)?, context)
     }
 
-    /// What touches at a point, or about it.
+    /// Reads a contact at a point, or about it.
     fn of_point(&self, context: &mut Context) -> Option<Touching> {
         let mut value = |word: &str, example: &str| self.value(word, example, context);
         let (point, radius) = (value("point", "tip"), value("radius", "r"));

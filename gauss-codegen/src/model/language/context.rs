@@ -29,7 +29,7 @@ impl Context {
         self.mistakes.is_none()
     }
 
-    /// How many mistakes there are so far.
+    /// Number of mistakes so far.
     pub fn count(&self) -> usize {
         self.count
     }

@@ -11,7 +11,7 @@ use crate::model::scene::expression::Expression;
 use crate::terms::{InputKind, InputName, WantedJoint, WantedMethod};
 use proc_macro2::{Ident, Span, TokenTree};
 
-/// What a clause declares, in brackets.
+/// Names that a clause declares, in brackets.
 pub struct Names<N> {
     pub clause: Ident,
     pub names: Vec<N>,
@@ -52,7 +52,7 @@ const COORDINATES: &Table<CoordinateKind> = &[("Pose", CoordinateKind::Pose), ("
 const SPEEDS: &Table<SpeedKind> = &[("Vector3", SpeedKind::Vector)];
 const INPUTS: &Table<InputKind> = &[("Vector3", InputKind::Vector), ("Wrench", InputKind::Wrench)];
 
-/// How the names of a clause are declared, for messages.
+/// Words about the declarations of a clause, for messages.
 struct Language<K: 'static> {
     noun: &'static str,
     example: &'static str,
@@ -262,7 +262,7 @@ fn read_component(ident: &Ident, axis: &Ident, context: &mut Context) -> Option<
     component
 }
 
-/// What stands after the colon; `None` if it is unknown what was meant, which is noted.
+/// Reads the kind after the colon; `None` if it is unknown what was meant, which is noted.
 fn read_kind<K: Copy>(
     ident: &Ident,
     colon: Span,

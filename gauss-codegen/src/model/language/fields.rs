@@ -92,7 +92,7 @@ pub fn any_body(input: &DeriveInput) -> bool {
 }
 
 impl Reader<'_> {
-    /// What the attributes of a field say: of roles the first, of units the first that is well.
+    /// Role and unit by the attributes of a field: of roles the first, of units the first that is well.
     fn role_and_unit(
         &mut self,
         ident: &Ident,
@@ -197,7 +197,7 @@ impl Reader<'_> {
     }
 }
 
-/// What is wrong with the unit of a field.
+/// Mistake in the unit of a field.
 fn wrong_unit(field: &Ident, role: Option<&Claim>, reading: &Reading, unit: &str) -> Option<String> {
     let role = role.map(|claim| claim.role);
     if let Some((implied, dimension)) = role.and_then(Role::unit) {

@@ -44,7 +44,7 @@ pub const FUNCTIONS: &Table<Function> = &[
 ];
 
 impl Function {
-    /// How many arguments it takes; the value that a method is called on is the first.
+    /// Number of its arguments; the value that a method is called on is the first.
     pub fn arguments(self) -> usize {
         match self {
             Function::Power => 2,
@@ -148,7 +148,7 @@ impl FunctionName {
         )
     }
 
-    /// What of it jumps, for messages.
+    /// Description of its jump, for messages.
     pub fn jump(self) -> String {
         match self {
             FunctionName::Signum => "`signum` jumps".into(),

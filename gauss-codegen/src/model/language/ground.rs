@@ -24,7 +24,7 @@ const LINKS: &str = "[left_foot, right_foot]";
 pub struct Ground {
     /// The word `ground`.
     pub span: Span,
-    /// Those that touch, if not all.
+    /// Links that touch, if not all.
     pub links: Option<Vec<Ident>>,
     /// As of `contact(…)`; without it and `height` the planes of the file, if there are some.
     pub normal: Option<Expression>,

@@ -1,4 +1,4 @@
-//! What kind of value an expression has.
+//! Kinds of values of expressions.
 
 /// The kind of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

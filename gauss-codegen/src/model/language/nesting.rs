@@ -1,5 +1,5 @@
-//! How deep tokens and expressions go. What reads them calls itself once a level, so depth is refused before anything
-//! is read: within the compiler a macro has a few megabytes of stack, and an overflow could not be reported.
+//! Depth of tokens and expressions. What reads them calls itself once a level, so depth is refused before anything is
+//! read: within the compiler a macro has a few megabytes of stack, and an overflow could not be reported.
 
 use proc_macro2::token_stream::IntoIter;
 use proc_macro2::{Group, Span, TokenStream, TokenTree};
@@ -26,7 +26,7 @@ struct Level {
     foreign: usize,
     /// Angle brackets of types that are open.
     angles: usize,
-    /// What the token before was.
+    /// Kind of the token before.
     after: After,
 }
 

@@ -14,24 +14,24 @@ use crate::model::scene::expression::Expression;
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenTree};
 use syn::LitStr;
 
-/// What the clauses say, as far as they are read.
+/// Contents of the clauses, as far as they are read.
 #[derive(Default)]
 pub struct RobotClauses {
     pub file: Option<File>,
     pub base: Option<Base>,
-    /// Where the root is held, if not at Ω and along k.
+    /// Pose at which the root is held, if not at Ω and along k.
     pub mount: Option<Mount>,
     pub inputs: Option<Inputs>,
     pub friction: Option<Friction>,
     pub limits: Option<Limits>,
-    /// What the shapes of links touch.
+    /// Planes that the shapes of links touch.
     pub grounds: Vec<Ground>,
     /// Links that touch each other.
     pub self_contacts: Vec<SelfContact>,
     pub saturation: Option<Saturation>,
     /// The word `parameters` of `parameters = inertial`.
     pub inertial: Option<Ident>,
-    /// What of the file is known not to act.
+    /// Elements of the file that the user ignores on purpose.
     pub ignored: Vec<Ident>,
 }
 
@@ -76,7 +76,7 @@ pub enum Inputs {
     Actuators,
 }
 
-/// What becomes of dry friction.
+/// Treatment of dry friction.
 #[cfg_attr(not(any(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "files of robots are not read"))]
 pub enum Friction {
     /// Force times v/√(v² + w²), with this w.
@@ -86,7 +86,7 @@ pub enum Friction {
     None,
 }
 
-/// What becomes of the limits of joints and tendons.
+/// Treatment of the limits of joints and tendons.
 #[cfg_attr(not(any(feature = "urdf", feature = "mjcf")), allow(dead_code, reason = "files of robots are not read"))]
 pub enum Limits {
     /// They are contacts.
@@ -99,10 +99,10 @@ pub enum Limits {
     None,
 }
 
-/// What becomes of the ranges of controls, forces and efforts.
+/// Treatment of the ranges of controls, forces and efforts.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Saturation {
-    /// What is beyond is cut off.
+    /// Values beyond the range are cut off.
     Clamp,
     None,
 }
@@ -125,7 +125,7 @@ pub enum RobotTopic {
 pub const FILES: &Table<RobotTopic> =
     &[("urdf", RobotTopic::File(Format::Urdf)), ("mjcf", RobotTopic::File(Format::Mjcf))];
 
-/// Those that say what is made of it.
+/// Clauses that say what is made of the file.
 pub const OPTIONS: &Table<RobotTopic> = &[
     ("base", RobotTopic::Base),
     ("inputs", RobotTopic::Inputs),

@@ -1,4 +1,4 @@
-//! What each role is called, which shapes it takes and why.
+//! Words for each role, the shapes that it takes and the reasons.
 
 use super::units::Dimension;
 use super::words::Table;

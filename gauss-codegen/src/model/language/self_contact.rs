@@ -16,7 +16,7 @@ const SELF_CONTACT: &Table<()> = &[("links", ()), ("along", ()), ("friction", ()
 pub struct SelfContact {
     /// The word `self_contact`.
     pub span: Span,
-    /// Those that touch, if not all.
+    /// Links that touch, if not all.
     pub links: Option<Vec<Ident>>,
     /// A direction that no line of centers has.
     pub along: Option<Expression>,

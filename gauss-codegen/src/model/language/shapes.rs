@@ -13,7 +13,7 @@ use syn::{
     PathSegment, Stmt, Type,
 };
 
-/// What a written type shows.
+/// Properties that a written type shows.
 pub struct Reading {
     pub kind: TypeKind,
     pub element: ScalarType,
@@ -21,7 +21,7 @@ pub struct Reading {
     pub name: String,
 }
 
-/// What a written type is.
+/// Kinds of written types.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum TypeKind {
     /// One of the shapes that roles take.

@@ -26,7 +26,7 @@ pub struct Statements {
     pub in_chart: bool,
     /// `chart` or `motion`, where other clauses declare moving parts as well.
     pub of_chart: Option<Ident>,
-    /// What the speeds of the chart are called, one by one.
+    /// Names of the speeds of the chart, one by one.
     pub speeds_of_chart: Vec<String>,
     /// Some clause declares coordinates.
     has_coordinates: bool,
@@ -167,7 +167,7 @@ pub fn meant(word: &str) -> Option<Statement> {
     words::nearest(word, STATEMENTS).map(|(_, statement)| statement)
 }
 
-/// How the clause `word` is written, if it is one of these.
+/// Form in which the clause `word` is written, if it is one of these.
 pub fn form(word: &str) -> Option<String> {
     STATEMENTS.iter().find(|(name, _)| *name == word).map(|(_, statement)| match statement {
         Statement::Potential | Statement::Limit => format!("{word} = …"),
@@ -250,7 +250,7 @@ impl Statements {
         }
     }
 
-    /// What can be written once is not written again.
+    /// Refuses a second clause of a kind that can be written once.
     fn refuse_twice(&self, statement: Statement, clause: &Clause, context: &mut Context) {
         let written = match statement {
             Statement::Coordinates => self.coordinates.is_some(),
@@ -516,7 +516,7 @@ fn read_constraint(clause: &Clause, context: &mut Context) -> Option<ConstraintC
     read
 }
 
-/// What stands in the brackets of a constraint, if it is an expression without a word for what is constrained.
+/// Tokens in the brackets of a constraint, if they are an expression without a word for what is constrained.
 fn bare_expression(group: &Group) -> Option<Vec<TokenTree>> {
     let pieces = attributes::pieces(group.stream(), "", &mut Context::default());
     let [piece] = pieces.as_slice() else { return None };

@@ -150,7 +150,7 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
     Clauses { in_chart, runtime: runtime.flatten().unwrap_or_else(default_runtime), wanted, statements, own, robot }
 }
 
-/// What the clauses say that stand once; `Some(None)` where one could not be read.
+/// Contents of the clauses that stand once; `Some(None)` where one could not be read.
 #[derive(Default)]
 struct Topics {
     charts: Vec<Option<Written>>,
@@ -164,7 +164,7 @@ struct Topics {
 }
 
 impl Topics {
-    /// Of clauses given twice the first counts, but mistakes in the second are found all the same.
+    /// Reads a clause: of those given twice the first counts, but mistakes in the second are found all the same.
     fn read(&mut self, topic: Topic, clause: &Clause, context: &mut Context) {
         if let Some((_, earlier)) = self.first.iter().find(|(other, _)| *other == topic) {
             let message =
@@ -264,7 +264,7 @@ fn refuse(clause: &Clause, word: &str, beside_file: bool, context: &mut Context)
     context.error(span, message);
 }
 
-/// What the struct can say, by what it is about.
+/// List of the clauses of a struct, by their topics.
 fn all_clauses() -> String {
     let names = |chosen: &dyn Fn(Statement) -> bool| {
         STATEMENTS.iter().filter(|(_, statement)| chosen(*statement)).map(|&(name, _)| (name, ())).collect::<Vec<_>>()
@@ -414,7 +414,7 @@ fn check_alone(clause: &Clause, context: &mut Context) {
     context.error(span, format!("`{name}` takes no value; write `{name}` alone, or leave it out"));
 }
 
-/// What `linearize` gives besides the derivatives by state, time and input, and of which equations.
+/// Options of `linearize` besides the derivatives by state, time and input, and of which equations.
 #[derive(Clone, Copy, PartialEq)]
 enum Further {
     Parameters,

@@ -3,7 +3,7 @@
 use super::words::Table;
 use crate::terms::Role;
 
-/// What is written in the place of `word`, if it is a word of this table; case and underscores count for nothing.
+/// Entry for `word`, if it is a word of this table; case and underscores count for nothing.
 pub fn instead<T: Copy>(word: &str, table: &Table<T>) -> Option<T> {
     let plain = |name: &str| name.replace('_', "").to_lowercase();
     table.iter().find(|(name, _)| plain(name) == plain(word)).map(|&(_, entry)| entry)
@@ -493,7 +493,7 @@ pub const FOR_ARGUMENTS: &Table<&[&str]> = &[
     ("current", &["velocity"]),
 ];
 
-/// What to know of an argument that had another name.
+/// Notes on an argument that had another name.
 const NOTES: &Table<&str> = &[
     ("center_of_mass", ", from O in body axes"),
     ("center_of_buoyancy", ", from O in body axes"),

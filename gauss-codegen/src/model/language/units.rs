@@ -44,7 +44,7 @@ impl Dimension {
     }
 }
 
-/// What has a unit that is shorter than its factors.
+/// Quantities whose unit is shorter than its factors.
 const SHORT: &[(&str, Dimension)] = &[
     ("N", Dimension::new(1, 1, -2)),
     ("N m", Dimension::new(1, 2, -2)),
@@ -211,7 +211,7 @@ impl Reader<'_> {
         }
     }
 
-    /// What is read so far, and one more factor to a power.
+    /// Multiplies what is read so far by one more factor to a power.
     fn product(&mut self, total: Dimension, power: i32) -> Result<Dimension, String> {
         let factor = self.factor()?;
         factor.to_the(power).and_then(|factor| total.times(factor)).ok_or_else(|| self.too_large())
@@ -292,7 +292,7 @@ fn is_letter(c: char) -> bool {
     c.is_alphabetic() || matches!(c, '°' | '%')
 }
 
-/// What a raised digit or sign is on the line.
+/// Plain character of a raised digit or sign.
 fn plain(c: char) -> Option<char> {
     match c {
         '⁻' => Some('-'),

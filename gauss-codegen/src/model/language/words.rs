@@ -72,10 +72,10 @@ pub const TIME: &str = "t";
 /// The name of the ratio of a circle's circumference to its diameter.
 pub const PI: &str = "pi";
 
-/// What a body without a name of its own is called in expressions and clauses.
+/// Name of a body without a name of its own, in expressions and clauses.
 pub const UNNAMED: &str = "body";
 
-/// What stands before the name of an input, `input.elbow`.
+/// Word before the name of an input, `input.elbow`.
 pub const INPUT: &str = "input";
 
 /// The name without `r#`.

@@ -1,4 +1,4 @@
-//! What a scene declares, for expressions to name.
+//! Declarations of a scene, for expressions to name.
 
 use super::scope::{Declared, Meaning, Scope};
 use crate::model::language::fields::ReadField;
@@ -8,7 +8,7 @@ use crate::model::language::words::UNNAMED;
 use crate::terms::Shape;
 use proc_macro2::{Ident, Span};
 
-/// What expressions may name.
+/// Collects the names that expressions may use.
 pub fn scope(
     statements: &Statements,
     fields: &[ReadField<'_>],

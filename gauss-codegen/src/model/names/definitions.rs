@@ -123,7 +123,7 @@ struct WrittenOut {
 }
 
 impl WrittenOut {
-    /// Those of the definition that a name stands for.
+    /// Parts and levels of the definition that a name stands for.
     fn find(&self, expression: &Expression) -> Option<(usize, usize)> {
         let ExpressionKind::Name(name) = &expression.kind else { return None };
         self.known.get(&word(name)).copied()

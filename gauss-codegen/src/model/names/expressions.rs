@@ -142,7 +142,7 @@ impl RoleClause {
     }
 }
 
-/// Where an entry of an added mass, or of an inertia, stands.
+/// Place of an entry of an added mass, or of an inertia.
 pub fn entry(role: Role) -> Place {
     Place::Constant { word: "entry", of: if role == Role::AddedMass { Holder::AddedMass } else { Holder::Inertia } }
 }
@@ -214,7 +214,7 @@ impl ForceClause {
         self.expressions().into_iter().filter_map(placed).collect()
     }
 
-    /// Where the expression of an argument stands; `None` if it is none.
+    /// Place of the expression of an argument; `None` if it is none.
     fn place(&self, argument: &Argument, in_chart: bool) -> Option<Place> {
         let holder = Holder::Element(self.row);
         Some(match argument.takes {

@@ -1,4 +1,4 @@
-//! What kind of value an expression has, and whether it is the kind that its place needs.
+//! Kinds of values of expressions, and whether they are those that their places need.
 
 use super::places::Place;
 use super::scope::{Meaning, Scope};
@@ -179,7 +179,7 @@ impl Checker<'_> {
         last
     }
 
-    /// What to say of a function whose derivative jumps, where derivatives are taken.
+    /// Message about a function whose derivative jumps, where derivatives are taken.
     fn refuses_kink(&self, function: FunctionName) -> Option<String> {
         if self.differentiated {
             return Some(format!(
@@ -348,7 +348,7 @@ impl Checker<'_> {
         self.note(span, message)
     }
 
-    /// What to say of a velocity, `written` so, where none may stand.
+    /// Message about a velocity, `written` so, where none may stand.
     fn velocity(&self, written: &str) -> Option<String> {
         let refused = self.place.refuses_velocity(written);
         refused.or_else(|| self.differentiated.then(|| self.acceleration(written, &format!("`{written}` itself"))))
@@ -404,7 +404,7 @@ impl Checker<'_> {
         None
     }
 
-    /// What to say of the time derivative of a velocity.
+    /// Message about the time derivative of a velocity.
     fn acceleration(&self, written: &str, instead: &str) -> String {
         format!(
             "the time derivative of `{written}` is an acceleration, which {} cannot contain; write {instead}",
@@ -413,7 +413,7 @@ impl Checker<'_> {
     }
 }
 
-/// What to say of an input in `rate(…)`.
+/// Message about an input in `rate(…)`.
 fn rate_of_input(name: &Ident) -> String {
     format!(
         "`{name}` is an input, whose rate is never known; take it out of `rate(…)`, and declare an input for its rate if \

@@ -1,4 +1,4 @@
-//! What names mean in expressions, where expressions stand, and which kinds of values they have.
+//! Meanings of names in expressions, the places of expressions, and the kinds of their values.
 
 pub mod declared;
 pub mod definitions;

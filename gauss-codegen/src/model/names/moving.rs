@@ -1,4 +1,4 @@
-//! What changes when coordinates or speeds do.
+//! Names that change when coordinates or speeds do.
 
 use crate::model::language::statements::Statements;
 use crate::model::language::words::{TIME, UNNAMED, word};
@@ -7,7 +7,7 @@ use crate::model::scene::expression::{Expression, ExpressionKind, FunctionName};
 use proc_macro2::Ident;
 use std::collections::{HashMap, HashSet};
 
-/// What moves, by name.
+/// Moving things, by name.
 pub struct Moving {
     /// Coordinates; bodies, frames and points that are placed by them.
     places: HashSet<String>,
@@ -58,7 +58,7 @@ impl Moving {
         self.carrier(word(a)) == self.carrier(word(b))
     }
 
-    /// What a body or a frame is fixed in; `None`: the observer's frame.
+    /// Parent in which a body or a frame is fixed; `None`: the observer's frame.
     fn carrier(&self, name: String) -> Option<String> {
         let mut carrier = Some(name);
         // As often as there are bodies: parents that go round in a circle are refused elsewhere.

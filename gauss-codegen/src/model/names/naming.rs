@@ -38,7 +38,7 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
     }
 }
 
-/// What acts, where it has a name, and what may touch.
+/// Names of loads, where they have one, and of contacts.
 fn acting(statements: &Statements) -> Vec<Named<'_>> {
     let clauses = statements.forces.iter().chain(&statements.attractions);
     let acting = clauses.filter_map(|clause| Some((clause.name.as_ref()?, clause.noun())));
@@ -46,7 +46,7 @@ fn acting(statements: &Statements) -> Vec<Named<'_>> {
     acting.chain(contacts.map(|name| (name, "contact"))).collect()
 }
 
-/// What expressions can name.
+/// Names that expressions can use.
 pub(super) fn declared<'a>(statements: &'a Statements, fields: &[ReadField<'a>]) -> Vec<Named<'a>> {
     let coordinates = statements.coordinates.iter().flat_map(|names| &names.names);
     let speeds = statements.speeds.iter().flat_map(|names| &names.names);

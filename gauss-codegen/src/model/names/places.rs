@@ -1,4 +1,4 @@
-//! Where expressions stand: which kind of value is needed there, and which names may stand there.
+//! Places of expressions: which kind of value is needed there, and which names may stand there.
 
 use super::scope::Meaning;
 use crate::model::language::kind::Kind;
@@ -9,7 +9,7 @@ use crate::model::scene::expression::FunctionName;
 use crate::terms::{Role, Shape};
 use proc_macro2::Ident;
 
-/// What has ends, an extent, constants or coefficients.
+/// Owners of ends, an extent, constants or coefficients.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Holder {
     Element(&'static Row),
@@ -21,7 +21,7 @@ pub enum Holder {
 }
 
 impl Holder {
-    /// What it is called in messages, with its article.
+    /// Noun in messages, with its article.
     fn noun(self) -> String {
         match self {
             Holder::Element(row) => words::a(row.noun),
@@ -33,7 +33,7 @@ impl Holder {
         }
     }
 
-    /// What its constants are called.
+    /// Words for its constants.
     fn constant(self) -> String {
         match self {
             Holder::Element(_) | Holder::Contact => format!("a constant of {}", self.noun()),
@@ -42,29 +42,29 @@ impl Holder {
     }
 }
 
-/// Where an expression stands.
+/// Place of an expression.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     /// The rate of a coordinate; of `None` it is not known which.
     Kinematics(Option<CoordinateKind>),
     /// The rate of a state.
     State,
-    /// Of a body or a frame.
+    /// Position of a body or a frame.
     Position,
-    /// Of a body or a frame.
+    /// Rotation of a body or a frame.
     Rotation,
-    /// Of a particle, without a parent or relative to one.
+    /// Position of a particle, without a parent or relative to one.
     Particle {
         parent: bool,
     },
     Mass,
-    /// Of a body, in a clause.
+    /// Mass data of a body, in a clause.
     Role(Role),
-    /// Of a point in its body.
+    /// Position of a point in its body.
     At,
     Potential,
     Constraint(ConstraintKind),
-    /// Of a contact.
+    /// Gap of a contact.
     Gap,
     /// Velocity along a tangent of a contact.
     Slip,
@@ -78,14 +78,14 @@ pub enum Place {
     Touching,
     /// The normal or a tangent of a plane, the axis of a rim.
     Direction,
-    /// Of a plane.
+    /// Height of a plane.
     Height,
-    /// What stays in a range, and where the range ends.
+    /// Expression that stays in a range, and the end of the range.
     Limited,
     Limit,
-    /// Of the point where a force acts, in observer axes.
+    /// Position of the point where a force acts, in observer axes.
     ForcePoint,
-    /// Of the point where a force acts, in its body; `bound`: there is no other way to say where it acts.
+    /// Position of the point where a force acts, in its body; `bound`: there is no other way to say where it acts.
     ForceAt {
         bound: bool,
     },
@@ -95,7 +95,7 @@ pub enum Place {
     Torque,
     /// The generalised force on the rate of a coordinate.
     Drive,
-    /// Where the extent of a spring or a stop begins or ends.
+    /// Begin or end of the extent of a spring or a stop.
     End(Holder),
     /// The extent of a spring or a stop.
     Along(Holder),
@@ -110,7 +110,7 @@ pub enum Place {
     Coefficient(Holder),
     /// The velocity of the medium.
     Medium,
-    /// What central gravity attracts to.
+    /// Center that central gravity attracts to.
     Center,
     /// An expression with a name: what it may contain depends on where the name stands.
     Definition,
@@ -148,7 +148,7 @@ impl Place {
         }
     }
 
-    /// What to say of an expression of another kind.
+    /// Message about an expression of another kind.
     pub fn mismatch(self, found: Kind) -> String {
         let (needed, remedy) = match self {
             Place::Kinematics(Some(CoordinateKind::Pose)) => (
@@ -283,7 +283,7 @@ impl Place {
         }
     }
 
-    /// What acts: a function of all that is known at an instant.
+    /// Tells whether it is a load: a function of all that is known at an instant.
     fn is_action(self) -> bool {
         matches!(
             self,
@@ -332,7 +332,7 @@ impl Place {
         )
     }
 
-    /// What stands here, for messages.
+    /// Noun of the expression here, for messages.
     pub fn subject(self) -> String {
         let subject = match self {
             Place::Kinematics(_) => "the rate of a coordinate",
@@ -371,7 +371,7 @@ impl Place {
         subject.into()
     }
 
-    /// What to say of a name that may not stand here.
+    /// Message about a name that may not stand here.
     pub fn refusal(self, name: &Ident, meaning: &Meaning) -> String {
         let what = meaning.described();
         match (self, meaning) {
@@ -468,7 +468,7 @@ impl Place {
         }
     }
 
-    /// What to say of a velocity, `written` so, where none may stand.
+    /// Message about a velocity, `written` so, where none may stand.
     pub fn refuses_velocity(self, written: &str) -> Option<String> {
         let remedy = match self {
             place if place.is_action() => return None,
@@ -495,7 +495,7 @@ impl Place {
         }
     }
 
-    /// What to say of a function that is not smooth, where derivatives are taken.
+    /// Message about a function that is not smooth, where derivatives are taken.
     pub fn refuses_kink(self, function: FunctionName) -> Option<String> {
         match self {
             Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) | Place::State => None,

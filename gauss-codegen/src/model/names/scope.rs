@@ -1,4 +1,4 @@
-//! What the names in expressions mean.
+//! Meanings of the names in expressions.
 
 use crate::model::language::functions::FUNCTIONS;
 use crate::model::language::synonyms::{FOR_FUNCTIONS, instead};
@@ -12,7 +12,7 @@ use std::cmp::Ordering;
 use std::collections::{HashMap, HashSet};
 use syn::ext::IdentExt;
 
-/// What a name stands for.
+/// Meaning of a name.
 #[derive(Clone, PartialEq, Eq)]
 pub enum Meaning {
     Time,
@@ -45,7 +45,7 @@ pub enum Meaning {
 /// A function that a clause declares.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Declared {
-    /// What it is a function of, in words for messages.
+    /// Variables of the function, in words for messages.
     pub variables: Vec<String>,
     /// Its derivative jumps.
     pub kink: bool,
@@ -54,11 +54,11 @@ pub struct Declared {
 /// The names that expressions may use.
 pub struct Scope {
     names: Vec<(String, Meaning)>,
-    /// Where they are among these, by the name.
+    /// Places of the names among these, by the name.
     places: HashMap<String, Vec<usize>>,
     /// Every name could be read; if not, an unknown name may well be one of those that could not.
     complete: bool,
-    /// What the definitions stand for, as far as they are known to be well by themselves.
+    /// Expressions of the definitions, as far as they are known to be well by themselves.
     definitions: Vec<Option<Expression>>,
     /// Definitions that stand in a circle, which is noted.
     circular: HashSet<usize>,
@@ -91,7 +91,7 @@ impl Scope {
         self.circular = definitions;
     }
 
-    /// What a definition stands for; `None` if something is wrong with it.
+    /// Expression of a definition; `None` if something is wrong with it.
     ///
     /// # Errors
     /// It comes after the one that is being read, or is this one.
@@ -283,7 +283,7 @@ impl Meaning {
         matches!(self, Meaning::Body | Meaning::Frame)
     }
 
-    /// What it is, for messages.
+    /// Noun of the meaning, for messages.
     pub fn described(&self) -> &'static str {
         match self {
             Meaning::Function(_) => "a function",

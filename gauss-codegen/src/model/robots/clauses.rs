@@ -26,7 +26,7 @@ use crate::terms::{Described, Remark};
 use crate::terms::{Role, Shape, WantedJoint};
 use gauss_robots::{Coupling, Structure, Text, all_located, located};
 
-/// What the free root of a robot moves by.
+/// Name of the coordinate of the free root of a robot.
 const BASE: &str = "base";
 
 /// Puts the clauses made from the file before those of the struct. `None` where the file has a mistake, which is noted.
@@ -78,7 +78,7 @@ pub struct Robot<'a> {
     pub writer: Writer,
     /// The pose of the root, if it moves.
     base: Option<Ident>,
-    /// Of each joint; none of those that are fixed or follow another.
+    /// Coordinates of each joint; none of those that are fixed or follow another.
     pub coordinates: Vec<Vec<Coordinate>>,
     pub inputs: Vec<Input>,
     pub links: Vec<Ident>,
@@ -172,8 +172,8 @@ impl<'a> Robot<'a> {
         }
     }
 
-    /// What joints that carry links are called in `reactions(…)`: as in the file, where that is an identifier, else as
-    /// their coordinates.
+    /// Names of joints that carry links in `reactions(…)`: as in the file, where that is an identifier, else as their
+    /// coordinates.
     fn names_of_joints(&self) -> Vec<String> {
         let carrying = self.structure.joint_of.iter().flatten();
         let called = |&joint: &usize| {
@@ -213,7 +213,8 @@ impl<'a> Robot<'a> {
         self.structure.merged(self.description, link, |link| self.is_apart(link))
     }
 
-    /// What of a file is placed in the world by itself would not move with the root.
+    /// Refuses `base(…)` where parts of the file are placed in the world by themselves, which would not move with the
+    /// root.
     fn refuse_mount(&self, file: &File, context: &mut Context) {
         let Some(mount) = self.clauses.mount.as_ref().filter(|_| file.format == Format::Mjcf) else { return };
         let is_free = |joint: &Joint| joint.kind == JointKind::Floating;
@@ -328,7 +329,7 @@ impl<'a> Robot<'a> {
         self.described(file, text)
     }
 
-    /// Those of joints, with those of the struct.
+    /// Adds the armatures of joints to those of the struct.
     fn add_armatures(&self, statements: &mut Statements) {
         let writer = self.writer;
         for (q, inertia) in self.armatures().into_iter().rev() {

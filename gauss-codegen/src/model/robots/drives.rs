@@ -84,7 +84,7 @@ fn input(ident: Ident, field: &str, unit: Option<&str>, of: Driven) -> Input {
     Input { name, of }
 }
 
-/// What drives with gears or gains and has an effort for an input.
+/// Notes on drives with gears or gains whose input is an effort.
 pub fn notes(description: &Description, inputs: &[Input]) -> Vec<Note> {
     let is_drive = |input: &Input| matches!(input.of, Driven::Drive(drive) if !description.drives[drive].is_wrench());
     let plain = |drive: &&Drive| {

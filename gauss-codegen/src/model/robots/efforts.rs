@@ -1,4 +1,4 @@
-//! What inputs do: generalised forces on coordinates.
+//! Effects of inputs: generalised forces on coordinates.
 
 use std::collections::HashMap;
 
@@ -49,7 +49,7 @@ impl Robot<'_> {
         all
     }
 
-    /// What an input does in joints: the index of each, its coordinate with how many times its rate that of the joint
+    /// Effects of an input in joints: the index of each, its coordinate with how many times its rate that of the joint
     /// is, and a factor of a force.
     fn parts(&self, input: &Input) -> Vec<(usize, &Ident, f64, f64, Expression)> {
         let control = self.writer.name(&input.name.ident);

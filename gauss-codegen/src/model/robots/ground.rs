@@ -14,13 +14,13 @@ use gauss_robots::description::{At, Description, Note};
 use gauss_robots::rotation::{Triple, direction, turned};
 use gauss_robots::unknown;
 
-/// What holds all bodies of an MJCF file.
+/// Name of the body that holds all bodies of an MJCF file.
 pub const WORLD: &str = "world";
 
 /// A plane, with the shape of the file that it is.
 struct Plane<'a> {
     against: Against,
-    /// Where it is, if numbers say that.
+    /// Level of the plane, if numbers say it.
     level: Option<Level>,
     of: Option<&'a Collision>,
 }
@@ -73,7 +73,7 @@ impl Robot<'_> {
         driving.filter(|(_, name)| DRIVING.contains(name)).map(|(at, name)| unread_attribute(at, name)).collect()
     }
 
-    /// That shapes touch nothing, where nothing is said of them.
+    /// Notes that shapes touch nothing, where nothing is said of them.
     fn notes_of_shapes(&self) -> Vec<Note> {
         let mut shapes = self.description.collisions.iter().filter(|collision| {
             collision.shape != Shape::Plane && self.link_of(collision).is_some_and(|link| self.moves(link))
@@ -88,7 +88,7 @@ impl Robot<'_> {
         first.map(|first| Note::told(first.at, text(1 + shapes.count()))).into_iter().collect()
     }
 
-    /// Those of the file that touch, and those that pairs alone let touch.
+    /// Shapes of the file that touch, and those that pairs alone let touch.
     fn shapes(&self) -> impl Iterator<Item = &Collision> {
         let in_pair = |own: &&Collision| {
             let is_own = |shape: &Collision| shape.at == own.at && shape.link == own.link;
@@ -107,7 +107,7 @@ impl Robot<'_> {
         self.description.links.iter().position(|link| link.name == collision.link)
     }
 
-    /// Those that a ground names, or all that move.
+    /// Links that a ground names, or all that move.
     fn links_on(&self, ground: &Ground, context: &mut Context) -> Vec<usize> {
         match &ground.links {
             Some(names) => self.named_links(names, "ground", true, context),
@@ -215,7 +215,7 @@ fn told_of_clear(first: &Collision, count: usize) -> Note {
     Note::told(first.at, text)
 }
 
-/// What a shape has with a plane, or with one that says nothing: `None` if the file keeps them from touching.
+/// Law by which a shape touches a plane, or one that says nothing: `None` if the file keeps them from touching.
 fn touch(collision: &Collision, plane: Option<&Collision>, description: &Description) -> Option<Touch> {
     let Some(own) = &collision.surface else { return Some(Touch { friction: 0.0, turns: false }) };
     let pairs = || description.pairs.iter();
@@ -252,7 +252,7 @@ fn unread(collision: &Collision, what: &str) -> Note {
     Note::ignored(collision.at, word(collision), text).about("shapes")
 }
 
-/// What a file says of a contact that is not modelled.
+/// Notes on parts of a contact in the file that are not modelled.
 pub fn beyond(collision: &Collision, plane: Option<&Collision>, touch: &Touch) -> Vec<Note> {
     let turns = touch.turns.then(|| {
         let text = "there is no friction of turning and rolling (`condim` 4 and 6)";

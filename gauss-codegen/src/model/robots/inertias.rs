@@ -7,11 +7,12 @@ use super::clauses::Robot;
 use gauss_robots::description::{Fault, Inertial};
 use gauss_robots::rotation::principal;
 
-/// What the largest moment may exceed the sum of the others by, as part of all.
+/// Bound of the excess of the largest moment over the sum of the others, as part of all.
 const SLACK: f64 = 16.0 * f64::EPSILON;
 
 impl Robot<'_> {
-    /// What moves as one and has moments that no body has, but for bodies whose triangle inequality is `waived`.
+    /// Faults of links that move as one and have moments that no body has, but for bodies whose triangle inequality is
+    /// `waived`.
     pub fn impossible(&self, waived: &[Option<Ident>]) -> Vec<Fault> {
         let owners = (0..self.links.len()).filter(|&link| self.structure.owner_of[link] == link && self.moves(link));
         let parts = owners.filter_map(|link| Some((link, self.merged(link)?)));

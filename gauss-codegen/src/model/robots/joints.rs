@@ -1,4 +1,4 @@
-//! Where the link of a joint is, as expressions of its coordinates.
+//! Pose of the link of a joint, as expressions of its coordinates.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -97,7 +97,7 @@ impl Writer {
         self.product(self.constant(rotation))
     }
 
-    /// What the coordinate of a joint is, given that of the one it follows.
+    /// Coordinate of a joint, given that of the one it follows.
     pub fn coupled(self, leader: &Ident, coupling: &Coupling) -> Expression {
         let scaled = match coupling.multiplier {
             1.0 => self.name(leader),

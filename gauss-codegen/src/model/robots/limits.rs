@@ -17,14 +17,14 @@ use crate::model::scene::forces::ForceClause;
 use gauss_robots::description::{At, Note};
 use gauss_robots::rotation::Rotation;
 
-/// What has limits.
+/// A joint or a tendon with limits.
 struct Limited {
     at: At,
     along: Expression,
     limits: [Option<f64>; 2],
-    /// Of a joint that follows no other.
+    /// Coordinate of a joint that follows no other.
     coordinate: Option<Ident>,
-    /// What it is called where it is no coordinate.
+    /// Name where it is no coordinate.
     called: String,
 }
 
@@ -63,7 +63,7 @@ impl Robot<'_> {
         limited
     }
 
-    /// That limits do not act, where nothing is said of them.
+    /// Note that limits do not act, where nothing is said of them.
     pub fn notes_of_limits(&self) -> Option<Note> {
         let first = self.limited().into_iter().next().filter(|_| self.clauses.limits.is_none())?;
         let text = "the limits of joints and tendons do not act; write `limits = range` for exact stops, which a \

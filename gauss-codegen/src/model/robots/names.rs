@@ -19,7 +19,7 @@ pub struct Names {
 }
 
 impl Names {
-    /// For a file that calls its joints and links so.
+    /// Names for a file that calls its joints and links so.
     pub fn new<'a>(span: Span, own: impl IntoIterator<Item = &'a String>) -> Self {
         Self { span, taken: HashSet::new(), own: own.into_iter().cloned().collect(), notes: Vec::new() }
     }

@@ -54,8 +54,8 @@ impl Robot<'_> {
         Some(all)
     }
 
-    /// What a loop of these links hangs on, if it moves: in the axes of this link a loop that stays in a plane stays in
-    /// the same.
+    /// Link that a loop of these links hangs on, if it moves: in the axes of this link a loop that stays in a plane
+    /// stays in the same.
     fn axes(&self, links: [usize; 2]) -> Option<usize> {
         let parent_of = &self.structure.parent_of;
         let chain = |link: usize| std::iter::successors(Some(link), |&link| parent_of[link]);
@@ -75,7 +75,7 @@ impl Robot<'_> {
         self.chain(link, axes).fold(vector, turn)
     }
 
-    /// Where a link is from one that it hangs on, in its axes, or from Ω; none where it is there always.
+    /// Position of a link from one that it hangs on, in its axes, or from Ω; none where it is there always.
     fn origin(&self, link: usize, axes: Option<usize>) -> Option<Expression> {
         let Some(axes) = axes else { return Some(self.writer.property(&self.links[link], Property::Position)) };
         self.chain(link, axes).fold(None, |point: Option<Expression>, link| {

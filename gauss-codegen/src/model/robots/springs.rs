@@ -25,7 +25,7 @@ pub struct Turn {
 }
 
 impl Robot<'_> {
-    /// Of joints with one coordinate.
+    /// Springs of joints with one coordinate.
     pub fn springs(&self) -> Vec<ForceClause> {
         let writer = self.writer;
         let springs = self.scalar_joints().filter(|(_, joint, ..)| joint.stiffness > 0.0);
@@ -41,8 +41,9 @@ impl Robot<'_> {
         springs.filter_map(spring).collect()
     }
 
-    /// Of joints whose coordinate is a rotation or a pose, as `mj_passive` of MuJoCo's `src/engine/engine_passive.c`
-    /// has them: the force −k (r − r₀) at O, and the torque −k φ n, with the turn R₀ᵀR by the angle φ ≤ π about n.
+    /// Springs of joints whose coordinate is a rotation or a pose, as `mj_passive` of MuJoCo's
+    /// `src/engine/engine_passive.c` has them: the force −k (r − r₀) at O, and the torque −k φ n, with the turn R₀ᵀR by
+    /// the angle φ ≤ π about n.
     pub fn springs_of_turns(&self) -> (Vec<ForceClause>, Vec<Note>) {
         let writer = self.writer;
         let (mut forces, mut notes) = (Vec::new(), Vec::new());
@@ -95,7 +96,7 @@ impl Robot<'_> {
         writer.times(writer.binary(BinaryOperator::Divide, angle, sine), writer.vector(sines))
     }
 
-    /// Of the turn R₀ᵀR by the angle φ ≤ π about n.
+    /// Sines and cosine of the turn R₀ᵀR by the angle φ ≤ π about n.
     pub fn turn(&self, rotation: &Expression, from: &Rotation) -> Turn {
         let writer = self.writer;
         let unit: [Triple; 3] = Rotation::none().matrix;

@@ -15,7 +15,7 @@ use gauss_robots::rotation::{Matrix, Rotation, Triple, turned};
 const START: &str = "start";
 
 impl Robot<'_> {
-    /// Where the file has everything at first, unless that is at zero; then its states with names.
+    /// State in which the file has everything at first, unless that is at zero; then its states with names.
     pub fn states(&self) -> Vec<StateOfFile> {
         let joints = &self.description.joints;
         let start = Posture { name: START.to_owned(), ..Posture::default() };

@@ -22,19 +22,19 @@ use gauss_robots::rotation::{Matrix, Rotation, Triple, sine_and_cosine, turned};
 /// Clauses as they are made, with the names that are taken.
 pub struct Made {
     pub points: Vec<PointClause>,
-    /// Of shapes that need axes of their own.
+    /// Frames of shapes that need axes of their own.
     pub frames: Vec<BodyClause>,
     pub contacts: Vec<ContactClause>,
     /// Names of contacts.
     taken: HashSet<String>,
-    /// What those of each shape have in common.
+    /// Prefixes of contact names, one for each shape.
     shapes: HashSet<String>,
-    /// Of all that expressions name.
+    /// Names of all that expressions name.
     names: Names,
     writer: Writer,
 }
 
-/// Where a shape touches.
+/// Points at which a shape touches.
 enum Form {
     /// At points, each of them the centre of a sphere.
     Spheres(Vec<Triple>, f64),
@@ -63,7 +63,7 @@ impl Made {
         Self { points, frames, contacts, taken, shapes: HashSet::new(), names, writer }
     }
 
-    /// How many contacts there are.
+    /// Number of the contacts.
     pub fn count(&self) -> usize {
         self.contacts.iter().map(|clause| clause.names.len()).sum()
     }
@@ -234,7 +234,7 @@ fn of_ground(
     }
 }
 
-/// Where a shape touches, without what stays clear of a plane, and whether that is something.
+/// Points at which a shape touches, without those that stay clear of a plane, and whether some do.
 fn without_clear(form: Form, collision: &Collision, seen: Option<&Seen>) -> (Option<Form>, bool) {
     let Some(seen) = seen else { return (Some(form), false) };
     let (points, radius) = match &form {
@@ -255,7 +255,7 @@ fn without_clear(form: Form, collision: &Collision, seen: Option<&Seen>) -> (Opt
     }
 }
 
-/// Where a shape touches; rims by some points, if so many are given.
+/// Points at which a shape touches; rims by some points, if so many are given.
 fn form(collision: &Collision, points: Option<u32>) -> Option<Form> {
     let center = collision.position;
     let placed = |own: Triple| -> Triple {

@@ -10,11 +10,11 @@ use syn::Ident;
 pub struct Coordinate {
     /// Its name.
     pub ident: Ident,
-    /// What it takes its values in.
+    /// Kind of its values.
     pub kind: CoordinateKind,
 }
 
-/// What a coordinate takes its values in.
+/// Kinds of values of coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoordinateKind {
     /// The real numbers.
@@ -39,7 +39,7 @@ pub struct State {
 pub struct Speed {
     /// Its name.
     pub ident: Ident,
-    /// How many it stands for.
+    /// Number of speeds that it stands for.
     pub kind: SpeedKind,
 }
 
@@ -61,7 +61,7 @@ impl std::fmt::Display for SpeedPart {
     }
 }
 
-/// How many speeds are under one name.
+/// Number of speeds under one name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpeedKind {
     /// One.
@@ -73,8 +73,8 @@ pub enum SpeedKind {
 /// `body(name, parent = …, position = …, rotation = …)` or `frame(name, …)`.
 #[derive(Clone)]
 pub struct BodyClause {
-    /// Of a body the field with its mass data, unless they are given here; `None` for the only body, whose mass data
-    /// are the fields with roles. Frames have names.
+    /// Name of a frame, or of a body: of the field with its mass data, unless they are given here; `None` for the only
+    /// body, whose mass data are the fields with roles. Frames have names.
     pub name: Option<Ident>,
     /// It is a frame: axes with an origin and no mass.
     pub massless: bool,
@@ -127,19 +127,19 @@ pub struct PointClause {
 /// `constraint(position = …)` or `constraint(velocity = …)`: the expression is zero.
 #[derive(Clone)]
 pub struct ConstraintClause {
-    /// What is constrained.
+    /// Level of the constraint.
     pub kind: ConstraintKind,
     /// A scalar or a vector: of t and q; of t, q and z if velocities are constrained.
     pub expression: Expression,
     /// The expression is a vector: three constraints.
     pub vector: bool,
-    /// Where it is written, in the file of a robot.
+    /// Place in the file of a robot.
     pub place: Option<String>,
     /// The word `constraint`.
     pub span: Span,
 }
 
-/// What a constraint is about.
+/// Levels of constraints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConstraintKind {
     /// φ(t, q) = 0.
@@ -180,13 +180,13 @@ pub struct RoleClause {
     pub role: Role,
     /// Scalar or vector; of an added mass six, or six by six.
     pub shape: Shape,
-    /// Of fields and numbers.
+    /// Value, made of fields and numbers.
     pub value: RoleValue,
     /// The word of the role.
     pub span: Span,
 }
 
-/// What a role is said to be.
+/// Value that is given to a role.
 #[derive(Clone)]
 pub enum RoleValue {
     /// A scalar or a vector.

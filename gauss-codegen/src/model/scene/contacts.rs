@@ -7,9 +7,9 @@ use proc_macro2::Ident;
 /// `dry_friction(name, …)`.
 #[derive(Clone)]
 pub struct ContactClause {
-    /// Of each contact: one, `box_0` and so on, or `x_from` and `x_to` of a range.
+    /// Names of the contacts: one, `box_0` and so on, or `x_from` and `x_to` of a range.
     pub names: Vec<Ident>,
-    /// What may touch.
+    /// Parts that may touch.
     pub touching: Touching,
     /// The coefficient μ, or those of two tangents; of dry friction the bounds of its force. Scalars of t, q, z,
     /// inputs, fields and numbers; only with slip.
@@ -27,7 +27,7 @@ pub struct ContactClause {
     pub links: [Option<Ident>; 2],
 }
 
-/// What may touch.
+/// Ways in which parts may touch.
 #[derive(Clone)]
 pub enum Touching {
     /// `gap = …, slip = …, spin = …, roll = …`.
@@ -52,7 +52,7 @@ pub enum Touching {
     },
     /// `along = …, from = …, to = …`: scalars of t and q. One limit at least.
     Range {
-        /// What stays between the limits.
+        /// Length or angle that stays between the limits.
         along: Expression,
         /// The lower limit.
         from: Option<Expression>,
@@ -67,15 +67,15 @@ pub enum Touching {
 pub struct PointContact {
     /// A vector of t and q: observer axes from Ω.
     pub point: Expression,
-    /// Of the sphere: a scalar of fields and numbers.
+    /// Radius of the sphere: a scalar of fields and numbers.
     pub radius: Option<Expression>,
     /// Radius, and the axis in the axes of the body that has the point: of fields and numbers.
     pub rim: Option<[Expression; 2]>,
-    /// Of the ellipsoid: along the axes of the body that has the point, scalars of fields and numbers.
+    /// Semi-axes of the ellipsoid along the axes of the body that has the point: scalars of fields and numbers.
     pub semi_axes: Option<[Expression; 3]>,
-    /// Where else it is.
+    /// Other places where it is.
     pub copies: Copies,
-    /// What it may touch.
+    /// Counterpart that it may touch.
     pub against: Against,
 }
 
@@ -94,7 +94,7 @@ pub enum Copies {
 }
 
 impl Copies {
-    /// How many there are.
+    /// Number of the copies.
     pub fn count(&self) -> usize {
         match self {
             Self::One => 1,
@@ -126,19 +126,19 @@ impl Copies {
     }
 }
 
-/// What a point may touch.
+/// Counterparts that a point may touch.
 #[derive(Clone)]
 pub enum Against {
     /// A half space: below a plane.
     Plane {
         /// A vector of fields and numbers, observer axes, out of the half space; `None`: against a scalar gravity.
         normal: Option<Expression>,
-        /// Of the plane from Ω along the normal: a scalar of t, fields and numbers.
+        /// Height of the plane from Ω along the normal: a scalar of t, fields and numbers.
         height: Option<Expression>,
         /// The first tangent up to a multiple of the normal: of fields and numbers.
         along: Option<Expression>,
     },
-    /// What lies below a height, a scalar of t, fields, numbers and the [horizontal
+    /// Ground below a height, a scalar of t, fields, numbers and the [horizontal
     /// place](super::expression::ExpressionKind::Horizontal).
     Ground(Expression),
     /// A sphere about another point, or a capsule from there to an end: vectors of t and q, and a scalar of fields and

@@ -3,7 +3,7 @@
 
 use crate::terms::LawKind;
 
-/// What an element is.
+/// Kinds of elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ElementKind {
     Force,
@@ -24,14 +24,14 @@ pub enum ElementKind {
 /// One element.
 pub struct Row {
     pub kind: ElementKind,
-    /// What its clause begins with. Elements without a name are called so, too.
+    /// First word of its clause. Elements without a name are called so, too.
     pub word: &'static str,
-    /// What it is called in messages.
+    /// Noun in messages.
     pub noun: &'static str,
     pub form: Form,
     /// In the order in which messages list them.
     pub arguments: &'static [Argument],
-    /// What must hold among arguments.
+    /// Rules among the arguments.
     pub rules: &'static [Rule],
     /// Words that are refused in a way of their own.
     pub refused: &'static [(&'static str, &'static str)],
@@ -61,7 +61,7 @@ impl Row {
     }
 }
 
-/// How a clause is written.
+/// Forms of a clause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// `spring(name, along = …, stiffness = …)`.
@@ -77,9 +77,9 @@ pub enum Form {
 pub struct Argument {
     pub word: &'static str,
     pub takes: Takes,
-    /// What may stand there, for messages.
+    /// Example of a value, for messages.
     pub example: &'static str,
-    /// What the element lacks without it, for messages; `None`: it may be left out.
+    /// Part that the element lacks without it, for messages; `None`: it may be left out.
     pub required: Option<&'static str>,
 }
 
@@ -113,7 +113,7 @@ impl Argument {
     }
 }
 
-/// What stands in the place of an argument.
+/// Kinds of values of arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Takes {
     /// The name of the body or frame that it acts on. In a chart it may be left out.
@@ -122,8 +122,8 @@ pub enum Takes {
     Other,
     /// `body` or `observer`: the axes of the components.
     Axes,
-    /// Where a force acts: with `body` a vector of fields and numbers, body axes from O, or the name of a point of the
-    /// body; else a vector of t and q, observer axes from Ω.
+    /// Point where a force acts: with `body` a vector of fields and numbers, body axes from O, or the name of a point
+    /// of the body; else a vector of t and q, observer axes from Ω.
     Point,
     /// A vector.
     Force,
@@ -154,7 +154,7 @@ pub enum Takes {
 pub enum Unit {
     /// This one.
     Is(&'static str),
-    /// That of the extent.
+    /// Unit of the extent.
     Extent,
     /// Generalised force by extent.
     ForceByExtent,
@@ -162,11 +162,11 @@ pub enum Unit {
     ForceByRate,
     /// Generalised force: energy by extent.
     Force,
-    /// That of the rate of the extent.
+    /// Unit of the rate of the extent.
     Rate,
 }
 
-/// What must hold among the arguments of an element.
+/// Rules among the arguments of an element.
 #[derive(Clone, Copy)]
 pub enum Rule {
     /// `along`, or `from` with `to`.
@@ -175,7 +175,7 @@ pub enum Rule {
     Somewhere,
     /// One of the two, or both; the message ends with both of them.
     OneOf([&'static str; 2], &'static str),
-    /// Where there is the first, there is the second, which it is told to need.
+    /// The first needs the second; the words say so.
     With([&'static str; 2], &'static str),
     /// The first only with the second; the message.
     OnlyWith([&'static str; 2], &'static str),
@@ -464,9 +464,10 @@ pub static TORSIONAL_SPRING: Row = Row {
     argument: "an argument such as `stiffness = k`",
 };
 
-/// By the place x of `body` relative to `other`, in the axes of `other`: the displacement from O′ to O and the Cardan
-/// angles (α, β, γ) of the rotation `rotation_x(α) * rotation_y(β) * rotation_z(γ)`. The potential is ½ xᵀKx, the
-/// dissipation function ½ ẋᵀCẋ. The same coordinates as those of `Force::LinearBushing` of Simbody, displacement first.
+/// Bushing by the place x of `body` relative to `other`, in the axes of `other`: the displacement from O′ to O and the
+/// Cardan angles (α, β, γ) of the rotation `rotation_x(α) * rotation_y(β) * rotation_z(γ)`. The potential is ½ xᵀKx,
+/// the dissipation function ½ ẋᵀCẋ. The same coordinates as those of `Force::LinearBushing` of Simbody, displacement
+/// first.
 pub static BUSHING: Row = Row {
     kind: ElementKind::Bushing,
     word: "bushing",
@@ -522,5 +523,5 @@ pub static ATTRACTION: Row = Row {
     argument: "an argument such as `mu = gm`",
 };
 
-/// How six coefficients are written.
+/// Form of six coefficients.
 const SIX: &str = "[a, b, c, d, e, f]";

@@ -14,7 +14,7 @@ use crate::terms::Twin;
 /// A value that the equations depend on, as the user wrote it.
 #[derive(Clone, Debug)]
 pub struct Expression {
-    /// What it is.
+    /// Kind of the expression.
     pub kind: ExpressionKind,
     /// Its head: the name, the literal, the operator, the function, or the opening bracket of a vector.
     pub span: Span,
@@ -115,8 +115,8 @@ pub enum FunctionName {
     Signum,
     /// The value (x, low, high) kept between two limits: only in values of forces, since its derivative jumps.
     Clamp,
-    /// Of (x, from, to): 0 below `from`, 1 above `to`, `3s² − 2s³` between; only in values of forces, since its second
-    /// derivative jumps.
+    /// Smooth step of (x, from, to): 0 below `from`, 1 above `to`, `3s² − 2s³` between; only in values of forces, since
+    /// its second derivative jumps.
     SmoothStep,
     /// Absolute value: only in values of forces, since its derivative jumps.
     Abs,
@@ -250,8 +250,7 @@ impl Expression {
         }
     }
 
-    /// How many times π it is, if it is made of `pi` and literals so that this can be seen: `pi`, `-pi / 2`,
-    /// `3 * pi / 4`.
+    /// Multiple of π, if it is made of `pi` and literals so that this can be seen: `pi`, `-pi / 2`, `3 * pi / 4`.
     pub fn turns_of_pi(&self) -> Option<Rational> {
         match &self.kind {
             ExpressionKind::Name(name) if name == "pi" => Some(Rational::one()),

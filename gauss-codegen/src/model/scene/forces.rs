@@ -8,7 +8,7 @@ use proc_macro2::{Ident, Span};
 /// `force(…)`, `spring(…)`, `damping = …`, `central_gravity(…)` and the like: a force element.
 #[derive(Clone)]
 pub struct ForceClause {
-    /// What its generalised force is called, different from those of the other elements; `None` if it has no name.
+    /// Name of its generalised force, different from those of the other elements; `None` if it has no name.
     pub name: Option<Ident>,
     pub row: &'static Row,
     /// In the order of the row.
@@ -26,7 +26,7 @@ pub struct Given {
     pub value: Value,
 }
 
-/// What an argument is said to be.
+/// Value that is given to an argument.
 #[derive(Clone)]
 pub enum Value {
     Expression(Expression),
@@ -86,7 +86,7 @@ impl ForceClause {
         ForceClause::new(&DISSIPATION, name, span).with(argument::VALUE, Some(function))
     }
 
-    /// With the argument `word` of its row, if there is a value.
+    /// Adds the argument `word` of its row, if there is a value.
     pub fn with(mut self, word: &str, value: Option<impl Into<Value>>) -> ForceClause {
         let argument = self.row.find(word);
         debug_assert!(argument.is_some(), "`{}` has no argument `{word}`", self.row.word);
@@ -95,7 +95,7 @@ impl ForceClause {
         self
     }
 
-    /// What it is called in messages.
+    /// Noun in messages.
     pub fn noun(&self) -> &'static str {
         self.row.noun
     }
@@ -139,13 +139,13 @@ impl ForceClause {
         })
     }
 
-    /// Those of the body, where none are given.
+    /// Axes that are given, else those of the body.
     pub fn axes(&self) -> ForceAxes {
         let axes = |given: &Given| if let Value::Axes(axes) = given.value { Some(axes) } else { None };
         self.given.iter().find_map(axes).unwrap_or(ForceAxes::Body)
     }
 
-    /// What is on the rates of coordinates, of a drive.
+    /// Forces on the rates of coordinates, of a drive.
     pub fn rates(&self) -> impl Iterator<Item = (&Ident, &Expression)> {
         self.given.iter().filter_map(|given| match &given.value {
             Value::Expression(value) => Some((given.coordinate.as_ref()?, value)),

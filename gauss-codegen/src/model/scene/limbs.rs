@@ -24,7 +24,7 @@ const TOGETHER: usize = 4;
 pub struct Limbs {
     /// Coordinates, and what they are.
     pub coordinates: Vec<(Ident, Twin)>,
-    /// How many slots their numbers and coordinates have.
+    /// Number of slots of their numbers and coordinates.
     slots: usize,
     limbs: usize,
 }
@@ -37,7 +37,7 @@ struct Found {
 }
 
 impl Limbs {
-    /// Those of a tree, whose numbers become twins where they differ.
+    /// Finds the limbs of a tree, whose numbers become twins where they differ.
     pub fn found(bodies: &mut [BodyClause], coordinates: &[Coordinate]) -> Self {
         let mut limbs = Self::default();
         if coordinates.len() < 2 * JOINTS {
@@ -131,7 +131,7 @@ impl Tree<'_> {
         }
     }
 
-    /// What is alike of these, joint by joint outward.
+    /// Finds the parts of these limbs that are alike, joint by joint outward.
     fn found(&self, limbs: Vec<usize>) -> Found {
         let mut found = Found::default();
         let mut open = vec![limbs];

@@ -1,4 +1,4 @@
-//! What comes out: the scene as the user wrote it, checked; plain data.
+//! Scene as the user wrote it, checked: plain data, the result of this room.
 
 pub mod clauses;
 pub mod contacts;

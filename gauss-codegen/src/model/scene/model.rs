@@ -38,11 +38,11 @@ pub struct Model {
     pub particles: Vec<ParticleClause>,
     /// Named points of bodies and frames.
     pub points: Vec<PointClause>,
-    /// What is further required of the motion.
+    /// Constraints on the motion.
     pub constraints: Vec<ConstraintClause>,
     /// Constraints may depend on one another.
     pub redundant: bool,
-    /// What may touch.
+    /// Contacts of the scene.
     pub contacts: Vec<ContactClause>,
     /// The speeds that stay when the constraints are solved for the others at compile time; `None`: multipliers.
     pub independent: Option<Vec<SpeedPart>>,
@@ -64,7 +64,7 @@ pub struct Model {
     pub formal: Vec<Option<Ident>>,
     /// Limbs that are alike.
     pub limbs: Limbs,
-    /// What names of `define` stand for, each written out, in order: for printed equations alone.
+    /// Expressions of the names of `define`, each written out, in order: for printed equations alone.
     pub definitions: Vec<(Ident, Expression)>,
 }
 

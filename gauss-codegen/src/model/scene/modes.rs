@@ -11,7 +11,7 @@ pub struct ModesClause {
     pub body: Ident,
     /// η: scalar coordinates, one for each mode.
     pub coordinates: Vec<Ident>,
-    /// What is given of the body, entry by entry, the last index running first.
+    /// Integrals that are given of the body, entry by entry, the last index running first.
     pub integrals: Vec<GivenIntegral>,
     /// The file that these are from, as it is written.
     pub file: Option<String>,
@@ -28,7 +28,7 @@ pub struct GivenIntegral {
     pub span: Span,
 }
 
-/// What is known of the modes of a body, body axes, pole O.
+/// Integrals over the modes of a body, body axes, pole O.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Integral {
     /// δ₀: ∫φ_k dm.
@@ -69,7 +69,7 @@ impl Integral {
         Self::ALL.into_iter().find(|(_, integral)| *integral == self).map_or("", |(word, _)| word)
     }
 
-    /// How many entries there are along each index, of n modes.
+    /// Numbers of entries along each index, of n modes.
     pub fn sizes(self, n: usize) -> Vec<usize> {
         match self {
             Integral::Translation | Integral::Rotation => vec![n, 3],
@@ -92,12 +92,12 @@ impl Integral {
 }
 
 impl ModesClause {
-    /// What is given of an integral.
+    /// Entries that are given of an integral.
     pub fn find(&self, integral: Integral) -> Option<&GivenIntegral> {
         self.integrals.iter().find(|given| given.integral == integral)
     }
 
-    /// What stands before a word of it in messages.
+    /// Prefix of a word of it in messages.
     pub fn place(&self) -> String {
         self.file.as_ref().map_or_else(String::new, |file| format!("{file}: "))
     }

@@ -1,4 +1,4 @@
-//! What the language accepts, and the model that comes out.
+//! Structs that the language accepts, and the model that comes out.
 
 use super::{body, model, with};
 use crate::terms::{Chart, InChart, Motion, Role, RotationChart, Scalar, Shape};

@@ -1,4 +1,4 @@
-//! What acts on one body in a chart: the same clauses as in systems, of a body that is called `body`.
+//! Loads on one body in a chart: the same clauses as in systems, of a body that is called `body`.
 
 use super::systems::{show, shown};
 use super::{Mistake, check, model};

@@ -233,7 +233,7 @@ fn attribute_forms() {
     check(&with("#[gauss()] k: f64"), &[("gauss", "`#[gauss()]` is empty; write a role such as `mass` or remove it")]);
 }
 
-/// What acts makes no system of what it stands in, and is said above the struct.
+/// Clauses of loads make no system of their struct, and are told to stand above it, not at a field.
 #[test]
 fn clauses_of_what_acts() {
     for word in [

@@ -470,7 +470,7 @@ fn mistakes_of_clauses() {
     assert!(error.to_string().starts_with("unknown clause `base`"), "{error}");
 }
 
-/// By joints and by what they carry; fixed ones are cut, and only these keep their own mass data.
+/// Reactions are named by joints and by what they carry; fixed ones are cut, and only these keep their own mass data.
 #[test]
 fn reactions() {
     let fixed = joint("weld", "fixed", "arm", "hand", "") + &link("hand");

@@ -53,7 +53,7 @@ fn what_touches_and_what_joints_bear() {
     }
 }
 
-/// What is a method of a run, or of a kernel, is told so, and nothing else of the scene is missing.
+/// Methods of a run, or of a kernel, that are written as clauses are told so, and nothing else of the scene is missing.
 #[test]
 fn methods_for_clauses() {
     let run = "Simulation::new(&kernel)";

@@ -15,7 +15,7 @@ use crate::model::language::words::{same, word};
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 use proc_macro2::{Ident, Span};
 
-/// What is known of the dimension of a number.
+/// Knowledge of the dimension of a number.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Found {
     Unknown,
@@ -26,7 +26,7 @@ pub enum Found {
     Known(Dimension),
 }
 
-/// What is known of a value: of a vector component by component, of a scalar three times the same.
+/// Knowledge of the dimensions of a value: of a vector component by component, of a scalar three times the same.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Dimensions {
     Rotation,
@@ -54,7 +54,7 @@ impl Found {
         }
     }
 
-    /// Of a number without dimension that is made of this one.
+    /// Dimension of a number without dimension that is made of this one.
     fn without_dimension(self) -> Found {
         match self {
             Found::Zero | Found::Number => Found::Number,
@@ -322,7 +322,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Of one component of a scalar or vector product; `None` if its terms disagree, which is noted.
+    /// Dimension of one component of a scalar or vector product; `None` if its terms disagree, which is noted.
     fn sum_of_products(&mut self, span: Span, function: &str, terms: &[Found]) -> Option<Found> {
         let mut known = terms.iter().filter_map(|term| match term {
             Found::Known(dimension) => Some(*dimension),
@@ -395,7 +395,7 @@ fn property_value(property: Property) -> Dimensions {
     })
 }
 
-/// What an expression is called in messages.
+/// Noun of an expression in messages.
 pub fn subject(expression: &Expression, article: &str) -> String {
     match &expression.kind {
         ExpressionKind::Name(name) | ExpressionKind::Input(name) | ExpressionKind::Horizontal(name, _) => {

@@ -1,8 +1,8 @@
-//! What a value must be in.
+//! Dimensions that values must have.
 
 use crate::model::language::units::Dimension;
 
-/// What a value must be in.
+/// Dimension that a value must have, with its words.
 pub struct Need {
     /// `the components of a force are`.
     pub what: String,

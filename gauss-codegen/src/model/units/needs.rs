@@ -1,4 +1,4 @@
-//! What is needed in which unit: forces in N, torques in N m, positions in m, and so on.
+//! Units that places need: forces in N, torques in N m, positions in m, and so on.
 
 use std::collections::HashMap;
 
@@ -69,7 +69,7 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
 }
 
 impl Checker<'_> {
-    /// What moves and what has mass.
+    /// Checks the units of all that moves and of all that has mass.
     pub fn places(&mut self, statements: &Statements) {
         let coordinates = || statements.coordinates.iter().flat_map(|names| &names.names);
         for (name, rate) in statements.kinematics.iter().flat_map(|kinematics| &kinematics.rates) {
@@ -240,7 +240,7 @@ impl Checker<'_> {
         }
     }
 
-    /// What an argument is needed in, if that is known: of six coefficients the one at `index`.
+    /// Unit that an argument needs, if that is known: of six coefficients the one at `index`.
     fn need(
         &self,
         clause: &ForceClause,
@@ -295,7 +295,7 @@ impl Checker<'_> {
     }
 }
 
-/// What an element acts along.
+/// Extent along which an element acts.
 struct Extent {
     dimension: Dimension,
     /// `along an angle`, where it is a scalar.
@@ -320,7 +320,7 @@ impl Extent {
     }
 }
 
-/// What a scalar extent is, for messages.
+/// Words for a scalar extent, for messages.
 fn named(dimension: Dimension) -> String {
     if dimension == Dimension::NONE {
         " along an angle".into()

@@ -1,4 +1,4 @@
-//! What packed code costs, in sixteenths of an addition: what processors start, and a little for the longest chain.
+//! Cost of packed code, in sixteenths of an addition: what processors start, and a little for the longest chain.
 //!
 //! Fog, Instruction tables; checked by `cargo bench -p gauss-benches --bench packs`.
 
@@ -23,7 +23,7 @@ const FORWARDED_CYCLES: u32 = 16;
 /// Cycles of a shuffle across a vector.
 const SHUFFLE_CYCLES: u32 = 3;
 
-/// What it takes to have an operand in a vector.
+/// Cost of having an operand in a vector.
 #[derive(Clone, Copy)]
 struct Source {
     cost: u32,
@@ -33,7 +33,7 @@ struct Source {
 const FREE: Source = Source { cost: 0, cycles: 0 };
 
 impl Partition<'_> {
-    /// What it costs; nothing where packs wait for one another in a circle.
+    /// Cost of the code; nothing where packs wait for one another in a circle.
     pub fn counted(&self) -> Option<u32> {
         let steps = self.steps()?;
         let mut ready = vec![0_u32; self.of.len()];

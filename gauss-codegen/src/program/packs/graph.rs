@@ -4,7 +4,7 @@ use super::super::code::Code;
 use super::super::instruction::{Instruction, Operand};
 use super::kinds::{Operation, Place};
 
-/// What an instruction works on: an earlier instruction by its index, or a leaf, counted on from the last instruction.
+/// Operand of an instruction: an earlier instruction by its index, or a leaf, counted on from the last instruction.
 pub(super) type Id = usize;
 
 /// No instruction.
@@ -12,13 +12,13 @@ pub(super) const NOTHING: usize = usize::MAX;
 
 /// An instruction.
 pub(super) struct Node {
-    /// What it does to vectors, if it can be packed.
+    /// Operation on vectors, if it can be packed.
     pub operation: Option<Operation>,
     /// The first so many of these.
     pub operands: [Id; 3],
     pub arity: usize,
     pub cycles: u32,
-    /// By itself, as `cost` counts.
+    /// Cost by itself, as `cost` counts.
     pub cost: u32,
     /// Sines and cosines that are computed together: the first, and how many.
     pub row: Option<(usize, usize)>,
@@ -75,13 +75,13 @@ impl Graph {
         (Self { nodes, leaves: leaves.iter().map(place).collect(), waits, outputs }, leaves)
     }
 
-    /// Where a leaf is found.
+    /// Place of a leaf.
     pub fn place(&self, id: Id) -> Option<Place> {
         self.leaves.get(id.checked_sub(self.nodes.len())?).copied()
     }
 }
 
-/// What an instruction costs by itself, in sixteenths of an addition.
+/// Cost of an instruction by itself, in sixteenths of an addition.
 fn alone<S>(instruction: &Instruction<S>) -> u32 {
     match instruction {
         // Products are fused with either sign.

@@ -1,11 +1,11 @@
-//! What can be done to vectors, and where operands are found.
+//! Operations on vectors, and places of operands.
 
 use super::super::instruction::Instruction;
 
 /// Lanes of a vector.
 pub(crate) const LANES: usize = 4;
 
-/// Where an input is found.
+/// Place of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
     /// Among constants, whose order can be chosen.
@@ -16,7 +16,7 @@ pub(crate) enum Place {
     Variable,
 }
 
-/// What is done to vectors.
+/// Operations on vectors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Operation {
     Add,
@@ -30,7 +30,7 @@ pub(crate) enum Operation {
 }
 
 impl Operation {
-    /// Of an instruction that can be packed.
+    /// Operation of an instruction that can be packed.
     pub fn of<S>(instruction: &Instruction<S>) -> Option<Self> {
         match instruction {
             Instruction::Add(..) => Some(Self::Add),
@@ -49,7 +49,7 @@ impl Operation {
     }
 }
 
-/// What is carried out next.
+/// Steps in which packed code is carried out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Step {
     /// An instruction by itself.

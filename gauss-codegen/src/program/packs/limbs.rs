@@ -15,10 +15,10 @@ use super::super::order::order_of;
 use super::kinds::{Operation, Step};
 use super::{Pack, Packed};
 
-/// What an input is to a limb.
+/// Relation of an input to a limb.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Leaf {
-    /// What is alike has the same.
+    /// Class that is the same for inputs that are alike.
     pub class: u64,
     pub limb: usize,
     /// The lane of the limb, and how many limbs are alike.
@@ -26,20 +26,20 @@ pub(crate) struct Leaf {
     pub lanes: usize,
 }
 
-/// Of what an operand is alike to.
+/// Leaf that an operand is alike to, if it belongs to one limb.
 pub(crate) type Likeness = Option<Leaf>;
 
-/// How often packs that do not pay are dropped: each that is makes those beside it dearer.
+/// Number of rounds in which packs that do not pay are dropped: each that is makes those beside it dearer.
 const ROUNDS: usize = 8;
 
 impl<S: Copy + Key> Code<S> {
-    /// What each output is alike to.
+    /// Likeness of each output.
     pub(crate) fn likeness_of_outputs(&self, leaf: impl Fn(S) -> Likeness) -> Vec<Likeness> {
         let tags = self.likeness(&leaf);
         self.outputs.iter().map(|&output| of_operand(output, &tags, &leaf)).collect()
     }
 
-    /// What each instruction is alike to.
+    /// Likeness of each instruction.
     fn likeness(&self, leaf: &impl Fn(S) -> Likeness) -> Vec<Likeness> {
         let mut tags: Vec<Likeness> = Vec::with_capacity(self.instructions.len());
         for instruction in &self.instructions {
@@ -64,8 +64,8 @@ impl<S: Copy + Key> Code<S> {
         tags
     }
 
-    /// With packs of what is alike in limbs; `rows` of sines and cosines, each its first instruction and how many there
-    /// are, stay together. Nothing where they take away less than a tenth of all steps.
+    /// Packs instructions that are alike in limbs; `rows` of sines and cosines, each its first instruction and how many
+    /// there are, stay together. Nothing where they take away less than a tenth of all steps.
     pub(crate) fn with_limbs_together(
         &self,
         leaf: impl Fn(S) -> Likeness,
@@ -170,7 +170,7 @@ impl<S: Copy + Key> Code<S> {
         }
     }
 
-    /// What is done in which order: packs, rows of angles and single instructions as a program of its own is ordered.
+    /// Order of the steps: packs, rows of angles and single instructions as a program of its own is ordered.
     fn steps_of(&self, packs: &[Pack<S>], rows: &[(usize, usize)]) -> Option<Vec<Step>> {
         let count = self.instructions.len();
         let of = places(packs, count);

@@ -50,8 +50,8 @@ pub(crate) struct Packed<S> {
 }
 
 impl<S: Copy + PartialEq> Code<S> {
-    /// With packs, where these win. `place` gives the place of an input; `rows` of sines and cosines, each its first
-    /// instruction and how many there are, stay together.
+    /// Packs the code, where packs win. `place` gives the place of an input; `rows` of sines and cosines, each its
+    /// first instruction and how many there are, stay together.
     pub(crate) fn packed(&self, place: impl Fn(S) -> Place, rows: &[(usize, usize)]) -> Option<Packed<S>> {
         if !LENGTHS.contains(&self.instructions.len()) {
             return None;

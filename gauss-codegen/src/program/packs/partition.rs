@@ -27,11 +27,11 @@ impl Lanes {
 #[derive(Clone)]
 pub(super) struct Partition<'c> {
     pub graph: &'c Graph,
-    /// Those that were taken into longer ones are gone.
+    /// Packs; those that were taken into longer ones are gone.
     pub packs: Vec<Option<Lanes>>,
     /// The pack of an instruction, and its lane.
     pub of: Vec<Option<(usize, usize)>>,
-    /// What it costs: see `cost`.
+    /// Cost of the code: see `cost`.
     pub cost: u32,
 }
 
@@ -43,7 +43,7 @@ impl<'c> Partition<'c> {
         partition
     }
 
-    /// With these instructions as one pack; packs that lie within are taken into it. Nothing where they are not alike,
+    /// Makes these instructions one pack; packs that lie within are taken into it. Nothing where they are not alike,
     /// one is in another pack, or they wait for one another.
     pub fn with(&self, lanes: &[usize]) -> Option<Self> {
         if !(2..=LANES).contains(&lanes.len()) || (1..lanes.len()).any(|k| lanes[..k].contains(&lanes[k])) {
@@ -135,7 +135,7 @@ impl<'c> Partition<'c> {
         2 + alike + 2 * u32::from(a == b)
     }
 
-    /// What is carried out in which order; nothing where packs wait for one another in a circle.
+    /// Order of the steps; nothing where packs wait for one another in a circle.
     pub fn steps(&self) -> Option<Vec<Step>> {
         let count = self.graph.nodes.len();
         let mut visit = Visit { steps: Vec::with_capacity(count), state: vec![State::New; count] };
@@ -143,8 +143,8 @@ impl<'c> Partition<'c> {
         Some(visit.steps)
     }
 
-    /// What it waits for, then itself. Most of a search is spent here, unoptimised in macros: no calls for what is
-    /// done.
+    /// Visits what it waits for, then itself. Most of a search is spent here, unoptimised in macros: no calls for what
+    /// is done.
     fn visit(&self, k: usize, visit: &mut Visit) -> Option<()> {
         match visit.state[k] {
             State::Done => return Some(()),

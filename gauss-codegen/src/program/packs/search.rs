@@ -38,7 +38,7 @@ fn begun<'c>(single: &Partition<'c>, width: usize) -> Partition<'c> {
     partition
 }
 
-/// With one more pack, of those that were not `tried`.
+/// Adds one more pack, of those that were not `tried`.
 fn further<'c>(partition: &Partition<'c>, tried: &mut HashSet<Vec<Id>>, patience: usize) -> Option<Partition<'c>> {
     let new = gathered(partition).chain(joined(partition)).filter(|ids| !tried.contains(ids));
     let new: Vec<_> = new.take(patience).collect();
@@ -49,7 +49,7 @@ fn further<'c>(partition: &Partition<'c>, tried: &mut HashSet<Vec<Id>>, patience
     })
 }
 
-/// With a pack of these, and what grows from it, if that costs less.
+/// Adds a pack of these, and what grows from it, if that costs less.
 fn better<'c>(partition: &Partition<'c>, ids: &[Id]) -> Option<Partition<'c>> {
     let is_instruction = |&id: &Id| id < partition.graph.nodes.len();
     if !ids.iter().all(is_instruction) {
@@ -73,7 +73,7 @@ fn distinct(vector: &[Id]) -> Vec<Id> {
     ids
 }
 
-/// What vectors are gathered from, with the packs that some of it is in already.
+/// Instructions that vectors are gathered from, with the packs that some of them are in already.
 fn gathered(partition: &Partition<'_>) -> impl Iterator<Item = Vec<Id>> {
     let vectors = partition.packs.iter().flatten().flat_map(|pack| pack.operands());
     let with_packs = |vector: &[Id]| {
@@ -86,7 +86,7 @@ fn gathered(partition: &Partition<'_>) -> impl Iterator<Item = Vec<Id>> {
     vectors.map(with_packs).filter(|ids| (2..=LANES).contains(&ids.len()))
 }
 
-/// What packs read one by one, by twos, and with shorter packs.
+/// Instructions that packs read one by one, by twos, and with shorter packs.
 fn joined(partition: &Partition<'_>) -> impl Iterator<Item = Vec<Id>> {
     let count = partition.graph.nodes.len();
     let mut read = vec![false; count];

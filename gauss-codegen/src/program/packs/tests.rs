@@ -100,7 +100,7 @@ pub(crate) fn limbs(terms: usize, swapped: bool) -> Code {
     code
 }
 
-/// What an input is to two limbs with so many constants.
+/// Relation of an input to two limbs with so many constants.
 pub(crate) fn of_limb(terms: usize) -> impl Fn(Input) -> Option<Leaf> {
     move |input| {
         let Input::Component { argument, component } = input else { return None };

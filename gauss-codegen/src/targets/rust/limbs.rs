@@ -13,7 +13,7 @@ use super::{
 use crate::algebra::{Key, joined};
 use crate::program::{Code, Instruction, Operand, Pack, Packed, Step, in_place};
 
-/// What a name stands for.
+/// Meaning of a name.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 enum Name {
     Value(usize),
@@ -50,7 +50,7 @@ struct Writer<'a, S, D> {
     code: &'a Code<S>,
     packed: &'a Packed<S>,
     dialect: &'a D,
-    /// Where functions of vectors are, by the number of lanes.
+    /// Paths of functions of vectors, by the number of lanes.
     functions: &'a dyn Fn(usize) -> TokenStream,
     of: Vec<Option<(usize, usize)>>,
     apart: Vec<bool>,
@@ -172,7 +172,7 @@ impl<S: Copy + Key, D: Dialect<S>> Writer<'_, S, D> {
         quote!(#name)
     }
 
-    /// With the names that later blocks read.
+    /// Lines with the names that later blocks read.
     fn lines(self) -> Vec<Line> {
         let mut names: Vec<Vec<Ident>> = vec![Vec::new(); self.statements.len()];
         for (name, line) in &self.bound {
@@ -320,7 +320,7 @@ mod tests {
         }
     }
 
-    /// What is written computes what the code does, also where it is longer than a block.
+    /// Statements compute what the code does, also where they are longer than a block.
     #[test]
     fn statements_compute_what_the_code_does() {
         for (terms, swapped) in [(20, false), (20, true), (700, true)] {

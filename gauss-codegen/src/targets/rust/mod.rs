@@ -15,13 +15,13 @@ mod plain;
 
 pub use plain::source;
 
-/// How what code works on is written.
+/// Tokens of the operands and functions of code.
 pub(crate) trait Dialect<S> {
     /// An input.
     fn input(&self, input: S) -> TokenStream;
     /// A number, exactly where the scalar can hold it.
     fn number(&self, value: &Rational) -> TokenStream;
-    /// Where functions of numbers are: `sin_cos`, `fma` and so on are looked for in it.
+    /// Path of functions of numbers: `sin_cos`, `fma` and so on are looked for in it.
     fn functions(&self) -> TokenStream;
     /// The function of a product and a sum.
     fn fma(&self) -> TokenStream {
@@ -34,7 +34,8 @@ pub(crate) trait Dialect<S> {
     }
     /// The value of a function of the user's own, or of a derivative of it.
     fn own_function(&self, own: OwnFunction, arguments: &[TokenStream]) -> TokenStream;
-    /// What calls a closure as a function of its own, which the compiler keeps apart; nothing: programs stay whole.
+    /// Function that calls a closure as a function of its own, which the compiler keeps apart; nothing: programs stay
+    /// whole.
     fn apart(&self) -> Option<TokenStream>;
 }
 
@@ -52,7 +53,7 @@ fn cosine(k: usize) -> Ident {
     Ident::new(&format!("__c{k}"), Span::mixed_site())
 }
 
-/// How an operand is written.
+/// Tokens of an operand.
 pub(crate) fn operand<S: Copy>(operand: &Operand<S>, dialect: &impl Dialect<S>) -> TokenStream {
     match *operand {
         Operand::Input(input) => dialect.input(input),
@@ -79,10 +80,10 @@ const WHOLE: usize = 65_536;
 /// Instructions of each function that a longer program is split into.
 const PART: usize = 8 * BLOCK;
 
-/// What of the results of a program has a name afterwards.
+/// Parts of the results of a program that have a name afterwards.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kept {
-    /// What the program itself reads, and its outputs.
+    /// Results that the program itself reads, and its outputs.
     AsRead,
     /// All of it.
     Everything,
@@ -131,7 +132,7 @@ impl Statement {
         tokens
     }
 
-    /// Where the names have been declared.
+    /// Assignment, where the names have been declared.
     fn assigned(self) -> TokenStream {
         // Moved, not copied: these are most of the tokens that there are.
         let mut tokens = self.pattern;

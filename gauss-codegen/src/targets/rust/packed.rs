@@ -8,13 +8,13 @@ use super::{
 };
 use crate::program::{Code, Instruction, LANES, Operand, Operation, Pack, Packed, Place, Step};
 
-/// How vectors are written.
+/// Tokens of vectors.
 pub(crate) trait Vectors<S> {
-    /// Where their functions are.
+    /// Path of their functions.
     fn functions(&self) -> TokenStream;
     /// The array in which these stand in memory, where they are constants.
     fn row(&self, operands: &[Operand<S>]) -> Option<TokenStream>;
-    /// What stands in memory behind an input.
+    /// Tokens that stand in memory behind an input.
     fn behind(&self, input: S) -> Option<TokenStream>;
 }
 

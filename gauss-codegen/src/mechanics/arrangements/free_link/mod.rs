@@ -46,7 +46,7 @@ pub struct FreeLink<'g> {
     pub in_coordinates: bool,
     pub matrix: KineticMatrix<'g>,
     pub weights: Weights<'g>,
-    /// What else acts: its wrench about O.
+    /// Load beside the weights: its wrench about O.
     load: Wrench<'g>,
     /// Formal arguments: momenta p, and a twist of O in body axes.
     pub momenta: Vec<Expr<'g>>,
@@ -66,20 +66,20 @@ pub struct FreeLink<'g> {
 /// Parts that several equations share, formed when the first of them needs them.
 #[derive(Default)]
 struct Formed<'g> {
-    /// What the formal components of the balance are.
+    /// Values of the formal components of the balance.
     realisation: OnceCell<Substitution<'g>>,
     balances: OnceCell<Vec<Balance<'g>>>,
     collected_residual: OnceCell<Vec<Expr<'g>>>,
     momentum: OnceCell<Vec<Expr<'g>>>,
 }
 
-/// What the balance of a body is made of.
+/// Terms of the balance of a body.
 #[derive(Clone, Copy)]
 struct Terms<'a, 'g> {
     matrix: &'a KineticMatrix<'g>,
     weights: &'a Weights<'g>,
     load: &'a Wrench<'g>,
-    /// What the formal components of the balance are.
+    /// Values of the formal components of the balance.
     realisation: &'a Substitution<'g>,
 }
 
@@ -438,7 +438,7 @@ impl<'g> FreeLink<'g> {
         (frame.dot(&q, &self.kinematics.velocity) + frame.dot(&gamma, spin)).half()
     }
 
-    /// Of weight and buoyancy.
+    /// Potential energy of weight and buoyancy.
     pub fn potential_energy(&self) -> Expr<'g> {
         let frame = &self.kinematics.frame;
         self.weights.gravity.map_or(frame.graph.zero(), |w| w.potential(frame, &self.kinematics.position))

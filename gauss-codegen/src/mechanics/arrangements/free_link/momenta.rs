@@ -58,7 +58,7 @@ impl<'g> FreeLink<'g> {
         self.solutions().map(|arrangement| self.state_of_momentum(arrangement).1).collect()
     }
 
-    /// How (u, ω) is found from (Q, Γ).
+    /// Ways in which (u, ω) is found from (Q, Γ).
     fn solutions(&self) -> impl Iterator<Item = Arrangement> {
         let coupled = self.matrix.is_coupled(&self.kinematics.active);
         [Arrangement::Structured].into_iter().chain(coupled.then_some(Arrangement::Eliminated))

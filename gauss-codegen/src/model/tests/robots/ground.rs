@@ -1,4 +1,4 @@
-//! What of a file touches the ground: which shapes, by what names, and what is refused and told.
+//! Shapes of a file that touch the ground: which ones, by what names, and what is refused and told.
 
 use super::{Scratch, joint, link, mistakes, model, remarks, robot};
 use crate::model::{Against, ContactClause, Copies, Touching};
@@ -158,7 +158,7 @@ fn mistakes_stand_at_their_words() {
     );
 }
 
-/// What does not touch is a warning, and what touches is told.
+/// Shapes that do not touch are warned of, and those that touch are told.
 #[test]
 fn what_is_told() {
     let mesh = shape("", "", "<mesh filename=\"a.stl\"/>");
@@ -314,7 +314,7 @@ mod mjcf {
         assert_eq!(count(foot, "<option><flag contact=\"disable\"/></option>"), 0);
     }
 
-    /// What a file says of contacts, and is not modelled, is a warning where it would act.
+    /// Parts of contacts in a file that are not modelled are warned of where they would act.
     #[test]
     fn what_does_not_act() {
         let warned = |world: &str, body: &str, clause: &str| -> Vec<String> {
@@ -343,7 +343,7 @@ mod mjcf {
         );
     }
 
-    /// What only rises has nothing to rub; that is no mistake of the struct.
+    /// Links that only rise have nothing to rub; that is no mistake of the struct.
     #[test]
     fn friction_that_does_nothing_is_no_mistake() {
         let text = "<mujoco><worldbody><body name=\"leg\"><joint type=\"slide\"/><geom size=\"0.1\"/></body></worldbody></mujoco>";

@@ -9,7 +9,7 @@ use crate::terms::{Role, ValueOfState};
 
 const INERTIAL: &str = "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>";
 
-/// What is reported of a file with this inside its body: mistakes, or remarks.
+/// Reports of a file with this inside its body: mistakes, or remarks.
 fn reported(inside: &str, clauses: &str) -> Vec<String> {
     let text = format!("<mujoco>\n<worldbody><body name=\"arm\">{INERTIAL}\n{inside}\n</mujoco>");
     let file = Scratch::called(&text, "xml");
@@ -401,7 +401,7 @@ fn laws_of_balls_and_free_joints() {
     assert!(read.item.described.unwrap().remarks.iter().all(|remark| !remark.ignored));
 }
 
-/// What their drives are called, also where a gear is zero; a ball in a chain has a reaction.
+/// Drives of balls and free joints have names, also where a gear is zero; a ball in a chain has a reaction.
 #[test]
 fn drives_of_balls_and_free_joints() {
     let inside = "<joint name=\"h\"/><body name=\"b\"><joint name=\"a\" type=\"ball\" range=\"0 60\"/><geom size=\"1\"/></body></body>\
@@ -423,7 +423,7 @@ fn drives_of_balls_and_free_joints() {
     assert!(warned[0].contains("the limits of joints and tendons do not act"), "{warned:?}");
 }
 
-/// What is in the root of an included file stands where it is included; mistakes are in the file where they are
+/// Contents of the root of an included file stand where it is included; mistakes are in the file where they are
 /// written.
 #[test]
 fn files_that_include_others() {

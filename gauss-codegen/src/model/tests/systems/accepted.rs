@@ -1,4 +1,4 @@
-//! What is accepted, and the model that comes out.
+//! Systems that are accepted, and the model that comes out.
 
 use super::{potential, show, system};
 use crate::terms::{Role, Scalar, Shape};

@@ -1,4 +1,4 @@
-//! What acts, and values that arrive at run time.
+//! Loads, and values that arrive at run time.
 
 use super::super::{Mistake, check};
 use super::{particle, shown, system};
