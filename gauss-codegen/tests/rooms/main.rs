@@ -1,6 +1,6 @@
 //! No two files import each other, nor two folders, by whatever way round; `syn` is named where structs are read, the
 //! scene as it was written up to `translate`; no function is longer than a screen, no file than 600 lines, no comment
-//! wider than 120 columns.
+//! wider than 120 columns; docs begin with what an item is or does.
 //!
 //! Of every file the names are looked up that it takes from others: in `use` declarations and in paths, through
 //! re-exports to the file that defines them. A module that only hands on is seen through; tests do not count.
@@ -9,6 +9,7 @@ mod components;
 mod functions;
 mod modules;
 mod references;
+mod words;
 
 use std::collections::BTreeSet;
 use std::fs;
