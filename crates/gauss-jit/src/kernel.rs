@@ -2,9 +2,10 @@
 
 use gauss_codegen::parameters::Parameter;
 use gauss_codegen::program::{Argument, Results};
+use gauss_runtime::error::ParameterWarnings;
 
 use crate::backends::{Compiled, MOST_ARGUMENTS, interpreted};
-use crate::checks::Checks;
+use crate::checks::{Checks, warnings};
 use crate::configuration::Groups;
 use crate::error::{CallError, KernelError, Misgiven};
 use crate::model::Model;
@@ -21,6 +22,7 @@ pub struct Kernel {
     constants: Vec<f64>,
     /// None where there are too many.
     pub(crate) groups: Option<Groups>,
+    warnings: ParameterWarnings,
 }
 
 /// A method of a kernel, compiled.
@@ -59,7 +61,9 @@ impl Kernel {
         let computed = run(computed, &[&read], computed.code.outputs.len());
         let mut checks = Checks::of(&derived.parameters, numbers, &computed)?;
         let constants = run(&derived.constants, &[&read], derived.constants.code.outputs.len());
-        let kernel = Self { model: model.clone(), constants, groups: Groups::of(model.description()) };
+        let groups = Groups::of(model.description());
+        let warnings = warnings(&derived.parameters, numbers, &computed)?;
+        let kernel = Self { model: model.clone(), constants, groups, warnings };
         if checks.wants_mass_matrix() {
             checks.mass_matrices(&kernel.mass_matrices()?)?;
         }
@@ -91,6 +95,12 @@ impl Kernel {
             interpreted(program).run(&[&self.constants, &[0.37], &configuration], &mut matrix);
             matrix
         }))
+    }
+
+    /// Warnings about parameters that are likely not meant, although a kernel can be made of them: drag and damping that
+    /// feed energy, gravity that points upward, added mass with the sign of hydrodynamic derivatives.
+    pub fn warnings(&self) -> &ParameterWarnings {
+        &self.warnings
     }
 
     /// The model that it is of.

@@ -16,8 +16,6 @@ LEFT_OUT = {
     "test_contacts.py::test_the_study_of_pucks_stops_where_the_formula_says": CONTACTS,
     "test_methods.py::test_methods_agree": "power series and Rosenbrock's method are of compiled kernels",
     "test_methods.py::test_mistakes_with_methods": "a method that is missing is told in other words",
-    "test_parameters.py::test_warnings": "parameters that are likely not meant are told of compiled structs",
-    "test_parameters.py::test_what_of_a_file_does_not_act_is_told": "as above",
     "test_processes.py::test_exceptions_are_those_of_one_module": "classes are not in the module that raises",
     "test_runs.py::test_states_of_elements_and_tables": "tables are values of Rust",
     "test_stubs.py::test_the_stubs_in_the_package_are_those_of_the_module": "stubs are those of the package `gauss`",

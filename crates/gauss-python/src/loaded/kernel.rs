@@ -31,7 +31,8 @@ impl AnyKernel for LoadedKernel {
 
     fn warnings(&self) -> Vec<String> {
         let remarks = self.scene.description().remarks.iter();
-        remarks.filter(|remark| remark.ignored).map(|remark| remark.text.to_owned()).collect()
+        let of_file = remarks.filter(|remark| remark.ignored).map(|remark| remark.text.to_owned());
+        of_file.chain(self.kernel.warnings().iter().map(ToString::to_string)).collect()
     }
 
     #[allow(unsafe_code)]
