@@ -96,11 +96,13 @@ pub enum ContactErrorKind {
         /// The length of the step.
         step: f64,
     },
-    /// A step with an impact would gain more energy for no reason than all that moves has, in sixteen parts as well.
+    /// A step with an impact would gain more energy for no reason than all that moves has, in sixteen parts as well; or
+    /// a run has gained more than that, in a system in which
+    /// [nothing raises the energy](gauss_runtime::system::GaussSystem::KEEPS_ENERGY).
     EnergyFromNowhere {
         /// The energy that nothing explains.
         gained: f64,
-        /// The kinetic energy that is explained, at the end of the step that has more of it.
+        /// The kinetic energy that is explained: at the end of the step that has more of it, or the largest of the run.
         kinetic: f64,
         /// The length of the part.
         step: f64,
@@ -245,8 +247,9 @@ impl ContactErrorKind {
             ),
             Self::EnergyFromNowhere { gained, kinetic, step } => write!(
                 f,
-                "an impact would gain {gained:.1e} of energy for no reason, more than the {kinetic:.1e} of all that moves, \
-                 in a part of {step:e} as well: make steps shorter than that, or run it from event to event"
+                "{gained:.1e} of energy would come from nowhere, more than the {kinetic:.1e} of all that moves, in an \
+                 impact or in all steps so far, of {step:e} as well: make steps shorter than that, or run it from \
+                 event to event"
             ),
             Self::States { states } => write!(
                 f,

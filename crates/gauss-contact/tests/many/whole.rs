@@ -69,6 +69,23 @@ struct Three {
     b: f64,
 }
 
+/// Two masses on a spring between stops that give way without loss, and a wall behind one.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, y),
+    particle(mass = 1, position = [x, 0, 0]),
+    particle(mass = r, position = [y, 0, 0]),
+    spring(coil, along = y - x, length = 0.2, stiffness = k),
+    stop(left, along = x, least = 0, stiffness = s, width = 0.01),
+    stop(right, along = y, most = 1, stiffness = s, width = 0.01),
+    contact(wall, gap = 1.05 - y, restitution = 1),
+)]
+struct Soft {
+    r: f64,
+    k: f64,
+    s: f64,
+}
+
 /// A marble on a floor.
 #[derive(GaussDynamics)]
 #[gauss(
@@ -167,6 +184,31 @@ fn springs_that_are_drives_are_refused_alike() {
     }
 }
 
+/// Stops that set in within a step are followed up to the same stiffness, and gain by chance all the same.
+#[test]
+fn stops_that_give_way_gain_no_more_than_all_there_was() {
+    let (mut number, mut stiff, mut gained) = (numbers(41), 0, 0);
+    for _ in 0..48 {
+        let phase = 0.1 + 0.35 * (1.0 + number());
+        let (r, s) = (10.0_f64.powf(2.0 * number()), stiffness(phase * 3.0_f64.powf(number())));
+        let soft = Soft { r, k: 0.1 * r / (1.0 + r) * stiffness(phase), s }.kernel().unwrap();
+        let (q, z) = ([0.35 + 0.05 * number(), 0.55].into(), [5.0 * number(), 5.0 * number()].into());
+        match largest(&soft, (q, z), 30_000) {
+            Ok(most) => assert!(most <= 2.0, "{phase} {r} {s}: {most}"),
+            Err((ContactErrorKind::StiffSprings { .. }, most)) => {
+                assert!(most <= 2.0, "{phase} {r} {s}: {most}");
+                stiff += 1;
+            }
+            Err((ContactErrorKind::EnergyFromNowhere { .. }, most)) => {
+                assert!(most <= 2.0, "{phase} {r} {s}: {most}");
+                gained += 1;
+            }
+            Err((error, _)) => panic!("{phase} {r} {s}: {error}"),
+        }
+    }
+    assert!(stiff < 36 && gained > 0, "{stiff} {gained}");
+}
+
 /// Weight, as a body that rolls sees it, turns; that is no spring.
 #[test]
 fn what_rolls_and_turns_is_not_stiff() {
@@ -224,3 +266,42 @@ fn steps_with_a_tolerance_are_shortened_instead() {
     let exact = 0.3 + 0.01 * (omega * 1.0_f64).cos() + 1.0 / omega * (omega * 1.0_f64).sin();
     assert!((run.last().unwrap().state.q[0] - exact).abs() < 1e-3);
 }
+
+/// What may raise the energy is told by the derivation.
+#[test]
+fn scenes_say_whether_they_keep_their_energy() {
+    const { assert!(OneKernel::<f64>::KEEPS_ENERGY && SoftKernel::KEEPS_ENERGY && MarbleKernel::KEEPS_ENERGY) };
+    const { assert!(DampedKernel::KEEPS_ENERGY) };
+    const { assert!(!HeldKernel::KEEPS_ENERGY && !FedKernel::KEEPS_ENERGY && !ShakenKernel::KEEPS_ENERGY) };
+    const { assert!(!PulledKernel::KEEPS_ENERGY) };
+}
+
+/// A mass on a spring with a damper.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x),
+    particle(mass = 1, position = [x, 0, 0]),
+    spring(coil, along = x, stiffness = 10, damping = 1),
+    contact(wall, gap = x + 1),
+)]
+struct Damped {}
+
+/// A mass that an input could push.
+#[derive(GaussDynamics)]
+#[gauss(coordinates(x), particle(mass = 1, position = [x, 0, 0]), contact(wall, gap = x), input(push), drive(x = push))]
+struct Fed {}
+
+/// A mass on a frame that moves.
+#[derive(GaussDynamics)]
+#[gauss(coordinates(x), particle(mass = 1, position = [x + sin(3 * t), 0, 0]), contact(wall, gap = x))]
+struct Shaken {}
+
+/// A mass on a spring that is drawn out in time.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x),
+    particle(mass = 1, position = [x, 0, 0]),
+    spring(coil, along = x - t, stiffness = 10),
+    contact(wall, gap = x + 1),
+)]
+struct Pulled {}
