@@ -115,7 +115,7 @@ fn a_scene_is_printed_as_it_was_before() {
         for notation in [Notation::Text, Notation::Latex] {
             assert_eq!(first.equations(notation), second.equations(notation));
         }
-        assert_eq!(first.rust().to_string(), second.rust().to_string());
+        assert_eq!(first.rust().expect("code").to_string(), second.rust().expect("code").to_string());
     }
 }
 
@@ -390,7 +390,7 @@ fn quarter_turns_of_files_are_folded_in_print_alone() {
     let equations: Vec<&String> = sections[1..].iter().flat_map(|(_, rows)| rows).collect();
     assert!(equations.iter().all(|row| !row.contains("3.1416") && !row.contains("1.5708")), "{equations:?}");
     // Kernels compute with the number of the file.
-    assert!(folded.rust().to_string().contains("1.5708"));
+    assert!(folded.rust().expect("code").to_string().contains("1.5708"));
     for (kept, printed) in [("1.6", "8/5"), ("1.571", "1.571"), ("1.5709", "1.5709"), ("0.7854", "0.7854")] {
         let derivation = arm_of_file(kept);
         let rows = derivation.sections(Notation::Text)[1..].iter().flat_map(|(_, rows)| rows);

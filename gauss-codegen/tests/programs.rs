@@ -173,7 +173,7 @@ fn equations_are_those_of_the_kernel() {
     let derivation = derivation("Top");
     assert!(derivation.equations(Notation::Text).starts_with("Top: chart left_invariant, motion fixed_point"));
     assert!(derivation.equations(Notation::Latex).starts_with("\\begin{align*}"));
-    assert!(derivation.rust().to_string().contains("struct TopKernel"));
+    assert!(derivation.rust().expect("code").to_string().contains("struct TopKernel"));
 }
 
 /// Every program of every scene has the right shape, and what spoils it is found.

@@ -101,7 +101,7 @@ fn the_same_programs_as_from_tokens() {
         for notation in [Notation::Text, Notation::Latex] {
             assert_eq!(built.equations(notation), read.equations(notation), "{name}");
         }
-        assert_eq!(built.rust().to_string(), read.rust().to_string(), "{name}");
+        assert_eq!(built.rust().expect("code").to_string(), read.rust().expect("code").to_string(), "{name}");
         // What it says in Rust says it again.
         let again =
             Derivation::of_source(&scene.source(), name).unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"));

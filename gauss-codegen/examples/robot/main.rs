@@ -124,7 +124,8 @@ fn table(derivation: &Derivation, seconds: f64) -> String {
 
 /// The struct, and its kernel as the derive writes it.
 fn written(derivation: &Derivation, file: &str) -> Result<String, String> {
-    let (name, code) = (format_ident!("{}", derivation.name()), derivation.rust());
+    let name = format_ident!("{}", derivation.name());
+    let code = derivation.rust().ok_or("the derivation of a text has no code in Rust")?;
     let item = quote! {
         /// A robot.
         pub struct #name;

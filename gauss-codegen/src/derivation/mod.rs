@@ -47,7 +47,7 @@ pub struct Derivation {
     files: Vec<String>,
     latex: String,
     sections: [Printed; 2],
-    rust: TokenStream,
+    rust: Option<TokenStream>,
 }
 
 impl Derivation {
@@ -56,7 +56,7 @@ impl Derivation {
     /// # Errors
     /// Every mistake of the struct, each at the token that is wrong.
     pub fn new(input: &DeriveInput) -> syn::Result<Self> {
-        derive(input, Self::of)
+        derive(input, |derived| Self::of(derived, true))
     }
 
     /// The same of the struct of that name in the text of a Rust file, wherever in its modules it is.
@@ -67,12 +67,13 @@ impl Derivation {
         Self::new(&struct_in(source, name)?)
     }
 
-    /// The same of the only struct with a `#[gauss(…)]` attribute in a text.
+    /// The same of the only struct with a `#[gauss(…)]` attribute in a text, without its code in Rust: for programs that
+    /// read a scene while they run, and wait for it.
     ///
     /// # Errors
     /// What is no Rust; no such struct, or several; every mistake of the struct.
     pub fn of_text(source: &str) -> syn::Result<Self> {
-        Self::new(&only_struct_in(source)?)
+        derive(&only_struct_in(source)?, |derived| Self::of(derived, false))
     }
 
     /// The same of a scene that is written in Rust.
@@ -83,7 +84,7 @@ impl Derivation {
         Self::new(&scene.item()?).map_err(|mistakes| scene.located(&mistakes))
     }
 
-    fn of(derived: &Derived<'_, '_>) -> Result<Self> {
+    fn of(derived: &Derived<'_, '_>, writes_rust: bool) -> Result<Self> {
         let ident = &derived.item().ident;
         let signature = Signature::new(derived);
         let refused = |malformed: &dyn fmt::Display| bug(ident, &malformed);
@@ -93,7 +94,7 @@ impl Derivation {
         let unit_components = parameters::unit_components(derived);
         let description = description::description(derived);
         let equations = Equations::of(derived);
-        let rust = emit(derived, &equations);
+        let rust = writes_rust.then(|| emit(derived, &equations));
         let accuracy = figures(derived).map(|(_, name, figure)| (name.to_owned(), figure.rounded())).collect();
         let described = derived.item().described.iter();
         let files = described.clone().flat_map(|file| file.paths.clone()).collect();
@@ -190,8 +191,9 @@ impl Derivation {
         }
     }
 
-    /// The kernel in Rust: the items that `#[derive(GaussDynamics)]` adds to the struct.
-    pub fn rust(&self) -> &TokenStream {
-        &self.rust
+    /// The kernel in Rust: the items that `#[derive(GaussDynamics)]` adds to the struct; none where it was derived
+    /// [of a text](Self::of_text).
+    pub fn rust(&self) -> Option<&TokenStream> {
+        self.rust.as_ref()
     }
 }

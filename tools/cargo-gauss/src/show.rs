@@ -93,7 +93,8 @@ fn text(shown: &Shown, form: Form, method: Option<&str>) -> Result<String, Strin
             None => Ok(derivation.functions().programs().map(ToString::to_string).collect::<Vec<_>>().join("\n")),
         },
         Form::C => Ok(targets::c::source(derivation.functions())),
-        Form::Rust => pretty(derivation.rust().clone()),
+        // A derivation of a struct has it.
+        Form::Rust => pretty(derivation.rust().cloned().unwrap_or_default()),
         Form::Functions => pretty(targets::rust::source(derivation.functions())),
         Form::Html => Ok(String::new()),
     }

@@ -53,7 +53,7 @@ impl Plans {
 fn plan(model: &Model, id: Id, frames: &[&'static str], joints: &[&'static str]) -> Option<Plan> {
     let has = |name: &str| model.methods().any(|own| own == name);
     let spec = &SPECS[id as usize];
-    // A chart that follows from a program of another name.
+    // States of elements move with it.
     let velocity = || if has("configuration_rates") { "configuration_rates" } else { "kinematics" }.to_owned();
     match id {
         Id::Retract => return Some(Plan::Retract),
@@ -93,6 +93,26 @@ impl<'a> Row<'a> {
     fn list(&self, slot: Slot) -> &'a [f64] {
         self.lists[slot as usize]
     }
+
+    /// The lists of a program's arguments, and empty ones behind them.
+    fn arguments<'b>(&'b self, inputs: &[Input]) -> [&'b [f64]; MOST_INPUTS] {
+        let mut lists: [&[f64]; MOST_INPUTS] = [&[]; MOST_INPUTS];
+        for (list, input) in lists.iter_mut().zip(inputs) {
+            *list = match input {
+                Input::Time => std::slice::from_ref(&self.t),
+                Input::In(slot) => self.list(*slot),
+            };
+        }
+        lists
+    }
+}
+
+/// Time and the four slots.
+const MOST_INPUTS: usize = 5;
+
+/// The program of a frame; of a method without frames the only one.
+fn program_of(programs: &[String], frame: usize) -> &str {
+    &programs[frame.min(programs.len() - 1)]
 }
 
 /// The results of a row, one after another.
@@ -106,12 +126,7 @@ fn compute(
     let (x, u) = (row.list(Slot::X), row.list(Slot::U));
     match plan {
         Plan::Program(programs, inputs) => {
-            let list = |input: &Input| match input {
-                Input::Time => t,
-                Input::In(slot) => row.list(*slot),
-            };
-            let program = &programs[frame.min(programs.len() - 1)];
-            kernel.method(program)?.call(&inputs.iter().map(list).collect::<Vec<_>>(), results)
+            kernel.method(program_of(programs, frame))?.call(&row.arguments(inputs)[..inputs.len()], results)
         }
         Plan::Pose(programs) => {
             let mut own = [0.0; 12];
@@ -171,6 +186,11 @@ impl Plans {
         let mut results = vec![0.0; counts.iter().sum()];
         let own = spec.arguments.iter().map(|own| (own.slot as usize, sizes.get(own.size)));
         let mut own: Vec<_> = own.map(|(slot, size)| (slot, vec![0.0; size])).collect();
+        // It is found once for all rows.
+        let program = match plan {
+            Plan::Program(programs, inputs) => kernel.method(program_of(programs, work.frame)).ok().zip(Some(inputs)),
+            _ => None,
+        };
         for row in rows {
             let mut lists: [&[f64]; 4] = [&[]; 4];
             for (slot, numbers) in &mut own {
@@ -184,7 +204,11 @@ impl Plans {
             }
             // SAFETY: there is a time for each row, or one for all.
             let t = unsafe { work.t.get(row, 0) };
-            let computed = compute(kernel, (plan, sizes), (&Row { t, lists }, work.frame), &mut results);
+            let one = Row { t, lists };
+            let computed = match &program {
+                Some((program, inputs)) => program.call(&one.arguments(inputs)[..inputs.len()], &mut results),
+                None => compute(kernel, (plan, sizes), (&one, work.frame), &mut results),
+            };
             if computed.is_err() {
                 debug_assert!(false, "{}: {computed:?}", spec.name);
                 results.fill(f64::NAN);

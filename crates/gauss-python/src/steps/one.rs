@@ -123,8 +123,7 @@ impl<S: System<Scalar = f64>> Default for Methods<S> {
 }
 
 /// Why a kernel without forces of contacts is not run with them.
-pub const NO_CONTACTS: &str =
-    "forces of contacts are those of compiled kernels: `without_contacts()` leaves them out";
+pub const NO_CONTACTS: &str = "forces of contacts are those of compiled kernels: `without_contacts()` leaves them out";
 
 /// A run by a method that every system has.
 ///
@@ -141,9 +140,7 @@ pub fn smooth<S: Moving>(system: &S, q: S::Configuration, request: &Request<'_>)
         Control::Implicit(step) => run(system, q, request, Fixed::by(Collocation::order_6(), step)),
         Control::Stiff(..) => Err("the method rosenbrock is one of compiled kernels".to_owned()),
         Control::Taylor(..) => Err("the method taylor is one of compiled kernels".to_owned()),
-        Control::ContactEvents(..) | Control::ContactSteps(..) => {
-            Err(NO_CONTACTS.to_owned())
-        }
+        Control::ContactEvents(..) | Control::ContactSteps(..) => Err(NO_CONTACTS.to_owned()),
     }
 }
 
