@@ -207,16 +207,19 @@ pub fn error_matrix<S: LinearizedSystem>(
     linear: &S::Linearization,
 ) -> <S::Linearization as LinearModel<S::Scalar>>::Matrix {
     let two = S::Scalar::from_f64(2.0);
-    let mut bracket = brackets::<S>(linear);
+    let mut bracket = brackets::<S>(linear, Velocity::<S>::zero());
     S::Linearization::matrix(|row, column| two.fma(bracket(row, column), linear.by_state(row, column)))
 }
 
 type Velocity<S> = <<S as GaussSystem>::Configuration as Configuration>::Tangent;
 
-/// Entries of ½ [σ, V] as a matrix on the state, column by column.
-pub(crate) fn brackets<S: LinearizedSystem>(linear: &S::Linearization) -> impl FnMut(usize, usize) -> S::Scalar {
+/// Entries of ½ [σ, V] as a matrix on the state, column by column. V is put into a velocity that is there: of models that
+/// come at run time it knows of what groups it is.
+pub(crate) fn brackets<S: LinearizedSystem>(
+    linear: &S::Linearization,
+    mut velocity: Velocity<S>,
+) -> impl FnMut(usize, usize) -> S::Scalar {
     let components = Velocity::<S>::DIM;
-    let mut velocity = Velocity::<S>::zero();
     for i in 0..components {
         velocity.set_component(i, linear.rate().component(i));
     }

@@ -19,7 +19,8 @@ pub enum Group {
     Plane,
 }
 
-/// The groups at the beginning of a configuration, in their order; what follows are plain coordinates.
+/// Groups at the beginning of a configuration, in their order; what follows are plain coordinates. Vectors that were
+/// made without a configuration do not know theirs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Groups(u64);
 
@@ -33,7 +34,10 @@ enum Part {
 }
 
 /// How many groups a configuration may have.
-pub const MOST_GROUPS: usize = 32;
+pub const MOST_GROUPS: usize = 31;
+
+/// Behind two bits for each group.
+const KNOWN: u64 = 1 << 63;
 
 /// Calls a function of the type of a part.
 macro_rules! of_part {
@@ -66,18 +70,25 @@ impl Groups {
             .iter()
             .enumerate()
             .fold(0, |all, (k, group)| if k < MOST_GROUPS { all | code(group) << (2 * k) } else { all });
-        (list.len() <= MOST_GROUPS).then_some(Self(all))
+        (list.len() <= MOST_GROUPS).then_some(Self(all | KNOWN))
     }
 
-    /// Those of one of two vectors: what was made without a configuration has none.
+    /// Plain coordinates alone.
+    const NONE: Self = Self(KNOWN);
+
+    fn is_known(self) -> bool {
+        self.0 & KNOWN != 0
+    }
+
+    /// Those of the one of two vectors that knows them.
     fn or(self, other: Self) -> Self {
-        if self.0 == 0 { other } else { self }
+        if self.is_known() { self } else { other }
     }
 
     /// Every part with the places of its components and of its increments, within vectors of so many numbers: behind
     /// the groups each number is a coordinate.
     fn parts(self, length: usize) -> impl Iterator<Item = (Part, Range<usize>, Range<usize>)> {
-        let (mut rest, mut component, mut increment) = (self.0, 0, 0);
+        let (mut rest, mut component, mut increment) = (self.0 & !KNOWN, 0, 0);
         core::iter::from_fn(move || {
             let (part, components, increments) = match rest & 3 {
                 0 => (Part::Coordinate, 1, 1),
@@ -192,7 +203,7 @@ impl<const N: usize> MixedConfiguration<N> {
 /// Plain coordinates.
 impl<const N: usize> From<SVector<f64, N>> for MixedConfiguration<N> {
     fn from(list: SVector<f64, N>) -> Self {
-        Self { list, groups: Groups::default() }
+        Self { list, groups: Groups::NONE }
     }
 }
 
@@ -294,6 +305,11 @@ fn of_increments<const N: usize>(
     each: impl Fn(Part, &mut [f64], &[f64], &[f64]),
 ) -> MixedVector<N> {
     let groups = v.groups.or(w.groups);
+    let is_zero = |vector: &MixedVector<N>| vector.list.iter().all(|x| *x == 0.0);
+    if !(groups.is_known() || is_zero(v) || is_zero(w)) {
+        // Of what groups they are cannot be told: no number is right.
+        return MixedVector { list: SVector::repeat(f64::NAN), groups };
+    }
     let list = by_parts(groups, |all, part, _, own| {
         each(part, &mut all[own.clone()], &v.as_slice()[own.clone()], &w.as_slice()[own])
     });

@@ -162,7 +162,7 @@ pub enum CallError {
         /// How many lists are given.
         found: usize,
     },
-    /// The configuration has more rotations and poses than the method moves: 32.
+    /// The configuration has more rotations and poses than the method moves: 31.
     Groups {
         /// The method.
         method: String,
@@ -189,7 +189,7 @@ impl fmt::Display for CallError {
             Self::Lists { method, expected, found } => {
                 write!(f, "`{method}` takes {}, and {found} lists of numbers are given", expected.join(", "))
             }
-            Self::Groups { method } => write!(f, "`{method}` is for at most 32 rotations and poses"),
+            Self::Groups { method } => write!(f, "`{method}` is for at most 31 rotations and poses"),
             Self::Count { method, name, expected, found } => {
                 write!(f, "`{name}` of `{method}` has {expected} numbers, and {found} are given")
             }

@@ -141,7 +141,7 @@ impl Kernel {
     /// has as many components as q, and the increment as many as `kinematics` gives.
     ///
     /// # Errors
-    /// Lists of other lengths; more than 32 rotations and poses.
+    /// Lists of other lengths; more than 31 rotations and poses.
     pub fn retract(&self, q: &[f64], increment: &[f64], moved: &mut [f64]) -> Result<(), CallError> {
         let (groups, [components, increments]) = self.groups("retract")?;
         check("retract", [("q", components, q), ("increment", increments, increment), ("results", components, moved)])?;

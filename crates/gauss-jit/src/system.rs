@@ -4,7 +4,10 @@ use std::fmt;
 
 use gauss_codegen::program;
 use gauss_runtime::__private_0_1_0::{Chart, ProjectionError, dependence, project};
-use gauss_runtime::prelude::{ConstrainedSystem, GaussSystem, SMatrix, SVector, Smoothness, VectorSpace};
+use gauss_runtime::linearize::Linearization;
+use gauss_runtime::prelude::{
+    ConstrainedSystem, GaussSystem, LinearizedSystem, SMatrix, SVector, Smoothness, VectorSpace,
+};
 
 use crate::configuration::{Groups, MOST_GROUPS, MixedConfiguration, MixedVector};
 use crate::kernel::{Kernel, Method};
@@ -73,7 +76,8 @@ impl std::error::Error for NoSystem {}
 /// all errors: tolerances times [`share`](Self::share) leave these out. A call costs what a call of a [`Method`] costs:
 /// some nanoseconds beside the code.
 ///
-/// Contacts are open: the forces of contacts are those of runs of compiled kernels.
+/// Contacts are open: the forces of contacts are those of runs of compiled kernels. A velocity knows of what groups its
+/// configuration is, which the vectors of [`Linearization`] do not: `error_matrix` of it is NaN.
 #[derive(Clone, Copy, Debug)]
 pub struct System<'k, const Q: usize, const Z: usize, I, const CONSTRAINED: bool = false> {
     methods: [Option<Method<'k>>; METHODS.len()],
@@ -93,7 +97,7 @@ struct Sizes {
 }
 
 /// Methods by name, each with whether every model has it.
-const METHODS: [(&str, bool); 17] = [
+const METHODS: [(&str, bool); 18] = [
     ("kinematics", true),
     ("acceleration", true),
     ("momentum", true),
@@ -106,6 +110,7 @@ const METHODS: [(&str, bool); 17] = [
     ("constraint_function", true),
     ("configuration_rates", false),
     ("regularity", false),
+    ("linearize", false),
     ("multipliers", false),
     ("position_residual", false),
     ("velocity_residual", false),
@@ -153,8 +158,8 @@ impl Kernel {
 
 impl<'k, const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> System<'k, Q, Z, I, CONSTRAINED> {
     fn new(kernel: &'k Kernel) -> Result<Self, NoSystem> {
-        const { assert!(MOST_GROUPS == 32, "the message below names it") };
-        let groups = kernel.groups.ok_or(NoSystem::Has("more than 32 rotations and poses"))?;
+        const { assert!(MOST_GROUPS == 31, "the message below names it") };
+        let groups = kernel.groups.ok_or(NoSystem::Has("more than 31 rotations and poses"))?;
         let model = kernel.model();
         match (model.description().is_constrained, CONSTRAINED) {
             (true, false) => return Err(NoSystem::Has("constraints: `constrained_system` has them")),
@@ -188,8 +193,12 @@ impl<'k, const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> Sys
     /// The root of the part of the room for increments and speeds that the model fills: the factor of tolerances with
     /// which the mean error is that of the model's own numbers.
     pub fn share(&self) -> f64 {
-        let increments = self.methods[const { place_of("kinematics") }].map_or(0, |method| method.outputs());
-        ((increments + self.sizes.speeds).max(1) as f64 / (Q + Z).max(1) as f64).sqrt()
+        ((self.increments() + self.sizes.speeds).max(1) as f64 / (Q + Z).max(1) as f64).sqrt()
+    }
+
+    /// How many components an increment of the model's configuration has.
+    fn increments(&self) -> usize {
+        self.methods[const { place_of("kinematics") }].map_or(0, |method| method.outputs())
     }
 
     /// The configuration with these components: those of rotations have norm 1.
@@ -237,6 +246,56 @@ impl<'k, const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> Sys
         self.vector::<1>(method, arguments)[0]
     }
 }
+
+/// Derivatives are those of the model's own numbers, and zero beside them. A model without `linearize` has none: NaN.
+///
+/// The sizes of matrices over states cannot be computed from those of a type, so that this is of a few rooms alone.
+macro_rules! linearized {
+    ($($room:literal $states:literal),+) => {$(
+        impl<const CONSTRAINED: bool> LinearizedSystem
+            for System<'_, $room, $room, SVector<f64, $room>, CONSTRAINED>
+        {
+            type Linearization = Linearization<f64, $states, $room>;
+
+            // Nothing is known of models.
+            const STATE_PATTERN: &'static [&'static [bool]] = &[&[true; $states] as &[bool]; $states];
+            const INPUT_PATTERN: &'static [&'static [bool]] = &[&[true; $room] as &[bool]; $states];
+
+            fn linearize(
+                &self,
+                t: f64,
+                q: &MixedConfiguration<$room>,
+                z: &SVector<f64, $room>,
+                input: &SVector<f64, $room>,
+            ) -> Self::Linearization {
+                let (increments, inputs) = (self.increments(), self.sizes.inputs);
+                let states = increments + self.sizes.speeds;
+                let mut numbers = vec![f64::NAN; states * (states + inputs + 2)];
+                if let Some(method) = self.methods[const { place_of("linearize") }] {
+                    let called = method.call(&[&[t], self.own(q), self.speeds(z), self.inputs(input)], &mut numbers);
+                    debug_assert_eq!(called, Ok(()));
+                }
+                // Increments, then speeds, of which each has its room.
+                let place = |k: usize| match k {
+                    k if k < $room => Some(k).filter(|k| *k < increments),
+                    k => Some(increments + k - $room).filter(|k| *k < states),
+                };
+                let entry = |first: usize, columns: usize, i: usize, j: Option<usize>| {
+                    place(i).zip(j).map_or(0.0, |(i, j)| numbers[first + columns * i + j])
+                };
+                let [by_state, by_time] = [states, states + states * states];
+                Linearization::new(
+                    SVector::from_fn(|i, _| entry(0, 1, i, Some(0))),
+                    SMatrix::from_fn(|i, j| entry(by_state, states, i, place(j))),
+                    SVector::from_fn(|i, _| entry(by_time, 1, i, Some(0))),
+                    SMatrix::from_fn(|i, j| entry(by_time + states, inputs, i, Some(j).filter(|j| *j < inputs))),
+                )
+            }
+        }
+    )+};
+}
+
+linearized!(4 8, 8 16, 16 32, 32 64, 64 128);
 
 /// Results of a method by its name, which is looked up when this is compiled.
 macro_rules! results {

@@ -124,7 +124,7 @@ impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
         &self,
         problem: &P,
         state: &State<S>,
-        _: &Rates<S>,
+        rates: &Rates<S>,
         h: S::Scalar,
     ) -> Result<Step<S>, IntegrationErrorKind> {
         check_contacts(problem)?;
@@ -134,7 +134,7 @@ impl<S: LinearizedSystem> OneStep<S> for Rosenbrock {
         let start = Start { t: state.t, q: state.q, z: problem.speeds(state.t, &state.q, &state.y) };
         let input = problem.input(start.t, &start.q, &start.z);
         let linear = system.linearize(start.t, &start.q, &start.z, &input);
-        let mut bracket = brackets::<S>(&linear);
+        let mut bracket = brackets::<S>(&linear, rates.configuration);
         let mut feedback = feedback(problem, &start, &linear);
         let diagonal = one / (h * number(GAMMA));
         let factors = Model::<S>::factor(|row, column| {

@@ -5,14 +5,16 @@ from collections import namedtuple
 
 import numpy as np
 
-Linearize = namedtuple("Linearize", "rate by_state by_time by_input")
-LinearizeInverse = namedtuple(
-    "LinearizeInverse", "force by_configuration by_speeds by_acceleration by_time by_input"
-)
-Hessian = namedtuple("Hessian", "by_state by_input_and_state by_input")
+from . import _native
+
 Evaluate = namedtuple("Evaluate", "velocity acceleration kinetic_energy potential_energy")
-#: The tuples of methods that give several arrays, by their names; of others a tuple without names.
-TUPLES = {"linearize": Linearize, "linearize_inverse": LinearizeInverse, "hessian": Hessian, "evaluate": Evaluate}
+#: The tuples of programs that give several arrays, by their names; of others a tuple without names.
+TUPLES = {
+    "linearize": _native.Linearize,
+    "linearize_inverse": _native.LinearizeInverse,
+    "hessian": _native.Hessian,
+    "evaluate": Evaluate,
+}
 
 #: Results of one number; all others are vectors and matrices, of which systems with one coordinate have small ones.
 NUMBERS = {"kinetic_energy", "potential_energy", "total_mass", "constraint_function", "supplied_power", "regularity"}

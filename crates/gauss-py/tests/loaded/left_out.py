@@ -14,7 +14,7 @@ LEFT_OUT = {
     "test_contacts.py::test_failures_of_contact_runs_keep_what_there_is": CONTACTS,
     "test_contacts.py::test_ensembles_with_contacts": CONTACTS,
     "test_contacts.py::test_the_study_of_pucks_stops_where_the_formula_says": CONTACTS,
-    "test_methods.py::test_methods_agree": "power series and Rosenbrock's method are of compiled kernels",
+    "test_methods.py::test_methods_agree": "power series are of compiled kernels",
     "test_methods.py::test_mistakes_with_methods": "a method that is missing is told in other words",
     "test_processes.py::test_exceptions_are_those_of_one_module": "classes are not in the module that raises",
     "test_runs.py::test_states_of_elements_and_tables": "tables are values of Rust",

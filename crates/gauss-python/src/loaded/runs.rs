@@ -4,13 +4,13 @@
 //! have are zero there, stand still, and are taken out of all that leaves the run or asks its functions. Tolerances are
 //! those of the model's own numbers ([`System::share`]).
 
-use gauss_jit::{Kernel, System};
+use gauss_jit::{Kernel, MixedConfiguration, System};
 use gauss_runtime::prelude::{Configuration, GaussSystem, SVector};
 
 use crate::methods::Sizes;
 use crate::steps::{
-    Control, Effect, Event, Held, Input, Jumped, Outcome, Request, Until, Watched, components, numbers_of, smooth,
-    vector,
+    Control, Effect, Event, Held, Input, Jumped, Outcome, Request, Until, Watched, components, lacks, numbers_of,
+    smooth, stiff, vector,
 };
 
 /// A system with room for N numbers of each kind.
@@ -18,10 +18,8 @@ type InRoom<'k, const N: usize, const CONSTRAINED: bool> = System<'k, N, N, SVec
 
 /// Calls a function with the system in the smallest room, of a model with constraints or without.
 macro_rules! in_room {
-    ($kernel:expr, $least:expr, |$system:ident| $value:expr) => {
-        in_room!(@each $kernel, $least, |$system| $value; 4 8 16 32 64 128)
-    };
-    (@each $kernel:expr, $least:expr, |$system:ident| $value:expr; $($room:literal)+) => {
+    ($kernel:expr, $least:expr, |$system:ident| $value:expr; $($room:literal)+) => {{
+        let most = [$($room),+].into_iter().fold(0, usize::max);
         match ($least, $kernel.model().description().is_constrained) {
             $(
                 (..=$room, false) => {
@@ -34,8 +32,13 @@ macro_rules! in_room {
                     $value
                 }
             )+
-            (least, _) => Err(format!("runs are of at most 128 numbers of q, of z and of the input, and this model has {least}")),
+            (least, _) => Err(format!(
+                "such runs are of at most {most} numbers of q, of z and of the input, and this model has {least}"
+            )),
         }
+    }};
+    ($kernel:expr, $least:expr, |$system:ident| $value:expr) => {
+        in_room!($kernel, $least, |$system| $value; 4 8 16 32 64 128)
     };
 }
 
@@ -49,7 +52,20 @@ fn least(sizes: &Sizes) -> usize {
 /// # Errors
 /// A model that is too large; what [`smooth`] refuses.
 pub fn simulate(kernel: &Kernel, sizes: &Sizes, request: &Request<'_>) -> Result<Outcome, String> {
-    in_room!(kernel, least(sizes), |system| in_its_room(&system, sizes, request))
+    match request.control {
+        Control::Stiff(..) if !kernel.model().methods().any(|name| name == "linearize") => {
+            Err(lacks("rosenbrock", "linearize"))
+        }
+        // Matrices over states of more are too large for the stacks of threads.
+        Control::Stiff(relative, absolute, largest) => in_room!(kernel, least(sizes), |system| {
+            let share = system.share();
+            let tolerances = (tolerance(relative, share), absolute * share, largest);
+            in_its_room(&system, sizes, request, |q, request| stiff(&system, q, request, tolerances))
+        }; 4 8 16 32 64),
+        _ => in_room!(kernel, least(sizes), |system| {
+            in_its_room(&system, sizes, request, |q, request| smooth(&system, q, request))
+        }),
+    }
 }
 
 /// The nearest state on the constraints.
@@ -73,6 +89,7 @@ fn in_its_room<const N: usize, const CONSTRAINED: bool>(
     system: &InRoom<'_, N, CONSTRAINED>,
     sizes: &Sizes,
     request: &Request<'_>,
+    run: impl FnOnce(MixedConfiguration<N>, &Request<'_>) -> Result<Outcome, String>,
 ) -> Result<Outcome, String> {
     let (configuration, speeds) = (sizes.configuration, sizes.speeds);
     let of_input = |t: f64, q: &[f64], z: &[f64]| match request.input {
@@ -108,17 +125,21 @@ fn in_its_room<const N: usize, const CONSTRAINED: bool>(
         .collect();
     let share = system.share();
     let control = match request.control {
-        // A tolerance below rounding is refused before.
         Control::Adaptive(relative, absolute, largest) => {
-            Control::Adaptive((relative * share).max(f64::EPSILON), absolute * share, largest)
+            Control::Adaptive(tolerance(relative, share), absolute * share, largest)
         }
         other => other,
     };
     let controller = request.controller.as_ref();
     let controller = controller.map(|held| Held { period: held.period, delay: held.delay, law: &law });
     let request = Request { control, input: &input, controller, until: &until, ..*request };
-    let outcome = smooth(system, system.configuration(request.q).renormalise(), &request)?;
+    let outcome = run(system.configuration(request.q).renormalise(), &request)?;
     Ok(without_room(outcome, N, counts))
+}
+
+/// A relative tolerance of the model's own numbers; those below rounding were refused before.
+fn tolerance(relative: f64, share: f64) -> f64 {
+    (relative * share).max(f64::EPSILON)
 }
 
 /// The function of an event, of the model's own numbers.

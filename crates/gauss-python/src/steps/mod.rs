@@ -14,7 +14,7 @@ mod watching;
 pub use causes::words;
 pub use one::Methods;
 #[cfg(feature = "loaded")]
-pub use one::{NO_CONTACTS, smooth};
+pub use one::{NO_CONTACTS, lacks, smooth, stiff};
 pub use outcome::{Event, Happening, InContact, KINDS, Outcome, Touched, column_names};
 pub use request::{Control, Effect, Function, Held, Input, Jumped, Request, Table, Until, Watched};
 pub use stoppable::Stoppable;

@@ -58,10 +58,8 @@ impl<S: System<Scalar = f64>> Methods<S> {
     where
         S: LinearizedSystem,
     {
-        self.rosenbrock = Some(|system, request, (relative, absolute, largest)| {
-            let control = Adaptive::by(Rosenbrock, relative, absolute);
-            let q = configuration::<S::Configuration>(request.q)?;
-            run(&stoppable(system, request), q, request, bounded(control, largest, Adaptive::largest_step))
+        self.rosenbrock = Some(|system, request, tolerances| {
+            stiff(system, configuration::<S::Configuration>(request.q)?, request, tolerances)
         });
     }
 
@@ -95,22 +93,19 @@ impl<S: System<Scalar = f64>> Methods<S> {
     /// A first state that is none, a method that the system has not.
     pub fn simulate(&self, system: &S, request: &Request<'_>) -> Result<Outcome, String> {
         let q = configuration::<S::Configuration>(request.q)?;
-        let lacks = |method: &str, clause: &str| {
-            Err(format!("the method {method} needs `#[gauss({clause})]` at the struct, which does not say it"))
-        };
         match request.control {
             Control::Adaptive(..) | Control::Fixed(_) | Control::Implicit(_) => smooth(system, q, request),
             Control::Stiff(relative, absolute, largest) => match self.rosenbrock {
                 Some(stepper) => stepper(system, request, (relative, absolute, largest)),
-                None => lacks("rosenbrock", "linearize"),
+                None => Err(lacks("rosenbrock", "linearize")),
             },
             Control::Taylor(relative, absolute, largest) => match self.taylor {
                 Some(stepper) => stepper(system, request, (relative, absolute, largest)),
-                None => lacks("taylor", "taylor"),
+                None => Err(lacks("taylor", "taylor")),
             },
             Control::ContactEvents(..) | Control::ContactSteps(..) => match &self.contacts {
                 Some(contacts) => (contacts.run)(system, request),
-                None => lacks("of contacts", "contact(…)"),
+                None => Err(lacks("of contacts", "contact(…)")),
             },
         }
     }
@@ -138,10 +133,29 @@ pub fn smooth<S: Moving>(system: &S, q: S::Configuration, request: &Request<'_>)
         }
         Control::Fixed(step) => run(system, q, request, Fixed::new(step)),
         Control::Implicit(step) => run(system, q, request, Fixed::by(Collocation::order_6(), step)),
-        Control::Stiff(..) => Err("the method rosenbrock is one of compiled kernels".to_owned()),
+        Control::Stiff(..) => Err(lacks("rosenbrock", "linearize")),
         Control::Taylor(..) => Err("the method taylor is one of compiled kernels".to_owned()),
         Control::ContactEvents(..) | Control::ContactSteps(..) => Err(NO_CONTACTS.to_owned()),
     }
+}
+
+/// A run by Rosenbrock's method.
+///
+/// # Errors
+/// Times of a controller that are no multiples of the step.
+pub fn stiff<S: Moving + LinearizedSystem>(
+    system: &S,
+    q: S::Configuration,
+    request: &Request<'_>,
+    (relative, absolute, largest): Tolerances,
+) -> Result<Outcome, String> {
+    let control = Adaptive::by(Rosenbrock, relative, absolute);
+    run(&stoppable(system, request), q, request, bounded(control, largest, Adaptive::largest_step))
+}
+
+/// What a method needs that its struct does not say.
+pub fn lacks(method: &str, clause: &str) -> String {
+    format!("the method {method} needs `#[gauss({clause})]` at the struct, which does not say it")
 }
 
 fn stoppable<'a, S>(system: &'a S, request: &Request<'a>) -> Stoppable<'a, S> {
