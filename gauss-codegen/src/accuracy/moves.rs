@@ -5,7 +5,7 @@ use crate::mechanics::{Coordinate, Matter};
 use crate::terms::Role;
 
 use super::random::Random;
-use super::states::{Seen, States, Values};
+use super::states::{SceneTerms, States, Values};
 
 /// Powers of ten that numbers of fields, speeds and forces are apart from one, and those of coordinates.
 const SIZES: [f64; 2] = [-4.5, 4.5];
@@ -150,12 +150,12 @@ pub struct Moves<'s, 'a, 'g> {
 
 impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
     /// The moves of a scene, with those of its fields that are read: others change nothing.
-    pub fn new(states: &'s States<'a, 'g>, seen: &Seen<'g>, is_read: impl Fn(Expr<'g>) -> bool) -> Self {
+    pub fn new(states: &'s States<'a, 'g>, seen: &SceneTerms<'g>, is_read: impl Fn(Expr<'g>) -> bool) -> Self {
         let mut free = free(states, seen);
         free.retain(|free| !free.parameter || is_read(free.symbol));
         let places: Map<u32, usize> = free.iter().enumerate().map(|(k, free)| (free.symbol.key(), k)).collect();
         // Momenta cancel where rates do.
-        let rates = Seen::sums_in(states.momentum, RATES);
+        let rates = SceneTerms::sums_in(states.momentum, RATES);
         let sums = seen.sums.iter().chain(&rates).map(|terms| {
             let mut by = Vec::new();
             let mut done = Map::default();
@@ -436,7 +436,7 @@ fn spins(sums: &[Sum<'_>], angles: &[usize], speeds: &[usize]) -> Vec<Spin> {
 }
 
 /// The numbers of a state that are given, but for time and for what follows from others.
-fn free<'g>(states: &States<'_, 'g>, seen: &Seen<'g>) -> Vec<Free<'g>> {
+fn free<'g>(states: &States<'_, 'g>, seen: &SceneTerms<'g>) -> Vec<Free<'g>> {
     let mut free = Vec::new();
     let of_bodies: Map<u32, (usize, Role)> = states
         .bodies()

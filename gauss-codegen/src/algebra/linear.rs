@@ -253,7 +253,7 @@ fn solve_by_blocks<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>], first_last:
 }
 
 /// A symmetric positive definite matrix as LDLᵀ, for many right-hand sides: [`solve_symmetric`] of each.
-pub struct Factored<'g> {
+pub struct Factorisation<'g> {
     blocks: Vec<FactoredBlock<'g>>,
 }
 
@@ -300,7 +300,7 @@ struct FactoredBlock<'g> {
     rest: Vec<Vec<Expr<'g>>>,
 }
 
-impl<'g> Factored<'g> {
+impl<'g> Factorisation<'g> {
     pub fn new(matrix: &[Vec<Expr<'g>>]) -> Self {
         let factored = |block: Vec<usize>| {
             let mut nothing = vec![matrix[0][0].graph().zero(); block.len()];

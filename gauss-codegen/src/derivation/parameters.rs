@@ -10,10 +10,10 @@ use crate::mechanics::{Coordinate, QuantityValues};
 use crate::parameters::{Check, Given, Parameter, Parameters, Rule};
 use crate::program::{ArgumentKind, Results};
 use crate::terms::{Field, LawKind, Role, Shape};
-use crate::translate::{Law, Part};
+use crate::translate::{FieldPart, Law};
 use crate::words::Unraw;
 
-use super::signature::{Signature, Unbound};
+use super::signature::{Signature, SignatureError};
 
 /// Components of the configuration, by their places in it, whose squares have the sum one.
 pub fn unit_components(derived: &Derived<'_, '_>) -> Vec<Range<usize>> {
@@ -37,8 +37,8 @@ pub fn unit_components(derived: &Derived<'_, '_>) -> Vec<Range<usize>> {
 ///
 /// # Errors
 /// Mistakes of this crate.
-pub fn parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<Parameters, Unbound> {
-    let given = derived.subject.given;
+pub fn parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<Parameters, SignatureError> {
+    let given = derived.subject.provenance;
     let fields = &given.item.fields;
     let mut sources: Vec<_> = given.sources.iter().map(|source| (source.field, source.part)).collect();
     sources.sort_by_key(|(field, _)| *field);
@@ -100,15 +100,15 @@ fn first_numbers(fields: &[Field]) -> Vec<usize> {
 }
 
 /// Place of one number within its field.
-fn place(part: Part, shape: Shape) -> usize {
+fn place(part: FieldPart, shape: Shape) -> usize {
     match part {
-        Part::Scalar => 0,
-        Part::Component(i) => i,
-        Part::Entry(i, j) if shape == Shape::Matrix3 => 3 * i + j,
-        Part::Entry(i, j) => 6 * i + j,
-        Part::Body(Role::Mass, ..) => 0,
-        Part::Body(Role::CenterOfMass, i, _) => 1 + i,
-        Part::Body(_, i, j) => 4 + 3 * i + j,
+        FieldPart::Scalar => 0,
+        FieldPart::Component(i) => i,
+        FieldPart::Entry(i, j) if shape == Shape::Matrix3 => 3 * i + j,
+        FieldPart::Entry(i, j) => 6 * i + j,
+        FieldPart::Body(Role::Mass, ..) => 0,
+        FieldPart::Body(Role::CenterOfMass, i, _) => 1 + i,
+        FieldPart::Body(_, i, j) => 4 + 3 * i + j,
     }
 }
 
@@ -146,7 +146,7 @@ impl<'g> Laws<'_, '_, 'g> {
 
     /// The numbers of what a law is about.
     fn datum(&mut self, datum: Datum) -> Vec<Given> {
-        let given = self.derived.subject.given;
+        let given = self.derived.subject.provenance;
         match datum {
             Datum::Field(k) => {
                 let count: usize = parts(given.item.fields[k].shape).iter().map(|(_, count)| count).sum();
@@ -224,7 +224,7 @@ impl<'g> Laws<'_, '_, 'g> {
     /// Checks of constants of elements. Of what depends on the state nothing is known when the kernel is made.
     fn of_constants(&mut self, of_kind: impl Fn(LawKind) -> bool) -> Vec<Check> {
         let mut checks = Vec::new();
-        for Law { label, kind, values } in self.derived.subject.given.laws.iter().filter(|law| of_kind(law.kind)) {
+        for Law { label, kind, values } in self.derived.subject.provenance.laws.iter().filter(|law| of_kind(law.kind)) {
             let symbols = kernel::Program::lower(values).symbols();
             if !symbols.iter().all(|symbol| self.known.contains(&symbol.key())) {
                 continue;

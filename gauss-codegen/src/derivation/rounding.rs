@@ -14,14 +14,14 @@ pub struct State {
 /// The errors of the outputs of a method in double precision, and what it would change them if every number of the
 /// scene were rounded once: the sum of the changes that one unit in the last place of each makes, which is what the
 /// scene itself excuses.
-pub struct Loss {
+pub struct OutputErrors {
     /// In double precision.
     pub rounded: Vec<f64>,
     pub errors: Vec<f64>,
     pub excused: Vec<f64>,
 }
 
-impl Loss {
+impl OutputErrors {
     pub fn of(derivation: &Derivation, method: &str, state: &State) -> Self {
         let rounded = outputs(derivation, method, state, |x| x);
         let exact = outputs(derivation, method, state, Precise::number);

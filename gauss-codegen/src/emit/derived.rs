@@ -6,7 +6,7 @@ use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 use crate::algebra::{Expr, Map, Rational, Set};
-use crate::formulation::Printed;
+use crate::formulation::PrintedEquations;
 use crate::kernel::{Counts, Function, Kernel, Program, Smoothness};
 use crate::lowering::Lowered;
 use crate::mass_laws::MassLaws;
@@ -39,7 +39,7 @@ pub struct Derived<'a, 'g> {
     /// λ of the second derivatives, where these are wanted.
     pub weights: &'a [Expr<'g>],
     /// The equations for people, as text and in LaTeX.
-    pub printed: &'a [Printed; 2],
+    pub printed: &'a [PrintedEquations; 2],
     /// The parameters in which the forces of inertia are linear, where the regressor is wanted.
     pub inertial_parameters: &'a [InertialParameter<'g>],
     /// Methods that are written with vectors, once these have been looked for.
@@ -60,7 +60,7 @@ pub struct KernelGenerics {
 }
 
 /// Symbols of the arguments of the methods.
-pub struct Formal<'a, 'g> {
+pub struct ArgumentSymbols<'a, 'g> {
     pub speeds: &'a [Expr<'g>],
     pub speed_rates: &'a [Expr<'g>],
     pub momenta: &'a [Expr<'g>],
@@ -76,9 +76,9 @@ pub struct Formal<'a, 'g> {
 
 impl<'a, 'g> Derived<'a, 'g> {
     pub fn new(Lowered { formulation, kernel, mass_laws }: &'a Lowered<'g>) -> Self {
-        let given = &formulation.given;
+        let provenance = &formulation.provenance;
         let subject = Subject {
-            given,
+            provenance,
             system: &formulation.system,
             constraints: formulation.constraints(),
             can_drift: formulation.can_drift(),
@@ -94,7 +94,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             packs: OnceCell::new(),
             limbs: OnceCell::new(),
             private: {
-                let (runtime, module) = (&given.item.runtime, Ident::new(PRIVATE, Span::call_site()));
+                let (runtime, module) = (&provenance.item.runtime, Ident::new(PRIVATE, Span::call_site()));
                 quote!(#runtime::#module)
             },
             arguments: OnceCell::new(),
@@ -102,13 +102,13 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     pub fn item(&self) -> &'a Item {
-        &self.subject.given.item
+        &self.subject.provenance.item
     }
 
-    pub fn formal(&self) -> Formal<'a, 'g> {
+    pub fn formal(&self) -> ArgumentSymbols<'a, 'g> {
         let Subject { system, constraints, .. } = &self.subject;
         let halves = system.halves();
-        Formal {
+        ArgumentSymbols {
             speeds: &system.scene.speeds,
             speed_rates: &system.scene.speed_rates,
             momenta: &system.scene.momenta,
@@ -205,7 +205,7 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     /// Literal numbers that symbols stand for.
     pub fn literals(&self) -> &[(Rational, Expr<'g>)] {
-        &self.subject.given.literals
+        &self.subject.provenance.literals
     }
 
     /// The symbol of the time.
@@ -225,7 +225,7 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     fn all_arguments(&self) -> Vec<Argument<'g>> {
-        let Formal { speeds, speed_rates, momenta, twist, residuals, factors, impulses, inputs, weights } =
+        let ArgumentSymbols { speeds, speed_rates, momenta, twist, residuals, factors, impulses, inputs, weights } =
             self.formal();
         let mut arguments = self.subject.configuration_arguments(&self.private());
         for (kind, symbols) in [
@@ -311,7 +311,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         names: &Map<u32, TokenStream>,
     ) -> Option<(TokenStream, Vec<TokenStream>)> {
         self.packs().filter(|_| matches!(self.scalar().scalar, Scalar::F64))?;
-        let limbs = self.limbs.get_or_init(|| Limbs::of(&self.subject.given.twins, self.kernel));
+        let limbs = self.limbs.get_or_init(|| Limbs::of(&self.subject.provenance.twins, self.kernel));
         limbs.statements(program, names, (&self.private(), &self.scalar()))
     }
 

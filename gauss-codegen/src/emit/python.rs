@@ -8,7 +8,7 @@ use crate::emit::derived::Derived;
 use crate::emit::records::record::Part;
 use crate::emit::records::{input, state};
 use crate::methods::DerivativeKind;
-use crate::terms::{Field, Remark, Scalar, WantedMethod};
+use crate::terms::{Field, OptionalMethod, Remark, Scalar};
 use crate::words::Unraw;
 
 /// The call; nothing where no Python is wanted.
@@ -80,10 +80,10 @@ fn offers(derived: &Derived<'_, '_>) -> Vec<proc_macro2::Ident> {
     let mut words: Vec<&str> = derivatives.collect();
     words.extend((!wanted.frames.is_empty()).then_some("frames"));
     let of_methods = wanted.methods.iter().filter_map(|method| match method {
-        WantedMethod::Centroidal => Some("centroidal"),
-        WantedMethod::GravityTorques => Some("gravity_torques"),
-        WantedMethod::JacobianRates => Some("jacobian_rates"),
-        WantedMethod::NonlinearEffects => None,
+        OptionalMethod::Centroidal => Some("centroidal"),
+        OptionalMethod::GravityTorques => Some("gravity_torques"),
+        OptionalMethod::JacobianRates => Some("jacobian_rates"),
+        OptionalMethod::NonlinearEffects => None,
     });
     words.extend(of_methods);
     words.extend((!derived.subject.constraints.is_empty()).then_some("constraints"));

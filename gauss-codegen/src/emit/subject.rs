@@ -6,7 +6,7 @@ use quote::quote;
 
 use crate::algebra::Expr;
 use crate::mechanics::{Constraints, Coordinate, Method, System};
-use crate::translate::Given;
+use crate::translate::Provenance;
 
 use crate::emit::chart::chart_tokens;
 use crate::emit::dialect::arguments::Argument;
@@ -14,7 +14,7 @@ use crate::emit::dialect::arguments::Argument;
 /// The system that is derived.
 pub struct Subject<'a, 'g> {
     /// Names, units and other data that are only written down.
-    pub given: &'a Given<'g>,
+    pub provenance: &'a Provenance<'g>,
     pub system: &'a System<'g>,
     /// The constraints, and whether a run can drift away from them.
     pub constraints: &'a Constraints<'g>,

@@ -5,7 +5,7 @@ use crate::program::Pass;
 
 /// Rewrites every sum of an expression.
 #[derive(Default)]
-pub struct Factoring<'g> {
+pub struct Factoriser<'g> {
     memo: Map<u32, Expr<'g>>,
 }
 
@@ -42,7 +42,7 @@ impl<'g> Term<'g> {
     }
 }
 
-impl<'g> Factoring<'g> {
+impl<'g> Factoriser<'g> {
     pub fn rewrite(&mut self, e: Expr<'g>) -> Expr<'g> {
         if !Pass::Factors.is_made() {
             return e;

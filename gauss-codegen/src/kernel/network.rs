@@ -18,7 +18,7 @@ const PAIRS: [usize; 2] = [500_000, 500];
 const LEVELS: u32 = 400;
 
 /// Index of a node of a network.
-pub type Place = usize;
+pub type NodeIndex = usize;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Node<'g> {
@@ -26,14 +26,14 @@ pub enum Node<'g> {
     /// An argument of the function or a constant.
     Leaf(Expr<'g>),
     /// Σ cᵢ nᵢ; the constant term is a multiple of the node of the number one.
-    Sum(Vec<(Rational, Place)>),
+    Sum(Vec<(Rational, NodeIndex)>),
     /// Π nᵢ, repeated for powers.
-    Product(Vec<Place>),
+    Product(Vec<NodeIndex>),
     /// 1/n. A quotient is a product with one, so that quotients with the same denominator share it.
-    Reciprocal(Place),
-    Call(Function, Place),
-    Binary(BinaryFunction, Place, Place),
-    Own(OwnFunction, [Place; MOST_VARIABLES]),
+    Reciprocal(NodeIndex),
+    Call(Function, NodeIndex),
+    Binary(BinaryFunction, NodeIndex, NodeIndex),
+    Own(OwnFunction, [NodeIndex; MOST_VARIABLES]),
 }
 
 impl Key for Node<'_> {
@@ -67,7 +67,7 @@ impl Key for Node<'_> {
 
 impl Node<'_> {
     /// Nodes that it is made of.
-    pub fn parts(&self) -> Vec<Place> {
+    pub fn parts(&self) -> Vec<NodeIndex> {
         match self {
             Node::Number(_) | Node::Leaf(_) => Vec::new(),
             Node::Sum(terms) => terms.iter().map(|term| term.1).collect(),
@@ -83,13 +83,13 @@ impl Node<'_> {
 pub struct Network<'g> {
     pub nodes: Vec<Node<'g>>,
     /// The first node that each is alike to: orders go by these, then by places.
-    ranks: Vec<Place>,
+    ranks: Vec<NodeIndex>,
     /// First nodes, by their structure; nothing where no symbols are alike.
-    first: Option<HashMap<u64, Place>>,
+    first: Option<HashMap<u64, NodeIndex>>,
     /// (coefficient, node) of every output.
-    pub outputs: Vec<(Rational, Place)>,
-    index: Map<Node<'g>, Place>,
-    memo: Map<u32, (Rational, Place)>,
+    pub outputs: Vec<(Rational, NodeIndex)>,
+    index: Map<Node<'g>, NodeIndex>,
+    memo: Map<u32, (Rational, NodeIndex)>,
 }
 
 impl<'g> Network<'g> {
@@ -109,12 +109,12 @@ impl<'g> Network<'g> {
             let output = network.visit(e);
             network.outputs.push(output);
         }
-        if Kind::Products.pass().is_made() && network.share(Kind::Products) {
+        if GroupKind::Products.pass().is_made() && network.share(GroupKind::Products) {
             network.merge_duplicates();
             network.index_anew();
         }
         // Nothing is looked up afterwards.
-        if Kind::Sums.pass().is_made() && network.share(Kind::Sums) {
+        if GroupKind::Sums.pass().is_made() && network.share(GroupKind::Sums) {
             network.merge_duplicates();
         }
         network
@@ -122,23 +122,23 @@ impl<'g> Network<'g> {
 
     /// Nodes that are written first, parts before what is made of them, so that no more than some levels are written at
     /// once.
-    pub fn stages(&self) -> Vec<Place> {
+    pub fn stages(&self) -> Vec<NodeIndex> {
         let mut depth: Vec<Option<u32>> = vec![None; self.nodes.len()];
         let mut stages = Vec::new();
-        let mut open: Vec<Place> = self.outputs.iter().rev().map(|&(_, place)| place).collect();
+        let mut open: Vec<NodeIndex> = self.outputs.iter().rev().map(|&(_, place)| place).collect();
         while let Some(&place) = open.last() {
             if depth[place].is_some() {
                 open.pop();
                 continue;
             }
             let parts = self.nodes[place].parts();
-            let unknown: Vec<Place> = parts.iter().copied().filter(|&part| depth[part].is_none()).collect();
+            let unknown: Vec<NodeIndex> = parts.iter().copied().filter(|&part| depth[part].is_none()).collect();
             if !unknown.is_empty() {
                 open.extend(unknown);
                 continue;
             }
             let own = parts.iter().filter_map(|&part| depth[part]).max().map_or(0, |deepest| deepest + 1);
-            let lower = |part: &&Place| depth[**part].is_some_and(|depth| depth / LEVELS < own / LEVELS);
+            let lower = |part: &&NodeIndex| depth[**part].is_some_and(|depth| depth / LEVELS < own / LEVELS);
             stages.extend(parts.iter().filter(lower));
             depth[place] = Some(own);
             open.pop();
@@ -146,7 +146,7 @@ impl<'g> Network<'g> {
         stages
     }
 
-    fn place(&mut self, node: Node<'g>) -> Place {
+    fn place(&mut self, node: Node<'g>) -> NodeIndex {
         let (nodes, ranks, first) = (&mut self.nodes, &mut self.ranks, &mut self.first);
         let new = |node: &Node<'g>| {
             let place = nodes.len();
@@ -159,12 +159,12 @@ impl<'g> Network<'g> {
     }
 
     /// Place in an order in which nodes that are alike have the same place.
-    fn rank(&self, place: Place) -> (Place, Place) {
+    fn rank(&self, place: NodeIndex) -> (NodeIndex, NodeIndex) {
         (self.ranks[place], place)
     }
 
     /// The node of an expression up to a number, which sums and products around it take over.
-    fn visit(&mut self, e: Expr<'g>) -> (Rational, Place) {
+    fn visit(&mut self, e: Expr<'g>) -> (Rational, NodeIndex) {
         if let Some(&done) = self.memo.get(&e.key()) {
             return done;
         }
@@ -191,7 +191,7 @@ impl<'g> Network<'g> {
                     let (c, place) = self.visit(*e);
                     self.scaled(c, place)
                 };
-                let arguments: Vec<Place> = arguments.iter().map(scaled).collect();
+                let arguments: Vec<NodeIndex> = arguments.iter().map(scaled).collect();
                 (one, self.place(Node::Own(function, OwnFunction::filled(&arguments))))
             }
             NodeView::Sum(terms) => {
@@ -219,12 +219,12 @@ impl<'g> Network<'g> {
         result
     }
 
-    fn scaled(&mut self, c: Rational, place: Place) -> Place {
+    fn scaled(&mut self, c: Rational, place: NodeIndex) -> NodeIndex {
         if c.is_one() { place } else { self.place(Node::Sum(vec![(c, place)])) }
     }
 
     /// A sum up to sign: the first term is positive, so that a − b and b − a are one node.
-    fn sum(&mut self, mut terms: Vec<(Rational, Place)>) -> (Rational, Place) {
+    fn sum(&mut self, mut terms: Vec<(Rational, NodeIndex)>) -> (Rational, NodeIndex) {
         let one = Rational::one();
         if let [(c, place)] = terms[..] {
             return (c, place);
@@ -238,7 +238,7 @@ impl<'g> Network<'g> {
         (if negative { -one } else { one }, place)
     }
 
-    fn product(&mut self, mut factors: Vec<Place>) -> Place {
+    fn product(&mut self, mut factors: Vec<NodeIndex>) -> NodeIndex {
         factors.retain(|&p| self.nodes[p] != Node::Number(Rational::one()));
         factors.sort_unstable_by_key(|&place| self.rank(place));
         match factors[..] {
@@ -251,12 +251,12 @@ impl<'g> Network<'g> {
     /// Splits pairs of parts that several sums (or several products) contain off as nodes of their own, the most
     /// frequent first, until no pair occurs twice. Terms of sums are alike up to a common factor. Whether there was
     /// any.
-    fn share(&mut self, kind: Kind) -> bool {
+    fn share(&mut self, kind: GroupKind) -> bool {
         let mut shared = false;
         let mut left = PAIRS[0] + PAIRS[1] * self.nodes.len();
         loop {
             let repeated = self.repeated(kind);
-            let mut holders: Map<(Place, Place, Rational), Vec<Place>> = Map::default();
+            let mut holders: Map<(NodeIndex, NodeIndex, Rational), Vec<NodeIndex>> = Map::default();
             for (place, node) in self.nodes.iter().enumerate() {
                 let parts = kind.parts_of(node, &repeated);
                 for parts in parts.chunks(PAIRED) {
@@ -282,7 +282,7 @@ impl<'g> Network<'g> {
             let mut progress = false;
             for ((a, b, ratio), places) in frequent {
                 // Earlier pairs of this round may have taken the parts away.
-                let places: Vec<Place> =
+                let places: Vec<NodeIndex> =
                     places.into_iter().filter(|&p| kind.without(&self.nodes[p], a, b, ratio).is_some()).collect();
                 if places.len() < 2 {
                     continue;
@@ -312,23 +312,23 @@ impl<'g> Network<'g> {
     }
 
     /// The nodes that are parts of several others: only pairs of these can be.
-    fn repeated(&self, kind: Kind) -> Vec<bool> {
+    fn repeated(&self, kind: GroupKind) -> Vec<bool> {
         let mut last = vec![usize::MAX; self.nodes.len()];
         let mut repeated = vec![false; self.nodes.len()];
         for (place, node) in self.nodes.iter().enumerate() {
-            let mut note = |part: Place| {
+            let mut note = |part: NodeIndex| {
                 if last[part] != usize::MAX && last[part] != place {
                     repeated[part] = true;
                 }
                 last[part] = place;
             };
             match (kind, node) {
-                (Kind::Sums, Node::Sum(terms)) => {
+                (GroupKind::Sums, Node::Sum(terms)) => {
                     for &(_, part) in terms {
                         note(part);
                     }
                 }
-                (Kind::Products, Node::Product(factors)) => {
+                (GroupKind::Products, Node::Product(factors)) => {
                     for &part in factors {
                         note(part);
                     }
@@ -343,16 +343,16 @@ impl<'g> Network<'g> {
     /// the later one, which nobody needs any more, is blanked.
     fn merge_duplicates(&mut self) {
         loop {
-            let mut first: Map<&Node<'g>, Place> = Map::default();
-            let lead: Vec<Place> =
+            let mut first: Map<&Node<'g>, NodeIndex> = Map::default();
+            let lead: Vec<NodeIndex> =
                 self.nodes.iter().enumerate().map(|(k, node)| *first.or_insert_with(node, || k)).collect();
             let mut changed = false;
-            let mut follow = |place: &mut Place| {
+            let mut follow = |place: &mut NodeIndex| {
                 changed |= lead[*place] != *place;
                 *place = lead[*place];
             };
             let ranks = &self.ranks;
-            let rank = |place: Place| (ranks[place], place);
+            let rank = |place: NodeIndex| (ranks[place], place);
             for node in &mut self.nodes {
                 match node {
                     Node::Number(_) | Node::Leaf(_) => {}
@@ -390,8 +390,9 @@ impl<'g> Network<'g> {
 }
 
 /// The same word for nodes that are alike.
-fn likeness(node: &Node<'_>, ranks: &[Place]) -> u64 {
-    let parts = |kind: u64, parts: &[Place]| parts.iter().fold(kind, |word, &place| joined(word, ranks[place] as u64));
+fn likeness(node: &Node<'_>, ranks: &[NodeIndex]) -> u64 {
+    let parts =
+        |kind: u64, parts: &[NodeIndex]| parts.iter().fold(kind, |word, &place| joined(word, ranks[place] as u64));
     match node {
         Node::Leaf(e) => joined(0, u64::from(e.rank())),
         Node::Number(value) => joined(1, value.word()),
@@ -408,26 +409,26 @@ fn likeness(node: &Node<'_>, ranks: &[Place]) -> u64 {
 
 /// Kinds of shared parts: terms of sums, or factors of products.
 #[derive(Clone, Copy)]
-enum Kind {
+enum GroupKind {
     Sums,
     Products,
 }
 
 /// Parts of a sum or a product, with their coefficients (one in a product).
-type Parts = Vec<(Rational, Place)>;
+type Parts = Vec<(Rational, NodeIndex)>;
 
-impl Kind {
+impl GroupKind {
     fn pass(self) -> Pass {
         match self {
-            Kind::Sums => Pass::Sums,
-            Kind::Products => Pass::Products,
+            GroupKind::Sums => Pass::Sums,
+            GroupKind::Products => Pass::Products,
         }
     }
 
     fn parts(self, node: &Node<'_>) -> Parts {
         match (self, node) {
-            (Kind::Sums, Node::Sum(terms)) => terms.clone(),
-            (Kind::Products, Node::Product(factors)) => factors.iter().map(|&f| (Rational::one(), f)).collect(),
+            (GroupKind::Sums, Node::Sum(terms)) => terms.clone(),
+            (GroupKind::Products, Node::Product(factors)) => factors.iter().map(|&f| (Rational::one(), f)).collect(),
             _ => Vec::new(),
         }
     }
@@ -436,14 +437,14 @@ impl Kind {
     fn parts_of(self, node: &Node<'_>, wanted: &[bool]) -> Parts {
         let mut parts = Vec::new();
         match (self, node) {
-            (Kind::Sums, Node::Sum(terms)) => {
+            (GroupKind::Sums, Node::Sum(terms)) => {
                 for &(c, place) in terms {
                     if wanted[place] {
                         parts.push((c, place));
                     }
                 }
             }
-            (Kind::Products, Node::Product(factors)) => {
+            (GroupKind::Products, Node::Product(factors)) => {
                 for &place in factors {
                     if wanted[place] {
                         parts.push((Rational::one(), place));
@@ -457,13 +458,13 @@ impl Kind {
 
     fn node<'g>(self, parts: Parts) -> Node<'g> {
         match self {
-            Kind::Sums => Node::Sum(parts),
-            Kind::Products => Node::Product(parts.into_iter().map(|(_, place)| place).collect()),
+            GroupKind::Sums => Node::Sum(parts),
+            GroupKind::Products => Node::Product(parts.into_iter().map(|(_, place)| place).collect()),
         }
     }
 
     /// The parts without a and `ratio`·b, and the coefficient that a had; `None` when the node does not have both.
-    fn without(self, node: &Node<'_>, a: Place, b: Place, ratio: Rational) -> Option<(Rational, Parts)> {
+    fn without(self, node: &Node<'_>, a: NodeIndex, b: NodeIndex, ratio: Rational) -> Option<(Rational, Parts)> {
         let mut parts = self.parts(node);
         let (c, _) = parts.remove(parts.iter().position(|part| part.1 == a)?);
         let (d, _) = parts.remove(parts.iter().position(|part| part.1 == b)?);

@@ -3,8 +3,8 @@
 use crate::algebra::{Expr, Function, Map, Number, Rational, Set};
 use crate::program::{Code, Instruction, Pass};
 
-use super::factor::Factoring;
-use super::network::{Network, Node, Place};
+use super::factor::Factoriser;
+use super::network::{Network, Node, NodeIndex};
 
 /// Straight-line code whose inputs are symbols.
 pub type Program<'g> = Code<Expr<'g>>;
@@ -16,7 +16,7 @@ pub type Operation<'g> = Instruction<Expr<'g>>;
 impl<'g> Program<'g> {
     /// Factors, shares, and writes out.
     pub fn lower(outputs: &[Expr<'g>]) -> Self {
-        let mut factoring = Factoring::default();
+        let mut factoring = Factoriser::default();
         let outputs: Vec<_> = outputs.iter().map(|&e| factoring.rewrite(e)).collect();
         Writer::new(Network::new(&outputs)).write().verified()
     }
@@ -49,7 +49,7 @@ struct Writer<'g> {
     network: Network<'g>,
     /// Number of nodes and outputs that use each node.
     uses: Vec<usize>,
-    written: Map<Place, Operand<'g>>,
+    written: Map<NodeIndex, Operand<'g>>,
     negated: Map<usize, Operand<'g>>,
     /// Instructions in which sines and cosines are computed.
     pairs: Vec<usize>,
@@ -60,7 +60,7 @@ impl<'g> Writer<'g> {
     fn new(network: Network<'g>) -> Self {
         let mut uses = vec![0; network.nodes.len()];
         let mut reached = vec![false; network.nodes.len()];
-        let mut open: Vec<Place> = network.outputs.iter().map(|&(_, place)| place).collect();
+        let mut open: Vec<NodeIndex> = network.outputs.iter().map(|&(_, place)| place).collect();
         while let Some(place) = open.pop() {
             uses[place] += 1;
             if std::mem::replace(&mut reached[place], true) {
@@ -98,7 +98,7 @@ impl<'g> Writer<'g> {
         Operand::Value(self.instructions.len() - 1)
     }
 
-    fn operand(&mut self, place: Place) -> Operand<'g> {
+    fn operand(&mut self, place: NodeIndex) -> Operand<'g> {
         if let Some(&done) = self.written.get(&place) {
             return done;
         }
@@ -143,14 +143,14 @@ impl<'g> Writer<'g> {
     }
 
     /// A product; reciprocals that nobody else needs become one division.
-    fn product(&mut self, factors: &[Place]) -> Operand<'g> {
-        let (below, above): (Vec<Place>, Vec<Place>) = factors.iter().partition(|&&f| {
+    fn product(&mut self, factors: &[NodeIndex]) -> Operand<'g> {
+        let (below, above): (Vec<NodeIndex>, Vec<NodeIndex>) = factors.iter().partition(|&&f| {
             matches!(self.network.nodes[f], Node::Reciprocal(_)) && self.uses[f] == 1 && !self.written.contains_key(&f)
         });
         if below.is_empty() || above.is_empty() {
             return self.multiply(factors);
         }
-        let below: Vec<Place> = below
+        let below: Vec<NodeIndex> = below
             .into_iter()
             .filter_map(|f| if let Node::Reciprocal(a) = self.network.nodes[f] { Some(a) } else { None })
             .collect();
@@ -158,7 +158,7 @@ impl<'g> Writer<'g> {
         self.push(Instruction::Divide(above, below))
     }
 
-    fn multiply(&mut self, factors: &[Place]) -> Operand<'g> {
+    fn multiply(&mut self, factors: &[NodeIndex]) -> Operand<'g> {
         let mut product = self.operand(factors[0]);
         for &factor in &factors[1..] {
             let factor = self.operand(factor);
@@ -194,7 +194,7 @@ impl<'g> Writer<'g> {
     }
 
     /// The two sides of a product that nobody else needs, so that it can be fused with an addition.
-    fn fusible(&mut self, place: Place) -> Option<(Operand<'g>, Operand<'g>)> {
+    fn fusible(&mut self, place: NodeIndex) -> Option<(Operand<'g>, Operand<'g>)> {
         if self.uses[place] != 1 || self.written.contains_key(&place) || !Pass::Fusing.is_made() {
             return None;
         }
@@ -206,7 +206,7 @@ impl<'g> Writer<'g> {
         Some((self.multiply(rest), self.operand(*last)))
     }
 
-    fn sum(&mut self, terms: &[(Rational, Place)]) -> Operand<'g> {
+    fn sum(&mut self, terms: &[(Rational, NodeIndex)]) -> Operand<'g> {
         // Terms that are only added come first, a positive one at the head; products are fused onto them.
         let mut order: Vec<usize> = (0..terms.len()).collect();
         let plain = |k: &usize| {

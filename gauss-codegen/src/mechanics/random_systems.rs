@@ -39,12 +39,12 @@ use witness::{State, Witness, residuals};
 const BLIND: f64 = 1e-5;
 
 /// Programs of all formulas, every arrangement by itself.
-struct Compiled<'g> {
+struct FormulaPrograms<'g> {
     kernel: Kernel<'g>,
     constants: Map<u32, f64>,
 }
 
-impl<'g> Compiled<'g> {
+impl<'g> FormulaPrograms<'g> {
     fn new(graph: &'g Graph, symbols: &Symbols<'g>, formulas: &Formulas<'g>, what: &str) -> Self {
         let alone = |outputs: &Vec<Expr<'g>>| Candidates::of_values(vec![outputs.clone()]);
         let mut further = Vec::new();
@@ -143,7 +143,7 @@ fn check_whole(plan: &Plan, random: &mut Random, regrouped: bool, what: &str) ->
     if let Err(fault) = check_system_against_definition(&system, &Claims::of(&formulas)) {
         panic!("{what}: {fault:?}");
     }
-    let compiled = Compiled::new(&graph, &symbols, &formulas, what);
+    let compiled = FormulaPrograms::new(&graph, &symbols, &formulas, what);
     let mut told = false;
     for state in [first, second] {
         let witness = Witness::new(plan, state).expect("a usable state");
@@ -169,7 +169,7 @@ fn check_remainders<'g>(
     plan: &Plan,
     state: &State,
     system: &System<'g>,
-    compiled: &Compiled<'g>,
+    compiled: &FormulaPrograms<'g>,
     at: &Map<u32, f64>,
     what: &str,
 ) {
@@ -269,7 +269,7 @@ fn check_elimination(plan: &Plan, random: &mut Random, what: &str) -> bool {
         panic!("{what}: {fault:?}");
     }
     formulas.extend(elimination.formulas());
-    let compiled = Compiled::new(&graph, &symbols, &formulas, what);
+    let compiled = FormulaPrograms::new(&graph, &symbols, &formulas, what);
     let mut told = false;
     for state in states {
         let witness = Witness::new(plan, &state).expect("a usable state");

@@ -18,8 +18,8 @@ use crate::mechanics::formula::{Formula, Formulas, Method};
 use crate::mechanics::kinematics::vector::{Vector, is_zero};
 use crate::mechanics::links::inertia::Inertia;
 use crate::mechanics::links::link::Link;
-use crate::mechanics::links::tree::{Tree, UnderWay};
-use crate::mechanics::links::working::Working;
+use crate::mechanics::links::tree::{Tree, UngatheredResidual};
+use crate::mechanics::links::working::WorkingTree;
 use crate::mechanics::loads::account::account_formulas;
 use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
 use crate::mechanics::scene::{Coordinate, SystemScene};
@@ -40,7 +40,7 @@ pub struct System<'g> {
     /// Loads on links, fields among them.
     pub(in crate::mechanics) loads: Loads<'g>,
     /// The links about other poles, where that is shorter.
-    working: Option<Working<'g>>,
+    working: Option<WorkingTree<'g>>,
     /// The links in their own axes for sums of squares, where they work in those of the observer: differences of angles
     /// do not come in.
     in_own_axes: Option<Tree<'g>>,
@@ -100,7 +100,8 @@ impl<'g> System<'g> {
         system.free = FreeLink::all(scene);
         // Where sums of squares keep the digits, other links stay as they were given: little is to be gained there.
         let short = scene.speeds.len() <= most_squares(scene);
-        system.working = if short { Working::of_rotors(&scene.tree, loads) } else { Working::of(&scene.tree, loads) };
+        system.working =
+            if short { WorkingTree::of_rotors(&scene.tree, loads) } else { WorkingTree::of(&scene.tree, loads) };
         system.in_own_axes = if short { scene.tree.in_own_axes() } else { None };
         system.matrix = system.mass_matrix();
         let at_rest = system.at_rest();
@@ -323,7 +324,7 @@ impl<'g> System<'g> {
 
     /// The same as ż′ and ζ.
     fn gathered(&self, articulated: &Articulated<'_, 'g>, inertia: Inertia) -> [Vec<Expr<'g>>; 2] {
-        let UnderWay { wrenches, rows, taken } = self.tree().under_way(inertia, self.loads(), &self.held());
+        let UngatheredResidual { wrenches, rows, taken } = self.tree().under_way(inertia, self.loads(), &self.held());
         let right: Vec<Expr<'g>> = self.without_others(rows).into_iter().map(|row| -row).collect();
         [articulated.solve_under(&wrenches, &right), taken]
     }

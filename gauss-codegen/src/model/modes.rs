@@ -6,7 +6,7 @@ use proc_macro2::Span;
 use serde_json::{Map, Value};
 
 use crate::model::language::context::Context;
-use crate::model::language::modes::{ModesFile, Nested, shaped};
+use crate::model::language::modes::{ModesFile, NestedList, shaped};
 use crate::model::language::role_clauses;
 use crate::model::language::statements::Statements;
 use crate::model::language::words::{self, word};
@@ -139,16 +139,16 @@ impl Reader {
         integrals
     }
 
-    fn nested(&mut self, value: &Value, path: &str) -> Option<Nested> {
+    fn nested(&mut self, value: &Value, path: &str) -> Option<NestedList> {
         match value {
             Value::Array(rows) => {
                 let mut entries = Vec::new();
                 for (k, row) in rows.iter().enumerate() {
                     entries.push(self.nested(row, &format!("{path}[{k}]"))?);
                 }
-                Some(Nested::List(entries, self.span))
+                Some(NestedList::List(entries, self.span))
             }
-            _ => Some(Nested::Scalar(self.number(value, path)?)),
+            _ => Some(NestedList::Scalar(self.number(value, path)?)),
         }
     }
 

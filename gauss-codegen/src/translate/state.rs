@@ -5,7 +5,7 @@ use quote::format_ident;
 
 pub use crate::description::QuantityKind;
 use crate::model::{CoordinateKind, Model, SpeedKind};
-use crate::terms::{Chart, InChart, Motion};
+use crate::terms::{BodyChart, Chart, Motion};
 use crate::words::Unraw;
 
 /// A number, a vector or an element of a group that has a name.
@@ -80,7 +80,7 @@ fn coordinates(model: &Model) -> Vec<Quantity> {
 /// none.
 fn speeds(model: &Model, kept: Option<&[usize]>) -> Vec<Quantity> {
     let mut all: Vec<Quantity> = Vec::new();
-    for word in model.in_chart.map(InChart::speed_words).unwrap_or_default() {
+    for word in model.in_chart.map(BodyChart::speed_words).unwrap_or_default() {
         match all.last_mut().filter(|last| last.ident == word) {
             Some(last) => last.kind = QuantityKind::Vector(last.size() + 1),
             None => {
@@ -116,7 +116,7 @@ fn speeds(model: &Model, kept: Option<&[usize]>) -> Vec<Quantity> {
 }
 
 /// Which velocity a speed of a chart is, and in which axes.
-fn speed_label(InChart { chart, .. }: InChart, word: &str) -> String {
+fn speed_label(BodyChart { chart, .. }: BodyChart, word: &str) -> String {
     let of = match word {
         "u" => "velocity of O, body axes",
         "xi" => "velocity of the body's point at Ω, observer's axes",

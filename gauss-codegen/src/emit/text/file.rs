@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{quote, quote_spanned};
 
-use crate::terms::{Described, Generics, Item, Remark};
+use crate::terms::{Generics, Item, Remark, RobotFile};
 
 use crate::emit::derived::Derived;
 
@@ -11,7 +11,7 @@ use crate::emit::derived::Derived;
 /// everything that acts in it and not in the equations.
 pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
     let tracked = &derived.item().tracked;
-    let Some(Described { paths, span, remarks, .. }) = &derived.item().described else {
+    let Some(RobotFile { paths, span, remarks, .. }) = &derived.item().described else {
         return quote!(#(const _: &[::core::primitive::u8] = ::core::include_bytes!(#tracked);)*);
     };
     let ignored: Vec<&Remark> = remarks.iter().filter(|remark| remark.ignored).collect();
@@ -45,7 +45,7 @@ pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
 
 /// Remarks on the file, for the page of the kernel.
 pub fn documentation(derived: &Derived<'_, '_>) -> String {
-    let Some(Described { file, remarks, .. }) = &derived.item().described else { return String::new() };
+    let Some(RobotFile { file, remarks, .. }) = &derived.item().described else { return String::new() };
     let mut out = format!("\n# The file\n\nBodies, joints and inputs are those of `{file}`.\n\n");
     remarks.iter().for_each(|remark| out.push_str(&format!("- {}\n", remark.text)));
     out

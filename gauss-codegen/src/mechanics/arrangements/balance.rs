@@ -139,7 +139,7 @@ impl<'g> Weights<'g> {
     }
 
     /// Weights with the formal components of each acceleration.
-    fn with<'a>(&'a self, formal: &'a Formal<'g>) -> impl Iterator<Item = (&'a Weight<'g>, &'a Triple<'g>)> {
+    fn with<'a>(&'a self, formal: &'a FormalComponents<'g>) -> impl Iterator<Item = (&'a Weight<'g>, &'a Triple<'g>)> {
         let gravity = self.gravity.iter().map(|weight| (weight, &formal.gravity));
         gravity.chain(self.field.iter().map(|weight| (weight, &formal.field)))
     }
@@ -188,7 +188,7 @@ impl<'g> Weight<'g> {
 }
 
 /// Formal components in body axes, in which the balance is solved once for all charts.
-pub struct Formal<'g> {
+pub struct FormalComponents<'g> {
     pub u: Triple<'g>,
     pub omega: Triple<'g>,
     /// ĝ, and the acceleration of a field.
@@ -201,7 +201,7 @@ pub struct Formal<'g> {
     pub torque: Triple<'g>,
 }
 
-impl<'g> Formal<'g> {
+impl<'g> FormalComponents<'g> {
     pub fn new(kinematics: &Kinematics<'g>, load: &Wrench<'g>) -> Self {
         let graph = kinematics.frame.graph;
         let on = |axes: &[usize], text: &str, latex: &str| -> Triple<'g> {
@@ -281,7 +281,7 @@ pub enum LinearAcceleration<'g> {
     Relative(Triple<'g>),
 }
 
-/// Accelerations from the balance, in formal body components (see [`Formal`]).
+/// Accelerations from the balance, in formal body components (see [`FormalComponents`]).
 pub struct Balance<'g> {
     /// Values of `dQ/dt` and of `dΓ_O/dt + v_O × Q` when the unknown accelerations are zero, minus the forces; body
     /// axes. Without the space part of the forces where the translation is isotropic.
@@ -299,10 +299,10 @@ pub fn solve_balance<'g>(
     matrix: &KineticMatrix<'g>,
     weights: &Weights<'g>,
     load: &Wrench<'g>,
-    formal: &Formal<'g>,
+    formal: &FormalComponents<'g>,
     arrangement: Arrangement,
 ) -> Balance<'g> {
-    let unsolved = Unsolved::new(kinematics, matrix, weights, load, formal, arrangement);
+    let unsolved = BalanceProblem::new(kinematics, matrix, weights, load, formal, arrangement);
     match matrix.isotropic {
         Some(mu) => unsolved.translation_first(mu),
         None => unsolved.at_once(),
@@ -310,12 +310,12 @@ pub fn solve_balance<'g>(
 }
 
 /// The balance before its accelerations are known.
-struct Unsolved<'a, 'g> {
+struct BalanceProblem<'a, 'g> {
     kinematics: &'a Kinematics<'g>,
     matrix: &'a KineticMatrix<'g>,
     weights: &'a Weights<'g>,
     load: &'a Wrench<'g>,
-    formal: &'a Formal<'g>,
+    formal: &'a FormalComponents<'g>,
     arrangement: Arrangement,
     omega: Vector<'g>,
     /// M₁₂ ω, and Q.
@@ -326,13 +326,13 @@ struct Unsolved<'a, 'g> {
     observed_in_body: Triple<'g>,
 }
 
-impl<'a, 'g> Unsolved<'a, 'g> {
+impl<'a, 'g> BalanceProblem<'a, 'g> {
     fn new(
         kinematics: &'a Kinematics<'g>,
         matrix: &'a KineticMatrix<'g>,
         weights: &'a Weights<'g>,
         load: &'a Wrench<'g>,
-        formal: &'a Formal<'g>,
+        formal: &'a FormalComponents<'g>,
         arrangement: Arrangement,
     ) -> Self {
         let frame = &kinematics.frame;

@@ -22,7 +22,7 @@ use crate::mechanics::tidy::{sums, tidy};
 
 /// Ways in which pushes on links are solved for.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Pushed {
+enum PushSolution {
     /// Gathered and projected, then as any other right-hand side.
     Projected,
     /// Paired with what links do under the columns of A⁻¹.
@@ -58,14 +58,14 @@ impl<'g> System<'g> {
     ) -> Option<[Vec<Expr<'g>>; 2]> {
         let (_, motion) = self.solved(inertia, factors)?;
         let changes = self.changes(&motion, directions);
-        let ways = [Pushed::Projected, Pushed::Paired];
+        let ways = [PushSolution::Projected, PushSolution::Paired];
         Some(ways.map(|pushed| solutions(&motion, factors, &changes, pushed).concat()))
     }
 
     fn changes(&self, motion: &Motion<'_, 'g>, directions: &[Rates<'g>]) -> Vec<Change<'g>> {
         let beside = self.beside();
-        let accelerated: Vec<Accelerated<'g>> =
-            (0..motion.tree.links.len()).map(|k| Accelerated::of(motion, k)).collect();
+        let accelerated: Vec<AccelerationField<'g>> =
+            (0..motion.tree.links.len()).map(|k| AccelerationField::of(motion, k)).collect();
         let derivatives = motion.derivatives(directions).into_iter().zip(directions);
         let changes = derivatives.map(|(change, direction)| {
             let beside: Vec<Expr<'g>> = beside.iter().map(|e| motion.rate(*e, direction)).collect();
@@ -80,7 +80,7 @@ impl<'g> System<'g> {
 }
 
 /// Acceleration field of a link, which acts on its moments.
-struct Accelerated<'g> {
+struct AccelerationField<'g> {
     acceleration: Triple<'g>,
     spin_rate: Triple<'g>,
     spin: Triple<'g>,
@@ -88,7 +88,7 @@ struct Accelerated<'g> {
     field: [Triple<'g>; 3],
 }
 
-impl<'g> Accelerated<'g> {
+impl<'g> AccelerationField<'g> {
     fn of(motion: &Motion<'_, 'g>, k: usize) -> Self {
         let (acceleration, spin_rate) = motion.acceleration(k);
         let spin = motion.tree.links[k].angular_velocity;
@@ -110,7 +110,7 @@ impl<'g> Accelerated<'g> {
 /// Where joints change, which say what moves with a parent, by those that are left.
 fn pushes<'g>(
     motion: &Motion<'_, 'g>,
-    accelerated: &[Accelerated<'g>],
+    accelerated: &[AccelerationField<'g>],
     direction: &Rates<'g>,
 ) -> Vec<(usize, Pair<'g>)> {
     let links = &motion.tree.links;
@@ -132,17 +132,17 @@ fn solutions<'g>(
     motion: &Motion<'_, 'g>,
     factors: &Factors<'g>,
     changes: &[Change<'g>],
-    pushed: Pushed,
+    pushed: PushSolution,
 ) -> Vec<Vec<Expr<'g>>> {
     let whole = |change: &Change<'g>| match pushed {
-        Pushed::Projected => projected(motion, change),
-        Pushed::Paired => change.rows.clone(),
+        PushSolution::Projected => projected(motion, change),
+        PushSolution::Paired => change.rows.clone(),
     };
     let rights: Vec<Vec<Expr<'g>>> =
         changes.iter().map(|change| whole(change).into_iter().map(|e| -e).collect()).collect();
     let moved = match pushed {
-        Pushed::Projected => factors.solve_each(&rights),
-        Pushed::Paired => paired(motion, factors, &rights, changes),
+        PushSolution::Projected => factors.solve_each(&rights),
+        PushSolution::Paired => paired(motion, factors, &rights, changes),
     };
     moved.iter().zip(changes).map(|(solution, change)| sums(solution, &change.taken)).collect()
 }

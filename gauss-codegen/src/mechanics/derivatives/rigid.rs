@@ -43,7 +43,7 @@ pub struct Change<'g> {
 }
 
 /// Motion of two links as their joint reads it.
-pub struct Above<'g> {
+pub struct JointMotion<'g> {
     /// ω and ω̇ of the parent, in its axes.
     pub spin: Triple<'g>,
     pub spin_rate: Triple<'g>,
@@ -54,7 +54,7 @@ pub struct Above<'g> {
 
 /// Moments of all that hangs on a link, about its O: of its matter, and with velocities relative to O.
 #[derive(Clone)]
-pub struct Gathered<'g> {
+pub struct SubtreeMoments<'g> {
     pub moments: Moments<'g>,
     /// ∫y dm and ∫y xᵀ dm.
     pub momentum: Triple<'g>,
@@ -69,7 +69,7 @@ pub struct Row<'g> {
 }
 
 /// ż, by its symbols, and what it is beyond what links that float take of their accelerations at once.
-pub struct Solved<'a, 'g> {
+pub struct RateSymbols<'a, 'g> {
     pub rates: Rates<'g>,
     pub relative: &'a [Expr<'g>],
 }
@@ -86,7 +86,7 @@ pub struct Motion<'a, 'g> {
     accelerations: Pairs<'g>,
     /// Inertia of all that hangs on a link, at its O.
     pub forces: Vec<Pair<'g>>,
-    pub gathered: Vec<Gathered<'g>>,
+    pub gathered: Vec<SubtreeMoments<'g>>,
     floating: Vec<Option<Floating<'g>>>,
 }
 
@@ -105,7 +105,7 @@ impl<'a, 'g> Motion<'a, 'g> {
         tree: &'a Tree<'g>,
         loads: &'a Loads<'g>,
         along: &'a Rates<'g>,
-        solved: Option<Solved<'_, 'g>>,
+        solved: Option<RateSymbols<'_, 'g>>,
         inertia: Inertia,
     ) -> Option<Self> {
         let wet = |link: &Link<'g>| link.body().is_some_and(|b| b.added_mass.is_some() || b.displaced.is_some());
@@ -117,7 +117,7 @@ impl<'a, 'g> Motion<'a, 'g> {
             None => Vec::new(),
         };
         let (values, relative) = match solved {
-            Some(Solved { rates, relative }) => (rates, Some(relative)),
+            Some(RateSymbols { rates, relative }) => (rates, Some(relative)),
             None => (Rates::default(), None),
         };
         let substituted = |rate: &Expr<'g>| values.get(&rate.key()).copied().unwrap_or(*rate);
@@ -236,9 +236,9 @@ impl<'a, 'g> Motion<'a, 'g> {
     }
 
     /// Motion of two links as it is.
-    pub fn above(&self, k: usize, parent: usize) -> Above<'g> {
+    pub fn above(&self, k: usize, parent: usize) -> JointMotion<'g> {
         let link = &self.tree.links[k];
-        Above {
+        JointMotion {
             spin: self.tree.links[parent].angular_velocity,
             spin_rate: self.accelerations[parent].1,
             acceleration: link.frame.resolve(&self.accelerations[k].0, Axes::Body),
@@ -251,7 +251,7 @@ impl<'a, 'g> Motion<'a, 'g> {
         &self,
         k: usize,
         parent: usize,
-        told: &Above<'g>,
+        told: &JointMotion<'g>,
         (turn, shift): Pair<'g>,
         direction: &Rates<'g>,
     ) -> Change<'g> {
@@ -362,7 +362,7 @@ impl<'a, 'g> Motion<'a, 'g> {
     }
 }
 
-impl<'g> Gathered<'g> {
+impl<'g> SubtreeMoments<'g> {
     /// Moments of a link by itself: y = ω × x.
     fn of(link: &Link<'g>) -> Self {
         let (omega, moments) = (&link.angular_velocity, link.moments);
@@ -414,8 +414,8 @@ impl<'g> Row<'g> {
 }
 
 /// Gathered moments of all links, leaves first.
-fn gathered<'g>(tree: &Tree<'g>) -> Vec<Gathered<'g>> {
-    let mut gathered: Vec<Gathered<'g>> = tree.links.iter().map(Gathered::of).collect();
+fn gathered<'g>(tree: &Tree<'g>) -> Vec<SubtreeMoments<'g>> {
+    let mut gathered: Vec<SubtreeMoments<'g>> = tree.links.iter().map(SubtreeMoments::of).collect();
     for k in (0..tree.links.len()).rev() {
         let link = &tree.links[k];
         let Some(parent) = link.parent else { continue };

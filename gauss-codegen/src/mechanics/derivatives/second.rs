@@ -11,7 +11,7 @@
 
 use crate::algebra::{Expr, Graph, Map, Rational, Substitution};
 
-use crate::mechanics::derivatives::rigid::{Above, Change, Motion, Pair, Rates, Row, relative_velocity};
+use crate::mechanics::derivatives::rigid::{Change, JointMotion, Motion, Pair, Rates, Row, relative_velocity};
 use crate::mechanics::kinematics::turn::{inward, outward};
 use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, cross_matrix, dot, is_zero, scale, subtract};
 use crate::mechanics::links::link::Link;
@@ -41,27 +41,27 @@ struct Sums<'g> {
 }
 
 /// A motion, and μ.
-pub struct Weighted<'a, 'g> {
+pub struct WeightedMotion<'a, 'g> {
     motion: &'a Motion<'a, 'g>,
     weights: &'a [Expr<'g>],
     /// w_O and ν of every link, working axes.
     velocities: Vec<Pair<'g>>,
     sums: Vec<Sums<'g>>,
-    held: Held<'g>,
+    held: JointSymbols<'g>,
 }
 
 /// Symbols in place of what a joint is told of the motion of its parent, and of its own.
-struct Held<'g> {
-    told: Above<'g>,
+struct JointSymbols<'g> {
+    told: JointMotion<'g>,
     of_virtual: Pair<'g>,
 }
 
-impl<'a, 'g> Weighted<'a, 'g> {
+impl<'a, 'g> WeightedMotion<'a, 'g> {
     /// `weights` are symbols.
     pub fn new(motion: &'a Motion<'a, 'g>, weights: &'a [Expr<'g>]) -> Self {
         let velocities = velocities(motion, weights);
         let sums = Sums::gathered(motion, &velocities);
-        let held = Held::new(motion.tree.graph);
+        let held = JointSymbols::new(motion.tree.graph);
         Self { motion, weights, velocities, sums, held }
     }
 
@@ -157,7 +157,7 @@ impl<'a, 'g> Weighted<'a, 'g> {
         &self,
         k: usize,
         parent: usize,
-        told: &Above<'g>,
+        told: &JointMotion<'g>,
         (linear, angular): &Pair<'g>,
         direction: &Rates<'g>,
     ) -> Shift<'g> {
@@ -276,13 +276,15 @@ impl<'a, 'g> Weighted<'a, 'g> {
     }
 }
 
-impl<'g> Held<'g> {
+impl<'g> JointSymbols<'g> {
     fn new(graph: &'g Graph) -> Self {
         let symbols = |name: &str| std::array::from_fn(|_| graph.symbol(name, name, false));
-        let told =
-            Above {
-                spin: symbols("ω"), spin_rate: symbols("α"), acceleration: symbols("a"), own_spin: symbols("ω")
-            };
+        let told = JointMotion {
+            spin: symbols("ω"),
+            spin_rate: symbols("α"),
+            acceleration: symbols("a"),
+            own_spin: symbols("ω"),
+        };
         Self { told, of_virtual: (symbols("w"), symbols("ν")) }
     }
 }

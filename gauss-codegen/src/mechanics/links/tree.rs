@@ -28,7 +28,7 @@ enum Observers<'a, 'g> {
 }
 
 /// `∂C/∂ż` at ż = ζ before it is gathered: see [`Tree::under_way`].
-pub struct UnderWay<'g> {
+pub struct UngatheredResidual<'g> {
     /// Forces of inertia of every link by itself, less the loads on it.
     pub wrenches: Pairs<'g>,
     /// Contributions of rotors and modes.
@@ -347,11 +347,11 @@ impl<'g> Tree<'g> {
     }
 
     /// The same before it is gathered, for those who gather something else on the way to the root as well.
-    pub fn under_way(&self, inertia: Inertia, loads: &Loads<'g>, held: &[bool]) -> UnderWay<'g> {
+    pub fn under_way(&self, inertia: Inertia, loads: &Loads<'g>, held: &[bool]) -> UngatheredResidual<'g> {
         let (accelerations, taken) = self.floating_accelerations(loads, held);
         let wrenches = self.wrenches(&self.rates, inertia, loads, &accelerations);
         let rows = self.with_formal(vec![self.graph.zero(); self.speeds.len()], &self.rates, &accelerations);
-        UnderWay { wrenches, rows, taken }
+        UngatheredResidual { wrenches, rows, taken }
     }
 
     /// `a_O − g` and ω̇ of every link at ż = ζ for these observers, and ζ.

@@ -205,12 +205,12 @@ fn is_symmetric(link: &Link<'_>) -> bool {
 }
 
 /// A tree that describes the same motion of the same matter by other poles and axes, and the loads on it.
-pub struct Working<'g> {
+pub struct WorkingTree<'g> {
     pub tree: Tree<'g>,
     pub loads: Loads<'g>,
 }
 
-impl<'g> Working<'g> {
+impl<'g> WorkingTree<'g> {
     /// `None` where there is nothing to gain.
     pub fn of(tree: &Tree<'g>, loads: &Loads<'g>) -> Option<Self> {
         if tree.planar_axis().is_some() {

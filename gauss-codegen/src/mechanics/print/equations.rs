@@ -7,8 +7,8 @@ use crate::mechanics::tidy::LIMIT;
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::loads::account::{Account, GRAVITY};
 use crate::mechanics::print::names::Name;
+use crate::mechanics::print::readings::{PrintSymbols, Readings};
 use crate::mechanics::print::rows::{Row, Section};
-use crate::mechanics::print::shown::{Readings, Shown};
 use crate::mechanics::system::System;
 
 /// All sections, with names for what long rows have in common.
@@ -41,7 +41,7 @@ pub(in crate::mechanics) struct PrintedForces<'g> {
 }
 
 impl<'g> PrintedForces<'g> {
-    pub fn new(whole: Vec<Expr<'g>>, accounts: &[Account<'g>], names: &[Name], shown: &Shown<'g>) -> Self {
+    pub fn new(whole: Vec<Expr<'g>>, accounts: &[Account<'g>], names: &[Name], shown: &PrintSymbols<'g>) -> Self {
         if accounts.len() < 2 || whole.iter().all(|e| shown.readable(*e).is_some()) {
             return Self { rows: whole.into_iter().map(|e| shown.legible(e)).collect(), sections: Vec::new() };
         }
@@ -66,7 +66,7 @@ fn element_name(account: &Account<'_>) -> Name {
 }
 
 /// Nothing of an element that does nothing.
-fn element_section<'g>(account: &Account<'g>, names: &[Name], shown: &Shown<'g>) -> Option<Section<'g>> {
+fn element_section<'g>(account: &Account<'g>, names: &[Name], shown: &PrintSymbols<'g>) -> Option<Section<'g>> {
     let title = Name::new(&format!("of {}", account.name), &format!("of {}", account.name.replace('_', "\\_")));
     let forces = account.forces.iter().map(|force| shown.legible(*force));
     let there = forces.zip(names).filter(|(force, _)| !force.is_zero());
@@ -78,7 +78,7 @@ fn element_section<'g>(account: &Account<'g>, names: &[Name], shown: &Shown<'g>)
 impl<'g> System<'g> {
     /// The equations, section by section; sections with nothing to say are left out.
     pub fn equations(&self, readings: &Readings<'g>, replacement: Option<&Substitution<'g>>) -> Page<'g> {
-        let shown = &Shown::new(readings, replacement);
+        let shown = &PrintSymbols::new(readings, replacement);
         // One body in a chart has the letters of textbooks, everything else those of its author.
         let mut sections = match self.one_body().and_then(|one| one.posed).filter(|_| self.scene.chart().is_some()) {
             Some(body) => Textbook { system: self, body, shown }.sections(),
@@ -100,7 +100,7 @@ impl<'g> System<'g> {
 struct Textbook<'a, 'g> {
     system: &'a System<'g>,
     body: &'a FreeLink<'g>,
-    shown: &'a Shown<'g>,
+    shown: &'a PrintSymbols<'g>,
 }
 
 impl<'g> Textbook<'_, 'g> {
@@ -243,7 +243,11 @@ pub(in crate::mechanics) fn velocity_form<'g>(row: Expr<'g>, rates: &[Expr<'g>])
 }
 
 /// The same of a row that is long, if entry by entry and on the right it is short.
-pub(in crate::mechanics) fn by_entries<'g>(row: Expr<'g>, rates: &[Expr<'g>], shown: &Shown<'g>) -> Option<Row<'g>> {
+pub(in crate::mechanics) fn by_entries<'g>(
+    row: Expr<'g>,
+    rates: &[Expr<'g>],
+    shown: &PrintSymbols<'g>,
+) -> Option<Row<'g>> {
     let entries: Option<Vec<Expr<'g>>> =
         rates.iter().map(|&dz| Some(shown.readable(row.partial(dz))?.group_as_is() * dz)).collect();
     let right = shown.readable(-row.substitute(&at_rest(rates)))?;

@@ -5,15 +5,15 @@ use crate::algebra::{Expr, LONG, Map};
 use crate::mechanics::constraints::contact::Contact;
 use crate::mechanics::print::equations::{PrintedForces, by_entries, velocity_form};
 use crate::mechanics::print::names::Name;
+use crate::mechanics::print::readings::PrintSymbols;
 use crate::mechanics::print::rows::{Row, Section};
-use crate::mechanics::print::shown::Shown;
 use crate::mechanics::scene::Coordinate;
 use crate::mechanics::system::System;
 use crate::mechanics::tidy::READABLE;
 
 impl<'g> System<'g> {
     /// The equations with p and F of what the author named.
-    pub(in crate::mechanics) fn sections(&self, shown: &Shown<'g>) -> Vec<Section<'g>> {
+    pub(in crate::mechanics) fn sections(&self, shown: &PrintSymbols<'g>) -> Vec<Section<'g>> {
         let scene = &self.scene;
         let titled = |text: &str, latex: &str, rows: Vec<Row<'g>>| Section { title: Name::new(text, latex), rows };
         let kinematics = titled(
@@ -57,7 +57,7 @@ impl<'g> System<'g> {
     }
 
     /// A dz/dt = r, if every row is short enough to read; else how long it would be.
-    fn velocity_form_section(&self, shown: &Shown<'g>) -> Section<'g> {
+    fn velocity_form_section(&self, shown: &PrintSymbols<'g>) -> Section<'g> {
         let without = if self.constraints.is_empty() { "" } else { ", less the forces of constraints" };
         let title = Name::new(
             &format!("velocity form A dz/dt = r{without}"),
@@ -93,7 +93,7 @@ impl<'g> System<'g> {
     }
 
     /// Gaps, slips and coefficients of friction; then rolling resistance, and dry friction.
-    pub(in crate::mechanics) fn contact_sections(&self, shown: &Shown<'g>) -> [Section<'g>; 3] {
+    pub(in crate::mechanics) fn contact_sections(&self, shown: &PrintSymbols<'g>) -> [Section<'g>; 3] {
         let gaps = "gaps: none becomes negative; each adds a force that is not negative, and zero where it is open";
         let dry = "dry friction: a force against each slip, of the size f; at rest any force that is not larger";
         let rolling = "rolling resistance: a torque against each slip, of the size ρ times the force of the gap; at rest any \
@@ -113,7 +113,7 @@ impl<'g> System<'g> {
         title: &str,
         (letter, latex): (&str, &str),
         contacts: &[&Contact<'g>],
-        shown: &Shown<'g>,
+        shown: &PrintSymbols<'g>,
     ) -> Section<'g> {
         let named = |letter: &str, latex: &str, name: &str| {
             Name::new(letter, latex).of(&Name::new(name, &format!("\\text{{{}}}", name.replace('_', "\\_"))))
@@ -139,7 +139,7 @@ impl<'g> System<'g> {
     }
 
     /// Rates that are not speeds themselves: of the states of elements, or of the other coordinates.
-    fn rows_of_rates(&self, of_states: bool, shown: &Shown<'g>) -> Vec<Row<'g>> {
+    fn rows_of_rates(&self, of_states: bool, shown: &PrintSymbols<'g>) -> Vec<Row<'g>> {
         let scene = &self.scene;
         let mut rates = scene.kinematics.iter().copied();
         let mut rows = Vec::new();

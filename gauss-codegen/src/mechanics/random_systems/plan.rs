@@ -35,7 +35,7 @@ impl CoordinateKind {
 }
 
 #[derive(Clone, Debug)]
-pub enum Place {
+pub enum JointPlace {
     /// In the parent's axes.
     Offset([Smooth; 3]),
     /// b of a coordinate.
@@ -75,7 +75,7 @@ pub enum MatterPlan {
 #[derive(Clone, Debug)]
 pub struct LinkPlan {
     pub parent: Option<usize>,
-    pub place: Place,
+    pub place: JointPlace,
     pub turns: Vec<TurnPlan>,
     pub matter: MatterPlan,
 }
@@ -247,7 +247,7 @@ impl Plan {
                 // The square of another one keeps the coordinates regular.
                 if curved { straight.plus_square(3, own[i + 1]) } else { straight }
             };
-            let place = Place::Offset([component(0), component(1), Smooth::variable(own[2])]);
+            let place = JointPlace::Offset([component(0), component(1), Smooth::variable(own[2])]);
             let matter = MatterPlan::Particle(1.5 + random.next());
             plan.links.push(LinkPlan { parent: None, place, turns: Vec::new(), matter });
         }
@@ -329,7 +329,7 @@ impl Plan {
             };
             let frame = k > 0 && turns.iter().all(|turn| matches!(turn, TurnPlan::Quarter(_))) && below(random, 3) == 0;
             // A frame that slides would be a coordinate that moves nothing unless something hangs on it.
-            let still = matches!(&place, Place::Offset(offset) if offset.iter().all(Smooth::is_constant));
+            let still = matches!(&place, JointPlace::Offset(offset) if offset.iter().all(Smooth::is_constant));
             let matter =
                 if frame && still { MatterPlan::Nothing } else { MatterPlan::Solid(Box::new(Solid::random(random))) };
             plan.links.push(LinkPlan { parent, place, turns, matter });
@@ -343,7 +343,7 @@ impl Plan {
             }
             let parent = Some(below(random, shape.bodies));
             let matter = MatterPlan::Particle(1.5 + random.next());
-            plan.links.push(LinkPlan { parent, place: Place::Offset(offset), turns: Vec::new(), matter });
+            plan.links.push(LinkPlan { parent, place: JointPlace::Offset(offset), turns: Vec::new(), matter });
         }
         let choice = match shape.choice {
             SpeedChoice::Fewer(count) => SpeedChoice::Fewer(count.min(plan.rate_count())),
@@ -357,13 +357,13 @@ impl Plan {
     }
 
     /// Place and turns of a root that floats.
-    fn free_joint(&mut self, random: &mut Random) -> (Place, Vec<TurnPlan>) {
+    fn free_joint(&mut self, random: &mut Random) -> (JointPlace, Vec<TurnPlan>) {
         let coordinate = self.coordinates.len();
         self.add(CoordinateKind::Pose { observed: below(random, 2) == 0 });
-        (Place::Pose(coordinate), vec![TurnPlan::Given(coordinate)])
+        (JointPlace::Pose(coordinate), vec![TurnPlan::Given(coordinate)])
     }
 
-    fn joint(&mut self, random: &mut Random, only: Option<usize>, most: usize) -> (Place, Vec<TurnPlan>) {
+    fn joint(&mut self, random: &mut Random, only: Option<usize>, most: usize) -> (JointPlace, Vec<TurnPlan>) {
         let mut offset: [Smooth; 3] = std::array::from_fn(|_| Smooth::random_constant(random));
         let axis = only.unwrap_or_else(|| below(random, 3));
         let earlier = self.arguments();
@@ -410,7 +410,7 @@ impl Plan {
             _ if only.is_none() => vec![TurnPlan::Quarter(axis)],
             _ => Vec::new(),
         };
-        (Place::Offset(offset), turns)
+        (JointPlace::Offset(offset), turns)
     }
 }
 

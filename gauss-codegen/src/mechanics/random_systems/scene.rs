@@ -13,7 +13,7 @@ use crate::mechanics::print::names::Name;
 use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::terms::{Role, Shape};
 
-use super::plan::{ConstraintPlan, CoordinateKind, LinkPlan, MatterPlan, Place, Plan, Solid, TurnPlan};
+use super::plan::{ConstraintPlan, CoordinateKind, JointPlace, LinkPlan, MatterPlan, Plan, Solid, TurnPlan};
 
 /// Everything that a plan names, as symbols.
 pub struct Symbols<'g> {
@@ -137,8 +137,13 @@ impl<'g> Symbols<'g> {
         rates.extend(self.configuration.iter().map(|s| s.key()).zip(symbol_rates));
         let coordinates = self.coordinates(plan);
         let pick = |all: &[Expr<'g>]| -> Vec<Expr<'g>> { kept.iter().map(|&k| all[k]).collect() };
-        let building =
-            Building { plan, coordinates: &coordinates, variables: &variables, kinematics: &kinematics, rates: &rates };
+        let building = SceneBuilder {
+            plan,
+            coordinates: &coordinates,
+            variables: &variables,
+            kinematics: &kinematics,
+            rates: &rates,
+        };
         let placements = plan.links.iter().zip(&self.matter).map(|(link, matter)| building.placement(link, matter));
         let (bodies, particles): (Vec<_>, Vec<_>) =
             placements.partition(|placement| !matches!(placement.matter, Matter::Particle(_)));
@@ -199,7 +204,7 @@ fn parameter(solid: &Solid, quantity: Role, row: usize, column: usize) -> f64 {
     }
 }
 
-struct Building<'a, 'g> {
+struct SceneBuilder<'a, 'g> {
     plan: &'a Plan,
     coordinates: &'a [Coordinate<'g>],
     variables: &'a [Expr<'g>],
@@ -207,15 +212,15 @@ struct Building<'a, 'g> {
     rates: &'a Map<u32, Expr<'g>>,
 }
 
-impl<'g> Building<'_, 'g> {
+impl<'g> SceneBuilder<'_, 'g> {
     fn graph(&self) -> &'g Graph {
         self.variables[0].graph()
     }
 
     fn placement(&self, link: &LinkPlan, matter: &MatterSymbols<'g>) -> Placement<'g> {
         let (position, velocity) = match &link.place {
-            Place::Offset(offset) => (self.triple(offset), None),
-            Place::Pose(k) => match (&self.coordinates[*k], self.plan.coordinates[*k]) {
+            JointPlace::Offset(offset) => (self.triple(offset), None),
+            JointPlace::Pose(k) => match (&self.coordinates[*k], self.plan.coordinates[*k]) {
                 (Coordinate::Pose(_, position), CoordinateKind::Pose { observed }) => {
                     let rate = self.rate_of(*k);
                     (*position, (!observed).then(|| [rate[0], rate[1], rate[2]]))

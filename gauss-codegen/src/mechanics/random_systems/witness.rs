@@ -7,7 +7,7 @@ use crate::mechanics::tests::Random;
 use super::dense::{Matrix, Saddle, apply, dot, inverse, largest, norm, transposed};
 use super::fluid::{self, Fluid};
 use super::numbers::{Jet, Number};
-use super::plan::{ConstraintPlan, CoordinateKind, MatterPlan, Place, Plan, TurnPlan};
+use super::plan::{ConstraintPlan, CoordinateKind, JointPlace, MatterPlan, Plan, TurnPlan};
 
 /// t, the symbols of q, z.
 #[derive(Clone, Debug)]
@@ -171,14 +171,20 @@ impl Motion {
         motion
     }
 
-    fn place(&self, plan: &Plan, parent: Option<usize>, place: &Place, turns: &[TurnPlan]) -> (JetTriple, JetMatrix) {
+    fn place(
+        &self,
+        plan: &Plan,
+        parent: Option<usize>,
+        place: &JointPlace,
+        turns: &[TurnPlan],
+    ) -> (JetTriple, JetMatrix) {
         let one = Jet::constant(1.0);
         let mut identity = JetMatrix::default();
         (0..3).for_each(|i| identity[i][i] = one);
         let (origin, mut rotation) = parent.map_or((JetTriple::default(), identity), |k| self.links[k]);
         let offset = match place {
-            Place::Offset(offset) => [0, 1, 2].map(|i| offset[i].at(&self.moved)),
-            Place::Pose(k) => [9, 10, 11].map(|i| self.moved[plan.variable_of(*k) + i]),
+            JointPlace::Offset(offset) => [0, 1, 2].map(|i| offset[i].at(&self.moved)),
+            JointPlace::Pose(k) => [9, 10, 11].map(|i| self.moved[plan.variable_of(*k) + i]),
         };
         let position = sum(&origin, &turned(&rotation, &offset));
         for turn in turns {

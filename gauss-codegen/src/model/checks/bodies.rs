@@ -7,13 +7,19 @@ use crate::model::language::statements::{Statement, Statements};
 use crate::model::language::words::{self, UNNAMED, same, word};
 use crate::model::scene::clauses::BodyClause;
 use crate::model::scene::elements::Argument;
-use crate::terms::{Role, Wanted};
+use crate::terms::{KernelOptions, Role};
 use proc_macro2::Ident;
 use std::collections::{HashMap, HashSet};
 use syn::ext::IdentExt;
 
 /// Checks the clauses and the fields of bodies against one another; `scalar` is what proposed types are made of.
-pub fn check(statements: &Statements, reader: &Reader<'_>, wanted: &Wanted, scalar: &str, context: &mut Context) {
+pub fn check(
+    statements: &Statements,
+    reader: &Reader<'_>,
+    wanted: &KernelOptions,
+    scalar: &str,
+    context: &mut Context,
+) {
     check_names(statements, scalar, context);
     check_fields(statements, reader, scalar, context);
     check_references(statements, wanted, context);
@@ -148,7 +154,7 @@ fn places(bodies: &[BodyClause]) -> HashMap<String, usize> {
 
 /// Refuses names of parents, of bodies with points, of bodies with forces, in `frames(…)` and `reactions(…)` that are
 /// no bodies or frames of the system.
-fn check_references(statements: &Statements, wanted: &Wanted, context: &mut Context) {
+fn check_references(statements: &Statements, wanted: &KernelOptions, context: &mut Context) {
     if statements.missed_any(&[Statement::Body, Statement::Frame]) {
         return;
     }
@@ -177,7 +183,7 @@ impl<'a> Reference<'a> {
     }
 }
 
-fn references<'a>(statements: &'a Statements, wanted: &'a Wanted) -> Vec<Reference<'a>> {
+fn references<'a>(statements: &'a Statements, wanted: &'a KernelOptions) -> Vec<Reference<'a>> {
     let mut references = Vec::new();
     for body in &statements.bodies {
         let parent = body.parent.as_ref().map(Reference::to);

@@ -5,7 +5,7 @@ use crate::model::language::declarations::{Kinematics, Names};
 use crate::model::language::statements::Statements;
 use crate::model::language::words::{self, same, word};
 use crate::model::names::naming::is_reserved;
-use crate::model::names::places::Place;
+use crate::model::names::places::ExpressionPlace;
 use crate::model::scene::clauses::{Coordinate, CoordinateKind, Speed, SpeedKind};
 use crate::model::scene::expression::Expression;
 use proc_macro2::Ident;
@@ -120,16 +120,16 @@ fn refuse_missing(kinematics: &Kinematics, coordinates: &Names<Coordinate>, mean
 /// singular. What this sees in the names alone is said here; the rest shows when A is formed.
 ///
 /// What is named as a whole, or in any part, counts as named; `all` is every expression with its place.
-pub fn check_dependence(statements: &Statements, all: &[(Place, &Expression)], context: &mut Context) {
+pub fn check_dependence(statements: &Statements, all: &[(ExpressionPlace, &Expression)], context: &mut Context) {
     let Some(coordinates) = &statements.coordinates else { return };
-    let named = |at: &dyn Fn(Place) -> bool| {
+    let named = |at: &dyn Fn(ExpressionPlace) -> bool| {
         let mut names = HashSet::new();
         all.iter().filter(|(place, _)| at(*place)).for_each(|(_, expression)| expression.put_names(&mut names));
         names
     };
     match &statements.speeds {
         Some(speeds) => {
-            let named = named(&|place: Place| matches!(place, Place::Kinematics(_)));
+            let named = named(&|place: ExpressionPlace| matches!(place, ExpressionPlace::Kinematics(_)));
             for Speed { ident, .. } in speeds.names.iter().filter(|speed| !named.contains(&word(&speed.ident))) {
                 context.error(
                     ident.span(),
@@ -161,8 +161,14 @@ pub fn check_dependence(statements: &Statements, all: &[(Place, &Expression)], c
             }
         }
         None => {
-            let named = named(&|place: Place| {
-                matches!(place, Place::Position | Place::Rotation | Place::Particle { .. } | Place::Constraint(_))
+            let named = named(&|place: ExpressionPlace| {
+                matches!(
+                    place,
+                    ExpressionPlace::Position
+                        | ExpressionPlace::Rotation
+                        | ExpressionPlace::Particle { .. }
+                        | ExpressionPlace::Constraint(_)
+                )
             });
             let geared = statements.armatures.iter().map(|(name, _)| word(name));
             let heavy: HashSet<String> = statements.modal_coordinates().map(word).chain(geared).collect();

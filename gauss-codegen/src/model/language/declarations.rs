@@ -8,7 +8,7 @@ use super::placements;
 use super::words::{self, Table};
 use crate::model::scene::clauses::{Coordinate, CoordinateKind, Speed, SpeedKind, SpeedPart};
 use crate::model::scene::expression::Expression;
-use crate::terms::{InputKind, InputName, WantedJoint, WantedMethod};
+use crate::terms::{InputKind, InputName, OptionalMethod, ReactionJoint};
 use proc_macro2::{Ident, Span, TokenTree};
 
 /// Names that a clause declares, in brackets.
@@ -98,15 +98,15 @@ pub fn read_independent(clause: &Clause, context: &mut Context) -> Names<SpeedPa
 }
 
 /// Words of `methods(…)`.
-pub const METHODS: &Table<WantedMethod> = &[
-    ("centroidal", WantedMethod::Centroidal),
-    ("nonlinear_effects", WantedMethod::NonlinearEffects),
-    ("gravity_torques", WantedMethod::GravityTorques),
-    ("jacobian_rates", WantedMethod::JacobianRates),
+pub const METHODS: &Table<OptionalMethod> = &[
+    ("centroidal", OptionalMethod::Centroidal),
+    ("nonlinear_effects", OptionalMethod::NonlinearEffects),
+    ("gravity_torques", OptionalMethod::GravityTorques),
+    ("jacobian_rates", OptionalMethod::JacobianRates),
 ];
 
 /// `methods(centroidal, gravity_torques)`: words, each once.
-pub fn read_methods(clause: &Clause, context: &mut Context) -> Vec<WantedMethod> {
+pub fn read_methods(clause: &Clause, context: &mut Context) -> Vec<OptionalMethod> {
     read_words(clause, ["method", "centroidal"], METHODS, context)
 }
 
@@ -138,9 +138,9 @@ pub fn read_frames(clause: &Clause, context: &mut Context) -> Vec<Ident> {
 
 /// `reactions(upper_arm, wrist)`: names of joints, each once. Of scenes that are written the bodies and frames that
 /// joints carry.
-pub fn read_reactions(clause: &Clause, context: &mut Context) -> Vec<WantedJoint> {
+pub fn read_reactions(clause: &Clause, context: &mut Context) -> Vec<ReactionJoint> {
     let names = read_once(clause, ["joint", "upper_arm"], context).into_iter();
-    names.map(|name| WantedJoint { link: name.clone(), name }).collect()
+    names.map(|name| ReactionJoint { link: name.clone(), name }).collect()
 }
 
 fn read_once(clause: &Clause, [noun, example]: [&'static str; 2], context: &mut Context) -> Vec<Ident> {

@@ -1,6 +1,6 @@
 //! The functions that expressions may call, what they take and what they give; and what they may ask of bodies.
 
-use super::kind::Kind;
+use super::kind::ValueKind;
 use super::words::Table;
 use crate::model::scene::expression::{FunctionName, Property};
 
@@ -158,25 +158,25 @@ impl FunctionName {
     }
 
     /// The kind of each argument; `None` for a scalar or a vector.
-    pub fn takes(self) -> Option<Kind> {
+    pub fn takes(self) -> Option<ValueKind> {
         match self {
-            FunctionName::Dot | FunctionName::Cross | FunctionName::Twist => Some(Kind::Vector),
-            FunctionName::Inverse => Some(Kind::Rotation),
+            FunctionName::Dot | FunctionName::Cross | FunctionName::Twist => Some(ValueKind::Vector),
+            FunctionName::Inverse => Some(ValueKind::Rotation),
             FunctionName::Rate => None,
-            _ => Some(Kind::Scalar),
+            _ => Some(ValueKind::Scalar),
         }
     }
 
     /// The kind of the value; `None` for that of the argument.
-    pub fn gives(self) -> Option<Kind> {
+    pub fn gives(self) -> Option<ValueKind> {
         match self {
-            FunctionName::Cross => Some(Kind::Vector),
+            FunctionName::Cross => Some(ValueKind::Vector),
             FunctionName::RotationX | FunctionName::RotationY | FunctionName::RotationZ | FunctionName::Inverse => {
-                Some(Kind::Rotation)
+                Some(ValueKind::Rotation)
             }
-            FunctionName::Twist => Some(Kind::Twist),
+            FunctionName::Twist => Some(ValueKind::Twist),
             FunctionName::Rate => None,
-            _ => Some(Kind::Scalar),
+            _ => Some(ValueKind::Scalar),
         }
     }
 }

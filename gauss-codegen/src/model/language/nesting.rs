@@ -27,11 +27,11 @@ struct Level {
     /// Angle brackets of types that are open.
     angles: usize,
     /// Kind of the token before.
-    after: After,
+    after: PrecedingToken,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum After {
+enum PrecedingToken {
     /// The sign of an attribute, whose tokens are read by themselves.
     Hash,
     Operator,
@@ -41,7 +41,7 @@ enum After {
 
 impl Level {
     fn new(tokens: TokenStream, around: usize) -> Self {
-        Self { rest: tokens.into_iter(), around, operand: 0, foreign: 0, angles: 0, after: After::Operator }
+        Self { rest: tokens.into_iter(), around, operand: 0, foreign: 0, angles: 0, after: PrecedingToken::Operator }
     }
 
     fn depth(&self) -> usize {
@@ -55,23 +55,25 @@ impl Level {
             TokenTree::Punct(sign) => {
                 match sign.as_char() {
                     ',' | ';' => (self.operand, self.foreign) = (0, 0),
-                    '+' | '-' | '*' | '/' if matches!(before, After::Word | After::Operand) => self.operand = 0,
+                    '+' | '-' | '*' | '/' if matches!(before, PrecedingToken::Word | PrecedingToken::Operand) => {
+                        self.operand = 0
+                    }
                     '-' => self.operand += 1,
                     '.' => self.operand += 1,
                     '<' => self.angles += 1,
                     '>' => self.angles = self.angles.saturating_sub(1),
                     _ => self.foreign += 1,
                 }
-                if sign.as_char() == '#' { After::Hash } else { After::Operator }
+                if sign.as_char() == '#' { PrecedingToken::Hash } else { PrecedingToken::Operator }
             }
             TokenTree::Ident(_) => {
-                self.foreign += usize::from(before == After::Word);
-                After::Word
+                self.foreign += usize::from(before == PrecedingToken::Word);
+                PrecedingToken::Word
             }
-            TokenTree::Literal(_) | TokenTree::Group(_) => After::Operand,
+            TokenTree::Literal(_) | TokenTree::Group(_) => PrecedingToken::Operand,
         };
         match token {
-            TokenTree::Group(group) if before != After::Hash || is_parsed(&group) => Some(group.stream()),
+            TokenTree::Group(group) if before != PrecedingToken::Hash || is_parsed(&group) => Some(group.stream()),
             _ => None,
         }
     }

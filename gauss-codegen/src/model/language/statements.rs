@@ -5,14 +5,14 @@ use super::arguments::{self, brackets, equals, value};
 use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
 use super::declarations::{self, Definition, Kinematics, Names, StateClause};
-use super::modes::{self, ReadModes};
+use super::modes::{self, ModesInput};
 use super::words::{self, Table, same};
 use super::{actions, contacts, own_functions, placements, role_clauses};
 use crate::model::scene::clauses::{
     BodyClause, ConstraintClause, ConstraintKind, Coordinate, ParticleClause, PointClause, RoleClause, Speed, SpeedPart,
 };
 use crate::model::scene::contacts::ContactClause;
-use crate::model::scene::elements::{ATTRACTION, ELEMENTS, Form, Row};
+use crate::model::scene::elements::{ATTRACTION, ClauseForm, ELEMENTS, Row};
 use crate::model::scene::expression::{Expression, ExpressionKind};
 use crate::model::scene::forces::ForceClause;
 use crate::terms::{InputName, UserFunction};
@@ -57,7 +57,7 @@ pub struct Statements {
     /// Links that are not called as in the file, by both names.
     pub links_of_file: Vec<(String, String)>,
     /// Bodies that deform.
-    pub modes: Vec<ReadModes>,
+    pub modes: Vec<ModesInput>,
     /// Coordinates with the inertia of their rates.
     pub armatures: Vec<(Ident, Expression)>,
     pub definitions: Vec<Definition>,
@@ -171,7 +171,7 @@ pub fn meant(word: &str) -> Option<Statement> {
 pub fn form(word: &str) -> Option<String> {
     STATEMENTS.iter().find(|(name, _)| *name == word).map(|(_, statement)| match statement {
         Statement::Potential | Statement::Limit => format!("{word} = …"),
-        Statement::Element(row) if row.form == Form::Value => format!("{word} = …"),
+        Statement::Element(row) if row.form == ClauseForm::Value => format!("{word} = …"),
         Statement::Redundant => word.to_owned(),
         _ => format!("{word}(…)"),
     })
@@ -261,7 +261,7 @@ impl Statements {
             Statement::Potential => self.potential.is_some(),
             Statement::Limit => self.limit.is_some(),
             Statement::Input => self.inputs.is_some(),
-            Statement::Element(row) => row.form == Form::Value && self.damped,
+            Statement::Element(row) => row.form == ClauseForm::Value && self.damped,
             Statement::Medium => self.medium.is_some(),
             _ => false,
         };
@@ -366,7 +366,7 @@ impl Statements {
 
     /// A force element.
     fn read_element(&mut self, row: &'static Row, clause: &Clause, context: &mut Context) {
-        if row.form == Form::Rates && self.has_no_names() {
+        if row.form == ClauseForm::Rates && self.has_no_names() {
             context.error(
                 clause.name.span(),
                 "`drive` acts on rates of named coordinates, and those of a chart have no names; write `force(…)` or \
@@ -374,7 +374,7 @@ impl Statements {
             );
             return;
         }
-        self.damped |= row.form == Form::Value;
+        self.damped |= row.form == ClauseForm::Value;
         self.forces.extend(actions::read(row, clause, self.in_chart, context));
     }
 

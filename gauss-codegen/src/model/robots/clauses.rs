@@ -6,7 +6,7 @@ use proc_macro2::Ident;
 use quote::format_ident;
 use syn::ext::IdentExt;
 
-use super::drives::{self, Input};
+use super::drives::{self, RobotInput};
 use super::joints::Writer;
 use gauss_robots::description::{Description, Fault, Inertial, Joint, JointKind, Note};
 
@@ -22,8 +22,8 @@ use crate::model::scene::clauses::{
     BodyClause, Coefficients, Coordinate, CoordinateKind, RoleClause, RoleValue, Speed, SpeedKind,
 };
 use crate::model::scene::expression::{Expression, FunctionName, Property};
-use crate::terms::{Described, Remark};
-use crate::terms::{Role, Shape, WantedJoint};
+use crate::terms::{ReactionJoint, Role, Shape};
+use crate::terms::{Remark, RobotFile};
 use gauss_robots::{Coupling, Structure, Text, all_located, located};
 
 /// Name of the coordinate of the free root of a robot.
@@ -34,9 +34,9 @@ pub fn compose(
     file: &File,
     clauses: &RobotClauses,
     reader: &Reader<'_>,
-    (statements, reactions): (&mut Statements, &mut [WantedJoint]),
+    (statements, reactions): (&mut Statements, &mut [ReactionJoint]),
     context: &mut Context,
-) -> Option<Described> {
+) -> Option<RobotFile> {
     if file.format == Format::Mjcf && clauses.base.is_some() {
         context.error(file.span, "in an MJCF file <freejoint/> marks bodies that move freely; remove `base`");
     }
@@ -80,7 +80,7 @@ pub struct Robot<'a> {
     base: Option<Ident>,
     /// Coordinates of each joint; none of those that are fixed or follow another.
     pub coordinates: Vec<Vec<Coordinate>>,
-    pub inputs: Vec<Input>,
+    pub inputs: Vec<RobotInput>,
     pub links: Vec<Ident>,
     /// The mass data of the link are those of a field.
     pub in_field: Vec<bool>,
@@ -138,9 +138,9 @@ impl<'a> Robot<'a> {
 
     /// Finds the links that joints carry whose reactions are wanted, by the names of either. Links that are fixed to
     /// one another keep the mass data of their own if one of the joints between them is among these.
-    fn cut(&mut self, reactions: &mut [WantedJoint], context: &mut Context) {
+    fn cut(&mut self, reactions: &mut [ReactionJoint], context: &mut Context) {
         let mut carried_links: Vec<usize> = Vec::new();
-        for WantedJoint { name, link } in reactions {
+        for ReactionJoint { name, link } in reactions {
             let word = name.unraw().to_string();
             let is_called = |&joint: &usize| {
                 let coordinates = self.coordinates[joint].iter().any(|q| q.ident.unraw() == word);
@@ -290,7 +290,7 @@ impl<'a> Robot<'a> {
     }
 
     /// Puts the clauses before those of the struct; gives back what is to be known of the file.
-    fn written(mut self, file: &File, text: &Text, statements: &mut Statements, context: &mut Context) -> Described {
+    fn written(mut self, file: &File, text: &Text, statements: &mut Statements, context: &mut Context) -> RobotFile {
         let span = self.writer.span;
         statements.first.get_or_insert_with(|| Ident::new("urdf", span));
         self.require_fields(context);
@@ -341,7 +341,7 @@ impl<'a> Robot<'a> {
         }
     }
 
-    fn described(&mut self, file: &File, text: &Text) -> Described {
+    fn described(&mut self, file: &File, text: &Text) -> RobotFile {
         self.notes = Note::gathered(std::mem::take(&mut self.notes));
         let known = |what: &String| self.clauses.ignored.iter().any(|word| word == what.as_str());
         let names = text.names();
@@ -353,7 +353,7 @@ impl<'a> Robot<'a> {
         let called =
             links.filter(|(ident, link)| *ident != &link.name).map(|(ident, link)| (ident.clone(), link.name.clone()));
         let files = self.description.files.iter().map(|file| file.to_string_lossy().into_owned());
-        Described {
+        RobotFile {
             paths: text.paths().into_iter().chain(files).collect(),
             file: file.path.clone(),
             span: file.span,

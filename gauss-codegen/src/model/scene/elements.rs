@@ -28,7 +28,7 @@ pub struct Row {
     pub word: &'static str,
     /// Noun in messages.
     pub noun: &'static str,
-    pub form: Form,
+    pub form: ClauseForm,
     /// In the order in which messages list them.
     pub arguments: &'static [Argument],
     /// Rules among the arguments.
@@ -63,7 +63,7 @@ impl Row {
 
 /// Forms of a clause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum ClauseForm {
     /// `spring(name, along = …, stiffness = …)`.
     Arguments,
     /// `drive(name, theta = …)`: the words are coordinates.
@@ -76,7 +76,7 @@ pub enum Form {
 #[derive(Clone, Copy)]
 pub struct Argument {
     pub word: &'static str,
-    pub takes: Takes,
+    pub takes: ArgumentType,
     /// Example of a value, for messages.
     pub example: &'static str,
     /// Part that the element lacks without it, for messages; `None`: it may be left out.
@@ -84,16 +84,16 @@ pub struct Argument {
 }
 
 impl Argument {
-    const fn optional(word: &'static str, takes: Takes, example: &'static str) -> Argument {
+    const fn optional(word: &'static str, takes: ArgumentType, example: &'static str) -> Argument {
         Argument { word, takes, example, required: None }
     }
 
-    const fn required(word: &'static str, takes: Takes, example: &'static str, what: &'static str) -> Argument {
+    const fn required(word: &'static str, takes: ArgumentType, example: &'static str, what: &'static str) -> Argument {
         Argument { word, takes, example, required: Some(what) }
     }
 
     const fn constant(word: &'static str, called: &'static str, unit: Unit, example: &'static str) -> Argument {
-        Argument::optional(word, Takes::Constant { called, unit, law: None }, example)
+        Argument::optional(word, ArgumentType::Constant { called, unit, law: None }, example)
     }
 
     /// A constant that `kernel()` checks.
@@ -104,7 +104,7 @@ impl Argument {
         example: &'static str,
         law: LawKind,
     ) -> Argument {
-        Argument::optional(word, Takes::Constant { called, unit, law: Some(law) }, example)
+        Argument::optional(word, ArgumentType::Constant { called, unit, law: Some(law) }, example)
     }
 
     /// It may not be left out.
@@ -115,7 +115,7 @@ impl Argument {
 
 /// Kinds of values of arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Takes {
+pub enum ArgumentType {
     /// The name of the body or frame that it acts on. In a chart it may be left out.
     Body,
     /// The name of another body or frame, on which the reaction acts.
@@ -214,12 +214,12 @@ use argument::{
     OTHER, QUADRATIC, REACTION, STIFFNESS, TO, TORQUE as OF_TORQUE, VALUE, VISCOUS, WIDTH,
 };
 
-const ON_BODY: Argument = Argument::required(BODY, Takes::Body, "…", "the body that it acts on");
-const ON_OTHER: Argument = Argument::required(OTHER, Takes::Other, "…", "the body on which its reaction acts");
-const IN_AXES: Argument = Argument::optional(AXES, Takes::Axes, "body");
-const FROM_POINT: Argument = Argument::optional(FROM, Takes::End, "arm.position");
-const TO_POINT: Argument = Argument::optional(TO, Takes::End, "[0, 0, h]");
-const ALONG_SCALAR: Argument = Argument::optional(ALONG, Takes::Along, "theta");
+const ON_BODY: Argument = Argument::required(BODY, ArgumentType::Body, "…", "the body that it acts on");
+const ON_OTHER: Argument = Argument::required(OTHER, ArgumentType::Other, "…", "the body on which its reaction acts");
+const IN_AXES: Argument = Argument::optional(AXES, ArgumentType::Axes, "body");
+const FROM_POINT: Argument = Argument::optional(FROM, ArgumentType::End, "arm.position");
+const TO_POINT: Argument = Argument::optional(TO, ArgumentType::End, "[0, 0, h]");
+const ALONG_SCALAR: Argument = Argument::optional(ALONG, ArgumentType::Along, "theta");
 const STIFF: Argument = Argument::checked(STIFFNESS, "stiffness", Unit::ForceByExtent, "k", LawKind::Stiffness);
 const DAMPED: Argument = Argument::checked(DAMPING, "damping", Unit::ForceByRate, "c", LawKind::Damping);
 
@@ -244,11 +244,11 @@ pub static FORCE: Row = Row {
     kind: ElementKind::Force,
     word: "force",
     noun: "force",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
-        Argument::optional(AT, Takes::Point, "[l, 0, 0]"),
-        Argument::required(VALUE, Takes::Force, "[fx, fy, fz]", "its components"),
-        Argument::optional(BODY, Takes::Body, "…"),
+        Argument::optional(AT, ArgumentType::Point, "[l, 0, 0]"),
+        Argument::required(VALUE, ArgumentType::Force, "[fx, fy, fz]", "its components"),
+        Argument::optional(BODY, ArgumentType::Body, "…"),
         IN_AXES,
     ],
     rules: &[Rule::Somewhere],
@@ -270,12 +270,12 @@ pub static TORQUE: Row = Row {
     kind: ElementKind::Torque,
     word: "torque",
     noun: "torque",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
-        Argument::required(VALUE, Takes::Torque, "[mx, my, mz]", "its components"),
+        Argument::required(VALUE, ArgumentType::Torque, "[mx, my, mz]", "its components"),
         IN_AXES,
-        Argument::optional(REACTION, Takes::Other, "…"),
+        Argument::optional(REACTION, ArgumentType::Other, "…"),
     ],
     rules: &[],
     refused: &[
@@ -299,12 +299,12 @@ pub static WRENCH: Row = Row {
     kind: ElementKind::Wrench,
     word: "wrench",
     noun: "wrench",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
-        Argument::optional(AT, Takes::Point, "[l, 0, 0]"),
-        Argument::optional(OF_FORCE, Takes::Force, "[fx, fy, fz]"),
-        Argument::optional(OF_TORQUE, Takes::Torque, "[mx, my, mz]"),
+        Argument::optional(AT, ArgumentType::Point, "[l, 0, 0]"),
+        Argument::optional(OF_FORCE, ArgumentType::Force, "[fx, fy, fz]"),
+        Argument::optional(OF_TORQUE, ArgumentType::Torque, "[mx, my, mz]"),
         IN_AXES,
     ],
     rules: &[
@@ -332,8 +332,8 @@ pub static DRIVE: Row = Row {
     kind: ElementKind::Drive,
     word: "drive",
     noun: "drive",
-    form: Form::Rates,
-    arguments: &[Argument::optional(VALUE, Takes::Drive, "k * theta")],
+    form: ClauseForm::Rates,
+    arguments: &[Argument::optional(VALUE, ArgumentType::Drive, "k * theta")],
     rules: &[],
     refused: &[],
     example: "theta = …",
@@ -345,7 +345,7 @@ pub static SPRING: Row = Row {
     kind: ElementKind::Spring,
     word: "spring",
     noun: "spring",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         FROM_POINT,
         TO_POINT,
@@ -365,7 +365,7 @@ pub static STOP: Row = Row {
     kind: ElementKind::Stop,
     word: "stop",
     noun: "stop",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         FROM_POINT,
         TO_POINT,
@@ -388,11 +388,11 @@ pub static DRAG: Row = Row {
     kind: ElementKind::Drag,
     word: "drag",
     noun: "drag",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
-        Argument::optional(LINEAR, Takes::Coefficients(["N s/m", "N m s"]), SIX),
-        Argument::optional(QUADRATIC, Takes::Coefficients(["N s^2/m^2", "N m s^2"]), SIX),
+        Argument::optional(LINEAR, ArgumentType::Coefficients(["N s/m", "N m s"]), SIX),
+        Argument::optional(QUADRATIC, ArgumentType::Coefficients(["N s^2/m^2", "N m s^2"]), SIX),
     ],
     rules: &[Rule::OneOf([LINEAR, QUADRATIC], "its coefficients; add `linear = …`, `quadratic = …`")],
     refused: &[],
@@ -405,7 +405,7 @@ pub static FRICTION: Row = Row {
     kind: ElementKind::Friction,
     word: "friction",
     noun: "friction law",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         FROM_POINT,
         TO_POINT,
@@ -430,7 +430,7 @@ pub static COUPLING: Row = Row {
     kind: ElementKind::Coupling,
     word: "coupling",
     noun: "coupling",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
         ON_OTHER,
@@ -449,7 +449,7 @@ pub static TORSIONAL_SPRING: Row = Row {
     kind: ElementKind::TorsionalSpring,
     word: "torsional_spring",
     noun: "torsional spring",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
         ON_OTHER,
@@ -472,18 +472,18 @@ pub static BUSHING: Row = Row {
     kind: ElementKind::Bushing,
     word: "bushing",
     noun: "bushing",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
         ON_OTHER,
         Argument::optional(
             STIFFNESS,
-            Takes::Matrix { called: "stiffness", units: ["N/m", "N m"], law: LawKind::StiffnessMatrix },
+            ArgumentType::Matrix { called: "stiffness", units: ["N/m", "N m"], law: LawKind::StiffnessMatrix },
             SIX,
         ),
         Argument::optional(
             DAMPING,
-            Takes::Matrix { called: "damping", units: ["N s/m", "N m s"], law: LawKind::DampingMatrix },
+            ArgumentType::Matrix { called: "damping", units: ["N s/m", "N m s"], law: LawKind::DampingMatrix },
             SIX,
         ),
     ],
@@ -498,8 +498,8 @@ pub static DISSIPATION: Row = Row {
     kind: ElementKind::Dissipation,
     word: "damping",
     noun: "dissipation function",
-    form: Form::Value,
-    arguments: &[Argument::optional(VALUE, Takes::Dissipation, "c * v * v / 2")],
+    form: ClauseForm::Value,
+    arguments: &[Argument::optional(VALUE, ArgumentType::Dissipation, "c * v * v / 2")],
     rules: &[],
     refused: &[],
     example: "c * v * v / 2",
@@ -511,11 +511,11 @@ pub static ATTRACTION: Row = Row {
     kind: ElementKind::Attraction,
     word: "central_gravity",
     noun: "attraction",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         Argument::checked(MU, "gravitational parameter", Unit::Is("m^3/s^2"), "gm", LawKind::Attraction)
             .needed("its gravitational parameter"),
-        Argument::optional(CENTER, Takes::Center, "[x, y, z]"),
+        Argument::optional(CENTER, ArgumentType::Center, "[x, y, z]"),
     ],
     rules: &[],
     refused: &[],

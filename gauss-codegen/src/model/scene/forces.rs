@@ -1,7 +1,7 @@
 //! Clauses of force elements, checked: a row of the table of elements with what its arguments are.
 
 use super::clauses::Coefficients;
-use super::elements::{Argument, DISSIPATION, DRIVE, Row, Takes, argument};
+use super::elements::{Argument, ArgumentType, DISSIPATION, DRIVE, Row, argument};
 use super::expression::Expression;
 use proc_macro2::{Ident, Span};
 
@@ -12,14 +12,14 @@ pub struct ForceClause {
     pub name: Option<Ident>,
     pub row: &'static Row,
     /// In the order of the row.
-    pub given: Vec<Given>,
+    pub given: Vec<ArgumentValue>,
     /// The word that the clause begins with.
     pub span: Span,
 }
 
 /// An argument with its value.
 #[derive(Clone)]
-pub struct Given {
+pub struct ArgumentValue {
     pub argument: &'static Argument,
     /// The coordinate on whose rate it acts, of a drive.
     pub coordinate: Option<Ident>,
@@ -72,7 +72,7 @@ impl ForceClause {
     /// `drive(…)`.
     pub fn drive(name: Option<Ident>, rates: Vec<(Ident, Expression)>, span: Span) -> ForceClause {
         let mut clause = ForceClause::new(&DRIVE, name, span);
-        let given = |(coordinate, value): (Ident, Expression)| Given {
+        let given = |(coordinate, value): (Ident, Expression)| ArgumentValue {
             argument: &DRIVE.arguments[0],
             coordinate: Some(coordinate),
             value: value.into(),
@@ -91,7 +91,11 @@ impl ForceClause {
         let argument = self.row.find(word);
         debug_assert!(argument.is_some(), "`{}` has no argument `{word}`", self.row.word);
         let given = argument.zip(value);
-        self.given.extend(given.map(|(argument, value)| Given { argument, coordinate: None, value: value.into() }));
+        self.given.extend(given.map(|(argument, value)| ArgumentValue {
+            argument,
+            coordinate: None,
+            value: value.into(),
+        }));
         self
     }
 
@@ -101,7 +105,7 @@ impl ForceClause {
     }
 
     /// The argument `word` of its row, if it is given.
-    pub fn find(&self, word: &str) -> Option<&Given> {
+    pub fn find(&self, word: &str) -> Option<&ArgumentValue> {
         debug_assert!(self.row.find(word).is_some(), "`{}` has no argument `{word}`", self.row.word);
         self.given.iter().find(|given| given.argument.word == word)
     }
@@ -124,15 +128,15 @@ impl ForceClause {
 
     /// The body or frame that it acts on, if it names one.
     pub fn body(&self) -> Option<&Ident> {
-        self.reference(Takes::Body).map(|(name, _)| name)
+        self.reference(ArgumentType::Body).map(|(name, _)| name)
     }
 
     /// The body or frame on which the reaction acts, if it names one, and the argument that names it.
     pub fn other(&self) -> Option<(&Ident, &'static Argument)> {
-        self.reference(Takes::Other)
+        self.reference(ArgumentType::Other)
     }
 
-    fn reference(&self, takes: Takes) -> Option<(&Ident, &'static Argument)> {
+    fn reference(&self, takes: ArgumentType) -> Option<(&Ident, &'static Argument)> {
         self.given.iter().find(|given| given.argument.takes == takes).and_then(|given| match &given.value {
             Value::Reference(name) => Some((name, given.argument)),
             Value::Expression(_) | Value::Axes(_) | Value::Coefficients(_) => None,
@@ -141,7 +145,7 @@ impl ForceClause {
 
     /// Axes that are given, else those of the body.
     pub fn axes(&self) -> ForceAxes {
-        let axes = |given: &Given| if let Value::Axes(axes) = given.value { Some(axes) } else { None };
+        let axes = |given: &ArgumentValue| if let Value::Axes(axes) = given.value { Some(axes) } else { None };
         self.given.iter().find_map(axes).unwrap_or(ForceAxes::Body)
     }
 
@@ -156,7 +160,7 @@ impl ForceClause {
     /// Its expressions with their arguments, and which of six it is.
     pub fn expressions(&self) -> Vec<(&'static Argument, usize, &Expression)> {
         let mut all = Vec::new();
-        for Given { argument, value, .. } in &self.given {
+        for ArgumentValue { argument, value, .. } in &self.given {
             match value {
                 Value::Expression(value) => all.push((*argument, 0, value)),
                 Value::Coefficients(value) => {

@@ -31,7 +31,7 @@ pub struct Limbs {
 
 /// Limbs that may turn out to be alike: for each of their bodies those of all limbs, limb by limb.
 #[derive(Default)]
-struct Found {
+struct LimbCandidates {
     bodies: Vec<Vec<usize>>,
     coordinates: Vec<Vec<Ident>>,
 }
@@ -60,7 +60,7 @@ impl Limbs {
         limbs
     }
 
-    fn add(&mut self, found: &Found, bodies: &mut [BodyClause]) {
+    fn add(&mut self, found: &LimbCandidates, bodies: &mut [BodyClause]) {
         let first = self.limbs;
         self.limbs += found.coordinates.first().map_or(0, Vec::len);
         for names in &found.coordinates {
@@ -111,7 +111,7 @@ impl Tree<'_> {
     }
 
     /// Limbs that hang on a body, or farther out. What hangs on limbs that are alike is part of them.
-    fn limbs_below(&self, root: usize, all: &mut Vec<Found>) {
+    fn limbs_below(&self, root: usize, all: &mut Vec<LimbCandidates>) {
         let mut open = vec![root];
         while let Some(body) = open.pop() {
             let mut left: Vec<usize> = self.children(body).to_vec();
@@ -132,8 +132,8 @@ impl Tree<'_> {
     }
 
     /// Finds the parts of these limbs that are alike, joint by joint outward.
-    fn found(&self, limbs: Vec<usize>) -> Found {
-        let mut found = Found::default();
+    fn found(&self, limbs: Vec<usize>) -> LimbCandidates {
+        let mut found = LimbCandidates::default();
         let mut open = vec![limbs];
         while let Some(alike) = open.pop() {
             let Some(coordinates) = self.coordinates_of(&alike).filter(|_| alike.len() > 1) else { continue };

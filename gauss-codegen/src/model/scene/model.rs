@@ -10,7 +10,7 @@ use super::expression::Expression;
 use super::forces::ForceClause;
 use super::limbs::Limbs;
 use super::modes::ModesClause;
-use crate::terms::{InChart, Item};
+use crate::terms::{BodyChart, Item};
 use syn::Ident;
 use syn::ext::IdentExt;
 
@@ -21,7 +21,7 @@ pub struct Model {
     pub item: Item,
     /// The chart and the motion of the body without a name, which is then among [`bodies`](Self::bodies) without a
     /// place: the first coordinates, speeds and components of ψ are those of its chart.
-    pub in_chart: Option<InChart>,
+    pub in_chart: Option<BodyChart>,
     /// The coordinates q, in order; in a chart, those after the chart's.
     pub coordinates: Vec<Coordinate>,
     /// The speeds z, in order; `None` for the rates of the coordinates: ẋ of a scalar, ω (body axes) of a rotation, the
@@ -70,7 +70,7 @@ pub struct Model {
 
 impl Model {
     /// One body in a chart, which nothing is attached to and nothing constrains, and which is all of the state.
-    pub fn chart_of_all(&self) -> Option<InChart> {
+    pub fn chart_of_all(&self) -> Option<BodyChart> {
         let alone = self.bodies.len() == 1
             && self.coordinates.is_empty()
             && self.states.is_empty()

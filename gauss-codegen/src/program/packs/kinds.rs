@@ -7,7 +7,7 @@ pub(crate) const LANES: usize = 4;
 
 /// Place of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
+pub(crate) enum InputPlace {
     /// Among constants, whose order can be chosen.
     Constant,
     /// In an array that is an argument.

@@ -13,7 +13,7 @@ use super::super::code::Code;
 use super::super::instruction::Operand;
 use super::super::order::order_of;
 use super::kinds::{Operation, Step};
-use super::{Pack, Packed};
+use super::{Pack, PackedCode};
 
 /// Relation of an input to a limb.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,7 +70,7 @@ impl<S: Copy + Key> Code<S> {
         &self,
         leaf: impl Fn(S) -> Likeness,
         rows: &[(usize, usize)],
-    ) -> Option<Packed<S>> {
+    ) -> Option<PackedCode<S>> {
         let tags = self.likeness(&leaf);
         let mut packs = self.alike(&tags);
         packs.iter_mut().for_each(|pack| self.bring_side_by_side(pack, &tags, &leaf));
@@ -79,7 +79,7 @@ impl<S: Copy + Key> Code<S> {
             return None;
         }
         let steps = self.steps_of(&packs, rows)?;
-        let packed = Packed { steps, packs };
+        let packed = PackedCode { steps, packs };
         let pays = packed.steps.len() * 10 <= self.instructions.len() * 9;
         (pays && packed.computes(self)).then_some(packed)
     }
@@ -211,7 +211,7 @@ impl<S: Copy + Key> Code<S> {
     }
 }
 
-impl<S> Packed<S> {
+impl<S> PackedCode<S> {
     /// The pack of each of so many instructions, and its lane.
     pub(crate) fn places(&self, count: usize) -> Vec<Option<(usize, usize)>> {
         places(&self.packs, count)

@@ -25,7 +25,7 @@ use std::ops::Range;
 use super::code::Code;
 use super::instruction::Operand;
 use graph::Graph;
-pub(crate) use kinds::{LANES, Operation, Place, Step};
+pub(crate) use kinds::{InputPlace, LANES, Operation, Step};
 pub(crate) use limbs::{Leaf, in_place};
 
 /// Instructions of code that is packed. A shorter one is all beginning and end; longer ones, chains of many joints,
@@ -44,7 +44,7 @@ pub(crate) struct Pack<S> {
 
 /// Code of which some is packed.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Packed<S> {
+pub(crate) struct PackedCode<S> {
     pub packs: Vec<Pack<S>>,
     pub steps: Vec<Step>,
 }
@@ -52,7 +52,7 @@ pub(crate) struct Packed<S> {
 impl<S: Copy + PartialEq> Code<S> {
     /// Packs the code, where packs win. `place` gives the place of an input; `rows` of sines and cosines, each its
     /// first instruction and how many there are, stay together.
-    pub(crate) fn packed(&self, place: impl Fn(S) -> Place, rows: &[(usize, usize)]) -> Option<Packed<S>> {
+    pub(crate) fn packed(&self, place: impl Fn(S) -> InputPlace, rows: &[(usize, usize)]) -> Option<PackedCode<S>> {
         if !LENGTHS.contains(&self.instructions.len()) {
             return None;
         }
@@ -74,13 +74,13 @@ impl<S: Copy + PartialEq> Code<S> {
             Step::Pack(pack) => Step::Pack(places[pack]),
             other => other,
         });
-        let packed = Packed { packs, steps: steps.collect() };
+        let packed = PackedCode { packs, steps: steps.collect() };
         debug_assert!(packed.computes(self), "packs that compute something else");
         Some(packed)
     }
 }
 
-impl<S: Copy + PartialEq> Packed<S> {
+impl<S: Copy + PartialEq> PackedCode<S> {
     /// Whether every instruction of the code is carried out once, on its own operands, after what it waits for.
     fn computes(&self, code: &Code<S>) -> bool {
         let mut done = vec![false; code.instructions.len()];

@@ -7,10 +7,10 @@ fn input(argument: usize, component: usize) -> Operand {
 }
 
 /// Constants are argument 0.
-fn place(input: Input) -> Place {
+fn place(input: Input) -> InputPlace {
     match input {
-        Input::Component { argument: 0, .. } | Input::Number(_) => Place::Constant,
-        Input::Component { argument, component } => Place::Argument { array: argument, index: component },
+        Input::Component { argument: 0, .. } | Input::Number(_) => InputPlace::Constant,
+        Input::Component { argument, component } => InputPlace::Argument { array: argument, index: component },
     }
 }
 

@@ -7,11 +7,11 @@ use quote::{ToTokens, format_ident, quote};
 
 use super::packed::function;
 use super::{
-    BLOCK, Dialect, Kept, Line, Statement, angles_together, cosine, in_blocks, operand, pairs_read, row_of_angles,
-    sine, statement, value,
+    BLOCK, Dialect, Line, NamedResults, Statement, angles_together, cosine, in_blocks, operand, pairs_read,
+    row_of_angles, sine, statement, value,
 };
 use crate::algebra::{Key, joined};
-use crate::program::{Code, Instruction, Operand, Pack, Packed, Step, in_place};
+use crate::program::{Code, Instruction, Operand, Pack, PackedCode, Step, in_place};
 
 /// Meaning of a name.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -48,7 +48,7 @@ impl Name {
 /// Lines, and where names are bound and read.
 struct Writer<'a, S, D> {
     code: &'a Code<S>,
-    packed: &'a Packed<S>,
+    packed: &'a PackedCode<S>,
     dialect: &'a D,
     /// Paths of functions of vectors, by the number of lanes.
     functions: &'a dyn Fn(usize) -> TokenStream,
@@ -65,7 +65,7 @@ struct Writer<'a, S, D> {
 /// The statements of packed code, and its outputs as expressions.
 pub(crate) fn statements<S: Copy + Key, D: Dialect<S>>(
     code: &Code<S>,
-    packed: &Packed<S>,
+    packed: &PackedCode<S>,
     dialect: &D,
     functions: &dyn Fn(usize) -> TokenStream,
 ) -> (TokenStream, Vec<TokenStream>) {
@@ -82,7 +82,7 @@ pub(crate) fn statements<S: Copy + Key, D: Dialect<S>>(
         bound: HashMap::new(),
         read: HashMap::new(),
     };
-    let read = pairs_read(code, Kept::AsRead);
+    let read = pairs_read(code, NamedResults::AsRead);
     packed.steps.iter().for_each(|step| writer.step(step, &read));
     code.outputs.iter().filter_map(|&output| Name::of(output)).for_each(|name| {
         writer.read.insert(name, usize::MAX);
@@ -185,7 +185,11 @@ impl<S: Copy + Key, D: Dialect<S>> Writer<'_, S, D> {
 }
 
 /// Whether lanes of each pack are read one by one.
-fn taken_apart<S: Copy + PartialEq>(code: &Code<S>, packed: &Packed<S>, of: &[Option<(usize, usize)>]) -> Vec<bool> {
+fn taken_apart<S: Copy + PartialEq>(
+    code: &Code<S>,
+    packed: &PackedCode<S>,
+    of: &[Option<(usize, usize)>],
+) -> Vec<bool> {
     let mut apart = vec![false; packed.packs.len()];
     let mut note = |operand: Operand<S>| {
         if let Operand::Value(k) = operand

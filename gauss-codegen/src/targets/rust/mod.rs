@@ -82,7 +82,7 @@ const PART: usize = 8 * BLOCK;
 
 /// Parts of the results of a program that have a name afterwards.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kept {
+pub(crate) enum NamedResults {
     /// Results that the program itself reads, and its outputs.
     AsRead,
     /// All of it.
@@ -93,12 +93,12 @@ pub(crate) enum Kept {
 pub(crate) fn statements<S: Copy>(
     code: &Code<S>,
     dialect: &impl Dialect<S>,
-    kept: Kept,
+    kept: NamedResults,
 ) -> (TokenStream, Vec<TokenStream>) {
     // Names of everything are known to the caller by their places.
     match kept {
-        Kept::AsRead => in_this_order(&in_order(code, dialect), dialect, kept),
-        Kept::Everything => in_this_order(code, dialect, kept),
+        NamedResults::AsRead => in_this_order(&in_order(code, dialect), dialect, kept),
+        NamedResults::Everything => in_this_order(code, dialect, kept),
     }
 }
 
@@ -162,7 +162,11 @@ fn collect_names(pattern: TokenStream, names: &mut Vec<Ident>) {
 /// A line of a program: names that are read behind its block, and a statement unless another line's binds its names.
 pub(crate) type Line = (Vec<Ident>, Option<Statement>);
 
-fn in_this_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>, kept: Kept) -> (TokenStream, Vec<TokenStream>) {
+fn in_this_order<S: Copy>(
+    code: &Code<S>,
+    dialect: &impl Dialect<S>,
+    kept: NamedResults,
+) -> (TokenStream, Vec<TokenStream>) {
     let read = pairs_read(code, kept);
     let together = dialect.sines_and_cosines();
     let mut written = Vec::with_capacity(code.instructions.len());
@@ -281,8 +285,8 @@ fn statement<S: Copy>(
 }
 
 /// Whether the sine and the cosine of each instruction are read.
-fn pairs_read<S: Copy>(code: &Code<S>, kept: Kept) -> Vec<[bool; 2]> {
-    let mut read = vec![[kept == Kept::Everything; 2]; code.instructions.len()];
+fn pairs_read<S: Copy>(code: &Code<S>, kept: NamedResults) -> Vec<[bool; 2]> {
+    let mut read = vec![[kept == NamedResults::Everything; 2]; code.instructions.len()];
     for operand in code.operands() {
         match operand {
             Operand::Sine(k) => read[k][0] = true,
@@ -294,7 +298,7 @@ fn pairs_read<S: Copy>(code: &Code<S>, kept: Kept) -> Vec<[bool; 2]> {
 }
 
 /// The names that each instruction hands on to instructions of later blocks, or to whoever reads on.
-fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<Ident>> {
+fn handed_on<S: Copy>(code: &Code<S>, kept: NamedResults, size: usize) -> Vec<Vec<Ident>> {
     // Of each instruction: value, sine and cosine.
     let mut read = vec![[false; 3]; code.instructions.len()];
     let mut note = |operand: Operand<S>, reader: usize| {
@@ -312,7 +316,7 @@ fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<Ident>
         for operand in instruction.operands() {
             note(operand, k / size);
         }
-        if kept == Kept::Everything {
+        if kept == NamedResults::Everything {
             match instruction {
                 Instruction::SineCosine(_) => [Operand::Sine(k), Operand::Cosine(k)].map(|o| note(o, usize::MAX)),
                 _ => [note(Operand::Value(k), usize::MAX); 2],
@@ -338,7 +342,7 @@ fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<Ident>
 /// again.
 fn in_functions<S: Copy>(
     code: &Code<S>,
-    kept: Kept,
+    kept: NamedResults,
     written: Vec<Option<Statement>>,
     dialect: &impl Dialect<S>,
 ) -> TokenStream {

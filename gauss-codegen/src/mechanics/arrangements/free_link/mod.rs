@@ -20,7 +20,8 @@ use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::mechanics::tidy::sums;
 
 use crate::mechanics::arrangements::balance::{
-    ARRANGEMENTS, Arrangement, Balance, Formal, KineticMatrix, LinearAcceleration, Weight, Weights, solve_balance,
+    ARRANGEMENTS, Arrangement, Balance, FormalComponents, KineticMatrix, LinearAcceleration, Weight, Weights,
+    solve_balance,
 };
 
 /// Terms that a volume of partial angular velocities may have on the way to its normal form.
@@ -51,7 +52,7 @@ pub struct FreeLink<'g> {
     /// Formal arguments: momenta p, and a twist of O in body axes.
     pub momenta: Vec<Expr<'g>>,
     pub twist: [Expr<'g>; 6],
-    formal: Formal<'g>,
+    formal: FormalComponents<'g>,
     /// Axes in which v_O and ω depend on z most simply, and the rows ∂v_O/∂z, ∂ω/∂z there.
     linear_in: Axes,
     angular_in: Axes,
@@ -60,12 +61,12 @@ pub struct FreeLink<'g> {
     /// z from the twist, and (Q, Γ) from p: the rows and their transpose, on the motion's axes.
     from_twist: Solver<'g>,
     from_momenta: Solver<'g>,
-    formed: Formed<'g>,
+    formed: BalanceCache<'g>,
 }
 
 /// Parts that several equations share, formed when the first of them needs them.
 #[derive(Default)]
-struct Formed<'g> {
+struct BalanceCache<'g> {
     /// Values of the formal components of the balance.
     realisation: OnceCell<Substitution<'g>>,
     balances: OnceCell<Vec<Balance<'g>>>,
@@ -192,7 +193,7 @@ impl<'g> FreeLink<'g> {
         let matrix = KineticMatrix::new(graph, body, &linear, &angular_axes);
         let weights = Weights { gravity: Weight::new(body), field: None };
         let nothing = Wrench::zero(graph);
-        let formal = Formal::new(&kinematics, &nothing);
+        let formal = FormalComponents::new(&kinematics, &nothing);
         let twist = std::array::from_fn(|k| {
             let name = if k < 3 { Name::new("u", "u") } else { Name::new("ω", "\\omega") }.index(k % 3);
             graph.symbol(name.text, name.latex, false)
@@ -215,12 +216,12 @@ impl<'g> FreeLink<'g> {
             angular_in,
             linear_rows,
             angular_rows,
-            formed: Formed::default(),
+            formed: BalanceCache::default(),
         };
         if !scene.elements.is_empty() {
             let wrenches = scene.elements.iter().map(|element| free.wrench_of(scene, element));
             free.load = wrenches.fold(nothing, |sum, wrench| sum.plus(&wrench));
-            free.formal = Formal::new(&free.kinematics, &free.load);
+            free.formal = FormalComponents::new(&free.kinematics, &free.load);
             let root = scene.tree.root_of(link);
             let field = Loads::of(&scene.elements).field_on(root);
             free.weights.field = field.map(|gravity| Weight::of_matter(body, gravity));
@@ -235,7 +236,7 @@ impl<'g> FreeLink<'g> {
 
     /// Forgets what was formed.
     pub fn forget(&mut self) {
-        self.formed = Formed::default();
+        self.formed = BalanceCache::default();
     }
 
     /// The balance in all the ways that are worth trying.
@@ -255,7 +256,7 @@ impl<'g> FreeLink<'g> {
     /// ∂C/∂ż without the loads other than weight and buoyancy, arranged in two ways.
     pub fn inertial_residuals(&self) -> Vec<Vec<Expr<'g>>> {
         let load = Wrench::zero(self.kinematics.frame.graph);
-        let formal = Formal::new(&self.kinematics, &load);
+        let formal = FormalComponents::new(&self.kinematics, &load);
         let (matrix, weights) = (&self.matrix, &Weights { gravity: self.weights.gravity, field: None });
         let realisation = OnceCell::new();
         let residual = |arrangement| {

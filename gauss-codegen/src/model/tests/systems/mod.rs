@@ -15,7 +15,7 @@ mod states;
 mod two_bodies;
 
 use super::{Mistake, check};
-use crate::model::scene::forces::{Given, Value};
+use crate::model::scene::forces::{ArgumentValue, Value};
 use crate::model::{Coefficients, Expression, ExpressionKind, ForceAxes, ForceClause, Model, parse};
 use syn::DeriveInput;
 
@@ -73,7 +73,7 @@ pub(super) fn show(expression: &Expression) -> String {
 
 /// A clause with its arguments, with all brackets of their expressions.
 pub(super) fn shown(clause: &ForceClause) -> String {
-    let argument = |given: &Given| {
+    let argument = |given: &ArgumentValue| {
         let word = given.coordinate.as_ref().map_or(given.argument.word.into(), ToString::to_string);
         let value = match &given.value {
             Value::Expression(value) => show(value),

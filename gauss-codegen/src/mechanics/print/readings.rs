@@ -17,7 +17,7 @@ pub struct Readings<'g> {
 }
 
 /// The same with symbols for the names.
-pub(in crate::mechanics) struct Shown<'g> {
+pub(in crate::mechanics) struct PrintSymbols<'g> {
     angles: Vec<(Expr<'g>, i64)>,
     /// Expressions, and the symbols of their names.
     named: Vec<(Expr<'g>, Expr<'g>)>,
@@ -26,7 +26,7 @@ pub(in crate::mechanics) struct Shown<'g> {
     turned: RefCell<Vec<usize>>,
 }
 
-impl<'g> Shown<'g> {
+impl<'g> PrintSymbols<'g> {
     /// Prepares the readings; values of speeds that constraints were solved for come into the place of the names.
     pub fn new(readings: &Readings<'g>, replacement: Option<&Substitution<'g>>) -> Self {
         let whole = |e: Expr<'g>| replacement.map_or(e, |replacement| replacement.of(e));

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Span};
 
 /// A robot that was read from a file.
 #[derive(Clone)]
-pub struct Described {
+pub struct RobotFile {
     /// Paths of the file and of those that it includes: the generated code names them, so that an edit compiles the
     /// struct anew.
     pub paths: Vec<String>,
