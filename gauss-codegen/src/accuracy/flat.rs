@@ -28,7 +28,7 @@ enum Opcode {
 }
 
 #[derive(Clone, Copy)]
-struct Step {
+struct FlatInstruction {
     kind: Opcode,
     from: [Slot; 3],
     to: Slot,
@@ -37,7 +37,7 @@ struct Step {
 /// Steps, made from programs and expressions.
 #[derive(Default)]
 pub struct Flat {
-    steps: Vec<Step>,
+    steps: Vec<FlatInstruction>,
     slots: usize,
     /// Slots of the symbols and expressions, by their keys.
     known: Map<u32, Slot>,
@@ -57,7 +57,7 @@ impl Flat {
         if matches!(kind, Opcode::SineCosine) {
             self.slot();
         }
-        self.steps.push(Step { kind, from, to });
+        self.steps.push(FlatInstruction { kind, from, to });
         to
     }
 

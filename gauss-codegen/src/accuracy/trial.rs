@@ -69,7 +69,7 @@ fn factor(place: u64, n: u64) -> Doubled {
 }
 
 /// Exact values of a function at one state, and the effect of a change of everything in its last place on them.
-struct Reference {
+struct ReferenceValues {
     values: Vec<Doubled>,
     units: Vec<f64>,
 }
@@ -206,7 +206,7 @@ impl Trial {
     /// The loss of another program that should compute the same as those that were tried.
     pub fn loss_of(&self, tried: &TrialResult, program: &Code<Expr<'_>>) -> Loss {
         let tape = Tape::new(program);
-        let loss = |(k, expected): &(usize, Reference)| expected.loss_of(&tape.run(&self.points[*k].given));
+        let loss = |(k, expected): &(usize, ReferenceValues)| expected.loss_of(&tape.run(&self.points[*k].given));
         Loss(tried.there.iter().map(loss).collect())
     }
 }
@@ -215,7 +215,7 @@ impl Trial {
 pub struct TrialResult {
     pub losses: Vec<Loss>,
     /// States where there is a value, by their numbers, with what it should be.
-    there: Vec<(usize, Reference)>,
+    there: Vec<(usize, ReferenceValues)>,
     /// Number of them that are sample states.
     samples: usize,
 }
@@ -330,7 +330,7 @@ fn compute_in<N: Number>(values: &mut Map<u32, N>, tape: &Tape, symbols: &[u32])
 impl Point {
     /// Reference by one program, beside what it and others found in double precision; `None` where the function has no
     /// value.
-    fn reference(&self, tape: &Tape, found: &[Vec<f64>]) -> Option<Reference> {
+    fn reference(&self, tape: &Tape, found: &[Vec<f64>]) -> Option<ReferenceValues> {
         let values = tape.run(&self.exact);
         let mut squares = vec![0.0; values.len()];
         for changed in &self.changed {
@@ -355,11 +355,11 @@ impl Point {
         let units: Vec<f64> = sizes.into_iter().map(|size| f64::EPSILON * size).collect();
         let there =
             values.iter().all(|value| value.is_finite()) && units.iter().all(|unit| unit.is_finite() && *unit > 0.0);
-        there.then_some(Reference { values, units })
+        there.then_some(ReferenceValues { values, units })
     }
 }
 
-impl Reference {
+impl ReferenceValues {
     fn loss_of(&self, found: &[f64]) -> f64 {
         let loss = |((found, value), unit): ((&f64, &Doubled), &f64)| {
             let error = (Doubled::number(*found) - *value).to_f64().abs();

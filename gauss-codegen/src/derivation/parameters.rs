@@ -45,7 +45,7 @@ pub fn parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> R
     let known =
         given.sources.iter().map(|source| source.symbol).chain(given.literals.iter().map(|(_, literal)| *literal));
     let first = first_numbers(fields);
-    let mut laws = Laws {
+    let mut laws = CheckedLaws {
         derived,
         known: known.map(|symbol| symbol.key()).collect(),
         first,
@@ -112,7 +112,7 @@ fn place(part: FieldPart, shape: Shape) -> usize {
     }
 }
 
-struct Laws<'a, 'b, 'g> {
+struct CheckedLaws<'a, 'b, 'g> {
     derived: &'a Derived<'b, 'g>,
     /// Keys of symbols that are known when a kernel is made.
     known: Set<u32>,
@@ -123,7 +123,7 @@ struct Laws<'a, 'b, 'g> {
     computed: Vec<Expr<'g>>,
 }
 
-impl<'g> Laws<'_, '_, 'g> {
+impl<'g> CheckedLaws<'_, '_, 'g> {
     fn computed(&mut self, values: &[Expr<'g>]) -> Vec<Given> {
         let first = self.computed.len();
         self.computed.extend(values);

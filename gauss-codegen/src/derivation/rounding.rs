@@ -5,7 +5,7 @@ use crate::derivation::Derivation;
 use crate::program::ArgumentKind;
 
 /// A state of a scene: the numbers of the fields, the configuration, and speeds or momenta.
-pub struct State {
+pub struct SceneState {
     pub parameters: Vec<f64>,
     pub configuration: Vec<f64>,
     pub speeds: Vec<f64>,
@@ -22,7 +22,7 @@ pub struct OutputErrors {
 }
 
 impl OutputErrors {
-    pub fn of(derivation: &Derivation, method: &str, state: &State) -> Self {
+    pub fn of(derivation: &Derivation, method: &str, state: &SceneState) -> Self {
         let rounded = outputs(derivation, method, state, |x| x);
         let exact = outputs(derivation, method, state, Precise::number);
         let mut excused: Vec<f64> = exact.iter().map(|e| e.to_f64().abs() * f64::EPSILON).collect();
@@ -47,7 +47,7 @@ impl OutputErrors {
     }
 }
 
-impl State {
+impl SceneState {
     fn numbers(&self) -> impl Iterator<Item = f64> {
         self.parameters.iter().chain(&self.configuration).chain(&self.speeds).copied()
     }
@@ -57,7 +57,7 @@ impl State {
 pub fn outputs<T: Scalar>(
     derivation: &Derivation,
     method: &str,
-    state: &State,
+    state: &SceneState,
     mut number: impl FnMut(f64) -> T,
 ) -> Vec<T> {
     let mut all = state.numbers().map(&mut number);

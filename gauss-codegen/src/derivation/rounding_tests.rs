@@ -1,7 +1,7 @@
 //! Scenes whose digits used to be lost.
 
 use crate::derivation::Derivation;
-use crate::derivation::rounding::{OutputErrors, State};
+use crate::derivation::rounding::{OutputErrors, SceneState};
 
 fn derived(source: &str) -> Derivation {
     Derivation::of_source(source, "Scene").unwrap_or_else(|error| panic!("{error}\n{source}"))
@@ -105,8 +105,8 @@ fn craft(base: &Base, acting: &str, fields: &str) -> Derivation {
     ))
 }
 
-fn state(base: &Base, further: &[f64]) -> State {
-    State {
+fn state(base: &Base, further: &[f64]) -> SceneState {
+    SceneState {
         parameters: [bodies().as_slice(), &[0.2, 0.1, -0.05], further].concat(),
         configuration: base.configuration.clone(),
         speeds: base.speeds.clone(),
@@ -170,7 +170,7 @@ fn inertia_about_the_centre_of_mass_is_not_carried_through_o() {
             true => vec![1.0, -2.0, 0.5, 0.3, -0.4, 1.1],
             false => [quaternion().as_slice(), &[1.0, -2.0, 0.5]].concat(),
         };
-        let state = State { parameters, configuration, speeds: vec![0.3, -0.7, 1.1, 0.6, -1.3, 0.4] };
+        let state = SceneState { parameters, configuration, speeds: vec![0.3, -0.7, 1.1, 0.6, -1.3, 0.4] };
         for method in ["acceleration", "velocity", "momentum_rate"] {
             let loss = OutputErrors::of(&scene, method, &state);
             assert!(loss.worst() < HARMLESS, "{method} {:?} {:?}\n{source}", loss.errors, loss.excused);

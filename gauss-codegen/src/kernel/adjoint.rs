@@ -3,13 +3,13 @@
 
 use crate::algebra::{BinaryFunction, Function, Map, Rational};
 
-use super::tangent::{Direction, Pass, Rate, Tangent, Writer};
+use super::tangent::{Direction, InstructionWriter, Pass, Rate, Tangent};
 use super::write::{Operand, Operation, Program};
 
 /// The derivatives of the only output of a program along each of the directions, as a program that reads what that one
 /// read, and the rates.
 pub fn gradient<'g>(program: &Program<'g>, directions: &[Direction<'g>]) -> Program<'g> {
-    let mut writer = Writer::default();
+    let mut writer = InstructionWriter::default();
     let none = Map::default();
     let (places, _) = writer.copy(program, &none);
     let mut sweep = Sweep {

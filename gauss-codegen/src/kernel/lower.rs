@@ -17,7 +17,7 @@ pub struct Kernel<'g> {
     /// Computes the constants from the parameters; its outputs are the constants in order.
     pub constants: Program<'g>,
     /// The symbols of constants among the inputs of programs are listed below.
-    pub functions: Methods<Function<'g>>,
+    pub functions: Methods<LoweredFunction<'g>>,
     /// `evaluate`: the outputs of several functions, one after the other, what they have in common computed once.
     pub joined: Program<'g>,
     pub figure_of_joined: Option<Figure>,
@@ -32,7 +32,7 @@ pub struct Kernel<'g> {
 }
 
 /// A function as it is carried out.
-pub struct Function<'g> {
+pub struct LoweredFunction<'g> {
     pub program: Program<'g>,
     /// Loss at sample states.
     pub loss: Loss,
@@ -110,7 +110,7 @@ impl<'g> Kernel<'g> {
         checked.check(graph, &sample)?;
         let derivatives = derivatives.into_iter().map(DerivativeProgram::derivative).collect();
         let functions =
-            functions.map(|_, taken| Function { program: taken.carried_out, loss: taken.loss, figure: None });
+            functions.map(|_, taken| LoweredFunction { program: taken.carried_out, loss: taken.loss, figure: None });
         Ok(Self {
             constants,
             functions,

@@ -43,7 +43,7 @@ pub use columns::{Columns, LoweredColumns, OutputParts, TOGETHER};
 pub use derivative_programs::{Derivative, DerivativeRequest, Differentiation};
 pub use derivatives::{DerivativeForm, DirectionalDerivatives};
 pub use hessian::SecondDerivatives;
-pub use lower::{Derivatives, Function, Kernel, Literals};
+pub use lower::{Derivatives, Kernel, Literals, LoweredFunction};
 pub use parametric::{Equation, ParametricDerivatives};
 pub use tangent::Direction;
 pub use write::{Operand, Operation, Program};

@@ -33,7 +33,7 @@ use expectation::{Expectation, Reduction, of_reduced, of_whole};
 use numbers::below;
 use plan::{Plan, SpeedChoice, TreeShape};
 use scene::Symbols;
-use witness::{State, Witness, residuals};
+use witness::{Witness, WitnessState, residuals};
 
 /// Roundings, beside the largest output, beyond which a comparison would say little: it is left out.
 const BLIND: f64 = 1e-5;
@@ -63,7 +63,7 @@ impl<'g> FormulaPrograms<'g> {
     }
 
     /// All that programs read at a state.
-    fn inputs(&self, symbols: &Symbols<'g>, state: &State) -> Map<u32, f64> {
+    fn inputs(&self, symbols: &Symbols<'g>, state: &WitnessState) -> Map<u32, f64> {
         let mut at = self.constants.clone();
         at.extend(symbols.parameters.iter().map(|(&key, &value)| (key, value)));
         at.insert(symbols.time.key(), state.time);
@@ -119,14 +119,14 @@ fn random_values(random: &mut Random, count: usize) -> Vec<f64> {
 }
 
 /// States at which there is a minimiser, the best conditioned of many first.
-fn usable_states(plan: &Plan, random: &mut Random) -> Vec<State> {
-    let drawn = (0..24).map(|_| State::random(plan, random));
+fn usable_states(plan: &Plan, random: &mut Random) -> Vec<WitnessState> {
+    let drawn = (0..24).map(|_| WitnessState::random(plan, random));
     let conditioned = drawn.filter_map(|state| {
         let witness = Witness::new(plan, &state)?;
         let condition = witness.saddle.condition * witness.sizes.condition;
         (condition < 1e6).then_some((condition, state))
     });
-    let mut states: Vec<(f64, State)> = conditioned.collect();
+    let mut states: Vec<(f64, WitnessState)> = conditioned.collect();
     states.sort_by(|a, b| a.0.total_cmp(&b.0));
     states.into_iter().map(|(_, state)| state).collect()
 }
@@ -167,7 +167,7 @@ fn check_whole(plan: &Plan, random: &mut Random, regrouped: bool, what: &str) ->
 /// Corrections cancel residuals to first order: what remains of a residual h is of order h², a quarter at h/2.
 fn check_remainders<'g>(
     plan: &Plan,
-    state: &State,
+    state: &WitnessState,
     system: &System<'g>,
     compiled: &FormulaPrograms<'g>,
     at: &Map<u32, f64>,
@@ -253,7 +253,8 @@ fn check_elimination(plan: &Plan, random: &mut Random, what: &str) -> bool {
     let Some(reduction) = states.first().and_then(|state| Reduction::choose(&Witness::new(plan, state)?)) else {
         return false;
     };
-    let states: Vec<State> = states.iter().filter_map(|state| reduction.satisfied(plan, state)).take(2).collect();
+    let states: Vec<WitnessState> =
+        states.iter().filter_map(|state| reduction.satisfied(plan, state)).take(2).collect();
     if states.is_empty() {
         return false;
     }

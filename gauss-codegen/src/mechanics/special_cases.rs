@@ -9,7 +9,7 @@ use crate::mechanics::check::definition::stationarity;
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, add, dot};
 use crate::mechanics::links::inertia::Inertia;
-use crate::mechanics::loads::forces::{Action, Element, Field, Force, Loads};
+use crate::mechanics::loads::forces::{Action, Element, Force, ForceField, Loads};
 use crate::mechanics::loads::motion_symbols::MotionSymbols;
 use crate::mechanics::proof::{GENERAL, relations};
 use crate::mechanics::tests::{ChartedSystem, scenes};
@@ -90,7 +90,7 @@ fn compare_loads(graph: &Graph, motion: Motion, chart: Chart) {
     assert_eq!(accounts.len(), 1 + system.scene.elements.len());
     for element in &system.scene.elements {
         let expected: Vec<Expr<'_>> = match &element.action {
-            Action::Potential(potential) | Action::Field(Field { potential, .. }) => {
+            Action::Potential(potential) | Action::Field(ForceField { potential, .. }) => {
                 system.potential_forces(*potential)
             }
             Action::Forces(forces) => {

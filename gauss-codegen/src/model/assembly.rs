@@ -11,7 +11,7 @@ use crate::model::language::words::{same, word};
 use crate::model::names::expressions;
 use crate::model::names::places::ExpressionPlace;
 use crate::model::names::{definitions, kinds, naming, scope_entries};
-use crate::model::scene::clauses::{BodyClause, State};
+use crate::model::scene::clauses::{BodyClause, ElementState};
 use crate::model::scene::expression::Expression;
 use crate::model::scene::limbs::Limbs;
 use crate::model::scene::model::Model;
@@ -169,7 +169,7 @@ fn assembled(
     }
     let mut states = Vec::new();
     for StateClause { name, rate } in statements.states {
-        states.push(State { ident: name, rate: rate? });
+        states.push(ElementState { ident: name, rate: rate? });
     }
     Some(Model {
         item: Item {

@@ -33,8 +33,8 @@ mod units;
 pub use language::arithmetic::{LARGEST_EXPONENT, too_many_factors};
 pub use parse::{item, only_struct_in, parse, struct_in};
 pub use scene::clauses::{
-    BodyClause, Coefficients, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, RoleClause, RoleValue,
-    SpeedKind, SpeedPart,
+    BodyClause, Coefficients, ConstraintClause, ConstraintLevel, CoordinateClause, CoordinateKind, RoleClause,
+    RoleValue, SpeedKind, SpeedPart,
 };
 pub use scene::contacts::{ContactClause, ContactGeometry, Copies, Counterpart, PointContact};
 pub use scene::elements::{ArgumentType, ElementKind, argument};

@@ -76,18 +76,18 @@ fn contents(file: &ModesFile, path: &Path, modes: usize) -> Result<Contents, Vec
         let told = message.split(" at line ").next().unwrap_or_default();
         vec![format!("{place}: {told}")]
     })?;
-    let mut reader = Reader { span: file.span, modes, mistakes: Vec::new() };
+    let mut reader = ModesReader { span: file.span, modes, mistakes: Vec::new() };
     let contents = reader.whole(&value);
     if reader.mistakes.is_empty() { Ok(contents) } else { Err(reader.mistakes) }
 }
 
-struct Reader {
+struct ModesReader {
     span: Span,
     modes: usize,
     mistakes: Vec<String>,
 }
 
-impl Reader {
+impl ModesReader {
     fn mistake(&mut self, message: impl std::fmt::Display) {
         self.mistakes.push(format!(": {message}"));
     }

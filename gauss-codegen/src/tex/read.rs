@@ -59,14 +59,14 @@ const FUNCTIONS: [&str; 13] =
 
 /// A formula, in math mode. What is not closed ends with the text.
 pub fn read(tex: &str) -> Vec<Piece<'_>> {
-    Reader { rest: tex }.row(None)
+    TexReader { rest: tex }.row(None)
 }
 
-struct Reader<'a> {
+struct TexReader<'a> {
     rest: &'a str,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> TexReader<'a> {
     fn take(&mut self, text: &str) -> bool {
         let rest = self.rest.strip_prefix(text);
         self.rest = rest.unwrap_or(self.rest);

@@ -30,9 +30,9 @@ use super::value::{Local, Value};
 type Triple<'g> = [Expr<'g>; 3];
 
 /// Names of elements: given ones as they are, others by what they are, numbered from the second on.
-struct Names(HashSet<String>);
+struct ElementNames(HashSet<String>);
 
-impl Names {
+impl ElementNames {
     fn of_clause(&mut self, clause: &ForceClause) -> String {
         self.of(clause.name.as_ref(), &clause.row.word.replace('_', " "))
     }
@@ -55,7 +55,7 @@ impl<'g> Translator<'_, 'g> {
         let model = self.model;
         let given = model.forces.iter().filter_map(|clause| clause.name.as_ref());
         let given = given.chain(model.attractions.iter().filter_map(|clause| clause.name.as_ref()));
-        let mut names = Names(given.map(|name| name.unraw().to_string()).collect());
+        let mut names = ElementNames(given.map(|name| name.unraw().to_string()).collect());
         let mut elements = Vec::new();
         if let Some(potential) = &model.potential {
             let name = names.of(None, "potential");

@@ -75,7 +75,7 @@ fn symbol<'g>(graph: &'g Graph, name: &Name, constant: bool) -> Expr<'g> {
     graph.symbol(name.text.clone(), name.latex.clone(), constant)
 }
 
-fn coordinate<'g>(graph: &'g Graph, written: &model::Coordinate) -> Coordinate<'g> {
+fn coordinate<'g>(graph: &'g Graph, written: &model::CoordinateClause) -> Coordinate<'g> {
     let name = name_of(&written.ident);
     let of = |letter: &str, index: String| {
         let text = format!("{letter}{index}_{}", name.text);

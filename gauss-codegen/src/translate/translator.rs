@@ -397,8 +397,8 @@ impl<'a, 'g> Translator<'a, 'g> {
         let mut constraints = Vec::new();
         for (clause, written) in self.model.constraints.iter().enumerate() {
             let kind = match written.kind {
-                model::ConstraintKind::Position => ConstraintKind::Position,
-                model::ConstraintKind::Velocity => ConstraintKind::Velocity,
+                model::ConstraintLevel::Position => ConstraintKind::Position,
+                model::ConstraintLevel::Velocity => ConstraintKind::Velocity,
             };
             match self.value(&written.expression, tree)?.observed() {
                 // So do some of those that a file makes of one relation.

@@ -15,7 +15,7 @@ use crate::targets::rust::operand;
 use crate::targets::rust::packed::{self, Vectors};
 use crate::terms::Scalar;
 
-use crate::emit::dialect::arguments::Argument;
+use crate::emit::dialect::arguments::ArrayArgument;
 use crate::emit::dialect::program::{KernelDialect, ScalarTokens};
 
 /// Methods that runs call in every step.
@@ -37,7 +37,7 @@ pub fn are_wanted(method: Method, scalar: &Scalar) -> bool {
 /// Sources of the symbols of a program, and the tokens that read them.
 pub struct Sources<'a, 'g> {
     pub kernel: &'a Kernel<'g>,
-    pub arguments: &'a [Argument<'g>],
+    pub arguments: &'a [ArrayArgument<'g>],
     pub names: &'a Map<u32, TokenStream>,
 }
 
@@ -120,7 +120,7 @@ impl<'g> Packs<'g> {
 }
 
 /// The argument that a symbol is an element of, and which.
-fn argument<'g>(arguments: &[Argument<'g>], symbol: Expr<'g>) -> Option<(usize, usize)> {
+fn argument<'g>(arguments: &[ArrayArgument<'g>], symbol: Expr<'g>) -> Option<(usize, usize)> {
     arguments.iter().enumerate().find_map(|(array, argument)| {
         let index = argument.symbols.iter().position(|other| *other == symbol)?;
         Some((array, index))

@@ -26,7 +26,7 @@ use crate::kernel::{Operand, Operation, Program};
 use crate::mechanics::{Coordinate, Method};
 
 use crate::emit::derived::Derived;
-use crate::targets::rust::{NamedResults, Statement, in_blocks, operand, statements};
+use crate::targets::rust::{Binding, NamedResults, in_blocks, operand, statements};
 
 use crate::emit::dialect::program::{KernelDialect, ScalarTokens};
 
@@ -78,7 +78,7 @@ impl<'a, 'g> Order<'a, 'g> {
             if self.moving[k] && !self.inlined[k] {
                 let statements = self.statements(k, instruction);
                 lines.extend(statements.into_iter().map(|(name, value)| {
-                    let statement = Statement::new(&name, value);
+                    let statement = Binding::new(&name, value);
                     (vec![name], Some(statement))
                 }));
             }

@@ -3,7 +3,7 @@
 use crate::accuracy::Figure;
 use crate::algebra::Notation;
 use crate::formulation::PrintedEquations;
-use crate::kernel::{Counts, Function};
+use crate::kernel::{Counts, LoweredFunction};
 use crate::mathml;
 use crate::mechanics::Method;
 use crate::terms::{BodyChart, InputKind, Role};
@@ -220,7 +220,7 @@ pub fn figures<'d>(derived: &'d Derived<'_, '_>) -> impl Iterator<Item = (Option
 
 /// Table of the cost and the loss of each method.
 fn costs(derived: &Derived<'_, '_>) -> String {
-    let functions = derived.kernel.functions.iter().map(|(method, Function { program, figure, .. })| {
+    let functions = derived.kernel.functions.iter().map(|(method, LoweredFunction { program, figure, .. })| {
         (call_of(derived, method), program.counts(), figure.as_ref())
     });
     let besides = besides(derived).map(|(name, counts, figure)| (name.to_owned(), counts, figure));

@@ -258,7 +258,7 @@ impl<'g> FormalComponents<'g> {
 
 /// Forms in which the balance is solved; the cheapest result wins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Arrangement {
+pub enum BalanceForm {
     /// Momentum and force components stay quantities of their own.
     Structured,
     /// Right-hand sides are multiplied out and collected: what cancels is gone.
@@ -271,7 +271,7 @@ pub enum Arrangement {
     Whole,
 }
 
-pub const ARRANGEMENTS: [Arrangement; 3] = [Arrangement::Structured, Arrangement::Collected, Arrangement::Folded];
+pub const ARRANGEMENTS: [BalanceForm; 3] = [BalanceForm::Structured, BalanceForm::Collected, BalanceForm::Folded];
 
 /// The translational unknown of the balance, solved.
 pub enum LinearAcceleration<'g> {
@@ -300,7 +300,7 @@ pub fn solve_balance<'g>(
     weights: &Weights<'g>,
     load: &Wrench<'g>,
     formal: &FormalComponents<'g>,
-    arrangement: Arrangement,
+    arrangement: BalanceForm,
 ) -> Balance<'g> {
     let unsolved = BalanceProblem::new(kinematics, matrix, weights, load, formal, arrangement);
     match matrix.isotropic {
@@ -316,7 +316,7 @@ struct BalanceProblem<'a, 'g> {
     weights: &'a Weights<'g>,
     load: &'a Wrench<'g>,
     formal: &'a FormalComponents<'g>,
-    arrangement: Arrangement,
+    arrangement: BalanceForm,
     omega: Vector<'g>,
     /// M₁₂ ω, and Q.
     coupling: Triple<'g>,
@@ -333,7 +333,7 @@ impl<'a, 'g> BalanceProblem<'a, 'g> {
         weights: &'a Weights<'g>,
         load: &'a Wrench<'g>,
         formal: &'a FormalComponents<'g>,
-        arrangement: Arrangement,
+        arrangement: BalanceForm,
     ) -> Self {
         let frame = &kinematics.frame;
         let zero = frame.zero().body;
@@ -382,11 +382,11 @@ impl<'a, 'g> BalanceProblem<'a, 'g> {
 
     /// −matrix⁻¹ right.
     fn solved(&self, matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        if self.arrangement == Arrangement::Eliminated {
+        if self.arrangement == BalanceForm::Eliminated {
             let right: Vec<Expr<'g>> = right.iter().map(|e| -*e).collect();
             return solve_symmetric(matrix, &right).into_iter().map(Expr::group).collect();
         }
-        let fold = |e: Expr<'g>| if self.arrangement == Arrangement::Folded { e.collected(LIMIT) } else { e };
+        let fold = |e: Expr<'g>| if self.arrangement == BalanceForm::Folded { e.collected(LIMIT) } else { e };
         let inverse = inverse_of_symmetric(matrix);
         inverse.iter().map(|row| fold(-row.iter().zip(right).map(|(m, r)| *m * *r).sum::<Expr<'g>>()).group()).collect()
     }
@@ -403,7 +403,7 @@ impl<'a, 'g> BalanceProblem<'a, 'g> {
         let schur = schur_complement(matrix, per_mass, &angular_axes);
         let reduced = self.tidy(subtract(&angular_bias, &matrix.block(3, 0, &inner)));
         let angular = self.spread(&self.solved(&schur, &picked(&reduced, &angular_axes)), &angular_axes);
-        if self.arrangement == Arrangement::Whole {
+        if self.arrangement == BalanceForm::Whole {
             // (Q + M₁₂ ω̇)/μ and its like: what is divided by μ is constant.
             let momentum = add(&formal.u, &matrix.scaled_block(per_mass, 0, 3, &formal.omega)).map(Expr::group);
             let turning = frame.derivative(&frame.body_vector(momentum), &Map::default(), &omega).body;
@@ -452,9 +452,9 @@ impl<'a, 'g> BalanceProblem<'a, 'g> {
     }
 }
 
-fn tidied(arrangement: Arrangement, a: Triple<'_>) -> Triple<'_> {
+fn tidied(arrangement: BalanceForm, a: Triple<'_>) -> Triple<'_> {
     match arrangement {
-        Arrangement::Structured => a,
+        BalanceForm::Structured => a,
         _ => a.map(|e| e.collected(LIMIT)),
     }
 }
@@ -478,7 +478,7 @@ pub fn twist_of_momentum<'g>(
     matrix: &KineticMatrix<'g>,
     linear_momentum: &Vector<'g>,
     angular_momentum: &Vector<'g>,
-    arrangement: Arrangement,
+    arrangement: BalanceForm,
 ) -> (Vector<'g>, Vector<'g>) {
     let frame = &kinematics.frame;
     if let (Some(inertia), true) = (matrix.spherical, matrix.isotropic.is_some() || kinematics.linear_axes().is_empty())
@@ -513,7 +513,7 @@ pub fn twist_of_momentum<'g>(
         linear_axes.iter().map(|&k| q[k]).chain(angular_axes.iter().map(|&k| gamma[k])).collect();
     let active = matrix.submatrix(&kinematics.active);
     let twist: Vec<Expr<'g>> = match arrangement {
-        Arrangement::Eliminated => solve_symmetric(&active, &momentum),
+        BalanceForm::Eliminated => solve_symmetric(&active, &momentum),
         _ => {
             let inverse = inverse_of_symmetric(&active);
             inverse.iter().map(|row| row.iter().zip(&momentum).map(|(m, p)| *m * *p).sum()).collect()

@@ -19,7 +19,7 @@ pub struct ContactDefinition<'w, 'a, 'g, N> {
 }
 
 /// Values of the formulas at one state.
-struct Claim<'v, N> {
+struct FormulaValues<'v, N> {
     /// ż without contact forces, and b.
     still: &'v [N],
     bias: &'v [N],
@@ -56,7 +56,7 @@ impl<'g, N: Number> ContactDefinition<'_, '_, 'g, N> {
             let (still, rest) = values.split_at(n);
             let (bias, rest) = rest.split_at(rows);
             let (columns, delassus) = rest.split_at(n * rows);
-            let claim = Claim { still, bias, columns, delassus };
+            let claim = FormulaValues { still, bias, columns, delassus };
             let Some(_) = self.motion(&claim, &arbitrary)? else { return Ok(Comparison::WithoutValue) };
             // Where no motion opens all gaps there is no such force, as between walls that close in.
             let Some(forces) = claim.complementary(&normals[..normals.len().min(MOST_GAPS)]) else { continue };
@@ -86,7 +86,7 @@ impl<'g, N: Number> ContactDefinition<'_, '_, 'g, N> {
 
     /// C is stationary at `ż + A⁻¹Wᵀλ` under the forces Wᵀλ, and the rates of gaps and slips change by `D λ + b` there:
     /// W and what changes them by dual numbers. These changes, where they have values.
-    fn motion(&self, claim: &Claim<'_, N>, forces: &[N]) -> Result<Option<Vec<N>>, Disagreement> {
+    fn motion(&self, claim: &FormulaValues<'_, N>, forces: &[N]) -> Result<Option<Vec<N>>, Disagreement> {
         let Self { witness, jacobian, .. } = self;
         let rates = &witness.system.contacts.rates;
         let (zero, rows) = (N::number(0.0), rates.len());
@@ -132,7 +132,7 @@ fn weighted<N: Number>(first: N, row: &[N], forces: &[N]) -> SizedSum<N> {
     SizedSum::of(first, row.iter().zip(forces).map(|(x, force)| *x * *force).collect())
 }
 
-impl<N: Number> Claim<'_, N> {
+impl<N: Number> FormulaValues<'_, N> {
     /// ż under contact forces.
     fn moved(&self, forces: &[N]) -> Vec<N> {
         let rows = self.columns.chunks(forces.len());
@@ -184,11 +184,11 @@ impl<N: Number> Claim<'_, N> {
 
 #[cfg(test)]
 mod tests {
-    use super::Claim;
+    use super::FormulaValues;
 
     fn forces(delassus: &[f64], bias: &[f64]) -> Option<Vec<f64>> {
         let normals: Vec<usize> = (0..bias.len()).collect();
-        Claim { still: &[], bias, columns: &[], delassus }.complementary(&normals)
+        FormulaValues { still: &[], bias, columns: &[], delassus }.complementary(&normals)
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use crate::algebra::{Expr, FactoredColumns, Factorisation};
 
 use crate::mechanics::arrangements::articulated::{Articulated, JointFactors};
-use crate::mechanics::derivatives::rigid::{Motion, RateSymbols, Rates};
+use crate::mechanics::derivatives::rigid::{RateSymbols, Rates, ResidualMotion};
 use crate::mechanics::derivatives::second::WeightedMotion;
 use crate::mechanics::links::inertia::Inertia;
 use crate::mechanics::system::{DENSE, System};
@@ -144,7 +144,7 @@ impl<'g> System<'g> {
         let once: Vec<Expr<'g>> = directions.iter().map(|direction| beside.derivative(direction)).collect();
         let beside: Vec<Expr<'g>> = pairs.iter().map(|&(i, j)| once[i].derivative(&directions[j])).collect();
         let way = |&inertia: &Inertia| {
-            let motion = Motion::new(tree, &self.loads, &self.along, None, inertia)?;
+            let motion = ResidualMotion::new(tree, &self.loads, &self.along, None, inertia)?;
             Some(sums(&WeightedMotion::new(&motion, weights).second_derivatives(directions, pairs), &beside))
         };
         tree.inertias(self.is_long()).iter().filter_map(way).collect()
@@ -166,7 +166,7 @@ impl<'g> System<'g> {
         }
         let (tree, beside) = (&self.scene.tree, self.beside());
         let way = |&inertia: &Inertia| {
-            let motion = Motion::new(tree, &self.loads, &self.along, None, inertia)?;
+            let motion = ResidualMotion::new(tree, &self.loads, &self.along, None, inertia)?;
             let derivatives = motion.derivatives(directions).into_iter().zip(directions);
             let derivatives = derivatives.map(|(change, direction)| {
                 let beside: Vec<Expr<'g>> = beside.iter().map(|e| e.derivative(direction)).collect();
@@ -192,7 +192,11 @@ impl<'g> System<'g> {
     }
 
     /// ż, and the motion with it.
-    pub(super) fn solved(&self, inertia: Inertia, factors: &Factors<'g>) -> Option<(Vec<Expr<'g>>, Motion<'_, 'g>)> {
+    pub(super) fn solved(
+        &self,
+        inertia: Inertia,
+        factors: &Factors<'g>,
+    ) -> Option<(Vec<Expr<'g>>, ResidualMotion<'_, 'g>)> {
         let [rows, taken] = self.floating(inertia);
         let right: Vec<Expr<'g>> = rows.iter().map(|r| -*r).collect();
         let relative: Vec<Expr<'g>> = factors.solve(&right).iter().map(|e| e.group()).collect();
@@ -200,7 +204,7 @@ impl<'g> System<'g> {
         let symbols = self.scene.speed_rates.iter().zip(&rates);
         let solved =
             RateSymbols { rates: symbols.map(|(dz, value)| (dz.key(), value.group())).collect(), relative: &relative };
-        let motion = Motion::new(&self.scene.tree, &self.loads, &self.along, Some(solved), inertia)?;
+        let motion = ResidualMotion::new(&self.scene.tree, &self.loads, &self.along, Some(solved), inertia)?;
         Some((rates, motion))
     }
 

@@ -11,7 +11,7 @@
 use crate::algebra::{Expr, Graph};
 
 use crate::mechanics::derivatives::implicit::Factors;
-use crate::mechanics::derivatives::rigid::{Motion, Pair, Rates};
+use crate::mechanics::derivatives::rigid::{Pair, Rates, ResidualMotion};
 use crate::mechanics::derivatives::second::velocities;
 use crate::mechanics::kinematics::vector::{Triple, add, cross, dot, is_zero, scale};
 use crate::mechanics::links::inertia::{Inertia, acceleration_gradient, apply};
@@ -62,7 +62,7 @@ impl<'g> System<'g> {
         Some(ways.map(|pushed| solutions(&motion, factors, &changes, pushed).concat()))
     }
 
-    fn changes(&self, motion: &Motion<'_, 'g>, directions: &[Rates<'g>]) -> Vec<Change<'g>> {
+    fn changes(&self, motion: &ResidualMotion<'_, 'g>, directions: &[Rates<'g>]) -> Vec<Change<'g>> {
         let beside = self.beside();
         let accelerated: Vec<AccelerationField<'g>> =
             (0..motion.tree.links.len()).map(|k| AccelerationField::of(motion, k)).collect();
@@ -89,7 +89,7 @@ struct AccelerationField<'g> {
 }
 
 impl<'g> AccelerationField<'g> {
-    fn of(motion: &Motion<'_, 'g>, k: usize) -> Self {
+    fn of(motion: &ResidualMotion<'_, 'g>, k: usize) -> Self {
         let (acceleration, spin_rate) = motion.acceleration(k);
         let spin = motion.tree.links[k].angular_velocity;
         Self { acceleration, spin_rate, spin, field: acceleration_gradient(&spin, &spin_rate) }
@@ -109,7 +109,7 @@ impl<'g> AccelerationField<'g> {
 /// Pushes on links by the moments of each link by itself: matter that moves with a parent as well is left where it is.
 /// Where joints change, which say what moves with a parent, by those that are left.
 fn pushes<'g>(
-    motion: &Motion<'_, 'g>,
+    motion: &ResidualMotion<'_, 'g>,
     accelerated: &[AccelerationField<'g>],
     direction: &Rates<'g>,
 ) -> Vec<(usize, Pair<'g>)> {
@@ -129,7 +129,7 @@ fn pushes<'g>(
 
 /// The derivatives of ż, direction by direction.
 fn solutions<'g>(
-    motion: &Motion<'_, 'g>,
+    motion: &ResidualMotion<'_, 'g>,
     factors: &Factors<'g>,
     changes: &[Change<'g>],
     pushed: PushSolution,
@@ -148,7 +148,7 @@ fn solutions<'g>(
 }
 
 /// Rows with those of what pushes links.
-fn projected<'g>(motion: &Motion<'_, 'g>, change: &Change<'g>) -> Vec<Expr<'g>> {
+fn projected<'g>(motion: &ResidualMotion<'_, 'g>, change: &Change<'g>) -> Vec<Expr<'g>> {
     let tree = motion.tree;
     let mut rows = change.rows.clone();
     for &(link, (mut linear, mut angular)) in &change.pushes {
@@ -169,7 +169,7 @@ fn projected<'g>(motion: &Motion<'_, 'g>, change: &Change<'g>) -> Vec<Expr<'g>> 
 
 /// A⁻¹ times the rows, and what pushes links, by what links do under the columns of A⁻¹.
 fn paired<'g>(
-    motion: &Motion<'_, 'g>,
+    motion: &ResidualMotion<'_, 'g>,
     factors: &Factors<'g>,
     rights: &[Vec<Expr<'g>>],
     changes: &[Change<'g>],

@@ -69,7 +69,7 @@ pub struct Joint<'g> {
 }
 
 /// A link with its motion. Its *working axes*, in which components are taken, are the body's own, k throughout where
-/// everything moves in the plane, or those of the parent in a [`Description`].
+/// everything moves in the plane, or those of the parent in a [`WorkingFrame`].
 #[derive(Clone)]
 pub struct Link<'g> {
     pub matter: Matter<'g>,
@@ -108,7 +108,7 @@ pub struct Link<'g> {
 
 /// The working pole and the working axes of a link, in which its sums are formed. The scene gives the link about its O
 /// and in body axes.
-pub struct Description<'g> {
+pub struct WorkingFrame<'g> {
     /// From O to the pole, body axes.
     pub shift: Triple<'g>,
     /// From the parent's pole, the parent's body axes.
@@ -253,8 +253,8 @@ impl<'g> Link<'g> {
     }
 
     /// The same link by another pole and other working axes. Its moments are those that were given, in body axes.
-    pub fn described(&self, parent: Option<&Self>, by: Description<'g>, speeds: &[Expr<'g>]) -> Self {
-        let Description { shift, own_offset, joint, turned } = by;
+    pub fn described(&self, parent: Option<&Self>, by: WorkingFrame<'g>, speeds: &[Expr<'g>]) -> Self {
+        let WorkingFrame { shift, own_offset, joint, turned } = by;
         let own_joint = Joint { offset: own_offset, ..self.own_joint.clone() };
         let through = |r, turn: &Turn<'g>| product(&r, &turn.matrix).map(grouped);
         let graph = self.frame.graph;

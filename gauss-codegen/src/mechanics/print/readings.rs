@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use crate::algebra::{Expr, Graph, Notation, Rational, Substitution, print};
 use crate::mechanics::print::names::Name;
-use crate::mechanics::print::rows::{Row, Section};
+use crate::mechanics::print::rows::{PrintedRow, Section};
 use crate::mechanics::tidy;
 
 /// Names and angles that are other in print than in kernels.
@@ -99,7 +99,7 @@ impl<'g> PrintSymbols<'g> {
         }
         found.reverse();
         let names = self.names.iter().zip(used).filter(|(_, used)| *used).map(|(name, _)| name.clone());
-        let rows = names.zip(found).map(|(name, value)| Row::Definition(name, value)).collect();
+        let rows = names.zip(found).map(|(name, value)| PrintedRow::Definition(name, value)).collect();
         Section { title: Name::new("definitions", "definitions"), rows }
     }
 
@@ -111,7 +111,7 @@ impl<'g> PrintSymbols<'g> {
         let row = |k: usize| {
             let (number, quarters) = self.angles[k];
             let name = [Notation::Text, Notation::Latex].map(|notation| print(number, notation));
-            Row::Definition(Name::new(&name[0], &name[1]), pi.scale(Rational::new(quarters, 2)))
+            PrintedRow::Definition(Name::new(&name[0], &name[1]), pi.scale(Rational::new(quarters, 2)))
         };
         let title = "angles of the file that are quarter turns to their last digit, and are printed as these";
         Section { title: Name::new(title, title), rows: seen.into_iter().map(row).collect() }

@@ -12,14 +12,14 @@ use crate::mechanics::tests::Random;
 use super::plan::{Plan, SpeedChoice, TreeShape};
 use super::scene::Symbols;
 use super::usable_states;
-use super::witness::State;
+use super::witness::WitnessState;
 
 /// In numbers of 256 binary digits: some ten thousand roundings, amplified by condition numbers of up to 1e6 twice,
 /// leave 60 decimal places; a wrong term leaves none.
 const AGREEMENT: f64 = 1e-50;
 
 /// All that expressions read, with quaternions whose norm is 1 to the last of many digits.
-fn point<'g>(symbols: &Symbols<'g>, system: &System<'g>, state: &State) -> Map<u32, Precise> {
+fn point<'g>(symbols: &Symbols<'g>, system: &System<'g>, state: &WitnessState) -> Map<u32, Precise> {
     let mut at: Map<u32, Precise> =
         symbols.parameters.iter().map(|(&key, &value)| (key, Precise::number(value))).collect();
     let mut give = |symbols: &[Expr<'g>], values: &[f64]| {

@@ -4,7 +4,7 @@ use crate::mechanics::formula::Method;
 
 use super::dense::{Matrix, Saddle, apply, inverse, largest, norm, transposed};
 use super::plan::Plan;
-use super::witness::{State, Witness};
+use super::witness::{Witness, WitnessState};
 
 /// Outputs of a method, and the absolute values behind them that roundings are relative to, conditioning included.
 pub struct Expectation {
@@ -67,7 +67,7 @@ fn corrections(w: &Witness<'_>, plan: &Plan, wanted: &[f64]) -> [Expectation; 2]
     ]
 }
 
-fn residual_size(w: &Witness<'_>, values: &[f64], state: &State) -> f64 {
+fn residual_size(w: &Witness<'_>, values: &[f64], state: &WitnessState) -> f64 {
     10.0 + largest(values) + norm(&w.jacobian) * (1.0 + largest(&state.speeds))
 }
 
@@ -144,7 +144,7 @@ impl Reduction {
     }
 
     /// The state with the eliminated speeds such that the constraints hold, where they determine them well.
-    pub fn satisfied(&self, plan: &Plan, state: &State) -> Option<State> {
+    pub fn satisfied(&self, plan: &Plan, state: &WitnessState) -> Option<WitnessState> {
         let w = Witness::new(plan, state)?;
         let mut state = state.clone();
         for (&k, excess) in self.eliminated.iter().zip(apply(&self.solver(&w)?, &w.on_velocities)) {

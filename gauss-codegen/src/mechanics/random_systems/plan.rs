@@ -4,7 +4,7 @@ use crate::mechanics::constraints::constraint::ConstraintKind;
 use crate::mechanics::tests::Random;
 use crate::terms::Shape;
 
-use super::numbers::{Number, Smooth, below};
+use super::numbers::{Smooth, SmoothNumber, below};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CoordinateKind {
@@ -159,7 +159,7 @@ impl Plan {
     }
 
     /// ψ, and the rates of the symbols of q: Ṙ = R [ω]×, ḃ = R u or as it is given.
-    pub fn rates<N: Number>(&self, variables: &[N]) -> (Vec<N>, Vec<N>) {
+    pub fn rates<N: SmoothNumber>(&self, variables: &[N]) -> (Vec<N>, Vec<N>) {
         let zero = variables[0].fraction(0, 1);
         let z = &variables[1 + self.symbol_count()..];
         let rows = self.bases.iter().zip(&self.drift).map(|(row, drift)| {

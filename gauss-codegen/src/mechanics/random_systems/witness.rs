@@ -6,12 +6,12 @@ use crate::mechanics::tests::Random;
 
 use super::dense::{Matrix, Saddle, apply, dot, inverse, largest, norm, transposed};
 use super::fluid::{self, Fluid};
-use super::numbers::{Jet, Number};
+use super::numbers::{Jet, SmoothNumber};
 use super::plan::{ConstraintPlan, CoordinateKind, JointPlace, MatterPlan, Plan, TurnPlan};
 
 /// t, the symbols of q, z.
 #[derive(Clone, Debug)]
-pub struct State {
+pub struct WitnessState {
     pub time: f64,
     pub configuration: Vec<f64>,
     pub speeds: Vec<f64>,
@@ -19,7 +19,7 @@ pub struct State {
     pub quaternions: Vec<[f64; 4]>,
 }
 
-impl State {
+impl WitnessState {
     pub fn random(plan: &Plan, random: &mut Random) -> Self {
         let (mut configuration, mut quaternions) = (Vec::new(), Vec::new());
         for kind in &plan.coordinates {
@@ -129,7 +129,7 @@ fn about(axis: usize, angle: Jet) -> JetMatrix {
 }
 
 /// A motion through a state, and aside from it along one partial velocity.
-struct Motion {
+struct WitnessMotion {
     /// t, q, z with z pushed aside; and t, q with q moved aside by what that does to ψ.
     pushed: Vec<Jet>,
     moved: Vec<Jet>,
@@ -144,8 +144,8 @@ struct Particle {
     weighed: f64,
 }
 
-impl Motion {
-    fn new(plan: &Plan, state: &State, rates: &[f64], aside: Option<usize>) -> Self {
+impl WitnessMotion {
+    fn new(plan: &Plan, state: &WitnessState, rates: &[f64], aside: Option<usize>) -> Self {
         let count = state.configuration.len();
         let time = Jet { value: state.time, rate: 1.0, ..Jet::default() };
         let speeds = || state.speeds.iter().map(|&z| Jet::constant(z));
@@ -269,7 +269,7 @@ impl Motion {
 /// Values of (3.1) and of the constraints at one state.
 pub struct Witness<'a> {
     plan: &'a Plan,
-    state: &'a State,
+    state: &'a WitnessState,
     pub matrix: Matrix,
     /// −∂C/∂ż at ż = 0.
     pub force: Vec<f64>,
@@ -310,7 +310,7 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    fn new(plan: &Plan, state: &State, motions: &[Motion]) -> Self {
+    fn new(plan: &Plan, state: &WitnessState, motions: &[WitnessMotion]) -> Self {
         let particles = motions[0].particles(plan);
         let solid: f64 = particles.iter().map(|p| p.mass.max(p.weighed.abs())).sum();
         // Components of twists are no larger than √3 times those of velocities.
@@ -347,19 +347,19 @@ fn part(triple: &JetTriple, f: impl Fn(&Jet) -> f64) -> [f64; 3] {
 }
 
 /// φ of positions, and the level of velocities.
-pub fn residuals(plan: &Plan, state: &State) -> (Vec<f64>, Vec<f64>) {
-    let motion = Motion::new(plan, state, &vec![0.0; plan.speeds], None);
+pub fn residuals(plan: &Plan, state: &WitnessState) -> (Vec<f64>, Vec<f64>) {
+    let motion = WitnessMotion::new(plan, state, &vec![0.0; plan.speeds], None);
     let levels = plan.constraints.iter().map(|constraint| motion.constraint(constraint));
     levels.map(|(position, velocity)| (position, velocity.value)).unzip()
 }
 
 impl<'a> Witness<'a> {
     /// `None` where there is no single minimiser.
-    pub fn new(plan: &'a Plan, state: &'a State) -> Option<Self> {
+    pub fn new(plan: &'a Plan, state: &'a WitnessState) -> Option<Self> {
         let n = plan.speeds;
         let gravity = plan.gravity.unwrap_or_default();
         let still = vec![0.0; n];
-        let motions: Vec<Motion> = (0..n).map(|k| Motion::new(plan, state, &still, Some(k))).collect();
+        let motions: Vec<WitnessMotion> = (0..n).map(|k| WitnessMotion::new(plan, state, &still, Some(k))).collect();
         let particles: Vec<Vec<Particle>> = motions.iter().map(|motion| motion.particles(plan)).collect();
         let fluids: Vec<Vec<Fluid>> = motions.iter().map(|motion| motion.fluids(plan)).collect();
         let (mut matrix, mut force, mut momentum) = (vec![vec![0.0; n]; n], vec![0.0; n], vec![0.0; n]);
@@ -432,7 +432,7 @@ impl<'a> Witness<'a> {
     /// `Σ m (a·w_α + v·ẇ_α)` along the motion that the forces and constraints make.
     fn add_momentum_rate(&mut self) {
         for k in 0..self.plan.speeds {
-            let motion = Motion::new(self.plan, self.state, &self.acceleration, Some(k));
+            let motion = WitnessMotion::new(self.plan, self.state, &self.acceleration, Some(k));
             let mut rate = 0.0;
             for Particle { position, mass, .. } in motion.particles(self.plan) {
                 let (v, a) = (part(&position, |x| x.rate), part(&position, |x| x.second));
@@ -449,7 +449,7 @@ impl<'a> Witness<'a> {
         }
     }
 
-    pub fn state(&self) -> &State {
+    pub fn state(&self) -> &WitnessState {
         self.state
     }
 
@@ -461,7 +461,7 @@ impl<'a> Witness<'a> {
     /// (3.1) up to what does not depend on ż: `½ Σ m |a − F/m|²`, the potential by its power.
     pub fn constraint_function(&self, rates: &[f64]) -> f64 {
         let gravity = self.plan.gravity.unwrap_or_default();
-        let motion = Motion::new(self.plan, self.state, rates, None);
+        let motion = WitnessMotion::new(self.plan, self.state, rates, None);
         let mut c = 0.0;
         for Particle { position, mass, weighed } in motion.particles(self.plan) {
             let a = part(&position, |x| x.second);
@@ -474,7 +474,7 @@ impl<'a> Witness<'a> {
 
     /// Absolute values in a difference of two of them, one at ż = 0.
     pub fn function_size(&self, rates: &[f64]) -> f64 {
-        let motion = Motion::new(self.plan, self.state, rates, None);
+        let motion = WitnessMotion::new(self.plan, self.state, rates, None);
         let acceleration = motion.largest(self.plan, |x| x.second) + self.sizes.velocity.powi(2);
         let own = 3.0 * self.sizes.mass * acceleration.powi(2);
         own + largest(rates) * (self.sizes.force + self.sizes.matrix * largest(rates))

@@ -8,7 +8,7 @@ use crate::model::names::kinds;
 use crate::model::names::moving_names::MovingNames;
 use crate::model::names::places::ExpressionPlace;
 use crate::model::names::scope::Scope;
-use crate::model::scene::clauses::{ConstraintClause, ConstraintKind, SpeedKind};
+use crate::model::scene::clauses::{ConstraintClause, ConstraintLevel, SpeedKind};
 use proc_macro2::Ident;
 
 /// Checks names and kinds in the constraints, and notes which of them are vectors. Returns for each whether it is
@@ -43,7 +43,7 @@ fn check_motion(constraint: &ConstraintClause, moving: &MovingNames, context: &m
             "the constraint names nothing that moves, so no motion makes it hold; \
              name a coordinate, a speed, or a body or point that moves",
         );
-    } else if constraint.kind == ConstraintKind::Velocity && !in_velocity {
+    } else if constraint.kind == ConstraintLevel::Velocity && !in_velocity {
         context.error(
             constraint.span,
             "the constraint contains no velocity of anything that moves; write `constraint(position = …)`, \

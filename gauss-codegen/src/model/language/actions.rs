@@ -6,9 +6,9 @@ use super::attributes::{Clause, Content, Owner};
 use super::context::Context;
 use super::placements::{may_be_name, read_reference};
 use super::words::{self, Table, UNNAMED};
-use crate::model::scene::elements::{Argument, ArgumentType, ClauseForm, Row, Rule, argument};
+use crate::model::scene::elements::{ArgumentRule, ArgumentType, ClauseForm, ElementArgument, Row, argument};
 use crate::model::scene::expression::Expression;
-use crate::model::scene::forces::{ArgumentValue, ForceAxes, ForceClause, Value};
+use crate::model::scene::forces::{ArgumentContent, ArgumentValue, ForceAxes, ForceClause};
 use proc_macro2::{Ident, Span};
 
 const IN_MEDIUM: Owner = Owner::Action { word: "medium", example: "an argument such as `velocity = [c, 0, 0]`" };
@@ -41,7 +41,7 @@ fn read_arguments(row: &'static Row, clause: &Clause, in_chart: bool, context: &
                 value
             }
             None if in_chart && argument.takes == ArgumentType::Body => {
-                Some(Value::Reference(Ident::new(UNNAMED, written.span)))
+                Some(ArgumentContent::Reference(Ident::new(UNNAMED, written.span)))
             }
             None => None,
         };
@@ -59,16 +59,21 @@ fn read_arguments(row: &'static Row, clause: &Clause, in_chart: bool, context: &
 }
 
 /// Reads the value of an argument; `None` if it is wrong, which is noted.
-fn read_value(row: &Row, argument: &Argument, clause: &Clause, context: &mut Context) -> Option<Value> {
+fn read_value(
+    row: &Row,
+    argument: &ElementArgument,
+    clause: &Clause,
+    context: &mut Context,
+) -> Option<ArgumentContent> {
     Some(match argument.takes {
         ArgumentType::Body | ArgumentType::Other => {
-            Value::Reference(read_reference(clause, "a body or a frame", context)?)
+            ArgumentContent::Reference(read_reference(clause, "a body or a frame", context)?)
         }
-        ArgumentType::Axes => Value::Axes(read_axes(clause, context)?),
+        ArgumentType::Axes => ArgumentContent::Axes(read_axes(clause, context)?),
         ArgumentType::Coefficients(_) | ArgumentType::Matrix { .. } => {
             let what = format!("the `{}` coefficients of {} are", argument.word, words::a(row.noun));
             let tokens = equals(clause, argument.example, context)?;
-            Value::Coefficients(arithmetic::read_coefficients(argument.word, &what, tokens, context)?)
+            ArgumentContent::Coefficients(arithmetic::read_coefficients(argument.word, &what, tokens, context)?)
         }
         ArgumentType::Point
         | ArgumentType::Force
@@ -78,7 +83,7 @@ fn read_value(row: &Row, argument: &Argument, clause: &Clause, context: &mut Con
         | ArgumentType::End
         | ArgumentType::Along
         | ArgumentType::Constant { .. }
-        | ArgumentType::Center => Value::Expression(value(clause, argument.example, context)?),
+        | ArgumentType::Center => ArgumentContent::Expression(value(clause, argument.example, context)?),
     })
 }
 
@@ -158,21 +163,21 @@ impl ElementSyntax {
     }
 
     /// Whether a rule holds; if not, that is noted.
-    fn obeys(&self, rule: &Rule, context: &mut Context) -> bool {
+    fn obeys(&self, rule: &ArgumentRule, context: &mut Context) -> bool {
         match *rule {
-            Rule::Extent => self.has_extent(context),
-            Rule::Somewhere => self.is_somewhere(context),
-            Rule::OneOf(words, what) => {
+            ArgumentRule::Extent => self.has_extent(context),
+            ArgumentRule::Somewhere => self.is_somewhere(context),
+            ArgumentRule::OneOf(words, what) => {
                 if words.iter().all(|word| self.lacks(word)) {
                     context.error(self.span, format!("{} needs {what} or both", words::a(self.row.noun)));
                 }
                 words.iter().any(|word| self.find(word).is_some())
             }
-            Rule::With([first, second], what) => {
+            ArgumentRule::With([first, second], what) => {
                 let example = self.row.find(second).map_or("…", |argument| argument.example);
                 self.find(first).is_none() || self.require(second, what, example, context)
             }
-            Rule::OnlyWith([word, other], message) => {
+            ArgumentRule::OnlyWith([word, other], message) => {
                 if let Some(argument) = self.find(word).filter(|_| self.lacks(other)) {
                     context.error(argument.name.span(), message);
                 }

@@ -16,7 +16,7 @@ pub const LEVELS: usize = 2 * DEEPEST;
 const BRACKETS: usize = 500;
 
 /// Tokens of one level while they are counted.
-struct Level {
+struct TokenLevel {
     rest: IntoIter,
     /// The levels around it.
     around: usize,
@@ -39,7 +39,7 @@ enum PrecedingToken {
     Operand,
 }
 
-impl Level {
+impl TokenLevel {
     fn new(tokens: TokenStream, around: usize) -> Self {
         Self { rest: tokens.into_iter(), around, operand: 0, foreign: 0, angles: 0, after: PrecedingToken::Operator }
     }
@@ -86,7 +86,7 @@ fn is_parsed(attribute: &Group) -> bool {
 
 /// The first token that is too deep, if there is one.
 pub fn too_deep(tokens: TokenStream) -> Option<Span> {
-    let mut levels = vec![Level::new(tokens, 0)];
+    let mut levels = vec![TokenLevel::new(tokens, 0)];
     while let Some(level) = levels.last_mut() {
         let Some(token) = level.rest.next() else {
             levels.pop();
@@ -99,7 +99,7 @@ pub fn too_deep(tokens: TokenStream) -> Option<Span> {
             return Some(span);
         }
         if let Some(inner) = inner {
-            levels.push(Level::new(inner, depth + 1));
+            levels.push(TokenLevel::new(inner, depth + 1));
         }
     }
     None

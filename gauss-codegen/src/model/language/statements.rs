@@ -4,12 +4,13 @@
 use super::arguments::{self, brackets, equals, value};
 use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
-use super::declarations::{self, Definition, Kinematics, Names, StateClause};
+use super::declarations::{self, Definition, KinematicsClause, Names, StateClause};
 use super::modes::{self, ModesInput};
 use super::words::{self, Table, same};
 use super::{actions, contacts, own_functions, placements, role_clauses};
 use crate::model::scene::clauses::{
-    BodyClause, ConstraintClause, ConstraintKind, Coordinate, ParticleClause, PointClause, RoleClause, Speed, SpeedPart,
+    BodyClause, ConstraintClause, ConstraintLevel, CoordinateClause, ParticleClause, PointClause, RoleClause, Speed,
+    SpeedPart,
 };
 use crate::model::scene::contacts::ContactClause;
 use crate::model::scene::elements::{ATTRACTION, ClauseForm, ELEMENTS, Row};
@@ -32,9 +33,9 @@ pub struct Statements {
     has_coordinates: bool,
     /// The name of the first clause: where a mistake of the scene as a whole is shown.
     pub first: Option<Ident>,
-    pub coordinates: Option<Names<Coordinate>>,
+    pub coordinates: Option<Names<CoordinateClause>>,
     pub speeds: Option<Names<Speed>>,
-    pub kinematics: Option<Kinematics>,
+    pub kinematics: Option<KinematicsClause>,
     /// States of elements.
     pub states: Vec<StateClause>,
     pub bodies: Vec<BodyClause>,
@@ -159,8 +160,8 @@ const fn statements() -> [(&'static str, Statement); COUNT] {
     all
 }
 
-const CONSTRAINT: &Table<ConstraintKind> =
-    &[("position", ConstraintKind::Position), ("velocity", ConstraintKind::Velocity)];
+const CONSTRAINT: &Table<ConstraintLevel> =
+    &[("position", ConstraintLevel::Position), ("velocity", ConstraintLevel::Velocity)];
 
 /// The clause that `word` is, or that it is a misspelling of.
 pub fn meant(word: &str) -> Option<Statement> {
@@ -506,8 +507,8 @@ fn read_constraint(clause: &Clause, context: &mut Context) -> Option<ConstraintC
         }
         several = true;
         let example = match kind {
-            ConstraintKind::Position => "x - l",
-            ConstraintKind::Velocity => "v - r * w",
+            ConstraintLevel::Position => "x - l",
+            ConstraintLevel::Velocity => "v - r * w",
         };
         let Some(expression) = value(argument, example, context) else { continue };
         read =

@@ -5,9 +5,9 @@ use crate::model::language::statements::Statements;
 use crate::model::language::words::{same, word};
 use crate::model::scene::clauses::{RoleClause, RoleValue};
 use crate::model::scene::contacts::{ContactClause, ContactGeometry, Copies, Counterpart, PointContact};
-use crate::model::scene::elements::{Argument, ArgumentType};
+use crate::model::scene::elements::{ArgumentType, ElementArgument};
 use crate::model::scene::expression::{Expression, ExpressionKind, FunctionName};
-use crate::model::scene::forces::{ForceClause, Value};
+use crate::model::scene::forces::{ArgumentContent, ForceClause};
 use crate::terms::Role;
 
 /// Every expression, with its place; those of constraints and contacts come after the others.
@@ -115,7 +115,7 @@ impl Statements {
         for clause in &mut forces {
             let Some(body) = clause.body().cloned() else { continue };
             for given in clause.given.iter_mut().filter(|given| given.argument.takes == ArgumentType::Point) {
-                if let Value::Expression(at) = &mut given.value
+                if let ArgumentContent::Expression(at) = &mut given.value
                     && let Some(point) = self.own_point(&body, at)
                 {
                     *at = point.at.clone();
@@ -224,13 +224,13 @@ impl ForceClause {
     }
 
     /// Place of the expression of an argument; `None` if it is none.
-    fn place(&self, argument: &Argument, in_chart: bool) -> Option<ExpressionPlace> {
+    fn place(&self, argument: &ElementArgument, in_chart: bool) -> Option<ExpressionPlace> {
         let holder = Holder::Element(self.row);
         Some(match argument.takes {
             ArgumentType::Body | ArgumentType::Other | ArgumentType::Axes => return None,
             ArgumentType::Point if self.body().is_none() => ExpressionPlace::ForcePoint,
             ArgumentType::Point => {
-                let needs_body = |a: &Argument| a.takes == ArgumentType::Body && a.required.is_some();
+                let needs_body = |a: &ElementArgument| a.takes == ArgumentType::Body && a.required.is_some();
                 ExpressionPlace::ForceAt { bound: in_chart || self.row.arguments.iter().any(needs_body) }
             }
             ArgumentType::Force => ExpressionPlace::Force,

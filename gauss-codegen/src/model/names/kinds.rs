@@ -17,7 +17,7 @@ pub fn check(
     scope: &Scope,
     context: &mut Context,
 ) -> Option<ValueKind> {
-    let mut checker = Checker { place, scope, context, differentiated: false, within: None, faulty: false };
+    let mut checker = KindChecker { place, scope, context, differentiated: false, within: None, faulty: false };
     let found = match &expression.kind {
         // Only a whole rate is a twist.
         ExpressionKind::Call(FunctionName::Twist, arguments) if matches!(place, ExpressionPlace::Kinematics(_)) => {
@@ -33,7 +33,7 @@ pub fn check(
     (!checker.faulty).then_some(found)
 }
 
-struct Checker<'a> {
+struct KindChecker<'a> {
     place: ExpressionPlace,
     scope: &'a Scope,
     context: &'a mut Context,
@@ -45,7 +45,7 @@ struct Checker<'a> {
     faulty: bool,
 }
 
-impl Checker<'_> {
+impl KindChecker<'_> {
     /// The kind of an expression; `None` where it cannot be told because something is wrong, which is then noted.
     fn kind(&mut self, expression: &Expression) -> Option<ValueKind> {
         let found = self.kind_of(expression);

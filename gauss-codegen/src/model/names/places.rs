@@ -3,7 +3,7 @@
 use super::scope::Meaning;
 use crate::model::language::kind::ValueKind;
 use crate::model::language::words;
-use crate::model::scene::clauses::{ConstraintKind, CoordinateKind};
+use crate::model::scene::clauses::{ConstraintLevel, CoordinateKind};
 use crate::model::scene::elements::{ElementKind, Row};
 use crate::model::scene::expression::FunctionName;
 use crate::terms::{Role, Shape};
@@ -63,7 +63,7 @@ pub enum ExpressionPlace {
     /// Position of a point in its body.
     At,
     Potential,
-    Constraint(ConstraintKind),
+    Constraint(ConstraintLevel),
     /// Gap of a contact.
     Gap,
     /// Velocity along a tangent of a contact.
@@ -356,7 +356,7 @@ impl ExpressionPlace {
             || matches!(
                 self,
                 ExpressionPlace::Kinematics(_)
-                    | ExpressionPlace::Constraint(ConstraintKind::Velocity)
+                    | ExpressionPlace::Constraint(ConstraintLevel::Velocity)
                     | ExpressionPlace::Slip
             )
     }
@@ -385,8 +385,8 @@ impl ExpressionPlace {
             ExpressionPlace::Role(_) => "a parameter of a body",
             ExpressionPlace::At => "a point of a body",
             ExpressionPlace::Potential => "a potential",
-            ExpressionPlace::Constraint(ConstraintKind::Position) => "a constraint of positions",
-            ExpressionPlace::Constraint(ConstraintKind::Velocity) => "a constraint of velocities",
+            ExpressionPlace::Constraint(ConstraintLevel::Position) => "a constraint of positions",
+            ExpressionPlace::Constraint(ConstraintLevel::Velocity) => "a constraint of velocities",
             ExpressionPlace::Gap => "a gap",
             ExpressionPlace::Slip => "a slip",
             ExpressionPlace::Friction => "a coefficient of friction",
@@ -520,8 +520,8 @@ impl ExpressionPlace {
     pub fn refuses_velocity(self, written: &str) -> Option<String> {
         let remedy = match self {
             place if place.is_action() => return None,
-            ExpressionPlace::Constraint(ConstraintKind::Velocity) | ExpressionPlace::Slip => return None,
-            ExpressionPlace::Constraint(ConstraintKind::Position) => "write `constraint(velocity = …)`",
+            ExpressionPlace::Constraint(ConstraintLevel::Velocity) | ExpressionPlace::Slip => return None,
+            ExpressionPlace::Constraint(ConstraintLevel::Position) => "write `constraint(velocity = …)`",
             ExpressionPlace::Gap | ExpressionPlace::Touching => {
                 "its rate is formed from it; velocities stand in `slip = …`"
             }

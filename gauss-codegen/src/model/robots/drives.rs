@@ -3,9 +3,9 @@
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
-use super::names::Names;
+use super::names::RobotNames;
 use crate::model::language::robots::Inputs;
-use crate::model::scene::clauses::Coordinate;
+use crate::model::scene::clauses::CoordinateClause;
 use crate::terms::{InputKind, InputName};
 use gauss_robots::description::{Description, Drive, JointKind, Note};
 
@@ -25,9 +25,9 @@ pub enum DriveTarget {
 /// The inputs in the order of the file; of efforts that of the joints.
 pub fn inputs(
     description: &Description,
-    coordinates: &[Vec<Coordinate>],
+    coordinates: &[Vec<CoordinateClause>],
     asked: Option<Inputs>,
-    names: &mut Names,
+    names: &mut RobotNames,
 ) -> Vec<RobotInput> {
     let usual = if description.only_driven { Inputs::Transmissions } else { Inputs::All };
     let is_driven =
@@ -55,7 +55,7 @@ pub fn inputs(
 }
 
 /// The controls of some drives, by their names.
-fn controls(description: &Description, which: impl Fn(&Drive) -> bool, names: &mut Names) -> Vec<RobotInput> {
+fn controls(description: &Description, which: impl Fn(&Drive) -> bool, names: &mut RobotNames) -> Vec<RobotInput> {
     let kind = |name: &String| description.joints.iter().find(|joint| joint.name == *name).map(|j| j.kind);
     let drives = description.drives.iter().enumerate().filter(|(_, drive)| which(drive));
     drives

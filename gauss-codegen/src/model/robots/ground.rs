@@ -3,7 +3,7 @@
 use proc_macro2::Ident;
 
 use super::clauses::Robot;
-use super::constant_heights::Level;
+use super::constant_heights::LevelPlane;
 use super::touching::ContactClauses;
 use crate::model::language::context::Context;
 use crate::model::language::ground::Ground;
@@ -21,7 +21,7 @@ pub const WORLD: &str = "world";
 struct Plane<'a> {
     against: Counterpart,
     /// Level of the plane, if numbers say it.
-    level: Option<Level>,
+    level: Option<LevelPlane>,
     of: Option<&'a Collision>,
 }
 
@@ -169,7 +169,7 @@ impl Robot<'_> {
             let place: Triple = std::array::from_fn(|i| at[i] + moved[i]);
             let normal = turned(&matrix, &collision.rotation.map(|row| row[2]));
             let height: f64 = (0..3).map(|i| normal[i] * place[i]).sum();
-            let level = Some(Level { normal, height });
+            let level = Some(LevelPlane { normal, height });
             let is_flat = normal == [0.0, 0.0, 1.0];
             let height = (height != 0.0).then(|| writer.number(height));
             let normal = writer.triple(&normal).filter(|_| !is_flat);
@@ -194,7 +194,7 @@ impl Robot<'_> {
 }
 
 /// The plane that a clause says by numbers, or that through Ω.
-fn level(ground: &Ground) -> Option<Level> {
+fn level(ground: &Ground) -> Option<LevelPlane> {
     let written = match ground.normal.as_ref().map(|normal| &normal.kind) {
         None => Some([0.0, 0.0, 1.0]),
         Some(ExpressionKind::Vector(entries)) => {
@@ -204,7 +204,7 @@ fn level(ground: &Ground) -> Option<Level> {
         Some(_) => None,
     };
     let height = ground.height.as_ref().map_or(Some(0.0), Expression::literal)?;
-    Some(Level { normal: direction(written?)?, height })
+    Some(LevelPlane { normal: direction(written?)?, height })
 }
 
 fn told_of_clear(first: &Collision, count: usize) -> Note {

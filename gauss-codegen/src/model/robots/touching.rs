@@ -7,8 +7,8 @@ use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
 use super::constant_heights::LinkStates;
-use super::joints::Writer;
-use super::names::{self, Names};
+use super::joints::ExpressionWriter;
+use super::names::{self, RobotNames};
 use crate::model::language::ground::Ground;
 use crate::model::language::self_contact::SelfContact;
 use crate::model::language::words::UNNAMED;
@@ -30,8 +30,8 @@ pub struct ContactClauses {
     /// Prefixes of contact names, one for each shape.
     shapes: HashSet<String>,
     /// Names of all that expressions name.
-    names: Names,
-    writer: Writer,
+    names: RobotNames,
+    writer: ExpressionWriter,
 }
 
 /// Points at which a shape touches.
@@ -57,7 +57,7 @@ pub struct LinkPair<'a> {
 
 impl ContactClauses {
     /// Contacts are not to have the names of those that are `taken`.
-    pub fn new(names: Names, taken: impl IntoIterator<Item = Ident>, writer: Writer) -> Self {
+    pub fn new(names: RobotNames, taken: impl IntoIterator<Item = Ident>, writer: ExpressionWriter) -> Self {
         let (points, frames, contacts) = (Vec::new(), Vec::new(), Vec::new());
         let taken = taken.into_iter().map(|name| name.unraw().to_string()).collect();
         Self { points, frames, contacts, taken, shapes: HashSet::new(), names, writer }

@@ -30,9 +30,9 @@ pub struct Row {
     pub noun: &'static str,
     pub form: ClauseForm,
     /// In the order in which messages list them.
-    pub arguments: &'static [Argument],
+    pub arguments: &'static [ElementArgument],
     /// Rules among the arguments.
-    pub rules: &'static [Rule],
+    pub rules: &'static [ArgumentRule],
     /// Words that are refused in a way of their own.
     pub refused: &'static [(&'static str, &'static str)],
     /// All that stands in its brackets.
@@ -51,7 +51,7 @@ impl Eq for Row {}
 
 impl Row {
     /// The argument with this word.
-    pub fn find(&self, word: &str) -> Option<&'static Argument> {
+    pub fn find(&self, word: &str) -> Option<&'static ElementArgument> {
         self.arguments.iter().find(|argument| argument.word == word)
     }
 
@@ -74,7 +74,7 @@ pub enum ClauseForm {
 
 /// One argument.
 #[derive(Clone, Copy)]
-pub struct Argument {
+pub struct ElementArgument {
     pub word: &'static str,
     pub takes: ArgumentType,
     /// Example of a value, for messages.
@@ -83,17 +83,22 @@ pub struct Argument {
     pub required: Option<&'static str>,
 }
 
-impl Argument {
-    const fn optional(word: &'static str, takes: ArgumentType, example: &'static str) -> Argument {
-        Argument { word, takes, example, required: None }
+impl ElementArgument {
+    const fn optional(word: &'static str, takes: ArgumentType, example: &'static str) -> ElementArgument {
+        ElementArgument { word, takes, example, required: None }
     }
 
-    const fn required(word: &'static str, takes: ArgumentType, example: &'static str, what: &'static str) -> Argument {
-        Argument { word, takes, example, required: Some(what) }
+    const fn required(
+        word: &'static str,
+        takes: ArgumentType,
+        example: &'static str,
+        what: &'static str,
+    ) -> ElementArgument {
+        ElementArgument { word, takes, example, required: Some(what) }
     }
 
-    const fn constant(word: &'static str, called: &'static str, unit: Unit, example: &'static str) -> Argument {
-        Argument::optional(word, ArgumentType::Constant { called, unit, law: None }, example)
+    const fn constant(word: &'static str, called: &'static str, unit: Unit, example: &'static str) -> ElementArgument {
+        ElementArgument::optional(word, ArgumentType::Constant { called, unit, law: None }, example)
     }
 
     /// A constant that `kernel()` checks.
@@ -103,13 +108,13 @@ impl Argument {
         unit: Unit,
         example: &'static str,
         law: LawKind,
-    ) -> Argument {
-        Argument::optional(word, ArgumentType::Constant { called, unit, law: Some(law) }, example)
+    ) -> ElementArgument {
+        ElementArgument::optional(word, ArgumentType::Constant { called, unit, law: Some(law) }, example)
     }
 
     /// It may not be left out.
-    const fn needed(self, what: &'static str) -> Argument {
-        Argument { required: Some(what), ..self }
+    const fn needed(self, what: &'static str) -> ElementArgument {
+        ElementArgument { required: Some(what), ..self }
     }
 }
 
@@ -168,7 +173,7 @@ pub enum Unit {
 
 /// Rules among the arguments of an element.
 #[derive(Clone, Copy)]
-pub enum Rule {
+pub enum ArgumentRule {
     /// `along`, or `from` with `to`.
     Extent,
     /// `at` or `body`; `axes` only with `body`.
@@ -214,14 +219,16 @@ use argument::{
     OTHER, QUADRATIC, REACTION, STIFFNESS, TO, TORQUE as OF_TORQUE, VALUE, VISCOUS, WIDTH,
 };
 
-const ON_BODY: Argument = Argument::required(BODY, ArgumentType::Body, "…", "the body that it acts on");
-const ON_OTHER: Argument = Argument::required(OTHER, ArgumentType::Other, "…", "the body on which its reaction acts");
-const IN_AXES: Argument = Argument::optional(AXES, ArgumentType::Axes, "body");
-const FROM_POINT: Argument = Argument::optional(FROM, ArgumentType::End, "arm.position");
-const TO_POINT: Argument = Argument::optional(TO, ArgumentType::End, "[0, 0, h]");
-const ALONG_SCALAR: Argument = Argument::optional(ALONG, ArgumentType::Along, "theta");
-const STIFF: Argument = Argument::checked(STIFFNESS, "stiffness", Unit::ForceByExtent, "k", LawKind::Stiffness);
-const DAMPED: Argument = Argument::checked(DAMPING, "damping", Unit::ForceByRate, "c", LawKind::Damping);
+const ON_BODY: ElementArgument = ElementArgument::required(BODY, ArgumentType::Body, "…", "the body that it acts on");
+const ON_OTHER: ElementArgument =
+    ElementArgument::required(OTHER, ArgumentType::Other, "…", "the body on which its reaction acts");
+const IN_AXES: ElementArgument = ElementArgument::optional(AXES, ArgumentType::Axes, "body");
+const FROM_POINT: ElementArgument = ElementArgument::optional(FROM, ArgumentType::End, "arm.position");
+const TO_POINT: ElementArgument = ElementArgument::optional(TO, ArgumentType::End, "[0, 0, h]");
+const ALONG_SCALAR: ElementArgument = ElementArgument::optional(ALONG, ArgumentType::Along, "theta");
+const STIFF: ElementArgument =
+    ElementArgument::checked(STIFFNESS, "stiffness", Unit::ForceByExtent, "k", LawKind::Stiffness);
+const DAMPED: ElementArgument = ElementArgument::checked(DAMPING, "damping", Unit::ForceByRate, "c", LawKind::Damping);
 
 /// All elements that are force clauses, in the order in which messages list them.
 pub static ELEMENTS: &[&Row] = &[
@@ -246,12 +253,12 @@ pub static FORCE: Row = Row {
     noun: "force",
     form: ClauseForm::Arguments,
     arguments: &[
-        Argument::optional(AT, ArgumentType::Point, "[l, 0, 0]"),
-        Argument::required(VALUE, ArgumentType::Force, "[fx, fy, fz]", "its components"),
-        Argument::optional(BODY, ArgumentType::Body, "…"),
+        ElementArgument::optional(AT, ArgumentType::Point, "[l, 0, 0]"),
+        ElementArgument::required(VALUE, ArgumentType::Force, "[fx, fy, fz]", "its components"),
+        ElementArgument::optional(BODY, ArgumentType::Body, "…"),
         IN_AXES,
     ],
-    rules: &[Rule::Somewhere],
+    rules: &[ArgumentRule::Somewhere],
     refused: &[
         ("force", "the components of a force are its value; write `value = [fx, fy, fz]`"),
         ("torque", "a force with a torque is a wrench; write `wrench(body = …, at = …, force = […], torque = […])`"),
@@ -273,9 +280,9 @@ pub static TORQUE: Row = Row {
     form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
-        Argument::required(VALUE, ArgumentType::Torque, "[mx, my, mz]", "its components"),
+        ElementArgument::required(VALUE, ArgumentType::Torque, "[mx, my, mz]", "its components"),
         IN_AXES,
-        Argument::optional(REACTION, ArgumentType::Other, "…"),
+        ElementArgument::optional(REACTION, ArgumentType::Other, "…"),
     ],
     rules: &[],
     refused: &[
@@ -302,14 +309,17 @@ pub static WRENCH: Row = Row {
     form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
-        Argument::optional(AT, ArgumentType::Point, "[l, 0, 0]"),
-        Argument::optional(OF_FORCE, ArgumentType::Force, "[fx, fy, fz]"),
-        Argument::optional(OF_TORQUE, ArgumentType::Torque, "[mx, my, mz]"),
+        ElementArgument::optional(AT, ArgumentType::Point, "[l, 0, 0]"),
+        ElementArgument::optional(OF_FORCE, ArgumentType::Force, "[fx, fy, fz]"),
+        ElementArgument::optional(OF_TORQUE, ArgumentType::Torque, "[mx, my, mz]"),
         IN_AXES,
     ],
     rules: &[
-        Rule::OneOf([OF_FORCE, OF_TORQUE], "its components; add `force = [fx, fy, fz]`, `torque = [mx, my, mz]`"),
-        Rule::OnlyWith(
+        ArgumentRule::OneOf(
+            [OF_FORCE, OF_TORQUE],
+            "its components; add `force = [fx, fy, fz]`, `torque = [mx, my, mz]`",
+        ),
+        ArgumentRule::OnlyWith(
             [AT, OF_FORCE],
             "a torque has no point: it does the same wherever it acts on its body; add `force = …`, or remove `at`",
         ),
@@ -333,7 +343,7 @@ pub static DRIVE: Row = Row {
     word: "drive",
     noun: "drive",
     form: ClauseForm::Rates,
-    arguments: &[Argument::optional(VALUE, ArgumentType::Drive, "k * theta")],
+    arguments: &[ElementArgument::optional(VALUE, ArgumentType::Drive, "k * theta")],
     rules: &[],
     refused: &[],
     example: "theta = …",
@@ -351,10 +361,10 @@ pub static SPRING: Row = Row {
         TO_POINT,
         ALONG_SCALAR,
         STIFF.needed("its force by elongation"),
-        Argument::constant(LENGTH, "length", Unit::Extent, "l"),
+        ElementArgument::constant(LENGTH, "length", Unit::Extent, "l"),
         DAMPED,
     ],
-    rules: &[Rule::Extent],
+    rules: &[ArgumentRule::Extent],
     refused: &[],
     example: "from = …, to = …, stiffness = k",
     argument: "an argument such as `stiffness = k`",
@@ -370,14 +380,14 @@ pub static STOP: Row = Row {
         FROM_POINT,
         TO_POINT,
         ALONG_SCALAR,
-        Argument::constant(LEAST, "lower limit", Unit::Extent, "a"),
-        Argument::constant(MOST, "upper limit", Unit::Extent, "b"),
+        ElementArgument::constant(LEAST, "lower limit", Unit::Extent, "a"),
+        ElementArgument::constant(MOST, "upper limit", Unit::Extent, "b"),
         STIFF.needed("its force by distance beyond the limit"),
-        Argument::checked(WIDTH, "width", Unit::Extent, "e", LawKind::Width)
+        ElementArgument::checked(WIDTH, "width", Unit::Extent, "e", LawKind::Width)
             .needed("the distance over which it sets in smoothly"),
         DAMPED,
     ],
-    rules: &[Rule::Extent, Rule::OneOf([LEAST, MOST], "a limit; add `least = …`, `most = …`")],
+    rules: &[ArgumentRule::Extent, ArgumentRule::OneOf([LEAST, MOST], "a limit; add `least = …`, `most = …`")],
     refused: &[],
     example: "along = …, least = a, most = b, stiffness = k, width = e",
     argument: "an argument such as `stiffness = k`",
@@ -391,10 +401,10 @@ pub static DRAG: Row = Row {
     form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
-        Argument::optional(LINEAR, ArgumentType::Coefficients(["N s/m", "N m s"]), SIX),
-        Argument::optional(QUADRATIC, ArgumentType::Coefficients(["N s^2/m^2", "N m s^2"]), SIX),
+        ElementArgument::optional(LINEAR, ArgumentType::Coefficients(["N s/m", "N m s"]), SIX),
+        ElementArgument::optional(QUADRATIC, ArgumentType::Coefficients(["N s^2/m^2", "N m s^2"]), SIX),
     ],
-    rules: &[Rule::OneOf([LINEAR, QUADRATIC], "its coefficients; add `linear = …`, `quadratic = …`")],
+    rules: &[ArgumentRule::OneOf([LINEAR, QUADRATIC], "its coefficients; add `linear = …`, `quadratic = …`")],
     refused: &[],
     example: "body = …, linear = …, quadratic = …",
     argument: "an argument such as `linear = d`",
@@ -410,15 +420,15 @@ pub static FRICTION: Row = Row {
         FROM_POINT,
         TO_POINT,
         ALONG_SCALAR,
-        Argument::checked(VISCOUS, "viscous part", Unit::ForceByRate, "d", LawKind::Damping),
-        Argument::checked(DRY, "dry part", Unit::Force, "f", LawKind::NonNegative),
-        Argument::checked(WIDTH, "width", Unit::Rate, "w", LawKind::Width),
+        ElementArgument::checked(VISCOUS, "viscous part", Unit::ForceByRate, "d", LawKind::Damping),
+        ElementArgument::checked(DRY, "dry part", Unit::Force, "f", LawKind::NonNegative),
+        ElementArgument::checked(WIDTH, "width", Unit::Rate, "w", LawKind::Width),
     ],
     rules: &[
-        Rule::Extent,
-        Rule::OneOf([VISCOUS, DRY], "a coefficient; add `viscous = …`, `dry = …` with `width = …`"),
-        Rule::With([DRY, WIDTH], "the speed over which the dry part sets in smoothly"),
-        Rule::OnlyWith([WIDTH, DRY], "the width is that of dry friction; add `dry = …`, or remove `width`"),
+        ArgumentRule::Extent,
+        ArgumentRule::OneOf([VISCOUS, DRY], "a coefficient; add `viscous = …`, `dry = …` with `width = …`"),
+        ArgumentRule::With([DRY, WIDTH], "the speed over which the dry part sets in smoothly"),
+        ArgumentRule::OnlyWith([WIDTH, DRY], "the width is that of dry friction; add `dry = …`, or remove `width`"),
     ],
     refused: &[],
     example: "along = …, viscous = d",
@@ -434,7 +444,7 @@ pub static COUPLING: Row = Row {
     arguments: &[
         ON_BODY,
         ON_OTHER,
-        Argument::checked(VISCOUS, "coefficient", Unit::Is("N m s"), "c", LawKind::Damping)
+        ElementArgument::checked(VISCOUS, "coefficient", Unit::Is("N m s"), "c", LawKind::Damping)
             .needed("its torque by relative angular velocity"),
     ],
     rules: &[],
@@ -453,10 +463,10 @@ pub static TORSIONAL_SPRING: Row = Row {
     arguments: &[
         ON_BODY,
         ON_OTHER,
-        Argument::checked(STIFFNESS, "stiffness", Unit::Is("N m"), "k", LawKind::Stiffness)
+        ElementArgument::checked(STIFFNESS, "stiffness", Unit::Is("N m"), "k", LawKind::Stiffness)
             .needed("its torque by twist"),
-        Argument::constant(ANGLE, "angle", Unit::Is("rad"), "a"),
-        Argument::checked(DAMPING, "damping", Unit::Is("N m s"), "c", LawKind::Damping),
+        ElementArgument::constant(ANGLE, "angle", Unit::Is("rad"), "a"),
+        ElementArgument::checked(DAMPING, "damping", Unit::Is("N m s"), "c", LawKind::Damping),
     ],
     rules: &[],
     refused: &[],
@@ -476,18 +486,18 @@ pub static BUSHING: Row = Row {
     arguments: &[
         ON_BODY,
         ON_OTHER,
-        Argument::optional(
+        ElementArgument::optional(
             STIFFNESS,
             ArgumentType::Matrix { called: "stiffness", units: ["N/m", "N m"], law: LawKind::StiffnessMatrix },
             SIX,
         ),
-        Argument::optional(
+        ElementArgument::optional(
             DAMPING,
             ArgumentType::Matrix { called: "damping", units: ["N s/m", "N m s"], law: LawKind::DampingMatrix },
             SIX,
         ),
     ],
-    rules: &[Rule::OneOf([STIFFNESS, DAMPING], "its coefficients; add `stiffness = …`, `damping = …`")],
+    rules: &[ArgumentRule::OneOf([STIFFNESS, DAMPING], "its coefficients; add `stiffness = …`, `damping = …`")],
     refused: &[],
     example: "body = …, other = …, stiffness = …, damping = …",
     argument: "an argument such as `stiffness = k`",
@@ -499,7 +509,7 @@ pub static DISSIPATION: Row = Row {
     word: "damping",
     noun: "dissipation function",
     form: ClauseForm::Value,
-    arguments: &[Argument::optional(VALUE, ArgumentType::Dissipation, "c * v * v / 2")],
+    arguments: &[ElementArgument::optional(VALUE, ArgumentType::Dissipation, "c * v * v / 2")],
     rules: &[],
     refused: &[],
     example: "c * v * v / 2",
@@ -513,9 +523,9 @@ pub static ATTRACTION: Row = Row {
     noun: "attraction",
     form: ClauseForm::Arguments,
     arguments: &[
-        Argument::checked(MU, "gravitational parameter", Unit::Is("m^3/s^2"), "gm", LawKind::Attraction)
+        ElementArgument::checked(MU, "gravitational parameter", Unit::Is("m^3/s^2"), "gm", LawKind::Attraction)
             .needed("its gravitational parameter"),
-        Argument::optional(CENTER, ArgumentType::Center, "[x, y, z]"),
+        ElementArgument::optional(CENTER, ArgumentType::Center, "[x, y, z]"),
     ],
     rules: &[],
     refused: &[],

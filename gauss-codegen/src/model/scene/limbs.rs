@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use proc_macro2::Ident;
 
-use super::clauses::{BodyClause, Coefficients, Coordinate, CoordinateKind, RoleValue};
+use super::clauses::{BodyClause, Coefficients, CoordinateClause, CoordinateKind, RoleValue};
 use super::expression::{Expression, ExpressionKind};
 use crate::algebra::Rational;
 use crate::terms::Twin;
@@ -38,7 +38,7 @@ struct LimbCandidates {
 
 impl Limbs {
     /// Finds the limbs of a tree, whose numbers become twins where they differ.
-    pub fn found(bodies: &mut [BodyClause], coordinates: &[Coordinate]) -> Self {
+    pub fn found(bodies: &mut [BodyClause], coordinates: &[CoordinateClause]) -> Self {
         let mut limbs = Self::default();
         if coordinates.len() < 2 * JOINTS {
             return limbs;
@@ -51,7 +51,7 @@ impl Limbs {
                 None => roots.push(k),
             }
         }
-        let tree = Tree { bodies, coordinates, children: &children };
+        let tree = LimbTree { bodies, coordinates, children: &children };
         let mut all = Vec::new();
         roots.iter().for_each(|&root| tree.limbs_below(root, &mut all));
         for found in &all {
@@ -98,13 +98,13 @@ impl Limbs {
     }
 }
 
-struct Tree<'a> {
+struct LimbTree<'a> {
     bodies: &'a [BodyClause],
-    coordinates: &'a [Coordinate],
+    coordinates: &'a [CoordinateClause],
     children: &'a HashMap<String, Vec<usize>>,
 }
 
-impl Tree<'_> {
+impl LimbTree<'_> {
     fn children(&self, body: usize) -> &[usize] {
         let name = self.bodies[body].name.as_ref();
         name.and_then(|name| self.children.get(&name.to_string())).map_or(&[], Vec::as_slice)

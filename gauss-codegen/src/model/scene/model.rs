@@ -2,8 +2,8 @@
 //! constraints and forces.
 
 use super::clauses::{
-    BodyClause, Coefficients, ConstraintClause, Coordinate, ParticleClause, PointClause, RoleClause, RoleValue, Speed,
-    SpeedPart, State,
+    BodyClause, Coefficients, ConstraintClause, CoordinateClause, ElementState, ParticleClause, PointClause,
+    RoleClause, RoleValue, Speed, SpeedPart,
 };
 use super::contacts::ContactClause;
 use super::expression::Expression;
@@ -23,7 +23,7 @@ pub struct Model {
     /// place: the first coordinates, speeds and components of ψ are those of its chart.
     pub in_chart: Option<BodyChart>,
     /// The coordinates q, in order; in a chart, those after the chart's.
-    pub coordinates: Vec<Coordinate>,
+    pub coordinates: Vec<CoordinateClause>,
     /// The speeds z, in order; `None` for the rates of the coordinates: ẋ of a scalar, ω (body axes) of a rotation, the
     /// twist (u, ω) (body axes, pole O) of a pose.
     pub speeds: Option<Vec<Speed>>,
@@ -31,7 +31,7 @@ pub struct Model {
     /// scalar for a scalar, ω in body axes for a rotation, a call of [`Twist`](super::FunctionName::Twist) for a pose.
     pub kinematics: Vec<(Ident, Expression)>,
     /// States of elements, in order: components of the configuration behind all others, with rates of their own.
-    pub states: Vec<State>,
+    pub states: Vec<ElementState>,
     /// The bodies and frames, in the order in which they are written: a parent may come after its child.
     pub bodies: Vec<BodyClause>,
     /// The particles of (3.3).

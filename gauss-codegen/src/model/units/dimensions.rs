@@ -86,7 +86,7 @@ impl Dimensions {
     }
 }
 
-pub struct Checker<'a> {
+pub struct UnitChecker<'a> {
     /// Units as they are written, of names.
     pub units: Vec<(&'a Ident, &'a str)>,
     pub names: HashMap<String, Dimensions>,
@@ -95,7 +95,7 @@ pub struct Checker<'a> {
     pub context: &'a mut Context,
 }
 
-impl Checker<'_> {
+impl UnitChecker<'_> {
     pub fn add(&mut self, name: &Ident, value: Dimensions) {
         self.name_as(word(name), value);
     }

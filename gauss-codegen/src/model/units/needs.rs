@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::dimensions::{Checker, Dimensions, InferredDimension};
+use super::dimensions::{Dimensions, InferredDimension, UnitChecker};
 use super::need::{ADDED_MASS, ANGULAR_VELOCITY, ENERGY, FORCE, LENGTH, MASS, Need, POWER, TORQUE, VELOCITY};
 use crate::model::language::context::Context;
 use crate::model::language::fields::ReadField;
@@ -11,7 +11,7 @@ use crate::model::language::units::{self, Dimension, read};
 use crate::model::language::words::{self, PI, TIME, same};
 use crate::model::scene::clauses::CoordinateKind;
 use crate::model::scene::contacts::{ContactClause, ContactGeometry};
-use crate::model::scene::elements::{Argument, ArgumentType, Unit};
+use crate::model::scene::elements::{ArgumentType, ElementArgument, Unit};
 use crate::model::scene::expression::{Expression, ExpressionKind, FunctionName};
 use crate::model::scene::forces::ForceClause;
 use crate::terms::Role;
@@ -28,7 +28,7 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
     if units.is_empty() {
         return;
     }
-    let mut checker = Checker { units, names: HashMap::new(), number: InferredDimension::Number, context };
+    let mut checker = UnitChecker { units, names: HashMap::new(), number: InferredDimension::Number, context };
     checker.name_as(TIME.into(), Dimensions::of(Dimension::TIME));
     checker.name_as(PI.into(), Dimensions::of(Dimension::NONE));
     for field in fields {
@@ -68,7 +68,7 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
     statements.contacts.iter().for_each(|clause| checker.contact(clause));
 }
 
-impl Checker<'_> {
+impl UnitChecker<'_> {
     /// Checks the units of all that moves and of all that has mass.
     pub fn places(&mut self, statements: &Statements) {
         let coordinates = || statements.coordinates.iter().flat_map(|names| &names.names);
@@ -248,7 +248,7 @@ impl Checker<'_> {
     fn need(
         &self,
         clause: &ForceClause,
-        (argument, index): (&Argument, usize),
+        (argument, index): (&ElementArgument, usize),
         extent: Option<&Extent>,
     ) -> Option<Need> {
         let noun = words::a(clause.noun());

@@ -3,7 +3,7 @@
 //! Fog, Instruction tables; checked by `cargo bench -p gauss-benches --bench packs`.
 
 use super::graph::{Id, NOTHING};
-use super::kinds::{InputPlace, LANES, Operation, Step};
+use super::kinds::{InputPlace, LANES, Operation, PackedStep};
 use super::partition::Partition;
 
 /// An addition or a product, of vectors.
@@ -42,11 +42,11 @@ impl Partition<'_> {
         let mut cost = 0;
         for step in steps {
             match step {
-                Step::Instruction(k) => cost += self.single(k, &mut ready, &mut taken_out),
-                Step::Angles(first, count) => {
+                PackedStep::Instruction(k) => cost += self.single(k, &mut ready, &mut taken_out),
+                PackedStep::Angles(first, count) => {
                     cost += (first..first + count).map(|k| self.single(k, &mut ready, &mut taken_out)).sum::<u32>();
                 }
-                Step::Pack(pack) => cost += self.packed(pack, &mut ready, &mut made),
+                PackedStep::Pack(pack) => cost += self.packed(pack, &mut ready, &mut made),
             }
         }
         let chain = self.graph.outputs.iter().map(|&output| self.ready(output, &ready)).max().unwrap_or(0);

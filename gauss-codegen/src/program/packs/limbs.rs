@@ -12,7 +12,7 @@ use crate::algebra::{Key, joined};
 use super::super::code::Code;
 use super::super::instruction::Operand;
 use super::super::order::order_of;
-use super::kinds::{Operation, Step};
+use super::kinds::{Operation, PackedStep};
 use super::{Pack, PackedCode};
 
 /// Relation of an input to a limb.
@@ -171,20 +171,20 @@ impl<S: Copy + Key> Code<S> {
     }
 
     /// Order of the steps: packs, rows of angles and single instructions as a program of its own is ordered.
-    fn steps_of(&self, packs: &[Pack<S>], rows: &[(usize, usize)]) -> Option<Vec<Step>> {
+    fn steps_of(&self, packs: &[Pack<S>], rows: &[(usize, usize)]) -> Option<Vec<PackedStep>> {
         let count = self.instructions.len();
         let of = places(packs, count);
         let mut node_of = vec![usize::MAX; count];
-        let mut steps: Vec<(Step, Vec<usize>)> = Vec::new();
+        let mut steps: Vec<(PackedStep, Vec<usize>)> = Vec::new();
         for k in 0..count {
             if node_of[k] != usize::MAX {
                 continue;
             }
             let row = rows.iter().find(|(first, length)| (*first..first + length).contains(&k));
             let (step, own) = match (of[k], row) {
-                (Some((pack, _)), _) => (Step::Pack(pack), packs[pack].lanes.clone()),
-                (_, Some(&(first, length))) => (Step::Angles(first, length), (first..first + length).collect()),
-                _ => (Step::Instruction(k), vec![k]),
+                (Some((pack, _)), _) => (PackedStep::Pack(pack), packs[pack].lanes.clone()),
+                (_, Some(&(first, length))) => (PackedStep::Angles(first, length), (first..first + length).collect()),
+                _ => (PackedStep::Instruction(k), vec![k]),
             };
             own.iter().for_each(|&k| node_of[k] = steps.len());
             steps.push((step, own));

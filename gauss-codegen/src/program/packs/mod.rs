@@ -24,8 +24,8 @@ use std::ops::Range;
 
 use super::code::Code;
 use super::instruction::Operand;
-use graph::Graph;
-pub(crate) use kinds::{InputPlace, LANES, Operation, Step};
+use graph::InstructionGraph;
+pub(crate) use kinds::{InputPlace, LANES, Operation, PackedStep};
 pub(crate) use limbs::{Leaf, in_place};
 
 /// Instructions of code that is packed. A shorter one is all beginning and end; longer ones, chains of many joints,
@@ -46,7 +46,7 @@ pub(crate) struct Pack<S> {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PackedCode<S> {
     pub packs: Vec<Pack<S>>,
-    pub steps: Vec<Step>,
+    pub steps: Vec<PackedStep>,
 }
 
 impl<S: Copy + PartialEq> Code<S> {
@@ -56,7 +56,7 @@ impl<S: Copy + PartialEq> Code<S> {
         if !LENGTHS.contains(&self.instructions.len()) {
             return None;
         }
-        let (graph, leaves) = Graph::of(self, place, rows);
+        let (graph, leaves) = InstructionGraph::of(self, place, rows);
         let best = search::best(&graph)?;
         let count = self.instructions.len();
         let operand = |&id: &usize| if id < count { Operand::Value(id) } else { leaves[id - count] };
@@ -71,7 +71,7 @@ impl<S: Copy + PartialEq> Code<S> {
             }));
         }
         let steps = best.steps()?.into_iter().map(|step| match step {
-            Step::Pack(pack) => Step::Pack(places[pack]),
+            PackedStep::Pack(pack) => PackedStep::Pack(places[pack]),
             other => other,
         });
         let packed = PackedCode { packs, steps: steps.collect() };
@@ -89,9 +89,9 @@ impl<S: Copy + PartialEq> PackedCode<S> {
         };
         for step in &self.steps {
             let lanes = match *step {
-                Step::Instruction(k) => vec![k],
-                Step::Angles(first, count) => (first..first + count).collect(),
-                Step::Pack(pack) => self.packs[pack].lanes.clone(),
+                PackedStep::Instruction(k) => vec![k],
+                PackedStep::Angles(first, count) => (first..first + count).collect(),
+                PackedStep::Pack(pack) => self.packs[pack].lanes.clone(),
             };
             if !lanes.iter().all(|&k| is_ready(k, &done)) {
                 return false;

@@ -1,7 +1,7 @@
 //! Code of which some is packed: how a pack is added, in which order all is then done.
 
-use super::graph::{Graph, Id, NOTHING};
-use super::kinds::{InputPlace, LANES, Operation, Step};
+use super::graph::{Id, InstructionGraph, NOTHING};
+use super::kinds::{InputPlace, LANES, Operation, PackedStep};
 
 /// A pack, in numbers.
 #[derive(Clone, Copy)]
@@ -26,7 +26,7 @@ impl Lanes {
 /// Code and its packs.
 #[derive(Clone)]
 pub(super) struct Partition<'c> {
-    pub graph: &'c Graph,
+    pub graph: &'c InstructionGraph,
     /// Packs; those that were taken into longer ones are gone.
     pub packs: Vec<Option<Lanes>>,
     /// The pack of an instruction, and its lane.
@@ -37,7 +37,7 @@ pub(super) struct Partition<'c> {
 
 impl<'c> Partition<'c> {
     /// Without packs.
-    pub fn new(graph: &'c Graph) -> Self {
+    pub fn new(graph: &'c InstructionGraph) -> Self {
         let mut partition = Self { graph, packs: Vec::new(), of: vec![None; graph.nodes.len()], cost: 0 };
         partition.cost = partition.counted().unwrap_or(u32::MAX);
         partition
@@ -136,7 +136,7 @@ impl<'c> Partition<'c> {
     }
 
     /// Order of the steps; nothing where packs wait for one another in a circle.
-    pub fn steps(&self) -> Option<Vec<Step>> {
+    pub fn steps(&self) -> Option<Vec<PackedStep>> {
         let count = self.graph.nodes.len();
         let mut visit = Visit { steps: Vec::with_capacity(count), state: vec![VisitState::New; count] };
         (0..count).try_for_each(|k| self.visit(k, &mut visit))?;
@@ -157,14 +157,14 @@ impl<'c> Partition<'c> {
                 let pack = self.packs[index].as_ref()?;
                 count = pack.count;
                 own[..count].copy_from_slice(pack.lanes());
-                Step::Pack(index)
+                PackedStep::Pack(index)
             }
             (_, Some((first, length))) => {
                 count = length.min(own.len());
                 (0..count).for_each(|k| own[k] = first + k);
-                Step::Angles(first, count)
+                PackedStep::Angles(first, count)
             }
-            _ => Step::Instruction(k),
+            _ => PackedStep::Instruction(k),
         };
         for &k in &own[..count] {
             visit.state[k] = VisitState::Begun;
@@ -201,6 +201,6 @@ enum VisitState {
 }
 
 struct Visit {
-    steps: Vec<Step>,
+    steps: Vec<PackedStep>,
     state: Vec<VisitState>,
 }

@@ -116,14 +116,14 @@ fn in_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>) -> Code<S> {
 }
 
 /// Names that are bound, and to what.
-pub(crate) struct Statement {
+pub(crate) struct Binding {
     pattern: TokenStream,
     value: TokenStream,
 }
 
-impl Statement {
-    pub(crate) fn new(pattern: impl ToTokens, value: TokenStream) -> Statement {
-        Statement { pattern: pattern.into_token_stream(), value }
+impl Binding {
+    pub(crate) fn new(pattern: impl ToTokens, value: TokenStream) -> Binding {
+        Binding { pattern: pattern.into_token_stream(), value }
     }
 
     fn bound(self) -> TokenStream {
@@ -160,7 +160,7 @@ fn collect_names(pattern: TokenStream, names: &mut Vec<Ident>) {
 }
 
 /// A line of a program: names that are read behind its block, and a statement unless another line's binds its names.
-pub(crate) type Line = (Vec<Ident>, Option<Statement>);
+pub(crate) type Line = (Vec<Ident>, Option<Binding>);
 
 fn in_this_order<S: Copy>(
     code: &Code<S>,
@@ -216,7 +216,7 @@ fn angles_together<S: Copy>(
     read: &[[bool; 2]],
     function: &TokenStream,
     dialect: &impl Dialect<S>,
-) -> Statement {
+) -> Binding {
     let named = |(k, read): (usize, bool), name: fn(usize) -> Ident| {
         let name = name(first + k);
         if read { quote!(#name) } else { quote!(_) }
@@ -224,7 +224,7 @@ fn angles_together<S: Copy>(
     let part = |part: usize| read[..angles.len()].iter().map(move |read| read[part]).enumerate();
     let (sines, cosines) = (part(0).map(|k| named(k, sine)), part(1).map(|k| named(k, cosine)));
     let angles = angles.iter().map(|angle| operand(angle, dialect));
-    Statement::new(quote!(([#(#sines),*], [#(#cosines),*])), quote!(#function([#(#angles),*])))
+    Binding::new(quote!(([#(#sines),*], [#(#cosines),*])), quote!(#function([#(#angles),*])))
 }
 
 /// One instruction; of a sine and a cosine what is read.
@@ -233,7 +233,7 @@ fn statement<S: Copy>(
     instruction: &Instruction<S>,
     [sine_read, cosine_read]: [bool; 2],
     dialect: &impl Dialect<S>,
-) -> Statement {
+) -> Binding {
     let write = |o: &Operand<S>| operand(o, dialect);
     let binary = |a: &Operand<S>, operator: TokenStream, b: &Operand<S>| {
         let (a, b) = (write(a), write(b));
@@ -278,10 +278,10 @@ fn statement<S: Copy>(
             let (real, a, s, c) = (dialect.functions(), write(a), sine(k), cosine(k));
             let s = if sine_read { quote!(#s) } else { quote!(_) };
             let c = if cosine_read { quote!(#c) } else { quote!(_) };
-            return Statement::new(quote!((#s, #c)), quote!(#real::sin_cos(#a)));
+            return Binding::new(quote!((#s, #c)), quote!(#real::sin_cos(#a)));
         }
     };
-    Statement::new(value(k), result)
+    Binding::new(value(k), result)
 }
 
 /// Whether the sine and the cosine of each instruction are read.
@@ -343,7 +343,7 @@ fn handed_on<S: Copy>(code: &Code<S>, kept: NamedResults, size: usize) -> Vec<Ve
 fn in_functions<S: Copy>(
     code: &Code<S>,
     kept: NamedResults,
-    written: Vec<Option<Statement>>,
+    written: Vec<Option<Binding>>,
     dialect: &impl Dialect<S>,
 ) -> TokenStream {
     let mut statements: Vec<_> = handed_on(code, kept, BLOCK).into_iter().zip(written).collect();
@@ -363,7 +363,7 @@ fn in_functions<S: Copy>(
 /// Statements one after the other, or block by block where there are many.
 pub(crate) fn in_blocks(lines: Vec<Line>) -> TokenStream {
     if lines.len() <= BLOCK {
-        return lines.into_iter().filter_map(|(_, statement)| statement).map(Statement::bound).collect();
+        return lines.into_iter().filter_map(|(_, statement)| statement).map(Binding::bound).collect();
     }
     let (mut blocks, mut left, mut lines) = (TokenStream::new(), lines.len(), lines.into_iter());
     while left > 0 {
@@ -376,7 +376,7 @@ pub(crate) fn in_blocks(lines: Vec<Line>) -> TokenStream {
 /// Lines of which the first has a statement: rows of angles are within one block.
 fn block(lines: impl Iterator<Item = Line>) -> TokenStream {
     let (mut declared, mut statements) = (Vec::new(), TokenStream::new());
-    let mut take = |(statement, is_read): (Statement, bool)| {
+    let mut take = |(statement, is_read): (Binding, bool)| {
         if is_read {
             declared.extend(statement.names());
             statements.extend(statement.assigned());
@@ -385,7 +385,7 @@ fn block(lines: impl Iterator<Item = Line>) -> TokenStream {
         }
     };
     // What binds names of several lines is read where one of these is.
-    let mut open: Option<(Statement, bool)> = None;
+    let mut open: Option<(Binding, bool)> = None;
     for (names, statement) in lines {
         match (statement, &mut open) {
             (Some(statement), _) => open.replace((statement, !names.is_empty())).into_iter().for_each(&mut take),

@@ -7,7 +7,7 @@ use super::{
     Dialect, NamedResults, angles_together, in_order, operand, pairs_read, row_of_angles, rows_of_angles, statement,
     value,
 };
-use crate::program::{Code, InputPlace, Instruction, LANES, Operand, Operation, Pack, PackedCode, Step};
+use crate::program::{Code, InputPlace, Instruction, LANES, Operand, Operation, Pack, PackedCode, PackedStep};
 
 /// Tokens of vectors.
 pub(crate) trait Vectors<S> {
@@ -48,15 +48,15 @@ pub(crate) fn statements<S: Copy + PartialEq>(
     vectors: &impl Vectors<S>,
 ) -> (TokenStream, Vec<TokenStream>) {
     let (read, apart) = (pairs_read(code, NamedResults::AsRead), taken_apart(code, packed));
-    let step = |step: &Step| match *step {
-        Step::Instruction(k) => statement(k, &code.instructions[k], read[k], dialect).bound(),
-        Step::Angles(first, count) => {
+    let step = |step: &PackedStep| match *step {
+        PackedStep::Instruction(k) => statement(k, &code.instructions[k], read[k], dialect).bound(),
+        PackedStep::Angles(first, count) => {
             let (angles, read) = (row_of_angles(code, first), &read[first..]);
             debug_assert_eq!(angles.len(), count, "a row of angles");
             let function = dialect.sines_and_cosines().unwrap_or_default();
             angles_together(first, &angles, read, &function, dialect).bound()
         }
-        Step::Pack(p) => {
+        PackedStep::Pack(p) => {
             let Pack { operation, lanes, operands } = &packed.packs[p];
             let operands = operands.iter().map(|operands| gathered(operands, packed, dialect, vectors));
             let (name, operation, functions) = (vector(p), function(*operation), vectors.functions());
@@ -105,11 +105,11 @@ fn taken_apart<S: Copy + PartialEq>(code: &Code<S>, packed: &PackedCode<S>) -> V
     };
     for step in &packed.steps {
         match *step {
-            Step::Instruction(k) => code.instructions[k].operands().for_each(&mut note),
-            Step::Angles(first, count) => {
+            PackedStep::Instruction(k) => code.instructions[k].operands().for_each(&mut note),
+            PackedStep::Angles(first, count) => {
                 code.instructions[first..first + count].iter().flat_map(Instruction::operands).for_each(&mut note);
             }
-            Step::Pack(p) => {
+            PackedStep::Pack(p) => {
                 let vectors = packed.packs[p].operands.iter();
                 let in_place = |vector: &&Vec<Operand<S>>| matches!(in_one_pack(vector, packed), Some((_, true)));
                 vectors.filter(|vector| !in_place(vector)).flatten().copied().for_each(&mut note);

@@ -20,7 +20,7 @@ use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::mechanics::tidy::sums;
 
 use crate::mechanics::arrangements::balance::{
-    ARRANGEMENTS, Arrangement, Balance, FormalComponents, KineticMatrix, LinearAcceleration, Weight, Weights,
+    ARRANGEMENTS, Balance, BalanceForm, FormalComponents, KineticMatrix, LinearAcceleration, Weight, Weights,
     solve_balance,
 };
 
@@ -244,10 +244,10 @@ impl<'g> FreeLink<'g> {
         self.formed.balances.get_or_init(|| {
             let mut balances = Vec::from(ARRANGEMENTS.map(|arrangement| self.balance(arrangement)));
             if self.adds_momentum() {
-                balances.push(self.balance(Arrangement::Whole));
+                balances.push(self.balance(BalanceForm::Whole));
             }
             if self.matrix.is_coupled(&self.kinematics.active) {
-                balances.push(self.balance(Arrangement::Eliminated));
+                balances.push(self.balance(BalanceForm::Eliminated));
             }
             balances
         })
@@ -264,7 +264,7 @@ impl<'g> FreeLink<'g> {
             let realisation = realisation.get_or_init(|| formal.realisation(&self.kinematics, weights, &load));
             self.residual_of(&Terms { matrix, weights, load: &load, realisation }, &balance)
         };
-        [Arrangement::Structured, Arrangement::Collected].map(residual).into()
+        [BalanceForm::Structured, BalanceForm::Collected].map(residual).into()
     }
 
     /// `R·a_α + M_O·o_α` of the loads other than weight and buoyancy.
@@ -375,7 +375,7 @@ impl<'g> FreeLink<'g> {
         self.project(Pair { linear: named(&pair.linear, &load.linear), angular: named(&pair.angular, &load.angular) })
     }
 
-    fn balance(&self, arrangement: Arrangement) -> Balance<'g> {
+    fn balance(&self, arrangement: BalanceForm) -> Balance<'g> {
         solve_balance(&self.kinematics, &self.matrix, &self.weights, &self.load, &self.formal, arrangement)
     }
 

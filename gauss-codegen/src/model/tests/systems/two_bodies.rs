@@ -2,7 +2,7 @@
 
 use super::super::check;
 use super::system;
-use crate::model::scene::elements::{Argument, ArgumentType, ELEMENTS, Row};
+use crate::model::scene::elements::{ArgumentType, ELEMENTS, ElementArgument, Row};
 
 /// A hull with a mast that is hinged on it and a foot that is fixed in it, a quay and a pier at rest.
 fn boat(clause: &str) -> String {
@@ -30,7 +30,7 @@ fn each(test: impl Fn(&Row, &str, &dyn Fn(&str, &str) -> String)) {
     assert!(count > 0);
 }
 
-fn written(argument: &Argument) -> Option<String> {
+fn written(argument: &ElementArgument) -> Option<String> {
     let value = match argument.takes {
         ArgumentType::Body | ArgumentType::Other | ArgumentType::Axes => return None,
         ArgumentType::Force | ArgumentType::Torque | ArgumentType::Point | ArgumentType::End | ArgumentType::Center => {
