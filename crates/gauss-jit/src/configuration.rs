@@ -31,7 +31,7 @@ enum Part {
     Coordinate,
 }
 
-/// How many groups a configuration may have.
+/// Largest number of groups of a configuration.
 pub const MOST_GROUPS: usize = 32;
 
 impl Groups {
@@ -45,7 +45,7 @@ impl Groups {
         (list.len() <= MOST_GROUPS).then_some(Self(all))
     }
 
-    /// Those of one of two vectors: what was made without a configuration has none.
+    /// Groups of one of two vectors: what was made without a configuration has none.
     fn or(self, other: Self) -> Self {
         if self.0 == 0 { other } else { self }
     }
