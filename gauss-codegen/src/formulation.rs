@@ -16,7 +16,7 @@ use crate::mistakes::{
     system_faults,
 };
 use crate::terms::{self, OptionalMethod};
-use crate::translate::{Parameter, Provenance, Translated};
+use crate::translate::{FieldNumber, Provenance, Translated};
 
 /// A system with its formulas.
 pub struct Formulation<'g> {
@@ -162,7 +162,7 @@ fn derivatives<'g>(
     wanted_of: &terms::KernelOptions,
     system: &System<'g>,
     formulas: &Formulas<'g>,
-    parameters: &[Parameter<'g>],
+    parameters: &[FieldNumber<'g>],
 ) -> (Vec<DerivativeRequest<'g>>, Vec<Expr<'g>>) {
     let linearization = wanted_of.linearize.is_some().then(|| Linearization::new(system, formulas));
     let inverse = wanted_of.inverse.then(|| InverseLinearization::new(system, formulas));
@@ -195,7 +195,7 @@ fn wanted<'g>(kind: DerivativeKind, differentiation: Differentiation<'g>) -> Der
 }
 
 /// The forces of inertia as a linear function of inertial parameters.
-fn regressor<'g>(clause: &Ident, system: &System<'g>, parameters: &[Parameter<'g>]) -> Result<Regressor<'g>> {
+fn regressor<'g>(clause: &Ident, system: &System<'g>, parameters: &[FieldNumber<'g>]) -> Result<Regressor<'g>> {
     let names = names_of(parameters);
     let inertial = InertialParameters::new(system, &names);
     // The system once more, of bodies by their first moments.
@@ -275,7 +275,7 @@ fn leave_out_needless<'g>(provenance: &Provenance<'g>, system: &mut System<'g>) 
 }
 
 /// Names of the numbers of fields, by their symbols.
-fn names_of(parameters: &[Parameter<'_>]) -> Map<u32, String> {
+fn names_of(parameters: &[FieldNumber<'_>]) -> Map<u32, String> {
     parameters.iter().map(|parameter| (parameter.symbol.key(), parameter.name.clone())).collect()
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use crate::accuracy::{DecidingState, Numbers, States, Trial};
+use crate::accuracy::{DecidingState, States, SymbolNumbers, Trial};
 use crate::algebra::{Expr, Rational};
 use crate::error::Result;
 use crate::formulation::Formulation;
@@ -94,7 +94,7 @@ pub fn states<'a, 'g>(formulation: &'a Formulation<'g>) -> States<'a, 'g> {
         units,
         weights: &formulation.weights,
         definitions,
-        numbers: Numbers::default(),
+        numbers: SymbolNumbers::default(),
     };
     states.numbered()
 }

@@ -21,5 +21,5 @@ mod trial;
 
 pub use figure::Figure;
 pub use loss_search::{Forms, LossFigures, LossSearchInput};
-pub use states::{Numbers, Samples, States};
+pub use states::{Samples, States, SymbolNumbers};
 pub use trial::{DecidingState, Loss, Trial, TrialResult};

@@ -24,7 +24,7 @@ pub struct States<'a, 'g> {
     pub weights: &'a [Expr<'g>],
     /// Symbols that stand for expressions of others.
     pub definitions: &'a Map<u32, Expr<'g>>,
-    pub numbers: Numbers,
+    pub numbers: SymbolNumbers,
 }
 
 /// Settings for the choice of a state.
@@ -72,7 +72,7 @@ impl Samples<'_, '_, '_> {
 pub(super) struct Values<'n> {
     list: Vec<(u32, u64)>,
     pub map: Map<u32, f64>,
-    numbers: &'n Numbers,
+    numbers: &'n SymbolNumbers,
 }
 
 impl Values<'_> {
@@ -443,9 +443,9 @@ impl<'g> SceneTerms<'g> {
 /// A number for each symbol that is given: what it is for, and its place among those that are for the same. All choices
 /// depend on it, never on a name, which says nothing of the motion.
 #[derive(Default)]
-pub struct Numbers(Map<u32, u64>);
+pub struct SymbolNumbers(Map<u32, u64>);
 
-impl Numbers {
+impl SymbolNumbers {
     fn give<'g>(&mut self, role: u64, symbols: impl IntoIterator<Item = Expr<'g>>) {
         for (place, symbol) in (0..).zip(symbols) {
             // What is for several things keeps its first number.

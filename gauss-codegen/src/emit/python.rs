@@ -8,7 +8,7 @@ use crate::emit::derived::Derived;
 use crate::emit::records::record::Part;
 use crate::emit::records::{input, state};
 use crate::methods::DerivativeKind;
-use crate::terms::{Field, OptionalMethod, Remark, Scalar};
+use crate::terms::{Field, FileRemark, OptionalMethod, Scalar};
 use crate::words::Unraw;
 
 /// The call; nothing where no Python is wanted.
@@ -25,7 +25,7 @@ pub fn scene(derived: &Derived<'_, '_>) -> TokenStream {
     let [coordinates, speeds, inputs] = parts(derived).map(|parts| parts.iter().map(part).collect::<Vec<_>>());
     let (offers, steps) = (offers(derived), steps(derived));
     let remarks = item.described.iter().flat_map(|file| &file.remarks);
-    let remarks = remarks.map(|Remark { text, ignored }| {
+    let remarks = remarks.map(|FileRemark { text, ignored }| {
         let text = without_rust(text);
         quote!(#text #ignored;)
     });

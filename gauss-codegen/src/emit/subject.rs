@@ -146,7 +146,7 @@ impl<'g> Subject<'_, 'g> {
         self.configuration_of(private, &values.collect::<Vec<_>>())
     }
 
-    /// Where each component of an increment of the configuration is among those in the order of the coordinates:
+    /// Places of the components of an increment of the configuration among those in the order of the coordinates:
     /// groups come first, then all scalars.
     pub fn increment_places(&self) -> Vec<usize> {
         let mut next = 0;

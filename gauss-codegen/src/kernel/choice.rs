@@ -22,7 +22,7 @@ pub enum Aim {
 }
 
 /// An arrangement with its program.
-pub(super) struct Lowered<'g> {
+pub(super) struct LoweredForm<'g> {
     pub outputs: Vec<Expr<'g>>,
     hoisted: Vec<Expr<'g>>,
     pub program: Program<'g>,
@@ -30,7 +30,7 @@ pub(super) struct Lowered<'g> {
 
 /// Arrangements as programs, with what they lose and which is the best of them.
 pub(super) struct Pool<'g> {
-    pub lowered: Vec<Lowered<'g>>,
+    pub lowered: Vec<LoweredForm<'g>>,
     pub tried: TrialResult,
     pub best: usize,
 }
@@ -64,7 +64,7 @@ impl<'g> Candidates<'g> {
     pub(super) fn taken(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Choice<'g> {
         let Pool { mut lowered, tried, best } = Pool::of(&self.arrangements, self.aim, hoister, Hoister::hoist, trial);
         let first = Some(lowered[0].outputs.clone()).filter(|_| tried.usable()[0]);
-        let Lowered { outputs, program, .. } = lowered.swap_remove(best);
+        let LoweredForm { outputs, program, .. } = lowered.swap_remove(best);
         let loss = tried.losses[best].clone();
         // A power series has a recurrence for every product, and takes a negation of an addend for an instruction like
         // any other.
@@ -111,13 +111,13 @@ impl<'g> Pool<'g> {
     ) -> Self {
         let of_derivatives = trial.decides_derivatives();
         let mut lowered = Vec::new();
-        let mut add = |arrangements: &[Vec<Expr<'g>>], lowered: &mut Vec<Lowered<'g>>| {
+        let mut add = |arrangements: &[Vec<Expr<'g>>], lowered: &mut Vec<LoweredForm<'g>>| {
             for outputs in arrangements {
                 let hoisted = hoist(hoister, outputs);
                 // Those that are the same once constants are hoisted, once.
                 if lowered.iter().all(|other| other.hoisted != hoisted) {
                     let program = Program::lower(&hoisted);
-                    lowered.push(Lowered { outputs: outputs.clone(), hoisted, program });
+                    lowered.push(LoweredForm { outputs: outputs.clone(), hoisted, program });
                 }
             }
             trial.define(hoister.constants());

@@ -3,7 +3,7 @@
 use crate::accuracy::Trial;
 use crate::algebra::Expr;
 
-use super::choice::{Aim, Lowered as Arranged, Pool, programs_of};
+use super::choice::{Aim, LoweredForm, Pool, programs_of};
 use super::columns::{Columns, LoweredColumns};
 use super::expected_outputs::{ExpectedOutputs, OutputSelection};
 use super::hoist::Hoister;
@@ -51,7 +51,7 @@ impl<'g> DirectionalDerivatives<'g> {
         let usable = if trial.decides_derivatives() { vec![true; lowered.len()] } else { tried.usable() };
         let tried = tried.only(&usable);
         let of_usable = lowered.into_iter().zip(usable).filter(|(_, usable)| *usable);
-        let of_usable = of_usable.map(|(Arranged { outputs, program, .. }, _)| {
+        let of_usable = of_usable.map(|(LoweredForm { outputs, program, .. }, _)| {
             (differentiate(&program, (&self.defined, &definitions), &self.directions), outputs)
         });
         let mut of_usable: Vec<_> = of_usable.collect();

@@ -73,13 +73,13 @@ pub fn implicit_tangents<'g>(
     let (solution_places, _) = writer.copy(implicit.solution, &none);
     let mut outputs = Vec::new();
     for direction in directions {
-        let mut pass = Pass::new(&mut writer, explicit, &none, &explicit_places);
+        let mut pass = TangentPass::new(&mut writer, explicit, &none, &explicit_places);
         pass.set_out(direction);
         outputs.extend(pass.outputs());
-        let mut pass = Pass::new(&mut writer, implicit.residual, &unknowns, &residual_places);
+        let mut pass = TangentPass::new(&mut writer, implicit.residual, &unknowns, &residual_places);
         pass.set_out(direction);
         let changes = pass.tangents();
-        let mut pass = Pass::new(&mut writer, implicit.solution, &none, &solution_places);
+        let mut pass = TangentPass::new(&mut writer, implicit.solution, &none, &solution_places);
         let loads = implicit.loads.iter().zip(changes);
         pass.rates = loads.map(|(symbol, rate)| (symbol.key(), rate.map(Tangent::negated))).collect();
         outputs.extend(pass.outputs());
@@ -100,7 +100,7 @@ fn differentiated<'g>(
     let (places, outputs) = writer.copy(program, &symbols);
     let mut tangents = Vec::new();
     for direction in directions {
-        let mut pass = Pass::new(&mut writer, program, &symbols, &places);
+        let mut pass = TangentPass::new(&mut writer, program, &symbols, &places);
         pass.set_out(direction);
         tangents.extend(pass.outputs());
     }
@@ -252,7 +252,7 @@ pub(super) fn moved<'g>(operand: Operand<'g>, places: &[usize], symbols: &Map<u3
 }
 
 /// The derivatives of one program along one direction.
-pub(super) struct Pass<'a, 'g> {
+pub(super) struct TangentPass<'a, 'g> {
     pub(super) writer: &'a mut InstructionWriter<'g>,
     pub(super) program: &'a Program<'g>,
     symbols: &'a Map<u32, Operand<'g>>,
@@ -261,7 +261,7 @@ pub(super) struct Pass<'a, 'g> {
     pub(super) rates: Map<u32, Rate<'g>>,
 }
 
-impl<'a, 'g> Pass<'a, 'g> {
+impl<'a, 'g> TangentPass<'a, 'g> {
     pub(super) fn new(
         writer: &'a mut InstructionWriter<'g>,
         program: &'a Program<'g>,

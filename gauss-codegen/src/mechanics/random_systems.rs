@@ -32,8 +32,8 @@ use dense::largest;
 use expectation::{Expectation, Reduction, of_reduced, of_whole};
 use numbers::below;
 use plan::{Plan, SpeedChoice, TreeShape};
-use scene::Symbols;
-use witness::{Witness, WitnessState, residuals};
+use scene::PlanSymbols;
+use witness::{DenseWitness, WitnessState, residuals};
 
 /// Roundings, beside the largest output, beyond which a comparison would say little: it is left out.
 const BLIND: f64 = 1e-5;
@@ -45,7 +45,7 @@ struct FormulaPrograms<'g> {
 }
 
 impl<'g> FormulaPrograms<'g> {
-    fn new(graph: &'g Graph, symbols: &Symbols<'g>, formulas: &Formulas<'g>, what: &str) -> Self {
+    fn new(graph: &'g Graph, symbols: &PlanSymbols<'g>, formulas: &Formulas<'g>, what: &str) -> Self {
         let alone = |outputs: &Vec<Expr<'g>>| Candidates::of_values(vec![outputs.clone()]);
         let mut further = Vec::new();
         let mut functions = formulas.each_ref().map(|method, arrangements| {
@@ -63,7 +63,7 @@ impl<'g> FormulaPrograms<'g> {
     }
 
     /// All that programs read at a state.
-    fn inputs(&self, symbols: &Symbols<'g>, state: &WitnessState) -> Map<u32, f64> {
+    fn inputs(&self, symbols: &PlanSymbols<'g>, state: &WitnessState) -> Map<u32, f64> {
         let mut at = self.constants.clone();
         at.extend(symbols.parameters.iter().map(|(&key, &value)| (key, value)));
         at.insert(symbols.time.key(), state.time);
@@ -122,7 +122,7 @@ fn random_values(random: &mut Random, count: usize) -> Vec<f64> {
 fn usable_states(plan: &Plan, random: &mut Random) -> Vec<WitnessState> {
     let drawn = (0..24).map(|_| WitnessState::random(plan, random));
     let conditioned = drawn.filter_map(|state| {
-        let witness = Witness::new(plan, &state)?;
+        let witness = DenseWitness::new(plan, &state)?;
         let condition = witness.saddle.condition * witness.sizes.condition;
         (condition < 1e6).then_some((condition, state))
     });
@@ -136,7 +136,7 @@ fn check_whole(plan: &Plan, random: &mut Random, regrouped: bool, what: &str) ->
     let states = usable_states(plan, random);
     let [first, second, ..] = states.as_slice() else { return false };
     let graph = Graph::new();
-    let symbols = Symbols::new(&graph, plan);
+    let symbols = PlanSymbols::new(&graph, plan);
     let all: Vec<usize> = (0..plan.speeds).collect();
     let system = System::new(symbols.scene(plan, &symbols.speeds, &all, regrouped));
     let formulas = formulas_of(&system);
@@ -146,7 +146,7 @@ fn check_whole(plan: &Plan, random: &mut Random, regrouped: bool, what: &str) ->
     let compiled = FormulaPrograms::new(&graph, &symbols, &formulas, what);
     let mut told = false;
     for state in [first, second] {
-        let witness = Witness::new(plan, state).expect("a usable state");
+        let witness = DenseWitness::new(plan, state).expect("a usable state");
         let rates = random_values(random, plan.speeds);
         let wanted = random_values(random, plan.constraints.len());
         let mut at = compiled.inputs(&symbols, state);
@@ -250,7 +250,7 @@ fn trees_move_as_the_minimiser_regrouped_or_not() {
 /// Eliminated and whole at one state that satisfies the constraints.
 fn check_elimination(plan: &Plan, random: &mut Random, what: &str) -> bool {
     let states = usable_states(plan, random);
-    let Some(reduction) = states.first().and_then(|state| Reduction::choose(&Witness::new(plan, state)?)) else {
+    let Some(reduction) = states.first().and_then(|state| Reduction::choose(&DenseWitness::new(plan, state)?)) else {
         return false;
     };
     let states: Vec<WitnessState> =
@@ -259,7 +259,7 @@ fn check_elimination(plan: &Plan, random: &mut Random, what: &str) -> bool {
         return false;
     }
     let graph = Graph::new();
-    let symbols = Symbols::new(&graph, plan);
+    let symbols = PlanSymbols::new(&graph, plan);
     let all: Vec<usize> = (0..plan.speeds).collect();
     let whole = System::new(symbols.scene(plan, &symbols.speeds, &all, true));
     let residual_symbols = whole.constraints.residuals.clone();
@@ -273,7 +273,7 @@ fn check_elimination(plan: &Plan, random: &mut Random, what: &str) -> bool {
     let compiled = FormulaPrograms::new(&graph, &symbols, &formulas, what);
     let mut told = false;
     for state in states {
-        let witness = Witness::new(plan, &state).expect("a usable state");
+        let witness = DenseWitness::new(plan, &state).expect("a usable state");
         let rates = random_values(random, reduction.kept.len());
         let wanted = random_values(random, plan.constraints.len());
         let Some(expected) = of_reduced(&witness, plan, &reduction, &rates, &wanted) else { continue };

@@ -22,6 +22,6 @@ pub use inputs::{InputKind, InputName};
 pub use item::{Field, Generics, Item, Scalar};
 pub use kernel_options::{KernelOptions, OptionalMethod, ReactionJoint};
 pub use laws::LawKind;
-pub use robot_file::{BodyOfFile, Remark, RobotFile, StateOfFile, ValueOfState};
+pub use robot_file::{BodyOfFile, FileRemark, RobotFile, StateOfFile, ValueOfState};
 pub use roles::{Role, Shape};
 pub use twins::Twin;

@@ -13,7 +13,7 @@ pub struct RobotFile {
     /// The string of the clause.
     pub span: Span,
     /// Remarks on the file for a reader of the equations.
-    pub remarks: Vec<Remark>,
+    pub remarks: Vec<FileRemark>,
     /// Names of the bodies and frames in the file, where they differ from those here.
     pub called: Vec<(Ident, String)>,
     /// Bodies that are fields, with the mass data of the file.
@@ -54,7 +54,7 @@ pub enum ValueOfState {
 
 /// Something to know of a file, with its place in it.
 #[derive(Clone)]
-pub struct Remark {
+pub struct FileRemark {
     pub text: String,
     /// Something that acts in the file does not act in the equations.
     pub ignored: bool,

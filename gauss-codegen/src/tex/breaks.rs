@@ -10,7 +10,7 @@ pub struct FormulaPart {
     pub tex: String,
     pub width: f64,
     /// Joint between it and the part before it in one line.
-    pub joint: Joint,
+    pub joint: PartJoint,
     /// Brackets that are open where it begins.
     pub level: usize,
     /// It begins a line: the first part of a term that is longer than one.
@@ -19,7 +19,7 @@ pub struct FormulaPart {
 
 /// Joints between two parts in one line, and the begin of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Joint {
+pub enum PartJoint {
     /// A sign of a sum, which the part begins with, or a sign of equality.
     Sign,
     /// `\,`; a line begins with `\cdot`.
@@ -28,22 +28,22 @@ pub enum Joint {
     Nothing,
 }
 
-impl Joint {
+impl PartJoint {
     /// In one line.
     pub fn within(self) -> (&'static str, f64) {
         match self {
-            Joint::Sign => (" ", 2.3),
-            Joint::Product => (" \\, ", 3.4),
-            Joint::Nothing => (" ", 1.7),
+            PartJoint::Sign => (" ", 2.3),
+            PartJoint::Product => (" \\, ", 3.4),
+            PartJoint::Nothing => (" ", 1.7),
         }
     }
 
     /// At the begin of a line.
     pub fn at_begin(self) -> (&'static str, f64) {
         match self {
-            Joint::Product => (" \\cdot ", 7.4),
-            Joint::Sign => (" ", 2.3),
-            Joint::Nothing => (" ", 0.0),
+            PartJoint::Product => (" \\cdot ", 7.4),
+            PartJoint::Sign => (" ", 2.3),
+            PartJoint::Nothing => (" ", 0.0),
         }
     }
 }
@@ -63,7 +63,7 @@ struct SurroundingText {
 /// Parts of a formula, none wider than a line of that room, as far as it can be broken.
 pub fn parts(row: &[Piece<'_>], room: f64) -> Vec<FormulaPart> {
     let mut breaker = Breaker { room, parts: Vec::new() };
-    breaker.sum(row, 0, Joint::Sign, &SurroundingText::default());
+    breaker.sum(row, 0, PartJoint::Sign, &SurroundingText::default());
     breaker.parts
 }
 
@@ -123,13 +123,13 @@ impl Breaker {
         self.room - QUAD * level.min(DEEPEST) as f64
     }
 
-    fn push(&mut self, tex: &str, width: f64, (joint, level): (Joint, usize), around: &SurroundingText) {
+    fn push(&mut self, tex: &str, width: f64, (joint, level): (PartJoint, usize), around: &SurroundingText) {
         let tex = format!("{}{tex}{}", around.before, around.after);
         let width = around.width[0] + width + around.width[1];
         self.parts.push(FormulaPart { tex, width, joint, level, begins: false });
     }
 
-    fn sum(&mut self, row: &[Piece<'_>], level: usize, joint: Joint, around: &SurroundingText) {
+    fn sum(&mut self, row: &[Piece<'_>], level: usize, joint: PartJoint, around: &SurroundingText) {
         let terms = terms(row);
         let count = terms.len();
         if row.is_empty() {
@@ -140,8 +140,8 @@ impl Breaker {
             let after_comma = k > 0 && !matches!(term[0].kind, PieceKind::Sign | PieceKind::Equals);
             let joint = match (k, after_comma) {
                 (0, _) => joint,
-                (_, true) => Joint::Nothing,
-                (_, false) => Joint::Sign,
+                (_, true) => PartJoint::Nothing,
+                (_, false) => PartJoint::Sign,
             };
             let begin = self.parts.len();
             // Signs have what is written after them on both sides.
@@ -154,7 +154,7 @@ impl Breaker {
         }
     }
 
-    fn product(&mut self, term: &[Piece<'_>], level: usize, joint: Joint, around: &SurroundingText) {
+    fn product(&mut self, term: &[Piece<'_>], level: usize, joint: PartJoint, around: &SurroundingText) {
         let sign = usize::from(matches!(term[0].kind, PieceKind::Sign | PieceKind::Equals));
         let mut around = around.clone();
         if sign == 1 {
@@ -194,12 +194,12 @@ impl Breaker {
                 self.factor(factors[end], level, joint, &own);
                 begin = end + 1;
             }
-            joint = Joint::Product;
+            joint = PartJoint::Product;
         }
     }
 
     /// One that does not fit: its last piece is what is broken.
-    fn factor(&mut self, factor: &[Piece<'_>], level: usize, joint: Joint, around: &SurroundingText) {
+    fn factor(&mut self, factor: &[Piece<'_>], level: usize, joint: PartJoint, around: &SurroundingText) {
         let broken = factor.iter().rposition(|piece| {
             matches!(piece.kind, PieceKind::Bracket { .. } | PieceKind::Fraction(_) | PieceKind::Root(_))
         });
@@ -236,7 +236,7 @@ impl Breaker {
         inside: &[Piece<'_>],
         [open, close]: [&str; 2],
         (scripts, scripts_width): (String, f64),
-        (level, joint): (usize, Joint),
+        (level, joint): (usize, PartJoint),
         around: &SurroundingText,
     ) {
         let size = ["big", "bigg", "Bigg"][fractions(inside).min(2)];
@@ -249,7 +249,13 @@ impl Breaker {
     }
 
     /// A product with the reciprocal of a short denominator, else a quotient of brackets.
-    fn fraction(&mut self, [above, below]: &[Vec<Piece<'_>>; 2], level: usize, joint: Joint, around: &SurroundingText) {
+    fn fraction(
+        &mut self,
+        [above, below]: &[Vec<Piece<'_>>; 2],
+        level: usize,
+        joint: PartJoint,
+        around: &SurroundingText,
+    ) {
         if width(below) <= self.room(level) / 2.0 {
             let mut own = around.clone();
             own.before = format!("{}\\frac{{1}}{{{}}} \\, ", own.before, tex(below));
@@ -263,11 +269,11 @@ impl Breaker {
             after: around.after.clone(),
             width: [9.0, around.width[1]],
         };
-        self.grouped(below, level, Joint::Nothing, &second);
+        self.grouped(below, level, PartJoint::Nothing, &second);
     }
 
     /// In brackets where it is a sum; in brackets of its own where it is a product behind a stroke.
-    fn grouped(&mut self, row: &[Piece<'_>], level: usize, joint: Joint, around: &SurroundingText) {
+    fn grouped(&mut self, row: &[Piece<'_>], level: usize, joint: PartJoint, around: &SurroundingText) {
         let sum = terms(row).len() > 1;
         let behind = around.before.ends_with("/ ") && factors(row).len() > 1;
         if sum || behind {

@@ -1,6 +1,6 @@
 //! Equations as `align*` environments, no line wider than a page of 16 cm.
 
-use super::breaks::{DEEPEST, FormulaPart, Joint, QUAD, parts};
+use super::breaks::{DEEPEST, FormulaPart, PartJoint, QUAD, parts};
 use super::read::{PieceKind, read};
 use super::width::width;
 
@@ -76,7 +76,7 @@ impl<'a> Sides<'a> {
             first.width += EQUALS;
             first.begins = true;
         }
-        let total: f64 = all.iter().chain(&right).map(|part| part.width + Joint::Sign.within().1).sum();
+        let total: f64 = all.iter().chain(&right).map(|part| part.width + PartJoint::Sign.within().1).sum();
         if total <= room {
             all.iter_mut().chain(&mut right).for_each(|part| part.begins = false);
         }

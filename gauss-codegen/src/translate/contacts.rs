@@ -75,22 +75,14 @@ impl<'g> Translator<'_, 'g> {
                 rolls: written.rolling.is_some(),
             };
             let rolling = coefficient(&written.rolling, LawKind::Friction, "rolling")?;
-            let form = |gap, slips| ContactForm {
-                gap,
-                slips,
-                spin: None,
-                rolls: Vec::new(),
-                frame: None,
-                bodies: [None, None],
-            };
             let forms = match &written.touching {
                 ContactGeometry::Gap { gap, slips, spin, rolls } => {
                     let spin = spin.as_ref().map(|spin| self.scalar(spin, tree)).transpose()?;
                     let spin = asked.drilling.zip(spin).map(|(radius, spin)| radius * spin);
                     let (gap, slips) = (Some(self.scalar(gap, tree)?), self.slips(slips, tree)?);
-                    vec![ContactForm { spin, rolls: self.slips(rolls, tree)?, ..form(gap, slips) }]
+                    vec![ContactForm { spin, rolls: self.slips(rolls, tree)?, ..ContactForm::new(gap, slips) }]
                 }
-                ContactGeometry::Slip { slips, .. } => vec![form(None, self.slips(slips, tree)?)],
+                ContactGeometry::Slip { slips, .. } => vec![ContactForm::new(None, self.slips(slips, tree)?)],
                 ContactGeometry::Point(contact) => self.shape(&name, contact, &asked, tree)?,
                 ContactGeometry::Range { along, from, to } => {
                     let x = self.scalar(along, tree)?;
@@ -100,7 +92,7 @@ impl<'g> Translator<'_, 'g> {
                         self.note(LawKind::Limits, (&name, ""), e, vec![least, most]);
                     }
                     let gaps = least.map(|least| x - least).into_iter().chain(most.map(|most| most - x));
-                    gaps.map(|gap| form(Some(gap), Vec::new())).collect()
+                    gaps.map(|gap| ContactForm::new(Some(gap), Vec::new())).collect()
                 }
             };
             let forms = forms.into_iter().map(|form| self.named(form, written)).collect::<Vec<_>>();

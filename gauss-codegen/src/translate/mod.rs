@@ -43,8 +43,8 @@ mod values;
 
 pub use drag::DragMatrix;
 pub use laws::Law;
-pub use parameters::Parameter;
-pub use state::{Quantity, QuantityKind};
+pub use parameters::FieldNumber;
+pub use state::{NamedQuantity, QuantityKind};
 pub use symbols::{FieldPart, ParameterSource};
 pub use translated::{BodyData, ClauseValue, ConstraintPlace, IndependentSpeeds, Provenance, SpannedName, Translated};
 pub use translator::translate;

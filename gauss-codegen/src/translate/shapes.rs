@@ -35,6 +35,13 @@ pub(super) struct ContactForm<'g> {
     pub(super) bodies: [Option<String>; 2],
 }
 
+impl<'g> ContactForm<'g> {
+    /// A contact without drilling and rolling, of which no more is known.
+    pub(super) fn new(gap: Option<Expr<'g>>, slips: Slips<'g>) -> Self {
+        Self { gap, slips, spin: None, rolls: Vec::new(), frame: None, bodies: [None, None] }
+    }
+}
+
 /// Friction that a contact is to have.
 pub(super) struct FrictionSpec<'g> {
     pub(super) rubs: bool,
@@ -255,14 +262,7 @@ impl<'g> Translator<'_, 'g> {
         let gap = Some(facing.gap - depth);
         let mut frame = ContactFrame { point: add(&part.position, &arm), axes: vec![*n] };
         if facing.tangents.is_empty() {
-            return Ok(ContactForm {
-                gap,
-                slips: Vec::new(),
-                spin: None,
-                rolls: Vec::new(),
-                frame: Some(frame),
-                bodies: [None, None],
-            });
+            return Ok(ContactForm { frame: Some(frame), ..ContactForm::new(gap, Vec::new()) });
         }
         let velocity = subtract(&self.velocity_at(part, &arm, tree), &facing.velocity);
         let slips = facing.tangents.iter().map(|tangent| dot(tangent, &velocity));

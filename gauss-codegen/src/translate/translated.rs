@@ -9,8 +9,8 @@ use crate::words::Unraw;
 
 use super::drag::DragMatrix;
 use super::laws::Law;
-use super::parameters::Parameter;
-use super::state::Quantity;
+use super::parameters::FieldNumber;
+use super::state::NamedQuantity;
 use super::symbols::ParameterSource;
 
 /// A system in symbols.
@@ -27,7 +27,7 @@ pub struct Provenance<'g> {
     /// Places where the symbols of parameters are read.
     pub sources: Vec<ParameterSource<'g>>,
     /// The numbers of fields.
-    pub parameters: Vec<Parameter<'g>>,
+    pub parameters: Vec<FieldNumber<'g>>,
     /// Literal numbers that symbols stand for.
     pub literals: Vec<(Rational, Expr<'g>)>,
     /// Symbols of limbs that are alike.
@@ -47,7 +47,7 @@ pub struct Provenance<'g> {
     /// Names of the speeds.
     pub speeds: Vec<SpannedName>,
     /// Coordinates and speeds of a state.
-    pub state: [Vec<Quantity>; 2],
+    pub state: [Vec<NamedQuantity>; 2],
     /// The declared coordinates, where their rates are written. Those of a chart come before them.
     pub rates: Vec<SpannedName>,
     /// Clause by clause.

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{quote, quote_spanned};
 
-use crate::terms::{Generics, Item, Remark, RobotFile};
+use crate::terms::{FileRemark, Generics, Item, RobotFile};
 
 use crate::emit::derived::Derived;
 
@@ -14,10 +14,10 @@ pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
     let Some(RobotFile { paths, span, remarks, .. }) = &derived.item().described else {
         return quote!(#(const _: &[::core::primitive::u8] = ::core::include_bytes!(#tracked);)*);
     };
-    let ignored: Vec<&Remark> = remarks.iter().filter(|remark| remark.ignored).collect();
+    let ignored: Vec<&FileRemark> = remarks.iter().filter(|remark| remark.ignored).collect();
     // The compiler warns of what is deprecated, in the words of its note and with its name; macros have no other way
     // to. Only at a token of the user's: what a macro brings along is not warned of.
-    let warning = |(n, Remark { text, .. }): (usize, &&Remark)| {
+    let warning = |(n, FileRemark { text, .. }): (usize, &&FileRemark)| {
         let number = if ignored.len() > 1 { format!("_{}", n + 1) } else { String::new() };
         let [name, told] = ["NOT_IN_THE_EQUATIONS", "TOLD"].map(|name| Ident::new(&format!("{name}{number}"), *span));
         quote_spanned! {*span=>

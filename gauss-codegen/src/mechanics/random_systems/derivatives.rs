@@ -10,7 +10,7 @@ use crate::mechanics::system::System;
 use crate::mechanics::tests::Random;
 
 use super::plan::{Plan, SpeedChoice, TreeShape};
-use super::scene::Symbols;
+use super::scene::PlanSymbols;
 use super::usable_states;
 use super::witness::WitnessState;
 
@@ -19,7 +19,7 @@ use super::witness::WitnessState;
 const AGREEMENT: f64 = 1e-50;
 
 /// All that expressions read, with quaternions whose norm is 1 to the last of many digits.
-fn point<'g>(symbols: &Symbols<'g>, system: &System<'g>, state: &WitnessState) -> Map<u32, Precise> {
+fn point<'g>(symbols: &PlanSymbols<'g>, system: &System<'g>, state: &WitnessState) -> Map<u32, Precise> {
     let mut at: Map<u32, Precise> =
         symbols.parameters.iter().map(|(&key, &value)| (key, Precise::number(value))).collect();
     let mut give = |symbols: &[Expr<'g>], values: &[f64]| {
@@ -44,7 +44,7 @@ fn check(plan: &Plan, random: &mut Random, twice: bool, what: &str) -> bool {
     let states = usable_states(plan, random);
     let Some(state) = states.first() else { return false };
     let graph = Graph::new();
-    let symbols = Symbols::new(&graph, plan);
+    let symbols = PlanSymbols::new(&graph, plan);
     let all: Vec<usize> = (0..plan.speeds).collect();
     let system = System::new(symbols.scene(plan, &symbols.speeds, &all, true));
     let formulas = system.formulas();
@@ -91,7 +91,7 @@ fn agree<'g>(differentiated: &DirectionalDerivatives<'g>, values: &Map<u32, Prec
 fn agree_by_parameters<'g>(
     linearization: &Linearization<'g>,
     system: &System<'g>,
-    symbols: &Symbols<'g>,
+    symbols: &PlanSymbols<'g>,
     values: &Map<u32, Precise>,
     what: &str,
 ) -> bool {

@@ -7,7 +7,7 @@ use crate::terms::Shape;
 use super::numbers::{Smooth, SmoothNumber, below};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum CoordinateKind {
+pub enum PlannedKind {
     Scalar,
     Rotation,
     /// A pose with ḃ in observer's axes for its first three rates, or u in its own.
@@ -16,20 +16,20 @@ pub enum CoordinateKind {
     },
 }
 
-impl CoordinateKind {
+impl PlannedKind {
     pub fn symbols(self) -> usize {
         match self {
-            CoordinateKind::Scalar => 1,
-            CoordinateKind::Rotation => 9,
-            CoordinateKind::Pose { .. } => 12,
+            PlannedKind::Scalar => 1,
+            PlannedKind::Rotation => 9,
+            PlannedKind::Pose { .. } => 12,
         }
     }
 
     pub fn rates(self) -> usize {
         match self {
-            CoordinateKind::Scalar => 1,
-            CoordinateKind::Rotation => 3,
-            CoordinateKind::Pose { .. } => 6,
+            PlannedKind::Scalar => 1,
+            PlannedKind::Rotation => 3,
+            PlannedKind::Pose { .. } => 6,
         }
     }
 }
@@ -99,7 +99,7 @@ impl ConstraintPlan {
 /// A system. Functions have the variables t, the symbols of q, z, in this order.
 #[derive(Clone, Debug, Default)]
 pub struct Plan {
-    pub coordinates: Vec<CoordinateKind>,
+    pub coordinates: Vec<PlannedKind>,
     pub speeds: usize,
     /// `ψ_r = drift_r + Σ_j bases_rj z_j`; what is missing is zero.
     pub bases: Vec<Vec<Option<Smooth>>>,
@@ -136,19 +136,19 @@ impl Plan {
         self.coordinates.iter().map(|kind| kind.rates()).sum()
     }
 
-    fn add(&mut self, kind: CoordinateKind) -> usize {
+    fn add(&mut self, kind: PlannedKind) -> usize {
         self.coordinates.push(kind);
         self.variable_of(self.coordinates.len() - 1)
     }
 
     /// Variables that random functions of t and q take: of a rotation a single entry.
     pub fn arguments(&self) -> Vec<usize> {
-        let of = |(k, kind): (usize, &CoordinateKind)| {
+        let of = |(k, kind): (usize, &PlannedKind)| {
             let first = self.variable_of(k);
             match kind {
-                CoordinateKind::Scalar => vec![first],
-                CoordinateKind::Rotation => vec![first + 1],
-                CoordinateKind::Pose { .. } => vec![first + 5, first + 9, first + 10],
+                PlannedKind::Scalar => vec![first],
+                PlannedKind::Rotation => vec![first + 1],
+                PlannedKind::Pose { .. } => vec![first + 5, first + 9, first + 10],
             }
         };
         std::iter::once(0).chain(self.coordinates.iter().enumerate().flat_map(of)).collect()
@@ -172,7 +172,7 @@ impl Plan {
         let (mut at, mut row) = (1, 0);
         for &kind in &self.coordinates {
             let own = &mut psi[row..row + kind.rates()];
-            if kind == CoordinateKind::Scalar {
+            if kind == PlannedKind::Scalar {
                 rates.push(own[0]);
             } else {
                 let r = |i: usize, j: usize| variables[at + 3 * i + j];
@@ -188,11 +188,11 @@ impl Plan {
                 let given = [own[0], own[1], own[2]];
                 let product = |f: &dyn Fn(usize) -> N| (0..3).fold(zero, |sum, k| sum + f(k) * given[k]);
                 match kind {
-                    CoordinateKind::Pose { observed: true } => {
+                    PlannedKind::Pose { observed: true } => {
                         rates.extend(given);
                         (0..3).for_each(|j| own[j] = product(&|i| r(i, j)));
                     }
-                    CoordinateKind::Pose { observed: false } => rates.extend((0..3).map(|i| product(&|j| r(i, j)))),
+                    PlannedKind::Pose { observed: false } => rates.extend((0..3).map(|i| product(&|j| r(i, j)))),
                     _ => {}
                 }
             }
@@ -241,7 +241,7 @@ impl Plan {
         let mut plan = Self::default();
         for _ in 0..count {
             let curved = below(random, 4) == 0;
-            let own: [usize; 3] = std::array::from_fn(|_| plan.add(CoordinateKind::Scalar));
+            let own: [usize; 3] = std::array::from_fn(|_| plan.add(PlannedKind::Scalar));
             let component = |i: usize| {
                 let straight = Smooth::variable(own[i]);
                 // The square of another one keeps the coordinates regular.
@@ -337,7 +337,7 @@ impl Plan {
         for _ in 0..below(random, 3) {
             let mut offset: [Smooth; 3] = std::array::from_fn(|_| Smooth::random_constant(random));
             if below(random, 2) == 0 && plan.rate_count() < shape.rates {
-                let q = plan.add(CoordinateKind::Scalar);
+                let q = plan.add(PlannedKind::Scalar);
                 let i = below(random, 3);
                 offset[i] = offset[i].clone().plus_multiple(8, q);
             }
@@ -359,7 +359,7 @@ impl Plan {
     /// Place and turns of a root that floats.
     fn free_joint(&mut self, random: &mut Random) -> (JointPlace, Vec<TurnPlan>) {
         let coordinate = self.coordinates.len();
-        self.add(CoordinateKind::Pose { observed: below(random, 2) == 0 });
+        self.add(PlannedKind::Pose { observed: below(random, 2) == 0 });
         (JointPlace::Pose(coordinate), vec![TurnPlan::Given(coordinate)])
     }
 
@@ -369,9 +369,9 @@ impl Plan {
         let earlier = self.arguments();
         let room = most.saturating_sub(self.rate_count());
         let about = TurnPlan::About;
-        let angle = |plan: &mut Self| Smooth::variable(plan.add(CoordinateKind::Scalar));
+        let angle = |plan: &mut Self| Smooth::variable(plan.add(PlannedKind::Scalar));
         let slide = |plan: &mut Self, offset: &mut [Smooth; 3], i: usize| {
-            let q = plan.add(CoordinateKind::Scalar);
+            let q = plan.add(PlannedKind::Scalar);
             offset[i] = offset[i].clone().plus_multiple(8, q);
         };
         // The first link always moves.
@@ -398,7 +398,7 @@ impl Plan {
             }
             8 if room > 2 && only.is_none() => {
                 let coordinate = self.coordinates.len();
-                self.add(CoordinateKind::Rotation);
+                self.add(PlannedKind::Rotation);
                 let turn = if below(random, 3) == 0 { TurnPlan::Back } else { TurnPlan::Given };
                 vec![turn(coordinate)]
             }

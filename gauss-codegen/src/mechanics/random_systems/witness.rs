@@ -7,7 +7,7 @@ use crate::mechanics::tests::Random;
 use super::dense::{Matrix, Saddle, apply, dot, inverse, largest, norm, transposed};
 use super::fluid::{self, Fluid};
 use super::numbers::{Jet, SmoothNumber};
-use super::plan::{ConstraintPlan, CoordinateKind, JointPlace, MatterPlan, Plan, TurnPlan};
+use super::plan::{ConstraintPlan, JointPlace, MatterPlan, Plan, PlannedKind, TurnPlan};
 
 /// t, the symbols of q, z.
 #[derive(Clone, Debug)]
@@ -23,14 +23,14 @@ impl WitnessState {
     pub fn random(plan: &Plan, random: &mut Random) -> Self {
         let (mut configuration, mut quaternions) = (Vec::new(), Vec::new());
         for kind in &plan.coordinates {
-            if *kind != CoordinateKind::Scalar {
+            if *kind != PlannedKind::Scalar {
                 let any: [f64; 4] = std::array::from_fn(|_| random.next());
                 let length = dot(&any, &any).sqrt();
                 let unit = any.map(|x| x / length);
                 configuration.extend(rotation_matrix(unit).into_iter().flatten());
                 quaternions.push(unit);
             }
-            let scalars = if *kind == CoordinateKind::Scalar { 1 } else { kind.symbols() - 9 };
+            let scalars = if *kind == PlannedKind::Scalar { 1 } else { kind.symbols() - 9 };
             configuration.extend((0..scalars).map(|_| 1.2 * random.next()));
         }
         let speeds = (0..plan.speeds).map(|_| random.next()).collect();
@@ -43,7 +43,7 @@ impl WitnessState {
         let (mut at, mut row, mut turned) = (0, 0, 0);
         for kind in &plan.coordinates {
             let own = &rates[row..row + kind.rates()];
-            if *kind == CoordinateKind::Scalar {
+            if *kind == PlannedKind::Scalar {
                 moved.configuration[at] += own[0];
             } else {
                 let omega = [own[own.len() - 3], own[own.len() - 2], own[own.len() - 1]];
@@ -267,7 +267,7 @@ impl WitnessMotion {
 }
 
 /// Values of (3.1) and of the constraints at one state.
-pub struct Witness<'a> {
+pub struct DenseWitness<'a> {
     plan: &'a Plan,
     state: &'a WitnessState,
     pub matrix: Matrix,
@@ -353,7 +353,7 @@ pub fn residuals(plan: &Plan, state: &WitnessState) -> (Vec<f64>, Vec<f64>) {
     levels.map(|(position, velocity)| (position, velocity.value)).unzip()
 }
 
-impl<'a> Witness<'a> {
+impl<'a> DenseWitness<'a> {
     /// `None` where there is no single minimiser.
     pub fn new(plan: &'a Plan, state: &'a WitnessState) -> Option<Self> {
         let n = plan.speeds;

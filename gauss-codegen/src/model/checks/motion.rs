@@ -166,15 +166,7 @@ pub fn check_dependence(statements: &Statements, all: &[(ExpressionPlace, &Expre
             }
         }
         None => {
-            let named = named(&|place: ExpressionPlace| {
-                matches!(
-                    place,
-                    ExpressionPlace::Position
-                        | ExpressionPlace::Rotation
-                        | ExpressionPlace::Particle { .. }
-                        | ExpressionPlace::Constraint(_)
-                )
-            });
+            let named = named(&is_motion);
             let geared = statements.armatures.iter().map(|(name, _)| word(name));
             let heavy: HashSet<String> = statements.modal_coordinates().map(word).chain(geared).collect();
             let idle = |ident: &Ident| !named.contains(&word(ident)) && !heavy.contains(&word(ident));
@@ -189,6 +181,12 @@ pub fn check_dependence(statements: &Statements, all: &[(ExpressionPlace, &Expre
             }
         }
     }
+}
+
+/// The expression places matter, or constrains it.
+fn is_motion(place: ExpressionPlace) -> bool {
+    use ExpressionPlace::{Constraint, Particle, Position, Rotation};
+    matches!(place, Position | Rotation | Particle { .. } | Constraint(_))
 }
 
 /// The form of a coordinate's kinematics.

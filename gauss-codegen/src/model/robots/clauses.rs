@@ -22,8 +22,8 @@ use crate::model::scene::clauses::{
     BodyClause, Coefficients, CoordinateClause, CoordinateKind, RoleClause, RoleValue, Speed, SpeedKind,
 };
 use crate::model::scene::expression::{Expression, FunctionName, Property};
+use crate::terms::{FileRemark, RobotFile};
 use crate::terms::{ReactionJoint, Role, Shape};
-use crate::terms::{Remark, RobotFile};
 use gauss_robots::{Coupling, Structure, Text, all_located, located};
 
 /// Name of the coordinate of the free root of a robot.
@@ -346,7 +346,7 @@ impl<'a> Robot<'a> {
         self.notes = Note::gathered(std::mem::take(&mut self.notes));
         let known = |what: &String| self.clauses.ignored.iter().any(|word| word == what.as_str());
         let names = text.names();
-        let remark = |note: &Note| Remark {
+        let remark = |note: &Note| FileRemark {
             text: located(&names, note.at, &note.text),
             ignored: note.ignored.as_ref().is_some_and(|what| !known(what)),
         };
