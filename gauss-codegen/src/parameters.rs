@@ -16,6 +16,8 @@ pub struct Parameters {
     pub read: Vec<usize>,
     /// In the order in which they are made.
     pub checks: Vec<Check>,
+    /// Rules whose breach is likely not meant, although a kernel can be made.
+    pub warnings: Vec<Warning>,
     /// Program of the numbers that checks are about and nobody gives: from the arguments of
     /// [`Derivation::constants`](crate::Derivation) the numbers of [`Given::Computed`].
     pub computed: Program,
@@ -49,6 +51,40 @@ pub enum Given {
     Computed(usize),
     /// Zero, where nothing is given.
     Zero,
+}
+
+/// A rule whose breach is likely not meant, and what it is about.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Warning {
+    /// The name of the numbers in messages.
+    pub label: String,
+    /// The rule that they keep.
+    pub rule: WarningRule,
+    /// The numbers; of a matrix row after row.
+    pub values: Vec<Given>,
+}
+
+/// Rules of numbers that a kernel does without: each is a method of the runtime's `WarningCheck`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WarningRule {
+    /// Drag with velocities, or with their squares where that is said, six by six: takes energy away.
+    Drag {
+        /// Whether it is with squares.
+        quadratic: bool,
+    },
+    /// Damping of a spring or a stop: takes energy away.
+    Damping,
+    /// A square matrix that takes energy away.
+    DampingMatrix,
+    /// A dissipation function at a few states.
+    Dissipation,
+    /// Gravity of one number: points down.
+    Gravity,
+    /// The gravitational parameter of a centre: attracts.
+    Center,
+    /// The diagonal of an added mass.
+    AddedMass,
 }
 
 /// A rule, and what it is about.

@@ -58,6 +58,7 @@ macro_rules! forward_system {
         const CONSTRAINED: bool = <$system as $crate::system::GaussSystem>::CONSTRAINED;
         const HAS_CONTACTS: bool = <$system as $crate::system::GaussSystem>::HAS_CONTACTS;
         const STATES: usize = <$system as $crate::system::GaussSystem>::STATES;
+        const KEEPS_ENERGY: bool = <$system as $crate::system::GaussSystem>::KEEPS_ENERGY;
         const SMOOTHNESS: $crate::system::Smoothness = <$system as $crate::system::GaussSystem>::SMOOTHNESS;
     };
     (@motion $attributes:tt $system:ty, $field:ident) => {

@@ -56,6 +56,11 @@ pub trait GaussSystem {
     /// [`configuration_rates`](Self::configuration_rates).
     const STATES: usize = 0;
 
+    /// Whether nothing but contacts can raise the [energy](Self::energy) of a scene that has them: no input, no force
+    /// outside of the potential energy but those of dampers, nothing that depends on the time. Steps with contacts then
+    /// refuse a run that gains more than all there was; `false` claims nothing.
+    const KEEPS_ENERGY: bool = false;
+
     /// Smoothness of the accelerations as functions of the state: adaptive integrators step with more care where they
     /// are not smooth.
     const SMOOTHNESS: Smoothness = Smoothness::Smooth;

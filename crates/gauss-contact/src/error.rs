@@ -88,11 +88,21 @@ pub enum ContactErrorKind {
         /// The length of the part.
         step: f64,
     },
-    /// A step with an impact would gain more energy for no reason than all that moves has, in sixteen parts as well.
+    /// Forces change with places more than whole steps can follow, as steps by
+    /// [`StepScheme::MoreauJean`](crate::StepScheme::MoreauJean) are on springs.
+    StiffSprings {
+        /// The angle by which what swings turns in the step, at least: ωh, in radians.
+        phase: f64,
+        /// The length of the step.
+        step: f64,
+    },
+    /// A step with an impact would gain more energy for no reason than all that moves has, in sixteen parts as well; or
+    /// a run has gained more than that, in a system in which
+    /// [nothing raises the energy](gauss_runtime::system::GaussSystem::KEEPS_ENERGY).
     EnergyFromNowhere {
         /// The energy that nothing explains.
         gained: f64,
-        /// The kinetic energy that is explained, at the end of the step that has more of it.
+        /// The kinetic energy that is explained: at the end of the step that has more of it, or the largest of the run.
         kinetic: f64,
         /// The length of the part.
         step: f64,
@@ -229,10 +239,17 @@ impl ContactErrorKind {
                  a part of {step:e} as well: make steps shorter than that, and write friction that jumps with the \
                  sign of a speed as `dry_friction`"
             ),
+            Self::StiffSprings { phase, step } => write!(
+                f,
+                "what moves swings by {phase:.2} rad in a step of {step:e}, and `StepScheme::MoreauJean` follows 1: \
+                 make steps shorter than {:.1e}, or take `StepScheme::Midpoint`, which makes springs implicit",
+                step / phase
+            ),
             Self::EnergyFromNowhere { gained, kinetic, step } => write!(
                 f,
-                "an impact would gain {gained:.1e} of energy for no reason, more than the {kinetic:.1e} of all that moves, \
-                 in a part of {step:e} as well: make steps shorter than that, or run it from event to event"
+                "{gained:.1e} of energy would come from nowhere, more than the {kinetic:.1e} of all that moves, in an \
+                 impact or in all steps so far, of {step:e} as well: make steps shorter than that, or run it from \
+                 event to event"
             ),
             Self::States { states } => write!(
                 f,
@@ -297,6 +314,7 @@ impl fmt::Display for ContactErrorKind {
             | Self::States { .. }
             | Self::Displacement { .. }
             | Self::Stiff { .. }
+            | Self::StiffSprings { .. }
             | Self::EnergyFromNowhere { .. }
             | Self::TooManySteps { .. } => self.of_steps(f),
             Self::NonFinite => f.write_str("gaps, rates or coefficients are not finite"),

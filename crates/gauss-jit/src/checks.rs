@@ -3,9 +3,9 @@
 use std::collections::HashSet;
 use std::sync::{Mutex, PoisonError};
 
-use gauss_codegen::parameters::{Check, Given, Parameters, Rule};
-use gauss_runtime::__private_0_1_0::ParameterCheck;
-use gauss_runtime::error::ParameterError;
+use gauss_codegen::parameters::{Check, Given, Parameters, Rule, Warning, WarningRule};
+use gauss_runtime::__private_0_1_0::{DragKind, ParameterCheck, WarningCheck};
+use gauss_runtime::error::{ParameterError, ParameterWarnings};
 
 use crate::error::KernelError;
 
@@ -45,6 +45,38 @@ macro_rules! square {
     };
 }
 
+/// The number that a rule is about.
+fn value(given: &Given, numbers: &[f64], computed: &[f64]) -> f64 {
+    match *given {
+        Given::Number(k) => numbers[k],
+        Given::Computed(k) => computed[k],
+        Given::Zero => 0.0,
+    }
+}
+
+/// Findings about numbers that are likely not meant.
+///
+/// # Errors
+/// A matrix with too many rows.
+pub fn warnings(parameters: &Parameters, numbers: &[f64], computed: &[f64]) -> Result<ParameterWarnings, KernelError> {
+    let mut check = WarningCheck::<f64>::new();
+    for Warning { label, rule, values, .. } in &parameters.warnings {
+        let values: Vec<f64> = values.iter().map(|given| value(given, numbers, computed)).collect();
+        let (label, values) = (kept(label), &values[..]);
+        match rule {
+            WarningRule::Drag { quadratic: true } => check.drag(label, DragKind::Quadratic, &rows(values)),
+            WarningRule::Drag { quadratic: false } => check.drag(label, DragKind::Linear, &rows(values)),
+            WarningRule::Damping => check.damping(label, values[0]),
+            WarningRule::DampingMatrix => square!(values, |matrix| check.damping_matrix(label, matrix)),
+            WarningRule::Dissipation => check.dissipation(label, values),
+            WarningRule::Gravity => check.gravity(label, values[0]),
+            WarningRule::Center => check.center(label, values[0]),
+            WarningRule::AddedMass => check.added_mass(label, &std::array::from_fn(|i| values[i])),
+        }
+    }
+    Ok(check.finish())
+}
+
 /// The state of the checks of one set of numbers.
 pub struct Checks<'a> {
     parameters: &'a Parameters,
@@ -59,12 +91,7 @@ impl<'a> Checks<'a> {
     pub fn of(parameters: &'a Parameters, numbers: &[f64], computed: &[f64]) -> Result<Self, KernelError> {
         let mut checks = Self { parameters, check: ParameterCheck::new() };
         for law in &parameters.checks {
-            let value = |given: &Given| match *given {
-                Given::Number(k) => numbers[k],
-                Given::Computed(k) => computed[k],
-                Given::Zero => 0.0,
-            };
-            let values: Vec<f64> = law.values.iter().map(value).collect();
+            let values: Vec<f64> = law.values.iter().map(|given| value(given, numbers, computed)).collect();
             checks.law(law, &values)?;
         }
         checks.check.finish()?;

@@ -5,6 +5,7 @@
 
 use core::ops::Range;
 
+use gauss_codegen::description::{Description, QuantityKind};
 use gauss_runtime::prelude::{Configuration, Isometry2, Isometry3, SVector, UnitQuaternion, VectorSpace};
 
 /// A part of a configuration that is no plain coordinate.
@@ -34,7 +35,30 @@ enum Part {
 /// Largest number of groups of a configuration.
 pub const MOST_GROUPS: usize = 32;
 
+/// Calls a function of the type of a part.
+macro_rules! of_part {
+    ($part:expr, $function:ident($($argument:expr),*)) => {
+        match $part {
+            Part::Rotation => $function::<UnitQuaternion<f64>>($($argument),*),
+            Part::Pose => $function::<Isometry3<f64>>($($argument),*),
+            Part::Plane => $function::<Isometry2<f64>>($($argument),*),
+            Part::Coordinate => $function::<SVector<f64, 1>>($($argument),*),
+        }
+    };
+}
+
 impl Groups {
+    /// The groups of a scene; none where they are more than [`MOST_GROUPS`].
+    pub fn of(description: &Description) -> Option<Self> {
+        let groups = description.coordinates.iter().filter_map(|part| match part.kind {
+            QuantityKind::Rotation => Some(Group::Rotation),
+            QuantityKind::Pose => Some(Group::Pose),
+            QuantityKind::Plane => Some(Group::Plane),
+            QuantityKind::Scalar | QuantityKind::Vector(_) => None,
+        });
+        Self::new(&groups.collect::<Vec<_>>())
+    }
+
     /// These groups; none where they are more than [`MOST_GROUPS`].
     pub fn new(list: &[Group]) -> Option<Self> {
         let code = |group: &Group| *group as u64 + 1;
@@ -65,6 +89,38 @@ impl Groups {
             (rest, component, increment) = (rest >> 2, places.0.end, places.1.end);
             (places.0.end <= length).then_some((part, places.0, places.1))
         })
+    }
+
+    /// Writes a vector part by part: of a configuration with so many components.
+    fn write_parts(self, length: usize, to: &mut [f64], each: impl Fn(&mut [f64], Part, Range<usize>, Range<usize>)) {
+        self.parts(length).for_each(|(part, components, increments)| each(to, part, components, increments));
+    }
+
+    /// `q ∘ exp(increment)`, at norm 1.
+    pub(crate) fn retract(self, q: &[f64], by: &[f64], to: &mut [f64]) {
+        self.write_parts(q.len(), to, |to, part, c, i| of_part!(part, advance(&mut to[c.clone()], &q[c], &by[i])));
+    }
+
+    /// `log(q⁻¹ ∘ other)`.
+    pub(crate) fn difference(self, q: &[f64], other: &[f64], to: &mut [f64]) {
+        let each =
+            |to: &mut [f64], part, c: Range<usize>, i| of_part!(part, difference(&mut to[i], &q[c.clone()], &other[c]));
+        self.write_parts(q.len(), to, each);
+    }
+
+    /// The increment that changes the components by so much, to first order.
+    pub(crate) fn tangent(self, q: &[f64], change: &[f64], to: &mut [f64]) {
+        let each =
+            |to: &mut [f64], part, c: Range<usize>, i| of_part!(part, tangent(&mut to[i], &q[c.clone()], &change[c]));
+        self.write_parts(q.len(), to, each);
+    }
+
+    /// Rates of the components at a velocity seen from the body.
+    pub(crate) fn component_rates(self, q: &[f64], velocity: &[f64], to: &mut [f64]) {
+        let each = |to: &mut [f64], part, c: Range<usize>, i| {
+            of_part!(part, component_rates(&mut to[c.clone()], &q[c], &velocity[i]))
+        };
+        self.write_parts(q.len(), to, each);
     }
 }
 
@@ -138,18 +194,6 @@ impl<const N: usize> From<SVector<f64, N>> for MixedConfiguration<N> {
     fn from(list: SVector<f64, N>) -> Self {
         Self { list, groups: Groups::default() }
     }
-}
-
-/// Calls a function of the type of a part.
-macro_rules! of_part {
-    ($part:expr, $function:ident($($argument:expr),*)) => {
-        match $part {
-            Part::Rotation => $function::<UnitQuaternion<f64>>($($argument),*),
-            Part::Pose => $function::<Isometry3<f64>>($($argument),*),
-            Part::Plane => $function::<Isometry2<f64>>($($argument),*),
-            Part::Coordinate => $function::<SVector<f64, 1>>($($argument),*),
-        }
-    };
 }
 
 fn vector<V: VectorSpace<f64>>(numbers: &[f64]) -> V {

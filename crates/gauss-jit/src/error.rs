@@ -162,6 +162,11 @@ pub enum CallError {
         /// How many lists are given.
         found: usize,
     },
+    /// The configuration has more rotations and poses than the method moves: 32.
+    Groups {
+        /// The method.
+        method: String,
+    },
     /// An argument, or the results, have another count of numbers.
     Count {
         /// The method.
@@ -184,6 +189,7 @@ impl fmt::Display for CallError {
             Self::Lists { method, expected, found } => {
                 write!(f, "`{method}` takes {}, and {found} lists of numbers are given", expected.join(", "))
             }
+            Self::Groups { method } => write!(f, "`{method}` is for at most 32 rotations and poses"),
             Self::Count { method, name, expected, found } => {
                 write!(f, "`{name}` of `{method}` has {expected} numbers, and {found} are given")
             }

@@ -2,9 +2,11 @@
 
 use gauss_codegen::parameters::Parameter;
 use gauss_codegen::program::{Argument, Results};
+use gauss_runtime::error::ParameterWarnings;
 
 use crate::backends::{Compiled, MOST_ARGUMENTS, interpreted};
-use crate::checks::Checks;
+use crate::checks::{Checks, warnings};
+use crate::configuration::Groups;
 use crate::error::{CallError, KernelError, Misgiven};
 use crate::model::Model;
 
@@ -18,6 +20,9 @@ use crate::model::Model;
 pub struct Kernel {
     model: Model,
     constants: Vec<f64>,
+    /// None where there are too many.
+    pub(crate) groups: Option<Groups>,
+    warnings: ParameterWarnings,
 }
 
 /// A method of a kernel, compiled.
@@ -56,7 +61,9 @@ impl Kernel {
         let computed = run(computed, &[&read], computed.code.outputs.len());
         let mut checks = Checks::of(&derived.parameters, numbers, &computed)?;
         let constants = run(&derived.constants, &[&read], derived.constants.code.outputs.len());
-        let kernel = Self { model: model.clone(), constants };
+        let groups = Groups::of(model.description());
+        let warnings = warnings(&derived.parameters, numbers, &computed)?;
+        let kernel = Self { model: model.clone(), constants, groups, warnings };
         if checks.wants_mass_matrix() {
             checks.mass_matrices(&kernel.mass_matrices()?)?;
         }
@@ -88,6 +95,12 @@ impl Kernel {
             interpreted(program).run(&[&self.constants, &[0.37], &configuration], &mut matrix);
             matrix
         }))
+    }
+
+    /// Warnings about parameters that are likely not meant, although a kernel can be made of them: drag and damping that
+    /// feed energy, gravity that points upward, added mass with the sign of hydrodynamic derivatives.
+    pub fn warnings(&self) -> &ParameterWarnings {
+        &self.warnings
     }
 
     /// The model that it is of.
@@ -122,6 +135,60 @@ impl Kernel {
         let mut results = vec![0.0; method.outputs];
         method.call(arguments, &mut results)?;
         Ok(results)
+    }
+
+    /// `q ∘ exp(increment)`: the configuration moved by an increment that is seen from the body, rotations at norm 1. It
+    /// has as many components as q, and the increment as many as `kinematics` gives.
+    ///
+    /// # Errors
+    /// Lists of other lengths; more than 32 rotations and poses.
+    pub fn retract(&self, q: &[f64], increment: &[f64], moved: &mut [f64]) -> Result<(), CallError> {
+        let (groups, [components, increments]) = self.groups("retract")?;
+        check("retract", [("q", components, q), ("increment", increments, increment), ("results", components, moved)])?;
+        groups.retract(q, increment, moved);
+        Ok(())
+    }
+
+    /// The shortest increment from a configuration to another, seen from the body.
+    ///
+    /// # Errors
+    /// As of [`retract`](Self::retract).
+    pub fn difference(&self, q: &[f64], other: &[f64], increment: &mut [f64]) -> Result<(), CallError> {
+        let (groups, [components, increments]) = self.groups("difference")?;
+        check("difference", [("q", components, q), ("other", components, other), ("results", increments, increment)])?;
+        groups.difference(q, other, increment);
+        Ok(())
+    }
+
+    /// The increment seen from the body that changes the components of q by so much, to first order.
+    ///
+    /// # Errors
+    /// As of [`retract`](Self::retract).
+    pub fn tangent(&self, q: &[f64], change: &[f64], increment: &mut [f64]) -> Result<(), CallError> {
+        let (groups, [components, increments]) = self.groups("tangent")?;
+        check("tangent", [("q", components, q), ("change", components, change), ("results", increments, increment)])?;
+        groups.tangent(q, change, increment);
+        Ok(())
+    }
+
+    /// Rates of the components of q at a velocity seen from the body, as `kinematics` gives it.
+    ///
+    /// # Errors
+    /// As of [`retract`](Self::retract).
+    pub fn component_rates(&self, q: &[f64], velocity: &[f64], rates: &mut [f64]) -> Result<(), CallError> {
+        let (groups, [components, increments]) = self.groups("component_rates")?;
+        let lists = [("q", components, q), ("velocity", increments, velocity), ("results", components, &*rates)];
+        check("component_rates", lists)?;
+        groups.component_rates(q, velocity, rates);
+        Ok(())
+    }
+
+    /// The groups of a configuration, and how many components it and an increment of it have.
+    fn groups(&self, method: &str) -> Result<(Groups, [usize; 2]), CallError> {
+        let kinematics = &self.model.derived.methods[self.model.method("kinematics")?];
+        let sizes = [kinematics.arguments[2].components.len(), kinematics.code.outputs.len()];
+        let groups = self.groups.ok_or_else(|| CallError::Groups { method: method.to_owned() })?;
+        Ok((groups, sizes))
     }
 
     /// ż: the accelerations, at time t, configuration q and speeds z, with the inputs u.
@@ -222,6 +289,14 @@ impl<'k> Method<'k> {
         self.compiled.run(&all[..self.arguments.len()], results);
         Ok(())
     }
+}
+
+/// Refuses lists of other lengths: each with its name and the length that it has to have.
+fn check(method: &str, lists: [(&str, usize, &[f64]); 3]) -> Result<(), CallError> {
+    let wrong = lists.into_iter().find(|(_, expected, list)| list.len() != *expected);
+    wrong.map_or(Ok(()), |(name, expected, list)| {
+        Err(CallError::Count { method: method.to_owned(), name: name.to_owned(), expected, found: list.len() })
+    })
 }
 
 /// The numbers of all parameters in their order.

@@ -2,12 +2,11 @@
 
 use std::fmt;
 
-use gauss_codegen::description::QuantityKind;
 use gauss_codegen::program;
 use gauss_runtime::__private_0_1_0::{Chart, ProjectionError, dependence, project};
 use gauss_runtime::prelude::{ConstrainedSystem, GaussSystem, SMatrix, SVector, Smoothness, VectorSpace};
 
-use crate::configuration::{Group, Groups, MOST_GROUPS, MixedConfiguration, MixedVector};
+use crate::configuration::{Groups, MOST_GROUPS, MixedConfiguration, MixedVector};
 use crate::kernel::{Kernel, Method};
 
 /// The inputs of a system: `()` or `SVector<f64, U>`.
@@ -131,21 +130,6 @@ const fn place_of(name: &str) -> usize {
 }
 
 impl Kernel {
-    /// The groups at the beginning of a configuration.
-    ///
-    /// # Errors
-    /// More than a system has.
-    pub(crate) fn groups(&self) -> Result<Groups, NoSystem> {
-        let groups = self.model().description().coordinates.iter().filter_map(|part| match part.kind {
-            QuantityKind::Rotation => Some(Group::Rotation),
-            QuantityKind::Pose => Some(Group::Pose),
-            QuantityKind::Plane => Some(Group::Plane),
-            QuantityKind::Scalar | QuantityKind::Vector(_) => None,
-        });
-        const { assert!(MOST_GROUPS == 32, "the message below names it") };
-        Groups::new(&groups.collect::<Vec<_>>()).ok_or(NoSystem::Has("more than 32 rotations and poses"))
-    }
-
     /// The kernel as a system for [`Simulation`](gauss_runtime::prelude::Simulation), with room for Q components of the
     /// configuration, Z speeds, and inputs I: `kernel.system::<9, 9, SVector<f64, 9>>()`. All of its methods are
     /// compiled.
@@ -169,7 +153,9 @@ impl Kernel {
 
 impl<'k, const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> System<'k, Q, Z, I, CONSTRAINED> {
     fn new(kernel: &'k Kernel) -> Result<Self, NoSystem> {
-        let (model, groups) = (kernel.model(), kernel.groups()?);
+        const { assert!(MOST_GROUPS == 32, "the message below names it") };
+        let groups = kernel.groups.ok_or(NoSystem::Has("more than 32 rotations and poses"))?;
+        let model = kernel.model();
         match (model.description().is_constrained, CONSTRAINED) {
             (true, false) => return Err(NoSystem::Has("constraints: `constrained_system` has them")),
             (false, true) => return Err(NoSystem::Has("no constraints: `system` is for it")),

@@ -4,6 +4,7 @@ mod bounded;
 
 use gauss_codegen::Derivation;
 use gauss_jit::{Kernel, KernelError, Model};
+use gauss_runtime::error::ParameterWarnings;
 use gauss_runtime::linearize::LinearModel;
 use gauss_runtime::prelude::*;
 
@@ -70,6 +71,39 @@ scene!(plates, {
         pub high: f64,
         pub k: f64,
         pub w: f64,
+    }
+});
+
+scene!(murky, {
+    #[gauss(chart = hybrid, drag(hull, linear = linear, quadratic = quadratic))]
+    pub struct Murky {
+        #[gauss(mass)]
+        pub m: f64,
+        #[gauss(inertia)]
+        pub i: f64,
+        #[gauss(added_mass)]
+        pub added: Vector6<f64>,
+        pub linear: Matrix6<f64>,
+        pub quadratic: Vector6<f64>,
+        #[gauss(gravity)]
+        pub g: f64,
+    }
+});
+
+scene!(mounted, {
+    #[gauss(
+        coordinates(place: Pose, a), body(rod, pose = place, mass = 1, inertia = [1, 1, 1]),
+        body(sledge, position = [a, 0, 0], mass = 1, inertia = [1, 1, 1]),
+        spring(along = a, stiffness = 1, damping = c),
+        bushing(mount, body = rod, other = sledge, stiffness = [1, 1, 1, 1, 1, 1], damping = d),
+        central_gravity(sun, mu = mu),
+        damping = e * rate(a) * rate(a) * (1 + a * a),
+    )]
+    pub struct Mounted {
+        pub c: f64,
+        pub d: Matrix6<f64>,
+        pub e: f64,
+        pub mu: f64,
     }
 });
 
@@ -229,6 +263,46 @@ fn parameters_are_refused_as_by_compiled_structs() {
     }
     println!("{refused} refused, {taken} taken");
     assert!(refused > 100 && taken > 100);
+}
+
+/// Every rule whose breach is likely not meant, each broken by itself and all together.
+#[test]
+fn warnings_are_those_of_compiled_structs() {
+    let numbers = |matrix: &Matrix6<f64>| matrix.transpose().as_slice().to_vec();
+    let (murky, mounted) = (model(murky::SOURCE), model(mounted::SOURCE));
+    let mut told = 0;
+    let mut compare = |compiled: ParameterWarnings, kernel: Kernel, broken: usize| {
+        assert_eq!(kernel.warnings().to_string(), compiled.to_string());
+        assert!(compiled.is_empty() == (broken == 0));
+        told += compiled.iter().count();
+    };
+    for broken in 0..16_usize {
+        let sign = |bit: usize| if broken >> bit & 1 == 1 { -1.0 } else { 1.0 };
+        let mut linear = Matrix6::identity();
+        (linear[(0, 4)], linear[(4, 0)]) = (1.0 - sign(0), 1.0 - sign(0));
+        let quadratic = [1.0, 1.0, sign(1) * 0.75, 1.0, 1.0, 1.0];
+        let added = [0.5, 0.25 * sign(2), 0.5, 0.0, 0.0, 0.0];
+        let (i, g) = (4.0, 9.81 * sign(3));
+        let compiled =
+            murky::Murky { m: 2.0, i, added: added.into(), linear, quadratic: quadratic.into(), g }.warnings();
+        let given: [(&str, &[f64]); 6] = [
+            ("m", &[2.0]),
+            ("i", &[i]),
+            ("added", &added),
+            ("linear", &numbers(&linear)),
+            ("quadratic", &quadratic),
+            ("g", &[g]),
+        ];
+        compare(compiled, murky.kernel(&given).expect("a body all the same"), broken);
+        let mut d = Matrix6::identity();
+        (d[(0, 1)], d[(1, 0)]) = (1.5 - 1.5 * sign(0), 1.5 - 1.5 * sign(0));
+        let (c, e, mu) = (0.5 * sign(1), 0.25 * sign(2), 3.0 * sign(3));
+        let compiled = mounted::Mounted { c, d, e, mu }.warnings();
+        let given: [(&str, &[f64]); 4] = [("c", &[c]), ("d", &numbers(&d)), ("e", &[e]), ("mu", &[mu])];
+        compare(compiled, mounted.kernel(&given).expect("a mount all the same"), broken);
+    }
+    // Eight rules, each of which half of the rounds break.
+    assert_eq!(told, 8 * 8);
 }
 
 /// A run keeps the energy, or takes the work of its input.

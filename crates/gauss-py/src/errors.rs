@@ -1,7 +1,6 @@
 //! Exceptions of the package, which are classes of its Python half, so that they pickle by their arguments.
 
-use gauss_jit::{KernelError, Misgiven, Mistakes, Place};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use gauss_jit::{Mistakes, Place};
 use pyo3::prelude::*;
 
 /// An exception of `gauss._errors` with its arguments.
@@ -18,22 +17,4 @@ pub fn scene(py: Python<'_>, mistakes: &Mistakes) -> PyErr {
         _ => (1, 1, mistake.to_string()),
     });
     raised(py, "SceneError", (list.collect::<Vec<_>>(), mistakes.source()))
-}
-
-/// Parameters that no body has are of their own class; those that are not the model's are as arguments of a call are.
-pub fn kernel(py: Python<'_>, error: &KernelError) -> PyErr {
-    match error {
-        KernelError::Parameters(wrong) => {
-            let list = wrong.violations().iter().map(|violation| {
-                let rule = format!("{:?}", violation.rule);
-                let rule = rule.split([' ', '{', '(']).next().unwrap_or_default().to_owned();
-                (violation.field, violation.value, rule, violation.to_string())
-            });
-            raised(py, "ParameterError", (list.collect::<Vec<_>>(), wrong.to_string()))
-        }
-        KernelError::Given(list) if list.iter().any(|wrong| !matches!(wrong, Misgiven::Count { .. })) => {
-            PyTypeError::new_err(error.to_string())
-        }
-        _ => PyValueError::new_err(error.to_string()),
-    }
 }

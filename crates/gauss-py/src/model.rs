@@ -3,9 +3,10 @@
 use gauss_jit::Notation;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::errors;
-use crate::kernel::Kernel;
+use crate::programs::Programs;
 
 /// A scene with its equations, and the programs that compute them.
 #[pyclass(frozen, module = "gauss._native")]
@@ -104,10 +105,15 @@ impl Model {
         ))
     }
 
-    /// A kernel: numbers of the parameters by name.
-    fn kernel(&self, py: Python<'_>, parameters: Vec<(String, Vec<f64>)>) -> PyResult<Kernel> {
+    /// The attributes of the class of its kernels.
+    fn attributes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        gauss_python::loaded::attributes(py, &self.model)
+    }
+
+    /// The programs with numbers of the parameters by name, which a kernel of the class has checked.
+    fn programs(&self, py: Python<'_>, parameters: Vec<(String, Vec<f64>)>) -> PyResult<Programs> {
         let list: Vec<(&str, &[f64])> = parameters.iter().map(|(name, own)| (&name[..], &own[..])).collect();
         let made = py.detach(|| self.model.kernel(&list));
-        made.map(Kernel::new).map_err(|error| errors::kernel(py, &error))
+        made.map(Programs::new).map_err(|error| PyValueError::new_err(error.to_string()))
     }
 }

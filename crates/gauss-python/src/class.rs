@@ -161,6 +161,12 @@ impl Kernel {
         tuples::new(py, tuples::IN_CONTACT, (acceleration, modes, forces).into_pyobject(py)?)
     }
 
+    /// Whether contacts act, of which only runs know the forces.
+    #[getter(_touches)]
+    fn acts(&self) -> bool {
+        self.touches()
+    }
+
     /// The names of contacts, ranges and dry joints.
     #[getter]
     fn contact_names(&self) -> Vec<&'static str> {

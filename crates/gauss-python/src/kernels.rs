@@ -231,21 +231,29 @@ impl<S: Scene> Instance<S> {
     fn state(&self, q: &[f64], z: &[f64]) -> Result<<S::Single as GaussSystem>::Configuration, String> {
         steps::state(&self.scene.description, self.scene.names(), q, z).map_err(|mistakes| mistakes.join("; "))
     }
+}
 
-    /// The first rotation in these rows that is none, as what is not a number is.
-    fn off_group(&self, slot: Slot, source: &Source, rows: Range<usize>) -> Result<(), OffGroup> {
-        for &(place, count) in &self.scene.blocks {
-            for row in rows.clone() {
-                // SAFETY: of `run`.
-                #[allow(unsafe_code)]
-                let squares: f64 = (place..place + count).map(|i| unsafe { source.get(row, i) }.powi(2)).sum();
-                if steps::off_group(squares) {
-                    return Err(OffGroup { row, slot, place, count, squares });
-                }
+/// The first rotation in these rows that is none, as what is not a number is; `blocks`: where rotations are.
+///
+/// # Safety
+/// The array has these rows, each with all blocks.
+#[allow(unsafe_code)]
+pub unsafe fn off_group(
+    blocks: &[(usize, usize)],
+    slot: Slot,
+    source: &Source,
+    rows: Range<usize>,
+) -> Result<(), OffGroup> {
+    for &(place, count) in blocks {
+        for row in rows.clone() {
+            // SAFETY: of this function.
+            let squares: f64 = (place..place + count).map(|i| unsafe { source.get(row, i) }.powi(2)).sum();
+            if steps::off_group(squares) {
+                return Err(OffGroup { row, slot, place, count, squares });
             }
         }
-        Ok(())
     }
+    Ok(())
 }
 
 /// So many numbers in lanes stay in the nearest cache, with what a kernel needs besides.
@@ -368,7 +376,9 @@ impl<S: Scene> AnyKernel for Instance<S> {
         let spec = &SPECS[id as usize];
         for argument in spec.arguments {
             if argument.slot == Slot::Q || argument.name == "other" {
-                self.off_group(argument.slot, &work.arguments[argument.slot as usize], rows.clone())?;
+                let source = &work.arguments[argument.slot as usize];
+                // SAFETY: of this function.
+                unsafe { off_group(&self.scene.blocks, argument.slot, source, rows.clone()) }?;
             }
         }
         // SAFETY: of this function.

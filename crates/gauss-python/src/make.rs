@@ -35,18 +35,23 @@ pub fn begin(module: &Bound<'_, PyModule>) -> PyResult<()> {
 pub fn add<S: Scene>(module: &Bound<'_, PyModule>) -> PyResult<Arc<dyn AnyScene>> {
     let py = module.py();
     let scene: Arc<dyn AnyScene> = Arc::new(Registered::<S>::new());
-    let description = scene.description();
-    let attributes = PyDict::new(py);
-    attributes.set_item("_scene", Py::new(py, SceneHandle::new(Arc::clone(&scene)))?)?;
+    let (name, attributes) = (scene.description().name, attributes(py, &scene)?);
     attributes.set_item("__module__", module.name()?)?;
-    attributes.set_item("__qualname__", description.name)?;
-    attributes.set_item("__doc__", documentation(&*scene))?;
     attributes.set_item("__slots__", PyTuple::empty(py))?;
-    attributes.set_item("__signature__", signature(py, description)?)?;
     let bases = (py.get_type::<Kernel>(),);
-    let class = py.get_type::<PyType>().call1((description.name, bases, attributes))?;
-    module.add(scene.description().name, class)?;
+    let class = py.get_type::<PyType>().call1((name, bases, attributes))?;
+    module.add(name, class)?;
     Ok(scene)
+}
+
+/// The attributes of the class of a scene: the scene, its documentation, its keywords.
+pub fn attributes<'py>(py: Python<'py>, scene: &Arc<dyn AnyScene>) -> PyResult<Bound<'py, PyDict>> {
+    let (description, attributes) = (scene.description(), PyDict::new(py));
+    attributes.set_item("_scene", Py::new(py, SceneHandle::new(Arc::clone(scene)))?)?;
+    attributes.set_item("__qualname__", description.name)?;
+    attributes.set_item("__doc__", documentation(&**scene))?;
+    attributes.set_item("__signature__", signature(py, description)?)?;
+    Ok(attributes)
 }
 
 /// Adds `stubs()`, the text of the module's `.pyi`, and `__all__`.

@@ -11,16 +11,31 @@ use crate::methods::{Argument, Id, SPECS, Size, Spec};
 
 const HEAD: &str = include_str!("stubs.pyi.txt");
 
-/// The text.
+/// The text of a module with these classes.
 pub fn text(scenes: &[Arc<dyn AnyScene>]) -> String {
-    let mut text = HEAD.to_owned();
+    let mut text = format!("{HEAD}{}", tuples());
+    scenes.iter().for_each(|scene| text.push_str(&class(&**scene)));
+    text
+}
+
+/// The text of a module whose classes come at run time: `Kernel`, the last in the head, has all methods.
+#[cfg(feature = "loaded")]
+pub fn text_of_loaded() -> String {
+    let names = Names { frames: None, joints: None };
+    let of = |spec: &Spec| method(spec, &names, |_| true, spec.documentation);
+    let methods: String = SPECS.iter().map(of).collect();
+    format!("{HEAD}{methods}{}", tuples())
+}
+
+/// Classes of results, of methods that give several.
+fn tuples() -> String {
+    let mut text = String::new();
     for spec in SPECS.iter().filter(|spec| spec.results.len() > 1) {
         let _ = write!(text, "\nclass {}(NamedTuple):\n", spec.class_name());
         for result in spec.results {
             let _ = writeln!(text, "    {}: Array", result.name);
         }
     }
-    scenes.iter().for_each(|scene| text.push_str(&class(&**scene)));
     text
 }
 
@@ -41,21 +56,33 @@ fn class(scene: &dyn AnyScene) -> String {
     }
     let all = SPECS.iter().enumerate();
     for (_, spec) in all.filter(|(number, _)| Id::ALL.iter().any(|id| *id as usize == *number && scene.has(*id))) {
-        text.push_str(&method(scene, spec));
+        let names = Names { frames: Some(scene.frames()), joints: Some(scene.joints()) };
+        let is_optional = |argument: &Argument| scene.sizes().get(argument.size) == 0;
+        text.push_str(&method(spec, &names, is_optional, &shapes(scene, spec)));
     }
     text
 }
 
-fn method(scene: &dyn AnyScene, spec: &Spec) -> String {
+/// The names of frames and joints, where they are known.
+struct Names<'a> {
+    frames: Option<&'a [&'static str]>,
+    joints: Option<&'a [&'static str]>,
+}
+
+/// A method with its documentation; `is_optional`: of an input, whether it may be left out.
+fn method(spec: &Spec, names: &Names<'_>, is_optional: impl Fn(&Argument) -> bool, words: &str) -> String {
     let frame = spec.frame.then(|| {
         // Of joints there is one method.
-        let (word, names) = if spec.name == "reaction" { ("joint", scene.joints()) } else { ("frame", scene.frames()) };
-        let names: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
-        format!("{word}: Literal[{}]", names.join(", "))
+        let (word, names) = if spec.name == "reaction" { ("joint", names.joints) } else { ("frame", names.frames) };
+        let literal = |names: &[&str]| {
+            let names: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
+            format!("Literal[{}]", names.join(", "))
+        };
+        format!("{word}: {}", names.map_or_else(|| "str".to_owned(), literal))
     });
-    let argument = |argument: &Argument| match scene.sizes().get(argument.size) {
-        0 => format!("{}: ArrayLike | None = None", argument.name),
-        _ => format!("{}: ArrayLike", argument.name),
+    let argument = |argument: &Argument| match argument.name == "input" && is_optional(argument) {
+        true => format!("{}: ArrayLike | None = None", argument.name),
+        false => format!("{}: ArrayLike", argument.name),
     };
     let arguments: Vec<String> = frame.into_iter().chain(spec.arguments.iter().map(argument)).collect();
     let (result, out) = match spec.results {
@@ -63,7 +90,7 @@ fn method(scene: &dyn AnyScene, spec: &Spec) -> String {
         _ => (spec.class_name(), "tuple[Array, ...] | tuple[Single, ...]".to_owned()),
     };
     let head = format!("    def {}(self, {}, *, t: ArrayLike = 0.0,", spec.name, arguments.join(", "));
-    format!("{head} out: {out} | None = None) -> {result}:\n{}        ...\n", docstring(&shapes(scene, spec), 8))
+    format!("{head} out: {out} | None = None) -> {result}:\n{}        ...\n", docstring(words, 8))
 }
 
 /// `q (..., 2), z (..., 2) -> (..., 2)`.

@@ -3,14 +3,14 @@
 use std::ops::Range;
 
 use crate::algebra::{Expr, Set};
-use crate::emit::Derived;
+use crate::emit::{Derived, in_states};
 use crate::kernel;
 use crate::mass_laws::{Datum, Group, InertiaRule, InertiaRules, MassLaw, MassRule};
 use crate::mechanics::{Coordinate, QuantityValues};
-use crate::parameters::{Check, Given, Parameter, Parameters, Rule};
+use crate::parameters::{Check, Given, Parameter, Parameters, Rule, Warning, WarningRule};
 use crate::program::{ArgumentKind, Results};
 use crate::terms::{Field, LawKind, Role, Shape};
-use crate::translate::{FieldPart, Law};
+use crate::translate::{DragMatrix, FieldPart, Law};
 use crate::words::Unraw;
 
 use super::signature::{Signature, SignatureError};
@@ -38,12 +38,15 @@ pub fn unit_components(derived: &Derived<'_, '_>) -> Vec<Range<usize>> {
 /// # Errors
 /// Mistakes of this crate.
 pub fn parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<Parameters, SignatureError> {
-    let given = derived.subject.provenance;
-    let fields = &given.item.fields;
-    let mut sources: Vec<_> = given.sources.iter().map(|source| (source.field, source.part)).collect();
+    let provenance = derived.subject.provenance;
+    let fields = &provenance.item.fields;
+    let mut sources: Vec<_> = provenance.sources.iter().map(|source| (source.field, source.part)).collect();
     sources.sort_by_key(|(field, _)| *field);
-    let known =
-        given.sources.iter().map(|source| source.symbol).chain(given.literals.iter().map(|(_, literal)| *literal));
+    let known = provenance
+        .sources
+        .iter()
+        .map(|source| source.symbol)
+        .chain(provenance.literals.iter().map(|(_, literal)| *literal));
     let first = first_numbers(fields);
     let mut laws = CheckedLaws {
         derived,
@@ -57,12 +60,13 @@ pub fn parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> R
     checks.extend(laws.of_constants(|kind| kind == LawKind::MassInSum));
     checks.extend(laws.of_groups(&derived.mass_laws.of_motions));
     checks.extend(laws.of_constants(|kind| kind != LawKind::MassInSum));
+    let warnings = laws.of_warnings();
     let code = kernel::Program::lower(&laws.computed);
     let results = vec![Results::new("values", code.outputs.len(), 1)];
     let computed = signature.program("checks", &[ArgumentKind::Parameters], &code, results)?;
-    let label = given.sources.first().map(|s| fields[s.field].ident.unraw().to_string()).unwrap_or_default();
+    let label = provenance.sources.first().map(|s| fields[s.field].ident.unraw().to_string()).unwrap_or_default();
     let list = fields.iter().flat_map(of_field).collect();
-    Ok(Parameters { list, read, checks, computed, label, in_sum: derived.mass_laws.in_sum })
+    Ok(Parameters { list, read, checks, warnings, computed, label, in_sum: derived.mass_laws.in_sum })
 }
 
 /// The parts that a field has, with the sizes of each.
@@ -146,10 +150,10 @@ impl<'g> CheckedLaws<'_, '_, 'g> {
 
     /// The numbers of what a law is about.
     fn datum(&mut self, datum: Datum) -> Vec<Given> {
-        let given = self.derived.subject.provenance;
+        let provenance = self.derived.subject.provenance;
         match datum {
             Datum::Field(k) => {
-                let count: usize = parts(given.item.fields[k].shape).iter().map(|(_, count)| count).sum();
+                let count: usize = parts(provenance.item.fields[k].shape).iter().map(|(_, count)| count).sum();
                 (self.first[k]..self.first[k] + count).map(Given::Number).collect()
             }
             Datum::Part(k, role) => {
@@ -162,7 +166,7 @@ impl<'g> CheckedLaws<'_, '_, 'g> {
                 places.map(|place| Given::Number(first + place)).collect()
             }
             Datum::Clause(role) => {
-                given.mass_data.unnamed(role).map(|value| self.clause(&value.own)).unwrap_or_default()
+                provenance.mass_data.unnamed(role).map(|value| self.clause(&value.own)).unwrap_or_default()
             }
             Datum::Own(role) => {
                 let own = self.own.iter().find(|(quantity, _)| *quantity == role);
@@ -219,6 +223,49 @@ impl<'g> CheckedLaws<'_, '_, 'g> {
             };
             checks.push(Check { label: label.to_owned(), rule, values, is_formal: rules.is_formal });
         }
+    }
+
+    /// Rules whose breach is likely not meant, in the order of the derive: of drag, of elements, of gravity, of added
+    /// masses.
+    fn of_warnings(&mut self) -> Vec<Warning> {
+        let (provenance, mass_laws) = (self.derived.subject.provenance, self.derived.mass_laws);
+        let is_known = |key| self.known.contains(&key);
+        let drag = |drag: &DragMatrix<'g>| {
+            (drag.label.clone(), WarningRule::Drag { quadratic: drag.quadratic }, drag.entries.concat())
+        };
+        let law = |law: &Law<'g>| {
+            let (rule, values) = match law.kind {
+                LawKind::Damping => (WarningRule::Damping, law.values.clone()),
+                LawKind::Attraction => (WarningRule::Center, law.values.clone()),
+                LawKind::DampingMatrix => (WarningRule::DampingMatrix, law.values.clone()),
+                LawKind::Dissipation => (WarningRule::Dissipation, in_states(law.values[0], &is_known)),
+                _ => return None,
+            };
+            Some((law.label.clone(), rule, values))
+        };
+        let of_elements: Vec<_> =
+            provenance.drags.iter().map(drag).chain(provenance.laws.iter().filter_map(law)).collect();
+        let added = mass_laws.added_masses.iter();
+        let added = added.map(|(label, diagonal)| (label.clone(), WarningRule::AddedMass, diagonal.clone()));
+        let mut warnings = self.of_known(of_elements);
+        if let Some((label, gravity)) = &mass_laws.gravity {
+            let values = self.datum(*gravity);
+            warnings.push(Warning { label: label.clone(), rule: WarningRule::Gravity, values });
+        }
+        warnings.extend(self.of_known(added.collect()));
+        warnings
+    }
+
+    /// Warnings of parameters alone: where the state enters nothing is known.
+    fn of_known(&mut self, all: Vec<(String, WarningRule, Vec<Expr<'g>>)>) -> Vec<Warning> {
+        let mut warnings = Vec::new();
+        for (label, rule, values) in all {
+            let symbols = kernel::Program::lower(&values).symbols();
+            if symbols.iter().all(|symbol| self.known.contains(&symbol.key())) {
+                warnings.push(Warning { label, rule, values: self.computed(&values) });
+            }
+        }
+        warnings
     }
 
     /// Checks of constants of elements. Of what depends on the state nothing is known when the kernel is made.

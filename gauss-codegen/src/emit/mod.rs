@@ -38,6 +38,7 @@ mod system_tests;
 mod tests;
 mod text;
 
+pub use constructor::laws::in_states;
 pub use derivatives::hessian::blocks;
 pub use derived::Derived;
 pub use dialect::arguments::{OF_EQUATIONS, OF_HESSIAN, OF_REGRESSOR, OF_RESIDUAL, arguments_of};

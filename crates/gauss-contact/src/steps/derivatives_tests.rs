@@ -375,7 +375,7 @@ fn stops_dry_joints_and_rods_have_the_derivatives_of_differences() {
     }
 }
 
-/// Two masses on a spring of ωh = 1, one of which bounces: forces are taken at mean places, in parts.
+/// Two masses on a spring of ωh = 1, one of which bounces: by `Midpoint` forces are taken at mean places, in parts.
 #[derive(GaussDynamics)]
 #[gauss(
     coordinates(x, y),
@@ -399,8 +399,9 @@ Sprung { m: p[0], k: number(0.0) + p[1], e: p[2] } }
 fn stiff_springs_have_the_derivatives_of_differences() {
     let mut number = numbers(17);
     let mut start = || (V::from([0.1, 0.3 + 0.02 * number()]), V::from([-1.0 + 0.5 * number(), number()]));
-    for scheme in [StepScheme::MoreauJean, StepScheme::Midpoint] {
-        let tally = compare_along::<Springing, 3, 8, 4, 1>((scheme, 0.01), (20, 60), &mut start, 3);
+    // Steps without a memory follow ωh up to 1.
+    for (scheme, h) in [(StepScheme::MoreauJean, 0.0095), (StepScheme::Midpoint, 0.01)] {
+        let tally = compare_along::<Springing, 3, 8, 4, 1>((scheme, h), (20, 60), &mut start, 3);
         assert!(tally.checked > 1000 && tally.impacts > 2, "{scheme:?} {tally:?}");
     }
 }

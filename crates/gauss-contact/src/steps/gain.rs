@@ -10,7 +10,7 @@
 //! is confined to a sixteenth of the step; what is left is told by the report. Steps without a memory are told
 //! of alone: where a step is made in parts its end jumps, and these are to be smooth. A step that is taken although its
 //! forces are not those at its mean speeds keeps the same account, and is refused where that is [`MUCH`]; any is where
-//! it is more than all that moves has (`EnergyFromNowhere`).
+//! it is more than all that moves has (`EnergyFromNowhere`). What all steps of a run gain is told by `account`.
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;
@@ -27,7 +27,7 @@ const LITTLE: f64 = 1e-3;
 const MUCH: f64 = 0.1;
 
 /// By what part of itself energy is rounded: some hundred terms.
-const ROUNDING: f64 = 128.0 * f64::EPSILON;
+pub(super) const ROUNDING: f64 = 128.0 * f64::EPSILON;
 
 /// By what part of a step states are moved for rates of energy.
 const NEAR: f64 = 1e-4;
@@ -92,7 +92,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
 
     /// The work of the impulses of a step on its mean speeds, and of that on the speeds of surfaces that move: impulses
     /// take energy away from the slip and the approach of surfaces, and give what moves these.
-    fn work(&self, h: f64, end: &End<K>) -> [f64; 2] {
+    pub(super) fn work(&self, h: f64, end: &End<K>) -> [f64; 2] {
         let (kernel, t) = (self.kernel, self.t + 0.5 * h);
         let q = motion::half_way::<K>(h, &self.q, &kernel.kinematics(self.t, &self.q, &self.z));
         let mean = self.z.add_scaled(1.0, &end.z).scale(0.5);

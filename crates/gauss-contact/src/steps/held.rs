@@ -8,6 +8,7 @@ use gauss_runtime::contact::{ContactSystem, Each};
 use crate::error::ContactError;
 use crate::mode::Mode;
 
+use super::account::Account;
 use super::relaxed::StepLaw;
 use super::report::{StepReport, StepScheme};
 use super::stepper::ContactStepper;
@@ -160,6 +161,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             gaps,
             rates,
             last,
+            // Data that are other ones may lift what is there.
+            account: Account::begun(kernel, (t, &q, &z)),
             modes: open,
             rests: Each::from_fn(|_| false),
             next: open,

@@ -4,6 +4,7 @@ use gauss_runtime::contact::ContactSystem;
 
 use crate::mode::Mode;
 
+use super::account::Account;
 use super::report::StepReport;
 use super::stiffness::LastForces;
 
@@ -16,6 +17,7 @@ pub(super) struct Kept<K: ContactSystem<Scalar = f64>> {
     pub(super) rates: K::ContactRows,
     pub(super) impulses: K::ContactRows,
     pub(super) last: LastForces<K::Speeds>,
+    pub(super) account: Option<Account>,
     pub(super) dependent: bool,
     pub(super) modes: K::EachContact<Mode>,
     pub(super) rests: K::EachContact<bool>,

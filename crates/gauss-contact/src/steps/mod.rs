@@ -13,6 +13,7 @@
 //! impact is known to a step. A step whose forces were taken at other speeds than its mean ones is made again
 //! (`speeds`), or at another place where they change much with it (`stiffness`).
 
+mod account;
 mod active;
 mod adaptive;
 mod bounds;

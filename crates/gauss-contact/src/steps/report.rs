@@ -10,8 +10,9 @@ use crate::residual::Residual;
 pub enum StepScheme {
     /// Moreau and Jean's, θ = ½: accelerations at half of the step, with the mean of the speeds before it and after it,
     /// from attempts with foreseen ones. A step is a function of its start alone, and is made three times; it is smooth
-    /// in its start but where it is made again, as of a body that turns by more than a tenth of a radian. Stiff springs
-    /// are not made implicit.
+    /// in its start but where it is made again, as of a body that turns by more than a tenth of a radian. Springs are
+    /// followed up to ωh = 1, with ω of what swings on them, where the energy of what swings undamped goes to and fro
+    /// by a third; stiffer ones are refused as [`StiffSprings`](crate::ContactErrorKind::StiffSprings).
     MoreauJean,
     /// Accelerations at half of the step, with the speeds there that the acceleration of the step before foresees, for
     /// a third of the work: only the first step and those after impacts are made twice. A step whose mean speeds turn

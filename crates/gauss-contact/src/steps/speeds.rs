@@ -126,6 +126,9 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
                 made => made?,
             };
         }
+        if self.scheme == StepScheme::MoreauJean {
+            self.follows(h, (&middle, &made), input)?;
+        }
         let stiff = self.strikes_stiffly(h, (&middle, &made), input);
         let stiff = stiff.map(|speed| self.error(None, ContactErrorKind::Stiff { speed, step: h }));
         let is_stiff = stiff.is_some();
@@ -193,7 +196,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
 
     /// The acceleration by forces that depend on places alone: those that come with speeds, as of arms that turn, do
     /// not swing.
-    fn of_places(&self, t: f64, q: &K::Configuration, input: &K::Input) -> K::Speeds {
+    pub(super) fn of_places(&self, t: f64, q: &K::Configuration, input: &K::Input) -> K::Speeds {
         self.kernel.acceleration(t, q, &K::Speeds::zero(), input)
     }
 
@@ -227,7 +230,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         how.of(self.kernel, (self.t, h), [(&self.q, &self.z), (&end.q, &end.z)], input)
     }
 
-    fn used(&self, h: f64, middle: &Middle<K>, made: &Attempt<K>) -> Used<K::Speeds> {
+    pub(super) fn used(&self, h: f64, middle: &Middle<K>, made: &Attempt<K>) -> Used<K::Speeds> {
         Used {
             h,
             least: self.least(h),
@@ -257,7 +260,13 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         if middle.is_mean || !used.is_rough() || !made.end.z.is_finite() {
             return None;
         }
-        used.steep(&self.kernel.acceleration(middle.t, &self.q, &middle.z, input))
+        let at_start = self.kernel.acceleration(middle.t, &self.q, &middle.z, input);
+        if self.scheme == StepScheme::Midpoint {
+            return used.steep(&at_start);
+        }
+        // Steps without a memory are whole on springs, or refused.
+        let [half, start] = [&middle.q, &self.q].map(|q| self.of_places(middle.t, q, input));
+        used.steep(&at_start.add_scaled(1.0, &half).add_scaled(-1.0, &start))
     }
 
     /// The speed on which forces act that an impact takes place on, and that change more with places than a step can
@@ -268,7 +277,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         (middle, made): (&Middle<K>, &Attempt<K>),
         input: &K::Input,
     ) -> Option<usize> {
-        if !made.end.struck {
+        if !made.end.struck || self.scheme == StepScheme::MoreauJean {
             return None;
         }
         let of_places = |q: &K::Configuration| self.of_places(middle.t, q, input);

@@ -15,6 +15,7 @@ use crate::lockstep::Lockstep;
 use crate::mode::{Mode, after_impulses};
 use crate::sensors::ContactForces;
 
+use super::account::Account;
 use super::bounds::{NotClosed, Touched};
 use super::cones::Laws;
 use super::impulses::{Impulses, memory};
@@ -53,6 +54,8 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     pub(super) rates: K::ContactRows,
     /// Of the last step.
     pub(super) last: LastForces<K::Speeds>,
+    /// Of the energy, where nothing but contacts can raise it.
+    pub(super) account: Option<Account>,
     pub(super) modes: K::EachContact<Mode>,
     /// What is closed at the state and stays so.
     pub(super) rests: K::EachContact<bool>,
@@ -123,6 +126,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             gaps: kernel.gaps(t, &q),
             rates: kernel.contact_rates(t, &q, &z),
             last: LastForces::default(),
+            account: Account::begun(kernel, (t, &q, &z)),
             modes: Each::from_fn(|_| Mode::Open),
             rests: Each::from_fn(|_| false),
             next: Each::from_fn(|_| Mode::Open),
@@ -216,8 +220,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     ///
     /// # Errors
     /// `Unsolved` where no impulses were found that satisfy the laws, `Stiff` where forces depend on places or speeds
-    /// more than the step can follow, `EnergyFromNowhere` where an impact gains more than all that moves has,
-    /// `InvalidFriction`, `NonFinite`, `Projection`, `Displacement`.
+    /// more than the step can follow, `StiffSprings` where by `MoreauJean` they do on places, `EnergyFromNowhere` where
+    /// an impact, or all steps so far, gain more than all that moves has, `InvalidFriction`, `NonFinite`, `Projection`,
+    /// `Displacement`.
     pub fn step(&mut self, h: f64, input: &K::Input) -> Result<StepReport, ContactError> {
         self.watched(h, input, &mut ())
     }
@@ -238,15 +243,15 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 
     /// All that a step changes, but memory.
     pub(super) fn kept(&self) -> Kept<K> {
-        let Self { t, q, z, gaps, rates, impulses, last, dependent, modes, rests, report, .. } = *self;
-        Kept { t, q, z, gaps, rates, impulses, last, dependent, modes, rests, report }
+        let Self { t, q, z, gaps, rates, impulses, last, account, dependent, modes, rests, report, .. } = *self;
+        Kept { t, q, z, gaps, rates, impulses, last, account, dependent, modes, rests, report }
     }
 
     /// Back to what was kept.
     pub(super) fn restore(&mut self, kept: &Kept<K>) {
         (self.t, self.q, self.z) = (kept.t, kept.q, kept.z);
         (self.gaps, self.rates, self.impulses) = (kept.gaps, kept.rates, kept.impulses);
-        (self.last, self.dependent) = (kept.last, kept.dependent);
+        (self.last, self.account, self.dependent) = (kept.last, kept.account, kept.dependent);
         (self.modes, self.rests, self.report) = (kept.modes, kept.rests, kept.report);
     }
 
@@ -306,10 +311,11 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 
     /// Takes the end of a step as the state.
     pub(super) fn take(&mut self, h: f64, made: Attempt<K>) -> Result<StepReport, ContactError> {
-        let Attempt { end, acceleration } = made;
-        if !(end.q.is_finite() && end.z.is_finite()) {
+        if !(made.end.q.is_finite() && made.end.z.is_finite()) {
             return Err(self.error(None, ContactErrorKind::NonFinite));
         }
+        self.account = self.accounted(h, &made)?;
+        let Attempt { end, acceleration } = made;
         let changed = || end.z.add_scaled(-1.0, &self.z).scale(1.0 / h);
         self.last = self.last.then((h, acceleration), (!end.struck).then(changed));
         self.t += h;

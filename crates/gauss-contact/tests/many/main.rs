@@ -13,3 +13,4 @@ mod relaxed;
 mod several;
 mod spinning;
 mod springs;
+mod whole;

@@ -131,12 +131,10 @@ fn what_swings_undamped_gains_nothing_at_any_stiffness() {
 
 #[test]
 fn springs_beyond_sixteen_parts_are_refused() {
-    for scheme in SCHEMES {
-        for phase in [100.0, 1e3, 1e4] {
-            let kernel = Swing { m: 1.0, k: (phase / H) * (phase / H) }.kernel().unwrap();
-            let error = largest(&kernel, ([0.02].into(), [1.0].into()), (H, scheme)).unwrap_err();
-            assert!(matches!(error, ContactErrorKind::Stiff { speed: 0, .. }), "{scheme:?} {phase}: {error}");
-        }
+    for phase in [100.0, 1e3, 1e4] {
+        let kernel = Swing { m: 1.0, k: (phase / H) * (phase / H) }.kernel().unwrap();
+        let error = largest(&kernel, ([0.02].into(), [1.0].into()), (H, StepScheme::Midpoint)).unwrap_err();
+        assert!(matches!(error, ContactErrorKind::Stiff { speed: 0, .. }), "{phase}: {error}");
     }
 }
 

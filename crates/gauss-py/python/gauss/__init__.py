@@ -3,19 +3,23 @@
 `load` reads a robot from a URDF or MJCF file, `scene` takes a scene in words; both compile in milliseconds.
 """
 
-from ._errors import ContactError, Mistake, ParameterError, SceneError, Violation
+from ._errors import Mistake, SceneError
 from ._model import Field, Kernel, Model, load, scene
+from ._native import ContactError, Ends, IntegrationError, ParameterError, Run, jax
 
 __version__ = "0.1.0"
 __all__ = [
     "ContactError",
+    "Ends",
     "Field",
+    "IntegrationError",
     "Kernel",
     "Mistake",
     "Model",
     "ParameterError",
+    "Run",
     "SceneError",
-    "Violation",
+    "jax",
     "load",
     "scene",
 ]

@@ -28,8 +28,8 @@ def main():
     print(robot.equations)
     print("\nOperations (additions, multiplications, divisions, roots, transcendental functions), and the rounding")
     print("error at the worst state that was found and the median, where all that is given changes by its last place:")
-    accuracy = robot.accuracy
-    for name, counts in robot.operations.items():
+    accuracy = robot.model.accuracy
+    for name, counts in robot.model.operations.items():
         worst, median = accuracy.get(name, (float("nan"), float("nan")))
         print(f"  {name:24} {' '.join(f'{count:5}' for count in counts.values())}  {worst:8.2g} {median:8.2g}")
     if gravity is not None:

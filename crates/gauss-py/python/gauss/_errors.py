@@ -1,4 +1,4 @@
-"""Exceptions: they pickle by their arguments, and have all mistakes at once."""
+"""Mistakes of scenes: they pickle by their arguments, and come all at once."""
 
 from typing import NamedTuple
 
@@ -8,15 +8,6 @@ class Mistake(NamedTuple):
 
     line: int
     column: int
-    message: str
-
-
-class Violation(NamedTuple):
-    """A parameter that no body has: the number that breaks a rule, the rule by its name, and both in words."""
-
-    field: str
-    value: float
-    rule: str
     message: str
 
 
@@ -35,20 +26,3 @@ class SceneError(ValueError):
             if line <= len(lines):
                 told += ["    " + lines[line - 1], "    " + " " * (column - 1) + "^"]
         return "\n".join(told)
-
-
-class ParameterError(ValueError):
-    """Parameters that no body has: `violations` has all of them, `fields` a pair (name, what is wrong) for each."""
-
-    def __init__(self, violations, message):
-        self.violations = [Violation(*violation) for violation in violations]
-        self.fields = [(violation.field, violation.message) for violation in self.violations]
-        self.message = message
-        super().__init__([tuple(violation) for violation in self.violations], message)
-
-    def __str__(self):
-        return self.message
-
-
-class ContactError(TypeError):
-    """An answer that has no forces of contacts, of a scene that has some: see `Kernel.without_contacts`."""

@@ -2,7 +2,9 @@
 
 import os
 import tempfile
+import weakref
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -10,10 +12,9 @@ import numpy as np
 
 from . import _native
 from ._calls import Plan, numbers
-from ._errors import ContactError, SceneError
+from ._errors import SceneError
+from ._native import ContactError
 
-#: Methods of one frame, `pose_of_tool`, which kernels have under the names of compiled classes: `pose("tool", q)`.
-FRAMED = ("pose", "twist", "jacobian", "bias", "jacobian_rate")
 #: Methods about contacts themselves; all others with an input lack their forces.
 OF_CONTACTS = {"friction", "impulse_dynamics", "element_forces", "powers", "supplied_power"}
 
@@ -42,10 +43,13 @@ class Field:
         return (("doc", " ".join(self.doc.split())), ("unit", self.unit or ""))
 
 
-class _Described:
-    """What models and their kernels say of themselves."""
+class Model:
+    """A scene with its equations. Called with its parameters as keywords, in their units, it gives a `Kernel`."""
 
-    _native_model: _native.Model
+    def __init__(self, native, recipe):
+        self._native_model, self._recipe = native, recipe
+        own = {"model": self, "__module__": Kernel.__module__}
+        self._class = type(native.name, (Kernel,), native.attributes() | own)
 
     @property
     def name(self):
@@ -76,38 +80,16 @@ class _Described:
     def accuracy(self):
         return {name: tuple(lost) for name, lost in self._native_model.accuracy}
 
-    def _names(self, argument):
-        return next((own for name, own in self._native_model.signature("acceleration")[0] if name == argument), [])
-
-    @property
-    def coordinate_names(self):
-        return self._names("q")
-
-    @property
-    def speed_names(self):
-        return self._names("z")
-
-    @property
-    def input_names(self):
-        return self._names("input")
-
-    def _repr_latex_(self):
-        return f"$$\n{self.latex}\n$$"
-
-
-class Model(_Described):
-    """A scene with its equations. Called with its parameters as keywords, in their units, it gives a `Kernel`."""
-
-    def __init__(self, native, recipe):
-        self._native_model, self._recipe = native, recipe
-
     @property
     def parameters(self):
         """The parameters: of each how many numbers it has (matrices row after row), its unit, its documentation."""
         return {name: (count, unit, doc) for name, count, unit, doc in self._native_model.parameters}
 
     def __call__(self, **parameters):
-        return Kernel(self, parameters)
+        return self._class(**parameters)
+
+    def _repr_latex_(self):
+        return f"$$\n{self.latex}\n$$"
 
     def __repr__(self):
         return f"<gauss.Model {self.name}({', '.join(self.parameters)})>"
@@ -122,121 +104,85 @@ class Model(_Described):
         return _restored, (self._recipe,)
 
 
-class Kernel(_Described):
+class Kernel(_native.Kernel):
     """A model with numbers for its parameters, which were checked: it never changes, and threads share it.
 
-    Its methods take q, z, input and others as arrays of shape (..., n), of which the last axis has the numbers of one
-    state; one without leading axes is for all states. `t=` is one time or one for each state, `threads=` says how many
-    threads share the rows of a batch. In q come, part by part, of rotations the unit quaternion x, y, z, w, of poses
-    this and then the position, of poses in the plane cosine, sine and position; plain coordinates come last:
-    `coordinate_names` has them all. A quaternion off norm 1, or one that is no number, is a ValueError; other numbers
-    that are not finite give such results.
+    Its methods are those of the classes of compiled structs: q, z, input and others are arrays of shape (..., n), of
+    which the last axis has the numbers of one state; one without leading axes is for all states. In q come, part by
+    part, of rotations the unit quaternion x, y, z, w, of poses this and then the position, of poses in the plane
+    cosine, sine and position; plain coordinates come last: `coordinate_names` has them all. Programs of the model that
+    are no such methods (`regressor`, `powers`, those of contacts) are called by their names as well.
     """
 
-    def __init__(self, model, parameters, *, _contacts=True):
-        self.model, self._native_model = model, model._native_model
-        self._parameters = _flat(model.parameters, parameters)
-        self._native = self._native_model.kernel(list(self._parameters.items()))
-        self._plans, self._all = {}, frozenset(self.methods)
-        self._contacts = _contacts and "contact_rates" in self._all
+    model = None
 
     @property
-    def parameters(self):
-        """The numbers of each parameter, in their units."""
-        return {name: own[0] if len(own) == 1 else np.array(own) for name, own in self._parameters.items()}
+    def name(self):
+        return self.model.name
 
-    def without_contacts(self):
-        """The same kernel of which all gaps are open and nothing rubs, whatever the state."""
-        return Kernel(self.model, self._parameters, _contacts=False)
+    @property
+    def methods(self):
+        return self.model.methods
 
-    def _known(self, method):
-        plan = self._plans.get(method)
-        if plan is None:
-            if method not in self._all:
-                raise AttributeError(f"{self.name} has no method `{method}`; it has {', '.join(self.methods)}")
-            plan = self._plans[method] = Plan(method, self._native_model.signature(method))
-        return plan
+    @property
+    def remarks(self):
+        return self.model.remarks
+
+    @cached_property
+    def _programs(self):
+        return self.model._native_model.programs(list(_flat(self.parameters).items()))
+
+    @cached_property
+    def _plans(self):
+        return {}
 
     def _plan(self, method):
-        plan = self._known(method)
-        if self._contacts and "input" in plan.sizes and method not in OF_CONTACTS:
+        plan = self._plans.get(method)
+        if plan is None:
+            if method not in self.methods:
+                raise AttributeError(f"{self.name} has no method `{method}`; it has {', '.join(self.methods)}")
+            plan = self._plans[method] = Plan(method, self.model._native_model.signature(method))
+        if "input" in plan.sizes and method not in OF_CONTACTS and self._touches:
             raise ContactError(
-                f"{method} has no forces of contacts, and the scene has some; with "
+                f"{method} has no forces of contacts, and the scene has {', '.join(self.contact_names)}; with "
                 f"`kernel.without_contacts().{method}` all gaps are open, and nothing rubs"
             )
         return plan
 
     def call(self, method, *arguments, t=0.0, threads=1, **named):
-        """Calls a method by its name."""
-        return self._plan(method).call(self._native, arguments, named, t, threads)
+        """Calls a program by its name; `threads` share the rows of a batch."""
+        return self._plan(method).call(self._programs, arguments, named, t, threads)
 
     def __getattr__(self, name):
-        if name.startswith("_"):
-            raise AttributeError(name)
-        if name in self._all:
+        if name.startswith("_") or self.model is None or name not in self.methods:
+            raise AttributeError(f"{type(self).__name__} has no `{name}`")
 
-            def method(*arguments, t=0.0, threads=1, **named):
-                return self.call(name, *arguments, t=t, threads=threads, **named)
+        def method(*arguments, t=0.0, threads=1, **named):
+            return self.call(name, *arguments, t=t, threads=threads, **named)
 
-            method.__name__ = name
-            method.__doc__ = self._known(name).documentation()
-            return method
-        if name in FRAMED and any(own.startswith(f"{name}_of_") for own in self._all):
-            return lambda frame, *arguments, **named: self._framed(name, frame, *arguments, **named)
-        raise AttributeError(f"{self.name} has no `{name}`; its methods are {', '.join(self.methods)}")
-
-    def _framed(self, name, frame, *arguments, **named):
-        frames = [own.removeprefix("pose_of_") for own in self.methods if own.startswith("pose_of_")]
-        if frame not in frames:
-            raise ValueError(f"{self.name} has no frame {frame!r}; it has {', '.join(frames)}")
-        found = self.call(f"{name}_of_{frame}", *arguments, **named)
-        if name != "pose":
-            return found
-        pose = np.zeros((*found.shape[:-1], 4, 4))
-        pose[..., :3, :3] = found[..., 3:].reshape(*found.shape[:-1], 3, 3)
-        pose[..., :3, 3], pose[..., 3, 3] = found[..., :3], 1.0
-        return pose
+        method.__name__ = name
+        method.__doc__ = self._plan(name).documentation()
+        return method
 
     def __dir__(self):
         return [*super().__dir__(), *self.methods]
 
-    def __repr__(self):
-        given = ", ".join(f"{name}={own[0] if len(own) == 1 else list(own)}" for name, own in self._parameters.items())
-        return f"<gauss.Kernel {self.name}({given})>"
-
-    def _key(self):
-        return self.model, tuple(self._parameters.items()), self._contacts
-
-    def __eq__(self, other):
-        return self._key() == other._key() if isinstance(other, Kernel) else NotImplemented
-
-    def __hash__(self):
-        return hash(self._key())
-
     def __reduce__(self):
-        return _kernel, (self.model, self._parameters, self._contacts or "contact_rates" not in self._all)
+        make, _ = super().__reduce__()
+        return _kernel, (self.model, make.keywords)
 
 
-def _kernel(model, parameters, contacts):
-    return Kernel(model, parameters, _contacts=contacts)
+def _kernel(model, parameters):
+    return model(**parameters)
 
 
-def _flat(known, given):
-    """The numbers of each parameter: of a body, a mapping, those of its parts."""
+def _flat(given):
+    """The numbers of each parameter: of a body those of its parts."""
     flat = {}
     for name, value in given.items():
-        if isinstance(value, dict):
-            value = {"center_of_mass": (0.0, 0.0, 0.0)} | value
-            flat |= {f"{name}.{part}": own for part, own in value.items()}
-        else:
-            flat[name] = value
-    for name, value in flat.items():
-        own = numbers(name, value).ravel()
-        if name.endswith(".inertia") and own.size == 3:
-            own = np.diag(own).ravel()
-        flat[name] = tuple(own.tolist())
-    order = {name: place for place, name in enumerate(known)}
-    return dict(sorted(flat.items(), key=lambda item: order.get(item[0], len(order))))
+        parts = value.items() if isinstance(value, dict) else [("", value)]
+        flat |= {f"{name}.{part}" if part else name: np.ravel(own).tolist() for part, own in parts}
+    return flat
 
 
 def scene(text, /, **fields):
@@ -293,11 +239,24 @@ def _format(path):
 def _of_file(format, path, clauses):
     native = _native.Model.of_file(format, str(path), list(clauses))
     files = tuple((own, Path(own).read_bytes()) for own in native.files)
-    return Model(native, ("file", format, clauses, files))
+    return _model(native, ("file", format, clauses, files))
+
+
+#: Models that are in use, by their recipes: a scene that comes again is the same.
+_MODELS = weakref.WeakValueDictionary()
+
+
+def _model(native, recipe):
+    model = _MODELS.get(recipe)
+    if model is None:
+        model = _MODELS[recipe] = Model(native, recipe)
+    return model
 
 
 def _restored(recipe):
     """The model of a recipe: a text, or all files that were read, which are written anew where they have changed."""
+    if recipe in _MODELS:
+        return _MODELS[recipe]
     if recipe[0] == "text":
         _, source, offset, files = recipe
         changed = [own for own, content in files if not _is(own, content)]
@@ -310,12 +269,12 @@ def _restored(recipe):
             lines = [(max(1, line - offset), column, message) for line, column, message in error.mistakes]
             raise SceneError(lines, "\n".join(source.split("\n")[offset:])) from None
         files = tuple((own, Path(own).read_bytes()) for own in native.files)
-        return Model(native, ("text", source, offset, files))
+        return _model(native, ("text", source, offset, files))
     _, format, clauses, files = recipe
     first = files[0][0]
     if all(_is(own, content) for own, content in files):
         native = _native.Model.of_file(format, first, list(clauses))
-        return Model(native, recipe)
+        return _model(native, recipe)
     common = os.path.commonpath([os.path.dirname(own) for own, _ in files])
     with tempfile.TemporaryDirectory() as folder:
         for own, content in files:
@@ -323,7 +282,7 @@ def _restored(recipe):
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(content)
         native = _native.Model.of_file(format, str(Path(folder, os.path.relpath(first, common))), list(clauses))
-    return Model(native, recipe)
+    return _model(native, recipe)
 
 
 def _is(path, content):

@@ -41,14 +41,14 @@ pub struct Many<'a> {
 
 impl Many<'_> {
     /// The parameters of a run.
-    pub(super) fn own(&self, numbers: &[f64], i: usize) -> Vec<f64> {
+    pub fn own(&self, numbers: &[f64], i: usize) -> Vec<f64> {
         let mut own = numbers.to_vec();
         self.parameters.iter().for_each(|(place, values)| own[*place] = values[i]);
         own
     }
 
     /// The numbers of the first q and z of a run.
-    pub(super) fn first(&self, i: usize) -> [&[f64]; 2] {
+    pub fn first(&self, i: usize) -> [&[f64]; 2] {
         [self.q, self.z].map(|all| {
             let size = all.len().checked_div(self.count).unwrap_or(0);
             &all[i * size..(i + 1) * size]
@@ -103,8 +103,8 @@ pub fn ensemble<S: Scene>(
     };
     many.ended.fetch_add(refused.len(), Ordering::Relaxed);
     let first: Vec<_> = runs.iter().filter_map(|&i| first[i]).collect();
-    let stoppable: Vec<_> = kernels.iter().map(|system| Stoppable { system, stop: many.stop }).collect();
-    let (shared, own) = (&Stoppable { system: shared, stop: many.stop }, &stoppable[..]);
+    let stoppable: Vec<_> = kernels.iter().map(|system| Stoppable::new(system, many.stop)).collect();
+    let (shared, own) = (&Stoppable::new(shared, many.stop), &stoppable[..]);
     let ran = pool.install(move || match many.parameters[..] {
         [] => run(shared, many, &first),
         _ => run(own, many, &first),

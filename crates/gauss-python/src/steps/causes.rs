@@ -51,6 +51,11 @@ fn contact_words(kind: &ContactErrorKind) -> String {
             "elements of the scene have {states} states, which steps of one length do not follow; leave out \
              `contacts=\"steps\"`"
         ),
+        ContactErrorKind::StiffSprings { phase, step } => format!(
+            "what moves swings by {phase:.2} rad in a step of {step:e}, and `scheme=\"moreau_jean\"` follows 1: make \
+             steps shorter than {:.1e}, or take `scheme=\"midpoint\"`, which makes springs implicit",
+            step / phase
+        ),
         ContactErrorKind::EnergyGrows { law, before, after } => format!(
             "by the law {law:?} the impact would raise the kinetic energy from {before:e} to {after:e}; \
              `impact=\"moreau\"` and `\"poisson\"` keep it from growing"
@@ -128,6 +133,7 @@ mod tests {
             Kind::InvalidInterval,
             Kind::States { states: 1 },
             Kind::Stiff { speed: 0, step: 1e-3 },
+            Kind::StiffSprings { phase: 1.5, step: 1e-3 },
             Kind::TooManySteps { limit: 9 },
             Kind::NonFinite,
             Kind::Inconsistent,

@@ -13,6 +13,8 @@ mod watching;
 
 pub use causes::words;
 pub use one::Methods;
+#[cfg(feature = "loaded")]
+pub use one::{NO_CONTACTS, smooth};
 pub use outcome::{Event, Happening, InContact, KINDS, Outcome, Touched, column_names};
 pub use request::{Control, Effect, Function, Held, Input, Jumped, Request, Table, Until, Watched};
 pub use stoppable::Stoppable;
@@ -57,6 +59,12 @@ pub fn state<Q: Configuration<Scalar = f64>>(
     q: &[f64],
     z: &[f64],
 ) -> Result<Q, Vec<String>> {
+    let mistakes = mistakes(description, [coordinates, speeds], q, z);
+    if mistakes.is_empty() { configuration(q).map_err(|why| vec![why]) } else { Err(mistakes) }
+}
+
+/// All numbers of a state that are not finite, and all rotations that are none, by their names.
+pub fn mistakes(description: &Description, [coordinates, speeds]: [&[&str]; 2], q: &[f64], z: &[f64]) -> Vec<String> {
     let of = |letter: &'static str, names: &[&str], numbers: &[f64]| {
         let lost = names.iter().zip(numbers).enumerate().filter(|(_, (_, number))| !number.is_finite());
         let told = lost.map(|(k, (name, number))| format!("{letter}[{k}] ({name}) is {number}, and no finite number"));
@@ -71,7 +79,7 @@ pub fn state<Q: Configuration<Scalar = f64>>(
         }
     }
     mistakes.extend(of("z", speeds, z));
-    if mistakes.is_empty() { configuration(q).map_err(|why| vec![why]) } else { Err(mistakes) }
+    mistakes
 }
 
 /// Whether numbers whose squares add up to this are no rotation: in more than half of the digits, as

@@ -1,7 +1,5 @@
 //! One run.
 
-use std::sync::atomic::Ordering;
-
 use gauss_runtime::contact::{Contact, ContactSystem};
 use gauss_runtime::integrate::drive::each::Each;
 use gauss_runtime::integrate::{Adaptive, Collocation, Control as Steps, Fixed, IntegrationError};
@@ -50,7 +48,8 @@ impl<S: System<Scalar = f64>> Methods<S> {
     {
         self.taylor = Some(|system, request, (relative, absolute, largest)| {
             let control = Taylor::new(relative, absolute);
-            run(&stoppable(system, request), request, bounded(control, largest, Taylor::largest_step))
+            let q = configuration::<S::Configuration>(request.q)?;
+            run(&stoppable(system, request), q, request, bounded(control, largest, Taylor::largest_step))
         });
     }
 
@@ -61,7 +60,8 @@ impl<S: System<Scalar = f64>> Methods<S> {
     {
         self.rosenbrock = Some(|system, request, (relative, absolute, largest)| {
             let control = Adaptive::by(Rosenbrock, relative, absolute);
-            run(&stoppable(system, request), request, bounded(control, largest, Adaptive::largest_step))
+            let q = configuration::<S::Configuration>(request.q)?;
+            run(&stoppable(system, request), q, request, bounded(control, largest, Adaptive::largest_step))
         });
     }
 
@@ -94,17 +94,12 @@ impl<S: System<Scalar = f64>> Methods<S> {
     /// # Errors
     /// A first state that is none, a method that the system has not.
     pub fn simulate(&self, system: &S, request: &Request<'_>) -> Result<Outcome, String> {
-        let wrapped = stoppable(system, request);
+        let q = configuration::<S::Configuration>(request.q)?;
         let lacks = |method: &str, clause: &str| {
             Err(format!("the method {method} needs `#[gauss({clause})]` at the struct, which does not say it"))
         };
         match request.control {
-            Control::Adaptive(relative, absolute, largest) => {
-                let control = Adaptive::new(relative, absolute);
-                run(&wrapped, request, bounded(control, largest, Adaptive::largest_step))
-            }
-            Control::Fixed(step) => run(&wrapped, request, Fixed::new(step)),
-            Control::Implicit(step) => run(&wrapped, request, Fixed::by(Collocation::order_6(), step)),
+            Control::Adaptive(..) | Control::Fixed(_) | Control::Implicit(_) => smooth(system, q, request),
             Control::Stiff(relative, absolute, largest) => match self.rosenbrock {
                 Some(stepper) => stepper(system, request, (relative, absolute, largest)),
                 None => lacks("rosenbrock", "linearize"),
@@ -127,8 +122,33 @@ impl<S: System<Scalar = f64>> Default for Methods<S> {
     }
 }
 
+/// Why a kernel without forces of contacts is not run with them.
+pub const NO_CONTACTS: &str =
+    "forces of contacts are those of compiled kernels: `without_contacts()` leaves them out";
+
+/// A run by a method that every system has.
+///
+/// # Errors
+/// Another method; times of a controller that are no multiples of the step.
+pub fn smooth<S: Moving>(system: &S, q: S::Configuration, request: &Request<'_>) -> Result<Outcome, String> {
+    let system = &stoppable(system, request);
+    match request.control {
+        Control::Adaptive(relative, absolute, largest) => {
+            let control = Adaptive::new(relative, absolute);
+            run(system, q, request, bounded(control, largest, Adaptive::largest_step))
+        }
+        Control::Fixed(step) => run(system, q, request, Fixed::new(step)),
+        Control::Implicit(step) => run(system, q, request, Fixed::by(Collocation::order_6(), step)),
+        Control::Stiff(..) => Err("the method rosenbrock is one of compiled kernels".to_owned()),
+        Control::Taylor(..) => Err("the method taylor is one of compiled kernels".to_owned()),
+        Control::ContactEvents(..) | Control::ContactSteps(..) => {
+            Err(NO_CONTACTS.to_owned())
+        }
+    }
+}
+
 fn stoppable<'a, S>(system: &'a S, request: &Request<'a>) -> Stoppable<'a, S> {
-    Stoppable { system, stop: request.stop }
+    Stoppable::new(system, request.stop)
 }
 
 fn bounded<C>(control: C, largest: f64, bound: impl Fn(C, f64) -> C) -> C {
@@ -136,12 +156,20 @@ fn bounded<C>(control: C, largest: f64, bound: impl Fn(C, f64) -> C) -> C {
 }
 
 /// A run by any method.
-fn run<S: Moving, C: Steps<S>>(system: &S, request: &Request<'_>, control: C) -> Result<Outcome, String> {
-    let (q, z) = (configuration::<S::Configuration>(request.q)?, vector::<S::Speeds>(request.z));
+fn run<'a, S: Moving, C: Steps<Stoppable<'a, S>>>(
+    system: &Stoppable<'a, S>,
+    q: S::Configuration,
+    request: &Request<'_>,
+    control: C,
+) -> Result<Outcome, String> {
+    let z = vector::<S::Speeds>(request.z);
     let simulation = Simulation::new(system)
-        .input(|t: f64, q: &S::Configuration, z: &S::Speeds| input::<S>(request, t, q, z))
-        .observe(|sample: &Sample<S>| (request.look)(sample.t))
-        .events_by(Each::of(watched::<S>(request)).then(|place, state: &mut Sample<S>| jump(request, place, state)))
+        .input(|t: f64, q: &S::Configuration, z: &S::Speeds| input::<Stoppable<'a, S>>(request, t, q, z))
+        .observe(|sample: &Sample<Stoppable<'a, S>>| (request.look)(sample.t))
+        .events_by(
+            Each::of(watched::<Stoppable<'a, S>>(request))
+                .then(|place, state: &mut Sample<Stoppable<'a, S>>| jump(request, place, state)),
+        )
         .control(control);
     let simulation = match request.limit {
         Some(limit) => simulation.max_steps(limit),
@@ -159,14 +187,13 @@ fn run<S: Moving, C: Steps<S>>(system: &S, request: &Request<'_>, control: C) ->
 }
 
 /// What became of a run.
-fn outcome<S: Moving>(
-    system: &S,
+fn outcome<'a, S: Moving>(
+    system: &Stoppable<'a, S>,
     request: &Request<'_>,
-    run: &Trajectory<'_, S>,
+    run: &Trajectory<'_, Stoppable<'a, S>>,
     error: Option<IntegrationError>,
 ) -> Result<Outcome, String> {
-    // States between steps are made by the system, which must go on for that.
-    let interrupted = request.stop.swap(false, Ordering::Relaxed);
+    let interrupted = system.end();
     let states = match request.times {
         Some(times) => between(run, times)?,
         None => run.samples().to_vec(),

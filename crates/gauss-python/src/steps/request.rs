@@ -34,6 +34,14 @@ pub struct Table {
 }
 
 impl Table {
+    /// The same with zeros behind the numbers of each row, of `size`, up to `room`.
+    #[cfg(feature = "loaded")]
+    pub fn widened(&self, size: usize, room: usize) -> Self {
+        let rows = self.values.chunks(size.max(1));
+        let values = rows.flat_map(|row| row.iter().copied().chain(std::iter::repeat_n(0.0, room - size)));
+        Self { times: self.times.clone(), values: values.collect() }
+    }
+
     /// Number `i` of the input, of rows of `size`.
     fn number(&self, t: f64, i: usize, size: usize) -> f64 {
         let value = |row: usize| self.values[row * size + i];

@@ -7,13 +7,28 @@ use gauss_runtime::prelude::*;
 
 /// The system, and whether it shall stop.
 pub struct Stoppable<'a, S> {
-    pub system: &'a S,
-    pub stop: &'a AtomicBool,
+    system: &'a S,
+    stop: &'a AtomicBool,
+    over: AtomicBool,
+}
+
+impl<'a, S> Stoppable<'a, S> {
+    /// A system that goes on until the flag is set, which many of them may share.
+    pub fn new(system: &'a S, stop: &'a AtomicBool) -> Self {
+        Self { system, stop, over: AtomicBool::new(false) }
+    }
+
+    /// Ends the run: whether it was told to stop. States between steps are made by the system, which moves on for that.
+    pub fn end(&self) -> bool {
+        self.over.store(true, Ordering::Relaxed);
+        self.stop.load(Ordering::Relaxed)
+    }
 }
 
 impl<S> Stoppable<'_, S> {
     fn or_none<T: Real, V: VectorSpace<T>>(&self, rates: V) -> V {
-        if self.stop.load(Ordering::Relaxed) { rates.scale(T::from_f64(f64::NAN)) } else { rates }
+        let stops = self.stop.load(Ordering::Relaxed) && !self.over.load(Ordering::Relaxed);
+        if stops { rates.scale(T::from_f64(f64::NAN)) } else { rates }
     }
 }
 

@@ -6,7 +6,7 @@ use super::request::{Effect, Function, Input, Request, Until, Watched};
 use super::{components, numbers_of, vector};
 
 /// What a run needs of a system.
-pub(super) trait Moving: GaussSystem<Scalar = f64, Input: VectorSpace<f64>> {}
+pub trait Moving: GaussSystem<Scalar = f64, Input: VectorSpace<f64>> {}
 
 impl<S: GaussSystem<Scalar = f64, Input: VectorSpace<f64>>> Moving for S {}
 
@@ -34,7 +34,10 @@ pub(super) fn jump<S: Moving>(request: &Request<'_>, place: usize, state: &mut S
     let Effect::Jumps(function, _) = request.until[place].effect else { return false };
     let Some((q, z)) = function(state.t, &numbers_of(&state.q), &components(&state.z)) else { return false };
     // Numbers that are no state end the run: these have been looked at, or are those of a function that failed.
-    (state.q, state.z) = (S::Configuration::from_components(&vector(&q)).renormalise(), vector(&z));
+    // Numbers are put into the vectors that are there: of models at run time these know what q consists of.
+    let mut components = state.q.components();
+    q.iter().enumerate().for_each(|(i, &number)| components.set_component(i, number));
+    (state.q, state.z) = (S::Configuration::from_components(&components).renormalise(), vector(&z));
     true
 }
 

@@ -125,7 +125,7 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
             LawKind::Damping => (quote!(damping), law.values.clone()),
             LawKind::Attraction => (quote!(center), law.values.clone()),
             LawKind::DampingMatrix => (quote!(damping_matrix), law.values.clone()),
-            LawKind::Dissipation => (quote!(dissipation), in_states(law.values[0], symbols)),
+            LawKind::Dissipation => (quote!(dissipation), in_states(law.values[0], &|key| symbols.contains_key(&key))),
             LawKind::Stiffness
             | LawKind::Width
             | LawKind::Limits
@@ -155,10 +155,10 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
 }
 
 /// A function of the state at a few states of general position: small fractions in place of what is no parameter.
-fn in_states<'g>(function: Expr<'g>, symbols: &Map<u32, TokenStream>) -> Vec<Expr<'g>> {
+pub fn in_states<'g>(function: Expr<'g>, is_known: &dyn Fn(u32) -> bool) -> Vec<Expr<'g>> {
     let graph = function.graph();
     let program = Program::lower(&[function]);
-    let of_state: Vec<_> = program.symbols().into_iter().filter(|s| !symbols.contains_key(&s.key())).collect();
+    let of_state: Vec<_> = program.symbols().into_iter().filter(|s| !is_known(s.key())).collect();
     let at = |state: usize| {
         let number = |k: usize| {
             let numerator = [7, -5, 11, -13][(state + k) % 4] + 2 * (k as i64 % 3);

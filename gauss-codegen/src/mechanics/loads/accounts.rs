@@ -98,6 +98,19 @@ impl<'g> System<'g> {
         Account { name: name.to_owned(), conservative: false, forces, power, outside: Some(power) }
     }
 
+    /// Whether nothing raises the energy: all forces are in it, or Rayleigh's, and nothing depends on the time.
+    pub fn keeps_energy(&self) -> bool {
+        let scene = &self.scene;
+        let takes = |force: &Force<'g>| matches!(force, Force::Dissipation(_));
+        let mut actions = scene.elements.iter().map(|element| &element.action);
+        let none_gives = actions.all(|action| match action {
+            Action::Potential(_) | Action::Field(_) => true,
+            Action::Forces(forces) => forces.iter().all(takes),
+        });
+        let of_masses = scene.tree.twice_kinetic_energy().partial(scene.time);
+        none_gives && !self.driven && self.explicit_power().is_zero() && of_masses.is_zero()
+    }
+
     /// ∂U/∂t.
     pub(in crate::mechanics) fn explicit_power(&self) -> Expr<'g> {
         let potential = self.potential.unwrap_or_else(|| self.scene.graph.zero());

@@ -1,4 +1,4 @@
-//! A kernel: its methods over rows of numbers.
+//! Programs of a kernel by their names, over rows of numbers: those that are no methods of its class.
 
 use std::ops::Range;
 
@@ -7,9 +7,9 @@ use numpy::{PyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// A model with numbers for its parameters.
+/// The programs of a model with numbers for its parameters.
 #[pyclass(frozen, module = "gauss._native")]
-pub struct Kernel {
+pub struct Programs {
     kernel: gauss_jit::Kernel,
 }
 
@@ -28,7 +28,7 @@ impl<'a> Rows<'a> {
     }
 }
 
-impl Kernel {
+impl Programs {
     pub fn new(kernel: gauss_jit::Kernel) -> Self {
         Self { kernel }
     }
@@ -93,7 +93,7 @@ fn call_all(
 }
 
 #[pymethods]
-impl Kernel {
+impl Programs {
     /// The results of a method, row after row: arrays in C order with one row, or as many as there are states.
     fn call<'py>(
         &self,

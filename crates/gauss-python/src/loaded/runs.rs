@@ -1,0 +1,155 @@
+//! Runs of a model: in the smallest room that it fits into.
+//!
+//! Integrators know sizes when they are compiled. There is one for each of a few rooms; numbers that the model does not
+//! have are zero there, stand still, and are taken out of all that leaves the run or asks its functions. Tolerances are
+//! those of the model's own numbers ([`System::share`]).
+
+use gauss_jit::{Kernel, System};
+use gauss_runtime::prelude::{Configuration, GaussSystem, SVector};
+
+use crate::methods::Sizes;
+use crate::steps::{
+    Control, Effect, Event, Held, Input, Jumped, Outcome, Request, Until, Watched, components, numbers_of, smooth,
+    vector,
+};
+
+/// A system with room for N numbers of each kind.
+type InRoom<'k, const N: usize, const CONSTRAINED: bool> = System<'k, N, N, SVector<f64, N>, CONSTRAINED>;
+
+/// Calls a function with the system in the smallest room, of a model with constraints or without.
+macro_rules! in_room {
+    ($kernel:expr, $least:expr, |$system:ident| $value:expr) => {
+        in_room!(@each $kernel, $least, |$system| $value; 4 8 16 32 64 128)
+    };
+    (@each $kernel:expr, $least:expr, |$system:ident| $value:expr; $($room:literal)+) => {
+        match ($least, $kernel.model().description().is_constrained) {
+            $(
+                (..=$room, false) => {
+                    let $system: InRoom<'_, $room, false> = $kernel.system().map_err(|error| error.to_string())?;
+                    $value
+                }
+                (..=$room, true) => {
+                    let $system: InRoom<'_, $room, true> =
+                        $kernel.constrained_system().map_err(|error| error.to_string())?;
+                    $value
+                }
+            )+
+            (least, _) => Err(format!("runs are of at most 128 numbers of q, of z and of the input, and this model has {least}")),
+        }
+    };
+}
+
+/// The room that a model needs.
+fn least(sizes: &Sizes) -> usize {
+    [sizes.configuration, sizes.increment, sizes.speeds, sizes.input, sizes.multipliers].into_iter().fold(0, usize::max)
+}
+
+/// A run without contacts.
+///
+/// # Errors
+/// A model that is too large; what [`smooth`] refuses.
+pub fn simulate(kernel: &Kernel, sizes: &Sizes, request: &Request<'_>) -> Result<Outcome, String> {
+    in_room!(kernel, least(sizes), |system| in_its_room(&system, sizes, request))
+}
+
+/// The nearest state on the constraints.
+///
+/// # Errors
+/// A model that is too large; no such state is found.
+pub fn project(kernel: &Kernel, t: f64, q: &[f64], z: &[f64]) -> Result<[Vec<f64>; 2], String> {
+    in_room!(kernel, q.len().max(z.len()), |system| {
+        let start = system.configuration(q).renormalise();
+        let found = system.project(t, &start, &vector(z)).map_err(|error| error.to_string())?;
+        Ok([own(&numbers_of(&found.0), q.len()), own(&components(&found.1), z.len())])
+    })
+}
+
+fn own(numbers: &[f64], count: usize) -> Vec<f64> {
+    numbers[..count].to_vec()
+}
+
+/// A run whose functions and results have the model's own numbers.
+fn in_its_room<const N: usize, const CONSTRAINED: bool>(
+    system: &InRoom<'_, N, CONSTRAINED>,
+    sizes: &Sizes,
+    request: &Request<'_>,
+) -> Result<Outcome, String> {
+    let (configuration, speeds) = (sizes.configuration, sizes.speeds);
+    let of_input = |t: f64, q: &[f64], z: &[f64]| match request.input {
+        Input::Function(function) => function(t, &q[..configuration], &z[..speeds]),
+        Input::Constant(_) | Input::Table(_) => Vec::new(),
+    };
+    let input = match request.input {
+        Input::Constant(numbers) => Input::Constant(components(&vector::<SVector<f64, N>>(numbers))),
+        Input::Table(_) if sizes.input == 0 => Input::Constant(vec![0.0; N]),
+        Input::Table(table) => Input::Table(table.widened(sizes.input, N)),
+        Input::Function(_) => Input::Function(&of_input),
+    };
+    let law = |t: f64, q: &[f64], z: &[f64]| match &request.controller {
+        Some(held) => (held.law)(t, &q[..configuration], &z[..speeds]),
+        None => Vec::new(),
+    };
+    let counts = [configuration, speeds];
+    let functions: Vec<_> = request.until.iter().map(|until| (watch(until, counts), jump(until, counts))).collect();
+    let until = request.until.iter().zip(&functions);
+    let until: Vec<Until<'_>> = until
+        .map(|(until, (watch, jump))| Until {
+            watched: match until.watched {
+                Watched::Number(place, value) if place < configuration => Watched::Number(place, value),
+                Watched::Number(place, value) => Watched::Number(N + place - configuration, value),
+                Watched::Function(_) => Watched::Function(watch),
+            },
+            crossing: until.crossing,
+            effect: match until.effect {
+                Effect::Jumps(_, through) => Effect::Jumps(jump, through),
+                other => other,
+            },
+        })
+        .collect();
+    let share = system.share();
+    let control = match request.control {
+        // A tolerance below rounding is refused before.
+        Control::Adaptive(relative, absolute, largest) => {
+            Control::Adaptive((relative * share).max(f64::EPSILON), absolute * share, largest)
+        }
+        other => other,
+    };
+    let controller = request.controller.as_ref();
+    let controller = controller.map(|held| Held { period: held.period, delay: held.delay, law: &law });
+    let request = Request { control, input: &input, controller, until: &until, ..*request };
+    let outcome = smooth(system, system.configuration(request.q).renormalise(), &request)?;
+    Ok(without_room(outcome, N, counts))
+}
+
+/// The function of an event, of the model's own numbers.
+fn watch<'a>(until: &'a Until<'_>, [q, z]: [usize; 2]) -> impl Fn(f64, &[f64], &[f64]) -> f64 + Sync + use<'a> {
+    let function = if let Watched::Function(function) = until.watched { Some(function) } else { None };
+    move |t, of_q, of_z| function.map_or(f64::NAN, |function| function(t, &of_q[..q], &of_z[..z]))
+}
+
+/// The jump of an event, of the model's own numbers.
+fn jump<'a>(until: &'a Until<'_>, [q, z]: [usize; 2]) -> impl Fn(f64, &[f64], &[f64]) -> Jumped + Sync + use<'a> {
+    let function = if let Effect::Jumps(function, _) = until.effect { Some(function) } else { None };
+    move |t, of_q, of_z| function.and_then(|function| function(t, &of_q[..q], &of_z[..z]))
+}
+
+/// The run in the model's own numbers: of time, q, z and what follows, room is taken out.
+fn without_room(outcome: Outcome, room: usize, [q, z]: [usize; 2]) -> Outcome {
+    let is_own = |place: usize| match place {
+        0 => true,
+        place if place <= room => place <= q,
+        place if place <= 2 * room => place - room <= z,
+        _ => true,
+    };
+    let row = |row: &[f64]| {
+        let numbers = row.iter().enumerate().filter(|(place, _)| is_own(*place));
+        numbers.map(|(_, number)| *number).collect::<Vec<_>>()
+    };
+    let columns = outcome.columns.chunks(outcome.rows.max(1)).enumerate().filter(|(place, _)| is_own(*place));
+    Outcome {
+        columns: columns.flat_map(|(_, column)| column).copied().collect(),
+        last: row(&outcome.last),
+        events: outcome.events.iter().map(|event| Event { number: event.number, row: row(&event.row) }).collect(),
+        ..outcome
+    }
+}

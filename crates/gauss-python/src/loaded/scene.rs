@@ -1,0 +1,179 @@
+//! The scene of a model.
+
+use std::sync::Arc;
+
+use gauss_jit::{KernelError, Model, Notation, Quantity};
+use gauss_runtime::accuracy::Loss;
+use gauss_runtime::contact::Contact;
+
+use super::kernel::LoadedKernel;
+use super::names::kept;
+use super::rows::Plans;
+use crate::description::{Description, Field, Part, Remark, Shape};
+use crate::kernels::{AnyKernel, AnyScene, Violation};
+use crate::methods::{Id, Sizes};
+
+/// A model with its names.
+pub struct LoadedScene {
+    pub(super) model: Model,
+    description: Description,
+    sizes: Sizes,
+    names: [Vec<&'static str>; 2],
+    frames: Vec<&'static str>,
+    joints: Vec<&'static str>,
+    contacts: Vec<&'static str>,
+    pub(super) plans: Plans,
+}
+
+/// The parts of a body among the names of parameters.
+const BODY: [&str; 3] = [".mass", ".center_of_mass", ".inertia"];
+
+/// The fields of the struct: a body is three parameters.
+fn fields(model: &Model) -> Vec<Field> {
+    let mut fields = Vec::new();
+    for own in model.parameters() {
+        let (name, shape) = match BODY.iter().find_map(|part| own.name.strip_suffix(part).map(|name| (name, *part))) {
+            Some((name, ".mass")) => (name, Shape::Body),
+            Some(_) => continue,
+            None => (own.name.as_str(), shape(own.count)),
+        };
+        let unit = own.unit.as_deref().unwrap_or_default();
+        let (name, unit, documentation) = (kept(name), kept(unit), kept(&own.documentation));
+        fields.push(Field { name, unit, documentation, shape });
+    }
+    fields
+}
+
+/// The axes of a field by how many numbers it has: those of structs are numbers, vectors of three and six, and matrices.
+fn shape(count: usize) -> Shape {
+    match count {
+        1 => Shape::Array(&[]),
+        3 => Shape::Array(&[3]),
+        9 => Shape::Array(&[3, 3]),
+        36 => Shape::Array(&[6, 6]),
+        _ => Shape::Array(&[6]),
+    }
+}
+
+fn part(own: &Quantity) -> Part {
+    let (name, label) = (kept(&own.name), kept(&own.label));
+    Part { name, size: own.numbers.len(), unit: own.kind.unit_components(), label }
+}
+
+impl LoadedScene {
+    /// With all methods of the model.
+    pub fn new(model: Model) -> Self {
+        let own = model.description();
+        let parts = |list: &[Quantity]| list.iter().map(part).collect::<Vec<_>>();
+        let all = |list: &[String]| list.iter().map(|name| kept(name)).collect::<Vec<_>>();
+        let remark = |remark: &gauss_jit::Remark| Remark { text: kept(&remark.text), ignored: remark.ignored };
+        let description = Description {
+            name: kept(model.name()),
+            documentation: kept(&own.documentation),
+            fields: fields(&model),
+            coordinates: parts(&own.coordinates),
+            speeds: parts(&own.speeds),
+            inputs: parts(&own.inputs),
+            remarks: own.remarks.iter().map(remark).collect(),
+        };
+        let numbers = |list: &[Quantity]| list.iter().flat_map(|own| all(&own.numbers)).collect::<Vec<_>>();
+        // Scalars are behind all others.
+        let (scalars, groups): (Vec<Quantity>, Vec<Quantity>) =
+            own.coordinates.iter().cloned().partition(|own| own.numbers.len() == 1);
+        let names = [numbers(&[groups, scalars].concat()), numbers(&own.speeds)];
+        let (frames, joints, contacts) = (all(&own.frames), all(&own.joints), all(&own.contacts));
+        let count = |method: &str| {
+            let results = model.results(method).unwrap_or_default();
+            results.iter().map(|result| result.rows * result.columns).sum()
+        };
+        let sizes = Sizes {
+            configuration: names[0].len(),
+            increment: count("kinematics"),
+            speeds: names[1].len(),
+            input: description.input_size(),
+            multipliers: count("multipliers"),
+        };
+        let plans = Plans::of(&model, &frames, &joints);
+        Self { model, description, sizes, names, frames, joints, contacts, plans }
+    }
+
+    /// The kernel with these numbers of all fields.
+    pub(super) fn of_numbers(&self, numbers: &[f64]) -> Result<gauss_jit::Kernel, Vec<Violation>> {
+        let mut rest = numbers;
+        let list = self.model.parameters().iter().map(|parameter| {
+            let (own, others) = rest.split_at(parameter.count.min(rest.len()));
+            rest = others;
+            (parameter.name.as_str(), own)
+        });
+        self.model.kernel(&list.collect::<Vec<_>>()).map_err(|error| match &error {
+            KernelError::Parameters(error) => Violation::all(error),
+            other => vec![Violation {
+                field: self.description.name.to_owned(),
+                value: f64::NAN,
+                rule: "Given".to_owned(),
+                message: other.to_string(),
+            }],
+        })
+    }
+}
+
+impl AnyScene for LoadedScene {
+    fn description(&self) -> &Description {
+        &self.description
+    }
+
+    fn equations(&self) -> [&str; 2] {
+        [Notation::Text, Notation::Latex].map(|notation| self.model.equations(notation))
+    }
+
+    fn operations(&self) -> String {
+        self.model.operations().map(|(name, counts)| format!("{name:<20}{counts}")).collect::<Vec<_>>().join("\n")
+    }
+
+    fn accuracy(&self) -> String {
+        let line = |(name, lost): &(String, [f64; 2])| format!("{name:<20}{}", Loss::new(lost[0], lost[1]));
+        self.model.accuracy().iter().map(line).collect::<Vec<_>>().join("\n")
+    }
+
+    fn names(&self) -> [&[&'static str]; 2] {
+        [&self.names[0], &self.names[1]]
+    }
+
+    fn sizes(&self) -> Sizes {
+        self.sizes
+    }
+
+    fn frames(&self) -> &[&'static str] {
+        &self.frames
+    }
+
+    fn joints(&self) -> &[&'static str] {
+        &self.joints
+    }
+
+    fn contacts(&self) -> &[Contact] {
+        &[]
+    }
+
+    fn contact_names(&self) -> Vec<&'static str> {
+        self.contacts.clone()
+    }
+
+    fn has(&self, id: Id) -> bool {
+        self.plans.has(id)
+    }
+
+    fn at_rest(&self) -> [Vec<f64>; 2] {
+        let mut q = vec![0.0; self.sizes.configuration];
+        for (place, count) in self.description.unit_blocks() {
+            // The real part: last of a quaternion, first of a rotation in the plane.
+            q[if count == 4 { place + 3 } else { place }] = 1.0;
+        }
+        [q, vec![0.0; self.sizes.speeds]]
+    }
+
+    fn kernel(self: Arc<Self>, numbers: Vec<f64>) -> Result<Box<dyn AnyKernel>, Vec<Violation>> {
+        let kernel = self.of_numbers(&numbers)?;
+        Ok(Box::new(LoadedKernel { scene: self, kernel, numbers }))
+    }
+}
