@@ -58,7 +58,7 @@ pub enum QuantityKind {
 }
 
 impl QuantityKind {
-    /// How many of its first numbers have squares that add up to 1.
+    /// Count of its first numbers whose squares add up to 1.
     #[must_use]
     pub fn unit_components(self) -> usize {
         match self {

@@ -4,7 +4,7 @@ use proc_macro2::Ident;
 
 use crate::algebra::{Expr, Graph, Map, Notation, Substitution};
 use crate::error::Result;
-use crate::kernel::{Differentiation, Wanted};
+use crate::kernel::{DerivativeRequest, Differentiation};
 use crate::mechanics::{
     Claims, Constraints, Coordinate, Elimination, Formula, Formulas, Hessian, InertialParameter, InertialParameters,
     InverseLinearization, Linearization, Method, Reactions, Readings, Regressor, System, SystemFault, check_reactions,
@@ -15,24 +15,24 @@ use crate::mistakes::{
     eliminate, failed, not_linear, refuse_contacts, refuse_curved_kinematics, refuse_exhausted, refuse_idle_speeds,
     system_faults,
 };
-use crate::terms::{self, WantedMethod};
-use crate::translate::{Given, Parameter, Translated};
+use crate::terms::{self, OptionalMethod};
+use crate::translate::{FieldNumber, Provenance, Translated};
 
 /// A system with its formulas.
 pub struct Formulation<'g> {
-    pub given: Given<'g>,
+    pub provenance: Provenance<'g>,
     pub system: System<'g>,
     /// Elimination by which its speeds were found, where constraints are solved for the others.
     pub elimination: Option<Elimination<'g>>,
     pub formulas: Formulas<'g>,
     /// The derivatives that are wanted.
-    pub derivatives: Vec<Wanted<'g>>,
+    pub derivatives: Vec<DerivativeRequest<'g>>,
     /// λ of the second derivatives, where these are wanted.
     pub weights: Vec<Expr<'g>>,
     /// The parameters in which the forces of inertia are linear, where the regressor is wanted.
     pub inertial_parameters: Vec<InertialParameter<'g>>,
     /// The equations for people, as text and in LaTeX.
-    pub printed: [Printed; 2],
+    pub printed: [PrintedEquations; 2],
     /// Components x, y, z, w of the unit quaternions behind rotations, one for each coordinate, and the entries of R in
     /// terms of them.
     pub quaternions: Vec<Option<[Expr<'g>; 4]>>,
@@ -45,15 +45,15 @@ impl<'g> Formulation<'g> {
     /// # Errors
     /// What only the derivation finds wrong with a system.
     pub fn of(translated: Translated<'g>) -> Result<Self> {
-        let Reduced { given, mut system, elimination, reactions } = Reduced::of(translated)?;
-        let (wanted_of, graph) = (&given.item.wanted, system.scene.graph);
-        refuse_contacts(&given, &system)?;
-        let printed = printed(&mut system, &given.readings, elimination.as_ref());
-        refuse_exhausted(&given.item, graph)?;
+        let ReducedSystem { provenance, mut system, elimination, reactions } = ReducedSystem::of(translated)?;
+        let (wanted_of, graph) = (&provenance.item.wanted, system.scene.graph);
+        refuse_contacts(&provenance, &system)?;
+        let printed = printed(&mut system, &provenance.readings, elimination.as_ref());
+        refuse_exhausted(&provenance.item, graph)?;
         let mut formulas = system.formulas();
-        refuse_exhausted(&given.item, graph)?;
+        refuse_exhausted(&provenance.item, graph)?;
         check_system_against_definition(&system, &Claims::of(&formulas))
-            .map_err(|faults| system_faults(&given, &system, &faults))?;
+            .map_err(|faults| system_faults(&provenance, &system, &faults))?;
         formulas.extend(system.configuration_rates());
         formulas.extend(system.formulas_by_coordinates().into_iter().flatten());
         if let Some(elimination) = &elimination {
@@ -61,23 +61,25 @@ impl<'g> Formulation<'g> {
             formulas.extend(elimination.formulas());
         }
         let (quaternions, definitions) = system_rotations(system.scene.graph, &system);
-        let (mut derivatives, weights) = derivatives(wanted_of, &system, &formulas, &given.parameters);
+        let (mut derivatives, weights) = derivatives(wanted_of, &system, &formulas, &provenance.parameters);
         let clause = wanted_of.regressor.as_ref();
-        let regressor = clause.map(|clause| regressor(clause, &system, &given.parameters)).transpose()?;
+        let regressor = clause.map(|clause| regressor(clause, &system, &provenance.parameters)).transpose()?;
         if wanted_of.taylor.is_some() {
             formulas.extend([system.component_rates(&quaternions, &formulas.acceleration)]);
         }
-        formulas.extend(system.frame_formulas(&given.frames));
+        formulas.extend(system.frame_formulas(&provenance.frames));
         for method in &wanted_of.methods {
             match method {
-                WantedMethod::Centroidal => formulas.extend(system.centroidal_formulas()),
-                WantedMethod::NonlinearEffects => formulas.extend([system.nonlinear_effects(&formulas.gauss_residual)]),
-                WantedMethod::GravityTorques => formulas.extend([system.gravity_torques()]),
-                WantedMethod::JacobianRates => formulas.extend(system.jacobian_rates(&given.frames)),
+                OptionalMethod::Centroidal => formulas.extend(system.centroidal_formulas()),
+                OptionalMethod::NonlinearEffects => {
+                    formulas.extend([system.nonlinear_effects(&formulas.gauss_residual)])
+                }
+                OptionalMethod::GravityTorques => formulas.extend([system.gravity_torques()]),
+                OptionalMethod::JacobianRates => formulas.extend(system.jacobian_rates(&provenance.frames)),
             }
         }
         if let Some(reactions) = reactions {
-            formulas.extend(reactions_of(&reactions, (&given, &system), elimination.as_ref(), &formulas)?);
+            formulas.extend(reactions_of(&reactions, (&provenance, &system), elimination.as_ref(), &formulas)?);
         }
         let mut inertial_parameters = Vec::new();
         if let Some(Regressor { differentiated, formulas: of_regressor, parameters }) = regressor {
@@ -88,7 +90,7 @@ impl<'g> Formulation<'g> {
         derivatives.sort_by_key(|derivative| derivative.kind);
         let units = units_of(&system, &quaternions);
         Ok(Self {
-            given,
+            provenance,
             system,
             elimination,
             formulas,
@@ -108,7 +110,7 @@ impl<'g> Formulation<'g> {
     /// # Errors
     /// Mistakes of this crate.
     pub fn with_squares(&mut self) -> Result<bool> {
-        let literals = &self.given.literals;
+        let literals = &self.provenance.literals;
         let is_known =
             |mass: &Expr<'g>| mass.as_number().is_some() || literals.iter().any(|(_, literal)| literal == mass);
         if self.elimination.is_some() || !self.system.scene.tree.masses().all(|mass| is_known(&mass)) {
@@ -120,7 +122,7 @@ impl<'g> Formulation<'g> {
         }
         let claims = Claims { accelerations: &arrangements, ..Claims::default() };
         check_system_against_definition(&self.system, &claims)
-            .map_err(|faults| system_faults(&self.given, &self.system, &faults))?;
+            .map_err(|faults| system_faults(&self.provenance, &self.system, &faults))?;
         self.formulas.acceleration.extend(arrangements);
         Ok(true)
     }
@@ -139,16 +141,17 @@ impl<'g> Formulation<'g> {
 /// Reactions of joints, held to the definition.
 fn reactions_of<'g>(
     reactions: &Reactions<'g>,
-    (given, system): (&Given<'g>, &System<'g>),
+    (provenance, system): (&Provenance<'g>, &System<'g>),
     elimination: Option<&Elimination<'g>>,
     formulas: &Formulas<'g>,
 ) -> Result<Vec<Formula<'g>>> {
-    check_reactions(reactions).map_err(|found| system_faults(given, system, &[SystemFault::Disagreement(found)]))?;
+    check_reactions(reactions)
+        .map_err(|found| system_faults(provenance, system, &[SystemFault::Disagreement(found)]))?;
     let none = Vec::new();
     let multipliers = formulas.get(Method::Multipliers).unwrap_or(&none);
     let constraints = multipliers.first().map_or(0, Vec::len);
     if !reactions.has([constraints, system.contacts.rates.len()]) {
-        return Err(failed(given, system, &"joints that are let go have other constraints or contacts"));
+        return Err(failed(provenance, system, &"joints that are let go have other constraints or contacts"));
     }
     let formula = reactions.formula(multipliers, elimination.map(|elimination| (elimination, system)));
     Ok(std::iter::once(formula).chain(reactions.of_contacts()).collect())
@@ -156,11 +159,11 @@ fn reactions_of<'g>(
 
 /// Whatever is derived from the system as it is, and λ.
 fn derivatives<'g>(
-    wanted_of: &terms::Wanted,
+    wanted_of: &terms::KernelOptions,
     system: &System<'g>,
     formulas: &Formulas<'g>,
-    parameters: &[Parameter<'g>],
-) -> (Vec<Wanted<'g>>, Vec<Expr<'g>>) {
+    parameters: &[FieldNumber<'g>],
+) -> (Vec<DerivativeRequest<'g>>, Vec<Expr<'g>>) {
     let linearization = wanted_of.linearize.is_some().then(|| Linearization::new(system, formulas));
     let inverse = wanted_of.inverse.then(|| InverseLinearization::new(system, formulas));
     let hessian = wanted_of.hessian.then(|| Hessian::new(system, formulas));
@@ -187,12 +190,12 @@ fn derivatives<'g>(
     (derivatives, weights)
 }
 
-fn wanted<'g>(kind: DerivativeKind, differentiation: Differentiation<'g>) -> Wanted<'g> {
-    Wanted { kind, differentiation }
+fn wanted<'g>(kind: DerivativeKind, differentiation: Differentiation<'g>) -> DerivativeRequest<'g> {
+    DerivativeRequest { kind, differentiation }
 }
 
 /// The forces of inertia as a linear function of inertial parameters.
-fn regressor<'g>(clause: &Ident, system: &System<'g>, parameters: &[Parameter<'g>]) -> Result<Regressor<'g>> {
+fn regressor<'g>(clause: &Ident, system: &System<'g>, parameters: &[FieldNumber<'g>]) -> Result<Regressor<'g>> {
     let names = names_of(parameters);
     let inertial = InertialParameters::new(system, &names);
     // The system once more, of bodies by their first moments.
@@ -203,7 +206,7 @@ fn regressor<'g>(clause: &Ident, system: &System<'g>, parameters: &[Parameter<'g
 }
 
 /// Headings, each with its lines.
-pub type Printed = Vec<(String, Vec<String>)>;
+pub type PrintedEquations = Vec<(String, Vec<String>)>;
 
 /// The equations as text and in LaTeX, before anything else is made of the system, and nothing is left of it: in which
 /// order the terms of a sum come depends on what was made before, and what is multiplied out on how much. So what is
@@ -212,7 +215,7 @@ fn printed<'g>(
     system: &mut System<'g>,
     readings: &Readings<'g>,
     elimination: Option<&Elimination<'g>>,
-) -> [Printed; 2] {
+) -> [PrintedEquations; 2] {
     system.forget();
     let printed = system.scene.graph.aside(|| {
         let replacement = elimination.map(|elimination| Substitution::new(elimination.replacement()));
@@ -224,41 +227,42 @@ fn printed<'g>(
 }
 
 /// A system with the speeds that are left.
-struct Reduced<'g> {
-    given: Given<'g>,
+struct ReducedSystem<'g> {
+    provenance: Provenance<'g>,
     system: System<'g>,
     elimination: Option<Elimination<'g>>,
     reactions: Option<Reactions<'g>>,
 }
 
-impl<'g> Reduced<'g> {
-    fn of(Translated { scene, let_go, mut given }: Translated<'g>) -> Result<Self> {
-        refuse_exhausted(&given.item, scene.graph)?;
-        refuse_curved_kinematics(&given, &scene)?;
+impl<'g> ReducedSystem<'g> {
+    fn of(Translated { scene, let_go, mut provenance }: Translated<'g>) -> Result<Self> {
+        refuse_exhausted(&provenance.item, scene.graph)?;
+        refuse_curved_kinematics(&provenance, &scene)?;
         let mut whole = System::new(scene);
-        refuse_exhausted(&given.item, whole.scene.graph)?;
-        let needless = leave_out_needless(&given, &mut whole);
+        refuse_exhausted(&provenance.item, whole.scene.graph)?;
+        let needless = leave_out_needless(&provenance, &mut whole);
         let reactions = let_go.map(|mut let_go| {
             let_go.leave_out(&needless);
             Reactions::new(let_go)
         });
-        refuse_idle_speeds(&given, &whole)?;
-        let Some(independent) = &given.independent else {
-            return Ok(Self { given, system: whole, elimination: None, reactions });
+        refuse_idle_speeds(&provenance, &whole)?;
+        let Some(independent) = &provenance.independent else {
+            return Ok(Self { provenance, system: whole, elimination: None, reactions });
         };
-        let elimination = eliminate(&given.constraints, whole, independent)?;
+        let elimination = eliminate(&provenance.constraints, whole, independent)?;
         let system = System::new(elimination.reduced());
-        given.substitute(&Substitution::new(elimination.replacement()));
-        Ok(Self { given, system, elimination: Some(elimination), reactions })
+        provenance.substitute(&Substitution::new(elimination.replacement()));
+        Ok(Self { provenance, system, elimination: Some(elimination), reactions })
     }
 }
 
 /// Components of vectors that follow from others, and what a file says twice: nobody has written those one by one.
 /// Gives back their numbers.
-fn leave_out_needless<'g>(given: &Given<'g>, system: &mut System<'g>) -> Vec<usize> {
-    let together = |clause: usize| given.constraints[clause].is_vector || given.constraints[clause].in_file.is_some();
+fn leave_out_needless<'g>(provenance: &Provenance<'g>, system: &mut System<'g>) -> Vec<usize> {
+    let together =
+        |clause: usize| provenance.constraints[clause].is_vector || provenance.constraints[clause].in_file.is_some();
     if system.scene.constraints.iter().any(|constraint| together(constraint.clause)) {
-        let mut needless = system.scene.graph.aside(|| needless_constraints(system, &given.literals));
+        let mut needless = system.scene.graph.aside(|| needless_constraints(system, &provenance.literals));
         // Constraints that share forces stay, but for those that no motion changes.
         let shares = |k: usize| system.scene.redundant && system.constraints.jacobian[k].iter().any(|e| !e.is_zero());
         needless.retain(|&k| together(system.scene.constraints[k].clause) && !shares(k));
@@ -271,7 +275,7 @@ fn leave_out_needless<'g>(given: &Given<'g>, system: &mut System<'g>) -> Vec<usi
 }
 
 /// Names of the numbers of fields, by their symbols.
-fn names_of(parameters: &[Parameter<'_>]) -> Map<u32, String> {
+fn names_of(parameters: &[FieldNumber<'_>]) -> Map<u32, String> {
     parameters.iter().map(|parameter| (parameter.symbol.key(), parameter.name.clone())).collect()
 }
 

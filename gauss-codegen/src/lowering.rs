@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use crate::accuracy::{Deciding, Numbers, States, Trial};
+use crate::accuracy::{DecidingState, States, SymbolNumbers, Trial};
 use crate::algebra::{Expr, Rational};
 use crate::error::Result;
 use crate::formulation::Formulation;
@@ -14,7 +14,7 @@ use crate::mistakes::{
     failed, refuse_lost, refuse_regressor, refuse_series, refuse_too_much, refuse_unknown_derivatives,
 };
 use crate::terms::Scalar;
-use crate::translate::Given;
+use crate::translate::Provenance;
 
 /// A system with its programs.
 pub struct Lowered<'g> {
@@ -34,7 +34,7 @@ pub fn lower<'g>(mut formulation: Formulation<'g>) -> Result<Lowered<'g>> {
     if !kernel.functions.acceleration.loss.is_tolerable() && formulation.with_squares()? {
         kernel = programs(&formulation)?;
     }
-    let mass_laws = MassLaws::new(&formulation.given, &formulation.system);
+    let mass_laws = MassLaws::new(&formulation.provenance, &formulation.system);
     Ok(Lowered { formulation, kernel, mass_laws })
 }
 
@@ -44,9 +44,9 @@ pub fn lower<'g>(mut formulation: Formulation<'g>) -> Result<Lowered<'g>> {
 /// More code than is wanted, masses that are something else besides, motions without a power series; mistakes of this
 /// crate.
 fn programs<'g>(formulation: &Formulation<'g>) -> Result<Kernel<'g>> {
-    let Given { item, literals, .. } = &formulation.given;
+    let Provenance { item, literals, .. } = &formulation.provenance;
     let graph = formulation.system.scene.graph;
-    let failed = |what: &dyn Display| failed(&formulation.given, &formulation.system, &what);
+    let failed = |what: &dyn Display| failed(&formulation.provenance, &formulation.system, &what);
     let undefined = || failed(&"the equations divide by zero");
     if graph.is_undefined() {
         return Err(undefined());
@@ -59,7 +59,7 @@ fn programs<'g>(formulation: &Formulation<'g>) -> Result<Kernel<'g>> {
     let known = foldable(&item.scalar, literals);
     let states = states(formulation);
     let samples = states.samples();
-    let lowered = |deciding: &[Deciding]| {
+    let lowered = |deciding: &[DecidingState]| {
         let mut trial = Trial::new(samples.points()).with(deciding);
         let kernel = Kernel::lower(graph, &functions, &formulation.definitions, &wanted, known, &mut trial)
             .map_err(|error| failed(&error))?;
@@ -68,7 +68,7 @@ fn programs<'g>(formulation: &Formulation<'g>) -> Result<Kernel<'g>> {
         }
         refuse_unknown_derivatives(&item.functions, &kernel)?;
         refuse_too_much(item, &kernel)?;
-        refuse_lost(&formulation.given, &kernel)?;
+        refuse_lost(&formulation.provenance, &kernel)?;
         refuse_regressor(item.wanted.regressor.as_ref(), &formulation.inertial_parameters, &kernel)?;
         refuse_series(item.wanted.taylor.as_ref(), !item.inputs.is_empty(), &kernel)?;
         Ok(kernel)
@@ -84,17 +84,17 @@ fn programs<'g>(formulation: &Formulation<'g>) -> Result<Kernel<'g>> {
 
 /// Symbols and formulas from which states are made at which the programs are tried.
 pub fn states<'a, 'g>(formulation: &'a Formulation<'g>) -> States<'a, 'g> {
-    let Formulation { given, system, formulas, definitions, units, .. } = formulation;
-    let parameters = given.parameters.iter();
+    let Formulation { provenance, system, formulas, definitions, units, .. } = formulation;
+    let parameters = provenance.parameters.iter();
     let states = States {
         system,
         momentum: &formulas.momentum[0],
         parameters: parameters.map(|parameter| (parameter.symbol, parameter.name.contains('['))).collect(),
-        literals: given.literals.clone(),
+        literals: provenance.literals.clone(),
         units,
         weights: &formulation.weights,
         definitions,
-        numbers: Numbers::default(),
+        numbers: SymbolNumbers::default(),
     };
     states.numbered()
 }

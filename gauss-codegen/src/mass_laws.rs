@@ -5,7 +5,7 @@ use proc_macro2::Ident;
 use crate::algebra::Expr;
 use crate::mechanics::{KineticMatrix, QuantityValues, System, SystemScene};
 use crate::terms::{Field, Role, Shape};
-use crate::translate::{BodyData, ClauseValue, Given};
+use crate::translate::{BodyData, ClauseValue, Provenance};
 use crate::words::Unraw;
 
 /// Laws that mass data must keep.
@@ -89,13 +89,13 @@ pub enum InertiaRule {
 }
 
 impl<'g> MassLaws<'g> {
-    pub fn new(given: &Given<'g>, system: &System<'g>) -> Self {
-        let laws = Laws { given, scene: &system.scene };
-        let bodies = &given.mass_data.bodies;
+    pub fn new(provenance: &Provenance<'g>, system: &System<'g>) -> Self {
+        let laws = Laws { provenance, scene: &system.scene };
+        let bodies = &provenance.mass_data.bodies;
         let of_one = |laws: Vec<MassLaw<'g>>| Group { values: Vec::new(), laws };
-        let fields = given.item.fields.iter().enumerate().filter(|(k, _)| given.is_read(*k));
+        let fields = provenance.item.fields.iter().enumerate().filter(|(k, _)| provenance.is_read(*k));
         let mut of_data: Vec<Group<'g>> = fields.map(|(k, field)| of_one(laws.of_field(k, field))).collect();
-        of_data.extend(given.mass_data.unnamed.iter().map(|value| {
+        of_data.extend(provenance.mass_data.unnamed.iter().map(|value| {
             let role = value.own.quantity;
             let rule = laws.of_role(role, value.shape, Datum::Clause(role));
             of_one(vec![MassLaw { label: role.word().to_owned(), rule }])
@@ -103,8 +103,8 @@ impl<'g> MassLaws<'g> {
         of_data.extend(bodies.iter().filter_map(|body| laws.of_clauses(body)));
         let of_fluid = bodies.iter().flat_map(|body| laws.of_fluid(body));
         let of_motions = of_fluid.chain(laws.of_motion(system)).collect();
-        let gravity = laws.datum(Role::Gravity).filter(|_| given.shape(Role::Gravity) == Some(Shape::Scalar));
-        let gravity = gravity.map(|gravity| (given.role_name(None, Role::Gravity), gravity));
+        let gravity = laws.datum(Role::Gravity).filter(|_| provenance.shape(Role::Gravity) == Some(Shape::Scalar));
+        let gravity = gravity.map(|gravity| (provenance.role_name(None, Role::Gravity), gravity));
         let added_masses = bodies.iter().filter_map(|body| laws.of_added_mass(body)).collect();
         Self { of_data, of_motions, in_sum: !laws.is_charted_body(), gravity, added_masses }
     }
@@ -112,7 +112,7 @@ impl<'g> MassLaws<'g> {
 
 /// The laws of a scene.
 struct Laws<'a, 'g> {
-    given: &'a Given<'g>,
+    provenance: &'a Provenance<'g>,
     scene: &'a SystemScene<'g>,
 }
 
@@ -125,13 +125,13 @@ impl<'g> Laws<'_, 'g> {
 
     /// Place of the data that play a role of the body without a name.
     fn datum(&self, role: Role) -> Option<Datum> {
-        let field = self.given.item.fields.iter().position(|field| field.role == Some(role)).map(Datum::Field);
-        field.or_else(|| self.given.mass_data.unnamed(role).map(|_| Datum::Clause(role)))
+        let field = self.provenance.item.fields.iter().position(|field| field.role == Some(role)).map(Datum::Field);
+        field.or_else(|| self.provenance.mass_data.unnamed(role).map(|_| Datum::Clause(role)))
     }
 
     fn of_added_mass(&self, body: &BodyData<'g>) -> Option<(String, Vec<Expr<'g>>)> {
         let matrix = self.scene.tree.links[body.link].body()?.added_mass.as_ref()?;
-        let label = self.given.role_name(body.name.as_ref(), Role::AddedMass);
+        let label = self.provenance.role_name(body.name.as_ref(), Role::AddedMass);
         Some((label, (0..6).map(|i| matrix[i][i]).collect()))
     }
 
@@ -146,7 +146,7 @@ impl<'g> Laws<'_, 'g> {
                 return self.of_body(&field.ident, word, (mass, Some(center)), (tensor, Shape::Matrix3), is_central);
             }
             (Some(role), shape) => self.of_role(role, shape, datum),
-            (None, Shape::Matrix6) if self.given.mass_data.added_masses.contains(&k) => MassRule::Symmetric(datum),
+            (None, Shape::Matrix6) if self.provenance.mass_data.added_masses.contains(&k) => MassRule::Symmetric(datum),
             (None, shape) => MassRule::Finite(datum, shape),
         };
         vec![MassLaw { label, rule }]
@@ -166,7 +166,7 @@ impl<'g> Laws<'_, 'g> {
 
     /// Rules for the inertia of the body without a name.
     fn of_inertia(&self, role: Role, shape: Shape, tensor: Datum) -> InertiaRules {
-        let body = self.given.body(None);
+        let body = self.provenance.body(None);
         // Where O is held at Ω only m·c and I_O enter, and m by itself says nothing.
         let is_held = body.is_some_and(|body| self.scene.is_held(body.link));
         let is_central = role == Role::CentralInertia;
@@ -176,7 +176,7 @@ impl<'g> Laws<'_, 'g> {
         let rules = match twist.as_slice() {
             _ if !self.is_charted_body() => vec![self.in_sum(body)],
             // In the plane only the moment about k₃ enters, whatever else is given.
-            [0, 1, 5] if !self.given.mass_data.attracted => vec![InertiaRule::Planar, InertiaRule::AboutAxis(2)],
+            [0, 1, 5] if !self.provenance.mass_data.attracted => vec![InertiaRule::Planar, InertiaRule::AboutAxis(2)],
             [0, 1, 5] => vec![InertiaRule::Planar, InertiaRule::InSum],
             _ if is_central => {
                 (mass, center) = (self.datum(Role::Mass), None);
@@ -191,7 +191,7 @@ impl<'g> Laws<'_, 'g> {
     /// The rule of a body that moves with others: what enters of its moments depends on the axes about which it turns.
     /// A field of attraction sees all of them.
     fn in_sum(&self, body: Option<&BodyData<'g>>) -> InertiaRule {
-        let Some(body) = body.filter(|_| !self.given.mass_data.attracted) else { return InertiaRule::InSum };
+        let Some(body) = body.filter(|_| !self.provenance.mass_data.attracted) else { return InertiaRule::InSum };
         match self.scene.tree.links[body.link].turns_about()[..] {
             [] => InertiaRule::Still,
             [axis] => InertiaRule::AboutAxis(axis),
@@ -209,7 +209,7 @@ impl<'g> Laws<'_, 'g> {
         (tensor, shape): (Datum, Shape),
         is_central: bool,
     ) -> Vec<MassLaw<'g>> {
-        let body = self.given.body(Some(name));
+        let body = self.provenance.body(Some(name));
         let law = |part: &str, rule| MassLaw { label: format!("{}.{part}", name.unraw()), rule };
         let inertia = InertiaRules {
             rules: vec![self.in_sum(body)],
@@ -251,7 +251,7 @@ impl<'g> Laws<'_, 'g> {
                 (_, Shape::Matrix6) => return None,
                 _ => MassRule::Finite(datum, *shape),
             };
-            let law = MassLaw { label: self.given.role_name(name, own.quantity), rule };
+            let law = MassLaw { label: self.provenance.role_name(name, own.quantity), rule };
             Some(Group { values: vec![own.clone()], laws: vec![law] })
         };
         let of_fluid = body.values.iter().filter(|value| name.is_some() && !value.own.quantity.is_of_matter());
@@ -259,7 +259,7 @@ impl<'g> Laws<'_, 'g> {
         let link = &self.scene.tree.links[body.link];
         if let Some(matter) = link.body().filter(|matter| matter.added_mass.is_some()) {
             let matrix = KineticMatrix::new(link.frame.graph, matter, &[0, 1, 2], &[3, 4, 5]);
-            let label = self.given.role_name(name, Role::AddedMass);
+            let label = self.provenance.role_name(name, Role::AddedMass);
             groups.push(kinetic_matrix(label, &matrix, &self.scene.twist_of(body.link)));
         }
         groups
@@ -268,17 +268,17 @@ impl<'g> Laws<'_, 'g> {
     /// Law of the kinetic energy of the body without a name, on the axes of its motion: with a centre of mass off O its
     /// parts can be fine one by one, and not together.
     fn of_motion(&self, system: &System<'g>) -> Option<Group<'g>> {
-        let body = self.given.body(None)?;
+        let body = self.provenance.body(None)?;
         let free = system.free.iter().find(|free| free.link == body.link)?;
         let active = &free.kinematics.active;
         let in_fluid = self.scene.tree.links[free.link].body()?.added_mass.is_some();
         // About the centre of mass no part speaks against another.
-        let given = |role: Role| self.given.shape(role).is_some();
-        let is_well = !given(Role::CenterOfMass) || given(Role::CentralInertia);
+        let has = |role: Role| self.provenance.shape(role).is_some();
+        let is_well = !has(Role::CenterOfMass) || has(Role::CentralInertia);
         if in_fluid || active.iter().all(|&k| k >= 3) || is_well {
             return None;
         }
-        Some(kinetic_matrix(self.given.role_name(None, Role::Inertia), &free.matrix, active))
+        Some(kinetic_matrix(self.provenance.role_name(None, Role::Inertia), &free.matrix, active))
     }
 }
 

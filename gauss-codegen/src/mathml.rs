@@ -5,7 +5,7 @@
 
 /// The elements of a formula of `latex`, in math mode: what stands in `<math>…</math>`.
 pub fn mathml(latex: &str) -> String {
-    Reader { rest: latex }.row(End::Line)
+    LatexReader { rest: latex }.row(End::Line)
 }
 
 /// Lines of equations, which stand in `align*` environments.
@@ -69,7 +69,7 @@ enum End {
     Right,
 }
 
-struct Reader<'a> {
+struct LatexReader<'a> {
     rest: &'a str,
 }
 
@@ -138,7 +138,7 @@ const FUNCTIONS: [&str; 14] = [
 
 const APPLIED: &str = "<mo>&#x2061;</mo>";
 
-impl<'a> Reader<'a> {
+impl<'a> LatexReader<'a> {
     /// Everything up to the end.
     fn row(&mut self, end: End) -> String {
         let mut out = String::new();

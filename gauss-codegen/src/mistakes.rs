@@ -12,22 +12,22 @@ use crate::mechanics::{
 };
 use crate::methods::DerivativeKind;
 use crate::program::{Instruction, Operand};
-use crate::terms::{FunctionKind, Item, Joined, Scalar, Table, UserFunction};
-use crate::translate::{ConstraintPlace, Given, Independent, Named};
+use crate::terms::{FunctionKind, Interpolation, Item, Scalar, Table, UserFunction};
+use crate::translate::{ConstraintPlace, IndependentSpeeds, Provenance, SpannedName};
 
 /// Operations up to which code is generated unless the user says otherwise: some seconds of the compiler's time.
 const LIMIT: usize = 50_000;
 
 /// Rates that are not affine in the speeds.
-pub fn refuse_curved_kinematics(given: &Given<'_>, scene: &SystemScene<'_>) -> Result<()> {
+pub fn refuse_curved_kinematics(provenance: &Provenance<'_>, scene: &SystemScene<'_>) -> Result<()> {
     let mut mistakes = Mistakes::default();
     let mut curved: Vec<usize> =
         scene.rates_not_affine().into_iter().map(|k| Coordinate::of_component(&scene.coordinates, k)).collect();
     curved.dedup();
     for k in curved {
         // ψ of a chart is affine; the declared coordinates come after its own.
-        let before = scene.coordinates.len() - given.rates.len();
-        let Named { text: coordinate, span } = &given.rates[k - before];
+        let before = scene.coordinates.len() - provenance.rates.len();
+        let SpannedName { text: coordinate, span } = &provenance.rates[k - before];
         mistakes.push(
             *span,
             format!(
@@ -65,10 +65,10 @@ pub fn refuse_series(taylor: Option<&Ident>, has_inputs: bool, kernel: &Kernel<'
 }
 
 /// Speeds that nothing with mass moves with.
-pub fn refuse_idle_speeds(given: &Given<'_>, system: &System<'_>) -> Result<()> {
+pub fn refuse_idle_speeds(provenance: &Provenance<'_>, system: &System<'_>) -> Result<()> {
     let mut mistakes = Mistakes::default();
     for k in system.idle_speeds() {
-        let Named { text: name, span } = &given.speeds[k];
+        let SpannedName { text: name, span } = &provenance.speeds[k];
         mistakes.push(
             *span,
             format!("no velocity depends on `{name}`: its row of the mass matrix is zero; give a mass to the bodies that it moves, or leave it out"),
@@ -95,7 +95,7 @@ pub fn refuse_unknown_derivatives(functions: &[UserFunction], kernel: &Kernel<'_
         let ordinal = ["value", "first", "second", "third"].get(usize::from(needed)).unwrap_or(&"fourth");
         let remedy = match (&clause.kind, word) {
             (FunctionKind::Rust(_), Some(word)) => format!("add `{word} = …` to `function({name}, …)`"),
-            (FunctionKind::Table(Table { joined: Joined::Linear, .. }), _) => "write `kind = cubic`".to_owned(),
+            (FunctionKind::Table(Table { joined: Interpolation::Linear, .. }), _) => "write `kind = cubic`".to_owned(),
             _ => "write a force in the place of a potential, or a law that is differentiated less often".to_owned(),
         };
         mistakes.push(name.span(), format!("the equations need the {ordinal} derivative of `{name}`; {remedy}"));
@@ -168,11 +168,11 @@ pub fn not_linear(clause: &Ident, mass: &str) -> Error {
 }
 
 /// Gaps that no motion changes; slips that are not affine in the speeds, or that no motion changes.
-pub fn refuse_contacts(given: &Given<'_>, system: &System<'_>) -> Result<()> {
+pub fn refuse_contacts(provenance: &Provenance<'_>, system: &System<'_>) -> Result<()> {
     let mut mistakes = Mistakes::default();
     let mut rows = system.contacts.jacobian.iter();
     for contact in &system.scene.contacts {
-        let place = &given.contacts[contact.clause];
+        let place = &provenance.contacts[contact.clause];
         let slips = if contact.rolls_on.is_some() { &place.rolls } else { &place.slips };
         let gap = place.gap.filter(|_| contact.gap.is_some());
         let spans = gap.into_iter().map(|gap| (gap, true)).chain(slips.iter().map(|slip| (*slip, false)));
@@ -199,7 +199,7 @@ pub fn refuse_contacts(given: &Given<'_>, system: &System<'_>) -> Result<()> {
 pub fn eliminate<'g>(
     places: &[ConstraintPlace],
     whole: System<'g>,
-    Independent { kept, span: named }: &Independent,
+    IndependentSpeeds { kept, span: named }: &IndependentSpeeds,
 ) -> Result<Elimination<'g>> {
     let clauses: Vec<Span> = whole.scene.constraints.iter().map(|c| places[c.clause].expression).collect();
     let (total, count, named) = (whole.scene.speeds.len(), clauses.len(), *named);
@@ -226,17 +226,17 @@ pub fn eliminate<'g>(
 }
 
 /// Errors of the faults that the check of a system finds, each at the token that is wrong.
-pub fn system_faults<'g>(given: &Given<'g>, system: &System<'g>, faults: &[SystemFault]) -> Error {
+pub fn system_faults<'g>(provenance: &Provenance<'g>, system: &System<'g>, faults: &[SystemFault]) -> Error {
     let clause = |k: usize, text: &str| {
-        let place = &given.constraints[system.scene.constraints[k].clause];
+        let place = &provenance.constraints[system.scene.constraints[k].clause];
         (place.word, format!("{}{text}", place.in_file.as_deref().unwrap_or_default()))
     };
     let mut mistakes = Mistakes::default();
     for fault in faults {
         match fault {
-            SystemFault::Disagreement(error) => return failed(given, system, error),
+            SystemFault::Disagreement(error) => return failed(provenance, system, error),
             SystemFault::DependentSpeed(k) => {
-                let Named { text: name, span } = &given.speeds[*k];
+                let SpannedName { text: name, span } = &provenance.speeds[*k];
                 let message = format!(
                     "`{name}` moves nothing that the speeds before it do not move: the mass matrix is singular; \
                      leave one of them out, or give what it moves a mass"
@@ -261,15 +261,15 @@ pub fn system_faults<'g>(given: &Given<'g>, system: &System<'g>, faults: &[Syste
             }
         }
     }
-    mistakes.finish().err().unwrap_or_else(|| bug(&given.item.ident, &"a fault without a name"))
+    mistakes.finish().err().unwrap_or_else(|| bug(&provenance.item.ident, &"a fault without a name"))
 }
 
 /// A check that failed: what in the scene is the cause, or a mistake of this crate.
-pub fn failed<'g>(given: &Given<'g>, system: &System<'g>, what: &impl Display) -> Error {
-    given.cause_of_failure(&system.scene.tree).unwrap_or_else(|| match has_values(system) {
-        true => bug(&given.item.ident, what),
+pub fn failed<'g>(provenance: &Provenance<'g>, system: &System<'g>, what: &impl Display) -> Error {
+    provenance.cause_of_failure(&system.scene.tree).unwrap_or_else(|| match has_values(system) {
+        true => bug(&provenance.item.ident, what),
         false => Error::new(
-            given.item.ident.span(),
+            provenance.item.ident.span(),
             format!(
                 "the mass matrix has a value at none of the states that were tried, so its pivots are not known to \
                  differ from zero ({what}); see whether roots, logarithms and arcs in positions and kinematics are \
@@ -289,19 +289,19 @@ pub fn bug(ident: &Ident, what: &impl Display) -> Error {
 ///
 /// # Errors
 /// The first of the extreme numbers, or the name of the struct where there are none.
-pub fn refuse_lost<'g>(given: &Given<'g>, kernel: &Kernel<'g>) -> Result<()> {
-    let single = matches!(given.item.scalar, Scalar::F32);
+pub fn refuse_lost<'g>(provenance: &Provenance<'g>, kernel: &Kernel<'g>) -> Result<()> {
+    let single = matches!(provenance.item.scalar, Scalar::F32);
     let [least, most] = match single {
         true => [f32::MIN_POSITIVE, f32::MAX].map(f64::from),
         false => [f64::MIN_POSITIVE, f64::MAX],
     };
     let is_lost = |value: f64| !(least..=most).contains(&value.abs());
-    let has_extreme = !given.extreme.is_empty();
+    let has_extreme = !provenance.extreme.is_empty();
     // Zero, too small or too large.
     let suspicious = kernel.known_constants.iter().zip(&kernel.folded).filter(|((_, found), _)| is_lost(*found));
     // Among usual numbers a zero is what rounding left of a difference; among extreme ones a product may be lost.
     let of_literals = suspicious
-        .filter_map(|(_, (_, definition))| given.rounded(*definition))
+        .filter_map(|(_, (_, definition))| provenance.rounded(*definition))
         .any(|exact| !exact.may_be_zero() && (is_lost(exact.value.to_f64()) || has_extreme));
     let programs = kernel.written();
     let in_programs = || {
@@ -311,8 +311,8 @@ pub fn refuse_lost<'g>(given: &Given<'g>, kernel: &Kernel<'g>) -> Result<()> {
     if !of_literals && !in_programs() {
         return Ok(());
     }
-    let span = given.extreme.first().map_or(given.item.ident.span(), |(span, _)| *span);
-    let of = given.extreme.first().map(|(_, value)| format!(" with `{}`", decimal(*value, Notation::Text)));
+    let span = provenance.extreme.first().map_or(provenance.item.ident.span(), |(span, _)| *span);
+    let of = provenance.extreme.first().map(|(_, value)| format!(" with `{}`", decimal(*value, Notation::Text)));
     let (of, precision) = (of.unwrap_or_default(), if single { "single" } else { "double" });
     let message = format!(
         "a constant of the equations{of} is beyond the range of {precision} precision; choose units in which the numbers \

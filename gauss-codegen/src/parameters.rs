@@ -70,16 +70,16 @@ pub struct Warning {
 pub enum WarningRule {
     /// Drag with velocities, or with their squares where that is said, six by six: takes energy away.
     Drag {
-        /// With squares.
+        /// Whether it is with squares.
         quadratic: bool,
     },
-    /// Of a spring or a stop: takes energy away.
+    /// Damping of a spring or a stop: takes energy away.
     Damping,
     /// A square matrix that takes energy away.
     DampingMatrix,
     /// A dissipation function at a few states.
     Dissipation,
-    /// Of one number: points down.
+    /// Gravity of one number: points down.
     Gravity,
     /// The gravitational parameter of a centre: attracts.
     Center,

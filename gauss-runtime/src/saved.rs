@@ -158,7 +158,7 @@ fn refused<E: Error>(names: Names, error: StateError) -> E {
         deserialize = "S: GaussSystem<Scalar: Deserialize<'de>> + DescribedSystem"
     )
 )]
-struct Written<S: GaussSystem> {
+struct SavedSample<S: GaussSystem> {
     t: S::Scalar,
     q: Coordinates<S>,
     z: Speeds<S>,
@@ -168,13 +168,13 @@ struct Written<S: GaussSystem> {
 impl<S: GaussSystem<Scalar: Serialize> + DescribedSystem> Serialize for Sample<S> {
     fn serialize<W: Serializer>(&self, serializer: W) -> Result<W::Ok, W::Error> {
         let Self { t, q, z, p } = *self;
-        Written::<S> { t, q: Coordinates(q), z: Speeds(z), p: Speeds(p) }.serialize(serializer)
+        SavedSample::<S> { t, q: Coordinates(q), z: Speeds(z), p: Speeds(p) }.serialize(serializer)
     }
 }
 
 impl<'de, S: GaussSystem<Scalar: Deserialize<'de>> + DescribedSystem> Deserialize<'de> for Sample<S> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let Written { t, q, z, p } = Written::<S>::deserialize(deserializer)?;
+        let SavedSample { t, q, z, p } = SavedSample::<S>::deserialize(deserializer)?;
         if !Real::is_finite(t) {
             return Err(D::Error::custom("`t` is infinite or undefined"));
         }

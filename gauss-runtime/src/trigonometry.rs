@@ -134,7 +134,7 @@ fn constants<P: Pack>([a, b, c, d, e, f]: [f64; 6]) -> [P; 6] {
 }
 
 /// Remainder of an angle by the nearest multiple of π/2.
-struct Reduced<P> {
+struct QuadrantRemainder<P> {
     /// Its last digits give the quadrant.
     shifted: P,
     /// x − n π/2 = y − excess.
@@ -143,7 +143,7 @@ struct Reduced<P> {
 }
 
 #[inline(always)]
-fn reduced<const FUSED: bool, P: Pack>(x: P, fma: impl MultiplyAdd) -> Reduced<P> {
+fn reduced<const FUSED: bool, P: Pack>(x: P, fma: impl MultiplyAdd) -> QuadrantRemainder<P> {
     let (number, fma) = (P::splat, |a: P, b: P, c: P| a.multiply_add(b, c, fma));
     let shifted = fma(x, number(core::f64::consts::FRAC_2_PI), number(SHIFTER));
     let n = shifted - number(SHIFTER);
@@ -162,7 +162,7 @@ fn reduced<const FUSED: bool, P: Pack>(x: P, fma: impl MultiplyAdd) -> Reduced<P
         let y = left - part;
         (y, ((y - left) + part) + n * third)
     };
-    Reduced { shifted, y, excess }
+    QuadrantRemainder { shifted, y, excess }
 }
 
 /// A polynomial in z.
@@ -175,7 +175,7 @@ fn series<P: Pack>(terms: [P; 6], z: P, fma: impl MultiplyAdd) -> P {
 }
 
 /// Coefficients that make a sine of [`fused`], or a cosine.
-struct Wanted<P> {
+struct SeriesCoefficients<P> {
     /// Coefficients of the series.
     terms: [P; 6],
     /// The part of y beside it.
@@ -187,7 +187,7 @@ struct Wanted<P> {
 /// Sine or cosine by fused products: sin(y − e) = y − (s y³ + e), cos(y − e) = 1 + (c y³ + (e − y/2)) y, with at most
 /// 0.15 and 0.04 ulp of e left out. One form for both, so that both can be places of one vector.
 #[inline(always)]
-fn fused<P: Pack>(y: P, excess: P, wanted: Wanted<P>, fma: impl MultiplyAdd) -> P {
+fn fused<P: Pack>(y: P, excess: P, wanted: SeriesCoefficients<P>, fma: impl MultiplyAdd) -> P {
     let z = y * y;
     let series = series(wanted.terms, z, fma);
     let fma = |a: P, b: P, c: P| a.multiply_add(b, c, fma);
@@ -206,13 +206,13 @@ fn of_small_angle<const FUSED: bool, P: Pack>(x: P, fma: impl MultiplyAdd) -> (P
 
 /// `(sin x, cos x)` of the remainder of an angle.
 #[inline(always)]
-fn of_reduced<const FUSED: bool, P: Pack>(left: Reduced<P>, fma: impl MultiplyAdd) -> (P, P) {
-    let (Reduced { shifted, y, excess }, number, one) = (left, P::splat, P::splat(1.0));
+fn of_reduced<const FUSED: bool, P: Pack>(left: QuadrantRemainder<P>, fma: impl MultiplyAdd) -> (P, P) {
+    let (QuadrantRemainder { shifted, y, excess }, number, one) = (left, P::splat, P::splat(1.0));
     let (sine_terms, cosine_terms) = (constants(SINE), constants(COSINE));
     let (sine, cosine) = if FUSED {
         // y comes last: −0 keeps its sign.
-        let sine = Wanted { terms: sine_terms, part: number(0.0), factor: number(-1.0), start: y };
-        let cosine = Wanted { terms: cosine_terms, part: number(-0.5), factor: y, start: one };
+        let sine = SeriesCoefficients { terms: sine_terms, part: number(0.0), factor: number(-1.0), start: y };
+        let cosine = SeriesCoefficients { terms: cosine_terms, part: number(-0.5), factor: y, start: one };
         (fused(y, excess, sine, fma), fused(y, excess, cosine, fma))
     } else {
         let z = y * y;
@@ -262,8 +262,8 @@ mod vectors {
     use ::wide::{f64x2, f64x4, f64x8, u64x2, u64x4, u64x8};
 
     use super::{
-        CLOSE, COSINE, FUSED, MultiplyAdd, Pack, Reduced, SIGN, SINE, Wanted, fused, of_small_angle, one_by_one,
-        reduced, sin_cos, within_limit,
+        CLOSE, COSINE, FUSED, MultiplyAdd, Pack, QuadrantRemainder, SIGN, SINE, SeriesCoefficients, fused,
+        of_small_angle, one_by_one, reduced, sin_cos, within_limit,
     };
 
     macro_rules! packs {
@@ -329,10 +329,10 @@ mod vectors {
                 let fma = |a: f64, b: f64, c: f64| a * b + c;
                 let x = $vector::new(core::array::from_fn(|i| if i < $half { x[i] } else { x[i - $half] }));
 
-                let Reduced { shifted, y, excess } = reduced::<true, $vector>(x, fma);
+                let QuadrantRemainder { shifted, y, excess } = reduced::<true, $vector>(x, fma);
                 let holds = within_limit(part(shifted, 0));
                 let one = $vector::splat(1.0);
-                let wanted = Wanted {
+                let wanted = SeriesCoefficients {
                     terms: core::array::from_fn(|i| numbers(SINE[i], COSINE[i])),
                     part: numbers(0.0, -0.5),
                     factor: select($vector::splat(-1.0), y),
@@ -427,7 +427,7 @@ fn of_any_angle(x: f64) -> (f64, f64) {
     }
     let (quadrant, y, excess) = huge::reduced(x);
     let shifted = f64::from_bits(SHIFTER.to_bits() + quadrant);
-    of_reduced::<false, f64>(Reduced { shifted, y, excess }, |a, b, c| a * b + c)
+    of_reduced::<false, f64>(QuadrantRemainder { shifted, y, excess }, |a, b, c| a * b + c)
 }
 
 #[cfg(test)]

@@ -27,10 +27,10 @@ impl Interval {
 }
 
 /// A state and the derivatives there.
-type Reached<S> = (State<S>, Rates<S>);
+type AdvancedState<S> = (State<S>, Rates<S>);
 
 /// A lane that stopped, and the state at which it stands still.
-struct Held<S: BatchSystem> {
+struct StoppedLane<S: BatchSystem> {
     lane: usize,
     t: <S::Scalar as Packed>::Single,
     q: SingleConfiguration<S>,
@@ -39,7 +39,7 @@ struct Held<S: BatchSystem> {
 
 /// Who tries a step.
 #[derive(Clone, Copy)]
-enum Trial {
+enum StepTrial {
     /// All that have not stopped, with the first error of a step that has failed before.
     OfTheAble(Option<IntegrationErrorKind>),
     /// One state, because a step of all has failed with this error.
@@ -51,7 +51,7 @@ struct Block<'a, S: BatchSystem, P, M> {
     problem: &'a P,
     method: &'a M,
     states: usize,
-    held: Vec<Held<S>>,
+    held: Vec<StoppedLane<S>>,
     failures: Vec<RunError>,
 }
 
@@ -80,7 +80,7 @@ pub(crate) fn advance<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>>(
         }
     };
     let h = S::Scalar::from_f64(if span < 0.0 { -interval.step.abs() } else { interval.step.abs() });
-    let (mut n, mut trial) = (1, Trial::OfTheAble(None));
+    let (mut n, mut trial) = (1, StepTrial::OfTheAble(None));
     while n <= steps {
         // As `Fixed` has it: times are multiples of h, not sums of it, and the last step ends where it should.
         let last = n == steps;
@@ -88,8 +88,8 @@ pub(crate) fn advance<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>>(
         let this = if last { end - reached.0.t } else { h };
         // The one place where steps are made, so that the method is put into this loop.
         match (block.step(&reached, block.lengths(this, trial), time), trial) {
-            (Ok(next), Trial::OfTheAble(_)) => {
-                (reached, trial) = (next, Trial::OfTheAble(None));
+            (Ok(next), StepTrial::OfTheAble(_)) => {
+                (reached, trial) = (next, StepTrial::OfTheAble(None));
                 n += 1;
             }
             (outcome, _) => match block.after(trial, outcome.err(), &reached.0) {
@@ -117,7 +117,7 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
 
     /// The span of time and the state at its start, which is good in all lanes: lanes that are not hold the state of
     /// one that is. `None` when none is.
-    fn start(&mut self, interval: &Interval, q: &S::Configuration, z: &S::Speeds) -> Option<(f64, Reached<S>)> {
+    fn start(&mut self, interval: &Interval, q: &S::Configuration, z: &S::Speeds) -> Option<(f64, AdvancedState<S>)> {
         if !(interval.step.is_finite() && interval.step != 0.0) {
             self.fail_the_rest(interval.start, IntegrationErrorKind::InvalidStep { step: interval.step });
             return None;
@@ -145,7 +145,7 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
                     return None;
                 };
                 for state in self.failures.iter().map(|failure| failure.state) {
-                    let holding = self.lanes_of(state).map(|lane| Held::at(&started.1.0, lane));
+                    let holding = self.lanes_of(state).map(|lane| StoppedLane::at(&started.1.0, lane));
                     self.held.extend(holding);
                 }
                 Some(started)
@@ -159,7 +159,7 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
         interval: &Interval,
         q: &S::Configuration,
         z: &S::Speeds,
-    ) -> Result<(f64, Reached<S>), IntegrationErrorKind> {
+    ) -> Result<(f64, AdvancedState<S>), IntegrationErrorKind> {
         let system = self.problem.system();
         let (t, q) = (S::Scalar::from_f64(interval.start), q.renormalise());
         let start = State { t, q, y: self.problem.variables(t, &q, z) };
@@ -177,27 +177,27 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
     /// others stand still; those that are to blame stop, and the others make the step.
     #[cold]
     #[inline(never)]
-    fn after(&mut self, trial: Trial, failed: Option<IntegrationErrorKind>, from: &State<S>) -> Option<Trial> {
+    fn after(&mut self, trial: StepTrial, failed: Option<IntegrationErrorKind>, from: &State<S>) -> Option<StepTrial> {
         let first = match (trial, failed) {
-            (Trial::OfTheAble(Some(kind)), Some(_)) => {
+            (StepTrial::OfTheAble(Some(kind)), Some(_)) => {
                 let going = (0..self.states).find(|&state| self.is_able(state)).unwrap_or(0);
                 self.fail_the_rest(from.t.extract(going).lane(0), kind);
                 return None;
             }
-            (Trial::OfTheAble(None), Some(kind)) => Trial::Alone(0, kind),
-            (Trial::OfTheAble(_), None) => return Some(trial),
-            (Trial::Alone(state, first), failed) => {
+            (StepTrial::OfTheAble(None), Some(kind)) => StepTrial::Alone(0, kind),
+            (StepTrial::OfTheAble(_), None) => return Some(trial),
+            (StepTrial::Alone(state, first), failed) => {
                 if let Some(kind) = failed {
                     self.failures.push(RunError::new(state, from.t.extract(state).lane(0), kind));
-                    self.held.extend(self.lanes_of(state).map(|lane| Held::at(from, lane)));
+                    self.held.extend(self.lanes_of(state).map(|lane| StoppedLane::at(from, lane)));
                 }
-                Trial::Alone(state + 1, first)
+                StepTrial::Alone(state + 1, first)
             }
         };
-        let Trial::Alone(from, kind) = first else { return Some(first) };
+        let StepTrial::Alone(from, kind) = first else { return Some(first) };
         match (from..self.states).find(|&state| self.is_able(state)) {
-            Some(state) => Some(Trial::Alone(state, kind)),
-            None => (self.failures.len() < self.states).then_some(Trial::OfTheAble(Some(kind))),
+            Some(state) => Some(StepTrial::Alone(state, kind)),
+            None => (self.failures.len() < self.states).then_some(StepTrial::OfTheAble(Some(kind))),
         }
     }
 
@@ -217,8 +217,8 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
 
     /// The lengths of a step, zero for lanes that stand still.
     #[inline(always)]
-    fn lengths(&self, mut h: S::Scalar, trial: Trial) -> S::Scalar {
-        if let Trial::Alone(state, _) = trial {
+    fn lengths(&self, mut h: S::Scalar, trial: StepTrial) -> S::Scalar {
+        if let StepTrial::Alone(state, _) = trial {
             let given = h;
             h = S::Scalar::zero();
             self.lanes_of(state).for_each(|lane| h.replace(lane, &given.extract(lane)));
@@ -232,10 +232,10 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
     #[inline(always)]
     fn step(
         &self,
-        (state, rates): &Reached<S>,
+        (state, rates): &AdvancedState<S>,
         h: S::Scalar,
         time: S::Scalar,
-    ) -> Result<Reached<S>, IntegrationErrorKind> {
+    ) -> Result<AdvancedState<S>, IntegrationErrorKind> {
         let step = self.method.step(self.problem, state, rates, h)?;
         let (mut next, mut known) = (step.state, step.rates);
         next.t = time;
@@ -250,7 +250,7 @@ impl<S: BatchSystem, P: Problem<System = S>, M: OneStep<S>> Block<'_, S, P, M> {
     }
 }
 
-impl<S: BatchSystem> Held<S> {
+impl<S: BatchSystem> StoppedLane<S> {
     fn at(state: &State<S>, lane: usize) -> Self {
         Self { lane, t: state.t.extract(lane), q: state.q.extract(lane), y: state.y.extract(lane) }
     }

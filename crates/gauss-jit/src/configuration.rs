@@ -33,7 +33,7 @@ enum Part {
     Coordinate,
 }
 
-/// How many groups a configuration may have.
+/// Largest number of groups of a configuration.
 pub const MOST_GROUPS: usize = 31;
 
 /// Behind two bits for each group.
@@ -80,7 +80,7 @@ impl Groups {
         self.0 & KNOWN != 0
     }
 
-    /// Those of the one of two vectors that knows them.
+    /// Groups of the one of two vectors that knows them.
     fn or(self, other: Self) -> Self {
         if self.is_known() { self } else { other }
     }

@@ -220,7 +220,7 @@ impl<F: FrameName> Shapes<F> {
             return refuse(ParryErrorKind::PairPoints { points: points.len(), most: self.most });
         }
         let surface = self.surface(shapes);
-        for Placed { slot, parts, features, .. } in points {
+        for ManifoldPoint { slot, parts, features, .. } in points {
             let slot = Slot { friction: surface.friction, restitution: surface.restitution, ..slot };
             let mut feature = Feature { shapes, parts, features, repeated: 0 };
             let earlier = self.found.iter().filter(|found| Feature { repeated: 0, ..found.feature } == feature);
@@ -232,7 +232,7 @@ impl<F: FrameName> Shapes<F> {
 
     /// A point of the library as a slot: a ball is a sphere; else the plane is on the shape whose face touches, or on
     /// the first.
-    fn placed(&self, manifold: &Manifold, point: &Point, [first, second]: [&Body<F>; 2]) -> Placed<F> {
+    fn placed(&self, manifold: &Manifold, point: &Point, [first, second]: [&Body<F>; 2]) -> ManifoldPoint<F> {
         let part = |pose: Option<&Pose>| pose.copied().unwrap_or(Pose::IDENTITY);
         let places = [first.at * part(manifold.subshape_pos1()), second.at * part(manifold.subshape_pos2())];
         let points = [places[0] * point.local_p1, places[1] * point.local_p2].map(convert::vector);
@@ -259,7 +259,12 @@ impl<F: FrameName> Shapes<F> {
         };
         let features = [point.fid1, point.fid2].map(|PackedFeatureId(code)| code);
         let place = (points[0], normals[0], point.dist);
-        Placed { slot, place, parts: (manifold.subshape1, manifold.subshape2), features: (features[0], features[1]) }
+        ManifoldPoint {
+            slot,
+            place,
+            parts: (manifold.subshape1, manifold.subshape2),
+            features: (features[0], features[1]),
+        }
     }
 
     fn surface(&self, pair: (ShapeId, ShapeId)) -> Surface {
@@ -293,7 +298,7 @@ fn ask<F>(
 
 /// A point of a manifold.
 #[derive(Clone, Copy)]
-struct Placed<F> {
+struct ManifoldPoint<F> {
     slot: Slot<F>,
     place: Place,
     parts: (u32, u32),

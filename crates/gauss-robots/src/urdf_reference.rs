@@ -77,12 +77,12 @@ const ROTORS: &str = "rotorInertia rotor_inertia motorInertia motor_inertia";
 #[cfg(test)]
 mod tests {
     use super::ELEMENTS;
-    use crate::reference::checks::Format;
+    use crate::reference::checks::ReferenceFormat;
     use crate::urdf::read;
 
     #[test]
     fn verdicts_are_true() {
-        let untrue = Format { elements: ELEMENTS, read, file: FILE, samples: SAMPLES }.untrue();
+        let untrue = ReferenceFormat { elements: ELEMENTS, read, file: FILE, samples: SAMPLES }.untrue();
         assert!(untrue.is_empty(), "{}", untrue.join("\n"));
     }
 

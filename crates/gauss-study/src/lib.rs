@@ -2,7 +2,6 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-mod caught;
 mod command;
 mod declaration;
 mod distribution;
@@ -10,6 +9,7 @@ mod draw;
 mod error;
 mod files;
 mod normal;
+mod panics;
 mod plan;
 mod row;
 pub mod sensitivity;

@@ -7,11 +7,11 @@ use std::sync::Mutex;
 
 use rayon::prelude::*;
 
-use crate::caught::caught;
 use crate::declaration::{Declaration, Sampler};
 use crate::draw::Draw;
 use crate::error::{DeclarationError, StudyError};
 use crate::files::{Folder, PartState, Results};
+use crate::panics::caught;
 use crate::row::Row;
 
 type Runs<'a> = Box<dyn Fn(&[Draw], &mut [Row]) -> Result<(), String> + Send + Sync + 'a>;

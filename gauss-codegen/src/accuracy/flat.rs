@@ -12,7 +12,7 @@ use super::random::Random;
 pub type Slot = u32;
 
 #[derive(Clone, Copy)]
-enum Kind {
+enum Opcode {
     Add,
     Subtract,
     Multiply,
@@ -28,8 +28,8 @@ enum Kind {
 }
 
 #[derive(Clone, Copy)]
-struct Step {
-    kind: Kind,
+struct FlatInstruction {
+    kind: Opcode,
     from: [Slot; 3],
     to: Slot,
 }
@@ -37,7 +37,7 @@ struct Step {
 /// Steps, made from programs and expressions.
 #[derive(Default)]
 pub struct Flat {
-    steps: Vec<Step>,
+    steps: Vec<FlatInstruction>,
     slots: usize,
     /// Slots of the symbols and expressions, by their keys.
     known: Map<u32, Slot>,
@@ -52,12 +52,12 @@ impl Flat {
         (self.slots - 1) as Slot
     }
 
-    fn step(&mut self, kind: Kind, from: [Slot; 3]) -> Slot {
+    fn step(&mut self, kind: Opcode, from: [Slot; 3]) -> Slot {
         let to = self.slot();
-        if matches!(kind, Kind::SineCosine) {
+        if matches!(kind, Opcode::SineCosine) {
             self.slot();
         }
-        self.steps.push(Step { kind, from, to });
+        self.steps.push(FlatInstruction { kind, from, to });
         to
     }
 
@@ -110,12 +110,12 @@ impl Flat {
     /// The components of a vector divided by its norm: what its symbols stand for from here on.
     pub fn scale(&mut self, unit: &[Expr<'_>]) {
         let raw: Vec<Slot> = unit.iter().map(|symbol| self.symbol(symbol.key())).collect();
-        let squares: Vec<Slot> = raw.iter().map(|&x| self.step(Kind::Multiply, [x, x, x])).collect();
-        let sum = squares.into_iter().reduce(|a, b| self.step(Kind::Add, [a, b, b]));
+        let squares: Vec<Slot> = raw.iter().map(|&x| self.step(Opcode::Multiply, [x, x, x])).collect();
+        let sum = squares.into_iter().reduce(|a, b| self.step(Opcode::Add, [a, b, b]));
         let Some(sum) = sum else { return };
-        let norm = self.step(Kind::Call(Function::Sqrt), [sum; 3]);
+        let norm = self.step(Opcode::Call(Function::Sqrt), [sum; 3]);
         for (symbol, x) in unit.iter().zip(raw) {
-            let scaled = self.step(Kind::Divide, [x, norm, norm]);
+            let scaled = self.step(Opcode::Divide, [x, norm, norm]);
             self.define(symbol.key(), scaled);
         }
     }
@@ -126,17 +126,17 @@ impl Flat {
         for instruction in &code.instructions {
             let mut at = |operand: Operand<Expr<'_>>| self.operand(operand, &results);
             let (kind, from) = match *instruction {
-                Instruction::Add(a, b) => (Kind::Add, [at(a), at(b), 0]),
-                Instruction::Subtract(a, b) => (Kind::Subtract, [at(a), at(b), 0]),
-                Instruction::Multiply(a, b) => (Kind::Multiply, [at(a), at(b), 0]),
-                Instruction::MultiplyAdd(a, b, c) => (Kind::MultiplyAdd, [at(a), at(b), at(c)]),
-                Instruction::MultiplySubtract(a, b, c) => (Kind::MultiplySubtract, [at(a), at(b), at(c)]),
-                Instruction::Divide(a, b) => (Kind::Divide, [at(a), at(b), 0]),
-                Instruction::Negate(a) => (Kind::Negate, [at(a), 0, 0]),
-                Instruction::SineCosine(a) => (Kind::SineCosine, [at(a), 0, 0]),
-                Instruction::Call(function, a) => (Kind::Call(function), [at(a), 0, 0]),
-                Instruction::Binary(function, a, b) => (Kind::Binary(function), [at(a), at(b), 0]),
-                Instruction::Own(function, arguments) => (Kind::Own(function), arguments.map(at)),
+                Instruction::Add(a, b) => (Opcode::Add, [at(a), at(b), 0]),
+                Instruction::Subtract(a, b) => (Opcode::Subtract, [at(a), at(b), 0]),
+                Instruction::Multiply(a, b) => (Opcode::Multiply, [at(a), at(b), 0]),
+                Instruction::MultiplyAdd(a, b, c) => (Opcode::MultiplyAdd, [at(a), at(b), at(c)]),
+                Instruction::MultiplySubtract(a, b, c) => (Opcode::MultiplySubtract, [at(a), at(b), at(c)]),
+                Instruction::Divide(a, b) => (Opcode::Divide, [at(a), at(b), 0]),
+                Instruction::Negate(a) => (Opcode::Negate, [at(a), 0, 0]),
+                Instruction::SineCosine(a) => (Opcode::SineCosine, [at(a), 0, 0]),
+                Instruction::Call(function, a) => (Opcode::Call(function), [at(a), 0, 0]),
+                Instruction::Binary(function, a, b) => (Opcode::Binary(function), [at(a), at(b), 0]),
+                Instruction::Own(function, arguments) => (Opcode::Own(function), arguments.map(at)),
             };
             let slot = self.step(kind, from);
             results.push(slot);
@@ -170,25 +170,25 @@ impl Flat {
             NodeView::Number(value) => self.number(value),
             NodeView::Sum(terms) => {
                 let terms: Vec<Slot> = terms.into_iter().map(|(c, term)| self.term(c, term)).collect();
-                self.joined(Kind::Add, terms)
+                self.joined(Opcode::Add, terms)
             }
             NodeView::Product(factors) => {
                 let powers: Vec<Slot> = factors.into_iter().map(|(factor, n)| self.power(factor, n)).collect();
-                self.joined(Kind::Multiply, powers)
+                self.joined(Opcode::Multiply, powers)
             }
             NodeView::Call(Function::Sin, inner) => self.sine_cosine(inner),
             NodeView::Call(Function::Cos, inner) => self.sine_cosine(inner) + 1,
             NodeView::Call(function, inner) => {
                 let inner = self.visit(inner);
-                self.step(Kind::Call(function), [inner, 0, 0])
+                self.step(Opcode::Call(function), [inner, 0, 0])
             }
             NodeView::Binary(function, a, b) => {
                 let [a, b] = [a, b].map(|e| self.visit(e));
-                self.step(Kind::Binary(function), [a, b, 0])
+                self.step(Opcode::Binary(function), [a, b, 0])
             }
             NodeView::Own(function, arguments) => {
                 let arguments: Vec<Slot> = arguments.into_iter().map(|e| self.visit(e)).collect();
-                self.step(Kind::Own(function), OwnFunction::filled(&arguments))
+                self.step(Opcode::Own(function), OwnFunction::filled(&arguments))
             }
             NodeView::Group(inner) | NodeView::Opaque(inner) => self.visit(inner),
         };
@@ -198,7 +198,7 @@ impl Flat {
 
     fn sine_cosine(&mut self, angle: Expr<'_>) -> Slot {
         let angle = self.visit(angle);
-        self.step(Kind::SineCosine, [angle, 0, 0])
+        self.step(Opcode::SineCosine, [angle, 0, 0])
     }
 
     fn term(&mut self, coefficient: Rational, term: Expr<'_>) -> Slot {
@@ -207,10 +207,10 @@ impl Flat {
             return term;
         }
         let coefficient = self.number(coefficient);
-        self.step(Kind::Multiply, [coefficient, term, 0])
+        self.step(Opcode::Multiply, [coefficient, term, 0])
     }
 
-    fn joined(&mut self, kind: Kind, slots: Vec<Slot>) -> Slot {
+    fn joined(&mut self, kind: Opcode, slots: Vec<Slot>) -> Slot {
         let joined = slots.into_iter().reduce(|a, b| self.step(kind, [a, b, 0]));
         joined.unwrap_or_else(|| self.number(Rational::zero()))
     }
@@ -218,25 +218,25 @@ impl Flat {
     fn power(&mut self, base: Expr<'_>, exponent: i32) -> Slot {
         let base = self.visit(base);
         let factors = vec![base; exponent.unsigned_abs() as usize];
-        let power = self.joined(Kind::Multiply, factors);
+        let power = self.joined(Opcode::Multiply, factors);
         if exponent > 0 {
             return power;
         }
         let one = self.number(Rational::one());
-        self.step(Kind::Divide, [one, power, 0])
+        self.step(Opcode::Divide, [one, power, 0])
     }
 }
 
 /// A number with its error and with what two changes of all inputs at once do to it, both to first order.
 #[derive(Clone, Copy, Default)]
-pub struct Traced {
+pub struct TracedNumber {
     pub value: f64,
     pub error: f64,
     first: f64,
     second: f64,
 }
 
-impl Traced {
+impl TracedNumber {
     /// An input of that name.
     fn given(value: f64, name: u64) -> Self {
         // Of the mean square one: changes of one size would leave out what two of them cancel in.
@@ -289,9 +289,9 @@ impl Traced {
 }
 
 /// Effect of a change of every input in its last place on a number, which several traces may have changed.
-pub fn unit(traced: &[Traced]) -> f64 {
+pub fn unit(traced: &[TracedNumber]) -> f64 {
     let mut squares = 0.0;
-    for Traced { first, second, .. } in traced {
+    for TracedNumber { first, second, .. } in traced {
         squares += first * first + second * second;
     }
     f64::EPSILON * (traced[0].value.abs() + (squares / (2 * traced.len()) as f64).sqrt())
@@ -299,53 +299,57 @@ pub fn unit(traced: &[Traced]) -> f64 {
 
 /// The numbers in the slots, with what else the changes of inputs depend on.
 pub struct Trace {
-    slots: Vec<Traced>,
+    slots: Vec<TracedNumber>,
     changes: u64,
 }
 
 impl Flat {
     /// Room for the numbers, with those that are in the code; changes differ from one number of them to the next.
     pub fn room(&self, changes: u64) -> Trace {
-        let mut slots = vec![Traced::default(); self.slots];
+        let mut slots = vec![TracedNumber::default(); self.slots];
         for &(value, slot) in &self.numbers {
             let nearest = value.to_f64();
             // Its own rounding is an error like any other: what it is computed from may be exact in the scene.
             let error = (Doubled::number(nearest) - Doubled::fraction(value)).to_f64();
-            slots[slot as usize] = Traced { value: nearest, error, ..Traced::default() };
+            slots[slot as usize] = TracedNumber { value: nearest, error, ..TracedNumber::default() };
         }
         Trace { slots, changes }
     }
 }
 
 impl Trace {
-    pub fn slots(&self) -> &[Traced] {
+    pub fn slots(&self) -> &[TracedNumber] {
         &self.slots
     }
 
     pub fn give(&mut self, slot: Slot, value: f64) {
-        self.slots[slot as usize] = Traced::given(value, name(slot, self.changes));
+        self.slots[slot as usize] = TracedNumber::given(value, name(slot, self.changes));
     }
 
     /// Carries out steps.
     pub fn run(&mut self, flat: &Flat, from: usize, to: usize) {
-        let slots: &mut [Traced] = &mut self.slots;
+        let slots: &mut [TracedNumber] = &mut self.slots;
         for step in &flat.steps[from..to] {
             let [a, b] = [slots[step.from[0] as usize], slots[step.from[1] as usize]];
             let result = match step.kind {
-                Kind::Add => Traced::sum(a, b, 1.0),
-                Kind::Subtract => Traced::sum(a, b, -1.0),
-                Kind::Multiply => Traced::product(a, b),
-                Kind::MultiplyAdd => Traced::sum(slots[step.from[2] as usize], Traced::product(a, b), 1.0),
-                Kind::MultiplySubtract => Traced::sum(slots[step.from[2] as usize], Traced::product(a, b), -1.0),
-                Kind::Divide => Traced::quotient(a, b),
-                Kind::Negate => Traced { value: -a.value, error: -a.error, first: -a.first, second: -a.second },
-                Kind::SineCosine => {
+                Opcode::Add => TracedNumber::sum(a, b, 1.0),
+                Opcode::Subtract => TracedNumber::sum(a, b, -1.0),
+                Opcode::Multiply => TracedNumber::product(a, b),
+                Opcode::MultiplyAdd => {
+                    TracedNumber::sum(slots[step.from[2] as usize], TracedNumber::product(a, b), 1.0)
+                }
+                Opcode::MultiplySubtract => {
+                    TracedNumber::sum(slots[step.from[2] as usize], TracedNumber::product(a, b), -1.0)
+                }
+                Opcode::Divide => TracedNumber::quotient(a, b),
+                Opcode::Negate => TracedNumber { value: -a.value, error: -a.error, first: -a.first, second: -a.second },
+                Opcode::SineCosine => {
                     let (sine, cosine) = a.value.sin_cos();
                     slots[step.to as usize + 1] =
-                        Traced::of(cosine, rounded(cosine, step.to + 1), (-sine, a), (0.0, a));
-                    Traced::of(sine, rounded(sine, step.to), (cosine, a), (0.0, a))
+                        TracedNumber::of(cosine, rounded(cosine, step.to + 1), (-sine, a), (0.0, a));
+                    TracedNumber::of(sine, rounded(sine, step.to), (cosine, a), (0.0, a))
                 }
-                Kind::Call(function) => {
+                Opcode::Call(function) => {
                     let Dual { value, rate } = Dual { value: a.value, rate: 1.0 }.call(function);
                     let error = match function {
                         Function::Abs | Function::Signum => 0.0,
@@ -353,25 +357,25 @@ impl Trace {
                         Function::Sqrt if value > 0.0 => value.mul_add(value, -a.value) / (2.0 * value),
                         _ => rounded(value, step.to),
                     };
-                    Traced::of(value, error, (rate, a), (0.0, a))
+                    TracedNumber::of(value, error, (rate, a), (0.0, a))
                 }
-                Kind::Binary(function) => {
+                Opcode::Binary(function) => {
                     let of = |da, db| {
                         Dual { value: a.value, rate: da }.call_with(function, Dual { value: b.value, rate: db })
                     };
                     let (Dual { value, rate: da }, Dual { rate: db, .. }) = (of(1.0, 0.0), of(0.0, 1.0));
                     let exact = matches!(function, BinaryFunction::Min | BinaryFunction::Max);
-                    Traced::of(value, if exact { 0.0 } else { rounded(value, step.to) }, (da, a), (db, b))
+                    TracedNumber::of(value, if exact { 0.0 } else { rounded(value, step.to) }, (da, a), (db, b))
                 }
-                Kind::Own(function) => {
+                Opcode::Own(function) => {
                     let arguments = step.from.map(|slot| slots[slot as usize]);
                     let arguments = function.of(&arguments);
                     let at: Vec<f64> = arguments.iter().map(|a| a.value).collect();
                     let value = f64::stand_in(function, &at);
-                    let mut result = Traced { value, error: rounded(value, step.to), ..Traced::default() };
+                    let mut result = TracedNumber { value, error: rounded(value, step.to), ..TracedNumber::default() };
                     for (k, &argument) in arguments.iter().enumerate() {
                         let slope = f64::stand_in(function.derivative(k), &at);
-                        result = Traced::of(value, 0.0, (1.0, result), (slope, argument));
+                        result = TracedNumber::of(value, 0.0, (1.0, result), (slope, argument));
                     }
                     result
                 }
@@ -390,21 +394,21 @@ impl Flat {
         for step in &self.steps[..to] {
             let [a, b, c] = step.from.map(|slot| slots[slot as usize]);
             slots[step.to as usize] = match step.kind {
-                Kind::Add => a + b,
-                Kind::Subtract => a - b,
-                Kind::Multiply => a * b,
-                Kind::MultiplyAdd => c + a * b,
-                Kind::MultiplySubtract => c - a * b,
-                Kind::Divide => a / b,
-                Kind::Negate => -a,
-                Kind::SineCosine => {
+                Opcode::Add => a + b,
+                Opcode::Subtract => a - b,
+                Opcode::Multiply => a * b,
+                Opcode::MultiplyAdd => c + a * b,
+                Opcode::MultiplySubtract => c - a * b,
+                Opcode::Divide => a / b,
+                Opcode::Negate => -a,
+                Opcode::SineCosine => {
                     let (sine, cosine) = a.sine_cosine();
                     slots[step.to as usize + 1] = cosine;
                     sine
                 }
-                Kind::Call(function) => a.call(function),
-                Kind::Binary(function) => a.call_with(function, b),
-                Kind::Own(function) => N::stand_in(function, function.of(&[a, b, c])),
+                Opcode::Call(function) => a.call(function),
+                Opcode::Binary(function) => a.call_with(function, b),
+                Opcode::Own(function) => N::stand_in(function, function.of(&[a, b, c])),
             };
         }
         slots

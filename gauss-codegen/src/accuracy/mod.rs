@@ -5,14 +5,14 @@
 //! - `random`: choices that are the same in every run.
 //! - `tape`: programs that are run many times, on numbers of several kinds.
 //! - `flat`: programs as one list of steps, with a first-order analysis of their rounding.
-//! - `moves`, `seek`: a search for the states at which programs lose most; `figure`: what is said of it.
+//! - `moves`, `loss_search`: a search for the states at which programs lose most; `figure`: what is said of it.
 //! - `trial`: results in 106 binary digits, their conditioning, and the loss of a program beside them.
 
 mod figure;
 mod flat;
+mod loss_search;
 mod moves;
 mod random;
-mod seek;
 mod states;
 mod tape;
 #[cfg(test)]
@@ -20,6 +20,6 @@ mod tests;
 mod trial;
 
 pub use figure::Figure;
-pub use seek::{Forms, Found, Sought};
-pub use states::{Numbers, Samples, States};
-pub use trial::{Deciding, Loss, Trial, Tried};
+pub use loss_search::{Forms, LossFigures, LossSearchInput};
+pub use states::{Samples, States, SymbolNumbers};
+pub use trial::{DecidingState, Loss, Trial, TrialResult};

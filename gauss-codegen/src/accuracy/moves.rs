@@ -5,7 +5,7 @@ use crate::mechanics::{Coordinate, Matter};
 use crate::terms::Role;
 
 use super::random::Random;
-use super::states::{Seen, States, Values};
+use super::states::{SceneTerms, States, Values};
 
 /// Powers of ten that numbers of fields, speeds and forces are apart from one, and those of coordinates.
 const SIZES: [f64; 2] = [-4.5, 4.5];
@@ -111,12 +111,12 @@ struct Free<'g> {
 }
 
 /// A sum that may be brought near zero, by these of the free numbers.
-struct Sum<'g> {
+struct FreeSum<'g> {
     terms: Vec<(Rational, Expr<'g>)>,
     by: Vec<usize>,
 }
 
-impl Sum<'_> {
+impl FreeSum<'_> {
     fn printed(&self) -> String {
         let term = |(c, e): &(Rational, Expr<'_>)| print_short(e.scale(*c), Notation::Text, SHORT as u64);
         let terms: Option<Vec<String>> = self.terms.iter().map(term).collect();
@@ -143,27 +143,27 @@ pub struct Moves<'s, 'a, 'g> {
     apart: [Vec<usize>; 2],
     /// Fields that are masses, and those that are lengths between links, from the roots on.
     graded: [Vec<usize>; 2],
-    sums: Vec<Sum<'g>>,
+    sums: Vec<FreeSum<'g>>,
     spins: Vec<Spin>,
     bodies: usize,
 }
 
 impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
     /// The moves of a scene, with those of its fields that are read: others change nothing.
-    pub fn new(states: &'s States<'a, 'g>, seen: &Seen<'g>, is_read: impl Fn(Expr<'g>) -> bool) -> Self {
+    pub fn new(states: &'s States<'a, 'g>, seen: &SceneTerms<'g>, is_read: impl Fn(Expr<'g>) -> bool) -> Self {
         let mut free = free(states, seen);
         free.retain(|free| !free.parameter || is_read(free.symbol));
         let places: Map<u32, usize> = free.iter().enumerate().map(|(k, free)| (free.symbol.key(), k)).collect();
         // Momenta cancel where rates do.
-        let rates = Seen::sums_in(states.momentum, RATES);
+        let rates = SceneTerms::sums_in(states.momentum, RATES);
         let sums = seen.sums.iter().chain(&rates).map(|terms| {
             let mut by = Vec::new();
             let mut done = Map::default();
             terms.iter().for_each(|(_, e)| symbols_of(*e, &places, &mut done, &mut by));
             by.sort_unstable();
-            Sum { terms: terms.clone(), by }
+            FreeSum { terms: terms.clone(), by }
         });
-        let sums: Vec<Sum<'g>> = sums.filter(|sum| !sum.by.is_empty()).collect();
+        let sums: Vec<FreeSum<'g>> = sums.filter(|sum| !sum.by.is_empty()).collect();
         let angles: Vec<usize> = (0..free.len()).filter(|&k| free[k].angle).collect();
         let scene = &states.system.scene;
         let speeds: Vec<usize> = scene.speeds.iter().map(|z| places[&z.key()]).collect();
@@ -234,7 +234,7 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
     }
 
     /// The sums of [`Move::AllNear`], each with the number that is moved.
-    fn together(&self, sum: usize, seed: usize) -> impl Iterator<Item = (&Sum<'g>, usize)> {
+    fn together(&self, sum: usize, seed: usize) -> impl Iterator<Item = (&FreeSum<'g>, usize)> {
         self.sums.iter().skip(sum).take(TOGETHER).map(move |sum| (sum, sum.by[seed % sum.by.len()]))
     }
 
@@ -250,7 +250,7 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
                 Move::Quarter(k, ..) => format!("{} near quarter turns", name(k)),
                 Move::Near(sum, ..) => format!("{} near 0", self.sums[sum].printed()),
                 Move::AllNear(sum, ..) => {
-                    let sums: Vec<String> = self.sums.iter().skip(sum).take(TOGETHER).map(Sum::printed).collect();
+                    let sums: Vec<String> = self.sums.iter().skip(sum).take(TOGETHER).map(FreeSum::printed).collect();
                     format!("{} near 0", sums.join(" and "))
                 }
                 Move::Body(..) => "unlike moments of inertia".to_owned(),
@@ -354,7 +354,7 @@ impl<'s, 'a, 'g> Moves<'s, 'a, 'g> {
     }
 
     /// Brings a sum near zero by the secant method; a number that it does not find stays as it was.
-    fn bring_near(&self, sum: &Sum<'g>, by: usize, closeness: f64, draft: &mut Draft<'_>) {
+    fn bring_near(&self, sum: &FreeSum<'g>, by: usize, closeness: f64, draft: &mut Draft<'_>) {
         if !self.states.definitions.is_empty() {
             self.states.define(&mut draft.values);
         }
@@ -424,7 +424,7 @@ fn graded(states: &States<'_, '_>, places: &Map<u32, usize>, free: &[Free<'_>]) 
 
 /// Sums of two rates or more with the angles they depend on, the innermost first. The last rate is most likely the one
 /// whose axis does not depend on the angle.
-fn spins(sums: &[Sum<'_>], angles: &[usize], speeds: &[usize]) -> Vec<Spin> {
+fn spins(sums: &[FreeSum<'_>], angles: &[usize], speeds: &[usize]) -> Vec<Spin> {
     let mut spins = Vec::new();
     for (k, sum) in sums.iter().enumerate() {
         let mut rates = speeds.iter().filter(|speed| sum.by.contains(speed));
@@ -436,7 +436,7 @@ fn spins(sums: &[Sum<'_>], angles: &[usize], speeds: &[usize]) -> Vec<Spin> {
 }
 
 /// The numbers of a state that are given, but for time and for what follows from others.
-fn free<'g>(states: &States<'_, 'g>, seen: &Seen<'g>) -> Vec<Free<'g>> {
+fn free<'g>(states: &States<'_, 'g>, seen: &SceneTerms<'g>) -> Vec<Free<'g>> {
     let mut free = Vec::new();
     let of_bodies: Map<u32, (usize, Role)> = states
         .bodies()

@@ -24,7 +24,7 @@ pub struct States<'a, 'g> {
     pub weights: &'a [Expr<'g>],
     /// Symbols that stand for expressions of others.
     pub definitions: &'a Map<u32, Expr<'g>>,
-    pub numbers: Numbers,
+    pub numbers: SymbolNumbers,
 }
 
 /// Settings for the choice of a state.
@@ -56,7 +56,7 @@ pub(super) const PROFILES: [Profile; 6] = [
 /// Sample states, with what the scene is written with.
 pub struct Samples<'s, 'a, 'g> {
     pub(super) states: &'s States<'a, 'g>,
-    pub(super) seen: Seen<'g>,
+    pub(super) seen: SceneTerms<'g>,
     pub(super) values: Vec<Values<'s>>,
 }
 
@@ -72,7 +72,7 @@ impl Samples<'_, '_, '_> {
 pub(super) struct Values<'n> {
     list: Vec<(u32, u64)>,
     pub map: Map<u32, f64>,
-    numbers: &'n Numbers,
+    numbers: &'n SymbolNumbers,
 }
 
 impl Values<'_> {
@@ -125,12 +125,12 @@ impl<'g> States<'_, 'g> {
 
     /// As many as are worth their time.
     pub fn samples(&self) -> Samples<'_, '_, 'g> {
-        let seen = Seen::of(self.system);
+        let seen = SceneTerms::of(self.system);
         let values = PROFILES.iter().enumerate().map(|(k, profile)| self.values(&seen, profile, k as u64)).collect();
         Samples { states: self, seen, values }
     }
 
-    fn values(&self, seen: &Seen<'g>, profile: &Profile, seed: u64) -> Values<'_> {
+    fn values(&self, seen: &SceneTerms<'g>, profile: &Profile, seed: u64) -> Values<'_> {
         let mut values = Values { list: Vec::new(), map: Map::default(), numbers: &self.numbers };
         self.give_parameters(&mut values, profile, seed);
         self.give_motion(&mut values, seen, profile, seed);
@@ -173,7 +173,7 @@ impl<'g> States<'_, 'g> {
     }
 
     /// Time, configuration, speeds and what else is handed over.
-    fn give_motion(&self, values: &mut Values<'_>, seen: &Seen<'g>, profile: &Profile, seed: u64) {
+    fn give_motion(&self, values: &mut Values<'_>, seen: &SceneTerms<'g>, profile: &Profile, seed: u64) {
         let scene = &self.system.scene;
         values.put(scene.time, values.random_of(scene.time, seed).size(profile.decades));
         for symbol in self.units.iter().flatten() {
@@ -335,7 +335,7 @@ fn put_inertia(values: &mut Values<'_>, symbols: &[Expr<'_>], principal: [f64; 3
 
 /// Angles and sums of a scene as it is written.
 #[derive(Default)]
-pub(super) struct Seen<'g> {
+pub(super) struct SceneTerms<'g> {
     done: Map<u32, ()>,
     /// Symbols that are part of an angle.
     pub angles: Vec<u32>,
@@ -346,7 +346,7 @@ pub(super) struct Seen<'g> {
     room: usize,
 }
 
-impl<'g> Seen<'g> {
+impl<'g> SceneTerms<'g> {
     fn of(system: &System<'g>) -> Self {
         let scene = &system.scene;
         let mut seen = Self { room: usize::MAX, ..Self::default() };
@@ -443,9 +443,9 @@ impl<'g> Seen<'g> {
 /// A number for each symbol that is given: what it is for, and its place among those that are for the same. All choices
 /// depend on it, never on a name, which says nothing of the motion.
 #[derive(Default)]
-pub struct Numbers(Map<u32, u64>);
+pub struct SymbolNumbers(Map<u32, u64>);
 
-impl Numbers {
+impl SymbolNumbers {
     fn give<'g>(&mut self, role: u64, symbols: impl IntoIterator<Item = Expr<'g>>) {
         for (place, symbol) in (0..).zip(symbols) {
             // What is for several things keeps its first number.

@@ -8,7 +8,7 @@ use super::random::Random;
 use super::tape::Tape;
 
 /// A state where a function, or a derivative (`None`), loses much that another form of it keeps.
-pub struct Deciding {
+pub struct DecidingState {
     pub function: Option<usize>,
     pub point: Point,
 }
@@ -69,7 +69,7 @@ fn factor(place: u64, n: u64) -> Doubled {
 }
 
 /// Exact values of a function at one state, and the effect of a change of everything in its last place on them.
-struct Reference {
+struct ReferenceValues {
     values: Vec<Doubled>,
     units: Vec<f64>,
 }
@@ -123,7 +123,7 @@ impl Trial {
     }
 
     /// Adds states where one function each is tried as well.
-    pub fn with(mut self, deciding: &[Deciding]) -> Self {
+    pub fn with(mut self, deciding: &[DecidingState]) -> Self {
         self.deciding = deciding.iter().map(|deciding| deciding.function).collect();
         self.points.extend(deciding.iter().map(|deciding| deciding.point.clone()));
         self
@@ -172,7 +172,7 @@ impl Trial {
     /// Compares programs that should compute the same functions with a reference: the best of these programs, run in
     /// 106 binary digits. The reference has 53 digits more than the programs, so it may lose nearly 53 before its error
     /// counts; where it loses more, another program becomes the reference.
-    pub fn tried(&self, programs: &[&Code<Expr<'_>>]) -> Tried {
+    pub fn tried(&self, programs: &[&Code<Expr<'_>>]) -> TrialResult {
         let tapes: Vec<Tape> = programs.iter().map(|program| Tape::new(program)).collect();
         let mut best = 0;
         let mut tried = self.tried_beside(&tapes, best);
@@ -187,8 +187,8 @@ impl Trial {
         tried
     }
 
-    fn tried_beside(&self, tapes: &[Tape], reference: usize) -> Tried {
-        let mut tried = Tried { losses: vec![Loss::default(); tapes.len()], there: Vec::new(), samples: 0 };
+    fn tried_beside(&self, tapes: &[Tape], reference: usize) -> TrialResult {
+        let mut tried = TrialResult { losses: vec![Loss::default(); tapes.len()], there: Vec::new(), samples: 0 };
         let samples = self.points.len() - self.deciding.len();
         for (k, point) in self.points.iter().enumerate() {
             if k >= samples && !self.decides(self.deciding[k - samples]) {
@@ -204,23 +204,23 @@ impl Trial {
     }
 
     /// The loss of another program that should compute the same as those that were tried.
-    pub fn loss_of(&self, tried: &Tried, program: &Code<Expr<'_>>) -> Loss {
+    pub fn loss_of(&self, tried: &TrialResult, program: &Code<Expr<'_>>) -> Loss {
         let tape = Tape::new(program);
-        let loss = |(k, expected): &(usize, Reference)| expected.loss_of(&tape.run(&self.points[*k].given));
+        let loss = |(k, expected): &(usize, ReferenceValues)| expected.loss_of(&tape.run(&self.points[*k].given));
         Loss(tried.there.iter().map(loss).collect())
     }
 }
 
 /// Programs that were tried.
-pub struct Tried {
+pub struct TrialResult {
     pub losses: Vec<Loss>,
     /// States where there is a value, by their numbers, with what it should be.
-    there: Vec<(usize, Reference)>,
+    there: Vec<(usize, ReferenceValues)>,
     /// Number of them that are sample states.
     samples: usize,
 }
 
-impl Tried {
+impl TrialResult {
     /// Which programs may be taken.
     pub fn usable(&self) -> Vec<bool> {
         usable(&self.losses)
@@ -330,7 +330,7 @@ fn compute_in<N: Number>(values: &mut Map<u32, N>, tape: &Tape, symbols: &[u32])
 impl Point {
     /// Reference by one program, beside what it and others found in double precision; `None` where the function has no
     /// value.
-    fn reference(&self, tape: &Tape, found: &[Vec<f64>]) -> Option<Reference> {
+    fn reference(&self, tape: &Tape, found: &[Vec<f64>]) -> Option<ReferenceValues> {
         let values = tape.run(&self.exact);
         let mut squares = vec![0.0; values.len()];
         for changed in &self.changed {
@@ -355,11 +355,11 @@ impl Point {
         let units: Vec<f64> = sizes.into_iter().map(|size| f64::EPSILON * size).collect();
         let there =
             values.iter().all(|value| value.is_finite()) && units.iter().all(|unit| unit.is_finite() && *unit > 0.0);
-        there.then_some(Reference { values, units })
+        there.then_some(ReferenceValues { values, units })
     }
 }
 
-impl Reference {
+impl ReferenceValues {
     fn loss_of(&self, found: &[f64]) -> f64 {
         let loss = |((found, value), unit): ((&f64, &Doubled), &f64)| {
             let error = (Doubled::number(*found) - *value).to_f64().abs();

@@ -90,7 +90,7 @@ fn guarded<'g>(square: Expr<'g>, negligible: Expr<'g>, whole: Expr<'g>) -> (Expr
 }
 
 /// Solution of a system with constraints.
-pub struct Dependent<'g> {
+pub struct ConstrainedSolution<'g> {
     /// x with `A x + Jᵀ μ = right` and `J x = bias`, and μ: of all that belong to x that of least `Σ S_kk μ_k²`, which
     /// no factor of a row of J changes.
     pub solution: Vec<Expr<'g>>,
@@ -106,7 +106,7 @@ pub fn solve_dependent<'g>(
     jacobian: &[Vec<Expr<'g>>],
     right: &[Expr<'g>],
     bias: &[Expr<'g>],
-) -> Dependent<'g> {
+) -> ConstrainedSolution<'g> {
     let mut solution = solve_symmetric(matrix, right);
     let columns: Vec<Vec<Expr<'g>>> = jacobian.iter().map(|row| solve_symmetric(matrix, row)).collect();
     let rows = Orthogonal::new(jacobian, &columns);
@@ -127,7 +127,7 @@ pub fn solve_dependent<'g>(
         let part = (product(&nothing.images[k], &multipliers) * nothing.reciprocals[k]).group();
         multipliers = less(&multipliers, part, own);
     }
-    Dependent { solution, multipliers, kept: rows.kept }
+    ConstrainedSolution { solution, multipliers, kept: rows.kept }
 }
 
 /// `a − factor b`.

@@ -24,12 +24,12 @@ const RANGE: i64 = 4096;
 
 /// All that were ever needed, by index and by value.
 #[derive(Default)]
-struct Kept {
+struct FractionTable {
     values: Vec<&'static BigRational>,
     index: Option<HashMap<&'static BigRational, i64>>,
 }
 
-static KEPT: Mutex<Kept> = Mutex::new(Kept { values: Vec::new(), index: None });
+static KEPT: Mutex<FractionTable> = Mutex::new(FractionTable { values: Vec::new(), index: None });
 
 /// The index of a fraction.
 pub fn keep(value: BigRational) -> i64 {

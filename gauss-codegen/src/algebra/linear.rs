@@ -14,11 +14,11 @@ const SHORT: usize = 32;
 /// in normal form, so that determinants such as `sin²θ·… + cos²θ·…` collapse before they are divided by.
 pub struct Solver<'g> {
     matrix: Vec<Vec<Expr<'g>>>,
-    steps: Vec<Step<'g>>,
+    steps: Vec<BlockPivot<'g>>,
 }
 
 /// Rows and unknowns that are solved together, and the inverse of their block.
-struct Step<'g> {
+struct BlockPivot<'g> {
     rows: Vec<usize>,
     unknowns: Vec<usize>,
     inverse: Vec<Vec<Expr<'g>>>,
@@ -51,7 +51,11 @@ impl<'g> Solver<'g> {
             }
             rows.retain(|row| !block_rows.contains(row));
             solved.extend(&block_unknowns);
-            steps.push(Step { rows: block_rows, unknowns: block_unknowns, inverse: inverse_by_cofactors(&block)? });
+            steps.push(BlockPivot {
+                rows: block_rows,
+                unknowns: block_unknowns,
+                inverse: inverse_by_cofactors(&block)?,
+            });
         }
         Some(Self { matrix, steps })
     }
@@ -253,7 +257,7 @@ fn solve_by_blocks<'g>(matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>], first_last:
 }
 
 /// A symmetric positive definite matrix as LDLᵀ, for many right-hand sides: [`solve_symmetric`] of each.
-pub struct Factored<'g> {
+pub struct Factorisation<'g> {
     blocks: Vec<FactoredBlock<'g>>,
 }
 
@@ -300,7 +304,7 @@ struct FactoredBlock<'g> {
     rest: Vec<Vec<Expr<'g>>>,
 }
 
-impl<'g> Factored<'g> {
+impl<'g> Factorisation<'g> {
     pub fn new(matrix: &[Vec<Expr<'g>>]) -> Self {
         let factored = |block: Vec<usize>| {
             let mut nothing = vec![matrix[0][0].graph().zero(); block.len()];

@@ -23,12 +23,14 @@ mod rational;
 #[cfg(test)]
 mod tests;
 
-pub use dependent::{Dependent, solve_dependent};
-pub use expressions::differentiate::Along;
+pub use dependent::{ConstrainedSolution, solve_dependent};
+pub use expressions::differentiate::FlowDerivative;
 pub use expressions::function::{BinaryFunction, Function, MOST_VARIABLES, OwnFunction};
 pub use expressions::graph::{Expr, Graph, NodeView};
 pub use expressions::substitute::Substitution;
-pub use linear::{Factored, FactoredColumns, Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric};
+pub use linear::{
+    FactoredColumns, Factorisation, Solver, inverse_of_symmetric, solve_pairs, solve_saddle, solve_symmetric,
+};
 pub use map::{Key, Map, Set, joined};
 pub use normal_form::differences::without_differences;
 #[cfg(test)]
@@ -38,7 +40,7 @@ pub use numbers::doubled::Doubled;
 pub use numbers::dual::Dual;
 pub use numbers::evaluate::{Evaluation, Number, Scalar, Tangents};
 pub use numbers::precise::Precise;
-pub use numbers::rounded::Rounded;
+pub use numbers::rounded::ErrorBound;
 pub use orthogonal::LeastSquares;
 pub use parts::{LONG, Parts};
 pub use print::{Notation, decimal, print, print_definition, print_parts, print_short, print_with};

@@ -12,11 +12,11 @@ use crate::algebra::expressions::graph::Expr;
 /// reason: in a heavy row their difference is small.
 pub struct LeastSquares<'g> {
     rows: Vec<Vec<Expr<'g>>>,
-    steps: Vec<Step<'g>>,
+    steps: Vec<OrthogonalColumn<'g>>,
 }
 
 /// One column, orthogonal to those before it.
-struct Step<'g> {
+struct OrthogonalColumn<'g> {
     column: usize,
     entries: Vec<Expr<'g>>,
     /// Times the weights.
@@ -28,7 +28,7 @@ struct Step<'g> {
     shares: Vec<(usize, Expr<'g>)>,
 }
 
-impl<'g> Step<'g> {
+impl<'g> OrthogonalColumn<'g> {
     fn share_in(&self, other: &[Expr<'g>]) -> Expr<'g> {
         (weighted_sum(&self.weighted, other) * self.inverse).group()
     }
@@ -69,7 +69,8 @@ impl<'g> LeastSquares<'g> {
             let entries = columns[column].clone();
             let weighted: Vec<Expr<'g>> = entries.iter().zip(weights).map(|(b, w)| (*b * *w).group()).collect();
             let inverse = weighted_sum(&weighted, &entries).recip().group();
-            let mut step = Step { column, entries, weighted, weights: weights.to_vec(), inverse, shares: Vec::new() };
+            let mut step =
+                OrthogonalColumn { column, entries, weighted, weights: weights.to_vec(), inverse, shares: Vec::new() };
             for &j in &left {
                 let share = step.share_in(&columns[j]);
                 if !share.is_zero() {

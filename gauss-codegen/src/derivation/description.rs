@@ -2,7 +2,7 @@
 
 use crate::description::{Description, Quantity, Remark};
 use crate::emit::{Derived, parts, without_rust};
-use crate::translate::Quantity as Part;
+use crate::translate::NamedQuantity as Part;
 use crate::words::Unraw;
 
 /// The names of what is derived.

@@ -1,7 +1,7 @@
 //! Elements between two bodies against the same loads written in expressions.
 
 use crate::derivation::Derivation;
-use crate::derivation::rounding::{State, outputs};
+use crate::derivation::rounding::{SceneState, outputs};
 
 /// The accelerations, in two states, of two hinged bodies and one that slides and turns by itself.
 fn accelerations(acting: &str) -> Vec<f64> {
@@ -19,7 +19,7 @@ fn accelerations(acting: &str) -> Vec<f64> {
     let parameters: Vec<f64> = std::iter::once(1.0).chain((0..36).map(entry)).take(parameters).collect();
     let at = |configuration: [f64; 4], speeds: [f64; 4]| {
         let (configuration, speeds) = (configuration.to_vec(), speeds.to_vec());
-        outputs(&scene, "acceleration", &State { parameters: parameters.clone(), configuration, speeds }, |x| x)
+        outputs(&scene, "acceleration", &SceneState { parameters: parameters.clone(), configuration, speeds }, |x| x)
     };
     [at([0.3, -0.4, 0.2, 0.6], [0.5, -0.7, 0.3, 0.9]), at([-0.5, 0.9, -0.4, 0.2], [-0.2, 1.1, 0.6, -0.8])].concat()
 }

@@ -5,10 +5,10 @@ use crate::kernel::{self, Derivative};
 use crate::methods::{DerivativeKind, FrameQuantity, Method};
 use crate::program::{ArgumentKind, Function, Instruction, Operand, Program, Results};
 
-use super::signature::{Signature, Unbound};
+use super::signature::{Signature, SignatureError};
 
 /// Every method, then what is computed together, and the derivatives.
-pub fn programs<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<Vec<Program>, Unbound> {
+pub fn programs<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<Vec<Program>, SignatureError> {
     let functions = derived.kernel.functions.iter();
     let methods = functions.map(|(method, function)| of_method(derived, signature, method, &function.program));
     let mut programs = methods.collect::<Result<Vec<_>, _>>()?;
@@ -31,7 +31,7 @@ fn of_method<'g>(
     signature: &Signature<'g>,
     method: Method,
     code: &kernel::Program<'g>,
-) -> Result<Program, Unbound> {
+) -> Result<Program, SignatureError> {
     // `expand` makes the series, this the rates that they are made from.
     let name = if method == Method::ComponentRates { "component_rates" } else { &derived.name_of(method) };
     let (rows, arguments) = (derived.degrees_of_freedom(), with(arguments_of(method)));
@@ -87,7 +87,7 @@ fn with_increment_first<'g>(derived: &Derived<'_, 'g>, code: &kernel::Program<'g
     kernel::Program { instructions: code.instructions.clone(), outputs: first.chain(rest).collect() }
 }
 
-fn evaluate<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<Program, Unbound> {
+fn evaluate<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<Program, SignatureError> {
     let (increments, speeds) = (derived.increments(), derived.degrees_of_freedom());
     let results = vec![
         Results::new("velocity", increments, 1),
@@ -103,7 +103,7 @@ fn of_derivative<'g>(
     derived: &Derived<'_, 'g>,
     signature: &Signature<'g>,
     Derivative { kind, program, .. }: &Derivative<'g>,
-) -> Result<Program, Unbound> {
+) -> Result<Program, SignatureError> {
     let (increments, speeds) = (derived.increments(), derived.degrees_of_freedom());
     let (states, inputs) = (increments + speeds, derived.formal().inputs.len());
     let (arguments, results) = match kind {
@@ -113,7 +113,7 @@ fn of_derivative<'g>(
             (OF_EQUATIONS, vec![Results::new("rate", states, 1), by_state, by_time, by_input])
         }
         DerivativeKind::ByParameters => {
-            (OF_EQUATIONS, vec![Results::new("by_parameters", states, derived.subject.given.parameters.len())])
+            (OF_EQUATIONS, vec![Results::new("by_parameters", states, derived.subject.provenance.parameters.len())])
         }
         DerivativeKind::OfInverse => (
             OF_RESIDUAL,

@@ -24,7 +24,7 @@ use crate::description::Description;
 use crate::emit::{Derived, Equations, emit, figures};
 use crate::error::Result;
 use crate::expand::derive;
-use crate::formulation::Printed;
+use crate::formulation::PrintedEquations;
 use crate::mistakes::bug;
 use crate::model::{only_struct_in, struct_in};
 use crate::parameters::Parameters;
@@ -46,7 +46,7 @@ pub struct Derivation {
     remarks: Vec<String>,
     files: Vec<String>,
     latex: String,
-    sections: [Printed; 2],
+    sections: [PrintedEquations; 2],
     rust: Option<TokenStream>,
 }
 

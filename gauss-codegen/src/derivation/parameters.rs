@@ -10,10 +10,10 @@ use crate::mechanics::{Coordinate, QuantityValues};
 use crate::parameters::{Check, Given, Parameter, Parameters, Rule, Warning, WarningRule};
 use crate::program::{ArgumentKind, Results};
 use crate::terms::{Field, LawKind, Role, Shape};
-use crate::translate::{DragMatrix, Law, Part};
+use crate::translate::{DragMatrix, FieldPart, Law};
 use crate::words::Unraw;
 
-use super::signature::{Signature, Unbound};
+use super::signature::{Signature, SignatureError};
 
 /// Components of the configuration, by their places in it, whose squares have the sum one.
 pub fn unit_components(derived: &Derived<'_, '_>) -> Vec<Range<usize>> {
@@ -37,15 +37,18 @@ pub fn unit_components(derived: &Derived<'_, '_>) -> Vec<Range<usize>> {
 ///
 /// # Errors
 /// Mistakes of this crate.
-pub fn parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<Parameters, Unbound> {
-    let given = derived.subject.given;
-    let fields = &given.item.fields;
-    let mut sources: Vec<_> = given.sources.iter().map(|source| (source.field, source.part)).collect();
+pub fn parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> Result<Parameters, SignatureError> {
+    let provenance = derived.subject.provenance;
+    let fields = &provenance.item.fields;
+    let mut sources: Vec<_> = provenance.sources.iter().map(|source| (source.field, source.part)).collect();
     sources.sort_by_key(|(field, _)| *field);
-    let known =
-        given.sources.iter().map(|source| source.symbol).chain(given.literals.iter().map(|(_, literal)| *literal));
+    let known = provenance
+        .sources
+        .iter()
+        .map(|source| source.symbol)
+        .chain(provenance.literals.iter().map(|(_, literal)| *literal));
     let first = first_numbers(fields);
-    let mut laws = Laws {
+    let mut laws = CheckedLaws {
         derived,
         known: known.map(|symbol| symbol.key()).collect(),
         first,
@@ -61,7 +64,7 @@ pub fn parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> R
     let code = kernel::Program::lower(&laws.computed);
     let results = vec![Results::new("values", code.outputs.len(), 1)];
     let computed = signature.program("checks", &[ArgumentKind::Parameters], &code, results)?;
-    let label = given.sources.first().map(|s| fields[s.field].ident.unraw().to_string()).unwrap_or_default();
+    let label = provenance.sources.first().map(|s| fields[s.field].ident.unraw().to_string()).unwrap_or_default();
     let list = fields.iter().flat_map(of_field).collect();
     Ok(Parameters { list, read, checks, warnings, computed, label, in_sum: derived.mass_laws.in_sum })
 }
@@ -101,19 +104,19 @@ fn first_numbers(fields: &[Field]) -> Vec<usize> {
 }
 
 /// Place of one number within its field.
-fn place(part: Part, shape: Shape) -> usize {
+fn place(part: FieldPart, shape: Shape) -> usize {
     match part {
-        Part::Scalar => 0,
-        Part::Component(i) => i,
-        Part::Entry(i, j) if shape == Shape::Matrix3 => 3 * i + j,
-        Part::Entry(i, j) => 6 * i + j,
-        Part::Body(Role::Mass, ..) => 0,
-        Part::Body(Role::CenterOfMass, i, _) => 1 + i,
-        Part::Body(_, i, j) => 4 + 3 * i + j,
+        FieldPart::Scalar => 0,
+        FieldPart::Component(i) => i,
+        FieldPart::Entry(i, j) if shape == Shape::Matrix3 => 3 * i + j,
+        FieldPart::Entry(i, j) => 6 * i + j,
+        FieldPart::Body(Role::Mass, ..) => 0,
+        FieldPart::Body(Role::CenterOfMass, i, _) => 1 + i,
+        FieldPart::Body(_, i, j) => 4 + 3 * i + j,
     }
 }
 
-struct Laws<'a, 'b, 'g> {
+struct CheckedLaws<'a, 'b, 'g> {
     derived: &'a Derived<'b, 'g>,
     /// Keys of symbols that are known when a kernel is made.
     known: Set<u32>,
@@ -124,7 +127,7 @@ struct Laws<'a, 'b, 'g> {
     computed: Vec<Expr<'g>>,
 }
 
-impl<'g> Laws<'_, '_, 'g> {
+impl<'g> CheckedLaws<'_, '_, 'g> {
     fn computed(&mut self, values: &[Expr<'g>]) -> Vec<Given> {
         let first = self.computed.len();
         self.computed.extend(values);
@@ -147,10 +150,10 @@ impl<'g> Laws<'_, '_, 'g> {
 
     /// The numbers of what a law is about.
     fn datum(&mut self, datum: Datum) -> Vec<Given> {
-        let given = self.derived.subject.given;
+        let provenance = self.derived.subject.provenance;
         match datum {
             Datum::Field(k) => {
-                let count: usize = parts(given.item.fields[k].shape).iter().map(|(_, count)| count).sum();
+                let count: usize = parts(provenance.item.fields[k].shape).iter().map(|(_, count)| count).sum();
                 (self.first[k]..self.first[k] + count).map(Given::Number).collect()
             }
             Datum::Part(k, role) => {
@@ -163,7 +166,7 @@ impl<'g> Laws<'_, '_, 'g> {
                 places.map(|place| Given::Number(first + place)).collect()
             }
             Datum::Clause(role) => {
-                given.mass_data.unnamed(role).map(|value| self.clause(&value.own)).unwrap_or_default()
+                provenance.mass_data.unnamed(role).map(|value| self.clause(&value.own)).unwrap_or_default()
             }
             Datum::Own(role) => {
                 let own = self.own.iter().find(|(quantity, _)| *quantity == role);
@@ -225,7 +228,7 @@ impl<'g> Laws<'_, '_, 'g> {
     /// Rules whose breach is likely not meant, in the order of the derive: of drag, of elements, of gravity, of added
     /// masses.
     fn of_warnings(&mut self) -> Vec<Warning> {
-        let (given, mass_laws) = (self.derived.subject.given, self.derived.mass_laws);
+        let (provenance, mass_laws) = (self.derived.subject.provenance, self.derived.mass_laws);
         let is_known = |key| self.known.contains(&key);
         let drag = |drag: &DragMatrix<'g>| {
             (drag.label.clone(), WarningRule::Drag { quadratic: drag.quadratic }, drag.entries.concat())
@@ -240,7 +243,8 @@ impl<'g> Laws<'_, '_, 'g> {
             };
             Some((law.label.clone(), rule, values))
         };
-        let of_elements: Vec<_> = given.drags.iter().map(drag).chain(given.laws.iter().filter_map(law)).collect();
+        let of_elements: Vec<_> =
+            provenance.drags.iter().map(drag).chain(provenance.laws.iter().filter_map(law)).collect();
         let added = mass_laws.added_masses.iter();
         let added = added.map(|(label, diagonal)| (label.clone(), WarningRule::AddedMass, diagonal.clone()));
         let mut warnings = self.of_known(of_elements);
@@ -252,7 +256,7 @@ impl<'g> Laws<'_, '_, 'g> {
         warnings
     }
 
-    /// Those of parameters alone: where the state enters nothing is known.
+    /// Warnings of parameters alone: where the state enters nothing is known.
     fn of_known(&mut self, all: Vec<(String, WarningRule, Vec<Expr<'g>>)>) -> Vec<Warning> {
         let mut warnings = Vec::new();
         for (label, rule, values) in all {
@@ -267,7 +271,7 @@ impl<'g> Laws<'_, '_, 'g> {
     /// Checks of constants of elements. Of what depends on the state nothing is known when the kernel is made.
     fn of_constants(&mut self, of_kind: impl Fn(LawKind) -> bool) -> Vec<Check> {
         let mut checks = Vec::new();
-        for Law { label, kind, values } in self.derived.subject.given.laws.iter().filter(|law| of_kind(law.kind)) {
+        for Law { label, kind, values } in self.derived.subject.provenance.laws.iter().filter(|law| of_kind(law.kind)) {
             let symbols = kernel::Program::lower(values).symbols();
             if !symbols.iter().all(|symbol| self.known.contains(&symbol.key())) {
                 continue;

@@ -9,15 +9,15 @@ use crate::derivation::Derivation;
 use crate::program::{Instruction, Pass};
 
 /// A scene, and the methods that are counted.
-struct Counted {
+struct CountedScene {
     label: &'static str,
     name: &'static str,
     source: String,
     methods: &'static [&'static str],
 }
 
-fn scenes() -> Vec<Counted> {
-    let scene = |label, name, source, methods| Counted { label, name, source, methods };
+fn scenes() -> Vec<CountedScene> {
+    let scene = |label, name, source, methods| CountedScene { label, name, source, methods };
     vec![
         scene("free body", "FreeBody", structures::free_body(", linearize"), &["acceleration", "linearize"]),
         scene("torpedo", "Torpedo", structures::torpedo(", linearize"), &["acceleration", "linearize"]),
@@ -29,14 +29,14 @@ fn scenes() -> Vec<Counted> {
 }
 
 /// Robots from their files, which take seconds: where they are asked for by `ROBOTS=1`, with the feature `urdf`.
-fn robots() -> Vec<Counted> {
+fn robots() -> Vec<CountedScene> {
     if !cfg!(feature = "urdf") || std::env::var("ROBOTS").is_err() {
         return Vec::new();
     }
     let robot = |label, file| {
         let path = format!("{}/../tests/robots/{file}", env!("CARGO_MANIFEST_DIR"));
         let source = format!("#[gauss(urdf = {path:?}, base = floating, gravity = 9.81)] struct Robot;");
-        Counted { label, name: "Robot", source, methods: &["acceleration", "momentum_rate"] }
+        CountedScene { label, name: "Robot", source, methods: &["acceleration", "momentum_rate"] }
     };
     vec![robot("ANYmal", "anymal.urdf"), robot("Talos", "talos.urdf")]
 }
@@ -45,7 +45,7 @@ const PASSES: [Pass; 7] =
     [Pass::Factors, Pass::Products, Pass::Sums, Pass::Fusing, Pass::Signs, Pass::ProductsInSums, Pass::Beginnings];
 
 /// Instructions of the methods: a multiply-add is one, sine and cosine of an angle are one.
-fn instructions(scene: &Counted, left_out: Option<Pass>) -> Vec<usize> {
+fn instructions(scene: &CountedScene, left_out: Option<Pass>) -> Vec<usize> {
     let derivation = Pass::left_out(left_out, || Derivation::of_source(&scene.source, scene.name));
     let derivation = derivation.unwrap_or_else(|error| panic!("{error}"));
     let count = |method: &&str| {

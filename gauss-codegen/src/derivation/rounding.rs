@@ -5,7 +5,7 @@ use crate::derivation::Derivation;
 use crate::program::ArgumentKind;
 
 /// A state of a scene: the numbers of the fields, the configuration, and speeds or momenta.
-pub struct State {
+pub struct SceneState {
     pub parameters: Vec<f64>,
     pub configuration: Vec<f64>,
     pub speeds: Vec<f64>,
@@ -14,15 +14,15 @@ pub struct State {
 /// The errors of the outputs of a method in double precision, and what it would change them if every number of the
 /// scene were rounded once: the sum of the changes that one unit in the last place of each makes, which is what the
 /// scene itself excuses.
-pub struct Loss {
+pub struct OutputErrors {
     /// In double precision.
     pub rounded: Vec<f64>,
     pub errors: Vec<f64>,
     pub excused: Vec<f64>,
 }
 
-impl Loss {
-    pub fn of(derivation: &Derivation, method: &str, state: &State) -> Self {
+impl OutputErrors {
+    pub fn of(derivation: &Derivation, method: &str, state: &SceneState) -> Self {
         let rounded = outputs(derivation, method, state, |x| x);
         let exact = outputs(derivation, method, state, Precise::number);
         let mut excused: Vec<f64> = exact.iter().map(|e| e.to_f64().abs() * f64::EPSILON).collect();
@@ -47,7 +47,7 @@ impl Loss {
     }
 }
 
-impl State {
+impl SceneState {
     fn numbers(&self) -> impl Iterator<Item = f64> {
         self.parameters.iter().chain(&self.configuration).chain(&self.speeds).copied()
     }
@@ -57,7 +57,7 @@ impl State {
 pub fn outputs<T: Scalar>(
     derivation: &Derivation,
     method: &str,
-    state: &State,
+    state: &SceneState,
     mut number: impl FnMut(f64) -> T,
 ) -> Vec<T> {
     let mut all = state.numbers().map(&mut number);

@@ -1,7 +1,7 @@
 //! Scenes whose digits used to be lost.
 
 use crate::derivation::Derivation;
-use crate::derivation::rounding::{Loss, State};
+use crate::derivation::rounding::{OutputErrors, SceneState};
 
 fn derived(source: &str) -> Derivation {
     Derivation::of_source(source, "Scene").unwrap_or_else(|error| panic!("{error}\n{source}"))
@@ -105,8 +105,8 @@ fn craft(base: &Base, acting: &str, fields: &str) -> Derivation {
     ))
 }
 
-fn state(base: &Base, further: &[f64]) -> State {
-    State {
+fn state(base: &Base, further: &[f64]) -> SceneState {
+    SceneState {
         parameters: [bodies().as_slice(), &[0.2, 0.1, -0.05], further].concat(),
         configuration: base.configuration.clone(),
         speeds: base.speeds.clone(),
@@ -122,7 +122,7 @@ fn the_gradient_of_gravity_turns_a_craft_with_a_wheel() {
     for base in bases() {
         let scene = craft(&base, "central_gravity(mu = mu)", "mu: f64");
         let state = state(&base, &[3.986004418e14]);
-        let loss = Loss::of(&scene, "acceleration", &state);
+        let loss = OutputErrors::of(&scene, "acceleration", &state);
         assert!(loss.worst() < HARMLESS, "{}: {:?} {:?}", base.clauses, loss.errors, loss.excused);
     }
 }
@@ -131,7 +131,7 @@ fn the_gradient_of_gravity_turns_a_craft_with_a_wheel() {
 fn uniform_gravity_leaves_no_rounding_in_what_it_cannot_change() {
     for base in bases() {
         let scene = craft(&base, "", "#[gauss(gravity)] g: Vector3<f64>");
-        let accelerations = |g: &[f64]| Loss::of(&scene, "acceleration", &state(&base, g)).rounded;
+        let accelerations = |g: &[f64]| OutputErrors::of(&scene, "acceleration", &state(&base, g)).rounded;
         let (still, falling) = (accelerations(&[0.0; 3]), accelerations(&[1.7, -4.1, 8.9]));
         for (k, (a, b)) in still.into_iter().zip(falling).enumerate() {
             let translates = base.translations.contains(&k);
@@ -145,7 +145,7 @@ fn uniform_gravity_leaves_no_rounding_in_what_it_cannot_change() {
 fn a_fast_base_leaves_no_rounding_in_the_hinge() {
     for base in bases() {
         let scene = craft(&base, "", "");
-        let loss = Loss::of(&scene, "acceleration", &state(&base, &[]));
+        let loss = OutputErrors::of(&scene, "acceleration", &state(&base, &[]));
         assert!(loss.worst() < HARMLESS, "{}: {:?} {:?}", base.clauses, loss.errors, loss.excused);
     }
 }
@@ -170,9 +170,9 @@ fn inertia_about_the_centre_of_mass_is_not_carried_through_o() {
             true => vec![1.0, -2.0, 0.5, 0.3, -0.4, 1.1],
             false => [quaternion().as_slice(), &[1.0, -2.0, 0.5]].concat(),
         };
-        let state = State { parameters, configuration, speeds: vec![0.3, -0.7, 1.1, 0.6, -1.3, 0.4] };
+        let state = SceneState { parameters, configuration, speeds: vec![0.3, -0.7, 1.1, 0.6, -1.3, 0.4] };
         for method in ["acceleration", "velocity", "momentum_rate"] {
-            let loss = Loss::of(&scene, method, &state);
+            let loss = OutputErrors::of(&scene, method, &state);
             assert!(loss.worst() < HARMLESS, "{method} {:?} {:?}\n{source}", loss.errors, loss.excused);
         }
     }

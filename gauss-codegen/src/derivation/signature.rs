@@ -19,17 +19,17 @@ pub struct Signature<'g> {
 }
 
 /// An error of this crate.
-pub enum Unbound {
+pub enum SignatureError {
     /// A symbol that is no component of the arguments.
     Symbol(String),
     Malformed(Malformed),
 }
 
-impl fmt::Display for Unbound {
+impl fmt::Display for SignatureError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Unbound::Symbol(name) => write!(f, "the symbol `{name}` is no component of the arguments"),
-            Unbound::Malformed(malformed) => malformed.fmt(f),
+            SignatureError::Symbol(name) => write!(f, "the symbol `{name}` is no component of the arguments"),
+            SignatureError::Malformed(malformed) => malformed.fmt(f),
         }
     }
 }
@@ -43,7 +43,7 @@ impl<'g> Signature<'g> {
             .into_iter()
             .flat_map(|argument| argument.symbols)
             .collect();
-        let parameters = derived.subject.given.parameters.iter();
+        let parameters = derived.subject.provenance.parameters.iter();
         let (names, symbols) = parameters.map(|parameter| (parameter.name.clone(), parameter.symbol)).unzip();
         let constants = &derived.kernel.constant_symbols;
         let arguments = vec![
@@ -74,7 +74,7 @@ impl<'g> Signature<'g> {
         kinds: &[ArgumentKind],
         code: &kernel::Program<'g>,
         results: Vec<Results>,
-    ) -> Result<Program, Unbound> {
+    ) -> Result<Program, SignatureError> {
         let taken: Vec<_> = kinds
             .iter()
             .filter_map(|kind| self.arguments.iter().find(|(argument, _)| argument.kind == *kind))
@@ -95,15 +95,15 @@ impl<'g> Signature<'g> {
             }
         }
         let bound = |symbol: Expr<'g>| {
-            inputs.get(&symbol.key()).copied().ok_or_else(|| Unbound::Symbol(print(symbol, Notation::Text)))
+            inputs.get(&symbol.key()).copied().ok_or_else(|| SignatureError::Symbol(print(symbol, Notation::Text)))
         };
         let arguments = taken.into_iter().map(|(argument, _)| argument.clone()).collect();
         let program = Program::new(name, arguments, numbers, code.with_inputs(bound)?, results);
-        program.map(|program| program.with_functions(self.functions.clone())).map_err(Unbound::Malformed)
+        program.map(|program| program.with_functions(self.functions.clone())).map_err(SignatureError::Malformed)
     }
 
     /// Program that computes the constants from the parameters.
-    pub fn constants(&self, derived: &Derived<'_, 'g>) -> Result<Program, Unbound> {
+    pub fn constants(&self, derived: &Derived<'_, 'g>) -> Result<Program, SignatureError> {
         let code = &derived.kernel.constants;
         self.program("kernel", &[ArgumentKind::Parameters], code, vec![Results::new("k", code.outputs.len(), 1)])
     }

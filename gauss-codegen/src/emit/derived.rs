@@ -6,8 +6,8 @@ use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 use crate::algebra::{Expr, Map, Rational, Set};
-use crate::formulation::Printed;
-use crate::kernel::{Counts, Function, Kernel, Program, Smoothness};
+use crate::formulation::PrintedEquations;
+use crate::kernel::{Counts, Kernel, LoweredFunction, Program, Smoothness};
 use crate::lowering::Lowered;
 use crate::mass_laws::MassLaws;
 use crate::mechanics::{Account, InertialParameter, Method};
@@ -15,8 +15,8 @@ use crate::program::ArgumentKind;
 use crate::terms::{Item, Scalar};
 use crate::words::Unraw;
 
-use crate::emit::dialect::arguments::{Argument, arguments_of, declare, declared, variable};
-use crate::emit::dialect::limbs::Limbs;
+use crate::emit::dialect::arguments::{ArrayArgument, arguments_of, declare, declared, variable};
+use crate::emit::dialect::limbs::LimbSymbols;
 use crate::emit::dialect::packs::{Packs, Sources, are_wanted};
 use crate::emit::dialect::program::{ScalarTokens, statements};
 use crate::emit::subject::Subject;
@@ -39,16 +39,16 @@ pub struct Derived<'a, 'g> {
     /// λ of the second derivatives, where these are wanted.
     pub weights: &'a [Expr<'g>],
     /// The equations for people, as text and in LaTeX.
-    pub printed: &'a [Printed; 2],
+    pub printed: &'a [PrintedEquations; 2],
     /// The parameters in which the forces of inertia are linear, where the regressor is wanted.
     pub inertial_parameters: &'a [InertialParameter<'g>],
     /// Methods that are written with vectors, once these have been looked for.
     packs: OnceCell<Packs<'g>>,
     /// Relation of symbols to limbs that are alike.
-    limbs: OnceCell<Limbs>,
+    limbs: OnceCell<LimbSymbols>,
     /// Asked for by every method: see `private`, `arguments`.
     private: TokenStream,
-    arguments: OnceCell<Vec<Argument<'g>>>,
+    arguments: OnceCell<Vec<ArrayArgument<'g>>>,
 }
 
 /// Type parameters of the kernel; nothing where the scalar is a type.
@@ -60,7 +60,7 @@ pub struct KernelGenerics {
 }
 
 /// Symbols of the arguments of the methods.
-pub struct Formal<'a, 'g> {
+pub struct ArgumentSymbols<'a, 'g> {
     pub speeds: &'a [Expr<'g>],
     pub speed_rates: &'a [Expr<'g>],
     pub momenta: &'a [Expr<'g>],
@@ -76,9 +76,9 @@ pub struct Formal<'a, 'g> {
 
 impl<'a, 'g> Derived<'a, 'g> {
     pub fn new(Lowered { formulation, kernel, mass_laws }: &'a Lowered<'g>) -> Self {
-        let given = &formulation.given;
+        let provenance = &formulation.provenance;
         let subject = Subject {
-            given,
+            provenance,
             system: &formulation.system,
             constraints: formulation.constraints(),
             can_drift: formulation.can_drift(),
@@ -94,7 +94,7 @@ impl<'a, 'g> Derived<'a, 'g> {
             packs: OnceCell::new(),
             limbs: OnceCell::new(),
             private: {
-                let (runtime, module) = (&given.item.runtime, Ident::new(PRIVATE, Span::call_site()));
+                let (runtime, module) = (&provenance.item.runtime, Ident::new(PRIVATE, Span::call_site()));
                 quote!(#runtime::#module)
             },
             arguments: OnceCell::new(),
@@ -102,13 +102,13 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     pub fn item(&self) -> &'a Item {
-        &self.subject.given.item
+        &self.subject.provenance.item
     }
 
-    pub fn formal(&self) -> Formal<'a, 'g> {
+    pub fn formal(&self) -> ArgumentSymbols<'a, 'g> {
         let Subject { system, constraints, .. } = &self.subject;
         let halves = system.halves();
-        Formal {
+        ArgumentSymbols {
             speeds: &system.scene.speeds,
             speed_rates: &system.scene.speed_rates,
             momenta: &system.scene.momenta,
@@ -205,7 +205,7 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     /// Literal numbers that symbols stand for.
     pub fn literals(&self) -> &[(Rational, Expr<'g>)] {
-        &self.subject.given.literals
+        &self.subject.provenance.literals
     }
 
     /// The symbol of the time.
@@ -214,18 +214,18 @@ impl<'a, 'g> Derived<'a, 'g> {
     }
 
     /// A vector taken apart.
-    pub fn vector_argument(&self, name: TokenStream, symbols: &[Expr<'g>]) -> Argument<'g> {
+    pub fn vector_argument(&self, name: TokenStream, symbols: &[Expr<'g>]) -> ArrayArgument<'g> {
         let private = self.private();
-        Argument { array: quote!(#private::components(#name)), symbols: symbols.to_vec() }
+        ArrayArgument { array: quote!(#private::components(#name)), symbols: symbols.to_vec() }
     }
 
     /// The arguments of methods other than constants and time.
-    pub fn arguments(&self) -> &[Argument<'g>] {
+    pub fn arguments(&self) -> &[ArrayArgument<'g>] {
         self.arguments.get_or_init(|| self.all_arguments())
     }
 
-    fn all_arguments(&self) -> Vec<Argument<'g>> {
-        let Formal { speeds, speed_rates, momenta, twist, residuals, factors, impulses, inputs, weights } =
+    fn all_arguments(&self) -> Vec<ArrayArgument<'g>> {
+        let ArgumentSymbols { speeds, speed_rates, momenta, twist, residuals, factors, impulses, inputs, weights } =
             self.formal();
         let mut arguments = self.subject.configuration_arguments(&self.private());
         for (kind, symbols) in [
@@ -260,7 +260,7 @@ impl<'a, 'g> Derived<'a, 'g> {
     fn packed(&self) -> Packs<'g> {
         let (mut packs, arguments, scalar) = (Packs::default(), self.arguments(), self.scalar());
         let methods = self.kernel.functions.iter().filter(|(method, _)| are_wanted(*method, scalar.scalar));
-        for (method, Function { program, .. }) in methods {
+        for (method, LoweredFunction { program, .. }) in methods {
             let (_, names) = self.named(program, arguments);
             let sources = Sources { kernel: self.kernel, arguments, names: &names };
             packs.add(method, program, &sources, &scalar);
@@ -311,12 +311,16 @@ impl<'a, 'g> Derived<'a, 'g> {
         names: &Map<u32, TokenStream>,
     ) -> Option<(TokenStream, Vec<TokenStream>)> {
         self.packs().filter(|_| matches!(self.scalar().scalar, Scalar::F64))?;
-        let limbs = self.limbs.get_or_init(|| Limbs::of(&self.subject.given.twins, self.kernel));
+        let limbs = self.limbs.get_or_init(|| LimbSymbols::of(&self.subject.provenance.twins, self.kernel));
         limbs.statements(program, names, (&self.private(), &self.scalar()))
     }
 
     /// Arguments taken apart as far as a program reads them, and how its symbols are then written.
-    pub fn named(&self, program: &Program<'g>, arguments: &[Argument<'g>]) -> (TokenStream, Map<u32, TokenStream>) {
+    pub fn named(
+        &self,
+        program: &Program<'g>,
+        arguments: &[ArrayArgument<'g>],
+    ) -> (TokenStream, Map<u32, TokenStream>) {
         let mut names = self.constant_names(program);
         names.insert(self.subject.system.scene.time.key(), quote!(__t));
         let written = declare(program, arguments, &mut names);

@@ -47,7 +47,7 @@ pub use python::{parts, without_rust};
 pub use text::documentation::{Equations, figures};
 pub use text::file::file;
 
-use constructor::{kernel, of_file};
+use constructor::{file_values, kernel};
 use derivatives::{hessian, inverse, linearized, parametric, regressor};
 use equations::{constrained, contact, gauss_system, taylor};
 use quantities::{forced, framed, reactions, rigid_body, whole};
@@ -77,7 +77,7 @@ pub fn emit(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
     let [state, conversions] = state::state(derived);
     let index = index::index(derived);
     let [input, inputs] = input::input(derived);
-    let of_file = of_file::of_file(derived);
+    let of_file = file_values::of_file(derived);
     let python = python::scene(derived);
     quote! {
         #kernel

@@ -8,7 +8,7 @@ use crate::emit::derived::Derived;
 use crate::emit::records::record::Part;
 use crate::emit::records::{input, state};
 use crate::methods::DerivativeKind;
-use crate::terms::{Field, Remark, Scalar, WantedMethod};
+use crate::terms::{Field, FileRemark, OptionalMethod, Scalar};
 use crate::words::Unraw;
 
 /// The call; nothing where no Python is wanted.
@@ -25,7 +25,7 @@ pub fn scene(derived: &Derived<'_, '_>) -> TokenStream {
     let [coordinates, speeds, inputs] = parts(derived).map(|parts| parts.iter().map(part).collect::<Vec<_>>());
     let (offers, steps) = (offers(derived), steps(derived));
     let remarks = item.described.iter().flat_map(|file| &file.remarks);
-    let remarks = remarks.map(|Remark { text, ignored }| {
+    let remarks = remarks.map(|FileRemark { text, ignored }| {
         let text = without_rust(text);
         quote!(#text #ignored;)
     });
@@ -80,10 +80,10 @@ fn offers(derived: &Derived<'_, '_>) -> Vec<proc_macro2::Ident> {
     let mut words: Vec<&str> = derivatives.collect();
     words.extend((!wanted.frames.is_empty()).then_some("frames"));
     let of_methods = wanted.methods.iter().filter_map(|method| match method {
-        WantedMethod::Centroidal => Some("centroidal"),
-        WantedMethod::GravityTorques => Some("gravity_torques"),
-        WantedMethod::JacobianRates => Some("jacobian_rates"),
-        WantedMethod::NonlinearEffects => None,
+        OptionalMethod::Centroidal => Some("centroidal"),
+        OptionalMethod::GravityTorques => Some("gravity_torques"),
+        OptionalMethod::JacobianRates => Some("jacobian_rates"),
+        OptionalMethod::NonlinearEffects => None,
     });
     words.extend(of_methods);
     words.extend((!derived.subject.constraints.is_empty()).then_some("constraints"));

@@ -6,15 +6,15 @@ use quote::quote;
 
 use crate::algebra::Expr;
 use crate::mechanics::{Constraints, Coordinate, Method, System};
-use crate::translate::Given;
+use crate::translate::Provenance;
 
 use crate::emit::chart::chart_tokens;
-use crate::emit::dialect::arguments::Argument;
+use crate::emit::dialect::arguments::ArrayArgument;
 
 /// The system that is derived.
 pub struct Subject<'a, 'g> {
     /// Names, units and other data that are only written down.
-    pub given: &'a Given<'g>,
+    pub provenance: &'a Provenance<'g>,
     pub system: &'a System<'g>,
     /// The constraints, and whether a run can drift away from them.
     pub constraints: &'a Constraints<'g>,
@@ -67,7 +67,7 @@ impl<'g> Subject<'_, 'g> {
     }
 
     /// The configuration taken apart.
-    pub fn configuration_arguments(&self, private: &TokenStream) -> Vec<Argument<'g>> {
+    pub fn configuration_arguments(&self, private: &TokenStream) -> Vec<ArrayArgument<'g>> {
         let factors = self.factors();
         let last = factors.len() - 1;
         let mut arguments = Vec::new();
@@ -75,23 +75,23 @@ impl<'g> Subject<'_, 'g> {
             let place = place(k, last);
             match factor {
                 Factor::Scalars { symbols } => {
-                    arguments.push(Argument { array: quote!(#private::components(#place)), symbols });
+                    arguments.push(ArrayArgument { array: quote!(#private::components(#place)), symbols });
                 }
                 Factor::Group { coordinate } => {
                     let quaternion = self.quaternions[coordinate].map(|q| q.to_vec()).unwrap_or_default();
                     match &self.coordinates()[coordinate] {
                         Coordinate::Pose(_, position) => {
                             let array = quote!(#private::isometry3(#place));
-                            arguments.push(Argument { array: quote!(#array.0), symbols: quaternion });
-                            arguments.push(Argument { array: quote!(#array.1), symbols: position.to_vec() });
+                            arguments.push(ArrayArgument { array: quote!(#array.0), symbols: quaternion });
+                            arguments.push(ArrayArgument { array: quote!(#array.1), symbols: position.to_vec() });
                         }
                         Coordinate::Plane { turn, position } => {
                             let array = quote!(#private::isometry2(#place));
-                            arguments.push(Argument { array: quote!(#array.0), symbols: turn.to_vec() });
-                            arguments.push(Argument { array: quote!(#array.1), symbols: position.to_vec() });
+                            arguments.push(ArrayArgument { array: quote!(#array.0), symbols: turn.to_vec() });
+                            arguments.push(ArrayArgument { array: quote!(#array.1), symbols: position.to_vec() });
                         }
                         _ => arguments
-                            .push(Argument { array: quote!(#private::quaternion(#place)), symbols: quaternion }),
+                            .push(ArrayArgument { array: quote!(#private::quaternion(#place)), symbols: quaternion }),
                     }
                 }
             }
@@ -146,7 +146,7 @@ impl<'g> Subject<'_, 'g> {
         self.configuration_of(private, &values.collect::<Vec<_>>())
     }
 
-    /// Where each component of an increment of the configuration is among those in the order of the coordinates:
+    /// Places of the components of an increment of the configuration among those in the order of the coordinates:
     /// groups come first, then all scalars.
     pub fn increment_places(&self) -> Vec<usize> {
         let mut next = 0;

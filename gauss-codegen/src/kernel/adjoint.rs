@@ -3,17 +3,17 @@
 
 use crate::algebra::{BinaryFunction, Function, Map, Rational};
 
-use super::tangent::{Direction, Pass, Rate, Tangent, Writer};
+use super::tangent::{Direction, InstructionWriter, Rate, Tangent, TangentPass};
 use super::write::{Operand, Operation, Program};
 
 /// The derivatives of the only output of a program along each of the directions, as a program that reads what that one
 /// read, and the rates.
 pub fn gradient<'g>(program: &Program<'g>, directions: &[Direction<'g>]) -> Program<'g> {
-    let mut writer = Writer::default();
+    let mut writer = InstructionWriter::default();
     let none = Map::default();
     let (places, _) = writer.copy(program, &none);
     let mut sweep = Sweep {
-        pass: Pass::new(&mut writer, program, &none, &places),
+        pass: TangentPass::new(&mut writer, program, &none, &places),
         of_symbols: Map::default(),
         of_instructions: vec![None; program.instructions.len()],
     };
@@ -24,7 +24,7 @@ pub fn gradient<'g>(program: &Program<'g>, directions: &[Direction<'g>]) -> Prog
 
 /// The derivatives of the output by all that it is made of, last instruction first.
 struct Sweep<'a, 'g> {
-    pass: Pass<'a, 'g>,
+    pass: TangentPass<'a, 'g>,
     of_symbols: Map<u32, Rate<'g>>,
     /// Derivatives by the instructions; of sines and cosines by the angle.
     of_instructions: Vec<Rate<'g>>,

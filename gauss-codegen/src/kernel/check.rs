@@ -4,20 +4,20 @@ use std::fmt;
 
 use crate::algebra::{Evaluation, Expr, Function, Graph, Map, Number, Precise};
 
-use super::expected::Expected;
-use super::wanted::Lowered;
+use super::derivative_programs::DerivativeProgram;
+use super::expected_outputs::ExpectedOutputs;
 use super::write::Program;
 
 /// A program does not compute what its expressions say: an error of this crate, never of its user.
 #[derive(Debug)]
-pub struct Miscompiled {
+pub struct Miscompilation {
     function: usize,
     output: usize,
     expected: f64,
     found: f64,
 }
 
-impl fmt::Display for Miscompiled {
+impl fmt::Display for Miscompilation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { function, output, expected, found } = self;
         write!(f, "output {output} of function {function} computes {found} instead of {expected}")
@@ -25,25 +25,25 @@ impl fmt::Display for Miscompiled {
 }
 
 /// Programs, and what they should compute.
-pub(super) struct Checked<'a, 'g> {
+pub(super) struct CheckedPrograms<'a, 'g> {
     pub constants: &'a Program<'g>,
     pub constant_symbols: &'a [Expr<'g>],
-    pub functions: Vec<(&'a Program<'g>, Expected<'a, 'g>)>,
+    pub functions: Vec<(&'a Program<'g>, ExpectedOutputs<'a, 'g>)>,
     /// Derivatives, for which the point need not be in the domain.
-    pub derivatives: &'a [Lowered<'a, 'g>],
+    pub derivatives: &'a [DerivativeProgram<'a, 'g>],
 }
 
-impl<'g> Checked<'_, 'g> {
+impl<'g> CheckedPrograms<'_, 'g> {
     /// Roots and logarithms have domains: the point is the first of a few at which everything has a value. Functions
     /// that have none at any of them cannot be checked. A wrong term is wrong nearly everywhere, and in numbers of many
     /// digits, too; where terms cancel, two right forms differ by the roundings of what cancelled, which are smaller
     /// there by as many digits as there are more. So programs are refused when they disagree at three points and do so
     /// in numbers of many digits.
-    pub fn check(&self, graph: &'g Graph, sample: &Sample<'_, 'g>) -> Result<(), Miscompiled> {
+    pub fn check(&self, graph: &'g Graph, sample: &Sample<'_, 'g>) -> Result<(), Miscompilation> {
         self.check_in::<f64>(graph, sample).or_else(|_| self.check_in::<Precise>(graph, sample))
     }
 
-    fn check_in<N: Number>(&self, graph: &'g Graph, sample: &Sample<'_, 'g>) -> Result<(), Miscompiled> {
+    fn check_in<N: Number>(&self, graph: &'g Graph, sample: &Sample<'_, 'g>) -> Result<(), Miscompilation> {
         let points = (0..16).map(|shift| sample.point(graph, shift));
         let inside = |point: &Map<u32, N>| {
             let mut evaluation = Evaluation::new(point);
@@ -60,7 +60,7 @@ impl<'g> Checked<'_, 'g> {
         refused
     }
 
-    fn check_at<N: Number>(&self, point: &Map<u32, N>, sample: &Sample<'_, 'g>) -> Result<(), Miscompiled> {
+    fn check_at<N: Number>(&self, point: &Map<u32, N>, sample: &Sample<'_, 'g>) -> Result<(), Miscompilation> {
         let mut values = point.clone();
         let constants = self.constants.run(point);
         values.extend(self.constant_symbols.iter().zip(constants).map(|(s, v)| (s.key(), v)));
@@ -81,7 +81,7 @@ impl<'g> Checked<'_, 'g> {
 }
 
 /// Refuses what is not computed as expected.
-fn compare<N: Number>(function: usize, found: &[N], expected: &[N]) -> Result<(), Miscompiled> {
+fn compare<N: Number>(function: usize, found: &[N], expected: &[N]) -> Result<(), Miscompilation> {
     for (output, (&found, &wanted)) in found.iter().zip(expected).enumerate() {
         let (apart, found, expected) = ((found - wanted).to_f64(), found.to_f64(), wanted.to_f64());
         // Inputs are of order one; hundreds of roundings stay far below, a wrong term far above this.
@@ -89,7 +89,7 @@ fn compare<N: Number>(function: usize, found: &[N], expected: &[N]) -> Result<()
         // Derivatives alone may have no value where functions have one, as that of 0^k by k: there is nothing to
         // compare with.
         if expected.is_finite() && !close {
-            return Err(Miscompiled { function, output, expected, found });
+            return Err(Miscompilation { function, output, expected, found });
         }
     }
     Ok(())

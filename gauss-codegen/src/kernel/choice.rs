@@ -1,6 +1,6 @@
 //! The arrangements of one function, and which of them is taken.
 
-use crate::accuracy::{Loss, Trial, Tried};
+use crate::accuracy::{Loss, Trial, TrialResult};
 use crate::algebra::{Expr, without_differences};
 
 use super::hoist::Hoister;
@@ -22,7 +22,7 @@ pub enum Aim {
 }
 
 /// An arrangement with its program.
-pub(super) struct Lowered<'g> {
+pub(super) struct LoweredForm<'g> {
     pub outputs: Vec<Expr<'g>>,
     hoisted: Vec<Expr<'g>>,
     pub program: Program<'g>,
@@ -30,8 +30,8 @@ pub(super) struct Lowered<'g> {
 
 /// Arrangements as programs, with what they lose and which is the best of them.
 pub(super) struct Pool<'g> {
-    pub lowered: Vec<Lowered<'g>>,
-    pub tried: Tried,
+    pub lowered: Vec<LoweredForm<'g>>,
+    pub tried: TrialResult,
     pub best: usize,
 }
 
@@ -41,7 +41,7 @@ const SUSPECT: f64 = 30.0;
 const LONG: usize = 1000;
 
 /// The arrangement that is taken.
-pub(super) struct Taken<'g> {
+pub(super) struct Choice<'g> {
     pub outputs: Vec<Expr<'g>>,
     /// The outputs of the first one where that keeps the digits, too.
     pub first: Option<Vec<Expr<'g>>>,
@@ -61,25 +61,25 @@ impl<'g> Candidates<'g> {
     }
 
     /// The arrangement that is taken.
-    pub(super) fn taken(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Taken<'g> {
+    pub(super) fn taken(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Choice<'g> {
         let Pool { mut lowered, tried, best } = Pool::of(&self.arrangements, self.aim, hoister, Hoister::hoist, trial);
         let first = Some(lowered[0].outputs.clone()).filter(|_| tried.usable()[0]);
-        let Lowered { outputs, program, .. } = lowered.swap_remove(best);
+        let LoweredForm { outputs, program, .. } = lowered.swap_remove(best);
         let loss = tried.losses[best].clone();
         // A power series has a recurrence for every product, and takes a negation of an addend for an instruction like
         // any other.
         if self.aim == Aim::Series {
-            return Taken { outputs, first, carried_out: program.clone(), program, begun: true, loss };
+            return Choice { outputs, first, carried_out: program.clone(), program, begun: true, loss };
         }
         let program = program.with_signs_led_back();
         let fused = program.clone().with_products_in_sums();
         let Some(sums_begun) = fused.sums_begun() else {
-            return Taken { outputs, first, program, carried_out: fused.ordered(), begun: true, loss };
+            return Choice { outputs, first, program, carried_out: fused.ordered(), begun: true, loss };
         };
         let other_loss = trial.loss_of(&tried, &sums_begun);
         let begun = other_loss.keeps(&loss);
         let (carried_out, loss) = if begun { (sums_begun, other_loss) } else { (fused, loss) };
-        Taken { outputs, first, program, carried_out: carried_out.ordered(), begun, loss }
+        Choice { outputs, first, program, carried_out: carried_out.ordered(), begun, loss }
     }
 }
 
@@ -111,13 +111,13 @@ impl<'g> Pool<'g> {
     ) -> Self {
         let of_derivatives = trial.decides_derivatives();
         let mut lowered = Vec::new();
-        let mut add = |arrangements: &[Vec<Expr<'g>>], lowered: &mut Vec<Lowered<'g>>| {
+        let mut add = |arrangements: &[Vec<Expr<'g>>], lowered: &mut Vec<LoweredForm<'g>>| {
             for outputs in arrangements {
                 let hoisted = hoist(hoister, outputs);
                 // Those that are the same once constants are hoisted, once.
                 if lowered.iter().all(|other| other.hoisted != hoisted) {
                     let program = Program::lower(&hoisted);
-                    lowered.push(Lowered { outputs: outputs.clone(), hoisted, program });
+                    lowered.push(LoweredForm { outputs: outputs.clone(), hoisted, program });
                 }
             }
             trial.define(hoister.constants());

@@ -20,12 +20,12 @@ pub struct Columns<'g> {
     /// Outputs of the program: values; of every direction what is known or added to the solution; L below its diagonal;
     /// D⁻¹; the right-hand sides of the directions that have some.
     before: Vec<Expr<'g>>,
-    shape: Shape,
+    shape: ColumnLayout,
 }
 
 /// Layout of the outputs.
 #[derive(Clone)]
-pub struct Shape {
+pub struct ColumnLayout {
     /// Numbers of all outputs, and of those at the beginning that are no solutions.
     pub height: usize,
     pub known: usize,
@@ -42,7 +42,7 @@ pub struct Shape {
 pub struct LoweredColumns<'g> {
     /// Outputs as in [`Columns::before`].
     pub program: Program<'g>,
-    pub shape: Shape,
+    pub shape: ColumnLayout,
 }
 
 impl<'g> Columns<'g> {
@@ -68,7 +68,7 @@ impl<'g> Columns<'g> {
         let rights = solved.iter().flat_map(|&d| order.iter().map(|&i| rights[d][i]).collect::<Vec<_>>());
         let before = values.into_iter().chain(added).chain(entries).chain(pivots).chain(rights).collect();
         let below = below.iter().map(|column| column.iter().map(|(row, _)| *row).collect()).collect();
-        Self { before, shape: Shape { height, known, directions, order, below, solved } }
+        Self { before, shape: ColumnLayout { height, known, directions, order, below, solved } }
     }
 
     /// None where the substitution is short.
@@ -83,7 +83,7 @@ impl<'g> Columns<'g> {
 }
 
 /// The outputs of the program, part by part.
-pub struct Parts<T> {
+pub struct OutputParts<T> {
     pub values: Vec<T>,
     /// Derivatives of the known outputs, then what is added to the solution, of every direction.
     pub added: Vec<Vec<T>>,
@@ -93,14 +93,14 @@ pub struct Parts<T> {
     pub rights: Vec<Vec<T>>,
 }
 
-impl Shape {
-    pub fn parts<T: Clone>(&self, outputs: &[T]) -> Parts<T> {
+impl ColumnLayout {
+    pub fn parts<T: Clone>(&self, outputs: &[T]) -> OutputParts<T> {
         let (values, rest) = outputs.split_at(self.height);
         let (added, rest) = rest.split_at(self.height * self.directions);
         let (below, rest) = rest.split_at(self.below.iter().map(Vec::len).sum());
         let (pivots, rights) = rest.split_at(self.order.len());
         let columns = |part: &[T], height: usize| part.chunks(height).map(<[T]>::to_vec).collect();
-        Parts {
+        OutputParts {
             values: values.to_vec(),
             added: columns(added, self.height),
             below: below.to_vec(),
@@ -110,7 +110,7 @@ impl Shape {
     }
 }
 
-impl Shape {
+impl ColumnLayout {
     /// Unknowns in a row that are eliminated together: what is below each of them are the rest of them and what is
     /// below the last. Nothing else leads into the middle.
     pub fn groups(&self) -> Vec<Range<usize>> {
@@ -143,8 +143,8 @@ impl<'g> LoweredColumns<'g> {
 
     /// As the written code computes it: values, then derivatives, direction by direction.
     pub fn run<N: Number>(&self, symbols: &Map<u32, N>) -> Vec<N> {
-        let Shape { known, order, below, solved, .. } = &self.shape;
-        let Parts { mut values, mut added, below: multiples, pivots, rights } =
+        let ColumnLayout { known, order, below, solved, .. } = &self.shape;
+        let OutputParts { mut values, mut added, below: multiples, pivots, rights } =
             self.shape.parts(&self.program.run(symbols));
         let starts: Vec<usize> =
             below.iter().scan(0, |sum, rows| Some(std::mem::replace(sum, *sum + rows.len()))).collect();

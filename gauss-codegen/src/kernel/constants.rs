@@ -12,7 +12,7 @@ pub(super) struct Constants<'g> {
 }
 
 /// The constants that are read.
-pub(super) struct Hoisted<'g> {
+pub(super) struct ConstantSet<'g> {
     pub constants: Constants<'g>,
     /// Constants that literals alone determine, with their values and with their definitions.
     pub known: Vec<(Expr<'g>, f64)>,
@@ -20,16 +20,16 @@ pub(super) struct Hoisted<'g> {
 }
 
 /// Symbols and literals that constants are found from, beside those that a hoister has gathered.
-pub(super) struct Source<'a, 'g> {
+pub(super) struct ConstantSource<'a, 'g> {
     /// Symbols that all programs read but those that are asked about.
     pub read: &'a [Expr<'g>],
     /// Symbols that stand for literals, where their values are known.
     pub literals: Option<&'a Map<u32, f64>>,
 }
 
-impl<'g> Source<'_, 'g> {
+impl<'g> ConstantSource<'_, 'g> {
     /// Constants that are read, here or besides. Those that only a dearer arrangement wanted are dropped.
-    pub fn hoisted(&self, hoister: &Hoister<'_, 'g>, besides: &[Expr<'g>]) -> Hoisted<'g> {
+    pub fn hoisted(&self, hoister: &Hoister<'_, 'g>, besides: &[Expr<'g>]) -> ConstantSet<'g> {
         let read: Set<u32> = self.read.iter().chain(besides).map(|symbol| symbol.key()).collect();
         let (mut symbols, mut values) = (Vec::new(), Vec::new());
         let (mut known, mut folded) = (Vec::new(), Vec::new());
@@ -45,7 +45,7 @@ impl<'g> Source<'_, 'g> {
                 }
             }
         }
-        Hoisted { constants: Constants { program: Program::lower(&values), symbols }, known, folded }
+        ConstantSet { constants: Constants { program: Program::lower(&values), symbols }, known, folded }
     }
 
     /// The value of what literals alone determine. What has none is left to `kernel()`, which refuses it; nearly all

@@ -3,15 +3,15 @@
 use crate::accuracy::Trial;
 use crate::algebra::Expr;
 
-use super::choice::{Aim, Lowered as Arranged, Pool, programs_of};
+use super::choice::{Aim, LoweredForm, Pool, programs_of};
 use super::columns::{Columns, LoweredColumns};
-use super::expected::{Expected, Kept};
+use super::expected_outputs::{ExpectedOutputs, OutputSelection};
 use super::hoist::Hoister;
 use super::tangent::{Direction, tangents_alone, with_tangents};
 use super::write::Program;
 
 /// Functions and the directions along which their derivatives are wanted.
-pub struct Differentiated<'g> {
+pub struct DirectionalDerivatives<'g> {
     /// The outputs, in equivalent arrangements.
     pub arrangements: Vec<Vec<Expr<'g>>>,
     /// Symbols that stand for expressions of the arguments, in the order of their definitions, and move by rates of
@@ -19,11 +19,11 @@ pub struct Differentiated<'g> {
     pub defined: Vec<Expr<'g>>,
     pub directions: Vec<Direction<'g>>,
     /// Forms of their own.
-    pub derived: Vec<Derived<'g>>,
+    pub derived: Vec<DerivativeForm<'g>>,
 }
 
 /// Outputs and their derivatives in a form of their own.
-pub struct Derived<'g> {
+pub struct DerivativeForm<'g> {
     /// The outputs and then their derivatives, direction by direction.
     pub outputs: Vec<Expr<'g>>,
     /// The same, where the last step is a linear system with a right-hand side for each direction.
@@ -31,19 +31,19 @@ pub struct Derived<'g> {
 }
 
 /// The program of derivatives, with the way in which many right-hand sides are solved for together.
-pub(super) type WithColumns<'g> = (Program<'g>, Option<LoweredColumns<'g>>);
+pub(super) type ColumnProgram<'g> = (Program<'g>, Option<LoweredColumns<'g>>);
 
-impl<'g> Differentiated<'g> {
+impl<'g> DirectionalDerivatives<'g> {
     /// The cheapest arrangement with its derivatives. What is defined enters as it is, because its rates are simple
     /// where those of its definition are not: R σ̂ beside what a quaternion makes of it.
     pub(super) fn lower(
         &self,
         hoister: &mut Hoister<'_, 'g>,
-        kept: Kept,
+        kept: OutputSelection,
         trial: &mut Trial,
-    ) -> (WithColumns<'g>, Expected<'_, 'g>) {
+    ) -> (ColumnProgram<'g>, ExpectedOutputs<'_, 'g>) {
         let definitions = Program::lower(&hoister.hoist(&self.defined));
-        let differentiate = if kept == Kept::ValuesToo { with_tangents } else { tangents_alone };
+        let differentiate = if kept == OutputSelection::ValuesToo { with_tangents } else { tangents_alone };
         let Pool { lowered, tried, .. } =
             Pool::of(&self.arrangements, Aim::Values, hoister, Hoister::hoist_undefined, trial);
         // What loses digits at sample states loses them in its derivatives, too. At states that were sought derivatives
@@ -51,14 +51,14 @@ impl<'g> Differentiated<'g> {
         let usable = if trial.decides_derivatives() { vec![true; lowered.len()] } else { tried.usable() };
         let tried = tried.only(&usable);
         let of_usable = lowered.into_iter().zip(usable).filter(|(_, usable)| *usable);
-        let of_usable = of_usable.map(|(Arranged { outputs, program, .. }, _)| {
+        let of_usable = of_usable.map(|(LoweredForm { outputs, program, .. }, _)| {
             (differentiate(&program, (&self.defined, &definitions), &self.directions), outputs)
         });
         let mut of_usable: Vec<_> = of_usable.collect();
         let costs: Vec<u32> = of_usable.iter().map(|(program, _)| program.cost().total()).collect();
         // Of the functions themselves there are programs of their own.
         let best = if trial.decides_derivatives() {
-            let values = if kept == Kept::ValuesToo { self.arrangements[0].len() } else { 0 };
+            let values = if kept == OutputSelection::ValuesToo { self.arrangements[0].len() } else { 0 };
             let alone = of_usable.iter().map(|(Program { instructions, outputs }, _)| Program {
                 instructions: instructions.clone(),
                 outputs: outputs[values..].to_vec(),
@@ -70,20 +70,20 @@ impl<'g> Differentiated<'g> {
         };
         let (program, outputs) = of_usable.swap_remove(best);
         let (program, columns) = self.cheaper(program, hoister, trial);
-        ((program.carried_out(), columns), Expected::along(outputs, &self.directions, kept))
+        ((program.carried_out(), columns), ExpectedOutputs::along(outputs, &self.directions, kept))
     }
 
     /// Forms that could be taken: programs whose constants are not computed before.
-    pub(super) fn forms(&self, kept: Kept) -> Vec<Program<'g>> {
+    pub(super) fn forms(&self, kept: OutputSelection) -> Vec<Program<'g>> {
         let definitions = Program::lower(&self.defined);
-        let differentiate = if kept == Kept::ValuesToo { with_tangents } else { tangents_alone };
+        let differentiate = if kept == OutputSelection::ValuesToo { with_tangents } else { tangents_alone };
         let programs = programs_of(&self.arrangements).into_iter();
         programs.map(|program| differentiate(&program, (&self.defined, &definitions), &self.directions)).collect()
     }
 
     /// A program of derivatives, or what has a form of its own and costs less. Of roots, whose slope may be infinite,
     /// only programs know what their derivatives are where nothing changes.
-    fn cheaper(&self, program: Program<'g>, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> WithColumns<'g> {
+    fn cheaper(&self, program: Program<'g>, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> ColumnProgram<'g> {
         let most = program.cost().total();
         if program.counts().roots > 0 {
             return (program, None);

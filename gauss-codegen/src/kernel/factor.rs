@@ -5,18 +5,18 @@ use crate::program::Pass;
 
 /// Rewrites every sum of an expression.
 #[derive(Default)]
-pub struct Factoring<'g> {
+pub struct Factoriser<'g> {
     memo: Map<u32, Expr<'g>>,
 }
 
 /// A term of a sum while factors are looked for.
 #[derive(Clone)]
-struct Term<'g> {
+struct FactoredTerm<'g> {
     coefficient: Rational,
     factors: Vec<(Expr<'g>, i32)>,
 }
 
-impl<'g> Term<'g> {
+impl<'g> FactoredTerm<'g> {
     fn exponent(&self, factor: Expr<'g>) -> i32 {
         for (f, n) in &self.factors {
             if *f == factor {
@@ -42,7 +42,7 @@ impl<'g> Term<'g> {
     }
 }
 
-impl<'g> Factoring<'g> {
+impl<'g> Factoriser<'g> {
     pub fn rewrite(&mut self, e: Expr<'g>) -> Expr<'g> {
         if !Pass::Factors.is_made() {
             return e;
@@ -86,7 +86,7 @@ impl<'g> Factoring<'g> {
                         NodeView::Number(_) => Vec::new(),
                         _ => vec![(rest, 1)],
                     };
-                    visited.push(Term { coefficient: c * content, factors });
+                    visited.push(FactoredTerm { coefficient: c * content, factors });
                 }
                 factor(e, visited)
             }
@@ -97,7 +97,7 @@ impl<'g> Factoring<'g> {
 }
 
 /// The sum of the terms with common factors pulled out.
-fn factor<'g>(like: Expr<'g>, mut terms: Vec<Term<'g>>) -> Expr<'g> {
+fn factor<'g>(like: Expr<'g>, mut terms: Vec<FactoredTerm<'g>>) -> Expr<'g> {
     let graph = like.graph();
     // Products must not be taken for sums again, so they join the rest as terms.
     let mut products = Vec::new();
@@ -123,7 +123,7 @@ fn factor<'g>(like: Expr<'g>, mut terms: Vec<Term<'g>>) -> Expr<'g> {
 }
 
 /// The factor that most terms share, and the sign of its exponents.
-fn most_frequent<'g>(terms: &[Term<'g>]) -> Option<(Expr<'g>, i32)> {
+fn most_frequent<'g>(terms: &[FactoredTerm<'g>]) -> Option<(Expr<'g>, i32)> {
     let mut count: Map<(u32, i32), (usize, Expr<'g>)> = Map::default();
     for term in terms {
         for &(f, n) in &term.factors {
@@ -136,10 +136,10 @@ fn most_frequent<'g>(terms: &[Term<'g>]) -> Option<(Expr<'g>, i32)> {
 }
 
 /// Pulls out a number that several terms have in front: `1 − 2a − 2b` becomes `1 − 2(a + b)`.
-fn shared_number<'g>(like: Expr<'g>, terms: &[Term<'g>]) -> Expr<'g> {
+fn shared_number<'g>(like: Expr<'g>, terms: &[FactoredTerm<'g>]) -> Expr<'g> {
     let graph = like.graph();
     let one = Rational::one();
-    let value = |t: &Term<'g>| if t.factors.is_empty() { one } else { t.coefficient.abs() };
+    let value = |t: &FactoredTerm<'g>| if t.factors.is_empty() { one } else { t.coefficient.abs() };
     let mut numbers = Vec::with_capacity(terms.len());
     for term in terms {
         let number = value(term);
@@ -158,6 +158,6 @@ fn shared_number<'g>(like: Expr<'g>, terms: &[Term<'g>]) -> Expr<'g> {
     graph.sum(rest.chain([(number, inner.group_as_is())]))
 }
 
-fn t_without_number<'g>(t: &Term<'g>) -> Term<'g> {
-    Term { coefficient: Rational::one(), factors: t.factors.clone() }
+fn t_without_number<'g>(t: &FactoredTerm<'g>) -> FactoredTerm<'g> {
+    FactoredTerm { coefficient: Rational::one(), factors: t.factors.clone() }
 }

@@ -11,7 +11,7 @@ use super::write::{Operand, Operation, Program};
 
 /// A number and the directions along which its second derivatives are wanted: of i and j, j up to i, the mean of what
 /// differentiating along i and then j gives, and along j and then i.
-pub struct Curved<'g> {
+pub struct SecondDerivatives<'g> {
     /// The number, in equivalent arrangements.
     pub arrangements: Vec<Expr<'g>>,
     /// Symbols that stand for expressions of the arguments, in the order of their definitions, and move by rates of
@@ -24,7 +24,7 @@ pub struct Curved<'g> {
     pub derived: Vec<Vec<Expr<'g>>>,
 }
 
-impl<'g> Curved<'g> {
+impl<'g> SecondDerivatives<'g> {
     /// (i, j) of the outputs, j up to i.
     pub fn pairs(count: usize) -> impl Iterator<Item = (usize, usize)> {
         (0..count).flat_map(|i| (0..=i).map(move |j| (i, j)))

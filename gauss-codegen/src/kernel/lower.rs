@@ -1,15 +1,15 @@
 //! The functions of a kernel, lowered together: shared constants, of each the arrangement that is taken.
 
-use crate::accuracy::{Deciding, Figure, Forms, Found, Loss, Samples, Sought, Trial};
+use crate::accuracy::{DecidingState, Figure, Forms, Loss, LossFigures, LossSearchInput, Samples, Trial};
 use crate::algebra::{Expr, Graph, Map, Rational};
 use crate::methods::{DerivativeKind, Method, Methods};
 
-use super::check::{Checked, Miscompiled, Sample};
-use super::choice::{Candidates, Taken, forms};
-use super::constants::{Constants, Hoisted, Source};
-use super::expected::Expected;
+use super::check::{CheckedPrograms, Miscompilation, Sample};
+use super::choice::{Candidates, Choice, forms};
+use super::constants::{ConstantSet, ConstantSource, Constants};
+use super::derivative_programs::{Derivative, DerivativeProgram, DerivativeRequest};
+use super::expected_outputs::ExpectedOutputs;
 use super::hoist::Hoister;
-use super::wanted::{Derivative, Lowered, Wanted};
 use super::write::Program;
 
 /// The programs of a kernel, which share their constants.
@@ -17,7 +17,7 @@ pub struct Kernel<'g> {
     /// Computes the constants from the parameters; its outputs are the constants in order.
     pub constants: Program<'g>,
     /// The symbols of constants among the inputs of programs are listed below.
-    pub functions: Methods<Function<'g>>,
+    pub functions: Methods<LoweredFunction<'g>>,
     /// `evaluate`: the outputs of several functions, one after the other, what they have in common computed once.
     pub joined: Program<'g>,
     pub figure_of_joined: Option<Figure>,
@@ -32,7 +32,7 @@ pub struct Kernel<'g> {
 }
 
 /// A function as it is carried out.
-pub struct Function<'g> {
+pub struct LoweredFunction<'g> {
     pub program: Program<'g>,
     /// Loss at sample states.
     pub loss: Loss,
@@ -43,7 +43,7 @@ pub struct Function<'g> {
 /// Derivatives that are wanted beside the functions of a kernel.
 #[derive(Default)]
 pub struct Derivatives<'a, 'g> {
-    pub list: &'a [Wanted<'g>],
+    pub list: &'a [DerivativeRequest<'g>],
     /// Symbols that are the components of one unit vector or quaternion, and so on: equations are solved for the
     /// accelerations with the help of that, so points at which derivatives are checked must have it, too.
     pub units: &'a [Vec<Expr<'g>>],
@@ -66,43 +66,51 @@ impl<'g> Kernel<'g> {
         wanted: &Derivatives<'_, 'g>,
         literals: Literals<'_, 'g>,
         trial: &mut Trial,
-    ) -> Result<Self, Miscompiled> {
+    ) -> Result<Self, Miscompilation> {
         let mut hoister = Hoister::new(graph, definitions);
         let functions = taken_of_each(functions, &mut hoister, trial);
         let (joined, of_joined) = lower_together(&mut hoister, &functions.evaluated());
         let direct = wanted.list.iter().filter_map(|wanted| wanted.lower(&mut hoister, trial));
-        let mut derivatives: Vec<Lowered<'_, 'g>> = direct.collect();
+        let mut derivatives: Vec<DerivativeProgram<'_, 'g>> = direct.collect();
         let programs = functions.iter().map(|(_, function)| &function.program).chain([&joined]);
-        let read: Vec<Expr<'g>> =
-            programs.chain(derivatives.iter().flat_map(Lowered::programs)).flat_map(Program::symbols).collect();
+        let read: Vec<Expr<'g>> = programs
+            .chain(derivatives.iter().flat_map(DerivativeProgram::programs))
+            .flat_map(Program::symbols)
+            .collect();
         let numbers: Map<u32, f64> =
             literals.into_iter().flatten().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
-        let source = Source { read: &read, literals: literals.map(|_| &numbers) };
+        let source = ConstantSource { read: &read, literals: literals.map(|_| &numbers) };
         // Last, because constants are differentiated.
-        let by_parameters = wanted.list.iter().find_map(Wanted::by_parameters);
+        let by_parameters = wanted.list.iter().find_map(DerivativeRequest::by_parameters);
         let by_parameters = by_parameters.map(|by| by.lower(graph, &functions, &source, &mut hoister, trial));
         let hoisted = match by_parameters {
             Some((program, expected, hoisted)) => {
-                derivatives.push(Lowered { kind: DerivativeKind::ByParameters, program, columns: None, expected });
+                derivatives.push(DerivativeProgram {
+                    kind: DerivativeKind::ByParameters,
+                    program,
+                    columns: None,
+                    expected,
+                });
                 hoisted
             }
             None => source.hoisted(&hoister, &[]),
         };
         derivatives.sort_by_key(|derivative| derivative.kind);
-        let Hoisted { constants: Constants { program: constants, symbols: constant_symbols }, known, folded } = hoisted;
+        let ConstantSet { constants: Constants { program: constants, symbols: constant_symbols }, known, folded } =
+            hoisted;
         let of_functions = functions.iter().map(|(_, function)| (&function.carried_out, &function.outputs));
         let values = of_functions.chain([(&joined, &of_joined)]);
-        let checked = Checked {
+        let checked = CheckedPrograms {
             constants: &constants,
             constant_symbols: &constant_symbols,
-            functions: values.map(|(program, outputs)| (program, Expected::of(outputs))).collect(),
+            functions: values.map(|(program, outputs)| (program, ExpectedOutputs::of(outputs))).collect(),
             derivatives: &derivatives,
         };
         let sample = Sample { definitions, units: wanted.units, literals: &numbers, folded: &folded };
         checked.check(graph, &sample)?;
-        let derivatives = derivatives.into_iter().map(Lowered::derivative).collect();
+        let derivatives = derivatives.into_iter().map(DerivativeProgram::derivative).collect();
         let functions =
-            functions.map(|_, taken| Function { program: taken.carried_out, loss: taken.loss, figure: None });
+            functions.map(|_, taken| LoweredFunction { program: taken.carried_out, loss: taken.loss, figure: None });
         Ok(Self {
             constants,
             functions,
@@ -132,7 +140,7 @@ impl<'g> Kernel<'g> {
         &mut self,
         samples: &Samples<'_, '_, 'g>,
         others: Option<(&Methods<Candidates<'g>>, &Derivatives<'_, 'g>)>,
-    ) -> Vec<Deciding> {
+    ) -> Vec<DecidingState> {
         let of_function = |k: usize| {
             let (_, function) = self.functions.iter().nth(k)?;
             Some(forms(&others?.0.iter().nth(k)?.1.arrangements, function.program.instructions.len()))
@@ -146,7 +154,7 @@ impl<'g> Kernel<'g> {
             of_function: &|k| of_function(k).unwrap_or_default(),
             of_derivative: &|k| of_derivative(k).unwrap_or_default(),
         };
-        let (Found { functions, besides }, deciding) = samples.seek(&self.sought(), &forms);
+        let (LossFigures { functions, besides }, deciding) = samples.seek(&self.sought(), &forms);
         for ((_, function), figure) in self.functions.each_mut().into_iter().zip(functions) {
             function.figure = figure;
         }
@@ -158,10 +166,10 @@ impl<'g> Kernel<'g> {
     }
 
     /// Programs of the kernel whose losses are sought.
-    pub fn sought(&self) -> Sought<'_, 'g> {
+    pub fn sought(&self) -> LossSearchInput<'_, 'g> {
         let functions = || self.functions.iter().map(|(_, function)| function);
         let derivatives = self.derivatives.iter().map(|derivative| &derivative.program);
-        Sought {
+        LossSearchInput {
             constants: &self.constants,
             symbols: &self.constant_symbols,
             folded: &self.folded,
@@ -178,7 +186,7 @@ fn taken_of_each<'g>(
     functions: &Methods<Candidates<'g>>,
     hoister: &mut Hoister<'_, 'g>,
     trial: &mut Trial,
-) -> Methods<Taken<'g>> {
+) -> Methods<Choice<'g>> {
     let mut number = 0..;
     let taken = functions.each_ref().map(|_, candidates| {
         trial.begin(number.next());
@@ -190,7 +198,7 @@ fn taken_of_each<'g>(
 
 /// Several functions in one program, of each what was taken and what comes first where that keeps the digits. What wins
 /// alone may have less in common with the rest than what comes first: it is replaced where that costs less.
-fn lower_together<'g>(hoister: &mut Hoister<'_, 'g>, functions: &[&Taken<'g>]) -> (Program<'g>, Vec<Expr<'g>>) {
+fn lower_together<'g>(hoister: &mut Hoister<'_, 'g>, functions: &[&Choice<'g>]) -> (Program<'g>, Vec<Expr<'g>>) {
     let mut lower = |parts: &[&[Expr<'g>]]| {
         let outputs = parts.concat();
         (Program::lower(&hoister.hoist(&outputs)), outputs)

@@ -11,7 +11,7 @@
 //! - `hessian`: second derivatives of one number.
 //! - `derivatives`: derivatives of functions by what moves; `parametric`: by parameters.
 //! - `columns`: derivatives that are the solutions of one linear system, solved for together.
-//! - `wanted`: all of these as one list. `expected`: what each should compute.
+//! - `derivative_programs`: all of these as one list. `expected_outputs`: what each should compute.
 //! - `check`: programs against the expressions that they were made from.
 //!
 //! Knows nothing of frames or bodies. Every program is checked before it is handed out (see [`Kernel::lower`]), and the
@@ -23,8 +23,9 @@ mod check;
 mod choice;
 mod columns;
 mod constants;
+mod derivative_programs;
 mod derivatives;
-mod expected;
+mod expected_outputs;
 mod factor;
 mod hessian;
 mod hoist;
@@ -34,16 +35,15 @@ mod parametric;
 mod tangent;
 #[cfg(test)]
 mod tests;
-mod wanted;
 mod write;
 
 pub use crate::program::{Counts, Smoothness};
 pub use choice::{Aim, Candidates};
-pub use columns::{Columns, LoweredColumns, Parts, TOGETHER};
-pub use derivatives::{Derived, Differentiated};
-pub use hessian::Curved;
-pub use lower::{Derivatives, Function, Kernel, Literals};
-pub use parametric::{ByParameters, Equation};
+pub use columns::{Columns, LoweredColumns, OutputParts, TOGETHER};
+pub use derivative_programs::{Derivative, DerivativeRequest, Differentiation};
+pub use derivatives::{DerivativeForm, DirectionalDerivatives};
+pub use hessian::SecondDerivatives;
+pub use lower::{Derivatives, Kernel, Literals, LoweredFunction};
+pub use parametric::{Equation, ParametricDerivatives};
 pub use tangent::Direction;
-pub use wanted::{Derivative, Differentiation, Wanted};
 pub use write::{Operand, Operation, Program};

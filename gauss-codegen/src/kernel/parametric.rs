@@ -4,15 +4,15 @@ use crate::accuracy::Trial;
 use crate::algebra::{Expr, Graph, Map};
 use crate::methods::Methods;
 
-use super::choice::Taken;
-use super::constants::{Constants, Hoisted, Source};
-use super::expected::Expected;
+use super::choice::Choice;
+use super::constants::{ConstantSet, ConstantSource, Constants};
+use super::expected_outputs::ExpectedOutputs;
 use super::hoist::Hoister;
 use super::tangent::{Direction, Implicit, implicit_tangents, joined, tangents_alone, with_outputs, with_tangents};
 use super::write::{Operand, Operation, Program};
 
 /// The derivatives of kinematics and then accelerations by parameters.
-pub struct ByParameters<'g> {
+pub struct ParametricDerivatives<'g> {
     pub parameters: Vec<Expr<'g>>,
     /// The outputs of the kinematics in another order.
     pub order: Vec<usize>,
@@ -31,34 +31,34 @@ pub struct Equation<'g> {
 }
 
 /// A program that computes derivatives, and the constants of the kernel with it.
-struct Way<'g> {
+struct ParametricProgram<'g> {
     program: Program<'g>,
-    hoisted: Hoisted<'g>,
+    hoisted: ConstantSet<'g>,
 }
 
-impl Way<'_> {
+impl ParametricProgram<'_> {
     fn cost(&self) -> u32 {
         self.program.cost().total() + self.hoisted.constants.program.cost().total()
     }
 }
 
-impl<'g> ByParameters<'g> {
+impl<'g> ParametricDerivatives<'g> {
     /// The cheapest way that keeps the digits, with the constants that it needs computed once.
     pub(super) fn lower<'b>(
         &self,
         graph: &'g Graph,
-        functions: &Methods<Taken<'g>>,
-        source: &Source<'_, 'g>,
+        functions: &Methods<Choice<'g>>,
+        source: &ConstantSource<'_, 'g>,
         hoister: &mut Hoister<'_, 'g>,
         trial: &mut Trial,
-    ) -> (Program<'g>, Expected<'b, 'g>, Hoisted<'g>) {
+    ) -> (Program<'g>, ExpectedOutputs<'b, 'g>, ConstantSet<'g>) {
         let along: Vec<Direction<'g>> =
             self.parameters.iter().map(|&parameter| vec![(parameter, graph.one())]).collect();
         let way = self.differentiated(graph, functions, &along, source.hoisted(hoister, &[]));
-        let Way { program, hoisted } = self.cheaper(way, source, hoister, trial);
+        let ParametricProgram { program, hoisted } = self.cheaper(way, source, hoister, trial);
         let of_velocity = self.order.iter().map(|&k| functions.configuration_rates().outputs[k]);
         let outputs: Vec<Expr<'g>> = of_velocity.chain(functions.acceleration.outputs.iter().copied()).collect();
-        (program.carried_out(), Expected::of_derivatives(outputs, along), hoisted)
+        (program.carried_out(), ExpectedOutputs::of_derivatives(outputs, along), hoisted)
     }
 
     /// Programs read constants, not parameters: the program of the constants is differentiated first, and what their
@@ -67,10 +67,10 @@ impl<'g> ByParameters<'g> {
     fn differentiated(
         &self,
         graph: &'g Graph,
-        functions: &Methods<Taken<'g>>,
+        functions: &Methods<Choice<'g>>,
         along: &[Direction<'g>],
-        hoisted: Hoisted<'g>,
-    ) -> Way<'g> {
+        hoisted: ConstantSet<'g>,
+    ) -> ParametricProgram<'g> {
         let rates = ConstantRates::new(graph, &hoisted.constants, along);
         let velocity = &functions.configuration_rates().program;
         let ordered = self.order.iter().map(|&k| velocity.outputs[k]).collect();
@@ -91,18 +91,18 @@ impl<'g> ByParameters<'g> {
         let cost = |program: &Program<'g>| program.cost().total() + rates.constants_for(program).program.cost().total();
         let program = candidates.into_iter().min_by_key(cost).expect("one way at least");
         let constants = rates.constants_for(&program);
-        Way { program, hoisted: Hoisted { constants, ..hoisted } }
+        ParametricProgram { program, hoisted: ConstantSet { constants, ..hoisted } }
     }
 
     /// A way that differentiates programs, or what has a form of its own and costs less. Of roots, whose slope may be
     /// infinite, only programs know what their derivatives are where nothing changes.
     fn cheaper(
         &self,
-        way: Way<'g>,
-        source: &Source<'_, 'g>,
+        way: ParametricProgram<'g>,
+        source: &ConstantSource<'_, 'g>,
         hoister: &mut Hoister<'_, 'g>,
         trial: &mut Trial,
-    ) -> Way<'g> {
+    ) -> ParametricProgram<'g> {
         let most = way.cost();
         if self.derived.is_empty() || way.program.counts().roots > 0 {
             return way;
@@ -111,9 +111,9 @@ impl<'g> ByParameters<'g> {
             self.derived.iter().map(|e| Program::lower(&hoister.hoist(e)).with_signs_led_back()).collect();
         let derived = programs.into_iter().map(|program| {
             let hoisted = source.hoisted(hoister, &program.symbols());
-            Way { program, hoisted }
+            ParametricProgram { program, hoisted }
         });
-        let mut ways: Vec<Way<'g>> = derived.filter(|way| way.cost() < most).collect();
+        let mut ways: Vec<ParametricProgram<'g>> = derived.filter(|way| way.cost() < most).collect();
         if ways.is_empty() {
             return way;
         }
@@ -121,7 +121,7 @@ impl<'g> ByParameters<'g> {
         trial.compute(&way.hoisted.constants.symbols, &way.hoisted.constants.program);
         ways.push(way);
         let tried = trial.tried(&ways.iter().map(|way| &way.program).collect::<Vec<_>>());
-        let costs: Vec<u32> = ways.iter().map(Way::cost).collect();
+        let costs: Vec<u32> = ways.iter().map(ParametricProgram::cost).collect();
         ways.swap_remove(tried.taken(&costs))
     }
 }

@@ -34,12 +34,12 @@ pub fn tangents_alone<'g>(
 
 /// Other outputs of the same instructions, and only the instructions that they need.
 pub fn with_outputs<'g>(program: &Program<'g>, outputs: Vec<Operand<'g>>) -> Program<'g> {
-    Writer { instructions: program.instructions.clone(), known: Map::default() }.finish(outputs)
+    InstructionWriter { instructions: program.instructions.clone(), known: Map::default() }.finish(outputs)
 }
 
 /// Two programs as one: the outputs of the first, then those of the second.
 pub fn joined<'g>(first: &Program<'g>, second: &Program<'g>) -> Program<'g> {
-    let mut writer = Writer::default();
+    let mut writer = InstructionWriter::default();
     let none = Map::default();
     let (_, mut outputs) = writer.copy(first, &none);
     outputs.extend(writer.copy(second, &none).1);
@@ -64,7 +64,7 @@ pub fn implicit_tangents<'g>(
     implicit: &Implicit<'_, 'g>,
     directions: &[Direction<'g>],
 ) -> Program<'g> {
-    let mut writer = Writer::default();
+    let mut writer = InstructionWriter::default();
     let none = Map::default();
     let (_, root) = writer.copy(implicit.root, &none);
     let unknowns: Map<u32, Operand<'g>> = implicit.unknowns.iter().map(|symbol| symbol.key()).zip(root).collect();
@@ -73,13 +73,13 @@ pub fn implicit_tangents<'g>(
     let (solution_places, _) = writer.copy(implicit.solution, &none);
     let mut outputs = Vec::new();
     for direction in directions {
-        let mut pass = Pass::new(&mut writer, explicit, &none, &explicit_places);
+        let mut pass = TangentPass::new(&mut writer, explicit, &none, &explicit_places);
         pass.set_out(direction);
         outputs.extend(pass.outputs());
-        let mut pass = Pass::new(&mut writer, implicit.residual, &unknowns, &residual_places);
+        let mut pass = TangentPass::new(&mut writer, implicit.residual, &unknowns, &residual_places);
         pass.set_out(direction);
         let changes = pass.tangents();
-        let mut pass = Pass::new(&mut writer, implicit.solution, &none, &solution_places);
+        let mut pass = TangentPass::new(&mut writer, implicit.solution, &none, &solution_places);
         let loads = implicit.loads.iter().zip(changes);
         pass.rates = loads.map(|(symbol, rate)| (symbol.key(), rate.map(Tangent::negated))).collect();
         outputs.extend(pass.outputs());
@@ -92,15 +92,15 @@ fn differentiated<'g>(
     program: &Program<'g>,
     bound: (&[Expr<'g>], &Program<'g>),
     directions: &[Direction<'g>],
-) -> (Writer<'g>, Vec<Operand<'g>>, Vec<Operand<'g>>) {
-    let mut writer = Writer::default();
+) -> (InstructionWriter<'g>, Vec<Operand<'g>>, Vec<Operand<'g>>) {
+    let mut writer = InstructionWriter::default();
     let none = Map::default();
     let (_, values) = writer.copy(bound.1, &none);
     let symbols: Map<u32, Operand<'g>> = bound.0.iter().map(|symbol| symbol.key()).zip(values).collect();
     let (places, outputs) = writer.copy(program, &symbols);
     let mut tangents = Vec::new();
     for direction in directions {
-        let mut pass = Pass::new(&mut writer, program, &symbols, &places);
+        let mut pass = TangentPass::new(&mut writer, program, &symbols, &places);
         pass.set_out(direction);
         tangents.extend(pass.outputs());
     }
@@ -125,12 +125,12 @@ pub(super) type Rate<'g> = Option<Tangent<'g>>;
 
 /// Writes instructions, equal ones once.
 #[derive(Default)]
-pub(super) struct Writer<'g> {
+pub(super) struct InstructionWriter<'g> {
     instructions: Vec<Operation<'g>>,
     known: Map<Operation<'g>, usize>,
 }
 
-impl<'g> Writer<'g> {
+impl<'g> InstructionWriter<'g> {
     pub(super) fn place(&mut self, operation: Operation<'g>) -> usize {
         let next = self.instructions.len();
         let place = *self.known.or_insert_with(operation, || next);
@@ -252,8 +252,8 @@ pub(super) fn moved<'g>(operand: Operand<'g>, places: &[usize], symbols: &Map<u3
 }
 
 /// The derivatives of one program along one direction.
-pub(super) struct Pass<'a, 'g> {
-    pub(super) writer: &'a mut Writer<'g>,
+pub(super) struct TangentPass<'a, 'g> {
+    pub(super) writer: &'a mut InstructionWriter<'g>,
     pub(super) program: &'a Program<'g>,
     symbols: &'a Map<u32, Operand<'g>>,
     pub(super) places: &'a [usize],
@@ -261,9 +261,9 @@ pub(super) struct Pass<'a, 'g> {
     pub(super) rates: Map<u32, Rate<'g>>,
 }
 
-impl<'a, 'g> Pass<'a, 'g> {
+impl<'a, 'g> TangentPass<'a, 'g> {
     pub(super) fn new(
-        writer: &'a mut Writer<'g>,
+        writer: &'a mut InstructionWriter<'g>,
         program: &'a Program<'g>,
         symbols: &'a Map<u32, Operand<'g>>,
         places: &'a [usize],

@@ -1,13 +1,13 @@
 //! Each pass against its input: same values, fewer operations.
 
-use super::check::{Checked, Sample};
-use super::expected::Expected;
-use super::factor::Factoring;
+use super::check::{CheckedPrograms, Sample};
+use super::expected_outputs::ExpectedOutputs;
+use super::factor::Factoriser;
 use super::hoist::Hoister;
 use super::tangent::with_tangents;
 use super::{
-    ByParameters, Candidates, Counts, Derivatives, Differentiated, Differentiation, Direction, Equation, Kernel,
-    Program, Wanted,
+    Candidates, Counts, DerivativeRequest, Derivatives, Differentiation, Direction, DirectionalDerivatives, Equation,
+    Kernel, ParametricDerivatives, Program,
 };
 use crate::accuracy::Trial;
 use crate::algebra::{BinaryFunction, Evaluation, Expr, Function, Graph, Map};
@@ -67,7 +67,7 @@ fn lowered<'g>(
     graph: &'g Graph,
     arrangements: Vec<Vec<Expr<'g>>>,
     definitions: &Map<u32, Expr<'g>>,
-    list: &[Wanted<'g>],
+    list: &[DerivativeRequest<'g>],
 ) -> Kernel<'g> {
     let functions = Methods { acceleration: Candidates::of_values(arrangements), ..nothing() };
     let wanted = Derivatives { list, units: &[] };
@@ -104,7 +104,7 @@ fn every_pass_keeps_the_values_of_random_expressions() {
             with_constants.insert(symbol.key(), value);
         }
         close("hoisting", &values(&hoisted, &with_constants));
-        let mut factoring = Factoring::default();
+        let mut factoring = Factoriser::default();
         let factored: Vec<Expr<'_>> = hoisted.iter().map(|e| factoring.rewrite(*e)).collect();
         close("factoring", &values(&factored, &with_constants));
         let program = Program::lower(&hoisted);
@@ -197,8 +197,8 @@ fn a_program_that_computes_something_else_is_refused() {
     let sample = Sample { definitions: &Map::default(), units: &[], literals: &Map::default(), folded: &[] };
     let (constants, outputs) = (Program::nothing(), [a + b]);
     let refused = |program: &Program<'_>| {
-        let functions = vec![(program, Expected::of(&outputs))];
-        let checked = Checked { constants: &constants, constant_symbols: &[], functions, derivatives: &[] };
+        let functions = vec![(program, ExpectedOutputs::of(&outputs))];
+        let checked = CheckedPrograms { constants: &constants, constant_symbols: &[], functions, derivatives: &[] };
         checked.check(&graph, &sample).is_err()
     };
     assert_eq!([Program::lower(&[a + b]), Program::lower(&[a - b])].map(|program| refused(&program)), [false, true]);
@@ -270,14 +270,15 @@ fn what_is_defined_moves_by_its_own_rates() {
     let [x, y, r, s] = ["x", "y", "r", "s"].map(|n| graph.symbol(n, n, false));
     let definitions = Map::from_iter([(r.key(), x * x - y * y), (s.key(), x * y + x * y)]);
     let outputs = vec![r * r + s * y, s];
-    let wanted = Differentiated {
+    let wanted = DirectionalDerivatives {
         arrangements: vec![outputs.clone()],
         defined: vec![r, s],
         directions: vec![vec![(r, -s), (s, r)], vec![(y, graph.one())]],
         derived: Vec::new(),
     };
     let directions = wanted.directions.clone();
-    let by_state = Wanted { kind: DerivativeKind::ByState, differentiation: Differentiation::WithValues(wanted) };
+    let by_state =
+        DerivativeRequest { kind: DerivativeKind::ByState, differentiation: Differentiation::WithValues(wanted) };
     let kernel = lowered(&graph, vec![outputs.clone()], &definitions, &[by_state]);
     let point = point_of(&graph, &definitions);
     let expected = symbolic(&outputs, &directions, &point);
@@ -309,9 +310,9 @@ fn parameters_move_constants() {
     let expected = symbolic(&[n * x, acceleration], &directions, &point);
     for equation in [None, Some(Equation { unknowns: vec![a], loads: vec![p] })] {
         let (parameters, derived) = (parameters.to_vec(), Vec::new());
-        let by_parameters = ByParameters { parameters, order: vec![0], equation, derived };
+        let by_parameters = ParametricDerivatives { parameters, order: vec![0], equation, derived };
         let differentiation = Differentiation::ByParameters(by_parameters);
-        let list = [Wanted { kind: DerivativeKind::ByParameters, differentiation }];
+        let list = [DerivativeRequest { kind: DerivativeKind::ByParameters, differentiation }];
         let wanted = Derivatives { list: &list, units: &[] };
         let kernel = Kernel::lower(&graph, &functions, &Map::default(), &wanted, None, &mut Trial::default());
         let kernel = kernel.expect("a program");

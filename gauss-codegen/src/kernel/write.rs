@@ -3,8 +3,8 @@
 use crate::algebra::{Expr, Function, Map, Number, Rational, Set};
 use crate::program::{Code, Instruction, Pass};
 
-use super::factor::Factoring;
-use super::network::{Network, Node, Place};
+use super::factor::Factoriser;
+use super::network::{Network, NetworkNode, NodeIndex};
 
 /// Straight-line code whose inputs are symbols.
 pub type Program<'g> = Code<Expr<'g>>;
@@ -16,9 +16,9 @@ pub type Operation<'g> = Instruction<Expr<'g>>;
 impl<'g> Program<'g> {
     /// Factors, shares, and writes out.
     pub fn lower(outputs: &[Expr<'g>]) -> Self {
-        let mut factoring = Factoring::default();
+        let mut factoring = Factoriser::default();
         let outputs: Vec<_> = outputs.iter().map(|&e| factoring.rewrite(e)).collect();
-        Writer::new(Network::new(&outputs)).write().verified()
+        NetworkWriter::new(Network::new(&outputs)).write().verified()
     }
 
     /// The same computation as it is carried out: products within the sums that read them, no product at the beginning
@@ -45,22 +45,22 @@ impl<'g> Program<'g> {
 }
 
 /// Writes a network as instructions, each node where it is first needed: values are short-lived that way.
-struct Writer<'g> {
+struct NetworkWriter<'g> {
     network: Network<'g>,
     /// Number of nodes and outputs that use each node.
     uses: Vec<usize>,
-    written: Map<Place, Operand<'g>>,
+    written: Map<NodeIndex, Operand<'g>>,
     negated: Map<usize, Operand<'g>>,
     /// Instructions in which sines and cosines are computed.
     pairs: Vec<usize>,
     instructions: Vec<Operation<'g>>,
 }
 
-impl<'g> Writer<'g> {
+impl<'g> NetworkWriter<'g> {
     fn new(network: Network<'g>) -> Self {
         let mut uses = vec![0; network.nodes.len()];
         let mut reached = vec![false; network.nodes.len()];
-        let mut open: Vec<Place> = network.outputs.iter().map(|&(_, place)| place).collect();
+        let mut open: Vec<NodeIndex> = network.outputs.iter().map(|&(_, place)| place).collect();
         while let Some(place) = open.pop() {
             uses[place] += 1;
             if std::mem::replace(&mut reached[place], true) {
@@ -98,23 +98,23 @@ impl<'g> Writer<'g> {
         Operand::Value(self.instructions.len() - 1)
     }
 
-    fn operand(&mut self, place: Place) -> Operand<'g> {
+    fn operand(&mut self, place: NodeIndex) -> Operand<'g> {
         if let Some(&done) = self.written.get(&place) {
             return done;
         }
         let result = match self.network.nodes[place].clone() {
-            Node::Number(value) => Operand::Number(value),
-            Node::Leaf(e) => Operand::Input(e),
-            Node::Product(factors) => self.product(&factors),
-            Node::Reciprocal(a) => {
+            NetworkNode::Number(value) => Operand::Number(value),
+            NetworkNode::Leaf(e) => Operand::Input(e),
+            NetworkNode::Product(factors) => self.product(&factors),
+            NetworkNode::Reciprocal(a) => {
                 let a = self.operand(a);
                 self.push(Instruction::Divide(Operand::Number(Rational::one()), a))
             }
-            Node::Call(function, a) if !matches!(function, Function::Sin | Function::Cos) => {
+            NetworkNode::Call(function, a) if !matches!(function, Function::Sin | Function::Cos) => {
                 let a = self.operand(a);
                 self.push(Instruction::Call(function, a))
             }
-            Node::Call(function, a) => {
+            NetworkNode::Call(function, a) => {
                 let a = self.operand(a);
                 let pair = Instruction::SineCosine(a);
                 let known = self.pairs.iter().copied().find(|&k| self.instructions[k] == pair);
@@ -128,37 +128,39 @@ impl<'g> Writer<'g> {
                     _ => Operand::Cosine(index),
                 }
             }
-            Node::Binary(function, a, b) => {
+            NetworkNode::Binary(function, a, b) => {
                 let (a, b) = (self.operand(a), self.operand(b));
                 self.push(Instruction::Binary(function, a, b))
             }
-            Node::Own(function, places) => {
+            NetworkNode::Own(function, places) => {
                 let arguments = places.map(|place| self.operand(place));
                 self.push(Instruction::Own(function, arguments))
             }
-            Node::Sum(terms) => self.sum(&terms),
+            NetworkNode::Sum(terms) => self.sum(&terms),
         };
         self.written.insert(place, result);
         result
     }
 
     /// A product; reciprocals that nobody else needs become one division.
-    fn product(&mut self, factors: &[Place]) -> Operand<'g> {
-        let (below, above): (Vec<Place>, Vec<Place>) = factors.iter().partition(|&&f| {
-            matches!(self.network.nodes[f], Node::Reciprocal(_)) && self.uses[f] == 1 && !self.written.contains_key(&f)
+    fn product(&mut self, factors: &[NodeIndex]) -> Operand<'g> {
+        let (below, above): (Vec<NodeIndex>, Vec<NodeIndex>) = factors.iter().partition(|&&f| {
+            matches!(self.network.nodes[f], NetworkNode::Reciprocal(_))
+                && self.uses[f] == 1
+                && !self.written.contains_key(&f)
         });
         if below.is_empty() || above.is_empty() {
             return self.multiply(factors);
         }
-        let below: Vec<Place> = below
+        let below: Vec<NodeIndex> = below
             .into_iter()
-            .filter_map(|f| if let Node::Reciprocal(a) = self.network.nodes[f] { Some(a) } else { None })
+            .filter_map(|f| if let NetworkNode::Reciprocal(a) = self.network.nodes[f] { Some(a) } else { None })
             .collect();
         let (above, below) = (self.multiply(&above), self.multiply(&below));
         self.push(Instruction::Divide(above, below))
     }
 
-    fn multiply(&mut self, factors: &[Place]) -> Operand<'g> {
+    fn multiply(&mut self, factors: &[NodeIndex]) -> Operand<'g> {
         let mut product = self.operand(factors[0]);
         for &factor in &factors[1..] {
             let factor = self.operand(factor);
@@ -194,25 +196,25 @@ impl<'g> Writer<'g> {
     }
 
     /// The two sides of a product that nobody else needs, so that it can be fused with an addition.
-    fn fusible(&mut self, place: Place) -> Option<(Operand<'g>, Operand<'g>)> {
+    fn fusible(&mut self, place: NodeIndex) -> Option<(Operand<'g>, Operand<'g>)> {
         if self.uses[place] != 1 || self.written.contains_key(&place) || !Pass::Fusing.is_made() {
             return None;
         }
-        let Node::Product(factors) = self.network.nodes[place].clone() else { return None };
-        if factors.iter().any(|&f| matches!(self.network.nodes[f], Node::Reciprocal(_)) && self.uses[f] == 1) {
+        let NetworkNode::Product(factors) = self.network.nodes[place].clone() else { return None };
+        if factors.iter().any(|&f| matches!(self.network.nodes[f], NetworkNode::Reciprocal(_)) && self.uses[f] == 1) {
             return None;
         }
         let (last, rest) = factors.split_last()?;
         Some((self.multiply(rest), self.operand(*last)))
     }
 
-    fn sum(&mut self, terms: &[(Rational, Place)]) -> Operand<'g> {
+    fn sum(&mut self, terms: &[(Rational, NodeIndex)]) -> Operand<'g> {
         // Terms that are only added come first, a positive one at the head; products are fused onto them.
         let mut order: Vec<usize> = (0..terms.len()).collect();
         let plain = |k: &usize| {
             let (c, place) = terms[*k];
-            let fusible = self.uses[place] == 1 && matches!(self.network.nodes[place], Node::Product(_));
-            let scaled = !c.abs().is_one() && !matches!(self.network.nodes[place], Node::Number(_));
+            let fusible = self.uses[place] == 1 && matches!(self.network.nodes[place], NetworkNode::Product(_));
+            let scaled = !c.abs().is_one() && !matches!(self.network.nodes[place], NetworkNode::Number(_));
             (fusible || scaled, c.is_negative(), *k)
         };
         order.sort_by_key(plain);

@@ -10,7 +10,7 @@ use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, scale};
 use crate::mechanics::matter::body::{AffineField, Body, BodyShape, integrate_product};
 use crate::mechanics::scene::Coordinate;
 use crate::mechanics::system::System;
-use crate::mechanics::tests::{Charted, scenes};
+use crate::mechanics::tests::{ChartedSystem, scenes};
 
 /// Full inertia, O ≠ G, weight in any direction, buoyancy. The fluid's impulse enters both derivations alike.
 pub const GENERAL: BodyShape = BodyShape {
@@ -46,7 +46,7 @@ fn rigid_momentum<'g>(body: &Body<'g>, u: &Triple<'g>, omega: &Triple<'g>) -> (T
 fn moments_and_momenta_give_the_same_condition_identically() {
     for (motion, chart) in scenes() {
         let graph = Graph::new();
-        let scene = Charted::new(&graph, motion, chart, GENERAL);
+        let scene = ChartedSystem::new(&graph, motion, chart, GENERAL);
         let (kinematics, body) = (&scene.chart.kinematics, &scene.body);
         let relations = relations(&graph, &scene.system);
         let along = kinematics.rates_with_accelerations();
@@ -75,7 +75,7 @@ fn moments_and_momenta_give_the_same_condition_identically() {
 fn a_wrong_term_would_be_seen() {
     // Rates of the components of Q alone, with ω × Q left out, are not what the condition says.
     let graph = Graph::new();
-    let scene = Charted::new(&graph, Motion::Free, Chart::LeftInvariant, GENERAL);
+    let scene = ChartedSystem::new(&graph, Motion::Free, Chart::LeftInvariant, GENERAL);
     let kinematics = &scene.chart.kinematics;
     let u = kinematics.frame.resolve(&kinematics.velocity, Axes::Body);
     let omega = kinematics.frame.resolve(&kinematics.angular_velocity, Axes::Body);
@@ -90,7 +90,7 @@ fn the_moments_of_the_velocity_field_are_the_momenta() {
     // ∂T/∂z of T = ½∫v_P² dm against Q·a_α + Γ_O·o_α, in every chart and motion.
     for (motion, chart) in scenes() {
         let graph = Graph::new();
-        let scene = Charted::new(&graph, motion, chart, GENERAL);
+        let scene = ChartedSystem::new(&graph, motion, chart, GENERAL);
         let kinematics = &scene.chart.kinematics;
         let relations = relations(&graph, &scene.system);
         let x: Triple<'_> = std::array::from_fn(|_| graph.symbol("x", "x", false));

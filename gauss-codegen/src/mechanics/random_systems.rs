@@ -32,20 +32,20 @@ use dense::largest;
 use expectation::{Expectation, Reduction, of_reduced, of_whole};
 use numbers::below;
 use plan::{Plan, SpeedChoice, TreeShape};
-use scene::Symbols;
-use witness::{State, Witness, residuals};
+use scene::PlanSymbols;
+use witness::{DenseWitness, WitnessState, residuals};
 
 /// Roundings, beside the largest output, beyond which a comparison would say little: it is left out.
 const BLIND: f64 = 1e-5;
 
 /// Programs of all formulas, every arrangement by itself.
-struct Compiled<'g> {
+struct FormulaPrograms<'g> {
     kernel: Kernel<'g>,
     constants: Map<u32, f64>,
 }
 
-impl<'g> Compiled<'g> {
-    fn new(graph: &'g Graph, symbols: &Symbols<'g>, formulas: &Formulas<'g>, what: &str) -> Self {
+impl<'g> FormulaPrograms<'g> {
+    fn new(graph: &'g Graph, symbols: &PlanSymbols<'g>, formulas: &Formulas<'g>, what: &str) -> Self {
         let alone = |outputs: &Vec<Expr<'g>>| Candidates::of_values(vec![outputs.clone()]);
         let mut further = Vec::new();
         let mut functions = formulas.each_ref().map(|method, arrangements| {
@@ -63,7 +63,7 @@ impl<'g> Compiled<'g> {
     }
 
     /// All that programs read at a state.
-    fn inputs(&self, symbols: &Symbols<'g>, state: &State) -> Map<u32, f64> {
+    fn inputs(&self, symbols: &PlanSymbols<'g>, state: &WitnessState) -> Map<u32, f64> {
         let mut at = self.constants.clone();
         at.extend(symbols.parameters.iter().map(|(&key, &value)| (key, value)));
         at.insert(symbols.time.key(), state.time);
@@ -119,14 +119,14 @@ fn random_values(random: &mut Random, count: usize) -> Vec<f64> {
 }
 
 /// States at which there is a minimiser, the best conditioned of many first.
-fn usable_states(plan: &Plan, random: &mut Random) -> Vec<State> {
-    let drawn = (0..24).map(|_| State::random(plan, random));
+fn usable_states(plan: &Plan, random: &mut Random) -> Vec<WitnessState> {
+    let drawn = (0..24).map(|_| WitnessState::random(plan, random));
     let conditioned = drawn.filter_map(|state| {
-        let witness = Witness::new(plan, &state)?;
+        let witness = DenseWitness::new(plan, &state)?;
         let condition = witness.saddle.condition * witness.sizes.condition;
         (condition < 1e6).then_some((condition, state))
     });
-    let mut states: Vec<(f64, State)> = conditioned.collect();
+    let mut states: Vec<(f64, WitnessState)> = conditioned.collect();
     states.sort_by(|a, b| a.0.total_cmp(&b.0));
     states.into_iter().map(|(_, state)| state).collect()
 }
@@ -136,17 +136,17 @@ fn check_whole(plan: &Plan, random: &mut Random, regrouped: bool, what: &str) ->
     let states = usable_states(plan, random);
     let [first, second, ..] = states.as_slice() else { return false };
     let graph = Graph::new();
-    let symbols = Symbols::new(&graph, plan);
+    let symbols = PlanSymbols::new(&graph, plan);
     let all: Vec<usize> = (0..plan.speeds).collect();
     let system = System::new(symbols.scene(plan, &symbols.speeds, &all, regrouped));
     let formulas = formulas_of(&system);
     if let Err(fault) = check_system_against_definition(&system, &Claims::of(&formulas)) {
         panic!("{what}: {fault:?}");
     }
-    let compiled = Compiled::new(&graph, &symbols, &formulas, what);
+    let compiled = FormulaPrograms::new(&graph, &symbols, &formulas, what);
     let mut told = false;
     for state in [first, second] {
-        let witness = Witness::new(plan, state).expect("a usable state");
+        let witness = DenseWitness::new(plan, state).expect("a usable state");
         let rates = random_values(random, plan.speeds);
         let wanted = random_values(random, plan.constraints.len());
         let mut at = compiled.inputs(&symbols, state);
@@ -167,9 +167,9 @@ fn check_whole(plan: &Plan, random: &mut Random, regrouped: bool, what: &str) ->
 /// Corrections cancel residuals to first order: what remains of a residual h is of order h², a quarter at h/2.
 fn check_remainders<'g>(
     plan: &Plan,
-    state: &State,
+    state: &WitnessState,
     system: &System<'g>,
-    compiled: &Compiled<'g>,
+    compiled: &FormulaPrograms<'g>,
     at: &Map<u32, f64>,
     what: &str,
 ) {
@@ -250,15 +250,16 @@ fn trees_move_as_the_minimiser_regrouped_or_not() {
 /// Eliminated and whole at one state that satisfies the constraints.
 fn check_elimination(plan: &Plan, random: &mut Random, what: &str) -> bool {
     let states = usable_states(plan, random);
-    let Some(reduction) = states.first().and_then(|state| Reduction::choose(&Witness::new(plan, state)?)) else {
+    let Some(reduction) = states.first().and_then(|state| Reduction::choose(&DenseWitness::new(plan, state)?)) else {
         return false;
     };
-    let states: Vec<State> = states.iter().filter_map(|state| reduction.satisfied(plan, state)).take(2).collect();
+    let states: Vec<WitnessState> =
+        states.iter().filter_map(|state| reduction.satisfied(plan, state)).take(2).collect();
     if states.is_empty() {
         return false;
     }
     let graph = Graph::new();
-    let symbols = Symbols::new(&graph, plan);
+    let symbols = PlanSymbols::new(&graph, plan);
     let all: Vec<usize> = (0..plan.speeds).collect();
     let whole = System::new(symbols.scene(plan, &symbols.speeds, &all, true));
     let residual_symbols = whole.constraints.residuals.clone();
@@ -269,10 +270,10 @@ fn check_elimination(plan: &Plan, random: &mut Random, what: &str) -> bool {
         panic!("{what}: {fault:?}");
     }
     formulas.extend(elimination.formulas());
-    let compiled = Compiled::new(&graph, &symbols, &formulas, what);
+    let compiled = FormulaPrograms::new(&graph, &symbols, &formulas, what);
     let mut told = false;
     for state in states {
-        let witness = Witness::new(plan, &state).expect("a usable state");
+        let witness = DenseWitness::new(plan, &state).expect("a usable state");
         let rates = random_values(random, reduction.kept.len());
         let wanted = random_values(random, plan.constraints.len());
         let Some(expected) = of_reduced(&witness, plan, &reduction, &rates, &wanted) else { continue };

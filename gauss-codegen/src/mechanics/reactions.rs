@@ -13,13 +13,13 @@ use crate::mechanics::scene::SystemScene;
 use crate::mechanics::system::System;
 
 /// A scene with joints let go: six coordinates and speeds more for each, after all others.
-pub struct LetGo<'g> {
+pub struct FreedScene<'g> {
     pub scene: SystemScene<'g>,
     /// Zero for these coordinates and speeds, and for the rates of the speeds.
     pub home: Map<u32, Expr<'g>>,
 }
 
-impl LetGo<'_> {
+impl FreedScene<'_> {
     /// Leaves out constraints, by their numbers, that follow from the others.
     pub fn leave_out(&mut self, needless: &[usize]) {
         let mut number = 0..;
@@ -41,7 +41,7 @@ pub struct Reactions<'g> {
 }
 
 impl<'g> Reactions<'g> {
-    pub fn new(LetGo { scene, home }: LetGo<'g>) -> Self {
+    pub fn new(FreedScene { scene, home }: FreedScene<'g>) -> Self {
         let system = System::unsolved(scene);
         let at_home = Substitution::new(home.clone());
         let first = system.scene.speeds.len() - home.len() / 3;

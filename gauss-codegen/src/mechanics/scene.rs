@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::algebra::{Expr, Graph, Map, Substitution};
-use crate::terms::{InChart, Motion};
+use crate::terms::{BodyChart, Motion};
 
 use crate::mechanics::constraints::constraint::Constraint;
 use crate::mechanics::constraints::contact::Contact;
@@ -65,9 +65,9 @@ impl<'g> Coordinate<'g> {
 
 /// A body whose pose is given in a chart of its own.
 #[derive(Clone, Copy)]
-pub struct Charted {
+pub struct ChartedLink {
     pub link: usize,
-    pub own: InChart,
+    pub own: BodyChart,
     /// Nothing else has matter or coordinates and nothing constrains it: the configuration is its pose.
     pub alone: bool,
 }
@@ -82,7 +82,7 @@ pub struct SystemScene<'g> {
     /// Their rates are any function of t, q, z and inputs.
     pub states: Range<usize>,
     pub speeds: Vec<Expr<'g>>,
-    pub charted: Option<Charted>,
+    pub charted: Option<ChartedLink>,
     /// Names of the momenta and of the forces.
     pub momentum_names: Vec<Name>,
     pub force_names: Vec<Name>,
@@ -171,7 +171,7 @@ impl<'g> SystemScene<'g> {
     }
 
     /// The chart that the configuration is, where it is the pose of the only body.
-    pub fn chart(&self) -> Option<InChart> {
+    pub fn chart(&self) -> Option<BodyChart> {
         self.charted.filter(|charted| charted.alone).map(|charted| charted.own)
     }
 

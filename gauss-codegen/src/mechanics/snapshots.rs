@@ -5,8 +5,8 @@ use crate::algebra::{Graph, Notation};
 use crate::terms::{Chart, Motion, RotationChart, Shape};
 
 use crate::mechanics::matter::body::BodyShape;
-use crate::mechanics::print::shown::Readings;
-use crate::mechanics::tests::Charted;
+use crate::mechanics::print::readings::Readings;
+use crate::mechanics::tests::ChartedSystem;
 
 const PRINCIPAL: BodyShape = BodyShape {
     inertia: Shape::Vector3,
@@ -32,8 +32,10 @@ fn equations(motion: Motion, chart: Chart, notation: Notation) -> String {
     for (title, shape) in bodies() {
         let graph = Graph::new();
         out.push_str(&format!("=== {title}\n"));
-        for (title, lines) in
-            Charted::new(&graph, motion, chart, shape).system.equations(&Readings::default(), None).print(notation)
+        for (title, lines) in ChartedSystem::new(&graph, motion, chart, shape)
+            .system
+            .equations(&Readings::default(), None)
+            .print(notation)
         {
             out.push_str(&format!("\n{title}\n"));
             lines.iter().for_each(|line| out.push_str(&format!("  {line}\n")));

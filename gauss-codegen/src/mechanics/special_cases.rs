@@ -9,16 +9,16 @@ use crate::mechanics::check::definition::stationarity;
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, add, dot};
 use crate::mechanics::links::inertia::Inertia;
-use crate::mechanics::loads::forces::{Action, Element, Field, Force, Loads};
-use crate::mechanics::loads::observed::Observed;
+use crate::mechanics::loads::forces::{Action, Element, Force, ForceField, Loads};
+use crate::mechanics::loads::motion_symbols::MotionSymbols;
 use crate::mechanics::proof::{GENERAL, relations};
-use crate::mechanics::tests::{Charted, scenes};
+use crate::mechanics::tests::{ChartedSystem, scenes};
 
 #[test]
 fn a_chart_is_a_system_of_one_link() {
     for (motion, chart) in scenes() {
         let graph = Graph::new();
-        let scene = Charted::new(&graph, motion, chart, GENERAL);
+        let scene = ChartedSystem::new(&graph, motion, chart, GENERAL);
         let (tree, body) = (&scene.system.scene.tree, scene.free());
         let relations = relations(&graph, &scene.system);
         let along = scene.chart.kinematics.rates_with_accelerations();
@@ -64,7 +64,7 @@ fn friction<'g>(factors: &[Expr<'g>; 4], velocities: [&Triple<'g>; 4]) -> Expr<'
 
 /// A spring, a force on the body in either axes, and friction.
 fn elements<'g>(graph: &'g Graph, kinematics: &Kinematics<'g>) -> Vec<Element<'g>> {
-    let observed = Observed::new(graph, graph.symbol("t", "t", false));
+    let observed = MotionSymbols::new(graph, graph.symbol("t", "t", false));
     let [at, force, torque] = ["a", "F", "M"].map(|letter| triple(graph, letter));
     let on_link = |axes| Force::OnLink { link: 0, at, force, torque, axes };
     let factors = [force[0], force[1], torque[0], torque[1]];
@@ -82,7 +82,7 @@ fn elements<'g>(graph: &'g Graph, kinematics: &Kinematics<'g>) -> Vec<Element<'g
 
 /// The wrench of each element on the free link against what its definition says in the speeds of the chart.
 fn compare_loads(graph: &Graph, motion: Motion, chart: Chart) {
-    let scene = Charted::acted_upon(graph, motion, chart, GENERAL, |kinematics| elements(graph, kinematics));
+    let scene = ChartedSystem::acted_upon(graph, motion, chart, GENERAL, |kinematics| elements(graph, kinematics));
     let (system, relations) = (&scene.system, relations(graph, &scene.system));
     let kinematics = &scene.chart.kinematics;
     let accounts = system.accounts();
@@ -90,7 +90,7 @@ fn compare_loads(graph: &Graph, motion: Motion, chart: Chart) {
     assert_eq!(accounts.len(), 1 + system.scene.elements.len());
     for element in &system.scene.elements {
         let expected: Vec<Expr<'_>> = match &element.action {
-            Action::Potential(potential) | Action::Field(Field { potential, .. }) => {
+            Action::Potential(potential) | Action::Field(ForceField { potential, .. }) => {
                 system.potential_forces(*potential)
             }
             Action::Forces(forces) => {

@@ -18,8 +18,8 @@ use crate::mechanics::formula::{Formula, Formulas, Method};
 use crate::mechanics::kinematics::vector::{Vector, is_zero};
 use crate::mechanics::links::inertia::Inertia;
 use crate::mechanics::links::link::Link;
-use crate::mechanics::links::tree::{Tree, UnderWay};
-use crate::mechanics::links::working::Working;
+use crate::mechanics::links::tree::{Tree, UngatheredResidual};
+use crate::mechanics::links::working::WorkingTree;
 use crate::mechanics::loads::account::account_formulas;
 use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
 use crate::mechanics::scene::{Coordinate, SystemScene};
@@ -40,7 +40,7 @@ pub struct System<'g> {
     /// Loads on links, fields among them.
     pub(in crate::mechanics) loads: Loads<'g>,
     /// The links about other poles, where that is shorter.
-    working: Option<Working<'g>>,
+    working: Option<WorkingTree<'g>>,
     /// The links in their own axes for sums of squares, where they work in those of the observer: differences of angles
     /// do not come in.
     in_own_axes: Option<Tree<'g>>,
@@ -59,7 +59,7 @@ pub struct System<'g> {
 }
 
 /// One way to form the equations; the cheapest wins.
-struct Arrangement<'g> {
+struct EquationForm<'g> {
     matrix: Vec<Vec<Expr<'g>>>,
     /// ∂C/∂ż at ż = 0, and at any ż.
     still: Vec<Expr<'g>>,
@@ -100,7 +100,8 @@ impl<'g> System<'g> {
         system.free = FreeLink::all(scene);
         // Where sums of squares keep the digits, other links stay as they were given: little is to be gained there.
         let short = scene.speeds.len() <= most_squares(scene);
-        system.working = if short { Working::of_rotors(&scene.tree, loads) } else { Working::of(&scene.tree, loads) };
+        system.working =
+            if short { WorkingTree::of_rotors(&scene.tree, loads) } else { WorkingTree::of(&scene.tree, loads) };
         system.in_own_axes = if short { scene.tree.in_own_axes() } else { None };
         system.matrix = system.mass_matrix();
         let at_rest = system.at_rest();
@@ -209,7 +210,7 @@ impl<'g> System<'g> {
         self.working.as_ref().map_or(&self.loads, |working| &working.loads)
     }
 
-    fn arrangements(&self) -> Vec<Arrangement<'g>> {
+    fn arrangements(&self) -> Vec<EquationForm<'g>> {
         let mut arrangements = Vec::new();
         let tidy_all = |rows: &[Expr<'g>]| -> Vec<Expr<'g>> { rows.iter().map(|e| compact(*e)).collect() };
         for &inertia in self.tree().inertias(self.is_long()) {
@@ -223,9 +224,9 @@ impl<'g> System<'g> {
                 let (matrix, floating) =
                     (tidied(&self.matrix), [&floating[0], &floating[1]].map(|rows| tidy_all(rows)));
                 let (still, residual) = (tidy_all(&still), tidy_all(&residual));
-                arrangements.push(Arrangement { matrix, still, residual, floating });
+                arrangements.push(EquationForm { matrix, still, residual, floating });
             }
-            arrangements.push(Arrangement { matrix: self.matrix.clone(), still, residual, floating });
+            arrangements.push(EquationForm { matrix: self.matrix.clone(), still, residual, floating });
         }
         arrangements
     }
@@ -323,13 +324,13 @@ impl<'g> System<'g> {
 
     /// The same as ż′ and ζ.
     fn gathered(&self, articulated: &Articulated<'_, 'g>, inertia: Inertia) -> [Vec<Expr<'g>>; 2] {
-        let UnderWay { wrenches, rows, taken } = self.tree().under_way(inertia, self.loads(), &self.held());
+        let UngatheredResidual { wrenches, rows, taken } = self.tree().under_way(inertia, self.loads(), &self.held());
         let right: Vec<Expr<'g>> = self.without_others(rows).into_iter().map(|row| -row).collect();
         [articulated.solve_under(&wrenches, &right), taken]
     }
 
     /// ż and λ: with `ż = ζ + ż′`, `A ż′ = −∂C/∂ż(ζ) + Jᵀλ`.
-    fn acceleration(&self, arrangement: &Arrangement<'g>) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
+    fn acceleration(&self, arrangement: &EquationForm<'g>) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
         let [rows, taken] = &arrangement.floating;
         let right: Vec<Expr<'g>> = rows.iter().map(|r| -*r).collect();
         let (rates, multipliers) = self.constraints.solve(&arrangement.matrix, &right);
@@ -337,7 +338,7 @@ impl<'g> System<'g> {
     }
 
     /// `∂C/∂ż − Jᵀλ` with the multipliers of the motion.
-    fn gauss_residual(&self, arrangement: &Arrangement<'g>) -> Vec<Expr<'g>> {
+    fn gauss_residual(&self, arrangement: &EquationForm<'g>) -> Vec<Expr<'g>> {
         if self.constraints.is_empty() {
             return arrangement.residual.clone();
         }
@@ -367,11 +368,11 @@ impl<'g> System<'g> {
         solutions
     }
 
-    fn accelerations(&self, arrangements: &[Arrangement<'g>]) -> Vec<Vec<Expr<'g>>> {
+    fn accelerations(&self, arrangements: &[EquationForm<'g>]) -> Vec<Vec<Expr<'g>>> {
         if !self.constraints.is_empty() {
             return arrangements.iter().map(|a| self.acceleration(a).0).collect();
         }
-        let solve = |a: &Arrangement<'g>| {
+        let solve = |a: &EquationForm<'g>| {
             let [rows, taken] = &a.floating;
             let right: Vec<Expr<'g>> = rows.iter().map(|r| -*r).collect();
             let solutions = self.solutions(&a.matrix, &right).into_iter();
@@ -461,7 +462,7 @@ impl<'g> System<'g> {
     }
 
     /// ṗ as a function of (t, q, p), with the bracket multiplied out and as it is.
-    fn momentum_rates(&self, velocity: &[Expr<'g>], arrangement: &Arrangement<'g>) -> Vec<Vec<Expr<'g>>> {
+    fn momentum_rates(&self, velocity: &[Expr<'g>], arrangement: &EquationForm<'g>) -> Vec<Vec<Expr<'g>>> {
         let of_momenta: Map<u32, Expr<'g>> =
             self.scene.speeds.iter().zip(velocity).map(|(z, value)| (z.key(), value.group())).collect();
         let constraints =
@@ -496,7 +497,7 @@ impl<'g> System<'g> {
     }
 
     /// C up to a constant in ż: its gradient is affine in ż, so `C = ½ ż·(∂C/∂ż(ż) + ∂C/∂ż(0))`.
-    fn constraint_function(&self, arrangement: &Arrangement<'g>) -> Expr<'g> {
+    fn constraint_function(&self, arrangement: &EquationForm<'g>) -> Expr<'g> {
         let rows = arrangement.residual.iter().zip(&arrangement.still);
         let terms = rows.zip(&self.scene.speed_rates).map(|((any, still), &rate)| rate * (*any + *still).group());
         terms.sum::<Expr<'g>>().half()

@@ -1,7 +1,7 @@
 //! Every formula of every chart, motion and body against the literal Gauss condition at random states.
 
 use crate::algebra::{Evaluation, Expr, Graph, Map};
-use crate::terms::{Chart, InChart, Motion, Role, RotationChart, Shape};
+use crate::terms::{BodyChart, Chart, Motion, Role, RotationChart, Shape};
 
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::check::definition::gauss_condition;
@@ -13,7 +13,7 @@ use crate::mechanics::links::link::Matter;
 use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::Element;
 use crate::mechanics::matter::body::{Body, BodyShape};
-use crate::mechanics::scene::{Charted as InScene, Coordinate, SystemScene};
+use crate::mechanics::scene::{ChartedLink, Coordinate, SystemScene};
 use crate::mechanics::system::System;
 
 pub fn rotation_charts() -> Vec<RotationChart> {
@@ -78,13 +78,13 @@ pub fn shapes() -> Vec<BodyShape> {
 }
 
 /// One body in a chart, as the system that it is.
-pub struct Charted<'g> {
+pub struct ChartedSystem<'g> {
     pub chart: ChartedBody<'g>,
     pub body: Body<'g>,
     pub system: System<'g>,
 }
 
-impl<'g> Charted<'g> {
+impl<'g> ChartedSystem<'g> {
     pub fn new(graph: &'g Graph, motion: Motion, chart: Chart, shape: BodyShape) -> Self {
         Self::acted_upon(graph, motion, chart, shape, |_| Vec::new())
     }
@@ -99,7 +99,7 @@ impl<'g> Charted<'g> {
     ) -> Self {
         let body = Body::new(graph, shape, if motion == Motion::Planar { 1 } else { 2 });
         let time = graph.symbol("t", "t", false);
-        let own = InChart { chart, motion };
+        let own = BodyChart { chart, motion };
         let chart = ChartedBody::new(graph, motion, chart);
         let kinematics = &chart.kinematics;
         let placement = chart.placement(Matter::Body(Box::new(body.clone())), true);
@@ -116,7 +116,7 @@ impl<'g> Charted<'g> {
             coordinate_names: chart.coordinate_names.clone(),
             states: 0..0,
             speeds,
-            charted: Some(InScene { link: 0, own, alone: true }),
+            charted: Some(ChartedLink { link: 0, own, alone: true }),
             momentum_names: chart.momentum_names.clone(),
             force_names: chart.force_names.clone(),
             speed_rates: kinematics.speed_rates.clone(),
@@ -151,7 +151,7 @@ impl Random {
 }
 
 /// Random values for every symbol of a scene; rotations are rotations and inertias positive definite.
-pub fn random_point(scene: &Charted<'_>, random: &mut Random) -> Map<u32, f64> {
+pub fn random_point(scene: &ChartedSystem<'_>, random: &mut Random) -> Map<u32, f64> {
     let kinematics = &scene.chart.kinematics;
     let mut values = Map::default();
     for p in &scene.body.parameters {
@@ -200,7 +200,7 @@ pub fn random_point(scene: &Charted<'_>, random: &mut Random) -> Map<u32, f64> {
     values
 }
 
-fn is_diagonal(scene: &Charted<'_>, symbol: Expr<'_>) -> bool {
+fn is_diagonal(scene: &ChartedSystem<'_>, symbol: Expr<'_>) -> bool {
     let inertia = (0..3).any(|i| scene.body.inertia[i][i] == symbol);
     inertia || scene.body.added_mass.as_ref().is_some_and(|m| (0..6).any(|i| m[i][i] == symbol))
 }
@@ -225,7 +225,7 @@ fn every_formula_satisfies_the_gauss_condition() {
     for (motion, chart) in scenes() {
         for shape in shapes() {
             let graph = Graph::new();
-            let scene = Charted::new(&graph, motion, chart, shape);
+            let scene = ChartedSystem::new(&graph, motion, chart, shape);
             let formulas = scene.system.formulas();
             let kinematics = &scene.chart.kinematics;
             let condition = gauss_condition(kinematics, &scene.body);

@@ -9,14 +9,14 @@ use crate::model::language::statements::Statements;
 use crate::model::language::struct_clauses::Clauses;
 use crate::model::language::words::{same, word};
 use crate::model::names::expressions;
-use crate::model::names::places::Place;
-use crate::model::names::{declared, definitions, kinds, naming};
-use crate::model::scene::clauses::{BodyClause, State};
+use crate::model::names::places::ExpressionPlace;
+use crate::model::names::{definitions, kinds, naming, scope_entries};
+use crate::model::scene::clauses::{BodyClause, ElementState};
 use crate::model::scene::expression::Expression;
 use crate::model::scene::limbs::Limbs;
 use crate::model::scene::model::Model;
 use crate::model::units::needs;
-use crate::terms::{Field, Generics, InChart, Item, Role, Scalar, Shape, Wanted};
+use crate::terms::{BodyChart, Field, Generics, Item, KernelOptions, Role, Scalar, Shape};
 use proc_macro2::{Ident, Span};
 use quote::{ToTokens, quote};
 use syn::{DeriveInput, Path};
@@ -91,11 +91,11 @@ fn check_expressions(
         return Default::default();
     }
     statements.name_rates();
-    let mut scope = declared::scope(statements, &reader.fields, shapes, scalar, uncertain);
+    let mut scope = scope_entries::scope(statements, &reader.fields, shapes, scalar, uncertain);
     definitions::check(&statements.definitions, &mut scope, context);
     for (place, expression) in expressions::all(statements) {
         // Of constraints and mass data the kind is needed as well; contacts are looked at clause by clause.
-        let later = matches!(place, Place::Constraint(_) | Place::Role(_))
+        let later = matches!(place, ExpressionPlace::Constraint(_) | ExpressionPlace::Role(_))
             || place.is_of_contact()
             || [Role::AddedMass, Role::Inertia].map(expressions::entry).contains(&place);
         if !later {
@@ -151,7 +151,7 @@ fn fields(reader: &Reader<'_>, shapes: &[Shape]) -> Vec<Field> {
 /// The model; `None` if the coordinates or the kinematics are not known, which is then noted.
 fn assembled(
     input: &DeriveInput,
-    (runtime, wanted, scalar, in_chart): (Path, Wanted, Scalar, Option<InChart>),
+    (runtime, wanted, scalar, in_chart): (Path, KernelOptions, Scalar, Option<BodyChart>),
     fields: Vec<Field>,
     mut statements: Statements,
 ) -> Option<Model> {
@@ -169,7 +169,7 @@ fn assembled(
     }
     let mut states = Vec::new();
     for StateClause { name, rate } in statements.states {
-        states.push(State { ident: name, rate: rate? });
+        states.push(ElementState { ident: name, rate: rate? });
     }
     Some(Model {
         item: Item {

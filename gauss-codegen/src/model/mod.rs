@@ -9,7 +9,7 @@
 //! | `parse` | the whole way |
 //! | `scene` | what comes out: [`Model`], its clauses, the table of force elements, expressions with spans |
 //! | `language` | tokens → clauses: `attributes` cuts them, `struct_clauses` and `statements` read those of the struct, `fields` those of the fields, `arithmetic` expressions |
-//! | `names` | `declared` names and their meanings, the `places` of expressions and the `kinds` of their values, definitions written out |
+//! | `names` | names and their meanings (`scope_entries`), the `places` of expressions and the `kinds` of their values, definitions written out |
 //! | `units` | dimensions of expressions, and which are needed where |
 //! | `checks` | rules among fields, mass data, coordinates and speeds, bodies, constraints and forces |
 //! | `robots` | files that describe robots → clauses |
@@ -33,11 +33,11 @@ mod units;
 pub use language::arithmetic::{LARGEST_EXPONENT, too_many_factors};
 pub use parse::{item, only_struct_in, parse, struct_in};
 pub use scene::clauses::{
-    BodyClause, Coefficients, ConstraintClause, ConstraintKind, Coordinate, CoordinateKind, RoleClause, RoleValue,
-    SpeedKind, SpeedPart,
+    BodyClause, Coefficients, ConstraintClause, ConstraintLevel, CoordinateClause, CoordinateKind, RoleClause,
+    RoleValue, SpeedKind, SpeedPart,
 };
-pub use scene::contacts::{Against, ContactClause, Copies, PointContact, Touching};
-pub use scene::elements::{ElementKind, Takes, argument};
+pub use scene::contacts::{ContactClause, ContactGeometry, Copies, Counterpart, PointContact};
+pub use scene::elements::{ArgumentType, ElementKind, argument};
 pub use scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 pub use scene::forces::{ForceAxes, ForceClause};
 pub use scene::model::Model;

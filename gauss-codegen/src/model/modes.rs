@@ -6,7 +6,7 @@ use proc_macro2::Span;
 use serde_json::{Map, Value};
 
 use crate::model::language::context::Context;
-use crate::model::language::modes::{ModesFile, Nested, shaped};
+use crate::model::language::modes::{ModesFile, NestedList, shaped};
 use crate::model::language::role_clauses;
 use crate::model::language::statements::Statements;
 use crate::model::language::words::{self, word};
@@ -76,18 +76,18 @@ fn contents(file: &ModesFile, path: &Path, modes: usize) -> Result<Contents, Vec
         let told = message.split(" at line ").next().unwrap_or_default();
         vec![format!("{place}: {told}")]
     })?;
-    let mut reader = Reader { span: file.span, modes, mistakes: Vec::new() };
+    let mut reader = ModesReader { span: file.span, modes, mistakes: Vec::new() };
     let contents = reader.whole(&value);
     if reader.mistakes.is_empty() { Ok(contents) } else { Err(reader.mistakes) }
 }
 
-struct Reader {
+struct ModesReader {
     span: Span,
     modes: usize,
     mistakes: Vec<String>,
 }
 
-impl Reader {
+impl ModesReader {
     fn mistake(&mut self, message: impl std::fmt::Display) {
         self.mistakes.push(format!(": {message}"));
     }
@@ -139,16 +139,16 @@ impl Reader {
         integrals
     }
 
-    fn nested(&mut self, value: &Value, path: &str) -> Option<Nested> {
+    fn nested(&mut self, value: &Value, path: &str) -> Option<NestedList> {
         match value {
             Value::Array(rows) => {
                 let mut entries = Vec::new();
                 for (k, row) in rows.iter().enumerate() {
                     entries.push(self.nested(row, &format!("{path}[{k}]"))?);
                 }
-                Some(Nested::List(entries, self.span))
+                Some(NestedList::List(entries, self.span))
             }
-            _ => Some(Nested::Scalar(self.number(value, path)?)),
+            _ => Some(NestedList::Scalar(self.number(value, path)?)),
         }
     }
 

@@ -12,7 +12,7 @@ use crate::model::names::inputs;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 use crate::model::robots;
 use crate::model::scene::model::Model;
-use crate::terms::{Described, Item, Scalar, Wanted};
+use crate::terms::{Item, KernelOptions, RobotFile, Scalar};
 use proc_macro2::TokenStream;
 use syn::ext::IdentExt;
 use syn::punctuated::Punctuated;
@@ -57,7 +57,7 @@ pub fn parse(input: &DeriveInput) -> Result<Model, Error> {
 
 /// Puts the clauses of a robot's file before those of the struct. `None` without a file, or where it has a mistake,
 /// which is noted.
-fn robot_of_file(clauses: &mut Clauses, reader: &Reader<'_>, context: &mut Context) -> Option<Described> {
+fn robot_of_file(clauses: &mut Clauses, reader: &Reader<'_>, context: &mut Context) -> Option<RobotFile> {
     let Clauses { robot, statements, wanted, .. } = clauses;
     let file = robot.file.as_ref()?;
     let (feature, is_read) = match file.format {
@@ -170,7 +170,7 @@ fn check_python(item: &Item, generics: &Generics, context: &mut Context) {
 
 /// Derivatives of the equations have no contact forces: that is asked for by a word where there are contacts, and
 /// nowhere else.
-fn check_derivatives(wanted: &Wanted, has_contacts: bool, context: &mut Context) {
+fn check_derivatives(wanted: &KernelOptions, has_contacts: bool, context: &mut Context) {
     let Some(clause) = wanted.linearize.as_ref().filter(|_| wanted.without_contacts != has_contacts) else { return };
     let message = if has_contacts {
         "the scene has contacts, whose forces are not in the equations that `linearize` differentiates: write \

@@ -25,7 +25,8 @@ impl<S: Copy> Code<S> {
             return None;
         }
         let latest = self.latest();
-        let mut sums = Sums { instructions: Vec::with_capacity(uses.len()), ready: Vec::new(), read_once: Vec::new() };
+        let mut sums =
+            RewrittenSums { instructions: Vec::with_capacity(uses.len()), ready: Vec::new(), read_once: Vec::new() };
         let mut place: Vec<usize> = Vec::with_capacity(uses.len());
         for (k, instruction) in self.instructions.iter().enumerate() {
             let instruction = instruction.map(|operand| operand.moved(|k| place[k]));
@@ -75,14 +76,14 @@ impl<S: Copy> Code<S> {
 }
 
 /// Instructions that are written anew.
-struct Sums<S> {
+struct RewrittenSums<S> {
     instructions: Vec<Instruction<S>>,
     ready: Vec<u32>,
     /// Whether one instruction or output alone reads each.
     read_once: Vec<bool>,
 }
 
-impl<S: Copy> Sums<S> {
+impl<S: Copy> RewrittenSums<S> {
     fn push(&mut self, instruction: Instruction<S>) -> Operand<S> {
         self.ready.push(instruction.ready(&self.ready));
         self.instructions.push(instruction);

@@ -6,7 +6,7 @@ use super::code::Code;
 use super::instruction::{Instruction, Operand};
 
 /// The result of an instruction.
-enum Computed<T> {
+enum InstructionResult<T> {
     One(T),
     /// Sine and cosine.
     Pair(T, T),
@@ -27,15 +27,15 @@ impl<S: Copy> Code<S> {
     /// # Panics
     /// Of code that [`Code::verify`] refuses.
     pub fn evaluate_with<T: Scalar>(&self, input: impl Fn(S) -> T, own: impl Fn(OwnFunction, &[T]) -> T) -> Vec<T> {
-        let mut results: Vec<Computed<T>> = Vec::with_capacity(self.instructions.len());
-        let get = |operand: Operand<S>, results: &[Computed<T>]| match operand {
+        let mut results: Vec<InstructionResult<T>> = Vec::with_capacity(self.instructions.len());
+        let get = |operand: Operand<S>, results: &[InstructionResult<T>]| match operand {
             Operand::Input(symbol) => input(symbol),
             Operand::Number(value) => T::fraction(value),
             Operand::Value(k) | Operand::Sine(k) => match &results[k] {
-                Computed::One(value) | Computed::Pair(value, _) => value.clone(),
+                InstructionResult::One(value) | InstructionResult::Pair(value, _) => value.clone(),
             },
             Operand::Cosine(k) => match &results[k] {
-                Computed::One(value) | Computed::Pair(_, value) => value.clone(),
+                InstructionResult::One(value) | InstructionResult::Pair(_, value) => value.clone(),
             },
         };
         for instruction in &self.instructions {
@@ -50,7 +50,7 @@ impl<S: Copy> Code<S> {
                 Instruction::Negate(a) => -at(a),
                 Instruction::SineCosine(a) => {
                     let (sine, cosine) = at(a).sine_cosine();
-                    results.push(Computed::Pair(sine, cosine));
+                    results.push(InstructionResult::Pair(sine, cosine));
                     continue;
                 }
                 Instruction::Call(function, a) => at(a).call(function),
@@ -59,7 +59,7 @@ impl<S: Copy> Code<S> {
                     own(function, &function.of(&arguments).iter().map(|&a| at(a)).collect::<Vec<T>>())
                 }
             };
-            results.push(Computed::One(value));
+            results.push(InstructionResult::One(value));
         }
         self.outputs.iter().map(|&output| get(output, &results)).collect()
     }

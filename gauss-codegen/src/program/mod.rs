@@ -61,6 +61,6 @@ pub use function::{Program, WrongArguments};
 pub use functions::Functions;
 pub use input::{Argument, ArgumentKind, Input, Results};
 pub use instruction::{Instruction, Operand};
-pub(crate) use packs::{LANES, Leaf, Operation, Pack, Packed, Place, Step, in_place};
+pub(crate) use packs::{InputPlace, LANES, Leaf, Operation, Pack, PackedCode, PackedStep, in_place};
 pub(crate) use passes::Pass;
 pub use verify::Malformed;

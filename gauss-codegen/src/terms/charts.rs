@@ -39,14 +39,14 @@ pub enum Motion {
 
 /// A chart of one body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct InChart {
+pub struct BodyChart {
     /// The quasi-velocities that the equations are written in.
     pub chart: Chart,
     /// Freedom of motion of the body.
     pub motion: Motion,
 }
 
-impl InChart {
+impl BodyChart {
     /// One word for each speed; those of a vector share theirs.
     pub fn speed_words(self) -> Vec<String> {
         let (linear, angular) = match self.motion {

@@ -30,7 +30,7 @@ pub struct Table {
     /// The path of a constant array, of as many dimensions as there are axes.
     pub values: TokenStream,
     /// Interpolation between the points.
-    pub joined: Joined,
+    pub joined: Interpolation,
 }
 
 /// The numbers of one variable at which a table has values.
@@ -46,7 +46,7 @@ pub struct Axis {
 
 /// Interpolation between the points of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Joined {
+pub enum Interpolation {
     /// Straight lines.
     Linear,
     /// Cubics with the slopes of parabolas through three neighbours.
@@ -60,7 +60,7 @@ impl FunctionKind {
     pub fn derivatives(&self) -> u8 {
         match self {
             FunctionKind::Rust(paths) => paths.len().saturating_sub(1) as u8,
-            FunctionKind::Table(Table { joined: Joined::Linear, .. }) => 1,
+            FunctionKind::Table(Table { joined: Interpolation::Linear, .. }) => 1,
             FunctionKind::Table(_) => 3,
         }
     }
@@ -70,9 +70,9 @@ impl FunctionKind {
         match self {
             FunctionKind::Rust(_) => None,
             FunctionKind::Table(table) => Some(match table.joined {
-                Joined::Linear => 0,
-                Joined::Hermite => 1,
-                Joined::Cubic => 2,
+                Interpolation::Linear => 0,
+                Interpolation::Hermite => 1,
+                Interpolation::Cubic => 2,
             }),
         }
     }

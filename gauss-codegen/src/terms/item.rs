@@ -2,11 +2,11 @@
 
 use proc_macro2::{Ident, TokenStream};
 
-use super::described::Described;
 use super::functions::UserFunction;
 use super::inputs::InputName;
+use super::kernel_options::KernelOptions;
+use super::robot_file::RobotFile;
 use super::roles::{Role, Shape};
-use super::wanted::Wanted;
 
 /// The struct, whatever it describes.
 #[derive(Clone)]
@@ -24,7 +24,7 @@ pub struct Item {
     /// Path by which the generated code finds the runtime: `::gauss_runtime`, or the path of `crate = path`.
     pub runtime: TokenStream,
     /// The methods and derivatives to generate besides the equations.
-    pub wanted: Wanted,
+    pub wanted: KernelOptions,
     /// Every field of the struct, in order.
     pub fields: Vec<Field>,
     /// Values that arrive at run time, in order.
@@ -34,7 +34,7 @@ pub struct Item {
     /// The most operations that the generated code may have; `None`: the limit of the derive.
     pub limit: Option<usize>,
     /// The file that describes the robot, whose clauses come before those of the struct.
-    pub described: Option<Described>,
+    pub described: Option<RobotFile>,
     /// Other files that the scene is made of: the generated code names them, so that an edit compiles the struct anew.
     pub tracked: Vec<String>,
 }

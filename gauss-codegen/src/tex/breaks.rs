@@ -1,16 +1,16 @@
 //! Places where a formula may be broken: before signs of a sum, between factors, inside brackets, which then have a
 //! fixed size; a long fraction becomes a product or a quotient in one line, a long root a power.
 
-use super::read::{Kind, Piece};
+use super::read::{Piece, PieceKind};
 use super::width::{bracket, fractions, width, width_of};
 
 /// Part of a formula that stays in one line.
 #[derive(Clone, Debug)]
-pub struct Part {
+pub struct FormulaPart {
     pub tex: String,
     pub width: f64,
     /// Joint between it and the part before it in one line.
-    pub joint: Joint,
+    pub joint: PartJoint,
     /// Brackets that are open where it begins.
     pub level: usize,
     /// It begins a line: the first part of a term that is longer than one.
@@ -19,7 +19,7 @@ pub struct Part {
 
 /// Joints between two parts in one line, and the begin of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Joint {
+pub enum PartJoint {
     /// A sign of a sum, which the part begins with, or a sign of equality.
     Sign,
     /// `\,`; a line begins with `\cdot`.
@@ -28,22 +28,22 @@ pub enum Joint {
     Nothing,
 }
 
-impl Joint {
+impl PartJoint {
     /// In one line.
     pub fn within(self) -> (&'static str, f64) {
         match self {
-            Joint::Sign => (" ", 2.3),
-            Joint::Product => (" \\, ", 3.4),
-            Joint::Nothing => (" ", 1.7),
+            PartJoint::Sign => (" ", 2.3),
+            PartJoint::Product => (" \\, ", 3.4),
+            PartJoint::Nothing => (" ", 1.7),
         }
     }
 
     /// At the begin of a line.
     pub fn at_begin(self) -> (&'static str, f64) {
         match self {
-            Joint::Product => (" \\cdot ", 7.4),
-            Joint::Sign => (" ", 2.3),
-            Joint::Nothing => (" ", 0.0),
+            PartJoint::Product => (" \\cdot ", 7.4),
+            PartJoint::Sign => (" ", 2.3),
+            PartJoint::Nothing => (" ", 0.0),
         }
     }
 }
@@ -54,34 +54,34 @@ pub const QUAD: f64 = 10.1;
 
 /// Text before and after a formula without a break.
 #[derive(Clone, Default)]
-struct Around {
+struct SurroundingText {
     before: String,
     after: String,
     width: [f64; 2],
 }
 
 /// Parts of a formula, none wider than a line of that room, as far as it can be broken.
-pub fn parts(row: &[Piece<'_>], room: f64) -> Vec<Part> {
+pub fn parts(row: &[Piece<'_>], room: f64) -> Vec<FormulaPart> {
     let mut breaker = Breaker { room, parts: Vec::new() };
-    breaker.sum(row, 0, Joint::Sign, &Around::default());
+    breaker.sum(row, 0, PartJoint::Sign, &SurroundingText::default());
     breaker.parts
 }
 
 struct Breaker {
     /// Room of a line that is not indented.
     room: f64,
-    parts: Vec<Part>,
+    parts: Vec<FormulaPart>,
 }
 
 /// Terms of a sum with their signs; items of a list with their commas.
 fn terms<'p, 'a>(row: &'p [Piece<'a>]) -> Vec<&'p [Piece<'a>]> {
     let mut ends = Vec::new();
     for (k, piece) in row.iter().enumerate() {
-        let sign = matches!(piece.kind, Kind::Sign | Kind::Equals);
-        if sign && k > 0 && !matches!(row[k - 1].kind, Kind::Sign | Kind::Equals | Kind::Times) {
+        let sign = matches!(piece.kind, PieceKind::Sign | PieceKind::Equals);
+        if sign && k > 0 && !matches!(row[k - 1].kind, PieceKind::Sign | PieceKind::Equals | PieceKind::Times) {
             ends.push(k);
         }
-        if matches!(piece.kind, Kind::Comma) {
+        if matches!(piece.kind, PieceKind::Comma) {
             ends.push(k + 1);
         }
     }
@@ -90,7 +90,7 @@ fn terms<'p, 'a>(row: &'p [Piece<'a>]) -> Vec<&'p [Piece<'a>]> {
 
 /// Factors of a product, without what is between them.
 fn factors<'p, 'a>(term: &'p [Piece<'a>]) -> Vec<&'p [Piece<'a>]> {
-    term.split(|piece| matches!(piece.kind, Kind::Thin)).filter(|factor| !factor.is_empty()).collect()
+    term.split(|piece| matches!(piece.kind, PieceKind::Thin)).filter(|factor| !factor.is_empty()).collect()
 }
 
 fn cut<'p, 'a>(row: &'p [Piece<'a>], ends: Vec<usize>) -> Vec<&'p [Piece<'a>]> {
@@ -123,13 +123,13 @@ impl Breaker {
         self.room - QUAD * level.min(DEEPEST) as f64
     }
 
-    fn push(&mut self, tex: &str, width: f64, (joint, level): (Joint, usize), around: &Around) {
+    fn push(&mut self, tex: &str, width: f64, (joint, level): (PartJoint, usize), around: &SurroundingText) {
         let tex = format!("{}{tex}{}", around.before, around.after);
         let width = around.width[0] + width + around.width[1];
-        self.parts.push(Part { tex, width, joint, level, begins: false });
+        self.parts.push(FormulaPart { tex, width, joint, level, begins: false });
     }
 
-    fn sum(&mut self, row: &[Piece<'_>], level: usize, joint: Joint, around: &Around) {
+    fn sum(&mut self, row: &[Piece<'_>], level: usize, joint: PartJoint, around: &SurroundingText) {
         let terms = terms(row);
         let count = terms.len();
         if row.is_empty() {
@@ -137,11 +137,11 @@ impl Breaker {
         }
         for (k, term) in terms.into_iter().enumerate() {
             let own = ends_of(around, k == 0, k + 1 == count);
-            let after_comma = k > 0 && !matches!(term[0].kind, Kind::Sign | Kind::Equals);
+            let after_comma = k > 0 && !matches!(term[0].kind, PieceKind::Sign | PieceKind::Equals);
             let joint = match (k, after_comma) {
                 (0, _) => joint,
-                (_, true) => Joint::Nothing,
-                (_, false) => Joint::Sign,
+                (_, true) => PartJoint::Nothing,
+                (_, false) => PartJoint::Sign,
             };
             let begin = self.parts.len();
             // Signs have what is written after them on both sides.
@@ -154,8 +154,8 @@ impl Breaker {
         }
     }
 
-    fn product(&mut self, term: &[Piece<'_>], level: usize, joint: Joint, around: &Around) {
-        let sign = usize::from(matches!(term[0].kind, Kind::Sign | Kind::Equals));
+    fn product(&mut self, term: &[Piece<'_>], level: usize, joint: PartJoint, around: &SurroundingText) {
+        let sign = usize::from(matches!(term[0].kind, PieceKind::Sign | PieceKind::Equals));
         let mut around = around.clone();
         if sign == 1 {
             around.before = format!("{}{} ", around.before, term[0].tex);
@@ -194,15 +194,15 @@ impl Breaker {
                 self.factor(factors[end], level, joint, &own);
                 begin = end + 1;
             }
-            joint = Joint::Product;
+            joint = PartJoint::Product;
         }
     }
 
     /// One that does not fit: its last piece is what is broken.
-    fn factor(&mut self, factor: &[Piece<'_>], level: usize, joint: Joint, around: &Around) {
-        let broken = factor
-            .iter()
-            .rposition(|piece| matches!(piece.kind, Kind::Bracket { .. } | Kind::Fraction(_) | Kind::Root(_)));
+    fn factor(&mut self, factor: &[Piece<'_>], level: usize, joint: PartJoint, around: &SurroundingText) {
+        let broken = factor.iter().rposition(|piece| {
+            matches!(piece.kind, PieceKind::Bracket { .. } | PieceKind::Fraction(_) | PieceKind::Root(_))
+        });
         let Some(at) = broken else {
             return self.push(&tex(factor), width(factor), (joint, level), around);
         };
@@ -217,16 +217,16 @@ impl Breaker {
         }
         let piece = &factor[at];
         match &piece.kind {
-            Kind::Bracket { open, inside, close } => {
+            PieceKind::Bracket { open, inside, close } => {
                 let scripts = (piece.scripts.to_owned(), width_of(piece) - width(inside) - 2.0 * bracket(inside));
                 self.bracket(inside, [open, close], scripts, (level, joint), &around);
             }
-            Kind::Root(inside) => {
+            PieceKind::Root(inside) => {
                 let power = piece.above.iter().map(|piece| piece.tex).collect::<String>();
                 let half = if power.is_empty() { "^{1/2}".to_owned() } else { format!("^{{{}/2}}", power.trim()) };
                 self.bracket(inside, ["(", ")"], (half, 16.0 + width(&piece.above)), (level, joint), &around);
             }
-            Kind::Fraction(parts) => self.fraction(parts, level, joint, &around),
+            PieceKind::Fraction(parts) => self.fraction(parts, level, joint, &around),
             _ => self.push(&tex(&factor[at..=at]), width(&factor[at..=at]), (joint, level), &around),
         }
     }
@@ -236,8 +236,8 @@ impl Breaker {
         inside: &[Piece<'_>],
         [open, close]: [&str; 2],
         (scripts, scripts_width): (String, f64),
-        (level, joint): (usize, Joint),
-        around: &Around,
+        (level, joint): (usize, PartJoint),
+        around: &SurroundingText,
     ) {
         let size = ["big", "bigg", "Bigg"][fractions(inside).min(2)];
         let mut own = around.clone();
@@ -249,22 +249,31 @@ impl Breaker {
     }
 
     /// A product with the reciprocal of a short denominator, else a quotient of brackets.
-    fn fraction(&mut self, [above, below]: &[Vec<Piece<'_>>; 2], level: usize, joint: Joint, around: &Around) {
+    fn fraction(
+        &mut self,
+        [above, below]: &[Vec<Piece<'_>>; 2],
+        level: usize,
+        joint: PartJoint,
+        around: &SurroundingText,
+    ) {
         if width(below) <= self.room(level) / 2.0 {
             let mut own = around.clone();
             own.before = format!("{}\\frac{{1}}{{{}}} \\, ", own.before, tex(below));
             own.width[0] += width(below) + 7.6;
             return self.grouped(above, level, joint, &own);
         }
-        let first = Around { after: String::new(), width: [around.width[0], 0.0], ..around.clone() };
+        let first = SurroundingText { after: String::new(), width: [around.width[0], 0.0], ..around.clone() };
         self.grouped(above, level, joint, &first);
-        let second =
-            Around { before: "\\big/ ".to_owned(), after: around.after.clone(), width: [9.0, around.width[1]] };
-        self.grouped(below, level, Joint::Nothing, &second);
+        let second = SurroundingText {
+            before: "\\big/ ".to_owned(),
+            after: around.after.clone(),
+            width: [9.0, around.width[1]],
+        };
+        self.grouped(below, level, PartJoint::Nothing, &second);
     }
 
     /// In brackets where it is a sum; in brackets of its own where it is a product behind a stroke.
-    fn grouped(&mut self, row: &[Piece<'_>], level: usize, joint: Joint, around: &Around) {
+    fn grouped(&mut self, row: &[Piece<'_>], level: usize, joint: PartJoint, around: &SurroundingText) {
         let sum = terms(row).len() > 1;
         let behind = around.before.ends_with("/ ") && factors(row).len() > 1;
         if sum || behind {
@@ -278,7 +287,7 @@ impl Breaker {
 }
 
 /// Text around one part of a sequence: the text before it at its first part, and after it at its last.
-fn ends_of(around: &Around, first: bool, last: bool) -> Around {
+fn ends_of(around: &SurroundingText, first: bool, last: bool) -> SurroundingText {
     let mut own = around.clone();
     if !first {
         own.before.clear();

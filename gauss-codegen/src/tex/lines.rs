@@ -1,7 +1,7 @@
 //! Equations as `align*` environments, no line wider than a page of 16 cm.
 
-use super::breaks::{DEEPEST, Joint, Part, QUAD, parts};
-use super::read::{Kind, read};
+use super::breaks::{DEEPEST, FormulaPart, PartJoint, QUAD, parts};
+use super::read::{PieceKind, read};
 use super::width::width;
 
 /// A page's text, in points: 16 cm, and one point less.
@@ -51,7 +51,7 @@ impl<'a> Sides<'a> {
         let (left, right) = equation.split_once(" = ").unwrap_or(("", equation));
         let pieces = read(left);
         let width = width(&pieces);
-        let is_sum = pieces.iter().any(|piece| matches!(piece.kind, Kind::Sign));
+        let is_sum = pieces.iter().any(|piece| matches!(piece.kind, PieceKind::Sign));
         Self { left, right, width, aligned: !left.is_empty() && !is_sum && width <= LEFT }
     }
 
@@ -76,7 +76,7 @@ impl<'a> Sides<'a> {
             first.width += EQUALS;
             first.begins = true;
         }
-        let total: f64 = all.iter().chain(&right).map(|part| part.width + Joint::Sign.within().1).sum();
+        let total: f64 = all.iter().chain(&right).map(|part| part.width + PartJoint::Sign.within().1).sum();
         if total <= room {
             all.iter_mut().chain(&mut right).for_each(|part| part.begins = false);
         }
@@ -86,7 +86,7 @@ impl<'a> Sides<'a> {
 }
 
 /// Parts in as few lines as they fit in, which are as short as so many can be.
-fn filled(begin: &str, begin_width: f64, parts: &[Part], room: f64) -> Vec<String> {
+fn filled(begin: &str, begin_width: f64, parts: &[FormulaPart], room: f64) -> Vec<String> {
     let within = |limit: f64| line_begins(begin_width, parts, limit);
     let mut begins = within(room);
     let (mut too_small, mut large) = (0.0, room);
@@ -113,14 +113,14 @@ fn filled(begin: &str, begin_width: f64, parts: &[Part], room: f64) -> Vec<Strin
 }
 
 /// Indentation of a line that begins with a part, and its width.
-fn indentation(part: &Part) -> (String, f64) {
+fn indentation(part: &FormulaPart) -> (String, f64) {
     let quads = 1 + part.level.min(DEEPEST);
     let (joint, space) = part.joint.at_begin();
     (format!("&{}{joint}", "\\quad".repeat(quads)), QUAD * quads as f64 + space)
 }
 
 /// Which parts further lines begin with, if none is wider than a limit.
-fn line_begins(begin_width: f64, parts: &[Part], limit: f64) -> Vec<usize> {
+fn line_begins(begin_width: f64, parts: &[FormulaPart], limit: f64) -> Vec<usize> {
     let mut begins = Vec::new();
     let mut width = begin_width;
     for (k, part) in parts.iter().enumerate() {

@@ -7,7 +7,7 @@ pub struct Piece<'a> {
     pub tex: &'a str,
     /// A space is before it.
     pub spaced: bool,
-    pub kind: Kind<'a>,
+    pub kind: PieceKind<'a>,
     /// Primes, index and power as they are written.
     pub scripts: &'a str,
     pub below: Vec<Piece<'a>>,
@@ -17,7 +17,7 @@ pub struct Piece<'a> {
 
 /// Kind of a piece.
 #[derive(Clone, Debug)]
-pub enum Kind<'a> {
+pub enum PieceKind<'a> {
     Letter(char),
     /// Digits, with a point among them.
     Number(&'a str),
@@ -59,14 +59,14 @@ const FUNCTIONS: [&str; 13] =
 
 /// A formula, in math mode. What is not closed ends with the text.
 pub fn read(tex: &str) -> Vec<Piece<'_>> {
-    Reader { rest: tex }.row(None)
+    TexReader { rest: tex }.row(None)
 }
 
-struct Reader<'a> {
+struct TexReader<'a> {
     rest: &'a str,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> TexReader<'a> {
     fn take(&mut self, text: &str) -> bool {
         let rest = self.rest.strip_prefix(text);
         self.rest = rest.unwrap_or(self.rest);
@@ -138,15 +138,15 @@ impl<'a> Reader<'a> {
         &inside[..length]
     }
 
-    fn kind(&mut self) -> Kind<'a> {
+    fn kind(&mut self) -> PieceKind<'a> {
         if self.take("{") {
-            return Kind::Row(self.row(Some("}")));
+            return PieceKind::Row(self.row(Some("}")));
         }
         let digits = self.rest.bytes().take_while(|byte| byte.is_ascii_digit() || *byte == b'.').count();
         if digits > 0 {
             let (number, rest) = self.rest.split_at(digits);
             self.rest = rest;
-            return Kind::Number(number);
+            return PieceKind::Number(number);
         }
         let mut signs = self.rest.chars();
         let sign = signs.next().unwrap_or(' ');
@@ -156,11 +156,11 @@ impl<'a> Reader<'a> {
         }
         self.rest = signs.as_str();
         match sign {
-            '+' | '-' => Kind::Sign,
-            '=' => Kind::Equals,
-            ',' => Kind::Comma,
-            sign if sign.is_alphabetic() => Kind::Letter(sign),
-            sign => Kind::Other(sign),
+            '+' | '-' => PieceKind::Sign,
+            '=' => PieceKind::Equals,
+            ',' => PieceKind::Comma,
+            sign if sign.is_alphabetic() => PieceKind::Letter(sign),
+            sign => PieceKind::Other(sign),
         }
     }
 
@@ -173,23 +173,23 @@ impl<'a> Reader<'a> {
         &rest[..length]
     }
 
-    fn argument(&mut self, name: &'a str) -> Kind<'a> {
+    fn argument(&mut self, name: &'a str) -> PieceKind<'a> {
         match name {
-            "frac" => Kind::Fraction([self.group(), self.group()]),
-            "sqrt" => Kind::Root(self.group()),
-            "hat" | "dot" | "ddot" => Kind::Accent(self.group()),
-            "operatorname" | "mathrm" => Kind::Name(self.raw()),
-            "mathit" => Kind::Italic(self.raw()),
-            "text" => Kind::Words(self.raw()),
+            "frac" => PieceKind::Fraction([self.group(), self.group()]),
+            "sqrt" => PieceKind::Root(self.group()),
+            "hat" | "dot" | "ddot" => PieceKind::Accent(self.group()),
+            "operatorname" | "mathrm" => PieceKind::Name(self.raw()),
+            "mathit" => PieceKind::Italic(self.raw()),
+            "text" => PieceKind::Words(self.raw()),
             "left" => {
                 let open = self.delimiter();
                 let inside = self.row(Some("\\right"));
-                Kind::Bracket { open, inside, close: self.delimiter() }
+                PieceKind::Bracket { open, inside, close: self.delimiter() }
             }
-            "cdot" => Kind::Times,
-            "," => Kind::Thin,
-            name if FUNCTIONS.contains(&name) => Kind::Function(name),
-            name => Kind::Symbol(name),
+            "cdot" => PieceKind::Times,
+            "," => PieceKind::Thin,
+            name if FUNCTIONS.contains(&name) => PieceKind::Function(name),
+            name => PieceKind::Symbol(name),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Estimated widths of formulas, in points, at 10 pt in display style.
 
 use super::letters::{command, italic, upright, variable};
-use super::read::{Kind, Piece};
+use super::read::{Piece, PieceKind};
 
 /// Sizes in TeX's four styles: formulas on their own lines, parts of their fractions, indices and powers, and theirs.
 /// Letters of cmmi7 are 0.81 of those of cmmi10 in width, of cmmi5 0.70.
@@ -63,8 +63,8 @@ pub fn bracket(inside: &[Piece<'_>]) -> f64 {
 
 fn accented(row: &[Piece<'_>]) -> bool {
     row.iter().any(|piece| match &piece.kind {
-        Kind::Accent(_) => true,
-        Kind::Row(inside) | Kind::Root(inside) | Kind::Bracket { inside, .. } => accented(inside),
+        PieceKind::Accent(_) => true,
+        PieceKind::Row(inside) | PieceKind::Root(inside) | PieceKind::Bracket { inside, .. } => accented(inside),
         _ => false,
     })
 }
@@ -72,10 +72,11 @@ fn accented(row: &[Piece<'_>]) -> bool {
 /// Number of fractions that stand within one another.
 pub fn fractions(row: &[Piece<'_>]) -> usize {
     let of = |piece: &Piece<'_>| match &piece.kind {
-        Kind::Fraction([above, below]) => 1 + fractions(above).max(fractions(below)),
-        Kind::Row(inside) | Kind::Root(inside) | Kind::Accent(inside) | Kind::Bracket { inside, .. } => {
-            fractions(inside)
-        }
+        PieceKind::Fraction([above, below]) => 1 + fractions(above).max(fractions(below)),
+        PieceKind::Row(inside)
+        | PieceKind::Root(inside)
+        | PieceKind::Accent(inside)
+        | PieceKind::Bracket { inside, .. } => fractions(inside),
         _ => 0,
     };
     row.iter().map(of).max().unwrap_or(0)
@@ -103,13 +104,13 @@ fn row_width(row: &[Piece<'_>], style: usize) -> f64 {
 
 fn class_of(piece: &Piece<'_>) -> Class {
     match &piece.kind {
-        Kind::Sign | Kind::Times => Class::Sign,
-        Kind::Equals => Class::Relation,
-        Kind::Function(_) => Class::Function,
-        Kind::Name(_) if piece.tex.starts_with("\\operatorname") => Class::Function,
-        Kind::Fraction(_) | Kind::Bracket { .. } => Class::Inner,
-        Kind::Comma => Class::Comma,
-        Kind::Thin => Class::Space,
+        PieceKind::Sign | PieceKind::Times => Class::Sign,
+        PieceKind::Equals => Class::Relation,
+        PieceKind::Function(_) => Class::Function,
+        PieceKind::Name(_) if piece.tex.starts_with("\\operatorname") => Class::Function,
+        PieceKind::Fraction(_) | PieceKind::Bracket { .. } => Class::Inner,
+        PieceKind::Comma => Class::Comma,
+        PieceKind::Thin => Class::Space,
         _ => Class::Ordinary,
     }
 }
@@ -129,23 +130,23 @@ fn between(before: Class, after: Class, style: usize) -> f64 {
 fn piece_width(piece: &Piece<'_>, style: usize) -> f64 {
     let scale = SIZES[style];
     let own = match &piece.kind {
-        Kind::Letter(sign) => scale * variable(*sign),
-        Kind::Number(digits) => scale * upright(digits),
-        Kind::Symbol(name) => scale * command(name),
-        Kind::Sign | Kind::Equals => scale * SIGN,
-        Kind::Times | Kind::Comma => scale * THICK,
-        Kind::Thin => scale * THIN,
-        Kind::Function(name) | Kind::Name(name) | Kind::Words(name) => scale * (upright(name) + ROUNDED),
-        Kind::Italic(name) => scale * italic(name),
-        Kind::Row(inside) => row_width(inside, style),
-        Kind::Accent(inside) => row_width(inside, style) + BESIDE_ACCENT,
-        Kind::Root(inside) => scale * RADICAL + row_width(inside, style),
-        Kind::Bracket { inside, .. } => 2.0 * scale * bracket(inside) + row_width(inside, style),
-        Kind::Fraction(parts) => {
+        PieceKind::Letter(sign) => scale * variable(*sign),
+        PieceKind::Number(digits) => scale * upright(digits),
+        PieceKind::Symbol(name) => scale * command(name),
+        PieceKind::Sign | PieceKind::Equals => scale * SIGN,
+        PieceKind::Times | PieceKind::Comma => scale * THICK,
+        PieceKind::Thin => scale * THIN,
+        PieceKind::Function(name) | PieceKind::Name(name) | PieceKind::Words(name) => scale * (upright(name) + ROUNDED),
+        PieceKind::Italic(name) => scale * italic(name),
+        PieceKind::Row(inside) => row_width(inside, style),
+        PieceKind::Accent(inside) => row_width(inside, style) + BESIDE_ACCENT,
+        PieceKind::Root(inside) => scale * RADICAL + row_width(inside, style),
+        PieceKind::Bracket { inside, .. } => 2.0 * scale * bracket(inside) + row_width(inside, style),
+        PieceKind::Fraction(parts) => {
             let [above, below] = [0, 1].map(|k| row_width(&parts[k], (style + 1).min(3)));
             above.max(below) + BESIDE_FRACTION
         }
-        Kind::Other(sign) => scale * variable(*sign),
+        PieceKind::Other(sign) => scale * variable(*sign),
     };
     let smaller = if style < 2 { 2 } else { 3 };
     let primes = SIZES[smaller] * 2.9 * piece.primes as f64;

@@ -1,12 +1,12 @@
 //! Which part of a scene is to blame where a check fails that no mistake of this crate makes fail.
 
-use crate::algebra::{Expr, Notation, Number, Precise, Rounded, Scalar, decimal};
+use crate::algebra::{ErrorBound, Expr, Notation, Number, Precise, Scalar, decimal};
 use crate::error::Error;
 use crate::mechanics::{Body, Tree};
 use crate::terms::Role;
 
 use super::domains::value_of_literals;
-use super::translated::Given;
+use super::translated::Provenance;
 
 /// Whether a symmetric matrix has a negative eigenvalue: one of its principal minors is negative.
 fn is_indefinite(a: &[[Precise; 3]; 3]) -> bool {
@@ -25,7 +25,7 @@ fn is_indefinite(a: &[[Precise; 3]; 3]) -> bool {
         || negative(determinant, 3)
 }
 
-impl<'g> Given<'g> {
+impl<'g> Provenance<'g> {
     /// Why a check fails that no mistake of this crate makes fail: bodies that none can be, numbers out of its reach.
     pub fn cause_of_failure(&self, tree: &Tree<'g>) -> Option<Error> {
         self.impossible_body(tree).or_else(|| {
@@ -89,7 +89,7 @@ impl<'g> Given<'g> {
     }
 
     /// The same with what rounding to doubles may do to it.
-    pub fn rounded(&self, value: Expr<'g>) -> Option<Rounded> {
+    pub fn rounded(&self, value: Expr<'g>) -> Option<ErrorBound> {
         value_of_literals(value, &self.literals)
     }
 }

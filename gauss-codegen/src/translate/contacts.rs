@@ -5,27 +5,27 @@ use proc_macro2::Ident;
 use crate::algebra::Expr;
 use crate::error::Result;
 use crate::mechanics::{Contact, Tree};
-use crate::model::{ContactClause, Expression, Touching};
+use crate::model::{ContactClause, ContactGeometry, Expression};
 use crate::terms::LawKind;
 use crate::words::Unraw;
 
-use super::shapes::{Asked, Form, Slips};
+use super::shapes::{ContactForm, FrictionSpec, Slips};
 use super::translator::Translator;
 
 /// Coefficients of the friction and the impacts of all contacts of a clause.
-struct Coefficients<'g> {
+struct FrictionCoefficients<'g> {
     friction: Vec<Expr<'g>>,
     restitution: Option<Expr<'g>>,
     rolling: Option<Expr<'g>>,
 }
 
-impl<'g> Coefficients<'g> {
+impl<'g> FrictionCoefficients<'g> {
     /// A contact, which is to have a number, and the resistance to rolling on it.
     fn contacts(
         &self,
         clause: usize,
         names: &[Ident],
-        form: Form<'g>,
+        form: ContactForm<'g>,
         number: usize,
     ) -> impl Iterator<Item = Contact<'g>> {
         // Of two coefficients the one of the same tangent.
@@ -60,7 +60,7 @@ impl<'g> Translator<'_, 'g> {
                 self.note(kind, (&name, word), e, vec![value]);
                 Ok(Some(value))
             };
-            let dry = matches!(written.touching, Touching::Slip { .. });
+            let dry = matches!(written.touching, ContactGeometry::Slip { .. });
             let word = if dry { "bound" } else { "friction" };
             let mut friction = Vec::new();
             for e in &written.friction {
@@ -69,24 +69,22 @@ impl<'g> Translator<'_, 'g> {
                 friction.push(value);
             }
             let restitution = coefficient(&written.restitution, LawKind::Restitution, "restitution")?;
-            let asked = Asked {
+            let asked = FrictionSpec {
                 rubs: !friction.is_empty(),
                 drilling: written.drilling.as_ref().map(|e| self.length((&name, "drilling"), e, tree)).transpose()?,
                 rolls: written.rolling.is_some(),
             };
             let rolling = coefficient(&written.rolling, LawKind::Friction, "rolling")?;
-            let form =
-                |gap, slips| Form { gap, slips, spin: None, rolls: Vec::new(), frame: None, bodies: [None, None] };
             let forms = match &written.touching {
-                Touching::Gap { gap, slips, spin, rolls } => {
+                ContactGeometry::Gap { gap, slips, spin, rolls } => {
                     let spin = spin.as_ref().map(|spin| self.scalar(spin, tree)).transpose()?;
                     let spin = asked.drilling.zip(spin).map(|(radius, spin)| radius * spin);
                     let (gap, slips) = (Some(self.scalar(gap, tree)?), self.slips(slips, tree)?);
-                    vec![Form { spin, rolls: self.slips(rolls, tree)?, ..form(gap, slips) }]
+                    vec![ContactForm { spin, rolls: self.slips(rolls, tree)?, ..ContactForm::new(gap, slips) }]
                 }
-                Touching::Slip { slips, .. } => vec![form(None, self.slips(slips, tree)?)],
-                Touching::Point(contact) => self.shape(&name, contact, &asked, tree)?,
-                Touching::Range { along, from, to } => {
+                ContactGeometry::Slip { slips, .. } => vec![ContactForm::new(None, self.slips(slips, tree)?)],
+                ContactGeometry::Point(contact) => self.shape(&name, contact, &asked, tree)?,
+                ContactGeometry::Range { along, from, to } => {
                     let x = self.scalar(along, tree)?;
                     let limit = |e: &Option<_>| e.as_ref().map(|e| self.scalar(e, tree)).transpose();
                     let (least, most) = (limit(from)?, limit(to)?);
@@ -94,12 +92,12 @@ impl<'g> Translator<'_, 'g> {
                         self.note(LawKind::Limits, (&name, ""), e, vec![least, most]);
                     }
                     let gaps = least.map(|least| x - least).into_iter().chain(most.map(|most| most - x));
-                    gaps.map(|gap| form(Some(gap), Vec::new())).collect()
+                    gaps.map(|gap| ContactForm::new(Some(gap), Vec::new())).collect()
                 }
             };
             let forms = forms.into_iter().map(|form| self.named(form, written)).collect::<Vec<_>>();
             self.refuse_idle(&name, written, &forms);
-            let coefficients = Coefficients { friction, restitution, rolling };
+            let coefficients = FrictionCoefficients { friction, restitution, rolling };
             let each = 1 + usize::from(written.rolling.is_some());
             for (names, form) in written.names.chunks(each).zip(forms) {
                 contacts.extend(coefficients.contacts(clause, names, form, contacts.len()));
@@ -109,18 +107,18 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// Adds the names of links of a file.
-    fn named(&self, form: Form<'g>, written: &ContactClause) -> Form<'g> {
+    fn named(&self, form: ContactForm<'g>, written: &ContactClause) -> ContactForm<'g> {
         let [first, other] = written.links.each_ref().map(|link| link.as_ref().map(|link| link.unraw().to_string()));
         let [own, touched] = form.bodies;
-        Form { bodies: [first.or(own), other.or(touched)], ..form }
+        ContactForm { bodies: [first.or(own), other.or(touched)], ..form }
     }
 
     /// Notes friction, drilling and rolling of a shape along which nothing moves.
-    fn refuse_idle(&self, name: &str, written: &ContactClause, forms: &[Form<'g>]) {
-        if written.of_file || !matches!(written.touching, Touching::Point(_)) {
+    fn refuse_idle(&self, name: &str, written: &ContactClause, forms: &[ContactForm<'g>]) {
+        if written.of_file || !matches!(written.touching, ContactGeometry::Point(_)) {
             return;
         }
-        let idle = |of: fn(&Form<'g>) -> bool| forms.iter().all(of);
+        let idle = |of: fn(&ContactForm<'g>) -> bool| forms.iter().all(of);
         let cases = [
             (written.friction.first(), idle(|form| form.slips.is_empty()), "slips along", "friction"),
             (written.drilling.as_ref(), idle(|form| form.spin.is_none()), "spins about the normal of", "drilling"),

@@ -16,8 +16,8 @@ use crate::model::argument::{
     TORQUE, VALUE, VISCOUS, WIDTH,
 };
 use crate::model::{
-    BinaryOperator, Coefficients, CoordinateKind, ElementKind, Expression, ExpressionKind, ForceAxes, ForceClause,
-    Property, Takes,
+    ArgumentType, BinaryOperator, Coefficients, CoordinateKind, ElementKind, Expression, ExpressionKind, ForceAxes,
+    ForceClause, Property,
 };
 use crate::terms::LawKind;
 use crate::words::Unraw;
@@ -30,9 +30,9 @@ use super::value::{Local, Value};
 type Triple<'g> = [Expr<'g>; 3];
 
 /// Names of elements: given ones as they are, others by what they are, numbered from the second on.
-struct Names(HashSet<String>);
+struct ElementNames(HashSet<String>);
 
-impl Names {
+impl ElementNames {
     fn of_clause(&mut self, clause: &ForceClause) -> String {
         self.of(clause.name.as_ref(), &clause.row.word.replace('_', " "))
     }
@@ -55,7 +55,7 @@ impl<'g> Translator<'_, 'g> {
         let model = self.model;
         let given = model.forces.iter().filter_map(|clause| clause.name.as_ref());
         let given = given.chain(model.attractions.iter().filter_map(|clause| clause.name.as_ref()));
-        let mut names = Names(given.map(|name| name.unraw().to_string()).collect());
+        let mut names = ElementNames(given.map(|name| name.unraw().to_string()).collect());
         let mut elements = Vec::new();
         if let Some(potential) = &model.potential {
             let name = names.of(None, "potential");
@@ -247,7 +247,8 @@ impl<'g> Translator<'_, 'g> {
     fn constant(&self, name: &str, clause: &ForceClause, word: &str, tree: &Tree<'g>) -> Result<Expr<'g>> {
         let e = needed(clause, word)?;
         let value = self.scalar(e, tree)?;
-        if let Some(Takes::Constant { law: Some(law), .. }) = clause.find(word).map(|given| given.argument.takes) {
+        if let Some(ArgumentType::Constant { law: Some(law), .. }) = clause.find(word).map(|given| given.argument.takes)
+        {
             self.note(law, (name, word), e, vec![value]);
         }
         Ok(value)
@@ -369,7 +370,7 @@ impl<'g> Translator<'_, 'g> {
             Coefficients::Field(field) => field.unraw().to_string(),
             Coefficients::Diagonal(_) => format!("{name}.{word}"),
         };
-        if let Some(Takes::Matrix { law, .. }) = clause.find(word).map(|given| given.argument.takes) {
+        if let Some(ArgumentType::Matrix { law, .. }) = clause.find(word).map(|given| given.argument.takes) {
             self.notes.add().laws.push(Law { label, kind: law, values: rows.concat() });
         }
         Ok(Some(rows))

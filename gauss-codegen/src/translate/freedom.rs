@@ -3,11 +3,11 @@
 use crate::algebra::{Expr, Graph};
 use crate::mechanics::{Coordinate, Name};
 
-use super::symbols::Declared;
+use super::symbols::SceneSymbols;
 
 /// Coordinates, speeds and rates by which a joint that is let go moves.
 #[derive(Clone)]
-pub(super) struct LetGoBy<'g> {
+pub(super) struct FreedJoint<'g> {
     /// The name of the body or frame that it carries.
     pub link: String,
     /// Along the axes, then about them one after the other.
@@ -16,7 +16,7 @@ pub(super) struct LetGoBy<'g> {
     pub rates: [Expr<'g>; 6],
 }
 
-impl<'g> LetGoBy<'g> {
+impl<'g> FreedJoint<'g> {
     pub fn new(graph: &'g Graph, link: String) -> Self {
         let symbols = |letter: &str| {
             std::array::from_fn(|i| graph.symbol(format!("{letter}{}_{link}", i + 1), letter.to_owned(), false))
@@ -24,7 +24,7 @@ impl<'g> LetGoBy<'g> {
         Self { coordinates: symbols("x"), speeds: symbols("s"), rates: symbols("ds"), link }
     }
 
-    pub fn declare(&self, declared: &mut Declared<'g>) {
+    pub fn declare(&self, declared: &mut SceneSymbols<'g>) {
         let name = || Name::new("x", "x");
         declared.coordinates.extend(self.coordinates.map(Coordinate::Scalar));
         declared.coordinate_names.extend((0..6).map(|_| name()));

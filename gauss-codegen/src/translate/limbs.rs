@@ -6,11 +6,11 @@ use crate::model::Model;
 use crate::terms::{InputKind, Twin};
 use crate::words::Unraw;
 
-use super::symbols::Declared;
+use super::symbols::SceneSymbols;
 
 /// Coordinates, their speeds with rates and momenta, and inputs that are called as they are. Slots are those of the
 /// model, each once for every kind.
-pub fn twins<'g>(model: &Model, declared: &Declared<'g>) -> Vec<(Expr<'g>, Twin)> {
+pub fn twins<'g>(model: &Model, declared: &SceneSymbols<'g>) -> Vec<(Expr<'g>, Twin)> {
     let mut twins = Vec::new();
     let inputs = inputs(model);
     for (name, twin) in &model.limbs.coordinates {

@@ -12,7 +12,7 @@ use super::translator::{Translator, bug};
 use super::value::Value;
 
 /// Quantities that follow from mass data in clauses.
-pub(super) struct Assigned<'g> {
+pub(super) struct MassQuantities<'g> {
     /// Quantities of the body without a name, and gravity.
     pub unnamed: Vec<ClauseValue<'g>>,
     /// Clause by clause of the bodies with names.
@@ -28,7 +28,7 @@ impl<'g> Translator<'_, 'g> {
     ///
     /// # Errors
     /// Only what the model should have refused: a bug of this crate.
-    pub(super) fn mass_data(&self) -> Result<Assigned<'g>> {
+    pub(super) fn mass_data(&self) -> Result<MassQuantities<'g>> {
         let model = self.model;
         let unnamed = self.quantity_values(&model.role_clauses)?;
         let gravity = match unnamed.iter().find(|value| value.own.quantity == Role::Gravity) {
@@ -49,7 +49,7 @@ impl<'g> Translator<'_, 'g> {
             }
             named.push(own);
         }
-        Ok(Assigned { unnamed, named, gravity, bodies })
+        Ok(MassQuantities { unnamed, named, gravity, bodies })
     }
 
     /// The values of mass data in clauses.
@@ -82,7 +82,7 @@ impl<'g> Translator<'_, 'g> {
     }
 }
 
-impl<'g> Assigned<'g> {
+impl<'g> MassQuantities<'g> {
     /// Adds the bodies that have them.
     pub(super) fn of_bodies(self, model: &Model, links: &[usize]) -> MassData<'g> {
         let bodies = model.bodies.iter().zip(links).zip(self.named).map(|((clause, &link), values)| BodyData {

@@ -12,7 +12,7 @@
 //! - `forces`: loads; `contacts`: gaps, slips and their coefficients; `shapes`: those of points, spheres, boxes.
 //! - `laws`, `drag`: constants of loads, for checks and warnings.
 //! - `parameters`: what the numbers of fields are called; `state`: what coordinates and speeds are called.
-//! - `let_go`: the scene once more, with joints let go, for their reactions; `freedom`: what they move by then.
+//! - `freed_scene`: the scene once more, with joints let go, for their reactions; `freedom`: what they move by then.
 //! - `limbs`: which symbols of limbs that are alike correspond to one another.
 //! - `placements`: where bodies, frames and points are.
 //! - `readings`: names of expressions, for printed equations.
@@ -22,10 +22,10 @@ mod contacts;
 mod domains;
 mod drag;
 mod forces;
+mod freed_scene;
 mod freedom;
 mod kinematics;
 mod laws;
-mod let_go;
 mod limbs;
 mod mass_data;
 mod modes;
@@ -43,8 +43,8 @@ mod values;
 
 pub use drag::DragMatrix;
 pub use laws::Law;
-pub use parameters::Parameter;
-pub use state::{Quantity, QuantityKind};
-pub use symbols::{Part, Source};
-pub use translated::{BodyData, ClauseValue, ConstraintPlace, Given, Independent, Named, Translated};
+pub use parameters::FieldNumber;
+pub use state::{NamedQuantity, QuantityKind};
+pub use symbols::{FieldPart, ParameterSource};
+pub use translated::{BodyData, ClauseValue, ConstraintPlace, IndependentSpeeds, Provenance, SpannedName, Translated};
 pub use translator::translate;

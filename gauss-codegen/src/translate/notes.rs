@@ -11,10 +11,10 @@ use super::drag::DragMatrix;
 use super::laws::Law;
 
 /// A list of each kind, to which translation adds and from which it takes nothing away.
-pub struct Notes<'g>(RefCell<Noted<'g>>);
+pub struct Notes<'g>(RefCell<NoteLists<'g>>);
 
 #[derive(Default)]
-pub struct Noted<'g> {
+pub struct NoteLists<'g> {
     /// Literal numbers that are constants of their own.
     pub literals: Vec<(Rational, Expr<'g>)>,
     /// Symbols among these of limbs that are alike.
@@ -31,24 +31,24 @@ pub struct Noted<'g> {
 
 impl<'g> Notes<'g> {
     pub fn new(literals: Vec<(Rational, Expr<'g>)>) -> Self {
-        Self(RefCell::new(Noted { literals, ..Noted::default() }))
+        Self(RefCell::new(NoteLists { literals, ..NoteLists::default() }))
     }
 
     /// Notes with the literal numbers of others: noted more than once they would be other symbols.
     pub fn with_literals_of(other: &Self) -> Self {
-        let Noted { literals, twins, .. } = &*other.read();
-        Self(RefCell::new(Noted { literals: literals.clone(), twins: twins.clone(), ..Noted::default() }))
+        let NoteLists { literals, twins, .. } = &*other.read();
+        Self(RefCell::new(NoteLists { literals: literals.clone(), twins: twins.clone(), ..NoteLists::default() }))
     }
 
-    pub fn read(&self) -> Ref<'_, Noted<'g>> {
+    pub fn read(&self) -> Ref<'_, NoteLists<'g>> {
         self.0.borrow()
     }
 
-    pub fn add(&self) -> RefMut<'_, Noted<'g>> {
+    pub fn add(&self) -> RefMut<'_, NoteLists<'g>> {
         self.0.borrow_mut()
     }
 
-    pub fn into_inner(self) -> Noted<'g> {
+    pub fn into_inner(self) -> NoteLists<'g> {
         self.0.into_inner()
     }
 }

@@ -4,7 +4,7 @@
 use crate::algebra::{Expr, Substitution};
 use crate::error::Result;
 use crate::mechanics::{ContactFrame, Tree, add, cross, dot, subtract};
-use crate::model::{Against, BodyClause, Copies, Expression, ExpressionKind, PointContact, Property};
+use crate::model::{BodyClause, Copies, Counterpart, Expression, ExpressionKind, PointContact, Property};
 use crate::terms::{LawKind, Motion};
 use crate::words::Unraw;
 use proc_macro2::Span;
@@ -22,7 +22,7 @@ const LIMIT: usize = 400;
 pub(super) type Slips<'g> = Vec<(usize, Expr<'g>)>;
 
 /// Gap, slips and place of a contact.
-pub(super) struct Form<'g> {
+pub(super) struct ContactForm<'g> {
     pub(super) gap: Option<Expr<'g>>,
     pub(super) slips: Slips<'g>,
     /// The angular velocity about the normal, times the radius of drilling.
@@ -35,8 +35,15 @@ pub(super) struct Form<'g> {
     pub(super) bodies: [Option<String>; 2],
 }
 
+impl<'g> ContactForm<'g> {
+    /// A contact without drilling and rolling, of which no more is known.
+    pub(super) fn new(gap: Option<Expr<'g>>, slips: Slips<'g>) -> Self {
+        Self { gap, slips, spin: None, rolls: Vec::new(), frame: None, bodies: [None, None] }
+    }
+}
+
 /// Friction that a contact is to have.
-pub(super) struct Asked<'g> {
+pub(super) struct FrictionSpec<'g> {
     pub(super) rubs: bool,
     /// The radius of drilling.
     pub(super) drilling: Option<Expr<'g>>,
@@ -44,7 +51,7 @@ pub(super) struct Asked<'g> {
 }
 
 /// A place of a shape.
-struct Part<'g> {
+struct ShapePoint<'g> {
     position: Triple<'g>,
     /// The body that has it, where that is known.
     link: Option<usize>,
@@ -53,7 +60,7 @@ struct Part<'g> {
 }
 
 /// Surface about each place of a shape.
-enum About<'g> {
+enum Surface<'g> {
     /// A sphere of this radius.
     Sphere(Expr<'g>),
     /// A circle of this radius about an axis of length one, in the axes of the body.
@@ -63,7 +70,7 @@ enum About<'g> {
 }
 
 /// Counterpart of a place.
-struct Facing<'g> {
+struct GapFrame<'g> {
     /// Distance of the counterpart.
     gap: Expr<'g>,
     /// Out of it, of length one.
@@ -76,8 +83,8 @@ struct Facing<'g> {
     link: Option<usize>,
 }
 
-/// [`Facing`] as a function of the place.
-type Opposite<'a, 'g> = Box<dyn Fn(&Part<'g>) -> Facing<'g> + 'a>;
+/// [`GapFrame`] as a function of the place.
+type GapFunction<'a, 'g> = Box<dyn Fn(&ShapePoint<'g>) -> GapFrame<'g> + 'a>;
 
 impl<'g> Translator<'_, 'g> {
     /// Gap and slips of each part of a shape; no slips unless it `rubs`.
@@ -85,34 +92,34 @@ impl<'g> Translator<'_, 'g> {
         &self,
         name: &str,
         contact: &PointContact,
-        asked: &Asked<'g>,
+        asked: &FrictionSpec<'g>,
         tree: &Tree<'g>,
-    ) -> Result<Vec<Form<'g>>> {
+    ) -> Result<Vec<ContactForm<'g>>> {
         let rubs = asked.rubs;
         let about = self.about(name, contact, tree)?;
         let parts = self.parts_of(name, contact, &about, tree)?;
         let opposite = match &contact.against {
-            Against::Plane { normal, height, along } => {
+            Counterpart::Plane { normal, height, along } => {
                 self.plane(name, [normal.as_ref(), height.as_ref(), along.as_ref()], rubs, tree)?
             }
-            Against::Ground(height) => self.ground(height, rubs, tree)?,
-            Against::Sphere { center, end, radius, along } => {
+            Counterpart::Ground(height) => self.ground(height, rubs, tree)?,
+            Counterpart::Sphere { center, end, radius, along } => {
                 let radius = self.length_or_zero((name, "other_radius"), radius.as_ref(), tree)?;
                 let axis = end.as_ref().map(|end| self.axis_of_capsule([center, end], tree)).transpose()?;
                 self.sphere(name, (center, axis, radius), along.as_ref().filter(|_| rubs), tree)?
             }
         };
         let touched = match &contact.against {
-            Against::Sphere { center, .. } => self.owner(center),
-            Against::Plane { .. } | Against::Ground(_) => None,
+            Counterpart::Sphere { center, .. } => self.owner(center),
+            Counterpart::Plane { .. } | Counterpart::Ground(_) => None,
         };
-        let facing: Vec<(&Part<'g>, Facing<'g>)> = parts.iter().map(|part| (part, opposite(part))).collect();
+        let facing: Vec<(&ShapePoint<'g>, GapFrame<'g>)> = parts.iter().map(|part| (part, opposite(part))).collect();
         if let Some([rim, _]) = &contact.rim {
             self.refuse_flat((name, rim), &about, &facing, tree);
         }
-        let form = |(part, facing): &(&Part<'g>, Facing<'g>)| {
+        let form = |(part, facing): &(&ShapePoint<'g>, GapFrame<'g>)| {
             let form = self.touch((part, &about), facing, asked, tree)?;
-            Ok(Form { bodies: [part.body.clone(), touched.clone()], ..form })
+            Ok(ContactForm { bodies: [part.body.clone(), touched.clone()], ..form })
         };
         facing.iter().map(form).collect()
     }
@@ -133,20 +140,20 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// Surface about each place of a shape.
-    fn about(&self, name: &str, contact: &PointContact, tree: &Tree<'g>) -> Result<About<'g>> {
+    fn about(&self, name: &str, contact: &PointContact, tree: &Tree<'g>) -> Result<Surface<'g>> {
         if let Some(semi_axes) = &contact.semi_axes {
             let mut lengths = [self.graph.zero(); 3];
             for (length, e) in lengths.iter_mut().zip(semi_axes) {
                 *length = self.scalar(e, tree)?;
                 self.note(LawKind::Length, (name, "semi_axes"), e, vec![*length]);
             }
-            return Ok(About::Ellipsoid(lengths, semi_axes[0].span));
+            return Ok(Surface::Ellipsoid(lengths, semi_axes[0].span));
         }
         Ok(match &contact.rim {
-            None => About::Sphere(self.length_or_zero((name, "radius"), contact.radius.as_ref(), tree)?),
+            None => Surface::Sphere(self.length_or_zero((name, "radius"), contact.radius.as_ref(), tree)?),
             Some([rim, axis]) => {
                 let axis = self.direction((name, "axis"), axis, self.vector(axis, tree)?);
-                About::Rim(self.length((name, "rim"), rim, tree)?, axis)
+                Surface::Rim(self.length((name, "rim"), rim, tree)?, axis)
             }
         })
     }
@@ -156,9 +163,9 @@ impl<'g> Translator<'_, 'g> {
         &self,
         name: &str,
         contact: &PointContact,
-        about: &About<'g>,
+        about: &Surface<'g>,
         tree: &Tree<'g>,
-    ) -> Result<Vec<Part<'g>>> {
+    ) -> Result<Vec<ShapePoint<'g>>> {
         let first = self.part_at(&contact.point, tree)?;
         // Half of a length along a direction in the axes of the body, in those of the observer.
         let half = |direction: Triple<'g>, (word, length): (&str, &Expression)| {
@@ -172,7 +179,7 @@ impl<'g> Translator<'_, 'g> {
                 let edges = edges.iter().enumerate().filter(|(_, edge)| !Copies::is_flat(edge));
                 edges.map(|(k, edge)| half(self.axis(k), ("edges", edge))).collect::<Result<_>>()?
             }
-            (Copies::Rims(length), About::Rim(_, axis)) => vec![half(*axis, ("length", length))?],
+            (Copies::Rims(length), Surface::Rim(_, axis)) => vec![half(*axis, ("length", length))?],
             _ => Vec::new(),
         };
         let corner = |number: usize| {
@@ -180,29 +187,29 @@ impl<'g> Translator<'_, 'g> {
                 0 => subtract(&sum, step),
                 _ => add(&sum, step),
             });
-            Part { position: sides, link: first.link, body: first.body.clone() }
+            ShapePoint { position: sides, link: first.link, body: first.body.clone() }
         };
         Ok((0..1 << steps.len()).map(corner).collect())
     }
 
-    fn part_at(&self, point: &Expression, tree: &Tree<'g>) -> Result<Part<'g>> {
+    fn part_at(&self, point: &Expression, tree: &Tree<'g>) -> Result<ShapePoint<'g>> {
         let link = match self.value(point, tree)? {
             Value::Local(local) if local.is_point => Some(local.link),
             _ => None,
         };
-        Ok(Part { position: self.vector(point, tree)?, link, body: self.owner(point) })
+        Ok(ShapePoint { position: self.vector(point, tree)?, link, body: self.owner(point) })
     }
 
     /// A rim whose axis is always normal to the plane.
     fn refuse_flat(
         &self,
         (name, rim): (&str, &Expression),
-        about: &About<'g>,
-        facing: &[(&Part<'g>, Facing<'g>)],
+        about: &Surface<'g>,
+        facing: &[(&ShapePoint<'g>, GapFrame<'g>)],
         tree: &Tree<'g>,
     ) {
-        let About::Rim(_, axis) = about else { return };
-        let is_flat = |(part, facing): &(&Part<'g>, Facing<'g>)| {
+        let Surface::Rim(_, axis) = about else { return };
+        let is_flat = |(part, facing): &(&ShapePoint<'g>, GapFrame<'g>)| {
             part.link.is_some_and(|link| {
                 let across = cross(&tree.links[link].axes().to_space(axis), &facing.normal);
                 self.vanishes(dot(&across, &across))
@@ -222,17 +229,17 @@ impl<'g> Translator<'_, 'g> {
     /// Gap and slips of one part.
     fn touch(
         &self,
-        (part, about): (&Part<'g>, &About<'g>),
-        facing: &Facing<'g>,
-        asked: &Asked<'g>,
+        (part, about): (&ShapePoint<'g>, &Surface<'g>),
+        facing: &GapFrame<'g>,
+        asked: &FrictionSpec<'g>,
         tree: &Tree<'g>,
-    ) -> Result<Form<'g>> {
+    ) -> Result<ContactForm<'g>> {
         let n = &facing.normal;
         // From the point to where it touches: against the normal, of a rim as far as its plane allows, of an ellipsoid
         // to where the normal is its own.
         let (depth, arm) = match about {
-            About::Sphere(radius) => (*radius, n.map(|e| -*radius * e)),
-            About::Rim(rim, axis) => {
+            Surface::Sphere(radius) => (*radius, n.map(|e| -*radius * e)),
+            Surface::Rim(rim, axis) => {
                 let link = part.link.ok_or_else(|| bug(self.model.item.ident.span()))?;
                 let axis = tree.links[link].axes().to_space(axis).map(Expr::group);
                 let across = cross(&axis, n);
@@ -241,7 +248,7 @@ impl<'g> Translator<'_, 'g> {
                 let scale = (-*rim * sine.recip()).group();
                 (*rim * sine, cross(&across.map(Expr::group), &axis).map(|e| scale * e))
             }
-            About::Ellipsoid(semi_axes, span) => {
+            Surface::Ellipsoid(semi_axes, span) => {
                 let link = part.link.ok_or_else(|| bug(*span))?;
                 let axes = tree.links[link].axes();
                 // A unit sphere, stretched: its point −S n/|S n|, S n the normal times the semi-axes, is stretched too.
@@ -255,14 +262,7 @@ impl<'g> Translator<'_, 'g> {
         let gap = Some(facing.gap - depth);
         let mut frame = ContactFrame { point: add(&part.position, &arm), axes: vec![*n] };
         if facing.tangents.is_empty() {
-            return Ok(Form {
-                gap,
-                slips: Vec::new(),
-                spin: None,
-                rolls: Vec::new(),
-                frame: Some(frame),
-                bodies: [None, None],
-            });
+            return Ok(ContactForm { frame: Some(frame), ..ContactForm::new(gap, Vec::new()) });
         }
         let velocity = subtract(&self.velocity_at(part, &arm, tree), &facing.velocity);
         let slips = facing.tangents.iter().map(|tangent| dot(tangent, &velocity));
@@ -270,15 +270,15 @@ impl<'g> Translator<'_, 'g> {
         let slips: Slips<'g> = slips.enumerate().filter(|(_, slip)| !self.says_nothing(*slip, LIMIT)).collect();
         frame.axes.extend(slips.iter().map(|(k, _)| facing.tangents[*k]));
         let (spin, rolls) = self.turns([part.link, facing.link], facing, asked, tree);
-        Ok(Form { gap, slips, spin, rolls, frame: Some(frame), bodies: [None, None] })
+        Ok(ContactForm { gap, slips, spin, rolls, frame: Some(frame), bodies: [None, None] })
     }
 
     /// The rates of drilling and rolling of a body on another one, as far as they are asked for and do not vanish.
     fn turns(
         &self,
         links: [Option<usize>; 2],
-        facing: &Facing<'g>,
-        asked: &Asked<'g>,
+        facing: &GapFrame<'g>,
+        asked: &FrictionSpec<'g>,
         tree: &Tree<'g>,
     ) -> (Option<Expr<'g>>, Slips<'g>) {
         if asked.drilling.is_none() && !asked.rolls {
@@ -296,7 +296,7 @@ impl<'g> Translator<'_, 'g> {
     }
 
     /// The velocity of the point of a body that is an arm away from a part; what is in no body does not turn.
-    fn velocity_at(&self, part: &Part<'g>, arm: &Triple<'g>, tree: &Tree<'g>) -> Triple<'g> {
+    fn velocity_at(&self, part: &ShapePoint<'g>, arm: &Triple<'g>, tree: &Tree<'g>) -> Triple<'g> {
         let velocity = part.position.map(|e| e.derivative(&self.rates));
         match part.link {
             Some(link) if !arm.iter().all(|e| e.is_zero()) => {
@@ -313,7 +313,7 @@ impl<'g> Translator<'_, 'g> {
         [normal, height, along]: [Option<&Expression>; 3],
         rubs: bool,
         tree: &Tree<'g>,
-    ) -> Result<Opposite<'a, 'g>> {
+    ) -> Result<GapFunction<'a, 'g>> {
         let n = match normal {
             Some(e) => self.direction((name, "plane"), e, self.vector(e, tree)?),
             None => self.axis(self.upward()),
@@ -327,13 +327,13 @@ impl<'g> Translator<'_, 'g> {
         let tangents = first.map_or(Vec::new(), |first| vec![first, cross(&n, &first)]);
         Ok(Box::new(move |part| {
             let gap = dot(&n, &part.position) - height;
-            Facing { gap, normal: n, tangents: tangents.clone(), velocity: [self.graph.zero(); 3], link: None }
+            GapFrame { gap, normal: n, tangents: tangents.clone(), velocity: [self.graph.zero(); 3], link: None }
         }))
     }
 
     /// The ground below a height h over the horizontal place; its points move upward where h depends on time. Of
     /// a point at z, `(z − h)/√(1 + |∂h|²)` vanishes where the distance does, and has its slope there.
-    fn ground<'a>(&'a self, height: &Expression, rubs: bool, tree: &Tree<'g>) -> Result<Opposite<'a, 'g>> {
+    fn ground<'a>(&'a self, height: &Expression, rubs: bool, tree: &Tree<'g>) -> Result<GapFunction<'a, 'g>> {
         let (zero, one, up) = (self.graph.zero(), self.graph.one(), self.upward());
         let [i, j] = if up == 2 { [0, 1] } else { [0, 2] };
         let place = ["x", "y"].map(|word| self.graph.symbol(word, word, false));
@@ -353,7 +353,7 @@ impl<'g> Translator<'_, 'g> {
             (first[i], first[up]) = (along, a * along);
             let mut velocity = [zero; 3];
             velocity[up] = there.of(rises);
-            Facing {
+            GapFrame {
                 gap: (part.position[up] - there.of(height)) * steep,
                 normal,
                 tangents: if rubs { vec![first, cross(&normal, &first)] } else { Vec::new() },
@@ -390,7 +390,7 @@ impl<'g> Translator<'_, 'g> {
         (center, axis, radius): (&Expression, Option<(Triple<'g>, Expr<'g>)>, Expr<'g>),
         along: Option<&Expression>,
         tree: &'a Tree<'g>,
-    ) -> Result<Opposite<'a, 'g>> {
+    ) -> Result<GapFunction<'a, 'g>> {
         let (other, place) = (self.part_at(center, tree)?, center.span);
         let along = match along {
             Some(e) => Some((self.direction((name, "along"), e, self.vector(e, tree)?), e.span)),
@@ -417,7 +417,7 @@ impl<'g> Translator<'_, 'g> {
             let arm = foot.map_or(arm, |foot| add(&foot, &arm));
             let velocity = self.velocity_at(&other, &arm, tree);
             let (gap, link) = (distance - radius, other.link);
-            Facing { gap, normal, tangents: tangents.unwrap_or_default(), velocity, link }
+            GapFrame { gap, normal, tangents: tangents.unwrap_or_default(), velocity, link }
         }))
     }
 

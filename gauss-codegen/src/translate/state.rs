@@ -5,19 +5,19 @@ use quote::format_ident;
 
 pub use crate::description::QuantityKind;
 use crate::model::{CoordinateKind, Model, SpeedKind};
-use crate::terms::{Chart, InChart, Motion};
+use crate::terms::{BodyChart, Chart, Motion};
 use crate::words::Unraw;
 
 /// A number, a vector or an element of a group that has a name.
 #[derive(Clone)]
-pub struct Quantity {
+pub struct NamedQuantity {
     pub ident: Ident,
     pub kind: QuantityKind,
     /// Description in words.
     pub label: String,
 }
 
-impl Quantity {
+impl NamedQuantity {
     pub fn new(ident: Ident, kind: QuantityKind, label: impl Into<String>) -> Self {
         Self { ident, kind, label: label.into() }
     }
@@ -30,28 +30,28 @@ impl Quantity {
 
 /// Coordinates, with states of elements behind them, then the speeds with these indices (`None`: all), each in their
 /// order. Names may be there twice.
-pub(super) fn quantities(model: &Model, kept: Option<&[usize]>) -> [Vec<Quantity>; 2] {
+pub(super) fn quantities(model: &Model, kept: Option<&[usize]>) -> [Vec<NamedQuantity>; 2] {
     [coordinates(model), speeds(model, kept)]
 }
 
-fn coordinates(model: &Model) -> Vec<Quantity> {
+fn coordinates(model: &Model) -> Vec<NamedQuantity> {
     let named = |word: &str| Ident::new(word, Span::call_site());
     let mut parts = Vec::new();
     if let Some(own) = model.in_chart {
         match (own.coordinate_words(), own.motion) {
             (Some(words), _) => {
                 let part =
-                    |word: &String| Quantity::new(named(word), QuantityKind::Scalar, "a coordinate of the chart");
+                    |word: &String| NamedQuantity::new(named(word), QuantityKind::Scalar, "a coordinate of the chart");
                 parts.extend(words.iter().map(part));
             }
             (None, Motion::Free) => {
-                parts.push(Quantity::new(named("pose"), QuantityKind::Pose, "R and b of the body: x̂ = R x + b"))
+                parts.push(NamedQuantity::new(named("pose"), QuantityKind::Pose, "R and b of the body: x̂ = R x + b"))
             }
             (None, Motion::FixedPoint) => {
-                parts.push(Quantity::new(named("rotation"), QuantityKind::Rotation, "R of the body"));
+                parts.push(NamedQuantity::new(named("rotation"), QuantityKind::Rotation, "R of the body"));
             }
             (None, Motion::Planar) => {
-                parts.push(Quantity::new(
+                parts.push(NamedQuantity::new(
                     named("pose"),
                     QuantityKind::Plane,
                     "angle and place of the body in the plane",
@@ -65,38 +65,39 @@ fn coordinates(model: &Model) -> Vec<Quantity> {
             CoordinateKind::Pose => (QuantityKind::Pose, "coordinate: an element of SE(3)"),
             CoordinateKind::Rotation => (QuantityKind::Rotation, "coordinate: an element of SO(3)"),
         };
-        Quantity::new(coordinate.ident.clone(), kind, label)
+        NamedQuantity::new(coordinate.ident.clone(), kind, label)
     }));
     parts.extend(
         model
             .states
             .iter()
-            .map(|state| Quantity::new(state.ident.clone(), QuantityKind::Scalar, "state of an element")),
+            .map(|state| NamedQuantity::new(state.ident.clone(), QuantityKind::Scalar, "state of an element")),
     );
     parts
 }
 
 /// Speeds as they are declared; without `speeds` the rates of the coordinates. Of those that constraints determine
 /// none.
-fn speeds(model: &Model, kept: Option<&[usize]>) -> Vec<Quantity> {
-    let mut all: Vec<Quantity> = Vec::new();
-    for word in model.in_chart.map(InChart::speed_words).unwrap_or_default() {
+fn speeds(model: &Model, kept: Option<&[usize]>) -> Vec<NamedQuantity> {
+    let mut all: Vec<NamedQuantity> = Vec::new();
+    for word in model.in_chart.map(BodyChart::speed_words).unwrap_or_default() {
         match all.last_mut().filter(|last| last.ident == word) {
             Some(last) => last.kind = QuantityKind::Vector(last.size() + 1),
             None => {
                 let label = model.in_chart.map_or_else(String::new, |own| speed_label(own, &word));
-                all.push(Quantity::new(Ident::new(&word, Span::call_site()), QuantityKind::Scalar, label));
+                all.push(NamedQuantity::new(Ident::new(&word, Span::call_site()), QuantityKind::Scalar, label));
             }
         }
     }
     match &model.speeds {
         Some(speeds) => all.extend(speeds.iter().map(|speed| match speed.kind {
-            SpeedKind::Scalar => Quantity::new(speed.ident.clone(), QuantityKind::Scalar, "speed"),
-            SpeedKind::Vector => Quantity::new(speed.ident.clone(), QuantityKind::Vector(3), "speed"),
+            SpeedKind::Scalar => NamedQuantity::new(speed.ident.clone(), QuantityKind::Scalar, "speed"),
+            SpeedKind::Vector => NamedQuantity::new(speed.ident.clone(), QuantityKind::Vector(3), "speed"),
         })),
         None => all.extend(model.coordinates.iter().flat_map(|q| {
             let word = q.ident.unraw();
-            let part = |end: &str, kind, label: &str| Quantity::new(format_ident!("{}_{}", word, end), kind, label);
+            let part =
+                |end: &str, kind, label: &str| NamedQuantity::new(format_ident!("{}_{}", word, end), kind, label);
             let turns =
                 || part("omega", QuantityKind::Vector(3), &format!("angular velocity of `{word}`, in its own axes"));
             match q.kind {
@@ -116,7 +117,7 @@ fn speeds(model: &Model, kept: Option<&[usize]>) -> Vec<Quantity> {
 }
 
 /// Which velocity a speed of a chart is, and in which axes.
-fn speed_label(InChart { chart, .. }: InChart, word: &str) -> String {
+fn speed_label(BodyChart { chart, .. }: BodyChart, word: &str) -> String {
     let of = match word {
         "u" => "velocity of O, body axes",
         "xi" => "velocity of the body's point at Ω, observer's axes",
@@ -129,7 +130,7 @@ fn speed_label(InChart { chart, .. }: InChart, word: &str) -> String {
 }
 
 /// The speeds that stay where constraints are solved for the others: whole vectors, or single components.
-fn those_of(kept: &[usize], all: Vec<Quantity>) -> Vec<Quantity> {
+fn those_of(kept: &[usize], all: Vec<NamedQuantity>) -> Vec<NamedQuantity> {
     let mut next = 0;
     let mut parts = Vec::new();
     for part in all {
@@ -141,7 +142,7 @@ fn those_of(kept: &[usize], all: Vec<Quantity>) -> Vec<Quantity> {
         }
         parts.extend(own.into_iter().map(|k| {
             let ident = format_ident!("{}_{}", part.ident.unraw(), ["x", "y", "z"][k % 3]);
-            Quantity::new(ident, QuantityKind::Scalar, format!("component {k} of `{}`", part.ident))
+            NamedQuantity::new(ident, QuantityKind::Scalar, format!("component {k} of `{}`", part.ident))
         }));
     }
     parts

@@ -14,7 +14,7 @@ use super::value::Value;
 
 /// Which number of a field a symbol stands for.
 #[derive(Clone, Copy, Debug)]
-pub enum Part {
+pub enum FieldPart {
     Scalar,
     Component(usize),
     Entry(usize, usize),
@@ -24,16 +24,16 @@ pub enum Part {
 
 /// A symbol and where its value is read.
 #[derive(Clone, Copy)]
-pub struct Source<'g> {
+pub struct ParameterSource<'g> {
     pub symbol: Expr<'g>,
     /// Index of the field.
     pub field: usize,
-    pub part: Part,
+    pub part: FieldPart,
 }
 
 /// Declarations of a scene, in symbols.
 #[derive(Clone)]
-pub struct Declared<'g> {
+pub struct SceneSymbols<'g> {
     graph: &'g Graph,
     pub time: Expr<'g>,
     /// Body of the chart, whose coordinates and speeds come before the declared ones.
@@ -60,7 +60,7 @@ pub struct Declared<'g> {
     pub fields: Vec<(String, Value<'g>)>,
     /// One for each clause; none for a frame.
     pub bodies: Vec<Option<Body<'g>>>,
-    pub sources: Vec<Source<'g>>,
+    pub sources: Vec<ParameterSource<'g>>,
 }
 
 /// Number of speeds under one name.
@@ -75,7 +75,7 @@ fn symbol<'g>(graph: &'g Graph, name: &Name, constant: bool) -> Expr<'g> {
     graph.symbol(name.text.clone(), name.latex.clone(), constant)
 }
 
-fn coordinate<'g>(graph: &'g Graph, written: &model::Coordinate) -> Coordinate<'g> {
+fn coordinate<'g>(graph: &'g Graph, written: &model::CoordinateClause) -> Coordinate<'g> {
     let name = name_of(&written.ident);
     let of = |letter: &str, index: String| {
         let text = format!("{letter}{index}_{}", name.text);
@@ -144,7 +144,7 @@ fn momentum_names(model: &Model, coordinates: &[Coordinate<'_>], speed_names: &[
     speed_names.iter().enumerate().map(renamed).collect()
 }
 
-impl<'g> Declared<'g> {
+impl<'g> SceneSymbols<'g> {
     pub fn new(graph: &'g Graph, model: &Model) -> Self {
         let mut declared = Self::of_parameters(graph, model);
         let time = graph.symbol("t", "t", false);
@@ -239,12 +239,12 @@ impl<'g> Declared<'g> {
             let value = match shape {
                 Shape::Scalar => {
                     let symbol = symbol(self.graph, &name, true);
-                    self.sources.push(Source { symbol, field, part: Part::Scalar });
+                    self.sources.push(ParameterSource { symbol, field, part: FieldPart::Scalar });
                     Value::Scalar(symbol)
                 }
                 Shape::Vector3 => Value::Vector(std::array::from_fn(|i| {
                     let symbol = symbol(self.graph, &name.index(i), true);
-                    self.sources.push(Source { symbol, field, part: Part::Component(i) });
+                    self.sources.push(ParameterSource { symbol, field, part: FieldPart::Component(i) });
                     symbol
                 })),
                 Shape::Vector6 | Shape::Matrix6 => {
@@ -271,11 +271,11 @@ impl<'g> Declared<'g> {
         let mut entry = |i: usize, j: usize| {
             let (name, part) = match shape {
                 Shape::Vector6 if i != j => return zero,
-                Shape::Vector6 => (name.index(i), Part::Component(i)),
-                _ => (name.index(i).index(j), Part::Entry(i, j)),
+                Shape::Vector6 => (name.index(i), FieldPart::Component(i)),
+                _ => (name.index(i).index(j), FieldPart::Entry(i, j)),
             };
             let symbol = symbol(self.graph, &name, true);
-            self.sources.push(Source { symbol, field, part });
+            self.sources.push(ParameterSource { symbol, field, part });
             symbol
         };
         (0..6).map(|i| (0..6).map(|j| entry(i, j)).collect()).collect()
@@ -306,10 +306,10 @@ impl<'g> Declared<'g> {
                 let body = Body::named(self.graph, body_shape(has), 2, name_of(name));
                 // What the clause says of the fluid takes the place of the other symbols.
                 let of_field = |p: &&ParameterSymbol<'g>| of_field(p.quantity);
-                self.sources.extend(body.parameters.iter().filter(of_field).map(|p| Source {
+                self.sources.extend(body.parameters.iter().filter(of_field).map(|p| ParameterSource {
                     symbol: p.symbol,
                     field,
-                    part: Part::Body(p.quantity, p.row, p.column),
+                    part: FieldPart::Body(p.quantity, p.row, p.column),
                 }));
                 body
             }
@@ -340,13 +340,13 @@ impl<'g> Declared<'g> {
             let Some(field) = field(role) else { continue };
             let own: Vec<_> = body.parameters.iter().filter(|p| p.quantity == role).collect();
             let shape = fields[field].shape;
-            self.sources.extend(own.iter().map(|p| Source {
+            self.sources.extend(own.iter().map(|p| ParameterSource {
                 symbol: p.symbol,
                 field,
                 part: match shape {
-                    Shape::Scalar => Part::Scalar,
-                    Shape::Vector3 | Shape::Vector6 => Part::Component(p.row),
-                    _ => Part::Entry(p.row, p.column),
+                    Shape::Scalar => FieldPart::Scalar,
+                    Shape::Vector3 | Shape::Vector6 => FieldPart::Component(p.row),
+                    _ => FieldPart::Entry(p.row, p.column),
                 },
             }));
             if let (Role::AddedMass, Some(matrix)) = (role, &body.added_mass) {

@@ -3,31 +3,31 @@
 use proc_macro2::{Ident, Span};
 
 use crate::algebra::{Expr, Rational, Substitution};
-use crate::mechanics::{LetGo, QuantityValues, Readings, SystemScene};
+use crate::mechanics::{FreedScene, QuantityValues, Readings, SystemScene};
 use crate::terms::{Item, Role, Shape, Twin};
 use crate::words::Unraw;
 
 use super::drag::DragMatrix;
 use super::laws::Law;
-use super::parameters::Parameter;
-use super::state::Quantity;
-use super::symbols::Source;
+use super::parameters::FieldNumber;
+use super::state::NamedQuantity;
+use super::symbols::ParameterSource;
 
 /// A system in symbols.
 pub struct Translated<'g> {
     pub scene: SystemScene<'g>,
     /// The same with joints let go, where their reactions are wanted.
-    pub let_go: Option<LetGo<'g>>,
-    pub given: Given<'g>,
+    pub let_go: Option<FreedScene<'g>>,
+    pub provenance: Provenance<'g>,
 }
 
 /// Names, units and spans of a scene, for messages and print, beside its equations.
-pub struct Given<'g> {
+pub struct Provenance<'g> {
     pub item: Item,
     /// Places where the symbols of parameters are read.
-    pub sources: Vec<Source<'g>>,
+    pub sources: Vec<ParameterSource<'g>>,
     /// The numbers of fields.
-    pub parameters: Vec<Parameter<'g>>,
+    pub parameters: Vec<FieldNumber<'g>>,
     /// Literal numbers that symbols stand for.
     pub literals: Vec<(Rational, Expr<'g>)>,
     /// Symbols of limbs that are alike.
@@ -45,17 +45,17 @@ pub struct Given<'g> {
     /// The links of the frames that are wanted, in their order.
     pub frames: Vec<usize>,
     /// Names of the speeds.
-    pub speeds: Vec<Named>,
+    pub speeds: Vec<SpannedName>,
     /// Coordinates and speeds of a state.
-    pub state: [Vec<Quantity>; 2],
+    pub state: [Vec<NamedQuantity>; 2],
     /// The declared coordinates, where their rates are written. Those of a chart come before them.
-    pub rates: Vec<Named>,
+    pub rates: Vec<SpannedName>,
     /// Clause by clause.
     pub constraints: Vec<ConstraintPlace>,
     /// Clause by clause.
     pub contacts: Vec<ContactPlace>,
     /// The speeds that stay where constraints are solved for the others.
-    pub independent: Option<Independent>,
+    pub independent: Option<IndependentSpeeds>,
 }
 
 /// Mass data and gravity that are written in clauses, and the bodies that have them.
@@ -91,7 +91,7 @@ pub struct ClauseValue<'g> {
 }
 
 /// A name, and where it is written.
-pub struct Named {
+pub struct SpannedName {
     pub text: String,
     pub span: Span,
 }
@@ -118,7 +118,7 @@ pub struct ContactPlace {
 }
 
 /// The speeds that stay where constraints are solved for the others.
-pub struct Independent {
+pub struct IndependentSpeeds {
     pub kept: Vec<usize>,
     /// The first of their names.
     pub span: Span,
@@ -131,7 +131,7 @@ impl<'g> MassData<'g> {
     }
 }
 
-impl<'g> Given<'g> {
+impl<'g> Provenance<'g> {
     /// The body of that name (the unnamed one).
     pub fn body(&self, name: Option<&Ident>) -> Option<&BodyData<'g>> {
         self.mass_data.bodies.iter().find(|body| body.name.as_ref() == name)

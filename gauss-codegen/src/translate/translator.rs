@@ -8,29 +8,29 @@ use quote::format_ident;
 use crate::algebra::{Expr, Graph, Map, OwnFunction};
 use crate::error::{Error, Result};
 use crate::mechanics::{
-    Charted, ChartedBody, Constraint, ConstraintKind, Coordinate, Element, Matter, Observed, Placement, SystemScene,
-    Tree, Turn,
+    ChartedBody, ChartedLink, Constraint, ConstraintKind, Coordinate, Element, Matter, MotionSymbols, Placement,
+    SystemScene, Tree, Turn,
 };
 use crate::model::{self, ExpressionKind, Model, SpeedPart};
-use crate::terms::{InChart, InputKind, LawKind, UserFunction};
+use crate::terms::{BodyChart, InputKind, LawKind, UserFunction};
 use crate::words::Unraw;
 
-use super::freedom::LetGoBy;
+use super::freedom::FreedJoint;
 use super::laws::Law;
 use super::limbs::twins;
 use super::notes::Notes;
 use super::parameters::parameters;
 use super::state::quantities;
-use super::symbols::{self, Declared};
-use super::translated::{ConstraintPlace, ContactPlace, Given, Independent, Named, Translated};
-use super::value::{Piece, Value};
+use super::symbols::{self, SceneSymbols};
+use super::translated::{ConstraintPlace, ContactPlace, IndependentSpeeds, Provenance, SpannedName, Translated};
+use super::value::{RotationFactor, Value};
 
 /// Translates a checked system.
 ///
 /// # Errors
 /// Expressions without a value, each where it stands; what the model should have refused: a bug of this crate.
 pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> {
-    let mut declared = Declared::new(graph, model);
+    let mut declared = SceneSymbols::new(graph, model);
     let function = |clause: &UserFunction| {
         let name = clause.name.unraw().to_string();
         let index = graph.declare_function(name.clone());
@@ -48,7 +48,7 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
     translator.refuse_mistakes()?;
     let let_go = translator.let_go()?;
     let readings = translator.readings(&scene.tree);
-    let independent = model.independent.as_ref().map(|names| Independent {
+    let independent = model.independent.as_ref().map(|names| IndependentSpeeds {
         kept: translator.indices_of_speeds(names),
         span: names.first().map_or(model.item.ident.span(), |first| first.ident.span()),
     });
@@ -61,7 +61,7 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
     Ok(Translated {
         scene,
         let_go,
-        given: Given {
+        provenance: Provenance {
             parameters: parameters(&model.item.fields, &declared.sources),
             sources: declared.sources,
             literals: noted.literals,
@@ -83,8 +83,8 @@ pub fn translate<'g>(graph: &'g Graph, model: &Model) -> Result<Translated<'g>> 
     })
 }
 
-fn rate((coordinate, rate): &(Ident, model::Expression)) -> Named {
-    Named { text: coordinate.to_string(), span: rate.span }
+fn rate((coordinate, rate): &(Ident, model::Expression)) -> SpannedName {
+    SpannedName { text: coordinate.to_string(), span: rate.span }
 }
 
 fn place(clause: &model::ConstraintClause) -> ConstraintPlace {
@@ -98,19 +98,19 @@ fn place(clause: &model::ConstraintClause) -> ConstraintPlace {
 
 fn contact_place(clause: &model::ContactClause) -> ContactPlace {
     match &clause.touching {
-        model::Touching::Gap { gap, slips, spin, rolls } => ContactPlace {
+        model::ContactGeometry::Gap { gap, slips, spin, rolls } => ContactPlace {
             gap: Some(gap.span),
             slips: slips.iter().chain(spin).map(|slip| slip.span).collect(),
             rolls: rolls.iter().map(|roll| roll.span).collect(),
         },
-        model::Touching::Point(contact) => {
+        model::ContactGeometry::Point(contact) => {
             let point = contact.point.span;
             ContactPlace { gap: Some(point), slips: vec![point; 3], rolls: vec![point; 2] }
         }
-        model::Touching::Slip { slips, .. } => {
+        model::ContactGeometry::Slip { slips, .. } => {
             ContactPlace { gap: None, slips: slips.iter().map(|slip| slip.span).collect(), rolls: Vec::new() }
         }
-        model::Touching::Range { along, .. } => {
+        model::ContactGeometry::Range { along, .. } => {
             ContactPlace { gap: Some(along.span), slips: Vec::new(), rolls: Vec::new() }
         }
     }
@@ -124,7 +124,7 @@ pub(super) type ObservedRates<'g> = [Option<[Expr<'g>; 3]>; 2];
 pub(super) struct Translator<'a, 'g> {
     pub(super) graph: &'g Graph,
     pub(super) model: &'a Model,
-    pub(super) declared: &'a Declared<'g>,
+    pub(super) declared: &'a SceneSymbols<'g>,
     /// Functions that clauses declare, by name.
     pub(super) functions: &'a HashMap<String, OwnFunction>,
     pub(super) notes: &'a Notes<'g>,
@@ -141,11 +141,11 @@ pub(super) struct Translator<'a, 'g> {
     /// ḃ and ω̂ of each coordinate that is a pose or a rotation, where the kinematics give them rather than u and ω.
     pub(super) observed_rates: Vec<ObservedRates<'g>>,
     /// The motion of the only body, where it stands by symbols of its own.
-    pub(super) observed: Option<Observed<'g>>,
+    pub(super) observed: Option<MotionSymbols<'g>>,
     /// The horizontal coordinates over which a height is given, while it is translated.
     pub(super) place: Option<[Expr<'g>; 2]>,
     /// Coordinates of joints that are let go, while the scene is translated for their reactions.
-    pub(super) let_go: Vec<LetGoBy<'g>>,
+    pub(super) let_go: Vec<FreedJoint<'g>>,
 }
 
 impl<'a, 'g> Translator<'a, 'g> {
@@ -153,7 +153,7 @@ impl<'a, 'g> Translator<'a, 'g> {
     pub(super) fn new(
         graph: &'g Graph,
         model: &'a Model,
-        declared: &'a Declared<'g>,
+        declared: &'a SceneSymbols<'g>,
         functions: &'a HashMap<String, OwnFunction>,
         pi: Expr<'g>,
         notes: &'a Notes<'g>,
@@ -190,15 +190,15 @@ impl<'a, 'g> Translator<'a, 'g> {
     }
 
     /// The name of each speed, and where it is written: without `speeds` at its coordinate.
-    fn speed_names(&self) -> Vec<Named> {
+    fn speed_names(&self) -> Vec<SpannedName> {
         let idents = self.speed_idents();
         let name = |k: usize| match idents.get(k) {
-            Some(ident) => Named { text: ident.to_string(), span: ident.span() },
+            Some(ident) => SpannedName { text: ident.to_string(), span: ident.span() },
             None => {
                 let coordinate = Coordinate::of_component(&self.declared.coordinates, k);
                 let own = coordinate.checked_sub(self.declared.before).and_then(|k| self.model.coordinates.get(k));
                 let ident = own.map_or(&self.model.item.ident, |own| &own.ident);
-                Named { text: format!("d{ident}/dt"), span: ident.span() }
+                SpannedName { text: format!("d{ident}/dt"), span: ident.span() }
             }
         };
         (0..self.declared.speeds.len()).map(name).collect()
@@ -206,7 +206,7 @@ impl<'a, 'g> Translator<'a, 'g> {
 
     /// Names of the speeds as the user writes them: three for a vector.
     fn speed_idents(&self) -> Vec<Ident> {
-        let of_chart = self.model.in_chart.map(InChart::speed_words).unwrap_or_default();
+        let of_chart = self.model.in_chart.map(BodyChart::speed_words).unwrap_or_default();
         let of_chart = of_chart.into_iter().map(|word| format_ident!("{word}"));
         let own = self.model.speeds.iter().flatten();
         let own = own.flat_map(|z| std::iter::repeat_n(z.ident.clone(), symbols::size_of_speed(z.kind)));
@@ -279,13 +279,13 @@ impl<'a, 'g> Translator<'a, 'g> {
     }
 
     /// The body in the chart.
-    fn charted(&self) -> Option<Charted> {
+    fn charted(&self) -> Option<ChartedLink> {
         let clause = self.model.bodies.iter().position(|body| self.model.is_in_chart(body))?;
         if !self.let_go.is_empty() {
             return None;
         }
         let alone = self.model.chart_of_all().is_some();
-        Some(Charted { link: self.links_of_clauses[clause], own: self.model.in_chart?, alone })
+        Some(ChartedLink { link: self.links_of_clauses[clause], own: self.model.in_chart?, alone })
     }
 
     /// Loads on the only body, whose motion a chart describes: translated in terms of symbols for it, so that each
@@ -294,7 +294,7 @@ impl<'a, 'g> Translator<'a, 'g> {
         if !self.model.is_acted_upon() {
             return Ok(Vec::new());
         }
-        let observed = Observed::new(self.graph, self.declared.time);
+        let observed = MotionSymbols::new(self.graph, self.declared.time);
         let body = self.declared.bodies.first().cloned().flatten().ok_or_else(|| bug(self.model.item.ident.span()))?;
         let placement = Placement {
             matter: Matter::Body(Box::new(body)),
@@ -378,10 +378,10 @@ impl<'a, 'g> Translator<'a, 'g> {
             let word = written.ident.unraw().to_string();
             let value = match (&self.declared.coordinates[k], rate) {
                 (Coordinate::Rotation(matrix), &[w1, w2, w3]) => {
-                    Value::Rotation(vec![Piece::Given(Turn::given(*matrix, [w1, w2, w3]))])
+                    Value::Rotation(vec![RotationFactor::Given(Turn::given(*matrix, [w1, w2, w3]))])
                 }
                 (Coordinate::Pose(matrix, position), &[_, _, _, w1, w2, w3]) => {
-                    Value::Pose(Piece::Given(Turn::given(*matrix, [w1, w2, w3])), *position)
+                    Value::Pose(RotationFactor::Given(Turn::given(*matrix, [w1, w2, w3])), *position)
                 }
                 _ => continue,
             };
@@ -397,8 +397,8 @@ impl<'a, 'g> Translator<'a, 'g> {
         let mut constraints = Vec::new();
         for (clause, written) in self.model.constraints.iter().enumerate() {
             let kind = match written.kind {
-                model::ConstraintKind::Position => ConstraintKind::Position,
-                model::ConstraintKind::Velocity => ConstraintKind::Velocity,
+                model::ConstraintLevel::Position => ConstraintKind::Position,
+                model::ConstraintLevel::Velocity => ConstraintKind::Velocity,
             };
             match self.value(&written.expression, tree)?.observed() {
                 // So do some of those that a file makes of one relation.

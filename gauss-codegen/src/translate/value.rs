@@ -14,9 +14,9 @@ pub enum Value<'g> {
     /// A vector of which a link knows the components in its axes.
     Local(Local<'g>),
     /// A product.
-    Rotation(Vec<Piece<'g>>),
+    Rotation(Vec<RotationFactor<'g>>),
     /// R and b.
-    Pose(Piece<'g>, Triple<'g>),
+    Pose(RotationFactor<'g>, Triple<'g>),
     /// (u, ω), or the force and the torque of a wrench.
     Twist(Triple<'g>, Triple<'g>),
 }
@@ -100,14 +100,14 @@ impl<'g> Local<'g> {
 
 /// One factor of a rotation.
 #[derive(Clone, Copy)]
-pub enum Piece<'g> {
+pub enum RotationFactor<'g> {
     /// A turn by an angle about an axis.
     About(usize, Expr<'g>),
     /// A coordinate, or a quarter turn, whose entries are integers.
     Given(Turn<'g>),
 }
 
-impl<'g> Piece<'g> {
+impl<'g> RotationFactor<'g> {
     pub fn quarters(graph: &'g Graph, axis: usize, quarters: usize) -> Self {
         let (cos, sin) = [(1, 0), (0, 1), (-1, 0), (0, -1)][quarters % 4];
         let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -116,27 +116,27 @@ impl<'g> Piece<'g> {
         matrix[b][b] = graph.integer(cos);
         matrix[a][b] = graph.integer(-sin);
         matrix[b][a] = graph.integer(sin);
-        Piece::Given(Turn::given(matrix, [graph.zero(); 3]))
+        RotationFactor::Given(Turn::given(matrix, [graph.zero(); 3]))
     }
 
     pub fn turn(&self, graph: &'g Graph, rates: &Map<u32, Expr<'g>>) -> Turn<'g> {
         match *self {
-            Piece::About(axis, angle) => Turn::about(graph, axis, angle, rates),
-            Piece::Given(turn) => turn,
+            RotationFactor::About(axis, angle) => Turn::about(graph, axis, angle, rates),
+            RotationFactor::Given(turn) => turn,
         }
     }
 
     pub fn matrix(&self, graph: &'g Graph) -> [Triple<'g>; 3] {
         match self {
-            Piece::About(axis, angle) => about_axis(graph, *axis, *angle),
-            Piece::Given(turn) => turn.matrix,
+            RotationFactor::About(axis, angle) => about_axis(graph, *axis, *angle),
+            RotationFactor::Given(turn) => turn.matrix,
         }
     }
 
     pub fn inverse(&self) -> Self {
         match *self {
-            Piece::About(axis, angle) => Piece::About(axis, -angle),
-            Piece::Given(turn) => Piece::Given(turn.inverse()),
+            RotationFactor::About(axis, angle) => RotationFactor::About(axis, -angle),
+            RotationFactor::Given(turn) => RotationFactor::Given(turn.inverse()),
         }
     }
 }

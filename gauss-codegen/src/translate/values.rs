@@ -11,7 +11,7 @@ use crate::words::Unraw;
 
 use super::limbs;
 use super::translator::{Translator, bug};
-use super::value::{Local, Piece, Value};
+use super::value::{Local, RotationFactor, Value};
 
 type Triple<'g> = [Expr<'g>; 3];
 
@@ -206,7 +206,7 @@ impl<'g> Translator<'_, 'g> {
             Property::Position => Value::Local(Local::point(index, [self.graph.zero(); 3], link.position)),
             Property::Rotation => {
                 // Its angular velocity is not asked for: rotations of bodies are named where vectors are turned.
-                Value::Rotation(vec![Piece::Given(Turn::given(link.rotation, [self.graph.zero(); 3]))])
+                Value::Rotation(vec![RotationFactor::Given(Turn::given(link.rotation, [self.graph.zero(); 3]))])
             }
             Property::Force | Property::Torque => return Err(bug(owner.span)),
             _ => Value::Vector(self.velocity_of(index, property, tree)),
@@ -355,8 +355,8 @@ impl<'g> Translator<'_, 'g> {
         let scalar = |e: &Expression| self.scalar(e, tree);
         let turn = |axis, angle: &Expression| {
             let piece = match quarter_turns(angle) {
-                Some(quarters) => Piece::quarters(self.graph, axis, quarters),
-                None => Piece::About(axis, scalar(angle)?),
+                Some(quarters) => RotationFactor::quarters(self.graph, axis, quarters),
+                None => RotationFactor::About(axis, scalar(angle)?),
             };
             Result::Ok(Value::Rotation(vec![piece]))
         };
@@ -395,7 +395,7 @@ impl<'g> Translator<'_, 'g> {
                 Value::Twist(self.vector(linear, tree)?, self.vector(angular, tree)?)
             }
             (FunctionName::Inverse, [rotation]) => match self.value(rotation, tree)? {
-                Value::Rotation(pieces) => Value::Rotation(pieces.iter().rev().map(Piece::inverse).collect()),
+                Value::Rotation(pieces) => Value::Rotation(pieces.iter().rev().map(RotationFactor::inverse).collect()),
                 _ => return Err(bug(span)),
             },
             (FunctionName::Rate, [a]) => match self.value(a, tree)?.observed() {

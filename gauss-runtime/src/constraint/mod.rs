@@ -99,7 +99,7 @@ pub fn project<S: ConstrainedSystem>(
     q: &S::Configuration,
     z: &S::Speeds,
 ) -> Result<(S::Configuration, S::Speeds), ProjectionError> {
-    let positions = Search {
+    let positions = ProjectionSearch {
         level: ConstraintLevel::Position,
         residual: |q: &S::Configuration| system.position_residual(t, q),
         correction: |q: &S::Configuration, residual: &S::Multipliers| system.position_correction(t, q, residual),
@@ -109,7 +109,7 @@ pub fn project<S: ConstrainedSystem>(
         scalar: PhantomData,
     };
     let q = positions.settle_from_any_start(*q)?;
-    let velocities = Search {
+    let velocities = ProjectionSearch {
         level: ConstraintLevel::Velocity,
         residual: |z: &S::Speeds| system.velocity_residual(t, &q, z),
         correction: |z: &S::Speeds, residual: &S::Multipliers| system.velocity_correction(t, &q, z, residual),
@@ -136,7 +136,7 @@ fn unlike(i: usize) -> f64 {
 }
 
 /// Damped Newton's method on one level: functions for the residual, for the correction, and for moving a point.
-struct Search<T, R, C, M, N, F> {
+struct ProjectionSearch<T, R, C, M, N, F> {
     level: ConstraintLevel,
     residual: R,
     correction: C,
@@ -147,7 +147,7 @@ struct Search<T, R, C, M, N, F> {
     scalar: PhantomData<T>,
 }
 
-impl<T: Real, R, C, M, N, F> Search<T, R, C, M, N, F> {
+impl<T: Real, R, C, M, N, F> ProjectionSearch<T, R, C, M, N, F> {
     /// From `start`, and where that fails from some corrections away.
     fn settle_from_any_start<X: Copy, L: VectorSpace<T>, K: VectorSpace<T>>(
         &self,

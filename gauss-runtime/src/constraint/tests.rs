@@ -83,7 +83,7 @@ fn every_scalar_is_projected_in_its_own_precision() {
 
 #[test]
 fn derivatives_are_projected_too() {
-    let (zero, system) = (dual(0.0, 0.0), pendulum::<crate::testing::dual::Dual>(2.0));
+    let (zero, system) = (dual(0.0, 0.0), pendulum::<crate::testing::dual::TestDual>(2.0));
     // Values satisfy both levels exactly; derivatives do not: (x, y)·(dx, dy) = −0.5.
     let (q, z) = (SVector::from([dual(0.0, 0.3), dual(-1.0, 0.5)]), SVector::from([dual(2.0, 0.7), dual(0.0, 0.0)]));
     let (q, z) = system.project(zero, &q, &z).expect("satisfied");

@@ -10,12 +10,12 @@ use std::vec::Vec;
 
 use super::*;
 use crate::system::Smoothness;
-use crate::testing::oscillator::{Dry, Law, OneSided, Oscillator};
+use crate::testing::oscillator::{Dry, ForceLaw, OneSided, Oscillator};
 
 /// The same force, said to be smooth.
 struct Concealed<L>(PhantomData<L>);
 
-impl<L: Law> Law for Concealed<L> {
+impl<L: ForceLaw> ForceLaw for Concealed<L> {
     const SMOOTHNESS: Smoothness = Smoothness::Smooth;
     fn force(x: f64, v: f64) -> f64 {
         L::force(x, v)
@@ -62,7 +62,7 @@ struct Outcome {
     evaluations: u32,
 }
 
-fn outcome<L: Law>(control: impl Control<Oscillator<L>>, scene: &Scene) -> Outcome {
+fn outcome<L: ForceLaw>(control: impl Control<Oscillator<L>>, scene: &Scene) -> Outcome {
     let (system, evaluations) = (Oscillator::<L>::new(0.0), Cell::new(0));
     let mut outcome = Outcome { error: 0.0, steps: 0, evaluations: 0 };
     let drive = |_: f64, _: &SVector<f64, 1>, _: &SVector<f64, 1>| {
@@ -83,7 +83,7 @@ fn outcome<L: Law>(control: impl Control<Oscillator<L>>, scene: &Scene) -> Outco
 const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
 
 /// Both pairs at all tolerances.
-fn outcomes<L: Law>(scene: &Scene) -> Vec<(f64, Outcome)> {
+fn outcomes<L: ForceLaw>(scene: &Scene) -> Vec<(f64, Outcome)> {
     let five = TOLERANCES.map(|tolerance| (tolerance, outcome::<L>(Adaptive::new(tolerance, tolerance), scene)));
     let eight = TOLERANCES.map(|tolerance| {
         let pair = Adaptive::with(&Tableau::DORMAND_PRINCE_8, tolerance, tolerance);
@@ -98,7 +98,7 @@ fn outcomes<L: Law>(scene: &Scene) -> Vec<(f64, Outcome)> {
 /// And marking is worth it: without it the errors are several times as large (geometric mean over tolerances and pairs,
 /// because what the estimate sees of one crossing depends on where in a step it lies), for no less than two thirds of
 /// the evaluations.
-fn stays_near_tolerance<L: Law>(scene: &Scene) {
+fn stays_near_tolerance<L: ForceLaw>(scene: &Scene) {
     let (careful, careless) = (outcomes::<L>(scene), outcomes::<Concealed<L>>(scene));
     for (tolerance, Outcome { error, steps, .. }) in &careful {
         let bound = 3.0 * f64::from(*steps) * tolerance * (1.0 + scene.size);

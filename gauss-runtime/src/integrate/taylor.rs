@@ -9,7 +9,7 @@
 use core::ops::Range;
 
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::drive::cause::{Gave, Place, cause};
+use crate::integrate::drive::cause::{StopPlace, StopReason, cause};
 use crate::integrate::drive::control::{
     Control, StepCallback, StepStatistics, check_tolerances, longest, prepare, smallest, to_a_number, unresolved,
 };
@@ -203,13 +203,13 @@ impl Order {
 
 /// A step that the projection onto the constraints would move farther than its error, and that is tried again.
 #[derive(Clone, Copy, Default)]
-pub struct Shortened {
+pub struct ShortenedStep {
     /// The part of the length that the series allows, and why it is not all of it.
     reason: Option<(f64, IntegrationErrorKind)>,
     rejected: u32,
 }
 
-impl Shortened {
+impl ShortenedStep {
     /// The part of the length that is tried.
     pub fn part(&self) -> f64 {
         self.reason.map_or(1.0, |(part, _)| part)
@@ -350,28 +350,28 @@ impl<S: TaylorSystem> Control<S> for Taylor {
         let mut order = Order::new(self, self.first_order());
         let mut series = S::Series::zero();
         let (mut state, mut rates) = (start, rates);
-        let (mut guess, mut shortened) = (0.0, Shortened::default());
+        let (mut guess, mut shortened) = (0.0, ShortenedStep::default());
         loop {
             let left = (end - state.t).lane(0).abs();
-            let place =
-                Place { state: &state, rates: &rates, length: guess, left, stiff: false, lanes: 0..S::Scalar::LANES };
+            let lanes = 0..S::Scalar::LANES;
+            let place = StopPlace { state: &state, rates: &rates, length: guess, left, stiff: false, lanes };
             let gave = |gave| stopped(&state, cause(problem, &place, gave));
             if let Some(hopeless) = pace.spent(state.t.lane(0), left) {
-                return Err(gave(Gave::Out { limit, hopeless }));
+                return Err(gave(StopReason::StepLimit { limit, hopeless }));
             }
             expanded(problem, &state, order.value(), &mut series);
             let (lengths, excess) = self.lengths::<S>(&series, order.judged, direction * guess, 0..S::Scalar::LANES);
             let length = Real::exp(lengths[1]);
             // A NaN among the coefficients makes no length; where they are all zero the system is at rest.
             if length.is_nan() {
-                return Err(gave(Gave::AnyStep(IntegrationErrorKind::NonFinite { part: RunPart::Derivative })));
+                return Err(gave(StopReason::AnyStep(IntegrationErrorKind::NonFinite { part: RunPart::Derivative })));
             }
             let length = (length * shortened.part()).min(longest);
             let last = length >= left * 0.999;
             let h = if last { end - state.t } else { to_a_number(state.t, direction * length) };
             if state.t + h == state.t || !last && length <= smallest::<S::Scalar>(state.t.lane(0), span) {
                 let unresolved = unresolved::<S::Scalar>(length, state.t.lane(0), span);
-                return Err(gave(Gave::AnyStep(shortened.reason().unwrap_or(unresolved))));
+                return Err(gave(StopReason::AnyStep(shortened.reason().unwrap_or(unresolved))));
             }
             let mut reached = summed(problem, state.t, &series, order.value(), h);
             if last {
@@ -380,7 +380,7 @@ impl<S: TaylorSystem> Control<S> for Taylor {
             let next: Rates<S> = match self.accepted(problem, (&state, &rates), &mut reached) {
                 Ok(next) => next,
                 Err(kind) if shortened.again((problem, &state), 0..S::Scalar::LANES, kind) => continue,
-                Err(kind) => return Err(gave(Gave::AnyStep(kind))),
+                Err(kind) => return Err(gave(StopReason::AnyStep(kind))),
             };
             (state, rates) = (reached, next);
             if emit(&state, &rates, shortened.taken(excess)).is_break() || last {

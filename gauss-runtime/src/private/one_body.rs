@@ -102,8 +102,12 @@ pub fn configuration_of_pose<S: RigidBodySystem, const N: usize>(
     if !Configuration::is_finite(pose) {
         return Err(ChartError::NonFinite);
     }
-    let search = Search { system, t, pose, twists };
-    let mut best = Found { q: start, off: S::Scalar::from_f64(f64::INFINITY), far: S::Scalar::from_f64(f64::INFINITY) };
+    let search = PoseSearch { system, t, pose, twists };
+    let mut best = NearestConfiguration {
+        q: start,
+        off: S::Scalar::from_f64(f64::INFINITY),
+        far: S::Scalar::from_f64(f64::INFINITY),
+    };
     for attempt in 0..STARTS {
         let mut scattered = Tangent::<S>::zero();
         (0..N).for_each(|k| scattered.set_component(k, S::Scalar::from_f64(scatter(attempt, k))));
@@ -124,13 +128,13 @@ fn scatter(attempt: usize, component: usize) -> f64 {
 }
 
 /// A configuration, what its pose is off in roundings, and as an angle or a length.
-struct Found<S: RigidBodySystem> {
+struct NearestConfiguration<S: RigidBodySystem> {
     q: S::Configuration,
     off: S::Scalar,
     far: S::Scalar,
 }
 
-impl<S: RigidBodySystem> Found<S> {
+impl<S: RigidBodySystem> NearestConfiguration<S> {
     /// The nearer one, lane by lane.
     fn or(self, other: Self) -> Self {
         let pick = |new, old| S::Scalar::select_lt(other.off, self.off, new, old);
@@ -151,14 +155,14 @@ fn chosen<S: RigidBodySystem>(
     S::Configuration::from_components(&components)
 }
 
-struct Search<'a, S: RigidBodySystem, F> {
+struct PoseSearch<'a, S: RigidBodySystem, F> {
     system: &'a S,
     t: S::Scalar,
     pose: &'a Isometry3<S::Scalar>,
     twists: F,
 }
 
-impl<S: RigidBodySystem, F, const N: usize> Search<'_, S, F>
+impl<S: RigidBodySystem, F, const N: usize> PoseSearch<'_, S, F>
 where
     F: Fn(&S::Configuration) -> [Twist<S::Scalar>; N],
 {
@@ -167,7 +171,7 @@ where
         Configuration::difference(&self.system.pose(self.t, q), self.pose).data.0[0]
     }
 
-    fn descended(&self, mut q: S::Configuration) -> Found<S> {
+    fn descended(&self, mut q: S::Configuration) -> NearestConfiguration<S> {
         let (zero, one) = (S::Scalar::zero(), S::Scalar::one());
         let (mut missing, mut part) = (self.missing(&q), one);
         let mut polished = 0;
@@ -192,7 +196,7 @@ where
         }
         let norm = |a: &[S::Scalar]| a.iter().fold(zero, |sum, &x| x.fma(x, sum)).sqrt();
         let (u, omega) = (norm(&missing[..3]), norm(&missing[3..]));
-        Found { off: self.off(&q, missing), q, far: S::Scalar::select_lt(u, omega, omega, u) }
+        NearestConfiguration { off: self.off(&q, missing), q, far: S::Scalar::select_lt(u, omega, omega, u) }
     }
 
     /// The difference from the pose in units of rounding of its terms: b, and the contribution of each coordinate.

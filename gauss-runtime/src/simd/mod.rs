@@ -26,7 +26,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use crate::real::Real;
 use together::{
-    Choice, Difference, Finite, Less, Magnitude, Operation, Opposite, Product, ProductAndSum, Quotient, Reciprocal,
+    Choice, Difference, Finite, LessThan, Magnitude, Operation, Opposite, Product, ProductAndSum, Quotient, Reciprocal,
     Root, Sum,
 };
 
@@ -227,7 +227,7 @@ impl<T: Real + Packed, const N: usize> Real for Lanes<T, N> {
 
     #[inline(always)]
     fn all_lt(a: Self, b: Self) -> bool {
-        T::all_together::<Less, N>([&a.0, &b.0])
+        T::all_together::<LessThan, N>([&a.0, &b.0])
     }
 }
 

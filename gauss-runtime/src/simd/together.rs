@@ -65,9 +65,9 @@ impl Question for Finite {
     }
 }
 
-pub(super) struct Less;
+pub(super) struct LessThan;
 
-impl Question for Less {
+impl Question for LessThan {
     #[inline(always)]
     fn of<V: Real>([a, b]: [V; 2]) -> bool {
         V::all_lt(a, b)

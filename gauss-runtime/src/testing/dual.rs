@@ -6,25 +6,25 @@ use crate::real::Real;
 
 /// `value + ε rate` with ε² = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Dual {
+pub(crate) struct TestDual {
     pub(crate) value: f64,
     pub(crate) rate: f64,
 }
 
-pub(crate) const fn dual(value: f64, rate: f64) -> Dual {
-    Dual { value, rate }
+pub(crate) const fn dual(value: f64, rate: f64) -> TestDual {
+    TestDual { value, rate }
 }
 
 macro_rules! arithmetic {
     ($($trait:ident $method:ident $assign_trait:ident $assign:ident: |$a:ident, $b:ident| $value:expr, $rate:expr;)+) => {$(
-        impl $trait for Dual {
+        impl $trait for TestDual {
             type Output = Self;
             fn $method(self, other: Self) -> Self {
                 let ($a, $b) = (self, other);
                 dual($value, $rate)
             }
         }
-        impl $assign_trait for Dual {
+        impl $assign_trait for TestDual {
             fn $assign(&mut self, other: Self) {
                 *self = self.$method(other);
             }
@@ -39,7 +39,7 @@ arithmetic! {
     Div div DivAssign div_assign: |a, b| a.value / b.value, (a.rate - a.value / b.value * b.rate) / b.value;
 }
 
-impl Neg for Dual {
+impl Neg for TestDual {
     type Output = Self;
     fn neg(self) -> Self {
         dual(-self.value, -self.rate)
@@ -55,7 +55,7 @@ macro_rules! functions {
     )+};
 }
 
-impl Real for Dual {
+impl Real for TestDual {
     const LANES: usize = 1;
     fn lane(self, _: usize) -> f64 {
         self.value

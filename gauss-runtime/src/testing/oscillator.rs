@@ -11,7 +11,7 @@ use crate::system::{GaussSystem, Smoothness};
 type One = SVector<f64, 1>;
 
 /// A force that depends on position and velocity.
-pub(crate) trait Law {
+pub(crate) trait ForceLaw {
     const SMOOTHNESS: Smoothness;
     fn force(x: f64, v: f64) -> f64;
 }
@@ -19,7 +19,7 @@ pub(crate) trait Law {
 /// −0.3 v.
 pub(crate) struct Viscous;
 
-impl Law for Viscous {
+impl ForceLaw for Viscous {
     const SMOOTHNESS: Smoothness = Smoothness::Smooth;
     fn force(_: f64, v: f64) -> f64 {
         -0.3 * v
@@ -29,7 +29,7 @@ impl Law for Viscous {
 /// A second spring of stiffness 8 for x > 0 only.
 pub(crate) struct OneSided;
 
-impl Law for OneSided {
+impl ForceLaw for OneSided {
     const SMOOTHNESS: Smoothness = Smoothness::Kinks;
     fn force(x: f64, _: f64) -> f64 {
         -8.0 * x.max(0.0)
@@ -39,7 +39,7 @@ impl Law for OneSided {
 /// Dry friction of size ½.
 pub(crate) struct Dry;
 
-impl Law for Dry {
+impl ForceLaw for Dry {
     const SMOOTHNESS: Smoothness = Smoothness::Jumps;
     fn force(_: f64, v: f64) -> f64 {
         -0.5 * crate::real::Real::signum(v)
@@ -63,7 +63,7 @@ impl<L> Oscillator<L> {
     }
 }
 
-impl<L: Law> ForcedSystem for Oscillator<L> {
+impl<L: ForceLaw> ForcedSystem for Oscillator<L> {
     type Powers = SVector<f64, 3>;
     type ElementForces = SMatrix<f64, 1, 3>;
     const ELEMENTS: &'static [Element] =
@@ -80,7 +80,7 @@ impl<L: Law> ForcedSystem for Oscillator<L> {
     }
 }
 
-impl<L: Law> GaussSystem for Oscillator<L> {
+impl<L: ForceLaw> GaussSystem for Oscillator<L> {
     type Scalar = f64;
     type Configuration = One;
     type Speeds = One;

@@ -4,10 +4,10 @@ use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use gauss_runtime::integrate::adams::{Adams, Ahead, History, begin, multistep, point};
-use gauss_runtime::integrate::drive::cause::Gave;
+use gauss_runtime::integrate::adams::{Adams, History, StartingStates, begin, multistep, point};
+use gauss_runtime::integrate::drive::cause::StopReason;
 use gauss_runtime::integrate::drive::fixed::Advanced;
-use gauss_runtime::integrate::problem::called::Called;
+use gauss_runtime::integrate::problem::called_equations::CalledEquations;
 use gauss_runtime::integrate::problem::equations::Problem;
 use gauss_runtime::integrate::problem::error::IntegrationErrorKind;
 use gauss_runtime::integrate::problem::state::{Rates, State};
@@ -15,7 +15,7 @@ use gauss_runtime::integrate::runge_kutta::components::{ComponentsOf, Point};
 use gauss_runtime::simd::Packed;
 use gauss_runtime::system::GaussSystem;
 
-use super::fixed::{Advance, Lane, March, Trial};
+use super::fixed::{Advance, FixedLane, March, Trial};
 use super::system::BatchSystem;
 use super::{Group, LaneControl, Sealed, Verdict, chosen, chosen_rates, chosen_state, number, ones_in};
 
@@ -33,7 +33,7 @@ fn chosen_point<S: BatchSystem>(ones: S::Scalar, new: &PointOf<S>, old: &PointOf
 }
 
 #[doc(hidden)]
-pub struct Memory<S: BatchSystem, const K: usize> {
+pub struct AdamsMemory<S: BatchSystem, const K: usize> {
     march: March<S>,
     steps: Box<Steps<S, K>>,
 }
@@ -74,10 +74,10 @@ impl<S: BatchSystem, const K: usize> Steps<S, K> {
         problem: &P,
         (state, rates): (&State<S>, &Rates<S>),
         h: S::Scalar,
-        lanes: &[Lane],
+        lanes: &[FixedLane],
         newest: &PointOf<S>,
     ) -> Result<Advanced<S>, IntegrationErrorKind> {
-        let problem = &Called(problem);
+        let problem = &CalledEquations(problem);
         self.look_ahead(problem, (state, rates), h, lanes)?;
         let way = |n: usize| {
             let one_length = (number(h, n).abs() - self.length).abs() <= 1e-6 * self.length;
@@ -121,16 +121,16 @@ impl<S: BatchSystem, const K: usize> Steps<S, K> {
         problem: &P,
         (state, rates): (&State<S>, &Rates<S>),
         h: S::Scalar,
-        lanes: &[Lane],
+        lanes: &[FixedLane],
     ) -> Result<(), IntegrationErrorKind> {
         let starts = |n: usize| lanes[n].steps && lanes[n].made == 0;
-        let may = |n: usize| starts(n) && Ahead::<S, K>::serves(lanes[n].all);
+        let may = |n: usize| starts(n) && StartingStates::<S, K>::serves(lanes[n].all);
         (0..lanes.len()).filter(|&n| starts(n)).for_each(|n| self.looked[n] = false);
         if !(0..lanes.len()).any(may) {
             return Ok(());
         }
         let ones = ones_in::<S::Scalar>(may);
-        match Ahead::<S, K>::of(problem, state, rates, ones * h) {
+        match StartingStates::<S, K>::of(problem, state, rates, ones * h) {
             Ok(ahead) => {
                 self.ahead.resize(K - 1, (*state, *rates));
                 for (made, (state, rates)) in self.ahead.iter_mut().enumerate() {
@@ -158,7 +158,7 @@ impl<S: BatchSystem, const K: usize> Advance<S> for Steps<S, K> {
         problem: &P,
         (state, rates): (&State<S>, &Rates<S>),
         trial: &Trial<S::Scalar>,
-        lanes: &[Lane],
+        lanes: &[FixedLane],
     ) -> Result<Advanced<S>, IntegrationErrorKind> {
         let newest = point::<S>(&state.q, rates);
         self.history.put(&newest);
@@ -185,10 +185,10 @@ impl<S: BatchSystem, const K: usize> Advance<S> for Steps<S, K> {
 impl<T, const K: usize> Sealed for Adams<T, K> {}
 
 impl<S: BatchSystem, const K: usize> LaneControl<S> for Adams<S::Scalar, K> {
-    type Memory = Memory<S, K>;
+    type Memory = AdamsMemory<S, K>;
     const PACED: bool = false;
 
-    fn memory(&self, span: f64, _: u64) -> Result<Memory<S, K>, IntegrationErrorKind> {
+    fn memory(&self, span: f64, _: u64) -> Result<AdamsMemory<S, K>, IntegrationErrorKind> {
         let march = March::new(self.step, span)?;
         let steps = Box::new(Steps {
             length: march.length(),
@@ -197,7 +197,7 @@ impl<S: BatchSystem, const K: usize> LaneControl<S> for Adams<S::Scalar, K> {
             ahead: Vec::new(),
             looked: vec![false; S::Scalar::WIDTH],
         });
-        Ok(Memory { march, steps })
+        Ok(AdamsMemory { march, steps })
     }
 
     fn begin<P: Problem<System = S>>(
@@ -205,7 +205,7 @@ impl<S: BatchSystem, const K: usize> LaneControl<S> for Adams<S::Scalar, K> {
         _: &P,
         group: &Group<S>,
         (lane, limit): (usize, u64),
-        memory: &mut Memory<S, K>,
+        memory: &mut AdamsMemory<S, K>,
     ) -> Result<(), IntegrationErrorKind> {
         memory.march.begin(group, lane, limit)
     }
@@ -216,7 +216,7 @@ impl<S: BatchSystem, const K: usize> LaneControl<S> for Adams<S::Scalar, K> {
         problem: &P,
         group: &mut Group<S>,
         who: &[bool],
-        memory: &mut Memory<S, K>,
+        memory: &mut AdamsMemory<S, K>,
     ) -> Result<(), IntegrationErrorKind> {
         memory.steps.known.clear();
         memory.march.attempt(&mut *memory.steps, problem, group, who)
@@ -227,12 +227,12 @@ impl<S: BatchSystem, const K: usize> LaneControl<S> for Adams<S::Scalar, K> {
         _: (&P, &Group<S>),
         _: usize,
         kind: IntegrationErrorKind,
-        _: &mut Memory<S, K>,
+        _: &mut AdamsMemory<S, K>,
     ) -> Verdict {
-        Verdict::Gave(Gave::Step(kind))
+        Verdict::Stopped(StopReason::Step(kind))
     }
 
-    fn length(&self, _: usize, memory: &Memory<S, K>) -> f64 {
+    fn length(&self, _: usize, memory: &AdamsMemory<S, K>) -> f64 {
         memory.march.length()
     }
 

@@ -4,17 +4,17 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use gauss_runtime::integrate::drive::adaptive::{Adaptive, ROUNDED};
-use gauss_runtime::integrate::drive::cause::{Gave, change};
+use gauss_runtime::integrate::drive::cause::{StopReason, change};
 use gauss_runtime::integrate::drive::control::{
     StepStatistics, check_tolerances, longest, smallest, to_a_number, unresolved,
 };
 use gauss_runtime::integrate::drive::logarithms::{exponential, logarithm};
 use gauss_runtime::integrate::drive::looks::Looks;
 use gauss_runtime::integrate::drive::projection::{AVOIDED, accept, check_move, clear_part, is_hopeless};
-use gauss_runtime::integrate::drive::search::Made;
+use gauss_runtime::integrate::drive::search::StepEnds;
 use gauss_runtime::integrate::drive::step_length::StepLength;
 use gauss_runtime::integrate::drive::tolerance::{Floor, Tolerance, Trial};
-use gauss_runtime::integrate::problem::called::Called;
+use gauss_runtime::integrate::problem::called_equations::CalledEquations;
 use gauss_runtime::integrate::problem::equations::Problem;
 use gauss_runtime::integrate::problem::error::IntegrationErrorKind;
 use gauss_runtime::integrate::problem::state::{Rates, State};
@@ -27,7 +27,7 @@ use super::{Group, LaneControl, Sealed, Verdict, chosen_rates, chosen_state, lar
 
 /// Memory of one lane: the fields of the same names of a run of its own.
 #[derive(Clone, Copy)]
-struct Lane {
+struct AdaptiveLane {
     length: f64,
     lengths: StepLength,
     looks: Looks,
@@ -43,7 +43,7 @@ struct Lane {
     shorter: Option<f64>,
 }
 
-impl Lane {
+impl AdaptiveLane {
     /// Whether the error of the trial is too large.
     fn rejects(&self) -> bool {
         self.error.is_nan() || self.error > self.lengths.limit()
@@ -51,13 +51,13 @@ impl Lane {
 }
 
 #[doc(hidden)]
-pub struct Memory<S: BatchSystem> {
-    lanes: Vec<Lane>,
+pub struct AdaptiveMemory<S: BatchSystem> {
+    lanes: Vec<AdaptiveLane>,
     floor: Option<Floor<S>>,
     longest: f64,
 }
 
-impl<S: BatchSystem> Memory<S> {
+impl<S: BatchSystem> AdaptiveMemory<S> {
     /// The lengths of the steps to try, with their signs and without; lanes that cannot make one are told so.
     #[inline(always)]
     fn lengths(&mut self, group: &mut Group<S>, who: &[bool]) -> (S::Scalar, S::Scalar) {
@@ -77,7 +77,7 @@ impl<S: BatchSystem> Memory<S> {
             let signed = if lane.last { rest.extract(n) } else { to_a_number(t, length) };
             if t + signed == t || !lane.last && lane.length <= smallest::<S::Scalar>(t.lane(0), group.span) {
                 let vanishes = unresolved::<S::Scalar>(lane.length, t.lane(0), group.span);
-                group.verdicts[n] = Verdict::Gave(Gave::AnyStep(vanishes));
+                group.verdicts[n] = Verdict::Stopped(StopReason::AnyStep(vanishes));
                 continue;
             }
             lane.used = if lane.last { left } else { lane.length };
@@ -90,7 +90,7 @@ impl<S: BatchSystem> Memory<S> {
     /// Measures what rounding does at the state in the lanes that are asked for.
     #[cold]
     #[inline(never)]
-    fn look<P: Problem<System = S>>(&mut self, problem: &P, group: &Group<S>, asked: impl Fn(&Lane) -> bool) {
+    fn look<P: Problem<System = S>>(&mut self, problem: &P, group: &Group<S>, asked: impl Fn(&AdaptiveLane) -> bool) {
         let here = Floor::at(problem, &group.state, &group.rates);
         let ones = ones_in::<S::Scalar>(|lane| asked(&self.lanes[lane]));
         self.floor = Some(self.floor.take().unwrap_or_else(Floor::none).or(ones, &here));
@@ -108,7 +108,8 @@ impl<S: BatchSystem> Memory<S> {
         let mut too_long = false;
         for (n, lane) in self.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.used > 0.0 && !lane.rejects()) {
             if lane.shorter.is_none() && lane.looks.want(number(group.state.t, n), lane.used, lane.error) {
-                let made = Made { lane: numbers_of::<S::Scalar>(n).start, before: (&group.state, &group.rates), after };
+                let made =
+                    StepEnds { lane: numbers_of::<S::Scalar>(n).start, before: (&group.state, &group.rates), after };
                 lane.shorter = lane.looks.unseen(problem, &made, tolerance);
                 too_long |= lane.shorter.is_some();
             }
@@ -132,7 +133,7 @@ impl<S: BatchSystem> Memory<S> {
     /// Takes lanes whose step is not taken back to its start; the others are 1.
     #[cold]
     fn hold_back(&self, group: &Group<S>, reached: &mut State<S>, next: &mut Rates<S>) -> S::Scalar {
-        let takes = |lane: &Lane| lane.used > 0.0 && !lane.rejects() && lane.shorter.is_none();
+        let takes = |lane: &AdaptiveLane| lane.used > 0.0 && !lane.rejects() && lane.shorter.is_none();
         let ones = ones_in(|n| takes(&self.lanes[n]));
         *reached = chosen_state(ones, reached, &group.state);
         *next = chosen_rates(ones, next, &group.rates);
@@ -205,7 +206,7 @@ const TOGETHER: usize = 8;
 /// Ratios of rounding to the tolerance in some lanes, the first of which is given; 0 where rounding is not more.
 #[cold]
 #[inline(never)]
-fn excesses<T: Real + Packed<Single: Real>>(floors: T, first: usize, lanes: &[Lane]) -> [f64; TOGETHER] {
+fn excesses<T: Real + Packed<Single: Real>>(floors: T, first: usize, lanes: &[AdaptiveLane]) -> [f64; TOGETHER] {
     core::array::from_fn(|n| match lanes.get(n) {
         Some(lane) if lane.floored => Some(largest(floors, first + n)).filter(|&beyond| beyond > 1.0).unwrap_or(0.0),
         _ => 0.0,
@@ -214,7 +215,7 @@ fn excesses<T: Real + Packed<Single: Real>>(floors: T, first: usize, lanes: &[La
 
 /// Logarithms of errors, and the factors that the controller makes of them.
 #[inline(always)]
-fn growths(lanes: &[Lane], excesses: &Option<[f64; TOGETHER]>) -> ([f64; TOGETHER], [f64; TOGETHER]) {
+fn growths(lanes: &[AdaptiveLane], excesses: &Option<[f64; TOGETHER]>) -> ([f64; TOGETHER], [f64; TOGETHER]) {
     let mut values = [1.0; TOGETHER];
     for (n, (value, lane)) in values.iter_mut().zip(lanes).enumerate() {
         let excess = excesses.map_or(0.0, |excesses| excesses[n]);
@@ -240,13 +241,13 @@ fn growths(lanes: &[Lane], excesses: &Option<[f64; TOGETHER]>) -> ([f64; TOGETHE
 impl<M> Sealed for Adaptive<M> {}
 
 impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
-    type Memory = Memory<S>;
+    type Memory = AdaptiveMemory<S>;
 
-    fn memory(&self, span: f64, limit: u64) -> Result<Memory<S>, IntegrationErrorKind> {
+    fn memory(&self, span: f64, limit: u64) -> Result<AdaptiveMemory<S>, IntegrationErrorKind> {
         check_tolerances(self.tolerance.relative, self.tolerance.absolute)?;
         Looks::check(self.input_changes)?;
         let longest = if span == 0.0 { 0.0 } else { longest(self.largest_step, span, limit)? };
-        let lane = Lane {
+        let lane = AdaptiveLane {
             length: 0.0,
             lengths: StepLength::new(self.method.estimate_order(), S::SMOOTHNESS),
             looks: Looks::new(self.input_changes, 0.0, span),
@@ -258,7 +259,7 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
             error: 0.0,
             shorter: None,
         };
-        Ok(Memory { lanes: vec![lane; S::Scalar::WIDTH], floor: None, longest })
+        Ok(AdaptiveMemory { lanes: vec![lane; S::Scalar::WIDTH], floor: None, longest })
     }
 
     fn begin<P: Problem<System = S>>(
@@ -266,7 +267,7 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         problem: &P,
         group: &Group<S>,
         (lane, _): (usize, u64),
-        memory: &mut Memory<S>,
+        memory: &mut AdaptiveMemory<S>,
     ) -> Result<(), IntegrationErrorKind> {
         let lanes = (ones_in(|other| other == lane), numbers_of::<S::Scalar>(lane));
         let start = (&group.state, &group.rates);
@@ -292,10 +293,10 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         problem: &P,
         group: &mut Group<S>,
         who: &[bool],
-        memory: &mut Memory<S>,
+        memory: &mut AdaptiveMemory<S>,
     ) -> Result<(), IntegrationErrorKind> {
         let (h, lengths) = memory.lengths(group, who);
-        let called = Called(problem);
+        let called = CalledEquations(problem);
         let (step, coarse) = self.method.step_and_estimates(&called, &group.state, &group.rates, h)?;
         let tolerance = &self.tolerance;
         let measured = |change: &Rates<S>| problem.change_of_speeds(&step.state, change);
@@ -340,7 +341,7 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         }
         let computed = reached;
         let mut next = accept(problem, (&group.state, &group.rates), &mut reached, step.rates)?;
-        let ends = |memory: &mut Memory<S>| {
+        let ends = |memory: &mut AdaptiveMemory<S>| {
             let trial = Trial { from: &group.state, to: &reached, length: lengths, floor: None };
             check_move(tolerance, problem, &trial, &computed).map(|moved| memory.look_at_ends(problem, &trial, &moved))
         };
@@ -362,7 +363,7 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         (problem, group): (&P, &Group<S>),
         n: usize,
         kind: IntegrationErrorKind,
-        memory: &mut Memory<S>,
+        memory: &mut AdaptiveMemory<S>,
     ) -> Verdict {
         let lane = &mut memory.lanes[n];
         lane.length = StepLength::part(&kind) * lane.length.min(group.left(n));
@@ -374,10 +375,10 @@ impl<S: BatchSystem, M: EstimatingStep<S>> LaneControl<S> for Adaptive<M> {
         let h = <S::Scalar as Packed>::Single::from_f64(if group.span < 0.0 { -lane.length } else { lane.length });
         let vanishes = lane.length <= smallest::<S::Scalar>(t.lane(0), group.span) || t + h == t;
         let hopeless = || is_hopeless(problem, &group.state, numbers_of::<S::Scalar>(n), (&kind, lane.rejected));
-        if still || vanishes || hopeless() { Verdict::Gave(Gave::AnyStep(kind)) } else { Verdict::Rejected }
+        if still || vanishes || hopeless() { Verdict::Stopped(StopReason::AnyStep(kind)) } else { Verdict::Rejected }
     }
 
-    fn length(&self, lane: usize, memory: &Memory<S>) -> f64 {
+    fn length(&self, lane: usize, memory: &AdaptiveMemory<S>) -> f64 {
         memory.lanes[lane].length
     }
 

@@ -3,11 +3,11 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use gauss_runtime::integrate::drive::cause::Gave;
+use gauss_runtime::integrate::drive::cause::StopReason;
 use gauss_runtime::integrate::drive::control::StepStatistics;
 use gauss_runtime::integrate::drive::fixed::{Advanced, Fixed, further, steps_within};
 use gauss_runtime::integrate::drive::projection::accept;
-use gauss_runtime::integrate::problem::called::Called;
+use gauss_runtime::integrate::problem::called_equations::CalledEquations;
 use gauss_runtime::integrate::problem::equations::Problem;
 use gauss_runtime::integrate::problem::error::IntegrationErrorKind;
 use gauss_runtime::integrate::problem::state::{Rates, State};
@@ -20,7 +20,7 @@ use super::{Group, LaneControl, Sealed, Verdict, chosen_state, number, ones_in};
 
 /// Progress of a lane on its way.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Lane {
+pub(super) struct FixedLane {
     /// Steps that it has made since it began, and how many there are.
     pub(super) made: u64,
     pub(super) all: u64,
@@ -28,7 +28,7 @@ pub(super) struct Lane {
     pub(super) steps: bool,
 }
 
-impl Lane {
+impl FixedLane {
     fn is_last(&self) -> bool {
         self.made + 1 == self.all
     }
@@ -64,7 +64,7 @@ pub(super) trait Advance<S: BatchSystem> {
         problem: &P,
         from: (&State<S>, &Rates<S>),
         trial: &Trial<S::Scalar>,
-        lanes: &[Lane],
+        lanes: &[FixedLane],
     ) -> Result<Advanced<S>, IntegrationErrorKind>;
 
     /// The step stands, with these derivatives at its end; `alone`: in some lanes that have runs and not in others.
@@ -74,7 +74,7 @@ pub(super) trait Advance<S: BatchSystem> {
 /// Lanes on their way by steps of one length.
 #[doc(hidden)]
 pub struct March<S: BatchSystem> {
-    lanes: Vec<Lane>,
+    lanes: Vec<FixedLane>,
     starts: S::Scalar,
     length: S::Scalar,
 }
@@ -87,7 +87,7 @@ impl<S: BatchSystem> March<S> {
             return Err(IntegrationErrorKind::InvalidStep { step: first });
         }
         let length = if (span < 0.0) == (first < 0.0) { step } else { -step };
-        Ok(Self { lanes: vec![Lane::default(); S::Scalar::WIDTH], starts: S::Scalar::zero(), length })
+        Ok(Self { lanes: vec![FixedLane::default(); S::Scalar::WIDTH], starts: S::Scalar::zero(), length })
     }
 
     pub(super) fn length(&self) -> f64 {
@@ -98,7 +98,7 @@ impl<S: BatchSystem> March<S> {
     pub(super) fn begin(&mut self, group: &Group<S>, lane: usize, limit: u64) -> Result<(), IntegrationErrorKind> {
         let time = further(number(group.state.t, lane), number(group.end, lane));
         let all = steps_within::<S::Scalar>(group.left(lane), time, self.length(), limit)?;
-        self.lanes[lane] = Lane { made: 0, all, steps: false };
+        self.lanes[lane] = FixedLane { made: 0, all, steps: false };
         self.starts.replace(lane, &group.state.t.extract(lane));
         Ok(())
     }
@@ -210,9 +210,9 @@ impl<S: BatchSystem, M: OneStep<S>> Advance<S> for One<'_, M> {
         problem: &P,
         (state, rates): (&State<S>, &Rates<S>),
         trial: &Trial<S::Scalar>,
-        _: &[Lane],
+        _: &[FixedLane],
     ) -> Result<Advanced<S>, IntegrationErrorKind> {
-        self.0.step(&Called(problem), state, rates, trial.h).map(|step| (step.state, step.rates))
+        self.0.step(&CalledEquations(problem), state, rates, trial.h).map(|step| (step.state, step.rates))
     }
 
     #[inline(always)]
@@ -259,7 +259,7 @@ impl<S: BatchSystem, M: OneStep<S>> LaneControl<S> for Fixed<S::Scalar, M> {
         kind: IntegrationErrorKind,
         _: &mut March<S>,
     ) -> Verdict {
-        Verdict::Gave(Gave::Step(kind))
+        Verdict::Stopped(StopReason::Step(kind))
     }
 
     fn length(&self, _: usize, march: &March<S>) -> f64 {

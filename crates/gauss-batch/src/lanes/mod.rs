@@ -19,7 +19,7 @@ pub use system::{BatchSystem, SingleConfiguration, SingleSpeeds};
 use alloc::vec::Vec;
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::integrate::drive::cause::Gave;
+use gauss_runtime::integrate::drive::cause::StopReason;
 use gauss_runtime::integrate::drive::control::{Control, StepStatistics};
 use gauss_runtime::integrate::drive::tolerance::worst_lane;
 use gauss_runtime::integrate::problem::equations::Problem;
@@ -99,7 +99,7 @@ pub enum Verdict {
     /// It stands; whether it was the last one.
     Taken(StepStatistics, bool),
     /// There will be no other.
-    Gave(Gave),
+    Stopped(StopReason),
 }
 
 /// Runs in lockstep, one in each lane, each from its own time to a common end. A lane without a run holds a valid state

@@ -4,12 +4,12 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use gauss_runtime::configuration::Configuration;
-use gauss_runtime::integrate::drive::cause::{Gave, Place, cause};
+use gauss_runtime::integrate::drive::cause::{StopPlace, StopReason, cause};
 use gauss_runtime::integrate::drive::control::prepare;
 use gauss_runtime::integrate::drive::event::{Events, Outcome, Watch};
 use gauss_runtime::integrate::drive::pace::Pace;
 use gauss_runtime::integrate::drive::run::Jumps;
-use gauss_runtime::integrate::drive::search::{Looking, Made};
+use gauss_runtime::integrate::drive::search::{StepEnds, StepSearch};
 use gauss_runtime::integrate::drive::summary::Summary;
 use gauss_runtime::integrate::problem::equations::Problem;
 use gauss_runtime::integrate::problem::error::IntegrationErrorKind;
@@ -262,8 +262,8 @@ where
     }
 
     /// Ends a run that cannot go on, with the cause that is found.
-    fn give_up(&mut self, lane: usize, gave: Gave, runs: &mut dyn Runs<S>) {
-        let place = Place {
+    fn give_up(&mut self, lane: usize, gave: StopReason, runs: &mut dyn Runs<S>) {
+        let place = StopPlace {
             state: &self.group.state,
             rates: &self.group.rates,
             length: self.all.control.length(lane, &self.memory),
@@ -282,7 +282,7 @@ where
             let t = number(self.group.state.t, lane);
             let spent = self.running[lane].as_mut().and_then(|running| running.pace.spent(t, left));
             if let Some(hopeless) = spent {
-                self.give_up(lane, Gave::Out { limit: self.all.limit, hopeless }, runs);
+                self.give_up(lane, StopReason::StepLimit { limit: self.all.limit, hopeless }, runs);
             }
         }
         let mut who = core::mem::take(&mut self.who);
@@ -295,7 +295,7 @@ where
         for lane in (0..who.len()).filter(|&lane| who[lane]) {
             match self.group.verdicts[lane] {
                 Verdict::Rejected => {}
-                Verdict::Gave(gave) => self.give_up(lane, gave, runs),
+                Verdict::Stopped(gave) => self.give_up(lane, gave, runs),
                 Verdict::Taken(taken, last) => {
                     if let Some(running) = &mut self.running[lane]
                         && !E::ANY
@@ -349,7 +349,7 @@ where
             let state = super::chosen_state(only, &self.group.state, &before.0);
             let rates = chosen_rates(only, &self.group.rates, &before.1);
             let numbers = numbers_of::<S::Scalar>(lane);
-            let made = Made { lane: numbers.start, before: (&before.0, &before.1), after: (&state, &rates) };
+            let made = StepEnds { lane: numbers.start, before: (&before.0, &before.1), after: (&state, &rates) };
             let (problem, found) = (self.all.problem, &mut running.found);
             let outcome = running.watch.step(&made, &mut |event, at| {
                 let z = problem.speeds(at.t, &at.q, &at.y);
@@ -374,8 +374,8 @@ where
     fn suspicious(&mut self, before: &(State<S>, Rates<S>)) -> Vec<bool> {
         let all = self.all;
         let after = (&self.group.state, &self.group.rates);
-        let made = Made { lane: 0, before: (&before.0, &before.1), after };
-        let looking = Looking::of(all.control, all.problem, &made);
+        let made = StepEnds { lane: 0, before: (&before.0, &before.1), after };
+        let looking = StepSearch::of(all.control, all.problem, &made);
         let mut suspicious = vec![false; self.running.len()];
         let mut watched = all.events.clone();
         let mut event = 0;

@@ -4,11 +4,11 @@ use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use gauss_runtime::integrate::drive::cause::Gave;
+use gauss_runtime::integrate::drive::cause::StopReason;
 use gauss_runtime::integrate::drive::control::{check_tolerances, longest, smallest, to_a_number, unresolved};
 use gauss_runtime::integrate::problem::equations::Problem;
 use gauss_runtime::integrate::problem::error::{IntegrationErrorKind, RunPart};
-use gauss_runtime::integrate::taylor::{Order, Shortened, Taylor, expanded, summed};
+use gauss_runtime::integrate::taylor::{Order, ShortenedStep, Taylor, expanded, summed};
 use gauss_runtime::real::Real;
 use gauss_runtime::series::{PowerSeries, TaylorSystem};
 use gauss_runtime::simd::Packed;
@@ -18,7 +18,7 @@ use super::{Group, LaneControl, Sealed, Verdict, chosen_state, number, numbers_o
 
 /// Memory of one lane.
 #[derive(Clone, Copy)]
-struct Lane {
+struct TaylorLane {
     /// About the length of the last step; 0 before the first.
     guess: f64,
     /// ln of the lengths at the orders that are compared, and how much rounding is beyond the tolerance.
@@ -26,18 +26,18 @@ struct Lane {
     excess: f64,
     last: bool,
     tries: bool,
-    shortened: Shortened,
+    shortened: ShortenedStep,
 }
 
 #[doc(hidden)]
-pub struct Memory<S: TaylorSystem> {
+pub struct TaylorMemory<S: TaylorSystem> {
     order: Order,
     series: Box<S::Series>,
-    lanes: Vec<Lane>,
+    lanes: Vec<TaylorLane>,
     longest: f64,
 }
 
-impl<S: TaylorSystem> Memory<S>
+impl<S: TaylorSystem> TaylorMemory<S>
 where
     S: BatchSystem,
 {
@@ -55,7 +55,7 @@ where
             let numbers = numbers_of::<S::Scalar>(n);
             (lane.lengths, lane.excess) = control.lengths::<S>(&self.series, self.order.judged(), guess, numbers);
             let length = Real::exp(lane.lengths[1]);
-            let mut gave = |kind| group.verdicts[n] = Verdict::Gave(Gave::AnyStep(kind));
+            let mut gave = |kind| group.verdicts[n] = Verdict::Stopped(StopReason::AnyStep(kind));
             // A NaN among the coefficients makes no length; where they are all zero the system is at rest.
             if length.is_nan() {
                 gave(IntegrationErrorKind::NonFinite { part: RunPart::Derivative });
@@ -95,15 +95,15 @@ where
 impl Sealed for Taylor {}
 
 impl<S: TaylorSystem + BatchSystem> LaneControl<S> for Taylor {
-    type Memory = Memory<S>;
+    type Memory = TaylorMemory<S>;
 
-    fn memory(&self, span: f64, limit: u64) -> Result<Memory<S>, IntegrationErrorKind> {
+    fn memory(&self, span: f64, limit: u64) -> Result<TaylorMemory<S>, IntegrationErrorKind> {
         check_tolerances(self.relative, self.absolute)?;
         let longest = if span == 0.0 { 0.0 } else { longest(self.largest_step, span, limit)? };
-        let shortened = Shortened::default();
-        let lane = Lane { guess: 0.0, lengths: [0.0; 2], excess: 0.0, last: false, tries: false, shortened };
+        let shortened = ShortenedStep::default();
+        let lane = TaylorLane { guess: 0.0, lengths: [0.0; 2], excess: 0.0, last: false, tries: false, shortened };
         let (order, series) = (Order::new(self, self.first_order()), Box::new(S::Series::zero()));
-        Ok(Memory { order, series, lanes: vec![lane; S::Scalar::WIDTH], longest })
+        Ok(TaylorMemory { order, series, lanes: vec![lane; S::Scalar::WIDTH], longest })
     }
 
     fn begin<P: Problem<System = S>>(
@@ -111,9 +111,9 @@ impl<S: TaylorSystem + BatchSystem> LaneControl<S> for Taylor {
         _: &P,
         _: &Group<S>,
         (lane, _): (usize, u64),
-        memory: &mut Memory<S>,
+        memory: &mut TaylorMemory<S>,
     ) -> Result<(), IntegrationErrorKind> {
-        (memory.lanes[lane].guess, memory.lanes[lane].shortened) = (0.0, Shortened::default());
+        (memory.lanes[lane].guess, memory.lanes[lane].shortened) = (0.0, ShortenedStep::default());
         Ok(())
     }
 
@@ -123,7 +123,7 @@ impl<S: TaylorSystem + BatchSystem> LaneControl<S> for Taylor {
         problem: &P,
         group: &mut Group<S>,
         who: &[bool],
-        memory: &mut Memory<S>,
+        memory: &mut TaylorMemory<S>,
     ) -> Result<(), IntegrationErrorKind> {
         let order = memory.order.value();
         expanded(problem, &group.state, order, &mut memory.series);
@@ -161,13 +161,13 @@ impl<S: TaylorSystem + BatchSystem> LaneControl<S> for Taylor {
         (problem, group): (&P, &Group<S>),
         n: usize,
         kind: IntegrationErrorKind,
-        memory: &mut Memory<S>,
+        memory: &mut TaylorMemory<S>,
     ) -> Verdict {
         let again = memory.lanes[n].shortened.again((problem, &group.state), numbers_of::<S::Scalar>(n), kind);
-        if again { Verdict::Rejected } else { Verdict::Gave(Gave::AnyStep(kind)) }
+        if again { Verdict::Rejected } else { Verdict::Stopped(StopReason::AnyStep(kind)) }
     }
 
-    fn length(&self, lane: usize, memory: &Memory<S>) -> f64 {
+    fn length(&self, lane: usize, memory: &TaylorMemory<S>) -> f64 {
         memory.lanes[lane].guess
     }
 

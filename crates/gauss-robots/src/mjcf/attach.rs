@@ -11,7 +11,7 @@ use std::ops::Range;
 
 use roxmltree::Node;
 
-use super::labels::{Affix, Named, SECTIONS, name_of, references};
+use super::labels::{Affix, NamedElement, SECTIONS, name_of, references};
 use super::{File, Model, Place, WORLD, model};
 use crate::collision::{Collision, Pair};
 use crate::description::{Fault, Joint, JointKind};
@@ -165,14 +165,15 @@ fn part(
         }
     };
     let inside = || tops.iter().flat_map(|top| own_descendants(*top));
-    let mut named: BTreeSet<Named<'_>> = inside().filter_map(name_of).collect();
+    let mut named: BTreeSet<NamedElement<'_>> = inside().filter_map(name_of).collect();
     let own_prefixes: Vec<&str> =
         inside().filter(|node| node.has_tag_name("attach")).filter_map(|node| node.attribute("prefix")).collect();
     for section in SECTIONS {
         for element in sections(section).flat_map(own_elements) {
-            let refers: Vec<Named<'_>> = own_descendants(element).flat_map(references).map(|(_, own)| own).collect();
+            let refers: Vec<NamedElement<'_>> =
+                own_descendants(element).flat_map(references).map(|(_, own)| own).collect();
             // Of models that this one attaches.
-            let nested = |own: &Named<'_>| own_prefixes.iter().any(|prefix| own.1.starts_with(prefix));
+            let nested = |own: &NamedElement<'_>| own_prefixes.iter().any(|prefix| own.1.starts_with(prefix));
             if refers.iter().all(|own| named.contains(own) || *own == ("body", WORLD) || nested(own)) {
                 named.extend(refers.into_iter().filter(nested).chain(name_of(element)));
                 edits.push((element.range(), Becomes::Renamed(element)));

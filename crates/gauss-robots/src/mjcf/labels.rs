@@ -13,11 +13,11 @@ use crate::xml::own_descendants;
 pub const SECTIONS: [&str; 4] = ["tendon", "equality", "contact", "actuator"];
 
 /// An element with a name, as others refer to it: what it is, and its name.
-pub type Named<'a> = (&'static str, &'a str);
+pub type NamedElement<'a> = (&'static str, &'a str);
 
 /// Prefix and suffix of names, and of references to them.
 pub struct Affix<'n> {
-    pub named: &'n BTreeSet<Named<'n>>,
+    pub named: &'n BTreeSet<NamedElement<'n>>,
     pub before: String,
     pub after: String,
 }
@@ -28,10 +28,11 @@ impl Affix<'_> {
         let mut start = range.start;
         for inner in own_descendants(node).filter(|inner| range.contains(&inner.range().start)) {
             let own = name_of(inner).map(|own| ("name", own));
-            let all: Vec<(&str, Named<'a>)> = own.into_iter().chain(references(inner)).collect();
+            let all: Vec<(&str, NamedElement<'a>)> = own.into_iter().chain(references(inner)).collect();
             // In the order of the text.
             for attribute in inner.attributes().filter(|attribute| attribute.namespace().is_none()) {
-                let is_named = |(name, own): &(&str, Named<'a>)| *name == attribute.name() && self.named.contains(own);
+                let is_named =
+                    |(name, own): &(&str, NamedElement<'a>)| *name == attribute.name() && self.named.contains(own);
                 // What a model attaches in its turn has both prefixes.
                 let is_prefix = attribute.name() == "prefix" && inner.has_tag_name("attach");
                 if is_prefix || all.iter().any(is_named) {
@@ -51,7 +52,7 @@ impl Affix<'_> {
 }
 
 /// Kind and name of an element of a tree, or of a section.
-pub fn name_of<'a>(node: Node<'a, 'a>) -> Option<Named<'a>> {
+pub fn name_of<'a>(node: Node<'a, 'a>) -> Option<NamedElement<'a>> {
     let around = node.parent_element().map_or("", |parent| parent.tag_name().name());
     let kind = match node.tag_name().name() {
         _ if matches!(around, "equality" | "contact" | "actuator") => "other",
@@ -69,7 +70,7 @@ pub fn name_of<'a>(node: Node<'a, 'a>) -> Option<Named<'a>> {
 }
 
 /// References of an element to others, by its attributes.
-pub fn references<'a>(node: Node<'a, 'a>) -> Vec<(&'static str, Named<'a>)> {
+pub fn references<'a>(node: Node<'a, 'a>) -> Vec<(&'static str, NamedElement<'a>)> {
     /// Kinds with the attributes that refer to them, in the elements of trees and sections.
     const ALL: [(&str, &[&str]); 5] = [
         ("joint", &["joint", "jointinparent", "joint1", "joint2"]),

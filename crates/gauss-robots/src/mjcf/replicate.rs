@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use roxmltree::Node;
 
-use super::labels::{Affix, Named, SECTIONS, name_of, references};
+use super::labels::{Affix, NamedElement, SECTIONS, name_of, references};
 use super::reference::ELEMENTS;
 use super::rotations::Angles;
 use crate::description::Fault;
@@ -123,7 +123,7 @@ impl<'a> Copies<'a> {
     }
 
     /// Suffix of the names of a copy: its index, with as many digits as the count has.
-    fn affix<'n>(&self, named: &'n BTreeSet<Named<'n>>, index: usize) -> Affix<'n> {
+    fn affix<'n>(&self, named: &'n BTreeSet<NamedElement<'n>>, index: usize) -> Affix<'n> {
         let digits = self.count.to_string().len();
         Affix { named, before: String::new(), after: format!("{}{index:0digits$}", self.separator) }
     }
@@ -132,7 +132,7 @@ impl<'a> Copies<'a> {
         &self,
         text: &Text,
         (root, node): (Node<'a, 'a>, Node<'a, 'a>),
-        named: &BTreeSet<Named<'_>>,
+        named: &BTreeSet<NamedElement<'_>>,
         referring: &[(&str, Node<'a, 'a>)],
     ) -> Text {
         let mut out = Text::default();
@@ -163,7 +163,7 @@ impl<'a> Copies<'a> {
         out
     }
 
-    fn frames(&self, text: &Text, node: Node<'a, 'a>, named: &BTreeSet<Named<'_>>, out: &mut Text) {
+    fn frames(&self, text: &Text, node: Node<'a, 'a>, named: &BTreeSet<NamedElement<'_>>, out: &mut Text) {
         let (Some(first), Some(last)) = (node.first_child(), node.last_child()) else { return };
         let place = node.range().start;
         let class = self.class.map(|class| format!(" childclass=\"{class}\"")).unwrap_or_default();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::reference::ELEMENTS;
 use super::{grammar, included, read};
 use crate::description::{Description, Fault, Joint};
-use crate::reference::checks::Format;
+use crate::reference::checks::ReferenceFormat;
 use crate::reference::{Element, Verdict};
 use crate::text::{Text, Written};
 
@@ -33,7 +33,7 @@ fn every_attribute_has_a_verdict() {
 /// few and as many numbers are read as it lets them be.
 #[test]
 fn numbers_of_the_grammar_are_read() {
-    let format = Format { elements: ELEMENTS, read: beside_others, file: FILE, samples: SAMPLES };
+    let format = ReferenceFormat { elements: ELEMENTS, read: beside_others, file: FILE, samples: SAMPLES };
     let joined = grammar::joined();
     let (mut known, mut tried, mut wrong) = (0, 0, Vec::new());
     for (place, attributes) in grammar::rows(&joined) {
@@ -68,7 +68,7 @@ fn numbers_of_the_grammar_are_read() {
 /// or fewer numbers, a fraction where one counts, a word that is none of those.
 #[test]
 fn values_of_other_types_are_mistakes() {
-    let format = Format { elements: ELEMENTS, read: beside_others, file: FILE, samples: SAMPLES };
+    let format = ReferenceFormat { elements: ELEMENTS, read: beside_others, file: FILE, samples: SAMPLES };
     let joined = grammar::joined();
     let (mut tried, mut wrong) = (0, Vec::new());
     for (place, attributes) in grammar::rows(&joined).filter(|(place, _)| format.has(place)) {
@@ -117,7 +117,7 @@ fn of_another_type(kind: &str) -> Vec<String> {
 
 #[test]
 fn verdicts_are_true() {
-    let untrue = Format { elements: ELEMENTS, read: beside_others, file: FILE, samples: SAMPLES }.untrue();
+    let untrue = ReferenceFormat { elements: ELEMENTS, read: beside_others, file: FILE, samples: SAMPLES }.untrue();
     assert!(untrue.is_empty(), "{}", untrue.join("\n"));
 }
 

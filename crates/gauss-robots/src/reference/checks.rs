@@ -5,7 +5,7 @@ use crate::description::{Description, Fault, Note};
 use crate::text::{Text, Written};
 
 /// A format, and a file of it in which its elements stand.
-pub struct Format {
+pub struct ReferenceFormat {
     pub elements: &'static [Element],
     pub read: fn(&Text) -> Result<Description, Vec<Fault>>,
     /// Text with places `@body/joint{…}` where the attributes of an element stand, those in the braces unless others
@@ -16,10 +16,10 @@ pub struct Format {
 }
 
 /// The result of reading: the description without notes, and the notes of elements that do not act.
-type Read = (String, Vec<Note>);
+type Reading = (String, Vec<Note>);
 
-impl Format {
-    fn read(&self, place: &str, inside: &str) -> Result<Read, Vec<Fault>> {
+impl ReferenceFormat {
+    fn read(&self, place: &str, inside: &str) -> Result<Reading, Vec<Fault>> {
         let mut parts = self.file.split('@');
         let mut text = parts.next().unwrap().to_owned();
         let mut found = false;
@@ -62,7 +62,7 @@ impl Format {
     }
 
     /// Reads the file with something at a place, and without it; both texts have the same length, so that places stay.
-    fn both(&self, place: &str, others: &str, own: &str) -> [Result<Read, Vec<Fault>>; 2] {
+    fn both(&self, place: &str, others: &str, own: &str) -> [Result<Reading, Vec<Fault>>; 2] {
         let blanks = " ".repeat(own.len());
         [blanks.as_str(), own].map(|own| self.read(place, &format!("{others} {own}")))
     }
@@ -153,7 +153,7 @@ impl Format {
     }
 }
 
-fn new_notes<'a>(without: &Read, with: &'a Read) -> Vec<&'a Note> {
+fn new_notes<'a>(without: &Reading, with: &'a Reading) -> Vec<&'a Note> {
     with.1.iter().filter(|note| !without.1.contains(note)).collect()
 }
 

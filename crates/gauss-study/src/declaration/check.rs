@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::declared::Declaration;
+use super::content::Declaration;
 use crate::distribution::Distribution;
 use crate::plan::Plan;
 

@@ -1,9 +1,9 @@
 //! Declaration of a study: its seed, its parameters, its results.
 
 mod check;
-mod declared;
-mod kept;
+mod content;
 mod sampler;
+mod text;
 
-pub use declared::Declaration;
+pub use content::Declaration;
 pub use sampler::Sampler;

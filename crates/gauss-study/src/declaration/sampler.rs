@@ -3,11 +3,11 @@
 use rayon::prelude::*;
 
 use super::check;
-use super::declared::{Declaration, DeclaredParameter};
-use crate::caught::caught;
+use super::content::{Declaration, DeclaredParameter};
 use crate::distribution::Distribution;
 use crate::draw::Draw;
 use crate::error::DeclarationError;
+use crate::panics::caught;
 use crate::plan::Axis;
 
 impl Declaration {

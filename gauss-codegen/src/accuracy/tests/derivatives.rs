@@ -15,7 +15,7 @@ const SCENES: u64 = 16;
 const FEW: f64 = 100.0;
 
 /// The loss of a derivative at a state, and what its kernel says.
-struct Lost {
+struct DerivativeLoss {
     loss: f64,
     said: f64,
     text: String,
@@ -32,7 +32,7 @@ fn computed<'g, N: Number>(kernel: &Kernel<'g>, derivative: &Derivative<'g>, mut
 }
 
 /// Losses of all derivatives of a kernel that have a value.
-fn losses_at(derived: &Derived<'_, '_>, mut values: Vec<(u32, f64)>, seed: u64) -> Vec<Lost> {
+fn losses_at(derived: &Derived<'_, '_>, mut values: Vec<(u32, f64)>, seed: u64) -> Vec<DerivativeLoss> {
     let mut random = Random::new(seed ^ 0x0123);
     let rates = &derived.subject.system.scene.speed_rates;
     values.extend(rates.iter().chain(derived.weights).map(|symbol| (symbol.key(), random.signed(0.5))));
@@ -41,13 +41,13 @@ fn losses_at(derived: &Derived<'_, '_>, mut values: Vec<(u32, f64)>, seed: u64) 
         let exact = |state| computed(derived.kernel, derivative, state);
         let (loss, row) = loss_beside(derived, &values, exact, &found, seed)?;
         let said = derivative.figure.as_ref()?.rounded()[0];
-        Some(Lost { loss, said, text: format!("{}, row {row}", derivative.kind.name()) })
+        Some(DerivativeLoss { loss, said, text: format!("{}, row {row}", derivative.kind.name()) })
     };
     derived.kernel.derivatives.iter().filter_map(lost).collect()
 }
 
 /// Losses in scenes whose kernels have all derivatives.
-fn losses_of(source: &str, values: impl Fn(&Derived<'_, '_>) -> Vec<(u32, f64)>, seed: u64) -> Vec<Lost> {
+fn losses_of(source: &str, values: impl Fn(&Derived<'_, '_>) -> Vec<(u32, f64)>, seed: u64) -> Vec<DerivativeLoss> {
     let source = source.replace(")] struct", ", linearize(inverse, hessian))] struct");
     let input: syn::DeriveInput = syn::parse_str(&source).expect("the source is a struct");
     let losses = derive(&input, |derived| Ok(losses_at(derived, values(derived), seed)));
@@ -61,9 +61,11 @@ fn derivatives_of_random_scenes_lose_what_is_said() {
         let scene = scenes::scene(seed);
         let source = scene.source();
         let losses = losses_of(&source, |derived| values_of_scene(derived, &scene, seed), seed);
-        losses.into_iter().map(move |lost| Lost { text: format!("{} (scene {seed}): {source}", lost.text), ..lost })
+        losses
+            .into_iter()
+            .map(move |lost| DerivativeLoss { text: format!("{} (scene {seed}): {source}", lost.text), ..lost })
     };
-    let mut losses: Vec<Lost> = (first..first + number_from("SCENES", SCENES)).flat_map(of).collect();
+    let mut losses: Vec<DerivativeLoss> = (first..first + number_from("SCENES", SCENES)).flat_map(of).collect();
     losses.sort_by(|a, b| b.loss.total_cmp(&a.loss));
     let all: Vec<f64> = losses.iter().map(|lost| lost.loss).collect();
     let (median, worst) = (all[all.len() / 2], all[0]);
@@ -71,17 +73,17 @@ fn derivatives_of_random_scenes_lose_what_is_said() {
     let said: Vec<f64> = losses.iter().map(|lost| lost.said).collect();
     println!("said above 1e3: {}, above 1e6: {}, 1e10: {}", above(&said, MOST), above(&said, 1e6), above(&said, 1e10));
     losses.iter().take(12).for_each(|lost| println!("{:9.3e} said {:e}  {}", lost.loss, lost.said, lost.text));
-    for Lost { loss, said, text } in losses.iter().filter(|lost| lost.loss > MOST) {
+    for DerivativeLoss { loss, said, text } in losses.iter().filter(|lost| lost.loss > MOST) {
         assert!(*loss <= WITHIN * said, "{text} loses {loss:e}, and its kernel says {said:e}");
     }
 }
 
 /// Losses of derivatives at one state of a scene of scalars, with the values of the fields of its struct.
-fn losses_there(scene: &str, fields: &[(&str, f64)], configuration: &[f64], speeds: &[f64]) -> Vec<Lost> {
+fn losses_there(scene: &str, fields: &[(&str, f64)], configuration: &[f64], speeds: &[f64]) -> Vec<DerivativeLoss> {
     let configuration: Vec<Vec<f64>> = configuration.iter().map(|number| vec![*number]).collect();
     let values = |derived: &Derived<'_, '_>| {
         let of_field = |name: &str| fields.iter().find(|(field, _)| *field == name).map(|(_, value)| *value);
-        let sources = derived.subject.given.sources.iter();
+        let sources = derived.subject.provenance.sources.iter();
         let of_fields = sources.map(|source| (source.symbol.key(), of_field(&print(source.symbol, Notation::Text))));
         let mut values = values_of(derived, &configuration, speeds.iter().copied());
         values.extend(of_fields.map(|(key, value)| (key, value.expect("a value of every field"))));
@@ -89,7 +91,9 @@ fn losses_there(scene: &str, fields: &[(&str, f64)], configuration: &[f64], spee
     };
     let fields: Vec<String> = fields.iter().map(|(name, _)| format!("{name}: f64")).collect();
     let losses = losses_of(&format!("#[gauss({scene})] struct Scene {{ {} }}", fields.join(", ")), values, 7);
-    losses.iter().for_each(|Lost { loss, said, text }| println!("{text}: {loss:.1e}, said {said:e}: {scene}"));
+    losses
+        .iter()
+        .for_each(|DerivativeLoss { loss, said, text }| println!("{text}: {loss:.1e}, said {said:e}: {scene}"));
     losses
 }
 
@@ -101,7 +105,7 @@ fn derivatives_keep_the_digits_that_accelerations_keep() {
                  particle(mass = 1000.1, position = [x, y, z]), \
                  particle(mass = 1.234, position = [x + u, y + v, z + w])";
     let speeds = [0.1, 0.2, 0.3, 0.01, 0.02, 0.03];
-    for Lost { loss, text, .. } in losses_there(scene, &[], &[5e6, 4e6, 3e6, 0.006, 0.008, 0.0001], &speeds) {
+    for DerivativeLoss { loss, text, .. } in losses_there(scene, &[], &[5e6, 4e6, 3e6, 0.006, 0.008, 0.0001], &speeds) {
         assert!(loss <= FEW, "{text} loses {loss:.1e}: {scene}");
     }
 }
@@ -113,7 +117,7 @@ fn what_derivatives_alone_lose_is_said() {
     let scene = "coordinates(x, y), particle(mass = 1.1234, position = [x, y, 0]), \
                  spring(from = [-1.2345, 0, 0], to = [x, y, 0], stiffness = 12.345, length = 0.54321), \
                  spring(from = [1.2345, 0, 0], to = [x, y, 0], stiffness = 12.345, length = 0.54321)";
-    for Lost { loss, said, text } in losses_there(scene, &[], &[1e-8, 1e-8], &[0.1, 0.2]) {
+    for DerivativeLoss { loss, said, text } in losses_there(scene, &[], &[1e-8, 1e-8], &[0.1, 0.2]) {
         assert!(loss <= WITHIN * said.max(1.0), "{text} loses {loss:.1e}, and its kernel says {said:e}");
     }
 }
@@ -135,7 +139,9 @@ fn derivatives_keep_their_digits_whatever_the_fields_are() {
              particle(mass = {light}, position = [x + u, y + v, z + w])"
         );
         let speeds = [0.1, 0.2, 0.3, 0.01, 0.02, 0.03];
-        for Lost { loss, text, .. } in losses_there(&scene, &fields, &[5e6, 4e6, 3e6, 0.006, 0.008, 0.0001], &speeds) {
+        for DerivativeLoss { loss, text, .. } in
+            losses_there(&scene, &fields, &[5e6, 4e6, 3e6, 0.006, 0.008, 0.0001], &speeds)
+        {
             assert!(loss <= FEW, "{text} loses {loss:.1e}: {scene}");
         }
     }

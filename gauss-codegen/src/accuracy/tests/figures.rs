@@ -2,8 +2,8 @@
 //! bad.
 
 use crate::accuracy::flat::{Slot, Trace};
+use crate::accuracy::loss_search::Search;
 use crate::accuracy::moves::Draft;
-use crate::accuracy::seek::Search;
 use crate::algebra::{Doubled, Graph, Notation, Number, Scalar, print};
 use crate::formulation::Formulation;
 use crate::lowering::{Lowered, lower, states};
@@ -24,7 +24,7 @@ const LITTLE: f64 = 10.0;
 
 /// A method of a scene, with its figure before it is rounded, its loss where the search found it, and its loss at a
 /// state that is given in part; of derivatives that is the worst at all states of the search.
-struct Seen {
+struct MethodFigures {
     method: &'static str,
     figure: f64,
     estimated: f64,
@@ -68,7 +68,7 @@ fn measured(search: &Search<'_, '_, '_>, draft: &Draft<'_>, trace: &mut Trace) -
 }
 
 /// All methods of a scene; the state that is given is the ordinary sample state but for the symbols that are named.
-fn seen(clauses: &str, fields: &str, given: &[(&str, f64)]) -> Vec<Seen> {
+fn seen(clauses: &str, fields: &str, given: &[(&str, f64)]) -> Vec<MethodFigures> {
     let source = format!("#[gauss({clauses})] struct Scene {{ {fields} }}");
     let input = syn::parse_str(&source).expect("the source is a struct");
     let model = model::parse(&input).unwrap_or_else(|error| panic!("{error}: {source}"));
@@ -93,14 +93,14 @@ fn seen(clauses: &str, fields: &str, given: &[(&str, f64)]) -> Vec<Seen> {
         let figure = function.figure.as_ref()?;
         let there = measured(&search, &drafts[best[k].state], &mut trace)[0][k];
         let (method, figure) = (method.name(), figure.worst);
-        Some(Seen { method, figure, estimated: best[k].loss, there, given: of_given[k] })
+        Some(MethodFigures { method, figure, estimated: best[k].loss, there, given: of_given[k] })
     });
-    let mut all: Vec<Seen> = functions.collect();
+    let mut all: Vec<MethodFigures> = functions.collect();
     let besides = kernel.derivatives.iter().map(|derivative| &derivative.figure);
     for (k, figure) in std::iter::once(&kernel.figure_of_joined).chain(besides).enumerate() {
         let Some(figure) = figure else { continue };
         let mut derivatives =
-            Seen { method: DERIVATIVES, figure: figure.worst, estimated: -1.0, there: 0.0, given: 0.0 };
+            MethodFigures { method: DERIVATIVES, figure: figure.worst, estimated: -1.0, there: 0.0, given: 0.0 };
         for draft in &drafts {
             let [_, besides] = measured(&search, draft, &mut trace);
             derivatives.given = derivatives.given.max(besides[k]);
@@ -120,9 +120,9 @@ fn seen(clauses: &str, fields: &str, given: &[(&str, f64)]) -> Vec<Seen> {
 const DERIVATIVES: &str = "derivatives";
 
 /// A scene with its fields, a method, and a state where that is known to lose digits, or not.
-type Known = (&'static str, &'static str, &'static str, &'static [(&'static str, f64)]);
+type FigureCase = (&'static str, &'static str, &'static str, &'static [(&'static str, f64)]);
 
-const SCENES: [Known; 8] = [
+const SCENES: [FigureCase; 8] = [
     // A torus at its inner rim: the square of the distance from the axis is multiplied out.
     (
         "coordinates(a, b), particle(mass = 1, position = [(2 + 1.999 * cos(a)) * cos(b), (2 + 1.999 * cos(a)) * sin(b), \
@@ -180,8 +180,8 @@ const SCENES: [Known; 8] = [
 ];
 
 #[track_caller]
-fn is_lost(seen: Seen, clauses: &str) {
-    let Seen { method, figure, estimated, there, given } = seen;
+fn is_lost(seen: MethodFigures, clauses: &str) {
+    let MethodFigures { method, figure, estimated, there, given } = seen;
     let agree = estimated.min(ALL) <= WITHIN * there.max(LITTLE) && there.min(ALL) <= WITHIN * estimated.max(LITTLE);
     println!("{method}: said {figure:e}, estimated {estimated:e}, measured {there:e}, given {given:e}: {clauses}");
     assert!(agree, "{method} loses {there:e}, not {estimated:e}: {clauses}");

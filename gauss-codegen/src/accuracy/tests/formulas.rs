@@ -16,7 +16,7 @@ fn computed(clauses: &str, method: Method, q: &[f64], z: &[f64]) -> Vec<f64> {
     let input: syn::DeriveInput = syn::parse_str(&source).expect("the source is a struct");
     let run = |derived: &Derived<'_, '_>| {
         let scene = &derived.subject.system.scene;
-        let literals = derived.subject.given.literals.iter().map(|(value, symbol)| (symbol.key(), value.to_f64()));
+        let literals = derived.subject.provenance.literals.iter().map(|(value, symbol)| (symbol.key(), value.to_f64()));
         let mut state: Map<u32, f64> = literals.collect();
         let known = derived.kernel.known_constants.iter();
         state.extend(known.map(|(symbol, value)| (symbol.key(), *value)));

@@ -31,7 +31,7 @@ struct Case {
 
 /// Who knows of the state when arrangements are chosen.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Known {
+enum Informant {
     /// Nobody: the arrangement that is taken anyhow keeps the digits.
     No,
     /// The trial: some arrangement keeps them.
@@ -39,7 +39,7 @@ enum Known {
 }
 
 #[track_caller]
-fn keeps_its_digits(case: &Case, known: Known) {
+fn keeps_its_digits(case: &Case, known: Informant) {
     let source = format!("#[gauss({})] struct Scene {{}}", case.clauses);
     let input: syn::DeriveInput = syn::parse_str(&source).expect("the source is a struct");
     let check = |derived: &Derived<'_, '_>| {
@@ -47,7 +47,7 @@ fn keeps_its_digits(case: &Case, known: Known) {
         let configuration: Vec<Vec<f64>> = case.configuration.iter().map(|numbers| numbers.to_vec()).collect();
         let mut values = values_of(derived, &configuration, case.speeds.iter().copied());
         values.extend(scene.speed_rates.iter().zip(1..).map(|(rate, k)| (rate.key(), 0.3 * f64::from(k))));
-        let again = (known == Known::ToTheTrial).then(|| lowered_for(derived, &values));
+        let again = (known == Informant::ToTheTrial).then(|| lowered_for(derived, &values));
         let kernel = again.as_ref().unwrap_or(derived.kernel);
         let formulas = derived.subject.system.formulas();
         for method in METHODS {
@@ -83,7 +83,7 @@ fn lowered_for<'g>(derived: &Derived<'_, 'g>, values: &[(u32, f64)]) -> Kernel<'
     let mut trial = Trial::new(vec![Point::new(&named, &units, &definitions)]);
     let functions = derived.subject.system.formulas().map(|_, arrangements| Candidates::of_values(arrangements));
     let wanted = Derivatives { units: &units, ..Derivatives::default() };
-    let literals = Some(&derived.subject.given.literals[..]);
+    let literals = Some(&derived.subject.provenance.literals[..]);
     Kernel::lower(scene.graph, &functions, &definitions, &wanted, literals, &mut trial)
         .unwrap_or_else(|error| panic!("{error}"))
 }
@@ -99,7 +99,7 @@ fn a_torus_at_its_inner_rim() {
             configuration: &[&[0.7], &[3.141_593_653_589_793]],
             speeds: &[0.3, 0.4],
         },
-        Known::No,
+        Informant::No,
     );
 }
 
@@ -113,7 +113,7 @@ fn a_torus_without_a_hole() {
             configuration: &[&[0.7], &[3.141_593_653_589_793]],
             speeds: &[0.3, 0.4],
         },
-        Known::ToTheTrial,
+        Informant::ToTheTrial,
     );
 }
 
@@ -126,7 +126,7 @@ fn the_energy_of_a_spring_near_its_length() {
         "coordinates(x, y), particle(mass = 1.1234, position = [x, y, 0]), \
          potential = 12.345 * (sqrt(x * x + y * y) - 5.000000001).powi(2)",
     ] {
-        keeps_its_digits(&Case { clauses, configuration: &[&[3.0], &[4.0]], speeds: &[0.1, 0.2] }, Known::No);
+        keeps_its_digits(&Case { clauses, configuration: &[&[3.0], &[4.0]], speeds: &[0.1, 0.2] }, Informant::No);
     }
 }
 
@@ -141,7 +141,7 @@ fn the_stretch_of_a_long_spring_seen_from_where_it_is_at_rest() {
     ] {
         keeps_its_digits(
             &Case { clauses, configuration: &[&[1e-8], &[1e-6], &[2e-6]], speeds: &[0.1, 0.2, 0.3] },
-            Known::No,
+            Informant::No,
         );
     }
 }
@@ -157,7 +157,7 @@ fn a_bead_between_preloaded_springs() {
             configuration: &[&[1e-10], &[1e-9]],
             speeds: &[0.1, 0.2],
         },
-        Known::No,
+        Informant::No,
     );
 }
 
@@ -172,7 +172,7 @@ fn a_short_tether_seen_from_one_end() {
             configuration: &[&[5e6], &[4e6], &[3e6], &[0.006], &[0.008], &[0.0001]],
             speeds: &[0.1, 0.2, 0.3, 0.01, 0.02, 0.03],
         },
-        Known::No,
+        Informant::No,
     );
 }
 
@@ -186,7 +186,7 @@ fn the_energy_of_a_pendulum_that_is_nearly_at_rest() {
             configuration: &[&[1e-6]],
             speeds: &[0.1],
         },
-        Known::No,
+        Informant::No,
     );
 }
 
@@ -202,6 +202,6 @@ fn a_disk_that_is_nearly_flat() {
             configuration: &[&[0.1], &[0.2], &[0.3], &[1e-6], &[0.2]],
             speeds: &[0.1, 0.2, 1e6, 0.1, -1e6],
         },
-        Known::No,
+        Informant::No,
     );
 }

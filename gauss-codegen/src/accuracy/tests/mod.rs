@@ -8,11 +8,11 @@ mod derivatives;
 mod figures;
 mod formulas;
 mod hostile;
-mod lost;
 mod names;
 mod relative;
+mod remaining_losses;
 mod scenes;
-mod unlike;
+mod unlike_chains;
 
 use std::collections::BTreeMap;
 
@@ -99,7 +99,7 @@ fn values_of(
 ) -> Vec<(u32, f64)> {
     let subject = &derived.subject;
     let mut values: Vec<(u32, f64)> =
-        subject.given.literals.iter().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
+        subject.provenance.literals.iter().map(|(value, symbol)| (symbol.key(), value.to_f64())).collect();
     values.push((derived.time().key(), 0.3));
     for ((coordinate, quaternion), value) in
         subject.system.scene.coordinates.iter().zip(subject.quaternions).zip(configuration)
@@ -164,21 +164,21 @@ fn computed<'g>(kernel: &Kernel<'g>, method: Method, values: &[(u32, f64)]) -> V
 }
 
 /// The loss of a scene at its state, what its kernel says of it, and what the scene is.
-struct Lost {
+struct SceneLoss {
     loss: f64,
     said: f64,
     text: String,
 }
 
 /// The losses of scenes, with what is said of each.
-fn losses(seeds: impl Iterator<Item = u64>) -> Vec<Lost> {
+fn losses(seeds: impl Iterator<Item = u64>) -> Vec<SceneLoss> {
     let of = |seed: u64| {
         let scene = scenes::scene(seed);
         let source = scene.source();
         let input: syn::DeriveInput = syn::parse_str(&source).expect("the source is a struct");
         let found = derive(&input, |derived| Ok(loss(derived, &scene, seed).zip(said(derived))))
             .unwrap_or_else(|error| panic!("{error}: {source}"));
-        found.map(|((loss, row), said)| Lost {
+        found.map(|((loss, row), said)| SceneLoss {
             loss,
             said,
             text: format!("{} (scene {seed}, row {row}): {source}", scene.kind),
@@ -193,10 +193,10 @@ fn said(derived: &Derived<'_, '_>) -> Option<f64> {
 }
 
 /// Losses of scenes from one on, the largest first.
-fn losses_of(first: u64, count: u64) -> Vec<Lost> {
+fn losses_of(first: u64, count: u64) -> Vec<SceneLoss> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from) as u64;
     let seeds = |worker: u64| (first + worker..first + count).step_by(threads as usize);
-    let mut losses: Vec<Lost> = std::thread::scope(|scope| {
+    let mut losses: Vec<SceneLoss> = std::thread::scope(|scope| {
         let workers: Vec<_> = (0..threads).map(|worker| scope.spawn(move || losses(seeds(worker)))).collect();
         workers.into_iter().flat_map(|worker| worker.join().expect("every scene is valid")).collect()
     });
@@ -233,7 +233,7 @@ fn kernels_of_random_scenes_lose_what_their_conditioning_excuses() {
     println!("{} scenes, above 30: {}, above 1e3: {}", all.len(), above(&all, SELDOM), above(&all, MOST));
     losses.iter().take(8).for_each(|lost| println!("{:9.3e} said {:e}  {}", lost.loss, lost.said, lost.text));
     // Three digits are the rule; a kernel that is right about them is right about fewer.
-    for Lost { loss, said, text } in losses.iter().filter(|lost| lost.loss > SELDOM) {
+    for SceneLoss { loss, said, text } in losses.iter().filter(|lost| lost.loss > SELDOM) {
         assert!(*loss <= WITHIN * said, "{text} loses {loss:e}, and its kernel says {said:e}");
     }
     for (kind, own) in &kinds {

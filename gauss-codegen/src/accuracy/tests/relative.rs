@@ -20,7 +20,7 @@ const ARM: &str = "body(arm, parent = hull, rotation = rotation_z(angle), positi
                    inertia = [0.001, 0.003, 0.002])";
 
 /// Accelerations of a scene.
-struct Tried {
+struct MeasuredRates {
     /// The worst of all states.
     loss: f64,
     operations: u32,
@@ -31,7 +31,7 @@ struct Tried {
     pushed: Vec<usize>,
 }
 
-fn tried(coordinates: &[&str], clauses: &str, values: &[&[f64]], speed: f64) -> Tried {
+fn tried(coordinates: &[&str], clauses: &str, values: &[&[f64]], speed: f64) -> MeasuredRates {
     let scene = Scene::written(coordinates, clauses, values, speed);
     let input: syn::DeriveInput = syn::parse_str(&scene.source()).expect("a struct");
     let tried = derive(&input, |derived| {
@@ -44,7 +44,7 @@ fn tried(coordinates: &[&str], clauses: &str, values: &[&[f64]], speed: f64) -> 
         };
         let named = coordinates.iter().zip(&system.scene.coordinates).filter(|(_, q)| is_read(q));
         let of = |seed| loss(derived, &scene, seed).map_or(f64::INFINITY, |(loss, _)| loss);
-        Ok(Tried {
+        Ok(MeasuredRates {
             loss: (0..STATES).map(of).fold(0.0, f64::max),
             operations: program.cost().operations,
             read: named.map(|(name, _)| (*name).to_owned()).collect(),
@@ -55,12 +55,12 @@ fn tried(coordinates: &[&str], clauses: &str, values: &[&[f64]], speed: f64) -> 
     tried.unwrap_or_else(|error| panic!("{error}: {}", scene.source()))
 }
 
-fn on_craft(clauses: &[&str]) -> Tried {
+fn on_craft(clauses: &[&str]) -> MeasuredRates {
     tried(&["craft: Pose", "angle"], &clauses.join(", "), &[&POSE, &[0.7]], 1.0)
 }
 
 #[track_caller]
-fn agree(a: &Tried, b: &Tried) {
+fn agree(a: &MeasuredRates, b: &MeasuredRates) {
     for (a, b) in a.values.iter().zip(&b.values) {
         // Either loses less than FEW.
         assert!((a - b).abs() <= 2.0 * FEW * f64::EPSILON * b.abs().max(1.0), "{a:e} and {b:e}");

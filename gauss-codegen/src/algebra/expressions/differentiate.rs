@@ -7,12 +7,12 @@ use crate::algebra::map::Map;
 use crate::algebra::rational::Rational;
 
 /// Derivatives of many expressions along one flow, with what has been differentiated so far.
-pub struct Along<'a, 'g> {
+pub struct FlowDerivative<'a, 'g> {
     rates: &'a Map<u32, Expr<'g>>,
     done: Map<u32, Expr<'g>>,
 }
 
-impl<'a, 'g> Along<'a, 'g> {
+impl<'a, 'g> FlowDerivative<'a, 'g> {
     /// `rates` maps each moving symbol (by key) to its rate; all others stand still.
     pub fn new(rates: &'a Map<u32, Expr<'g>>) -> Self {
         Self { rates, done: Map::default() }
@@ -39,7 +39,7 @@ impl<'g> Expr<'g> {
 
     /// Derivative along a flow: `rates` maps each moving symbol (by key) to its rate; all others stand still.
     pub fn derivative(self, rates: &Map<u32, Expr<'g>>) -> Self {
-        Along::new(rates).derivative(self)
+        FlowDerivative::new(rates).derivative(self)
     }
 
     fn differentiate(self, rates: &Map<u32, Expr<'g>>, memo: &mut Map<u32, Expr<'g>>) -> Self {

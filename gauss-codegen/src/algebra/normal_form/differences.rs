@@ -161,7 +161,7 @@ impl<'g> Differences<'g> {
     }
 
     /// Roots of a normal form that differ little from another one of it.
-    fn near_roots(&mut self, whole: &Polynomial<'g>) -> Vec<Near<'g>> {
+    fn near_roots(&mut self, whole: &Polynomial<'g>) -> Vec<NearRoot<'g>> {
         let mut radicands: Vec<(Id, Expr<'g>)> = Vec::new();
         for &(atom, _) in whole.terms.keys().flat_map(|monomial| &monomial.factors) {
             if let Node::Call(Function::Sqrt, u) = self.graph.node(atom)
@@ -173,7 +173,7 @@ impl<'g> Differences<'g> {
         if radicands.len() > ROOTS {
             return Vec::new();
         }
-        let mut near: Vec<Near<'g>> = Vec::new();
+        let mut near: Vec<NearRoot<'g>> = Vec::new();
         for (k, &(id, u)) in radicands.iter().enumerate() {
             let before = radicands[..k].iter().filter(|(other, _)| near.iter().all(|near| near.id != *other));
             let found = before.clone().find_map(|&(other, v)| Some((other, self.difference(u, v)?)));
@@ -184,7 +184,7 @@ impl<'g> Differences<'g> {
             // What divides by roots has no value where they vanish; what does not keeps its own.
             let sum = if finite { root + base + self.graph.number(tiny()) } else { root + base };
             let meaning = (difference.group() * sum.group().recip()).group();
-            near.push(Near { id, base, rest: self.graph.symbol("δ", "\\delta", false), meaning });
+            near.push(NearRoot { id, base, rest: self.graph.symbol("δ", "\\delta", false), meaning });
         }
         near
     }
@@ -212,7 +212,7 @@ impl<'g> Differences<'g> {
 }
 
 /// A root as another one and a small rest.
-struct Near<'g> {
+struct NearRoot<'g> {
     id: Id,
     base: Expr<'g>,
     /// The symbol of `√u − √v`, and what it stands for.
@@ -220,7 +220,7 @@ struct Near<'g> {
     meaning: Expr<'g>,
 }
 
-impl<'g> Near<'g> {
+impl<'g> NearRoot<'g> {
     /// `1/√u = 1/√v − δ/(√u √v)`.
     fn reciprocal(&self, graph: &'g Graph) -> Expr<'g> {
         self.base.recip() - self.rest * self.base.recip() * graph.expr(self.id).recip()
@@ -228,7 +228,7 @@ impl<'g> Near<'g> {
 }
 
 /// Whether terms vanish altogether where each root is taken for the one that it is near to.
-fn cancels<'g>(whole: &Polynomial<'g>, near: &[Near<'g>]) -> bool {
+fn cancels<'g>(whole: &Polynomial<'g>, near: &[NearRoot<'g>]) -> bool {
     let mut sums: Vec<(Monomial, Rational)> = Vec::new();
     for (monomial, c) in &whole.terms {
         let merged = monomial.factors.iter().fold(Monomial::default(), |merged, &(id, n)| {

@@ -10,12 +10,12 @@ use crate::algebra::rational::Rational;
 
 /// A value, and how far the same operations in double precision may end from it, to first order.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-pub struct Rounded {
+pub struct ErrorBound {
     pub value: Precise,
     error: Precise,
 }
 
-impl Rounded {
+impl ErrorBound {
     /// A result, which is rounded once more.
     fn of(value: Precise, inherited: Precise) -> Self {
         Self { value, error: inherited + Precise::number(f64::EPSILON) * size(value) }
@@ -31,28 +31,28 @@ fn size(value: Precise) -> Precise {
     value.call(Function::Abs)
 }
 
-impl Add for Rounded {
+impl Add for ErrorBound {
     type Output = Self;
     fn add(self, b: Self) -> Self {
         Self::of(self.value + b.value, self.error + b.error)
     }
 }
 
-impl Sub for Rounded {
+impl Sub for ErrorBound {
     type Output = Self;
     fn sub(self, b: Self) -> Self {
         self + -b
     }
 }
 
-impl Mul for Rounded {
+impl Mul for ErrorBound {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
         Self::of(self.value * b.value, self.error * size(b.value) + size(self.value) * b.error)
     }
 }
 
-impl Div for Rounded {
+impl Div for ErrorBound {
     type Output = Self;
     fn div(self, b: Self) -> Self {
         let value = self.value / b.value;
@@ -60,14 +60,14 @@ impl Div for Rounded {
     }
 }
 
-impl Neg for Rounded {
+impl Neg for ErrorBound {
     type Output = Self;
     fn neg(self) -> Self {
         Self { value: -self.value, ..self }
     }
 }
 
-impl Scalar for Rounded {
+impl Scalar for ErrorBound {
     fn number(value: f64) -> Self {
         Self::of(Precise::number(value), Precise::number(0.0))
     }
@@ -100,7 +100,7 @@ impl Scalar for Rounded {
     }
 }
 
-impl Number for Rounded {
+impl Number for ErrorBound {
     const NEGLIGIBLE: f64 = Precise::NEGLIGIBLE;
 
     fn to_f64(self) -> f64 {
@@ -118,13 +118,13 @@ mod tests {
 
     #[test]
     fn what_rounding_leaves_and_what_is_small() {
-        let of = |numerator, denominator| Rounded::fraction(Rational::new(numerator, denominator));
+        let of = |numerator, denominator| ErrorBound::fraction(Rational::new(numerator, denominator));
         let (sine, cosine) = of(7, 10).sine_cosine();
         let one = of(1, 1);
         assert!((sine * sine + cosine * cosine - one).may_be_zero());
         assert!((of(3, 10) * of(1, 10) - of(3, 100)).may_be_zero() && of(0, 1).may_be_zero());
         assert!((of(2, 1).call(Function::Sqrt).powi(2) - of(2, 1)).may_be_zero());
-        let small = Rounded::number(1e-200);
+        let small = ErrorBound::number(1e-200);
         assert!(!(small * small).may_be_zero() && !(small / (one / small)).may_be_zero());
         assert!((one + small * small - one).may_be_zero());
         // Ten digits are left.

@@ -9,7 +9,7 @@ use crate::emit::constructor::parameters::kernel_body;
 use crate::emit::derived::{Derived, KernelGenerics};
 use crate::emit::dialect::program::table_name;
 use crate::emit::text::documentation::{Documentation, Equations, rustdoc};
-use crate::terms::{Axis, FunctionKind, Generics, Item, Joined, Table, UserFunction};
+use crate::terms::{Axis, FunctionKind, Generics, Interpolation, Item, Table, UserFunction};
 
 /// The struct: the constants that `kernel()` computes.
 pub fn kernel_struct(derived: &Derived<'_, '_>, equations: &Equations) -> TokenStream {
@@ -81,11 +81,11 @@ fn constant(name: &Ident, table: &Table, span: Span, private: &TokenStream) -> T
     };
     let (at, private) = there(span);
     let kind = match joined {
-        Joined::Linear => quote!(Linear),
-        Joined::Hermite => quote!(Hermite),
-        Joined::Cubic => quote!(Cubic),
+        Interpolation::Linear => quote!(Linear),
+        Interpolation::Hermite => quote!(Hermite),
+        Interpolation::Cubic => quote!(Cubic),
     };
-    if axes.is_empty() && *joined != Joined::Hermite {
+    if axes.is_empty() && *joined != Interpolation::Hermite {
         return quote_spanned!(at=> const #name: #private::#kind<{ #values.len() }> = #private::#kind::through(&#values););
     }
     let (of, variables) = match axes.len() {
@@ -106,7 +106,7 @@ fn constant(name: &Ident, table: &Table, span: Span, private: &TokenStream) -> T
     }
     let ones = (lengths.len()..MOST_VARIABLES).map(|_| quote!(1));
     // At each point the value and its slopes along the axes, one after the other.
-    let numbers = Literal::usize_unsuffixed(if *joined == Joined::Linear { 1 } else { 1 << variables });
+    let numbers = Literal::usize_unsuffixed(if *joined == Interpolation::Linear { 1 } else { 1 << variables });
     quote_spanned! {at=>
         #constants
         #[allow(long_running_const_eval)]

@@ -71,7 +71,7 @@ fn written(
             _ => quote!({ #compute __check.#check(#label, &[#(#values),*]); }),
         })
     };
-    derived.subject.given.laws.iter().filter(|law| of_kind(law.kind)).filter_map(check).collect()
+    derived.subject.provenance.laws.iter().filter(|law| of_kind(law.kind)).filter_map(check).collect()
 }
 
 /// A square matrix.
@@ -114,7 +114,7 @@ fn drags(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStr
             __warnings.drag(#label, #private::DragKind::#kind, #rows);
         }))
     };
-    derived.subject.given.drags.iter().filter_map(check).collect()
+    derived.subject.provenance.drags.iter().filter_map(check).collect()
 }
 
 /// Damping and attraction.
@@ -151,7 +151,7 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
             _ => quote!({ #compute __warnings.#check(#label, #(#values)*); }),
         })
     };
-    derived.subject.given.laws.iter().filter_map(find).collect()
+    derived.subject.provenance.laws.iter().filter_map(find).collect()
 }
 
 /// A function of the state at a few states of general position: small fractions in place of what is no parameter.

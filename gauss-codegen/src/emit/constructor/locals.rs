@@ -8,7 +8,7 @@ use crate::kernel::Program;
 use crate::mass_laws::Datum;
 use crate::mechanics::QuantityValues;
 use crate::terms::{Field, Role, Shape};
-use crate::translate::{ClauseValue, Part, Source};
+use crate::translate::{ClauseValue, FieldPart, ParameterSource};
 
 use crate::emit::derived::Derived;
 use crate::emit::dialect::program::statements;
@@ -28,13 +28,13 @@ fn part(quantity: Role) -> &'static str {
 }
 
 /// Tokens of the value of a symbol where the locals are.
-pub fn element(source: &Source<'_>) -> TokenStream {
+pub fn element(source: &ParameterSource<'_>) -> TokenStream {
     let plain = local(source.field, "");
     match source.part {
-        Part::Scalar => quote!(#plain),
-        Part::Component(i) => quote!(#plain[#i]),
-        Part::Entry(i, j) => quote!(#plain[#i][#j]),
-        Part::Body(quantity, i, j) => {
+        FieldPart::Scalar => quote!(#plain),
+        FieldPart::Component(i) => quote!(#plain[#i]),
+        FieldPart::Entry(i, j) => quote!(#plain[#i][#j]),
+        FieldPart::Body(quantity, i, j) => {
             let name = local(source.field, part(quantity));
             match quantity {
                 Role::Mass => quote!(#name),
@@ -47,7 +47,7 @@ pub fn element(source: &Source<'_>) -> TokenStream {
 
 /// Tokens of the symbols of parameters, where they are read.
 pub fn symbols_of_parameters(derived: &Derived<'_, '_>) -> Map<u32, TokenStream> {
-    let (given, scalar) = (derived.subject.given, derived.scalar());
+    let (given, scalar) = (derived.subject.provenance, derived.scalar());
     let mut symbols: Map<u32, TokenStream> = given.sources.iter().map(|s| (s.symbol.key(), element(s))).collect();
     symbols.extend(given.literals.iter().map(|(value, symbol)| (symbol.key(), scalar.number(value))));
     symbols
@@ -55,7 +55,7 @@ pub fn symbols_of_parameters(derived: &Derived<'_, '_>) -> Map<u32, TokenStream>
 
 /// The locals of all parameters: fields, and what clauses say of the body without a name and of gravity.
 pub fn parameters_read(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
-    let given = derived.subject.given;
+    let given = derived.subject.provenance;
     let fields = given.item.fields.iter().enumerate().filter(|(k, _)| given.is_read(*k));
     let mut read: TokenStream = fields.map(|(k, field)| read_field(derived, k, field)).collect();
     let clauses = given.mass_data.unnamed.iter();

@@ -14,7 +14,7 @@ use crate::emit::dialect::program::statements;
 
 /// The body of `kernel()`.
 pub fn kernel_body(derived: &Derived<'_, '_>) -> TokenStream {
-    let given = derived.subject.given;
+    let given = derived.subject.provenance;
     let (private, ty) = (derived.private(), derived.scalar().ty());
     let symbols = symbols_of_parameters(derived);
     let read = parameters_read(derived, &symbols);

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::algebra::Rational;
-use crate::kernel::{LoweredColumns, Operand, Parts, TOGETHER};
+use crate::kernel::{LoweredColumns, Operand, OutputParts, TOGETHER};
 
 use crate::emit::derived::Derived;
 
@@ -15,7 +15,7 @@ pub fn solved_together<'g>(derived: &Derived<'_, 'g>, columns: &LoweredColumns<'
     let zero = scalar.number(&Rational::zero());
     let (instructions, outputs) = derived.computed(&columns.program);
     let shape = &columns.shape;
-    let Parts { values, below, pivots, rights, .. } = shape.parts(&outputs);
+    let OutputParts { values, below, pivots, rights, .. } = shape.parts(&outputs);
     let bundle = |columns: &[Vec<TokenStream>]| {
         let row = |k: usize| {
             let lanes = (0..TOGETHER).map(|lane| columns.get(lane).map_or(&zero, |column| &column[k]));

@@ -14,8 +14,9 @@ use crate::emit::dialect::arguments::OF_EQUATIONS;
 pub fn parametric_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let Derivative { program, .. } = derived.kernel.derivative(DerivativeKind::ByParameters)?;
     let (private, ty) = (derived.private(), derived.scalar().ty());
-    let (states, count) = (derived.increments() + derived.degrees_of_freedom(), derived.subject.given.parameters.len());
-    let names = derived.subject.given.parameters.iter().map(|parameter| &parameter.name);
+    let (states, count) =
+        (derived.increments() + derived.degrees_of_freedom(), derived.subject.provenance.parameters.len());
+    let names = derived.subject.provenance.parameters.iter().map(|parameter| &parameter.name);
     let (instructions, outputs) = derived.computed(program);
     let (matrix, pattern) = (columns(&outputs, states, 0..count), pattern(program, states, 0..count));
     let body = quote!(#instructions #private::columns([#(#matrix),*]));

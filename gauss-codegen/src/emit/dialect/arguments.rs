@@ -10,13 +10,17 @@ use crate::mechanics::{FrameQuantity, Method};
 use crate::program::ArgumentKind;
 
 /// An array of scalars and the symbols that its elements are.
-pub struct Argument<'g> {
+pub struct ArrayArgument<'g> {
     pub array: TokenStream,
     pub symbols: Vec<Expr<'g>>,
 }
 
 /// `let` statements that name the elements which the program reads, and how each symbol is then written.
-pub fn declare(program: &Program<'_>, arguments: &[Argument<'_>], names: &mut Map<u32, TokenStream>) -> TokenStream {
+pub fn declare(
+    program: &Program<'_>,
+    arguments: &[ArrayArgument<'_>],
+    names: &mut Map<u32, TokenStream>,
+) -> TokenStream {
     let read = program.symbols();
     let mut statements = TokenStream::new();
     for (a, argument) in arguments.iter().enumerate() {

@@ -21,9 +21,9 @@ const LENGTHS: std::ops::RangeInclusive<usize> = 256..=65_536;
 
 /// Relation of symbols to limbs.
 #[derive(Default)]
-pub struct Limbs(Map<u32, Leaf>);
+pub struct LimbSymbols(Map<u32, Leaf>);
 
-impl Limbs {
+impl LimbSymbols {
     /// Limbs of coordinates, speeds and so on, of numbers, and of constants that these determine.
     pub fn of<'g>(twins: &[(Expr<'g>, Twin)], kernel: &Kernel<'g>) -> Self {
         let mut limbs_of: BTreeMap<usize, Vec<usize>> = BTreeMap::new();

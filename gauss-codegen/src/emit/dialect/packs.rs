@@ -10,12 +10,12 @@ use quote::{format_ident, quote};
 use crate::algebra::{Expr, Map};
 use crate::kernel::{Kernel, Program};
 use crate::mechanics::Method;
-use crate::program::{LANES, Operand, Packed, Place};
+use crate::program::{InputPlace, LANES, Operand, PackedCode};
 use crate::targets::rust::operand;
 use crate::targets::rust::packed::{self, Vectors};
 use crate::terms::Scalar;
 
-use crate::emit::dialect::arguments::Argument;
+use crate::emit::dialect::arguments::ArrayArgument;
 use crate::emit::dialect::program::{KernelDialect, ScalarTokens};
 
 /// Methods that runs call in every step.
@@ -25,7 +25,7 @@ const PACKED: [Method; 5] =
 /// Programs with packs, and their constants in rows.
 #[derive(Default)]
 pub struct Packs<'g> {
-    programs: Vec<(Method, Program<'g>, Packed<Expr<'g>>)>,
+    programs: Vec<(Method, Program<'g>, PackedCode<Expr<'g>>)>,
     rows: Vec<Vec<Operand<Expr<'g>>>>,
 }
 
@@ -37,17 +37,18 @@ pub fn are_wanted(method: Method, scalar: &Scalar) -> bool {
 /// Sources of the symbols of a program, and the tokens that read them.
 pub struct Sources<'a, 'g> {
     pub kernel: &'a Kernel<'g>,
-    pub arguments: &'a [Argument<'g>],
+    pub arguments: &'a [ArrayArgument<'g>],
     pub names: &'a Map<u32, TokenStream>,
 }
 
 impl<'g> Sources<'_, 'g> {
-    fn place(&self, symbol: Expr<'g>) -> Place {
+    fn place(&self, symbol: Expr<'g>) -> InputPlace {
         let Kernel { constant_symbols, known_constants, .. } = self.kernel;
         if constant_symbols.contains(&symbol) || known_constants.iter().any(|(known, _)| *known == symbol) {
-            return Place::Constant;
+            return InputPlace::Constant;
         }
-        argument(self.arguments, symbol).map_or(Place::Variable, |(array, index)| Place::Argument { array, index })
+        argument(self.arguments, symbol)
+            .map_or(InputPlace::Variable, |(array, index)| InputPlace::Argument { array, index })
     }
 }
 
@@ -59,7 +60,7 @@ impl<'g> Packs<'g> {
         for vector in packed.packs.iter().flat_map(|pack| &pack.operands) {
             let is_constant = |operand: &Operand<Expr<'g>>| match *operand {
                 Operand::Number(_) => true,
-                Operand::Input(symbol) => sources.place(symbol) == Place::Constant,
+                Operand::Input(symbol) => sources.place(symbol) == InputPlace::Constant,
                 _ => false,
             };
             let is_row = vector.iter().any(|operand| *operand != vector[0]) && vector.iter().all(is_constant);
@@ -103,7 +104,7 @@ impl<'g> Packs<'g> {
         (private, scalar): (&TokenStream, &ScalarTokens<'_>),
     ) -> Option<(TokenStream, Vec<TokenStream>)> {
         let (_, code, packs) = self.programs.iter().find(|(packed, ..)| *packed == method)?;
-        let vectors = InKernel { packs: self, private, sources };
+        let vectors = KernelVectors { packs: self, private, sources };
         let dialect = KernelDialect { symbols: sources.names, scalar };
         let (packed, packed_outputs) = packed::statements(code, packs, &dialect, &vectors);
         let result = |k| format_ident!("__r{}", k, span = Span::mixed_site());
@@ -119,7 +120,7 @@ impl<'g> Packs<'g> {
 }
 
 /// The argument that a symbol is an element of, and which.
-fn argument<'g>(arguments: &[Argument<'g>], symbol: Expr<'g>) -> Option<(usize, usize)> {
+fn argument<'g>(arguments: &[ArrayArgument<'g>], symbol: Expr<'g>) -> Option<(usize, usize)> {
     arguments.iter().enumerate().find_map(|(array, argument)| {
         let index = argument.symbols.iter().position(|other| *other == symbol)?;
         Some((array, index))
@@ -127,13 +128,13 @@ fn argument<'g>(arguments: &[Argument<'g>], symbol: Expr<'g>) -> Option<(usize, 
 }
 
 /// Writer of vectors in methods of a kernel.
-struct InKernel<'a, 'g> {
+struct KernelVectors<'a, 'g> {
     packs: &'a Packs<'g>,
     private: &'a TokenStream,
     sources: &'a Sources<'a, 'g>,
 }
 
-impl<'g> Vectors<Expr<'g>> for InKernel<'_, 'g> {
+impl<'g> Vectors<Expr<'g>> for KernelVectors<'_, 'g> {
     fn functions(&self) -> TokenStream {
         let private = self.private;
         quote!(#private::packs)

@@ -5,8 +5,8 @@ use quote::{format_ident, quote};
 
 use crate::algebra::{Expr, Map, OwnFunction, Rational};
 use crate::kernel::Program;
-use crate::targets::rust::{self, Dialect, Kept};
-use crate::terms::{FunctionKind, Joined, Scalar, Table, UserFunction};
+use crate::targets::rust::{self, Dialect, NamedResults};
+use crate::terms::{FunctionKind, Interpolation, Scalar, Table, UserFunction};
 
 /// Tokens of numbers for a scalar type.
 pub struct ScalarTokens<'a> {
@@ -119,7 +119,7 @@ pub fn statements<'g>(
     symbols: &Map<u32, TokenStream>,
     scalar: &ScalarTokens<'_>,
 ) -> (TokenStream, Vec<TokenStream>) {
-    rust::statements(program, &KernelDialect { symbols, scalar }, Kept::AsRead)
+    rust::statements(program, &KernelDialect { symbols, scalar }, NamedResults::AsRead)
 }
 
 /// Call of a function of the user's own, or of a derivative of it: by its path, or as a method of a table.
@@ -131,7 +131,7 @@ fn own_function(scalar: &ScalarTokens<'_>, own: OwnFunction, arguments: &[TokenS
             let path = paths.get(order);
             quote!(#path(#(#arguments),*))
         }
-        FunctionKind::Table(Table { axes, joined, .. }) if axes.is_empty() && *joined != Joined::Hermite => {
+        FunctionKind::Table(Table { axes, joined, .. }) if axes.is_empty() && *joined != Interpolation::Hermite => {
             let method = ["value", "slope", "second", "third"].get(order);
             let method = Ident::new(method.copied().unwrap_or("third"), Span::call_site());
             quote!(#table.#method(#(#arguments),*))

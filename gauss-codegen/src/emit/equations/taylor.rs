@@ -26,7 +26,7 @@ use crate::kernel::{Operand, Operation, Program};
 use crate::mechanics::{Coordinate, Method};
 
 use crate::emit::derived::Derived;
-use crate::targets::rust::{Kept, Statement, in_blocks, operand, statements};
+use crate::targets::rust::{Binding, NamedResults, in_blocks, operand, statements};
 
 use crate::emit::dialect::program::{KernelDialect, ScalarTokens};
 
@@ -78,7 +78,7 @@ impl<'a, 'g> Order<'a, 'g> {
             if self.moving[k] && !self.inlined[k] {
                 let statements = self.statements(k, instruction);
                 lines.extend(statements.into_iter().map(|(name, value)| {
-                    let statement = Statement::new(&name, value);
+                    let statement = Binding::new(&name, value);
                     (vec![name], Some(statement))
                 }));
             }
@@ -373,7 +373,7 @@ pub fn taylor_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (ty, real, zero) = (scalar.ty(), &scalar.real, quote!(__zero));
     let variables = Variables::of(derived, program);
     let (instructions, rates) =
-        statements(program, &KernelDialect { symbols: &variables.first, scalar: &scalar }, Kept::Everything);
+        statements(program, &KernelDialect { symbols: &variables.first, scalar: &scalar }, NamedResults::Everything);
     let mut order = Order::new(program, &variables, &scalar);
     let line = order.line();
     let of_order: Vec<TokenStream> =

@@ -4,13 +4,13 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::mechanics::Coordinate;
-use crate::terms::{InChart, Motion};
+use crate::terms::{BodyChart, Motion};
 
 use crate::emit::chart::rotation_chart_tokens;
 use crate::emit::derived::Derived;
 
 /// `pose` and `configuration`: the configuration as a pose and back.
-pub fn pose_bodies(derived: &Derived<'_, '_>, own: Option<InChart>) -> Option<(TokenStream, TokenStream)> {
+pub fn pose_bodies(derived: &Derived<'_, '_>, own: Option<BodyChart>) -> Option<(TokenStream, TokenStream)> {
     let private = derived.private();
     let chart = own.map(|own| rotation_chart_tokens(&derived.private(), own.chart));
     let coordinate = &derived.subject.system.scene.coordinates[0];

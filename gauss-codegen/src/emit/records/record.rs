@@ -7,7 +7,7 @@ use crate::emit::derived::{Derived, KernelGenerics};
 use crate::words::Unraw;
 
 /// One field.
-pub use crate::translate::{Quantity as Part, QuantityKind as PartKind};
+pub use crate::translate::{NamedQuantity as Part, QuantityKind as PartKind};
 
 impl Part {
     fn ty(&self, private: &TokenStream, ty: &TokenStream) -> TokenStream {

@@ -15,7 +15,7 @@ pub fn state_name(derived: &Derived<'_, '_>) -> Ident {
 
 /// Coordinates, then speeds, each in their order, with different names.
 pub fn parts(derived: &Derived<'_, '_>) -> [Vec<Part>; 2] {
-    let mut all = derived.subject.given.state.clone();
+    let mut all = derived.subject.provenance.state.clone();
     let mut taken: Vec<String> = Vec::new();
     for part in all.iter_mut().flatten() {
         let word = part.ident.unraw().to_string();

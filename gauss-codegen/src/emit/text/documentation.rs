@@ -2,11 +2,11 @@
 
 use crate::accuracy::Figure;
 use crate::algebra::Notation;
-use crate::formulation::Printed;
-use crate::kernel::{Counts, Function};
+use crate::formulation::PrintedEquations;
+use crate::kernel::{Counts, LoweredFunction};
 use crate::mathml;
 use crate::mechanics::Method;
-use crate::terms::{InChart, InputKind, Role};
+use crate::terms::{BodyChart, InputKind, Role};
 use crate::tex;
 use crate::words::Unraw;
 
@@ -30,7 +30,7 @@ impl Equations {
     }
 }
 
-fn text(derived: &Derived<'_, '_>, printed: &Printed) -> String {
+fn text(derived: &Derived<'_, '_>, printed: &PrintedEquations) -> String {
     let mut out = format!(
         "{}: {}
 ",
@@ -90,7 +90,7 @@ fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
 fn description(derived: &Derived<'_, '_>) -> String {
     let speeds: Vec<String> = derived.speeds().iter().map(|z| crate::algebra::print(*z, Notation::Text)).collect();
     let speeds = speeds.join(", ");
-    if let Some(InChart { chart, motion }) = derived.subject.system.scene.chart() {
+    if let Some(BodyChart { chart, motion }) = derived.subject.system.scene.chart() {
         return format!("chart {}, motion {}, z = ({speeds})", chart_name(chart), motion_name(motion));
     }
     let names = &derived.subject.system.scene.coordinate_names;
@@ -139,7 +139,7 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &Equations) -> Documentatio
 }
 
 /// Equations as HTML. No line is empty: an empty one would end it, in Markdown.
-fn formulas(printed: &Printed) -> String {
+fn formulas(printed: &PrintedEquations) -> String {
     let mut out = String::from("<div style=\"overflow-x:auto\">\n");
     for (title, lines) in printed {
         out.push_str(&format!("<p style=\"margin:0.7em 0 0.2em\"><em>{}</em></p>\n", mathml::words(title)));
@@ -220,7 +220,7 @@ pub fn figures<'d>(derived: &'d Derived<'_, '_>) -> impl Iterator<Item = (Option
 
 /// Table of the cost and the loss of each method.
 fn costs(derived: &Derived<'_, '_>) -> String {
-    let functions = derived.kernel.functions.iter().map(|(method, Function { program, figure, .. })| {
+    let functions = derived.kernel.functions.iter().map(|(method, LoweredFunction { program, figure, .. })| {
         (call_of(derived, method), program.counts(), figure.as_ref())
     });
     let besides = besides(derived).map(|(name, counts, figure)| (name.to_owned(), counts, figure));

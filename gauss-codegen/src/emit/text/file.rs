@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{quote, quote_spanned};
 
-use crate::terms::{Described, Generics, Item, Remark};
+use crate::terms::{FileRemark, Generics, Item, RobotFile};
 
 use crate::emit::derived::Derived;
 
@@ -11,13 +11,13 @@ use crate::emit::derived::Derived;
 /// everything that acts in it and not in the equations.
 pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
     let tracked = &derived.item().tracked;
-    let Some(Described { paths, span, remarks, .. }) = &derived.item().described else {
+    let Some(RobotFile { paths, span, remarks, .. }) = &derived.item().described else {
         return quote!(#(const _: &[::core::primitive::u8] = ::core::include_bytes!(#tracked);)*);
     };
-    let ignored: Vec<&Remark> = remarks.iter().filter(|remark| remark.ignored).collect();
+    let ignored: Vec<&FileRemark> = remarks.iter().filter(|remark| remark.ignored).collect();
     // The compiler warns of what is deprecated, in the words of its note and with its name; macros have no other way
     // to. Only at a token of the user's: what a macro brings along is not warned of.
-    let warning = |(n, Remark { text, .. }): (usize, &&Remark)| {
+    let warning = |(n, FileRemark { text, .. }): (usize, &&FileRemark)| {
         let number = if ignored.len() > 1 { format!("_{}", n + 1) } else { String::new() };
         let [name, told] = ["NOT_IN_THE_EQUATIONS", "TOLD"].map(|name| Ident::new(&format!("{name}{number}"), *span));
         quote_spanned! {*span=>
@@ -45,7 +45,7 @@ pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
 
 /// Remarks on the file, for the page of the kernel.
 pub fn documentation(derived: &Derived<'_, '_>) -> String {
-    let Some(Described { file, remarks, .. }) = &derived.item().described else { return String::new() };
+    let Some(RobotFile { file, remarks, .. }) = &derived.item().described else { return String::new() };
     let mut out = format!("\n# The file\n\nBodies, joints and inputs are those of `{file}`.\n\n");
     remarks.iter().for_each(|remark| out.push_str(&format!("- {}\n", remark.text)));
     out

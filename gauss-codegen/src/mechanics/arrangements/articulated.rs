@@ -13,7 +13,7 @@
 //!    ([`bias_forces`](Articulated::bias_forces)), which depend on r;
 //! 3. outward: accelerations ([`accelerations`](Articulated::accelerations)).
 
-use crate::algebra::{Expr, Factored, FactoredColumns, Rational};
+use crate::algebra::{Expr, FactoredColumns, Factorisation, Rational};
 
 use crate::mechanics::kinematics::turn::{Turn, inward};
 use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, cross_matrix, dot, subtract};
@@ -141,7 +141,7 @@ impl<'a, 'g> Articulated<'a, 'g> {
             rest[k][k] = (rest[k][k] + pivot.armature).group();
         }
         let order = sequence.iter().map(|(_, pivot)| pivot.speed).collect();
-        JointFactors { combinations: self.combinations(), factored: Factored::of_columns(order, rest) }
+        JointFactors { combinations: self.combinations(), factored: Factorisation::of_columns(order, rest) }
     }
 
     /// y with A_y y = right less what wrenches on the links give along the speeds of the joints; where a pivot is that
@@ -239,7 +239,7 @@ impl Combinations {
 /// A, factored joint by joint.
 pub struct JointFactors<'g> {
     combinations: Combinations,
-    factored: Factored<'g>,
+    factored: Factorisation<'g>,
 }
 
 impl<'g> JointFactors<'g> {

@@ -139,7 +139,7 @@ impl<'g> Weights<'g> {
     }
 
     /// Weights with the formal components of each acceleration.
-    fn with<'a>(&'a self, formal: &'a Formal<'g>) -> impl Iterator<Item = (&'a Weight<'g>, &'a Triple<'g>)> {
+    fn with<'a>(&'a self, formal: &'a FormalComponents<'g>) -> impl Iterator<Item = (&'a Weight<'g>, &'a Triple<'g>)> {
         let gravity = self.gravity.iter().map(|weight| (weight, &formal.gravity));
         gravity.chain(self.field.iter().map(|weight| (weight, &formal.field)))
     }
@@ -188,7 +188,7 @@ impl<'g> Weight<'g> {
 }
 
 /// Formal components in body axes, in which the balance is solved once for all charts.
-pub struct Formal<'g> {
+pub struct FormalComponents<'g> {
     pub u: Triple<'g>,
     pub omega: Triple<'g>,
     /// ĝ, and the acceleration of a field.
@@ -201,7 +201,7 @@ pub struct Formal<'g> {
     pub torque: Triple<'g>,
 }
 
-impl<'g> Formal<'g> {
+impl<'g> FormalComponents<'g> {
     pub fn new(kinematics: &Kinematics<'g>, load: &Wrench<'g>) -> Self {
         let graph = kinematics.frame.graph;
         let on = |axes: &[usize], text: &str, latex: &str| -> Triple<'g> {
@@ -258,7 +258,7 @@ impl<'g> Formal<'g> {
 
 /// Forms in which the balance is solved; the cheapest result wins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Arrangement {
+pub enum BalanceForm {
     /// Momentum and force components stay quantities of their own.
     Structured,
     /// Right-hand sides are multiplied out and collected: what cancels is gone.
@@ -271,7 +271,7 @@ pub enum Arrangement {
     Whole,
 }
 
-pub const ARRANGEMENTS: [Arrangement; 3] = [Arrangement::Structured, Arrangement::Collected, Arrangement::Folded];
+pub const ARRANGEMENTS: [BalanceForm; 3] = [BalanceForm::Structured, BalanceForm::Collected, BalanceForm::Folded];
 
 /// The translational unknown of the balance, solved.
 pub enum LinearAcceleration<'g> {
@@ -281,7 +281,7 @@ pub enum LinearAcceleration<'g> {
     Relative(Triple<'g>),
 }
 
-/// Accelerations from the balance, in formal body components (see [`Formal`]).
+/// Accelerations from the balance, in formal body components (see [`FormalComponents`]).
 pub struct Balance<'g> {
     /// Values of `dQ/dt` and of `dΓ_O/dt + v_O × Q` when the unknown accelerations are zero, minus the forces; body
     /// axes. Without the space part of the forces where the translation is isotropic.
@@ -299,10 +299,10 @@ pub fn solve_balance<'g>(
     matrix: &KineticMatrix<'g>,
     weights: &Weights<'g>,
     load: &Wrench<'g>,
-    formal: &Formal<'g>,
-    arrangement: Arrangement,
+    formal: &FormalComponents<'g>,
+    arrangement: BalanceForm,
 ) -> Balance<'g> {
-    let unsolved = Unsolved::new(kinematics, matrix, weights, load, formal, arrangement);
+    let unsolved = BalanceProblem::new(kinematics, matrix, weights, load, formal, arrangement);
     match matrix.isotropic {
         Some(mu) => unsolved.translation_first(mu),
         None => unsolved.at_once(),
@@ -310,13 +310,13 @@ pub fn solve_balance<'g>(
 }
 
 /// The balance before its accelerations are known.
-struct Unsolved<'a, 'g> {
+struct BalanceProblem<'a, 'g> {
     kinematics: &'a Kinematics<'g>,
     matrix: &'a KineticMatrix<'g>,
     weights: &'a Weights<'g>,
     load: &'a Wrench<'g>,
-    formal: &'a Formal<'g>,
-    arrangement: Arrangement,
+    formal: &'a FormalComponents<'g>,
+    arrangement: BalanceForm,
     omega: Vector<'g>,
     /// M₁₂ ω, and Q.
     coupling: Triple<'g>,
@@ -326,14 +326,14 @@ struct Unsolved<'a, 'g> {
     observed_in_body: Triple<'g>,
 }
 
-impl<'a, 'g> Unsolved<'a, 'g> {
+impl<'a, 'g> BalanceProblem<'a, 'g> {
     fn new(
         kinematics: &'a Kinematics<'g>,
         matrix: &'a KineticMatrix<'g>,
         weights: &'a Weights<'g>,
         load: &'a Wrench<'g>,
-        formal: &'a Formal<'g>,
-        arrangement: Arrangement,
+        formal: &'a FormalComponents<'g>,
+        arrangement: BalanceForm,
     ) -> Self {
         let frame = &kinematics.frame;
         let zero = frame.zero().body;
@@ -382,11 +382,11 @@ impl<'a, 'g> Unsolved<'a, 'g> {
 
     /// −matrix⁻¹ right.
     fn solved(&self, matrix: &[Vec<Expr<'g>>], right: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        if self.arrangement == Arrangement::Eliminated {
+        if self.arrangement == BalanceForm::Eliminated {
             let right: Vec<Expr<'g>> = right.iter().map(|e| -*e).collect();
             return solve_symmetric(matrix, &right).into_iter().map(Expr::group).collect();
         }
-        let fold = |e: Expr<'g>| if self.arrangement == Arrangement::Folded { e.collected(LIMIT) } else { e };
+        let fold = |e: Expr<'g>| if self.arrangement == BalanceForm::Folded { e.collected(LIMIT) } else { e };
         let inverse = inverse_of_symmetric(matrix);
         inverse.iter().map(|row| fold(-row.iter().zip(right).map(|(m, r)| *m * *r).sum::<Expr<'g>>()).group()).collect()
     }
@@ -403,7 +403,7 @@ impl<'a, 'g> Unsolved<'a, 'g> {
         let schur = schur_complement(matrix, per_mass, &angular_axes);
         let reduced = self.tidy(subtract(&angular_bias, &matrix.block(3, 0, &inner)));
         let angular = self.spread(&self.solved(&schur, &picked(&reduced, &angular_axes)), &angular_axes);
-        if self.arrangement == Arrangement::Whole {
+        if self.arrangement == BalanceForm::Whole {
             // (Q + M₁₂ ω̇)/μ and its like: what is divided by μ is constant.
             let momentum = add(&formal.u, &matrix.scaled_block(per_mass, 0, 3, &formal.omega)).map(Expr::group);
             let turning = frame.derivative(&frame.body_vector(momentum), &Map::default(), &omega).body;
@@ -452,9 +452,9 @@ impl<'a, 'g> Unsolved<'a, 'g> {
     }
 }
 
-fn tidied(arrangement: Arrangement, a: Triple<'_>) -> Triple<'_> {
+fn tidied(arrangement: BalanceForm, a: Triple<'_>) -> Triple<'_> {
     match arrangement {
-        Arrangement::Structured => a,
+        BalanceForm::Structured => a,
         _ => a.map(|e| e.collected(LIMIT)),
     }
 }
@@ -478,7 +478,7 @@ pub fn twist_of_momentum<'g>(
     matrix: &KineticMatrix<'g>,
     linear_momentum: &Vector<'g>,
     angular_momentum: &Vector<'g>,
-    arrangement: Arrangement,
+    arrangement: BalanceForm,
 ) -> (Vector<'g>, Vector<'g>) {
     let frame = &kinematics.frame;
     if let (Some(inertia), true) = (matrix.spherical, matrix.isotropic.is_some() || kinematics.linear_axes().is_empty())
@@ -513,7 +513,7 @@ pub fn twist_of_momentum<'g>(
         linear_axes.iter().map(|&k| q[k]).chain(angular_axes.iter().map(|&k| gamma[k])).collect();
     let active = matrix.submatrix(&kinematics.active);
     let twist: Vec<Expr<'g>> = match arrangement {
-        Arrangement::Eliminated => solve_symmetric(&active, &momentum),
+        BalanceForm::Eliminated => solve_symmetric(&active, &momentum),
         _ => {
             let inverse = inverse_of_symmetric(&active);
             inverse.iter().map(|row| row.iter().zip(&momentum).map(|(m, p)| *m * *p).sum()).collect()

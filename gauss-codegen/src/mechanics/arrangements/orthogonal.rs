@@ -22,7 +22,7 @@ pub struct Elements<'a, 'g> {
     squares: LeastSquares<'g>,
     shares: Vec<Share<'g>>,
     /// Which link, and how the row is made of a motion of it.
-    forms: Vec<(usize, Form<'g>)>,
+    forms: Vec<(usize, MotionComponent<'g>)>,
 }
 
 /// Share of the rate of another speed in the unknown of a hinge.
@@ -36,16 +36,16 @@ struct Share<'g> {
 type Motion<'g> = (Triple<'g>, Triple<'g>);
 
 /// A component of the motion of a link, working axes: of the velocity of G, or of Lᵀω with its row of factors.
-enum Form<'g> {
+enum MotionComponent<'g> {
     Center(usize, Triple<'g>),
     Turn(usize, Triple<'g>),
 }
 
-impl<'g> Form<'g> {
+impl<'g> MotionComponent<'g> {
     fn of(&self, linear: &Triple<'g>, angular: &Triple<'g>) -> Expr<'g> {
         match self {
-            Form::Center(axis, center) => linear[*axis] + cross(angular, center)[*axis],
-            Form::Turn(_, factors) => dot(factors, angular),
+            MotionComponent::Center(axis, center) => linear[*axis] + cross(angular, center)[*axis],
+            MotionComponent::Turn(_, factors) => dot(factors, angular),
         }
     }
 }
@@ -103,16 +103,16 @@ impl<'a, 'g> Elements<'a, 'g> {
         let tree = self.tree;
         let nothing = vec![false; tree.speed_count()];
         let (accelerations, taken) = tree.floating_accelerations(loads, &nothing);
-        let offset = |(k, form): &(usize, Form<'g>)| {
+        let offset = |(k, form): &(usize, MotionComponent<'g>)| {
             let (link, (a, alpha)) = (&tree.links[*k], &accelerations[*k]);
             let a = link.frame.resolve(a, Axes::Body);
             match form {
-                Form::Center(axis, center) => {
+                MotionComponent::Center(axis, center) => {
                     let w = &link.angular_velocity;
                     let turning = cross(w, &cross(w, center).map(Expr::group));
                     add(&a, &add(&cross(alpha, center), &turning))[*axis].group()
                 }
-                Form::Turn(..) => form.of(&a, alpha).group(),
+                MotionComponent::Turn(..) => form.of(&a, alpha).group(),
             }
         };
         let offsets: Vec<Expr<'g>> = self.forms.iter().map(offset).collect();
@@ -155,14 +155,14 @@ impl<'a, 'g> Elements<'a, 'g> {
         }
         for (k, (_, angular)) in wrenches.iter_mut().enumerate() {
             for (_, form) in forms_of(self.planar, &tree.links[k]) {
-                let Form::Turn(own, factors) = form else { continue };
+                let MotionComponent::Turn(own, factors) = form else { continue };
                 let others = (own + 1..3).filter(|&i| !factors[i].is_zero());
                 others.for_each(|i| angular[i] = (angular[i] - factors[i] * angular[own]).group());
             }
         }
-        let of = |(k, form): &(usize, Form<'g>)| match form {
-            Form::Center(axis, _) => wrenches[*k].0[*axis].group(),
-            Form::Turn(axis, _) => wrenches[*k].1[*axis],
+        let of = |(k, form): &(usize, MotionComponent<'g>)| match form {
+            MotionComponent::Center(axis, _) => wrenches[*k].0[*axis].group(),
+            MotionComponent::Turn(axis, _) => wrenches[*k].1[*axis],
         };
         self.forms.iter().map(of).collect()
     }
@@ -216,7 +216,7 @@ fn hinge_of(tree: &Tree<'_>, k: usize) -> Option<(usize, usize)> {
 }
 
 /// The elements of one link, with their weights.
-fn forms_of<'g>(planar: Option<usize>, link: &Link<'g>) -> Vec<(Expr<'g>, Form<'g>)> {
+fn forms_of<'g>(planar: Option<usize>, link: &Link<'g>) -> Vec<(Expr<'g>, MotionComponent<'g>)> {
     let graph = link.frame.graph;
     let mass = match &link.matter {
         Matter::Nothing => return Vec::new(),
@@ -224,12 +224,12 @@ fn forms_of<'g>(planar: Option<usize>, link: &Link<'g>) -> Vec<(Expr<'g>, Form<'
         Matter::Body(body) => body.mass,
     };
     let center = center_of(link);
-    let mut forms: Vec<_> = (0..3).map(|axis| (mass, Form::Center(axis, center))).collect();
+    let mut forms: Vec<_> = (0..3).map(|axis| (mass, MotionComponent::Center(axis, center))).collect();
     let Some(inertia) = central_inertia(link) else { return forms };
     // About one axis no other moment enters: whatever is given of them, no pivot is made of it.
     if let Some(axis) = planar.or_else(|| link.only_axis()) {
         let unit = std::array::from_fn(|i| if i == axis { graph.one() } else { graph.zero() });
-        forms.push((inertia[axis][axis], Form::Turn(axis, unit)));
+        forms.push((inertia[axis][axis], MotionComponent::Turn(axis, unit)));
         return forms;
     }
     // I_G = L D Lᵀ: Σ D_j (Lᵀω)_j².
@@ -249,7 +249,7 @@ fn forms_of<'g>(planar: Option<usize>, link: &Link<'g>) -> Vec<(Expr<'g>, Form<'
                 }
             }
         }
-        forms.push((pivot, Form::Turn(j, factors)));
+        forms.push((pivot, MotionComponent::Turn(j, factors)));
     }
     forms
 }

@@ -29,12 +29,12 @@ pub enum Comparison {
 }
 
 /// A sum, and the sizes of its terms together: what its roundings are relative to.
-pub struct Summed<N> {
+pub struct SizedSum<N> {
     pub value: N,
     pub terms: f64,
 }
 
-impl<N: Number> Summed<N> {
+impl<N: Number> SizedSum<N> {
     pub fn of(first: N, terms: Vec<N>) -> Self {
         let start = Self { value: first, terms: first.to_f64().abs() };
         terms.into_iter().fold(start, |sum, x| Self { value: sum.value + x, terms: sum.terms + x.to_f64().abs() })
@@ -55,7 +55,7 @@ pub fn is_in_range<N: Number>(x: &N) -> bool {
 }
 
 /// Two evaluations of the same rows.
-pub fn agree<N: Number>(method: Method, found: &[N], expected: &[Summed<N>]) -> Result<(), Disagreement> {
+pub fn agree<N: Number>(method: Method, found: &[N], expected: &[SizedSum<N>]) -> Result<(), Disagreement> {
     let sizes = found.iter().chain(expected.iter().map(|row| &row.value));
     let scale = sizes.fold(1.0_f64, |most, x| most.max(x.to_f64().abs()));
     for (row, (x, y)) in found.iter().zip(expected).enumerate() {

@@ -8,7 +8,7 @@
 use crate::algebra::{Expr, Graph, Map};
 
 use crate::mechanics::kinematics::motion::Kinematics;
-use crate::mechanics::kinematics::vector::{Axes, Motion, Triple, Vector, apply_block, dot};
+use crate::mechanics::kinematics::vector::{Axes, BodyMotion, Triple, Vector, apply_block, dot};
 use crate::mechanics::matter::body::{AffineField, Body, integrate_product};
 
 /// Body coordinates x of the point P, as formal symbols.
@@ -68,7 +68,7 @@ fn active_forces<'g>(body: &Body<'g>, partial: &AffineField<'g>) -> Expr<'g> {
 }
 
 /// Contribution of the impulse (Q_f, Γ_f) = M_A (u, ω) of the fluid: it pairs with w_α as the body's own momentum does.
-fn fluid<'g>(motion: &Motion<'_, 'g>, body: &Body<'g>, z: Expr<'g>, along: &Map<u32, Expr<'g>>) -> Expr<'g> {
+fn fluid<'g>(motion: &BodyMotion<'_, 'g>, body: &Body<'g>, z: Expr<'g>, along: &Map<u32, Expr<'g>>) -> Expr<'g> {
     let frame = motion.frame;
     let Some(added) = &body.added_mass else { return frame.graph.zero() };
     let u = frame.resolve(motion.velocity, Axes::Body);
@@ -83,13 +83,13 @@ fn fluid<'g>(motion: &Motion<'_, 'g>, body: &Body<'g>, z: Expr<'g>, along: &Map<
 /// `d/dt p_α − [Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α]` with `p_α = Q·a_α + Γ_O·o_α`: the left-hand side of (3.4) for any
 /// momentum (Q, Γ_O) that pairs with rigid partial velocities.
 pub fn pairing<'g>(
-    motion: &Motion<'_, 'g>,
+    motion: &BodyMotion<'_, 'g>,
     linear_momentum: &Vector<'g>,
     angular_momentum: &Vector<'g>,
     z: Expr<'g>,
     along: &Map<u32, Expr<'g>>,
 ) -> Expr<'g> {
-    let Motion { frame, velocity, angular_velocity: omega } = motion;
+    let BodyMotion { frame, velocity, angular_velocity: omega } = motion;
     let (a, o) = (velocity.partial(z), omega.partial(z));
     let a_rate = frame.derivative(&a, along, omega);
     let o_rate = frame.derivative(&o, along, omega);

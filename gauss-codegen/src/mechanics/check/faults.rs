@@ -6,9 +6,9 @@ use crate::algebra::{Evaluation, Expr, Map, Number, Precise};
 use crate::mechanics::formula::{Formulas, Method};
 use crate::mechanics::system::System;
 
-use super::agreement::{Comparison, Disagreement, Summed, agree, is_in_range};
+use super::agreement::{Comparison, Disagreement, SizedSum, agree, is_in_range};
+use super::contact_forces::ContactDefinition;
 use super::dependent::{Dependency, dependencies};
-use super::pushed::Pushed;
 use super::witness::{Witness, largest, sample_state};
 
 /// A fault that is found in a system at a pseudo-random state.
@@ -167,13 +167,13 @@ fn compare<'g, N: Number>(
     // λ of the motion.
     let multipliers = claims.multipliers.map_or_else(Vec::new, |all| witness.values(all));
     // Jᵀλ is taken from rows.
-    let with_forces = |rows: Vec<N>| -> Vec<Summed<N>> {
+    let with_forces = |rows: Vec<N>| -> Vec<SizedSum<N>> {
         let force = |row: &[N]| row.iter().zip(&multipliers).map(|(j, l)| -(*j * *l)).collect::<Vec<N>>();
-        rows.into_iter().zip(&jacobian).map(|(r, j)| Summed::of(r, force(j))).collect()
+        rows.into_iter().zip(&jacobian).map(|(r, j)| SizedSum::of(r, force(j))).collect()
     };
     witness.state.extend(system.scene.speed_rates.iter().zip(arbitrary).map(|(s, x)| (s.key(), *x)));
     let expected = with_forces(unconstrained);
-    if !expected.iter().all(Summed::is_in_range) {
+    if !expected.iter().all(SizedSum::is_in_range) {
         return Ok(Comparison::WithoutValue);
     }
     let mut evaluation = Evaluation::new(&witness.state);
@@ -196,19 +196,20 @@ fn compare<'g, N: Number>(
         let drift: Vec<_> = (0..bias.len())
             .filter(is_kept)
             .map(|k| {
-                let sum = Summed::of(bias[k], rates.iter().zip(&jacobian).map(|(rate, row)| *rate * row[k]).collect());
+                let sum =
+                    SizedSum::of(bias[k], rates.iter().zip(&jacobian).map(|(rate, row)| *rate * row[k]).collect());
                 let sizes: f64 = jacobian.iter().map(|row| row[k].to_f64().abs()).sum();
-                Summed { terms: sum.terms + most * sizes, ..sum }
+                SizedSum { terms: sum.terms + most * sizes, ..sum }
             })
             .collect();
-        if !found.iter().chain(&drift).all(Summed::is_in_range) {
+        if !found.iter().chain(&drift).all(SizedSum::is_in_range) {
             return Ok(Comparison::WithoutValue);
         }
         for sums in [found, drift] {
             agree(Method::Acceleration, &vec![N::number(0.0); sums.len()], &sums)?;
         }
     }
-    let pushed = Pushed { witness: &witness, jacobian: &jacobian, multipliers: &multipliers };
+    let pushed = ContactDefinition { witness: &witness, jacobian: &jacobian, multipliers: &multipliers };
     pushed.compare(claims.contacts)
 }
 

@@ -3,7 +3,7 @@
 
 use std::cell::OnceCell;
 
-use crate::algebra::{Along, Evaluation, Expr, Map, Number, Rational, Tangents};
+use crate::algebra::{Evaluation, Expr, FlowDerivative, Map, Number, Rational, Tangents};
 
 use crate::mechanics::kinematics::rotation::rotation_of_quaternion;
 use crate::mechanics::kinematics::vector::Axes;
@@ -30,11 +30,11 @@ pub struct Witness<'a, 'g, N> {
     pub state: Map<u32, N>,
     /// v_P of every link: symbols of t, q and z.
     velocities: Vec<[[Expr<'g>; 3]; 4]>,
-    still: OnceCell<Still<N>>,
+    still: OnceCell<RestTerms<N>>,
 }
 
 /// Terms of the condition at one state that do not depend on the accelerations.
-struct Still<N> {
+struct RestTerms<N> {
     /// Derivatives of the fields of all links with respect to every speed.
     partials: Vec<Vec<N>>,
     gravity: [N; 3],
@@ -45,7 +45,7 @@ struct Still<N> {
 
 impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
     pub fn new(system: &'a System<'g>, state: Map<u32, N>) -> Self {
-        let mut along = Along::new(&system.scene.rates);
+        let mut along = FlowDerivative::new(&system.scene.rates);
         let velocity = |link: &Link<'g>| {
             let origin = link.position.map(|e| along.derivative(e));
             let [e1, e2, e3] = [0, 1, 2].map(|j| [0, 1, 2].map(|i| along.derivative(link.rotation[i][j])));
@@ -89,7 +89,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
     pub fn stationarity(&self, rates: &[N]) -> Vec<N> {
         let flow = self.flow(rates);
         let accelerations = self.along(&flow, &self.fields());
-        let Still { partials, gravity, links, acting } = self.still.get_or_init(|| self.still());
+        let RestTerms { partials, gravity, links, acting } = self.still.get_or_init(|| self.still());
         let mut rows = acting.clone();
         for (k, moments) in links.iter().enumerate() {
             let mut a = field(&accelerations, k);
@@ -120,7 +120,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
         self.velocities.iter().flatten().flatten().copied().collect()
     }
 
-    fn still(&self) -> Still<N> {
+    fn still(&self) -> RestTerms<N> {
         let scene = &self.system.scene;
         let partials = self.partials(&self.fields());
         let mut evaluation = Evaluation::new(&self.state);
@@ -142,7 +142,7 @@ impl<'a, 'g, N: Number> Witness<'a, 'g, N> {
         for (row, force) in acting.iter_mut().zip(self.forces(&partials)) {
             *row = *row - force;
         }
-        Still { partials, gravity, links, acting }
+        RestTerms { partials, gravity, links, acting }
     }
 
     /// `Σ F·∂v/∂z^α` over all forces, with velocities differentiated from positions. `partials` are those of the links.

@@ -1,7 +1,7 @@
 //! Constraints that coordinates and speeds do not solve by themselves: C is minimised subject to `J ż = γ`, which is
 //! what `φ(t, q) = 0` differentiated twice, and `φ(t, q, z) = 0` differentiated once, say.
 
-use crate::algebra::{Dependent, Expr, Map, solve_dependent, solve_saddle};
+use crate::algebra::{ConstrainedSolution, Expr, Map, solve_dependent, solve_saddle};
 
 use crate::mechanics::constraints::constraint::{Constraint, ConstraintKind};
 use crate::mechanics::scene::SystemScene;
@@ -74,7 +74,7 @@ impl<'g> Constraints<'g> {
     ) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
         let (rates, multipliers) = match self.redundant {
             true => {
-                let Dependent { solution, multipliers, .. } = solve_dependent(matrix, jacobian, right, bias);
+                let ConstrainedSolution { solution, multipliers, .. } = solve_dependent(matrix, jacobian, right, bias);
                 (solution, multipliers)
             }
             false => solve_saddle(matrix, jacobian, right, bias),

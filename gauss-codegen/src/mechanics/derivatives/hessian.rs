@@ -5,7 +5,7 @@
 //! along one component and then the other gives, and the other way round.
 
 use crate::algebra::{Expr, Map, Rational, Substitution};
-use crate::kernel::{Curved, Direction};
+use crate::kernel::{Direction, SecondDerivatives};
 
 use crate::mechanics::derivatives::linearize::{Increments, alone};
 use crate::mechanics::derivatives::rigid::Rates;
@@ -16,7 +16,7 @@ use crate::mechanics::system::System;
 /// Weighted sum of the rates, which is differentiated twice.
 pub struct Hessian<'g> {
     /// Along the components of an increment, the speeds and the inputs, in this order.
-    pub curved: Curved<'g>,
+    pub curved: SecondDerivatives<'g>,
     /// λ, of V in the order of increments and then of ż.
     pub weights: Vec<Expr<'g>>,
 }
@@ -38,7 +38,8 @@ impl<'g> Hessian<'g> {
         };
         let arrangements = formulas.acceleration.iter().map(weighted).collect();
         let groups = groups(scene, directions.len());
-        let mut curved = Curved { arrangements, defined: system.defined(), directions, groups, derived: Vec::new() };
+        let mut curved =
+            SecondDerivatives { arrangements, defined: system.defined(), directions, groups, derived: Vec::new() };
         curved.derived = Recursion::new(system, &curved, &weights, &velocity).ways(system);
         Self { curved, weights }
     }
@@ -47,7 +48,7 @@ impl<'g> Hessian<'g> {
 /// Second derivatives of accelerations that solve `∂C/∂ż = 0`, for links that hang on one another. With μ = A⁻¹λ they
 /// are `−(∂ᵢ∂ⱼ + ∂ⱼż · ∂ᵢ∂/∂ż + ∂ᵢż · ∂ⱼ∂/∂ż) (μ · ∂C/∂ż)` at fixed μ, and ż fixed but where it is named.
 struct Recursion<'a, 'g> {
-    curved: &'a Curved<'g>,
+    curved: &'a SecondDerivatives<'g>,
     /// λ of the rates of the configuration times these, and λ of ż.
     velocity: Expr<'g>,
     weights: &'a [Expr<'g>],
@@ -61,7 +62,12 @@ struct Recursion<'a, 'g> {
 }
 
 impl<'a, 'g> Recursion<'a, 'g> {
-    fn new(system: &System<'g>, curved: &'a Curved<'g>, weights: &'a [Expr<'g>], velocity: &[Expr<'g>]) -> Self {
+    fn new(
+        system: &System<'g>,
+        curved: &'a SecondDerivatives<'g>,
+        weights: &'a [Expr<'g>],
+        velocity: &[Expr<'g>],
+    ) -> Self {
         let scene = &system.scene;
         let (of_velocity, weights) = weights.split_at(velocity.len());
         let values = of_velocity.iter().zip(velocity).map(|(weight, value)| *weight * *value);
@@ -72,7 +78,7 @@ impl<'a, 'g> Recursion<'a, 'g> {
         let along = alone(scene.graph, &scene.speed_rates);
         let directions = curved.directions.iter().chain(&along).map(rates).collect();
         let mut pairs = Vec::new();
-        for (i, j) in Curved::<'g>::pairs(asked) {
+        for (i, j) in SecondDerivatives::<'g>::pairs(asked) {
             pairs.push((i, j));
             if !curved.commute(i, j) {
                 pairs.push((j, i));
@@ -127,7 +133,7 @@ impl<'a, 'g> Recursion<'a, 'g> {
         };
         let entry =
             |(i, j): (usize, usize)| mean(of_velocity, i, j) - mean(&residual, i, j) - mixed(i, j) - mixed(j, i);
-        Curved::<'g>::pairs(asked).map(entry).collect()
+        SecondDerivatives::<'g>::pairs(asked).map(entry).collect()
     }
 }
 

@@ -1,17 +1,17 @@
 //! ż as the root of ∂C/∂ż, and its derivatives: `−A⁻¹ ∂(∂C/∂ż)` at fixed ż, with A factored once.
 
-use crate::algebra::{Expr, Factored, FactoredColumns};
+use crate::algebra::{Expr, FactoredColumns, Factorisation};
 
 use crate::mechanics::arrangements::articulated::{Articulated, JointFactors};
-use crate::mechanics::derivatives::rigid::{Motion, Rates, Solved};
-use crate::mechanics::derivatives::second::Weighted;
+use crate::mechanics::derivatives::rigid::{RateSymbols, Rates, ResidualMotion};
+use crate::mechanics::derivatives::second::WeightedMotion;
 use crate::mechanics::links::inertia::Inertia;
 use crate::mechanics::system::{DENSE, System};
 use crate::mechanics::tidy::sums;
 
 /// A, ready for right-hand sides.
 pub(super) enum Factors<'g> {
-    Dense(Factored<'g>),
+    Dense(Factorisation<'g>),
     /// Factors of an elimination link by link at each joint: no large terms are taken from one another.
     Joints(JointFactors<'g>),
 }
@@ -22,7 +22,7 @@ impl<'g> Factors<'g> {
         let articulated = if system.is_long() { Articulated::eliminated(&system.scene.tree) } else { None };
         let mut ways: Vec<Self> = articulated.iter().map(|a| Self::Joints(a.joint_factors())).collect();
         if ways.is_empty() || system.scene.speeds.len() <= DENSE {
-            ways.push(Self::Dense(Factored::new(&system.matrix)));
+            ways.push(Self::Dense(Factorisation::new(&system.matrix)));
         }
         ways
     }
@@ -75,11 +75,11 @@ pub struct AccelerationsWithDerivatives<'g> {
     /// A⁻¹ times what else was to be solved for.
     pub solved: Vec<Expr<'g>>,
     /// Columns and right-hand sides that give the same derivatives where all are solved for together.
-    pub unsolved: Option<Unsolved<'g>>,
+    pub unsolved: Option<ColumnSystem<'g>>,
 }
 
 /// `A x = right` for every direction, with what is added to x.
-pub struct Unsolved<'g> {
+pub struct ColumnSystem<'g> {
     pub factors: FactoredColumns<'g>,
     pub rights: Vec<Vec<Expr<'g>>>,
     pub added: Vec<Vec<Expr<'g>>>,
@@ -144,8 +144,8 @@ impl<'g> System<'g> {
         let once: Vec<Expr<'g>> = directions.iter().map(|direction| beside.derivative(direction)).collect();
         let beside: Vec<Expr<'g>> = pairs.iter().map(|&(i, j)| once[i].derivative(&directions[j])).collect();
         let way = |&inertia: &Inertia| {
-            let motion = Motion::new(tree, &self.loads, &self.along, None, inertia)?;
-            Some(sums(&Weighted::new(&motion, weights).second_derivatives(directions, pairs), &beside))
+            let motion = ResidualMotion::new(tree, &self.loads, &self.along, None, inertia)?;
+            Some(sums(&WeightedMotion::new(&motion, weights).second_derivatives(directions, pairs), &beside))
         };
         tree.inertias(self.is_long()).iter().filter_map(way).collect()
     }
@@ -166,7 +166,7 @@ impl<'g> System<'g> {
         }
         let (tree, beside) = (&self.scene.tree, self.beside());
         let way = |&inertia: &Inertia| {
-            let motion = Motion::new(tree, &self.loads, &self.along, None, inertia)?;
+            let motion = ResidualMotion::new(tree, &self.loads, &self.along, None, inertia)?;
             let derivatives = motion.derivatives(directions).into_iter().zip(directions);
             let derivatives = derivatives.map(|(change, direction)| {
                 let beside: Vec<Expr<'g>> = beside.iter().map(|e| e.derivative(direction)).collect();
@@ -192,15 +192,19 @@ impl<'g> System<'g> {
     }
 
     /// ż, and the motion with it.
-    pub(super) fn solved(&self, inertia: Inertia, factors: &Factors<'g>) -> Option<(Vec<Expr<'g>>, Motion<'_, 'g>)> {
+    pub(super) fn solved(
+        &self,
+        inertia: Inertia,
+        factors: &Factors<'g>,
+    ) -> Option<(Vec<Expr<'g>>, ResidualMotion<'_, 'g>)> {
         let [rows, taken] = self.floating(inertia);
         let right: Vec<Expr<'g>> = rows.iter().map(|r| -*r).collect();
         let relative: Vec<Expr<'g>> = factors.solve(&right).iter().map(|e| e.group()).collect();
         let rates = sums(&relative, &taken);
         let symbols = self.scene.speed_rates.iter().zip(&rates);
         let solved =
-            Solved { rates: symbols.map(|(dz, value)| (dz.key(), value.group())).collect(), relative: &relative };
-        let motion = Motion::new(&self.scene.tree, &self.loads, &self.along, Some(solved), inertia)?;
+            RateSymbols { rates: symbols.map(|(dz, value)| (dz.key(), value.group())).collect(), relative: &relative };
+        let motion = ResidualMotion::new(&self.scene.tree, &self.loads, &self.along, Some(solved), inertia)?;
         Some((rates, motion))
     }
 
@@ -221,7 +225,7 @@ impl<'g> System<'g> {
         let derivatives = solutions.map(|(solution, change)| sums(&solution, &change.taken));
         let outputs = std::iter::once(rates).chain(derivatives).collect();
         let added = changes.iter().map(|change| change.taken.clone()).collect();
-        let unsolved = factors.columns().map(|factors| Unsolved { factors, rights, added });
+        let unsolved = factors.columns().map(|factors| ColumnSystem { factors, rights, added });
         Some(AccelerationsWithDerivatives { outputs, solved: Vec::new(), unsolved })
     }
 }

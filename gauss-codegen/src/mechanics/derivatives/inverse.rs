@@ -1,7 +1,7 @@
 //! Inverse dynamics and its derivatives: ∂C/∂ż at any ż, by the configuration, z, ż, time and inputs.
 
 use crate::algebra::Expr;
-use crate::kernel::{Derived, Differentiated, Direction};
+use crate::kernel::{DerivativeForm, Direction, DirectionalDerivatives};
 
 use crate::mechanics::derivatives::linearize::{Increments, alone};
 use crate::mechanics::derivatives::rigid::Rates;
@@ -11,7 +11,7 @@ use crate::mechanics::system::System;
 /// Derivatives of the rows of ∂C/∂ż.
 pub struct InverseLinearization<'g> {
     /// Along the components of an increment, the speeds, their rates, time, and the inputs, in this order.
-    pub differentiated: Differentiated<'g>,
+    pub differentiated: DirectionalDerivatives<'g>,
 }
 
 impl<'g> InverseLinearization<'g> {
@@ -32,10 +32,10 @@ impl<'g> InverseLinearization<'g> {
         let whole = |mut way: Vec<Vec<Expr<'g>>>| {
             let rest = way.split_off(1 + of_rates.start);
             let outputs = way.into_iter().chain(system.matrix.iter().cloned()).chain(rest).flatten().collect();
-            Derived { outputs, columns: None }
+            DerivativeForm { outputs, columns: None }
         };
         let derived = system.residuals_with_derivatives(&fixed).into_iter().map(whole).collect();
-        Self { differentiated: Differentiated { arrangements, defined: system.defined(), directions, derived } }
+        Self { differentiated: DirectionalDerivatives { arrangements, defined: system.defined(), directions, derived } }
     }
 }
 

@@ -5,7 +5,7 @@
 //! σ_u, as under a velocity V = σ. So the directions of the configuration are its rates with V a unit vector.
 
 use crate::algebra::{Expr, Graph};
-use crate::kernel::{ByParameters, Columns, Derived, Differentiated, Direction, Equation};
+use crate::kernel::{Columns, DerivativeForm, Direction, DirectionalDerivatives, Equation, ParametricDerivatives};
 
 use crate::mechanics::derivatives::implicit::AccelerationsWithDerivatives;
 use crate::mechanics::derivatives::rigid::Rates;
@@ -18,7 +18,7 @@ use crate::mechanics::system::System;
 /// Derivatives of V, component by component in the order of increments, then of ż.
 pub struct Linearization<'g> {
     /// Along the components of an increment, the speeds, time, and the inputs, in this order.
-    pub differentiated: Differentiated<'g>,
+    pub differentiated: DirectionalDerivatives<'g>,
     /// Numbers of components of an increment, and of speeds.
     increments: usize,
     speeds: usize,
@@ -98,9 +98,9 @@ impl<'g> Linearization<'g> {
 
     /// The derivatives of the same functions by parameters. Without constraints accelerations solve ∂C/∂ż = 0, whose
     /// matrix A is the one that takes z to the momenta.
-    pub fn by_parameters(&self, system: &System<'g>, parameters: Vec<Expr<'g>>) -> ByParameters<'g> {
+    pub fn by_parameters(&self, system: &System<'g>, parameters: Vec<Expr<'g>>) -> ParametricDerivatives<'g> {
         let equation = || Equation { unknowns: system.scene.speed_rates.clone(), loads: system.scene.momenta.clone() };
-        ByParameters {
+        ParametricDerivatives {
             derived: self.derived_by_parameters(system, &parameters),
             parameters,
             order: self.order.clone(),
@@ -128,7 +128,7 @@ impl<'g> Linearization<'g> {
         let arrangements =
             arrangements.into_iter().map(|outputs| velocity.iter().chain(outputs).copied().collect()).collect();
         Self {
-            differentiated: Differentiated { arrangements, defined: system.defined(), directions, derived },
+            differentiated: DirectionalDerivatives { arrangements, defined: system.defined(), directions, derived },
             increments,
             speeds: scene.speeds.len(),
             order,
@@ -137,7 +137,7 @@ impl<'g> Linearization<'g> {
 }
 
 /// V and ż, and then their derivatives along each of the directions, where these have forms of their own.
-fn derived<'g>(system: &System<'g>, velocity: &[Expr<'g>], directions: &[Direction<'g>]) -> Vec<Derived<'g>> {
+fn derived<'g>(system: &System<'g>, velocity: &[Expr<'g>], directions: &[Direction<'g>]) -> Vec<DerivativeForm<'g>> {
     let rates = |direction: &Direction<'g>| direction.iter().map(|(symbol, rate)| (symbol.key(), *rate)).collect();
     let directions: Vec<Rates<'g>> = directions.iter().map(rates).collect();
     let of_velocity = |direction: &Rates<'g>| velocity.iter().map(|v| v.derivative(direction)).collect();
@@ -152,7 +152,7 @@ fn derived<'g>(system: &System<'g>, velocity: &[Expr<'g>], directions: &[Directi
             let added = beside(&unsolved.added, &velocities[1..]);
             Columns::new(values, added, velocity.len(), unsolved.factors, unsolved.rights)
         });
-        Derived { outputs: beside(&way.outputs, &velocities), columns: unsolved }
+        DerivativeForm { outputs: beside(&way.outputs, &velocities), columns: unsolved }
     };
     system.accelerations_with_derivatives(&directions, None).into_iter().map(way).collect()
 }

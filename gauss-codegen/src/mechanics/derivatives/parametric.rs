@@ -11,7 +11,7 @@
 use crate::algebra::{Expr, Graph};
 
 use crate::mechanics::derivatives::implicit::Factors;
-use crate::mechanics::derivatives::rigid::{Motion, Pair, Rates};
+use crate::mechanics::derivatives::rigid::{Pair, Rates, ResidualMotion};
 use crate::mechanics::derivatives::second::velocities;
 use crate::mechanics::kinematics::vector::{Triple, add, cross, dot, is_zero, scale};
 use crate::mechanics::links::inertia::{Inertia, acceleration_gradient, apply};
@@ -22,7 +22,7 @@ use crate::mechanics::tidy::{sums, tidy};
 
 /// Ways in which pushes on links are solved for.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Pushed {
+enum PushSolution {
     /// Gathered and projected, then as any other right-hand side.
     Projected,
     /// Paired with what links do under the columns of A⁻¹.
@@ -58,14 +58,14 @@ impl<'g> System<'g> {
     ) -> Option<[Vec<Expr<'g>>; 2]> {
         let (_, motion) = self.solved(inertia, factors)?;
         let changes = self.changes(&motion, directions);
-        let ways = [Pushed::Projected, Pushed::Paired];
+        let ways = [PushSolution::Projected, PushSolution::Paired];
         Some(ways.map(|pushed| solutions(&motion, factors, &changes, pushed).concat()))
     }
 
-    fn changes(&self, motion: &Motion<'_, 'g>, directions: &[Rates<'g>]) -> Vec<Change<'g>> {
+    fn changes(&self, motion: &ResidualMotion<'_, 'g>, directions: &[Rates<'g>]) -> Vec<Change<'g>> {
         let beside = self.beside();
-        let accelerated: Vec<Accelerated<'g>> =
-            (0..motion.tree.links.len()).map(|k| Accelerated::of(motion, k)).collect();
+        let accelerated: Vec<AccelerationField<'g>> =
+            (0..motion.tree.links.len()).map(|k| AccelerationField::of(motion, k)).collect();
         let derivatives = motion.derivatives(directions).into_iter().zip(directions);
         let changes = derivatives.map(|(change, direction)| {
             let beside: Vec<Expr<'g>> = beside.iter().map(|e| motion.rate(*e, direction)).collect();
@@ -80,7 +80,7 @@ impl<'g> System<'g> {
 }
 
 /// Acceleration field of a link, which acts on its moments.
-struct Accelerated<'g> {
+struct AccelerationField<'g> {
     acceleration: Triple<'g>,
     spin_rate: Triple<'g>,
     spin: Triple<'g>,
@@ -88,8 +88,8 @@ struct Accelerated<'g> {
     field: [Triple<'g>; 3],
 }
 
-impl<'g> Accelerated<'g> {
-    fn of(motion: &Motion<'_, 'g>, k: usize) -> Self {
+impl<'g> AccelerationField<'g> {
+    fn of(motion: &ResidualMotion<'_, 'g>, k: usize) -> Self {
         let (acceleration, spin_rate) = motion.acceleration(k);
         let spin = motion.tree.links[k].angular_velocity;
         Self { acceleration, spin_rate, spin, field: acceleration_gradient(&spin, &spin_rate) }
@@ -109,8 +109,8 @@ impl<'g> Accelerated<'g> {
 /// Pushes on links by the moments of each link by itself: matter that moves with a parent as well is left where it is.
 /// Where joints change, which say what moves with a parent, by those that are left.
 fn pushes<'g>(
-    motion: &Motion<'_, 'g>,
-    accelerated: &[Accelerated<'g>],
+    motion: &ResidualMotion<'_, 'g>,
+    accelerated: &[AccelerationField<'g>],
     direction: &Rates<'g>,
 ) -> Vec<(usize, Pair<'g>)> {
     let links = &motion.tree.links;
@@ -129,26 +129,26 @@ fn pushes<'g>(
 
 /// The derivatives of ż, direction by direction.
 fn solutions<'g>(
-    motion: &Motion<'_, 'g>,
+    motion: &ResidualMotion<'_, 'g>,
     factors: &Factors<'g>,
     changes: &[Change<'g>],
-    pushed: Pushed,
+    pushed: PushSolution,
 ) -> Vec<Vec<Expr<'g>>> {
     let whole = |change: &Change<'g>| match pushed {
-        Pushed::Projected => projected(motion, change),
-        Pushed::Paired => change.rows.clone(),
+        PushSolution::Projected => projected(motion, change),
+        PushSolution::Paired => change.rows.clone(),
     };
     let rights: Vec<Vec<Expr<'g>>> =
         changes.iter().map(|change| whole(change).into_iter().map(|e| -e).collect()).collect();
     let moved = match pushed {
-        Pushed::Projected => factors.solve_each(&rights),
-        Pushed::Paired => paired(motion, factors, &rights, changes),
+        PushSolution::Projected => factors.solve_each(&rights),
+        PushSolution::Paired => paired(motion, factors, &rights, changes),
     };
     moved.iter().zip(changes).map(|(solution, change)| sums(solution, &change.taken)).collect()
 }
 
 /// Rows with those of what pushes links.
-fn projected<'g>(motion: &Motion<'_, 'g>, change: &Change<'g>) -> Vec<Expr<'g>> {
+fn projected<'g>(motion: &ResidualMotion<'_, 'g>, change: &Change<'g>) -> Vec<Expr<'g>> {
     let tree = motion.tree;
     let mut rows = change.rows.clone();
     for &(link, (mut linear, mut angular)) in &change.pushes {
@@ -169,7 +169,7 @@ fn projected<'g>(motion: &Motion<'_, 'g>, change: &Change<'g>) -> Vec<Expr<'g>> 
 
 /// A⁻¹ times the rows, and what pushes links, by what links do under the columns of A⁻¹.
 fn paired<'g>(
-    motion: &Motion<'_, 'g>,
+    motion: &ResidualMotion<'_, 'g>,
     factors: &Factors<'g>,
     rights: &[Vec<Expr<'g>>],
     changes: &[Change<'g>],

@@ -6,7 +6,7 @@
 //! buoyancy, do not.
 
 use crate::algebra::{Expr, Graph, Map};
-use crate::kernel::Differentiated;
+use crate::kernel::DirectionalDerivatives;
 
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::links::link::Matter;
@@ -16,7 +16,7 @@ use crate::mechanics::system::System;
 /// Forces of inertia, affine in the inertial parameters, and these.
 pub struct Regressor<'g> {
     /// The forces of inertia, in terms of a symbol for each parameter, along which they are differentiated.
-    pub differentiated: Differentiated<'g>,
+    pub differentiated: DirectionalDerivatives<'g>,
     /// π, and the generalised forces of everything else.
     pub formulas: [Formula<'g>; 2],
     pub parameters: Vec<InertialParameter<'g>>,
@@ -154,7 +154,7 @@ impl<'a, 'g> InertialParameters<'a, 'g> {
         ];
         let directions = list.iter().map(|parameter| vec![(parameter.symbol, graph.one())]).collect();
         Ok(Regressor {
-            differentiated: Differentiated { arrangements, defined, directions, derived: Vec::new() },
+            differentiated: DirectionalDerivatives { arrangements, defined, directions, derived: Vec::new() },
             formulas,
             parameters: list,
         })

@@ -30,7 +30,7 @@ pub type Pair<'g> = (Triple<'g>, Triple<'g>);
 
 /// Contribution of one joint to the changes of all that hangs on it.
 #[derive(Clone)]
-pub struct Change<'g> {
+pub struct JointChange<'g> {
     /// Turn of the link and displacement of its O beyond its parent's, in its axes.
     pub turn: Triple<'g>,
     pub shift: Triple<'g>,
@@ -43,7 +43,7 @@ pub struct Change<'g> {
 }
 
 /// Motion of two links as their joint reads it.
-pub struct Above<'g> {
+pub struct JointMotion<'g> {
     /// ω and ω̇ of the parent, in its axes.
     pub spin: Triple<'g>,
     pub spin_rate: Triple<'g>,
@@ -54,7 +54,7 @@ pub struct Above<'g> {
 
 /// Moments of all that hangs on a link, about its O: of its matter, and with velocities relative to O.
 #[derive(Clone)]
-pub struct Gathered<'g> {
+pub struct SubtreeMoments<'g> {
     pub moments: Moments<'g>,
     /// ∫y dm and ∫y xᵀ dm.
     pub momentum: Triple<'g>,
@@ -62,20 +62,20 @@ pub struct Gathered<'g> {
 }
 
 /// A row of ∂C/∂ż as a linear function of a change of all that hangs on a link.
-pub struct Row<'g> {
+pub struct ResidualRow<'g> {
     pub linear: Triple<'g>,
     pub angular: Triple<'g>,
     pub twice_spin: Triple<'g>,
 }
 
 /// ż, by its symbols, and what it is beyond what links that float take of their accelerations at once.
-pub struct Solved<'a, 'g> {
+pub struct RateSymbols<'a, 'g> {
     pub rates: Rates<'g>,
     pub relative: &'a [Expr<'g>],
 }
 
 /// The motion whose residual is differentiated.
-pub struct Motion<'a, 'g> {
+pub struct ResidualMotion<'a, 'g> {
     pub tree: &'a Tree<'g>,
     loads: &'a Loads<'g>,
     /// Rates of t, q and z, with symbols for ż.
@@ -86,26 +86,26 @@ pub struct Motion<'a, 'g> {
     accelerations: Pairs<'g>,
     /// Inertia of all that hangs on a link, at its O.
     pub forces: Vec<Pair<'g>>,
-    pub gathered: Vec<Gathered<'g>>,
+    pub gathered: Vec<SubtreeMoments<'g>>,
     floating: Vec<Option<Floating<'g>>>,
 }
 
 /// The derivatives along one direction.
-pub struct Derivative<'g> {
+pub struct ResidualDerivative<'g> {
     /// Rows of ∂C/∂ż, but for what `taken` has of it.
     pub residual: Vec<Expr<'g>>,
     /// Part that the speeds of floating links take of the change of their accelerations at once.
     pub taken: Vec<Expr<'g>>,
 }
 
-impl<'a, 'g> Motion<'a, 'g> {
+impl<'a, 'g> ResidualMotion<'a, 'g> {
     /// `along` has symbols for ż: at the ż that `solved` gives for each of them, or at any, where links that float take
     /// nothing of their accelerations at once. `None` where fluid moves with links.
     pub fn new(
         tree: &'a Tree<'g>,
         loads: &'a Loads<'g>,
         along: &'a Rates<'g>,
-        solved: Option<Solved<'_, 'g>>,
+        solved: Option<RateSymbols<'_, 'g>>,
         inertia: Inertia,
     ) -> Option<Self> {
         let wet = |link: &Link<'g>| link.body().is_some_and(|b| b.added_mass.is_some() || b.displaced.is_some());
@@ -117,7 +117,7 @@ impl<'a, 'g> Motion<'a, 'g> {
             None => Vec::new(),
         };
         let (values, relative) = match solved {
-            Some(Solved { rates, relative }) => (rates, Some(relative)),
+            Some(RateSymbols { rates, relative }) => (rates, Some(relative)),
             None => (Rates::default(), None),
         };
         let substituted = |rate: &Expr<'g>| values.get(&rate.key()).copied().unwrap_or(*rate);
@@ -139,13 +139,13 @@ impl<'a, 'g> Motion<'a, 'g> {
     }
 
     /// Along each of the directions, rates of symbols that moments of links do not depend on.
-    pub fn derivatives(&self, directions: &[Rates<'g>]) -> Vec<Derivative<'g>> {
+    pub fn derivatives(&self, directions: &[Rates<'g>]) -> Vec<ResidualDerivative<'g>> {
         let (tree, zero) = (self.tree, self.tree.graph.zero());
         let count = tree.speed_count();
-        let nothing = || Derivative { residual: vec![zero; count], taken: vec![zero; count] };
-        let mut derivatives: Vec<Derivative<'g>> = directions.iter().map(|_| nothing()).collect();
+        let nothing = || ResidualDerivative { residual: vec![zero; count], taken: vec![zero; count] };
+        let mut derivatives: Vec<ResidualDerivative<'g>> = directions.iter().map(|_| nothing()).collect();
         let along_each = directions.iter().zip(&mut derivatives);
-        let changes: Vec<Vec<Option<Change<'g>>>> =
+        let changes: Vec<Vec<Option<JointChange<'g>>>> =
             along_each.map(|(d, out)| self.changes(d, &mut out.taken)).collect();
         for k in 0..tree.links.len() {
             for speed in (0..count).filter(|&speed| tree.links[k].is_moved_by(speed)) {
@@ -159,11 +159,11 @@ impl<'a, 'g> Motion<'a, 'g> {
     }
 
     /// Changes by every joint that changes.
-    fn changes(&self, direction: &Rates<'g>, taken: &mut [Expr<'g>]) -> Vec<Option<Change<'g>>> {
+    fn changes(&self, direction: &Rates<'g>, taken: &mut [Expr<'g>]) -> Vec<Option<JointChange<'g>>> {
         (0..self.tree.links.len()).map(|k| self.change(k, direction, taken)).collect()
     }
 
-    fn change(&self, k: usize, direction: &Rates<'g>, taken: &mut [Expr<'g>]) -> Option<Change<'g>> {
+    fn change(&self, k: usize, direction: &Rates<'g>, taken: &mut [Expr<'g>]) -> Option<JointChange<'g>> {
         let link = &self.tree.links[k];
         let own = self.displacement(link, direction);
         let mut change = match link.parent {
@@ -215,7 +215,7 @@ impl<'a, 'g> Motion<'a, 'g> {
         a.map(|e| self.solved.of(e).group())
     }
 
-    pub fn change_of_root(&self, k: usize, (turn, shift): Pair<'g>, direction: &Rates<'g>) -> Change<'g> {
+    pub fn change_of_root(&self, k: usize, (turn, shift): Pair<'g>, direction: &Rates<'g>) -> JointChange<'g> {
         let link = &self.tree.links[k];
         let frame = &link.frame;
         let omega = &link.angular_velocity;
@@ -225,7 +225,7 @@ impl<'a, 'g> Motion<'a, 'g> {
         let spin = self.seen(link, &frame.body_vector(*omega), &turn, direction);
         let alpha = omega.map(|e| e.derivative(self.along));
         let turning = self.seen(link, &frame.body_vector(alpha), &turn, direction);
-        Change {
+        JointChange {
             turn,
             shift,
             drift: shift.map(|_| self.tree.graph.zero()),
@@ -236,9 +236,9 @@ impl<'a, 'g> Motion<'a, 'g> {
     }
 
     /// Motion of two links as it is.
-    pub fn above(&self, k: usize, parent: usize) -> Above<'g> {
+    pub fn above(&self, k: usize, parent: usize) -> JointMotion<'g> {
         let link = &self.tree.links[k];
-        Above {
+        JointMotion {
             spin: self.tree.links[parent].angular_velocity,
             spin_rate: self.accelerations[parent].1,
             acceleration: link.frame.resolve(&self.accelerations[k].0, Axes::Body),
@@ -251,10 +251,10 @@ impl<'a, 'g> Motion<'a, 'g> {
         &self,
         k: usize,
         parent: usize,
-        told: &Above<'g>,
+        told: &JointMotion<'g>,
         (turn, shift): Pair<'g>,
         direction: &Rates<'g>,
-    ) -> Change<'g> {
+    ) -> JointChange<'g> {
         let (link, above) = (&self.tree.links[k], &self.tree.links[parent]);
         let turns = &link.joint.turns;
         let named = |a: Triple<'g>| a.map(Expr::group);
@@ -279,7 +279,7 @@ impl<'a, 'g> Motion<'a, 'g> {
         let own = add(&moved(&told.spin, &told.spin_rate, &shift), &more_acceleration);
         let own = add(&own, &twice(&named(cross(&told.spin, &more_rate))));
         let linear = add(&cross(&told.acceleration, &turn), &inward(turns, &named(own)));
-        Change {
+        JointChange {
             turn,
             shift: inward(turns, &shift),
             drift: inward(turns, &named(add(&cross(&told.spin, &shift), &more_rate))),
@@ -294,15 +294,15 @@ impl<'a, 'g> Motion<'a, 'g> {
         &self,
         k: usize,
         speed: usize,
-        changes: &[Vec<Option<Change<'g>>>],
-        derivatives: &mut [Derivative<'g>],
+        changes: &[Vec<Option<JointChange<'g>>>],
+        derivatives: &mut [ResidualDerivative<'g>],
     ) {
         let links = &self.tree.links;
         let link = &links[k];
         let own = (link.frame.resolve(&link.linear_rows[speed], Axes::Body), link.angular_rows[speed]);
         let (linear, angular) = link.momentum(&self.gathered[k].moments, &link.linear_rows[speed], &own.1);
         let linear = link.frame.resolve(&linear, Axes::Body);
-        let mut row = Row { linear, angular, twice_spin: self.gathered[k].response(&own) };
+        let mut row = ResidualRow { linear, angular, twice_spin: self.gathered[k].response(&own) };
         let mut at = k;
         loop {
             for (changes, out) in changes.iter().zip(&mut *derivatives) {
@@ -317,18 +317,18 @@ impl<'a, 'g> Motion<'a, 'g> {
     }
 
     /// The same function of a change of the parent.
-    pub fn row_above(&self, k: usize, parent: usize, row: &Row<'g>) -> Row<'g> {
+    pub fn row_above(&self, k: usize, parent: usize, row: &ResidualRow<'g>) -> ResidualRow<'g> {
         let (linear, angular) = self.tree.carried(k, &row.linear, &row.angular);
         let turns = &self.tree.links[k].joint.turns;
         let (linear, angular) = (linear.map(Expr::group), angular.map(Expr::group));
         let spin = outward(turns, &row.twice_spin);
         let spin = add(&spin, &cross(&relative_velocity(self.tree, k, parent), &linear)).map(Expr::group);
-        Row { linear, angular, twice_spin: spin }
+        ResidualRow { linear, angular, twice_spin: spin }
     }
 
     /// Adds the effect of changes of joints on the rows of the links that they hang on, and of changes of partial
     /// velocities on their own.
-    fn add_from_below(&self, direction: &Rates<'g>, changes: &[Option<Change<'g>>], residual: &mut [Expr<'g>]) {
+    fn add_from_below(&self, direction: &Rates<'g>, changes: &[Option<JointChange<'g>>], residual: &mut [Expr<'g>]) {
         let links = &self.tree.links;
         let mut pending: Vec<Option<Pair<'g>>> = vec![None; links.len()];
         for k in (0..links.len()).rev() {
@@ -362,7 +362,7 @@ impl<'a, 'g> Motion<'a, 'g> {
     }
 }
 
-impl<'g> Gathered<'g> {
+impl<'g> SubtreeMoments<'g> {
     /// Moments of a link by itself: y = ω × x.
     fn of(link: &Link<'g>) -> Self {
         let (omega, moments) = (&link.angular_velocity, link.moments);
@@ -385,7 +385,7 @@ impl<'g> Gathered<'g> {
     }
 
     /// Change of the forces that the joint hands on, about the O that is displaced; `forces` are those of now.
-    pub fn force(&self, change: &Change<'g>, forces: &Pair<'g>) -> Pair<'g> {
+    pub fn force(&self, change: &JointChange<'g>, forces: &Pair<'g>) -> Pair<'g> {
         let Moments { mass, first, .. } = self.moments;
         let inertia = self.moments.inertia();
         let mixed = &self.mixed;
@@ -406,16 +406,16 @@ impl<'g> Gathered<'g> {
     }
 }
 
-impl<'g> Row<'g> {
-    pub fn times(&self, change: &Change<'g>) -> Expr<'g> {
+impl<'g> ResidualRow<'g> {
+    pub fn times(&self, change: &JointChange<'g>) -> Expr<'g> {
         let spin = dot(&self.twice_spin, &change.twice_spin);
         dot(&self.linear, &change.linear) + dot(&self.angular, &change.angular) + spin
     }
 }
 
 /// Gathered moments of all links, leaves first.
-fn gathered<'g>(tree: &Tree<'g>) -> Vec<Gathered<'g>> {
-    let mut gathered: Vec<Gathered<'g>> = tree.links.iter().map(Gathered::of).collect();
+fn gathered<'g>(tree: &Tree<'g>) -> Vec<SubtreeMoments<'g>> {
+    let mut gathered: Vec<SubtreeMoments<'g>> = tree.links.iter().map(SubtreeMoments::of).collect();
     for k in (0..tree.links.len()).rev() {
         let link = &tree.links[k];
         let Some(parent) = link.parent else { continue };

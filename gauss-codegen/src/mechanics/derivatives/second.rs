@@ -11,28 +11,30 @@
 
 use crate::algebra::{Expr, Graph, Map, Rational, Substitution};
 
-use crate::mechanics::derivatives::rigid::{Above, Change, Motion, Pair, Rates, Row, relative_velocity};
+use crate::mechanics::derivatives::rigid::{
+    JointChange, JointMotion, Pair, Rates, ResidualMotion, ResidualRow, relative_velocity,
+};
 use crate::mechanics::kinematics::turn::{inward, outward};
 use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, cross_matrix, dot, is_zero, scale, subtract};
 use crate::mechanics::links::link::Link;
 
 /// Contribution of one joint to the changes of all that hangs on it, virtual velocities among them.
 struct Shift<'g> {
-    change: Change<'g>,
+    change: JointChange<'g>,
     /// ε and η.
     of_virtual: Pair<'g>,
 }
 
 /// A row of five vectors: of a change of all that hangs on a link.
 struct LongRow<'g> {
-    row: Row<'g>,
+    row: ResidualRow<'g>,
     /// Coefficients of ε and η.
     of_virtual: Pair<'g>,
 }
 
 /// Virtual velocities of all that hangs on a link.
 #[derive(Clone)]
-struct Sums<'g> {
+struct VirtualMoments<'g> {
     /// P = ∫w dm, Π = ∫x × w dm, Q = ∫y × w dm, C = ∫w xᵀ dm.
     linear: Triple<'g>,
     angular: Triple<'g>,
@@ -41,27 +43,27 @@ struct Sums<'g> {
 }
 
 /// A motion, and μ.
-pub struct Weighted<'a, 'g> {
-    motion: &'a Motion<'a, 'g>,
+pub struct WeightedMotion<'a, 'g> {
+    motion: &'a ResidualMotion<'a, 'g>,
     weights: &'a [Expr<'g>],
     /// w_O and ν of every link, working axes.
     velocities: Vec<Pair<'g>>,
-    sums: Vec<Sums<'g>>,
-    held: Held<'g>,
+    sums: Vec<VirtualMoments<'g>>,
+    held: JointSymbols<'g>,
 }
 
 /// Symbols in place of what a joint is told of the motion of its parent, and of its own.
-struct Held<'g> {
-    told: Above<'g>,
+struct JointSymbols<'g> {
+    told: JointMotion<'g>,
     of_virtual: Pair<'g>,
 }
 
-impl<'a, 'g> Weighted<'a, 'g> {
+impl<'a, 'g> WeightedMotion<'a, 'g> {
     /// `weights` are symbols.
-    pub fn new(motion: &'a Motion<'a, 'g>, weights: &'a [Expr<'g>]) -> Self {
+    pub fn new(motion: &'a ResidualMotion<'a, 'g>, weights: &'a [Expr<'g>]) -> Self {
         let velocities = velocities(motion, weights);
-        let sums = Sums::gathered(motion, &velocities);
-        let held = Held::new(motion.tree.graph);
+        let sums = VirtualMoments::gathered(motion, &velocities);
+        let held = JointSymbols::new(motion.tree.graph);
         Self { motion, weights, velocities, sums, held }
     }
 
@@ -157,7 +159,7 @@ impl<'a, 'g> Weighted<'a, 'g> {
         &self,
         k: usize,
         parent: usize,
-        told: &Above<'g>,
+        told: &JointMotion<'g>,
         (linear, angular): &Pair<'g>,
         direction: &Rates<'g>,
     ) -> Shift<'g> {
@@ -230,8 +232,8 @@ impl<'a, 'g> Weighted<'a, 'g> {
 
     /// Coefficients of the changes that a joint adds, in `μ · ∂C/∂ż`.
     fn coefficients(&self, k: usize) -> LongRow<'g> {
-        let Sums { linear, angular, turning, .. } = &self.sums[k];
-        let row = Row { linear: *linear, angular: *angular, twice_spin: *turning };
+        let VirtualMoments { linear, angular, turning, .. } = &self.sums[k];
+        let row = ResidualRow { linear: *linear, angular: *angular, twice_spin: *turning };
         LongRow { row, of_virtual: self.motion.forces[k] }
     }
 
@@ -247,20 +249,20 @@ impl<'a, 'g> Weighted<'a, 'g> {
         let spin = half(&shift.change.twice_spin);
         let turned: Triple<'g> = std::array::from_fn(|i| dot(&mixed[i], &spin) - trace.group() * spin[i]);
         let twice_spin = add(&gathered.response(&shift.of_virtual), &turned);
-        let still = Change { turn: none, shift: none, ..shift.change.clone() };
+        let still = JointChange { turn: none, shift: none, ..shift.change.clone() };
         let of_virtual = gathered.force(&still, &self.motion.forces[k]);
-        LongRow { row: Row { linear, angular, twice_spin }, of_virtual }.named()
+        LongRow { row: ResidualRow { linear, angular, twice_spin }, of_virtual }.named()
     }
 
     /// Effect of a change that comes from the parent on the contribution of a joint.
     fn row(&self, k: usize, shift: &Shift<'g>) -> LongRow<'g> {
-        let Change { turn, shift: moved, drift, twice_spin, .. } = &shift.change;
-        let Sums { linear: p, angular: pi, turning: q, .. } = &self.sums[k];
+        let JointChange { turn, shift: moved, drift, twice_spin, .. } = &shift.change;
+        let VirtualMoments { linear: p, angular: pi, turning: q, .. } = &self.sums[k];
         let (force, torque) = &self.motion.forces[k];
         let LongRow { row, of_virtual } = self.row_of_moments(k, shift);
         let spin = half(twice_spin);
         let own = add(&cross(turn, q), &add(&cross(&spin, pi), &cross(drift, p)));
-        let row = Row {
+        let row = ResidualRow {
             linear: add(&row.linear, &cross(turn, p)),
             angular: add(&row.angular, &add(&cross(turn, pi), &cross(moved, p))),
             twice_spin: add(&row.twice_spin, &own),
@@ -276,27 +278,29 @@ impl<'a, 'g> Weighted<'a, 'g> {
     }
 }
 
-impl<'g> Held<'g> {
+impl<'g> JointSymbols<'g> {
     fn new(graph: &'g Graph) -> Self {
         let symbols = |name: &str| std::array::from_fn(|_| graph.symbol(name, name, false));
-        let told =
-            Above {
-                spin: symbols("ω"), spin_rate: symbols("α"), acceleration: symbols("a"), own_spin: symbols("ω")
-            };
+        let told = JointMotion {
+            spin: symbols("ω"),
+            spin_rate: symbols("α"),
+            acceleration: symbols("a"),
+            own_spin: symbols("ω"),
+        };
         Self { told, of_virtual: (symbols("w"), symbols("ν")) }
     }
 }
 
 impl<'g> Shift<'g> {
     fn is_zero(&self) -> bool {
-        let Change { turn, shift, drift, linear, angular, twice_spin } = &self.change;
+        let JointChange { turn, shift, drift, linear, angular, twice_spin } = &self.change;
         let parts = [turn, shift, drift, linear, angular, twice_spin, &self.of_virtual.0, &self.of_virtual.1];
         parts.into_iter().all(is_zero)
     }
 
     fn map(&self, f: impl Fn(&Triple<'g>) -> Triple<'g>) -> Self {
-        let Change { turn, shift, drift, linear, angular, twice_spin } = &self.change;
-        let change = Change {
+        let JointChange { turn, shift, drift, linear, angular, twice_spin } = &self.change;
+        let change = JointChange {
             turn: f(turn),
             shift: f(shift),
             drift: f(drift),
@@ -316,15 +320,15 @@ impl<'g> LongRow<'g> {
 
     fn named(self) -> Self {
         let named = |a: Triple<'g>| a.map(Expr::group);
-        let Row { linear, angular, twice_spin } = self.row;
-        let row = Row { linear: named(linear), angular: named(angular), twice_spin: named(twice_spin) };
+        let ResidualRow { linear, angular, twice_spin } = self.row;
+        let row = ResidualRow { linear: named(linear), angular: named(angular), twice_spin: named(twice_spin) };
         Self { row, of_virtual: (named(self.of_virtual.0), named(self.of_virtual.1)) }
     }
 }
 
-impl<'g> Sums<'g> {
+impl<'g> VirtualMoments<'g> {
     /// Sums over a link by itself. `∫(ω × x) × (ν × x) dm = J (ω × ν)`.
-    fn of(motion: &Motion<'_, 'g>, k: usize, (w, nu): &Pair<'g>) -> Self {
+    fn of(motion: &ResidualMotion<'_, 'g>, k: usize, (w, nu): &Pair<'g>) -> Self {
         let link = &motion.tree.links[k];
         let (omega, moments) = (&link.angular_velocity, link.moments);
         let (first, second) = (&moments.first, &moments.second);
@@ -344,7 +348,7 @@ impl<'g> Sums<'g> {
     }
 
     /// Sums over all links, leaves first.
-    fn gathered(motion: &Motion<'_, 'g>, velocities: &[Pair<'g>]) -> Vec<Self> {
+    fn gathered(motion: &ResidualMotion<'_, 'g>, velocities: &[Pair<'g>]) -> Vec<Self> {
         let tree = motion.tree;
         let mut sums: Vec<Self> = velocities.iter().enumerate().map(|(k, pair)| Self::of(motion, k, pair)).collect();
         for k in (0..sums.len()).rev() {
@@ -368,7 +372,7 @@ impl<'g> Sums<'g> {
 }
 
 /// The velocities that μ gives.
-pub(super) fn velocities<'g>(motion: &Motion<'_, 'g>, weights: &[Expr<'g>]) -> Vec<Pair<'g>> {
+pub(super) fn velocities<'g>(motion: &ResidualMotion<'_, 'g>, weights: &[Expr<'g>]) -> Vec<Pair<'g>> {
     let none = [motion.tree.graph.zero(); 3];
     let mut velocities: Vec<Pair<'g>> = Vec::with_capacity(motion.tree.links.len());
     for link in &motion.tree.links {

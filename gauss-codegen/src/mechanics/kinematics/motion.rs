@@ -3,7 +3,7 @@
 use crate::algebra::{Expr, Map};
 
 #[cfg(test)]
-use crate::mechanics::kinematics::vector::Motion;
+use crate::mechanics::kinematics::vector::BodyMotion;
 use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, Vector};
 
 /// Kinematics of one body.
@@ -35,8 +35,8 @@ impl<'g> Kinematics<'g> {
 
     /// The motion of the body.
     #[cfg(test)]
-    pub fn motion(&self) -> Motion<'_, 'g> {
-        Motion { frame: &self.frame, velocity: &self.velocity, angular_velocity: &self.angular_velocity }
+    pub fn motion(&self) -> BodyMotion<'_, 'g> {
+        BodyMotion { frame: &self.frame, velocity: &self.velocity, angular_velocity: &self.angular_velocity }
     }
 
     /// Body axes about which the motion can turn.

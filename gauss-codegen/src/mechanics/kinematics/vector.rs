@@ -23,7 +23,7 @@ pub struct Vector<'g> {
 
 /// Motion of a body: its frame, the velocity of O and the angular velocity.
 #[cfg(test)]
-pub struct Motion<'a, 'g> {
+pub struct BodyMotion<'a, 'g> {
     pub frame: &'a Frame<'g>,
     pub velocity: &'a Vector<'g>,
     pub angular_velocity: &'a Vector<'g>,

@@ -11,12 +11,12 @@ use crate::mechanics::matter::modes::Deformation;
 use crate::mechanics::matter::moments::Moments;
 
 /// All mass, and ∫x̂ dm.
-pub struct Whole<'g> {
+pub struct MassSum<'g> {
     pub mass: Expr<'g>,
     first: Triple<'g>,
 }
 
-impl<'g> Whole<'g> {
+impl<'g> MassSum<'g> {
     /// G − Ω.
     pub fn center(&self) -> Triple<'g> {
         let inverse = self.mass.group().recip();
@@ -26,7 +26,7 @@ impl<'g> Whole<'g> {
 
 impl<'g> Tree<'g> {
     /// Mass and first moment of all matter, also of what keeps still, so not of moments that are regrouped.
-    pub fn whole(&self) -> Whole<'g> {
+    pub fn whole(&self) -> MassSum<'g> {
         let zero = self.graph.zero();
         let own = |link: &Link<'g>| match &link.matter {
             Matter::Nothing => (zero, [zero; 3]),
@@ -38,7 +38,7 @@ impl<'g> Tree<'g> {
             let first = &mut gathered[modes.link].1;
             *first = add(first, &modes.first_moment()).map(Expr::group);
         }
-        let mut whole = Whole { mass: zero, first: [zero; 3] };
+        let mut whole = MassSum { mass: zero, first: [zero; 3] };
         for k in (0..self.links.len()).rev() {
             let (link, (mass, first)) = (&self.links[k], gathered[k]);
             let turned = outward(&link.own_joint.turns, &first);

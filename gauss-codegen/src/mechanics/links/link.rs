@@ -69,7 +69,7 @@ pub struct Joint<'g> {
 }
 
 /// A link with its motion. Its *working axes*, in which components are taken, are the body's own, k throughout where
-/// everything moves in the plane, or those of the parent in a [`Description`].
+/// everything moves in the plane, or those of the parent in a [`WorkingFrame`].
 #[derive(Clone)]
 pub struct Link<'g> {
     pub matter: Matter<'g>,
@@ -108,7 +108,7 @@ pub struct Link<'g> {
 
 /// The working pole and the working axes of a link, in which its sums are formed. The scene gives the link about its O
 /// and in body axes.
-pub struct Description<'g> {
+pub struct WorkingFrame<'g> {
     /// From O to the pole, body axes.
     pub shift: Triple<'g>,
     /// From the parent's pole, the parent's body axes.
@@ -120,7 +120,7 @@ pub struct Description<'g> {
 }
 
 /// A link where it hangs.
-struct Hung<'g> {
+struct HangingLink<'g> {
     own_joint: Joint<'g>,
     joint: Joint<'g>,
     frame: Frame<'g>,
@@ -146,14 +146,14 @@ impl<'g> Joint<'g> {
 }
 
 /// Position and velocities of a link; its own velocity is the part that its parent does not give it.
-struct Moved<'g> {
+struct LinkMotion<'g> {
     position: Triple<'g>,
     velocity: Vector<'g>,
     angular_velocity: Triple<'g>,
     own_velocity: Vector<'g>,
 }
 
-impl<'g> Moved<'g> {
+impl<'g> LinkMotion<'g> {
     /// Motion of a link that its parent carries. In the plane its own angular velocity is added.
     fn with(parent: &Link<'g>, frame: &Frame<'g>, joint: &Joint<'g>, planar: Option<&Triple<'g>>) -> Self {
         let angular_velocity = match planar {
@@ -204,25 +204,25 @@ impl<'g> Link<'g> {
         };
         let joint = own_joint.in_working_axes(graph, parent, planar.is_some());
         let frame = Frame { graph, rotation: if planar.is_some() { identity(graph) } else { rotation } };
-        let hung = Hung { own_joint, joint, frame, rotation, turned: whole, velocity_beyond, spin };
+        let hung = HangingLink { own_joint, joint, frame, rotation, turned: whole, velocity_beyond, spin };
         Self::hung(hung, (matter, index), parent, (known, known_spin), (planar.is_some(), speeds))
     }
 
     /// Computes position and motion of a link that hangs.
     fn hung(
-        hung: Hung<'g>,
+        hung: HangingLink<'g>,
         (matter, index): (Matter<'g>, Option<usize>),
         parent: Option<&Self>,
         (known, known_spin): (Option<Vector<'g>>, Option<Vector<'g>>),
         (planar, speeds): (bool, &[Expr<'g>]),
     ) -> Self {
-        let Hung { own_joint, joint, frame, rotation, turned, velocity_beyond, spin } = hung;
-        let Moved { position, velocity, angular_velocity: omega, own_velocity } = match parent {
+        let HangingLink { own_joint, joint, frame, rotation, turned, velocity_beyond, spin } = hung;
+        let LinkMotion { position, velocity, angular_velocity: omega, own_velocity } = match parent {
             None => {
                 let velocity = known.unwrap_or_else(|| frame.space_vector(joint.offset_rate));
-                Moved { position: own_joint.offset, velocity, angular_velocity: spin, own_velocity: velocity }
+                LinkMotion { position: own_joint.offset, velocity, angular_velocity: spin, own_velocity: velocity }
             }
-            Some(parent) => Moved::with(parent, &frame, &joint, planar.then_some(&spin)),
+            Some(parent) => LinkMotion::with(parent, &frame, &joint, planar.then_some(&spin)),
         };
         let named = |e: Expr<'g>| compact(e).group();
         let linear_rows = speeds.iter().map(|&z| own_velocity.partial(z).map(named)).collect();
@@ -253,14 +253,14 @@ impl<'g> Link<'g> {
     }
 
     /// The same link by another pole and other working axes. Its moments are those that were given, in body axes.
-    pub fn described(&self, parent: Option<&Self>, by: Description<'g>, speeds: &[Expr<'g>]) -> Self {
-        let Description { shift, own_offset, joint, turned } = by;
+    pub fn described(&self, parent: Option<&Self>, by: WorkingFrame<'g>, speeds: &[Expr<'g>]) -> Self {
+        let WorkingFrame { shift, own_offset, joint, turned } = by;
         let own_joint = Joint { offset: own_offset, ..self.own_joint.clone() };
         let through = |r, turn: &Turn<'g>| product(&r, &turn.matrix).map(grouped);
         let graph = self.frame.graph;
         let start = parent.map_or_else(|| identity(graph), |p| p.frame.rotation);
         let frame = Frame { graph, rotation: joint.turns.iter().fold(start, through) };
-        let hung = Hung {
+        let hung = HangingLink {
             own_joint,
             joint,
             frame,

@@ -7,7 +7,7 @@ use crate::mechanics::kinematics::turn::{Turn, angular_acceleration, inward, out
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, scale, subtract};
 use crate::mechanics::links::floating::Floating;
 use crate::mechanics::links::inertia::{Inertia, acceleration_gradient, apply, force_of_inertia};
-use crate::mechanics::links::link::{Description, Link, Matter, Placement, impulse};
+use crate::mechanics::links::link::{Link, Matter, Placement, WorkingFrame, impulse};
 use crate::mechanics::links::regroup::regroup;
 use crate::mechanics::loads::forces::{Force, Loads};
 use crate::mechanics::matter::modes::Deformation;
@@ -28,7 +28,7 @@ enum Observers<'a, 'g> {
 }
 
 /// `∂C/∂ż` at ż = ζ before it is gathered: see [`Tree::under_way`].
-pub struct UnderWay<'g> {
+pub struct UngatheredResidual<'g> {
     /// Forces of inertia of every link by itself, less the loads on it.
     pub wrenches: Pairs<'g>,
     /// Contributions of rotors and modes.
@@ -132,7 +132,7 @@ impl<'g> Tree<'g> {
 
     /// The same links by the poles that are given, each in its own axes, where all work in those of the observer.
     pub fn in_own_axes(&self) -> Option<Self> {
-        let own = |link: &Link<'g>| Description {
+        let own = |link: &Link<'g>| WorkingFrame {
             shift: link.shift,
             own_offset: link.own_joint.offset,
             joint: link.own_joint.clone(),
@@ -142,7 +142,7 @@ impl<'g> Tree<'g> {
     }
 
     /// The same links by other poles and axes; not in the plane.
-    pub fn described(&self, descriptions: Vec<Description<'g>>) -> Self {
+    pub fn described(&self, descriptions: Vec<WorkingFrame<'g>>) -> Self {
         let mut tree = Self::new(self.graph, Vec::new(), self.speeds.clone(), self.rates.clone(), self.gravity);
         tree.rotors.clone_from(&self.rotors);
         tree.deformations.clone_from(&self.deformations);
@@ -347,11 +347,11 @@ impl<'g> Tree<'g> {
     }
 
     /// The same before it is gathered, for those who gather something else on the way to the root as well.
-    pub fn under_way(&self, inertia: Inertia, loads: &Loads<'g>, held: &[bool]) -> UnderWay<'g> {
+    pub fn under_way(&self, inertia: Inertia, loads: &Loads<'g>, held: &[bool]) -> UngatheredResidual<'g> {
         let (accelerations, taken) = self.floating_accelerations(loads, held);
         let wrenches = self.wrenches(&self.rates, inertia, loads, &accelerations);
         let rows = self.with_formal(vec![self.graph.zero(); self.speeds.len()], &self.rates, &accelerations);
-        UnderWay { wrenches, rows, taken }
+        UngatheredResidual { wrenches, rows, taken }
     }
 
     /// `a_O − g` and ω̇ of every link at ż = ζ for these observers, and ζ.

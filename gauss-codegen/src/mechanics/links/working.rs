@@ -11,7 +11,7 @@ use crate::algebra::Expr;
 
 use crate::mechanics::kinematics::turn::{Turn, outward};
 use crate::mechanics::kinematics::vector::{Triple, add, is_zero, subtract};
-use crate::mechanics::links::link::{Description, Joint, Link, identity};
+use crate::mechanics::links::link::{Joint, Link, WorkingFrame, identity};
 use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::{Force, Loads};
 use crate::mechanics::tidy::tidy;
@@ -177,7 +177,7 @@ impl<'g> Angles<'g> {
         Some(Turn::about(poles.tree.graph, hinge.axis, angle, poles.tree.rates()))
     }
 
-    fn description(&self, poles: &Poles<'_, 'g>, k: usize) -> Description<'g> {
+    fn description(&self, poles: &Poles<'_, 'g>, k: usize) -> WorkingFrame<'g> {
         let (link, graph) = (&poles.tree.links[k], poles.tree.graph);
         let own_offset = poles.offset(k);
         let mut joint = Joint { offset: own_offset, ..link.own_joint.clone() };
@@ -192,7 +192,7 @@ impl<'g> Angles<'g> {
             turned = self.stays[k].then_some(turn);
             *last = turning;
         }
-        Description { shift: poles.shift(k), own_offset, joint, turned }
+        WorkingFrame { shift: poles.shift(k), own_offset, joint, turned }
     }
 }
 
@@ -205,12 +205,12 @@ fn is_symmetric(link: &Link<'_>) -> bool {
 }
 
 /// A tree that describes the same motion of the same matter by other poles and axes, and the loads on it.
-pub struct Working<'g> {
+pub struct WorkingTree<'g> {
     pub tree: Tree<'g>,
     pub loads: Loads<'g>,
 }
 
-impl<'g> Working<'g> {
+impl<'g> WorkingTree<'g> {
     /// `None` where there is nothing to gain.
     pub fn of(tree: &Tree<'g>, loads: &Loads<'g>) -> Option<Self> {
         if tree.planar_axis().is_some() {

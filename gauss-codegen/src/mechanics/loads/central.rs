@@ -6,7 +6,7 @@ use crate::algebra::{Expr, Map};
 use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, dot, is_zero, scale, subtract};
 use crate::mechanics::links::link::{Link, Matter};
 use crate::mechanics::links::tree::Tree;
-use crate::mechanics::loads::forces::{Action, Field, Force, Loads};
+use crate::mechanics::loads::forces::{Action, Force, ForceField, Loads};
 use crate::mechanics::matter::modes::Deformation;
 use crate::mechanics::matter::moments::Moments;
 
@@ -117,7 +117,7 @@ impl<'g> CentralField<'g> {
         let apart = tree.links.iter().enumerate().filter(|(k, _)| !gathered.contains(&tree.root_of(*k)));
         let of_modes = self.energy_of_modes(tree, |root| !gathered.contains(&root));
         let rest = sum(&mut apart.map(|(_, link)| link).filter(heavy)) + of_modes;
-        Action::Field(Field { potential, rest, loads })
+        Action::Field(ForceField { potential, rest, loads })
     }
 
     /// The energy of what modes add to the moments of links, on some of the roots.

@@ -40,14 +40,14 @@ pub enum Action<'g> {
     /// A potential, a function of t and q: part of the energy.
     Potential(Expr<'g>),
     /// A potential of which the forces are known, in part, link by link.
-    Field(Field<'g>),
+    Field(ForceField<'g>),
     /// Forces that act together.
     Forces(Vec<Force<'g>>),
 }
 
 /// A field with its potential.
 #[derive(Clone)]
-pub struct Field<'g> {
+pub struct ForceField<'g> {
     /// All of it.
     pub potential: Expr<'g>,
     /// Part that acts by its derivatives.
@@ -56,7 +56,7 @@ pub struct Field<'g> {
     pub loads: Loads<'g>,
 }
 
-impl<'g> Field<'g> {
+impl<'g> ForceField<'g> {
     /// The field with other expressions in place of those that it is made of.
     pub fn map(&self, f: impl Fn(Expr<'g>) -> Expr<'g>) -> Self {
         let uniform = self.loads.uniform.iter().map(|&(root, field)| (root, field.map(&f)));

@@ -5,5 +5,5 @@ pub mod accounts;
 pub mod central;
 pub mod fields;
 pub mod forces;
-pub mod observed;
+pub mod motion_symbols;
 pub mod wrench;

@@ -7,8 +7,8 @@ use crate::mechanics::tidy::LIMIT;
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::loads::account::{Account, GRAVITY};
 use crate::mechanics::print::names::Name;
-use crate::mechanics::print::rows::{Row, Section};
-use crate::mechanics::print::shown::{Readings, Shown};
+use crate::mechanics::print::readings::{PrintSymbols, Readings};
+use crate::mechanics::print::rows::{PrintedRow, Section};
 use crate::mechanics::system::System;
 
 /// All sections, with names for what long rows have in common.
@@ -41,7 +41,7 @@ pub(in crate::mechanics) struct PrintedForces<'g> {
 }
 
 impl<'g> PrintedForces<'g> {
-    pub fn new(whole: Vec<Expr<'g>>, accounts: &[Account<'g>], names: &[Name], shown: &Shown<'g>) -> Self {
+    pub fn new(whole: Vec<Expr<'g>>, accounts: &[Account<'g>], names: &[Name], shown: &PrintSymbols<'g>) -> Self {
         if accounts.len() < 2 || whole.iter().all(|e| shown.readable(*e).is_some()) {
             return Self { rows: whole.into_iter().map(|e| shown.legible(e)).collect(), sections: Vec::new() };
         }
@@ -66,19 +66,19 @@ fn element_name(account: &Account<'_>) -> Name {
 }
 
 /// Nothing of an element that does nothing.
-fn element_section<'g>(account: &Account<'g>, names: &[Name], shown: &Shown<'g>) -> Option<Section<'g>> {
+fn element_section<'g>(account: &Account<'g>, names: &[Name], shown: &PrintSymbols<'g>) -> Option<Section<'g>> {
     let title = Name::new(&format!("of {}", account.name), &format!("of {}", account.name.replace('_', "\\_")));
     let forces = account.forces.iter().map(|force| shown.legible(*force));
     let there = forces.zip(names).filter(|(force, _)| !force.is_zero());
-    let rows: Vec<Row<'g>> =
-        there.map(|(force, name)| Row::Definition(name.of(&element_name(account)), force)).collect();
+    let rows: Vec<PrintedRow<'g>> =
+        there.map(|(force, name)| PrintedRow::Definition(name.of(&element_name(account)), force)).collect();
     (!rows.is_empty()).then_some(Section { title, rows })
 }
 
 impl<'g> System<'g> {
     /// The equations, section by section; sections with nothing to say are left out.
     pub fn equations(&self, readings: &Readings<'g>, replacement: Option<&Substitution<'g>>) -> Page<'g> {
-        let shown = &Shown::new(readings, replacement);
+        let shown = &PrintSymbols::new(readings, replacement);
         // One body in a chart has the letters of textbooks, everything else those of its author.
         let mut sections = match self.one_body().and_then(|one| one.posed).filter(|_| self.scene.chart().is_some()) {
             Some(body) => Textbook { system: self, body, shown }.sections(),
@@ -86,12 +86,12 @@ impl<'g> System<'g> {
         };
         sections.extend(self.contact_sections(shown));
         let rows = sections.iter().flat_map(|section| &section.rows);
-        let printed: Vec<Expr<'g>> = rows.flat_map(Row::expressions).map(|(_, e)| e).collect();
+        let printed: Vec<Expr<'g>> = rows.flat_map(PrintedRow::expressions).map(|(_, e)| e).collect();
         sections.insert(0, shown.definitions(&printed));
         sections.insert(1, shown.quarter_turns(self.scene.graph));
         sections.retain(|section| !section.rows.is_empty());
         let rows = sections.iter().flat_map(|section| &section.rows);
-        let parts = Parts::of(&rows.flat_map(Row::expressions).collect::<Vec<_>>());
+        let parts = Parts::of(&rows.flat_map(PrintedRow::expressions).collect::<Vec<_>>());
         Page { sections, parts }
     }
 }
@@ -100,7 +100,7 @@ impl<'g> System<'g> {
 struct Textbook<'a, 'g> {
     system: &'a System<'g>,
     body: &'a FreeLink<'g>,
-    shown: &'a Shown<'g>,
+    shown: &'a PrintSymbols<'g>,
 }
 
 impl<'g> Textbook<'_, 'g> {
@@ -133,7 +133,7 @@ impl<'g> Textbook<'_, 'g> {
     }
 
     /// Components of the velocities that are not quasi-velocities themselves.
-    fn velocity_rows(&self) -> Vec<Row<'g>> {
+    fn velocity_rows(&self) -> Vec<PrintedRow<'g>> {
         let kinematics = &self.body.kinematics;
         let (u, omega) = (Name::new("u", "u"), Name::new("ω", "\\omega"));
         let mut rows = Vec::new();
@@ -141,7 +141,7 @@ impl<'g> Textbook<'_, 'g> {
             for (name, components) in [(name.clone(), vector.body), (name.hat(), vector.space)] {
                 for (i, component) in components.into_iter().enumerate() {
                     if !component.is_zero() && !kinematics.speeds.contains(&component) {
-                        rows.push(Row::Definition(name.index(i), self.shown.legible(component)));
+                        rows.push(PrintedRow::Definition(name.index(i), self.shown.legible(component)));
                     }
                 }
             }
@@ -157,7 +157,7 @@ impl<'g> Textbook<'_, 'g> {
         let chain = self.body.printed_momenta();
         let coordinates = self.body.in_coordinates;
         if let Some(momenta) = momenta {
-            let rows = names.zip(momenta).map(|(name, p)| Row::Definition(name, p)).collect();
+            let rows = names.zip(momenta).map(|(name, p)| PrintedRow::Definition(name, p)).collect();
             let mut sections = vec![Section { title, rows }];
             // The balance of a jet chart is written with Γ, which is none of its momenta.
             let axes = self.body.kinematics.angular_axes();
@@ -168,17 +168,17 @@ impl<'g> Textbook<'_, 'g> {
                         "angular momentum about O in body axes",
                         "angular momentum about $O$ in body axes",
                     ),
-                    rows: gamma.map(|(name, e)| Row::Definition(name, self.shown.legible(e))).collect(),
+                    rows: gamma.map(|(name, e)| PrintedRow::Definition(name, self.shown.legible(e))).collect(),
                 });
             }
             return sections;
         }
         // In a chart where a link is trivial it says x = x.
-        let rows = |link: Vec<(Name, Expr<'g>)>| -> Vec<Row<'g>> {
+        let rows = |link: Vec<(Name, Expr<'g>)>| -> Vec<PrintedRow<'g>> {
             link.into_iter()
                 .map(|(name, e)| (name, self.shown.legible(e)))
                 .filter(|(name, e)| print_short(*e, Notation::Text, 1).is_none_or(|text| text != name.text))
-                .map(|(name, e)| Row::Definition(name, e))
+                .map(|(name, e)| PrintedRow::Definition(name, e))
                 .collect()
         };
         let components = |linear: Name, angular: Name, six: Vec<Expr<'g>>| -> Vec<(Name, Expr<'g>)> {
@@ -199,33 +199,33 @@ impl<'g> Textbook<'_, 'g> {
     }
 
     /// dp/dt = [Q·(ȧ + v_O × o) + Γ·ȯ] + force; the terms are bracket and force of every row.
-    fn balance_rows(&self, terms: &[(Expr<'g>, Expr<'g>)]) -> Vec<Row<'g>> {
+    fn balance_rows(&self, terms: &[(Expr<'g>, Expr<'g>)]) -> Vec<PrintedRow<'g>> {
         let scene = &self.system.scene;
         let names = scene.momentum_names.iter().cloned().zip(scene.force_names.iter().cloned());
         names
             .zip(terms)
             .map(|((momentum, force), &(bracket, value))| {
                 let force = (bracket.is_zero() || !value.is_zero()).then_some(force);
-                Row::Balance { momentum, bracket, force }
+                PrintedRow::Balance { momentum, bracket, force }
             })
             .collect()
     }
 
     /// The forces that the balance names.
-    fn force_rows(&self, terms: &[(Expr<'g>, Expr<'g>)]) -> Vec<Row<'g>> {
+    fn force_rows(&self, terms: &[(Expr<'g>, Expr<'g>)]) -> Vec<PrintedRow<'g>> {
         let named = self.system.scene.force_names.iter().cloned().zip(terms);
         let named = named.filter(|(_, (bracket, value))| bracket.is_zero() || !value.is_zero());
-        named.map(|(name, (_, value))| Row::Definition(name, *value)).collect()
+        named.map(|(name, (_, value))| PrintedRow::Definition(name, *value)).collect()
     }
 
     /// The rows, multiplied out where that is short.
-    fn velocity_form_rows(&self) -> Vec<Row<'g>> {
+    fn velocity_form_rows(&self) -> Vec<PrintedRow<'g>> {
         let rates = &self.body.kinematics.speed_rates;
         let row = |row: Expr<'g>| match self.shown.readable(row) {
             Some(whole) => velocity_form(whole, rates),
             None => {
                 let inertia = rates.iter().map(|&dz| self.shown.legible(row.partial(dz)).group_as_is() * dz);
-                Row::Equation(inertia.sum(), self.shown.legible(-row.substitute(&at_rest(rates))))
+                PrintedRow::Equation(inertia.sum(), self.shown.legible(-row.substitute(&at_rest(rates))))
             }
         };
         self.body.collected_residual().into_iter().map(row).collect()
@@ -237,15 +237,19 @@ fn at_rest<'g>(rates: &[Expr<'g>]) -> Map<u32, Expr<'g>> {
 }
 
 /// A row that vanishes, with its rates on the left.
-pub(in crate::mechanics) fn velocity_form<'g>(row: Expr<'g>, rates: &[Expr<'g>]) -> Row<'g> {
+pub(in crate::mechanics) fn velocity_form<'g>(row: Expr<'g>, rates: &[Expr<'g>]) -> PrintedRow<'g> {
     let still = row.substitute(&at_rest(rates));
-    Row::Equation((row - still).collected(LIMIT), (-still).collected(LIMIT))
+    PrintedRow::Equation((row - still).collected(LIMIT), (-still).collected(LIMIT))
 }
 
 /// The same of a row that is long, if entry by entry and on the right it is short.
-pub(in crate::mechanics) fn by_entries<'g>(row: Expr<'g>, rates: &[Expr<'g>], shown: &Shown<'g>) -> Option<Row<'g>> {
+pub(in crate::mechanics) fn by_entries<'g>(
+    row: Expr<'g>,
+    rates: &[Expr<'g>],
+    shown: &PrintSymbols<'g>,
+) -> Option<PrintedRow<'g>> {
     let entries: Option<Vec<Expr<'g>>> =
         rates.iter().map(|&dz| Some(shown.readable(row.partial(dz))?.group_as_is() * dz)).collect();
     let right = shown.readable(-row.substitute(&at_rest(rates)))?;
-    Some(Row::Equation(entries?.into_iter().sum(), right))
+    Some(PrintedRow::Equation(entries?.into_iter().sum(), right))
 }

@@ -2,6 +2,6 @@
 
 pub mod equations;
 pub mod names;
+pub mod readings;
 pub mod rows;
 pub mod sections;
-pub mod shown;

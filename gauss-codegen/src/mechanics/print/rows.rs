@@ -4,7 +4,7 @@ use crate::algebra::{Expr, Notation, Parts, print_definition, print_with};
 use crate::mechanics::print::names::Name;
 
 /// One line.
-pub enum Row<'g> {
+pub enum PrintedRow<'g> {
     /// name = value.
     Definition(Name, Expr<'g>),
     /// d(momentum)/dt = bracket + force; the force is left out where it vanishes beside a bracket.
@@ -15,13 +15,15 @@ pub enum Row<'g> {
     Words(String),
 }
 
-impl<'g> Row<'g> {
+impl<'g> PrintedRow<'g> {
     pub fn print(&self, notation: Notation, parts: &Parts<'g>) -> String {
         let name = |name: &Name| name.print(notation).to_owned();
         let print = |e: &Expr<'g>| print_with(*e, notation, parts);
         match self {
-            Row::Definition(left, right) => format!("{} = {}", name(left), print_definition(*right, notation, parts)),
-            Row::Balance { momentum, bracket, force } => {
+            PrintedRow::Definition(left, right) => {
+                format!("{} = {}", name(left), print_definition(*right, notation, parts))
+            }
+            PrintedRow::Balance { momentum, bracket, force } => {
                 let mut terms = Vec::new();
                 if !bracket.is_zero() {
                     terms.push(print(bracket));
@@ -29,19 +31,19 @@ impl<'g> Row<'g> {
                 terms.extend(force.as_ref().map(name));
                 format!("{} = {}", name(&momentum.time_derivative()), terms.join(" + "))
             }
-            Row::Equation(left, right) => format!("{} = {}", print(left), print(right)),
-            Row::Words(words) if notation == Notation::Latex => format!("\\text{{{words}}}"),
-            Row::Words(words) => words.clone(),
+            PrintedRow::Equation(left, right) => format!("{} = {}", print(left), print(right)),
+            PrintedRow::Words(words) if notation == Notation::Latex => format!("\\text{{{words}}}"),
+            PrintedRow::Words(words) => words.clone(),
         }
     }
 
     /// Expressions that are printed of it, with the name of the one that it defines.
     pub fn expressions(&self) -> Vec<(Option<[String; 2]>, Expr<'g>)> {
         match self {
-            Row::Definition(Name { text, latex }, e) => vec![(Some([text.clone(), latex.clone()]), *e)],
-            Row::Balance { bracket: e, .. } => vec![(None, *e)],
-            Row::Equation(left, right) => vec![(None, *left), (None, *right)],
-            Row::Words(_) => Vec::new(),
+            PrintedRow::Definition(Name { text, latex }, e) => vec![(Some([text.clone(), latex.clone()]), *e)],
+            PrintedRow::Balance { bracket: e, .. } => vec![(None, *e)],
+            PrintedRow::Equation(left, right) => vec![(None, *left), (None, *right)],
+            PrintedRow::Words(_) => Vec::new(),
         }
     }
 }
@@ -49,5 +51,5 @@ impl<'g> Row<'g> {
 /// A heading and its rows.
 pub struct Section<'g> {
     pub title: Name,
-    pub rows: Vec<Row<'g>>,
+    pub rows: Vec<PrintedRow<'g>>,
 }

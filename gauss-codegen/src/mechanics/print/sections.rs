@@ -5,17 +5,18 @@ use crate::algebra::{Expr, LONG, Map};
 use crate::mechanics::constraints::contact::Contact;
 use crate::mechanics::print::equations::{PrintedForces, by_entries, velocity_form};
 use crate::mechanics::print::names::Name;
-use crate::mechanics::print::rows::{Row, Section};
-use crate::mechanics::print::shown::Shown;
+use crate::mechanics::print::readings::PrintSymbols;
+use crate::mechanics::print::rows::{PrintedRow, Section};
 use crate::mechanics::scene::Coordinate;
 use crate::mechanics::system::System;
 use crate::mechanics::tidy::READABLE;
 
 impl<'g> System<'g> {
     /// The equations with p and F of what the author named.
-    pub(in crate::mechanics) fn sections(&self, shown: &Shown<'g>) -> Vec<Section<'g>> {
+    pub(in crate::mechanics) fn sections(&self, shown: &PrintSymbols<'g>) -> Vec<Section<'g>> {
         let scene = &self.scene;
-        let titled = |text: &str, latex: &str, rows: Vec<Row<'g>>| Section { title: Name::new(text, latex), rows };
+        let titled =
+            |text: &str, latex: &str, rows: Vec<PrintedRow<'g>>| Section { title: Name::new(text, latex), rows };
         let kinematics = titled(
             "kinematics dq/dt = ψ(t, q, z) (3.2)",
             "kinematics $\\dot q = \\psi(t, q, z)$ (3.2)",
@@ -28,9 +29,9 @@ impl<'g> System<'g> {
         );
         let mut sections = vec![kinematics, states];
         let momenta = scene.momentum_names.iter().zip(self.momentum());
-        let momenta = momenta.map(|(name, e)| Row::Definition(name.clone(), shown.legible(e))).collect();
+        let momenta = momenta.map(|(name, e)| PrintedRow::Definition(name.clone(), shown.legible(e))).collect();
         let names = scene.momentum_names.iter().zip(&scene.force_names);
-        let row = |((momentum, force), bracket): ((&Name, &Name), Expr<'g>)| Row::Balance {
+        let row = |((momentum, force), bracket): ((&Name, &Name), Expr<'g>)| PrintedRow::Balance {
             momentum: momentum.clone(),
             bracket: shown.legible(bracket),
             force: Some(force.clone()),
@@ -38,7 +39,7 @@ impl<'g> System<'g> {
         let balance = names.zip(self.bracket()).map(row).collect();
         let printed = PrintedForces::new(self.generalised_forces(), &self.accounts(), &scene.force_names, shown);
         let forces = scene.force_names.iter().zip(printed.rows);
-        let forces = forces.map(|(name, e)| Row::Definition(name.clone(), e)).collect();
+        let forces = forces.map(|(name, e)| PrintedRow::Definition(name.clone(), e)).collect();
         sections.extend([
             titled("momenta p = ∂T/∂z", "momenta $p = \\partial T/\\partial z$", momenta),
             titled("Gauss condition (3.4)", "Gauss condition (3.4)", balance),
@@ -46,7 +47,7 @@ impl<'g> System<'g> {
         ]);
         sections.extend(printed.sections);
         let constraints = self.constraints.on_velocities.iter();
-        let constraints = constraints.map(|e| Row::Equation(shown.legible(*e), scene.graph.zero())).collect();
+        let constraints = constraints.map(|e| PrintedRow::Equation(shown.legible(*e), scene.graph.zero())).collect();
         sections.push(self.velocity_form_section(shown));
         sections.push(titled(
             "constraints on velocities (each adds its multiplier times its row of partial derivatives to the forces)",
@@ -57,7 +58,7 @@ impl<'g> System<'g> {
     }
 
     /// A dz/dt = r, if every row is short enough to read; else how long it would be.
-    fn velocity_form_section(&self, shown: &Shown<'g>) -> Section<'g> {
+    fn velocity_form_section(&self, shown: &PrintSymbols<'g>) -> Section<'g> {
         let without = if self.constraints.is_empty() { "" } else { ", less the forces of constraints" };
         let title = Name::new(
             &format!("velocity form A dz/dt = r{without}"),
@@ -78,7 +79,7 @@ impl<'g> System<'g> {
             row.expressions().iter().all(|(_, side)| side.leaves() <= LONG).then_some(row)
         };
         // To multiply out what is long takes long, and shows that it is.
-        let short: Option<Vec<Row<'g>>> =
+        let short: Option<Vec<PrintedRow<'g>>> =
             if self.is_long() { None } else { residual.iter().map(|e| row(*e)).collect() };
         let rows = match short {
             Some(rows) => rows,
@@ -86,14 +87,14 @@ impl<'g> System<'g> {
                 let terms: f64 = residual.iter().map(|row| row.terms_multiplied_out()).sum();
                 let terms = if terms < 1e6 { terms.to_string() } else { format!("{terms:.0e}") };
                 let long = format!("left out: a row has more than {LONG} letters, or a part of it {READABLE} terms");
-                vec![Row::Words(format!("{long}; multiplied out all have {terms}, before any cancel"))]
+                vec![PrintedRow::Words(format!("{long}; multiplied out all have {terms}, before any cancel"))]
             }
         };
         Section { title, rows }
     }
 
     /// Gaps, slips and coefficients of friction; then rolling resistance, and dry friction.
-    pub(in crate::mechanics) fn contact_sections(&self, shown: &Shown<'g>) -> [Section<'g>; 3] {
+    pub(in crate::mechanics) fn contact_sections(&self, shown: &PrintSymbols<'g>) -> [Section<'g>; 3] {
         let gaps = "gaps: none becomes negative; each adds a force that is not negative, and zero where it is open";
         let dry = "dry friction: a force against each slip, of the size f; at rest any force that is not larger";
         let rolling = "rolling resistance: a torque against each slip, of the size ρ times the force of the gap; at rest any \
@@ -113,33 +114,35 @@ impl<'g> System<'g> {
         title: &str,
         (letter, latex): (&str, &str),
         contacts: &[&Contact<'g>],
-        shown: &Shown<'g>,
+        shown: &PrintSymbols<'g>,
     ) -> Section<'g> {
         let named = |letter: &str, latex: &str, name: &str| {
             Name::new(letter, latex).of(&Name::new(name, &format!("\\text{{{}}}", name.replace('_', "\\_"))))
         };
         let mut rows = Vec::new();
         for contact in contacts {
-            rows.extend(contact.gap.map(|gap| Row::Definition(named("g", "g", &contact.name), shown.legible(gap))));
+            rows.extend(
+                contact.gap.map(|gap| PrintedRow::Definition(named("g", "g", &contact.name), shown.legible(gap))),
+            );
             let slip = named("s", "s", &contact.name);
             let several = contact.slips.len() > 1;
             rows.extend(contact.slips.iter().enumerate().map(|(k, e)| {
                 let name = if several { slip.index(k) } else { slip.clone() };
-                Row::Definition(name, shown.legible(*e))
+                PrintedRow::Definition(name, shown.legible(*e))
             }));
             let bound = named(letter, latex, &contact.name);
             let isotropic = contact.friction.iter().all(|e| *e == contact.friction[0]);
             let bounds = &contact.friction[..contact.friction.len().min(if isotropic { 1 } else { 2 })];
             rows.extend(bounds.iter().enumerate().map(|(k, e)| {
                 let name = if isotropic { bound.clone() } else { bound.index(k) };
-                Row::Definition(name, shown.legible(*e))
+                PrintedRow::Definition(name, shown.legible(*e))
             }));
         }
         Section { title: Name::new(title, title), rows }
     }
 
     /// Rates that are not speeds themselves: of the states of elements, or of the other coordinates.
-    fn rows_of_rates(&self, of_states: bool, shown: &Shown<'g>) -> Vec<Row<'g>> {
+    fn rows_of_rates(&self, of_states: bool, shown: &PrintSymbols<'g>) -> Vec<PrintedRow<'g>> {
         let scene = &self.scene;
         let mut rates = scene.kinematics.iter().copied();
         let mut rows = Vec::new();
@@ -154,7 +157,7 @@ impl<'g> System<'g> {
             };
             for (name, rate) in names.into_iter().zip(&mut rates) {
                 if is_state == of_states && (is_state || !scene.speeds.contains(&rate)) {
-                    rows.push(Row::Definition(name, shown.legible(rate)));
+                    rows.push(PrintedRow::Definition(name, shown.legible(rate)));
                 }
             }
         }

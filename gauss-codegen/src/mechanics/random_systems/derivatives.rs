@@ -2,7 +2,7 @@
 
 use crate::algebra::{Evaluation, Expr, Function, Graph, Map, Number, Precise, Rational, Scalar, Tangents};
 
-use crate::kernel::{Curved, Differentiated};
+use crate::kernel::{DirectionalDerivatives, SecondDerivatives};
 use crate::mechanics::derivatives::hessian::Hessian;
 use crate::mechanics::derivatives::inverse::InverseLinearization;
 use crate::mechanics::derivatives::linearize::Linearization;
@@ -10,16 +10,16 @@ use crate::mechanics::system::System;
 use crate::mechanics::tests::Random;
 
 use super::plan::{Plan, SpeedChoice, TreeShape};
-use super::scene::Symbols;
+use super::scene::PlanSymbols;
 use super::usable_states;
-use super::witness::State;
+use super::witness::WitnessState;
 
 /// In numbers of 256 binary digits: some ten thousand roundings, amplified by condition numbers of up to 1e6 twice,
 /// leave 60 decimal places; a wrong term leaves none.
 const AGREEMENT: f64 = 1e-50;
 
 /// All that expressions read, with quaternions whose norm is 1 to the last of many digits.
-fn point<'g>(symbols: &Symbols<'g>, system: &System<'g>, state: &State) -> Map<u32, Precise> {
+fn point<'g>(symbols: &PlanSymbols<'g>, system: &System<'g>, state: &WitnessState) -> Map<u32, Precise> {
     let mut at: Map<u32, Precise> =
         symbols.parameters.iter().map(|(&key, &value)| (key, Precise::number(value))).collect();
     let mut give = |symbols: &[Expr<'g>], values: &[f64]| {
@@ -44,7 +44,7 @@ fn check(plan: &Plan, random: &mut Random, twice: bool, what: &str) -> bool {
     let states = usable_states(plan, random);
     let Some(state) = states.first() else { return false };
     let graph = Graph::new();
-    let symbols = Symbols::new(&graph, plan);
+    let symbols = PlanSymbols::new(&graph, plan);
     let all: Vec<usize> = (0..plan.speeds).collect();
     let system = System::new(symbols.scene(plan, &symbols.speeds, &all, true));
     let formulas = system.formulas();
@@ -66,7 +66,7 @@ fn check(plan: &Plan, random: &mut Random, twice: bool, what: &str) -> bool {
 }
 
 /// Whether there are forms of their own; panics where one is wrong.
-fn agree<'g>(differentiated: &Differentiated<'g>, values: &Map<u32, Precise>, what: &str) -> bool {
+fn agree<'g>(differentiated: &DirectionalDerivatives<'g>, values: &Map<u32, Precise>, what: &str) -> bool {
     let mut evaluation = Evaluation::new(values);
     let outputs = &differentiated.arrangements[0];
     let mut expected: Vec<Precise> = outputs.iter().map(|e| evaluation.value(*e)).collect();
@@ -91,7 +91,7 @@ fn agree<'g>(differentiated: &Differentiated<'g>, values: &Map<u32, Precise>, wh
 fn agree_by_parameters<'g>(
     linearization: &Linearization<'g>,
     system: &System<'g>,
-    symbols: &Symbols<'g>,
+    symbols: &PlanSymbols<'g>,
     values: &Map<u32, Precise>,
     what: &str,
 ) -> bool {
@@ -117,7 +117,7 @@ fn agree_by_parameters<'g>(
 
 /// Whether there are second derivatives in forms of their own; panics where one is wrong. Those of small systems are
 /// found in a third way, by differentiating expressions.
-fn agree_twice<'g>(curved: &Curved<'g>, small: bool, values: &Map<u32, Precise>, what: &str) -> bool {
+fn agree_twice<'g>(curved: &SecondDerivatives<'g>, small: bool, values: &Map<u32, Precise>, what: &str) -> bool {
     let mut evaluation = Evaluation::new(values);
     let expected = curved.values(&mut evaluation);
     let mut ways = curved.derived.clone();
@@ -129,11 +129,11 @@ fn agree_twice<'g>(curved: &Curved<'g>, small: bool, values: &Map<u32, Precise>,
             let sum = once[i].derivative(&along[j]) + once[j].derivative(&along[i]);
             sum.scale(Rational::new(1, 2))
         };
-        ways.push(Curved::<'g>::pairs(along.len()).map(twice).collect());
+        ways.push(SecondDerivatives::<'g>::pairs(along.len()).map(twice).collect());
     }
     for way in &ways {
         assert_eq!(way.len(), expected.len(), "{what}");
-        let pairs = Curved::<'g>::pairs(curved.directions.len());
+        let pairs = SecondDerivatives::<'g>::pairs(curved.directions.len());
         for ((pair, e), expected) in pairs.zip(way).zip(&expected) {
             let apart = (evaluation.value(*e) - *expected).to_f64().abs();
             let close = apart <= AGREEMENT * (1.0 + expected.to_f64().abs());

@@ -4,7 +4,7 @@ use crate::mechanics::formula::Method;
 
 use super::dense::{Matrix, Saddle, apply, inverse, largest, norm, transposed};
 use super::plan::Plan;
-use super::witness::{State, Witness};
+use super::witness::{DenseWitness, WitnessState};
 
 /// Outputs of a method, and the absolute values behind them that roundings are relative to, conditioning included.
 pub struct Expectation {
@@ -15,7 +15,7 @@ pub struct Expectation {
 
 /// Errors of ż and λ per relative rounding. Eliminating A first is stable for A and leaves an error of the size of its
 /// condition in J A⁻¹ Jᵀ.
-fn solution_size(w: &Witness<'_>) -> f64 {
+fn solution_size(w: &DenseWitness<'_>) -> f64 {
     let solution = largest(&w.acceleration).max(largest(&w.multipliers));
     let behind = w.sizes.force + bias_size(w) + (w.sizes.matrix + norm(&w.jacobian)) * solution;
     let first = if w.jacobian.is_empty() { 1.0 } else { w.sizes.condition };
@@ -24,27 +24,27 @@ fn solution_size(w: &Witness<'_>) -> f64 {
 
 /// Size of γ: second derivatives of a constraint are of the order of its first ones, and twice as many speeds as in J
 /// enter.
-fn bias_size(w: &Witness<'_>) -> f64 {
+fn bias_size(w: &DenseWitness<'_>) -> f64 {
     largest(&w.bias) + norm(&w.jacobian) * (1.0 + largest(&w.state().speeds)).powi(2)
 }
 
 /// The same of ṗ: z follows from p with an error of the size of the condition of A, and enters twice.
-fn momentum_rate_size(w: &Witness<'_>) -> f64 {
+fn momentum_rate_size(w: &DenseWitness<'_>) -> f64 {
     let balance = w.sizes.momentum_rate + w.sizes.force;
     w.sizes.condition * (2.0 * balance + force_size(w))
 }
 
 /// The same of Jᵀ λ.
-fn force_size(w: &Witness<'_>) -> f64 {
+fn force_size(w: &DenseWitness<'_>) -> f64 {
     norm(&transposed(&w.jacobian, w.matrix.len())) * solution_size(w)
 }
 
-fn kinematics_size(w: &Witness<'_>, values: &[f64]) -> f64 {
+fn kinematics_size(w: &DenseWitness<'_>, values: &[f64]) -> f64 {
     1.0 + largest(values) + norm(&transposed(&w.kinematic_rows, values.len()))
 }
 
 /// Corrections of positions and of velocities, and their sizes.
-fn corrections(w: &Witness<'_>, plan: &Plan, wanted: &[f64]) -> [Expectation; 2] {
+fn corrections(w: &DenseWitness<'_>, plan: &Plan, wanted: &[f64]) -> [Expectation; 2] {
     let opposite = |rows: &[usize]| -> Vec<f64> { rows.iter().map(|&k| -wanted[k]).collect() };
     let least = |rows: &[usize]| -> (Vec<f64>, f64) {
         let jacobian: Matrix = rows.iter().map(|&k| w.jacobian[k].clone()).collect();
@@ -67,12 +67,12 @@ fn corrections(w: &Witness<'_>, plan: &Plan, wanted: &[f64]) -> [Expectation; 2]
     ]
 }
 
-fn residual_size(w: &Witness<'_>, values: &[f64], state: &State) -> f64 {
+fn residual_size(w: &DenseWitness<'_>, values: &[f64], state: &WitnessState) -> f64 {
     10.0 + largest(values) + norm(&w.jacobian) * (1.0 + largest(&state.speeds))
 }
 
 /// Expectations of a system with all its speeds, at any ż and any residuals that corrections are asked for.
-pub fn of_whole(w: &Witness<'_>, plan: &Plan, rates: &[f64], wanted: &[f64]) -> Vec<Expectation> {
+pub fn of_whole(w: &DenseWitness<'_>, plan: &Plan, rates: &[f64], wanted: &[f64]) -> Vec<Expectation> {
     let (n, sizes) = (w.matrix.len(), &w.sizes);
     let expectation = |method, values: Vec<f64>, size: f64| Expectation { method, values, size };
     let inertia = apply(&w.matrix, rates);
@@ -116,7 +116,7 @@ pub struct Reduction {
 
 impl Reduction {
     /// Eliminates the speeds that the constraints determine best at a state: pivots of J, by rows and columns.
-    pub fn choose(w: &Witness<'_>) -> Option<Self> {
+    pub fn choose(w: &DenseWitness<'_>) -> Option<Self> {
         let n = w.matrix.len();
         let mut rows = w.jacobian.clone();
         let mut eliminated = Vec::new();
@@ -139,13 +139,13 @@ impl Reduction {
     }
 
     /// J_d⁻¹ of the speeds that are eliminated, unless they are badly determined.
-    fn solver(&self, w: &Witness<'_>) -> Option<Matrix> {
+    fn solver(&self, w: &DenseWitness<'_>) -> Option<Matrix> {
         inverse(&Self::block(&w.jacobian, &self.eliminated)).filter(|inverse| norm(inverse) < 10.0)
     }
 
     /// The state with the eliminated speeds such that the constraints hold, where they determine them well.
-    pub fn satisfied(&self, plan: &Plan, state: &State) -> Option<State> {
-        let w = Witness::new(plan, state)?;
+    pub fn satisfied(&self, plan: &Plan, state: &WitnessState) -> Option<WitnessState> {
+        let w = DenseWitness::new(plan, state)?;
         let mut state = state.clone();
         for (&k, excess) in self.eliminated.iter().zip(apply(&self.solver(&w)?, &w.on_velocities)) {
             state.speeds[k] -= excess;
@@ -165,7 +165,7 @@ impl Reduction {
 /// Expectations of a system whose constraints are solved for some of its speeds, at a state that satisfies them: those
 /// of the whole one, with `z = V z_kept + …`, `V = (1, −J_d⁻¹ J_k)`.
 pub fn of_reduced(
-    w: &Witness<'_>,
+    w: &DenseWitness<'_>,
     plan: &Plan,
     reduction: &Reduction,
     rates: &[f64],

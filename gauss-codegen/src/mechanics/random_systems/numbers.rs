@@ -7,7 +7,7 @@ use crate::algebra::{Expr, Rational};
 use crate::mechanics::tests::Random;
 
 /// Numbers that a smooth function can be evaluated with.
-pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+pub trait SmoothNumber: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// A constant, of the same kind as `self`.
     fn fraction(self, numerator: i64, denominator: i64) -> Self;
     fn sine(self) -> Self;
@@ -16,7 +16,7 @@ pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = 
     fn reciprocal(self) -> Self;
 }
 
-impl Number for Expr<'_> {
+impl SmoothNumber for Expr<'_> {
     fn fraction(self, numerator: i64, denominator: i64) -> Self {
         self.graph().number(Rational::new(numerator, denominator))
     }
@@ -122,7 +122,7 @@ impl Mul for Jet {
     }
 }
 
-impl Number for Jet {
+impl SmoothNumber for Jet {
     fn fraction(self, numerator: i64, denominator: i64) -> Self {
         Self::constant(numerator as f64 / denominator as f64)
     }
@@ -150,7 +150,7 @@ impl Number for Jet {
 
 /// A smooth function of one variable.
 #[derive(Clone, Copy, Debug)]
-enum Shape {
+enum SmoothShape {
     Itself,
     Square,
     Sine,
@@ -165,7 +165,7 @@ enum Shape {
 #[derive(Clone, Debug)]
 pub struct Smooth {
     constant: i64,
-    terms: Vec<(i64, Vec<(usize, Shape)>)>,
+    terms: Vec<(i64, Vec<(usize, SmoothShape)>)>,
 }
 
 const DENOMINATOR: i64 = 8;
@@ -195,8 +195,14 @@ impl Smooth {
 
     /// A function with so many terms in the given variables, of order ½ each.
     pub fn random(random: &mut Random, terms: usize, variables: &[usize]) -> Self {
-        const SHAPES: [Shape; 6] =
-            [Shape::Itself, Shape::Square, Shape::Sine, Shape::Cosine, Shape::Root, Shape::Quotient];
+        const SHAPES: [SmoothShape; 6] = [
+            SmoothShape::Itself,
+            SmoothShape::Square,
+            SmoothShape::Sine,
+            SmoothShape::Cosine,
+            SmoothShape::Root,
+            SmoothShape::Quotient,
+        ];
         let mut function = Self::random_constant(random);
         for _ in 0..terms {
             let coefficient = [-4, -3, -2, 2, 3, 4][below(random, 6)];
@@ -208,21 +214,21 @@ impl Smooth {
     }
 
     pub fn plus_multiple(mut self, eighths: i64, variable: usize) -> Self {
-        self.terms.push((eighths, vec![(variable, Shape::Itself)]));
+        self.terms.push((eighths, vec![(variable, SmoothShape::Itself)]));
         self
     }
 
     pub fn plus_square(mut self, eighths: i64, variable: usize) -> Self {
-        self.terms.push((eighths, vec![(variable, Shape::Square)]));
+        self.terms.push((eighths, vec![(variable, SmoothShape::Square)]));
         self
     }
 
     /// A product of the variable and a function of others.
     pub fn plus_product(mut self, random: &mut Random, variable: usize, others: &[usize]) -> Self {
-        const SHAPES: [Shape; 3] = [Shape::Itself, Shape::Sine, Shape::Root];
+        const SHAPES: [SmoothShape; 3] = [SmoothShape::Itself, SmoothShape::Sine, SmoothShape::Root];
         let other = (others[below(random, others.len())], SHAPES[below(random, 3)]);
         let factors = if below(random, 3) == 0 { Vec::new() } else { vec![other] };
-        self.terms.push((6, [vec![(variable, Shape::Itself)], factors].concat()));
+        self.terms.push((6, [vec![(variable, SmoothShape::Itself)], factors].concat()));
         self
     }
 
@@ -230,17 +236,17 @@ impl Smooth {
         self.terms.is_empty()
     }
 
-    pub fn at<N: Number>(&self, variables: &[N]) -> N {
+    pub fn at<N: SmoothNumber>(&self, variables: &[N]) -> N {
         let unit = variables[0];
-        let function = |&(index, shape): &(usize, Shape)| {
+        let function = |&(index, shape): &(usize, SmoothShape)| {
             let x = variables[index];
             match shape {
-                Shape::Itself => x,
-                Shape::Square => x * x,
-                Shape::Sine => x.sine(),
-                Shape::Cosine => x.cosine(),
-                Shape::Root => (unit.fraction(1, 1) + x * x).root(),
-                Shape::Quotient => (unit.fraction(2, 1) + x.cosine()).reciprocal(),
+                SmoothShape::Itself => x,
+                SmoothShape::Square => x * x,
+                SmoothShape::Sine => x.sine(),
+                SmoothShape::Cosine => x.cosine(),
+                SmoothShape::Root => (unit.fraction(1, 1) + x * x).root(),
+                SmoothShape::Quotient => (unit.fraction(2, 1) + x.cosine()).reciprocal(),
             }
         };
         let constant = unit.fraction(self.constant, DENOMINATOR);

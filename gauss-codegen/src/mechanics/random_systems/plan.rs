@@ -4,10 +4,10 @@ use crate::mechanics::constraints::constraint::ConstraintKind;
 use crate::mechanics::tests::Random;
 use crate::terms::Shape;
 
-use super::numbers::{Number, Smooth, below};
+use super::numbers::{Smooth, SmoothNumber, below};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum CoordinateKind {
+pub enum PlannedKind {
     Scalar,
     Rotation,
     /// A pose with ḃ in observer's axes for its first three rates, or u in its own.
@@ -16,26 +16,26 @@ pub enum CoordinateKind {
     },
 }
 
-impl CoordinateKind {
+impl PlannedKind {
     pub fn symbols(self) -> usize {
         match self {
-            CoordinateKind::Scalar => 1,
-            CoordinateKind::Rotation => 9,
-            CoordinateKind::Pose { .. } => 12,
+            PlannedKind::Scalar => 1,
+            PlannedKind::Rotation => 9,
+            PlannedKind::Pose { .. } => 12,
         }
     }
 
     pub fn rates(self) -> usize {
         match self {
-            CoordinateKind::Scalar => 1,
-            CoordinateKind::Rotation => 3,
-            CoordinateKind::Pose { .. } => 6,
+            PlannedKind::Scalar => 1,
+            PlannedKind::Rotation => 3,
+            PlannedKind::Pose { .. } => 6,
         }
     }
 }
 
 #[derive(Clone, Debug)]
-pub enum Place {
+pub enum JointPlace {
     /// In the parent's axes.
     Offset([Smooth; 3]),
     /// b of a coordinate.
@@ -75,7 +75,7 @@ pub enum MatterPlan {
 #[derive(Clone, Debug)]
 pub struct LinkPlan {
     pub parent: Option<usize>,
-    pub place: Place,
+    pub place: JointPlace,
     pub turns: Vec<TurnPlan>,
     pub matter: MatterPlan,
 }
@@ -99,7 +99,7 @@ impl ConstraintPlan {
 /// A system. Functions have the variables t, the symbols of q, z, in this order.
 #[derive(Clone, Debug, Default)]
 pub struct Plan {
-    pub coordinates: Vec<CoordinateKind>,
+    pub coordinates: Vec<PlannedKind>,
     pub speeds: usize,
     /// `ψ_r = drift_r + Σ_j bases_rj z_j`; what is missing is zero.
     pub bases: Vec<Vec<Option<Smooth>>>,
@@ -136,19 +136,19 @@ impl Plan {
         self.coordinates.iter().map(|kind| kind.rates()).sum()
     }
 
-    fn add(&mut self, kind: CoordinateKind) -> usize {
+    fn add(&mut self, kind: PlannedKind) -> usize {
         self.coordinates.push(kind);
         self.variable_of(self.coordinates.len() - 1)
     }
 
     /// Variables that random functions of t and q take: of a rotation a single entry.
     pub fn arguments(&self) -> Vec<usize> {
-        let of = |(k, kind): (usize, &CoordinateKind)| {
+        let of = |(k, kind): (usize, &PlannedKind)| {
             let first = self.variable_of(k);
             match kind {
-                CoordinateKind::Scalar => vec![first],
-                CoordinateKind::Rotation => vec![first + 1],
-                CoordinateKind::Pose { .. } => vec![first + 5, first + 9, first + 10],
+                PlannedKind::Scalar => vec![first],
+                PlannedKind::Rotation => vec![first + 1],
+                PlannedKind::Pose { .. } => vec![first + 5, first + 9, first + 10],
             }
         };
         std::iter::once(0).chain(self.coordinates.iter().enumerate().flat_map(of)).collect()
@@ -159,7 +159,7 @@ impl Plan {
     }
 
     /// ψ, and the rates of the symbols of q: Ṙ = R [ω]×, ḃ = R u or as it is given.
-    pub fn rates<N: Number>(&self, variables: &[N]) -> (Vec<N>, Vec<N>) {
+    pub fn rates<N: SmoothNumber>(&self, variables: &[N]) -> (Vec<N>, Vec<N>) {
         let zero = variables[0].fraction(0, 1);
         let z = &variables[1 + self.symbol_count()..];
         let rows = self.bases.iter().zip(&self.drift).map(|(row, drift)| {
@@ -172,7 +172,7 @@ impl Plan {
         let (mut at, mut row) = (1, 0);
         for &kind in &self.coordinates {
             let own = &mut psi[row..row + kind.rates()];
-            if kind == CoordinateKind::Scalar {
+            if kind == PlannedKind::Scalar {
                 rates.push(own[0]);
             } else {
                 let r = |i: usize, j: usize| variables[at + 3 * i + j];
@@ -188,11 +188,11 @@ impl Plan {
                 let given = [own[0], own[1], own[2]];
                 let product = |f: &dyn Fn(usize) -> N| (0..3).fold(zero, |sum, k| sum + f(k) * given[k]);
                 match kind {
-                    CoordinateKind::Pose { observed: true } => {
+                    PlannedKind::Pose { observed: true } => {
                         rates.extend(given);
                         (0..3).for_each(|j| own[j] = product(&|i| r(i, j)));
                     }
-                    CoordinateKind::Pose { observed: false } => rates.extend((0..3).map(|i| product(&|j| r(i, j)))),
+                    PlannedKind::Pose { observed: false } => rates.extend((0..3).map(|i| product(&|j| r(i, j)))),
                     _ => {}
                 }
             }
@@ -241,13 +241,13 @@ impl Plan {
         let mut plan = Self::default();
         for _ in 0..count {
             let curved = below(random, 4) == 0;
-            let own: [usize; 3] = std::array::from_fn(|_| plan.add(CoordinateKind::Scalar));
+            let own: [usize; 3] = std::array::from_fn(|_| plan.add(PlannedKind::Scalar));
             let component = |i: usize| {
                 let straight = Smooth::variable(own[i]);
                 // The square of another one keeps the coordinates regular.
                 if curved { straight.plus_square(3, own[i + 1]) } else { straight }
             };
-            let place = Place::Offset([component(0), component(1), Smooth::variable(own[2])]);
+            let place = JointPlace::Offset([component(0), component(1), Smooth::variable(own[2])]);
             let matter = MatterPlan::Particle(1.5 + random.next());
             plan.links.push(LinkPlan { parent: None, place, turns: Vec::new(), matter });
         }
@@ -329,7 +329,7 @@ impl Plan {
             };
             let frame = k > 0 && turns.iter().all(|turn| matches!(turn, TurnPlan::Quarter(_))) && below(random, 3) == 0;
             // A frame that slides would be a coordinate that moves nothing unless something hangs on it.
-            let still = matches!(&place, Place::Offset(offset) if offset.iter().all(Smooth::is_constant));
+            let still = matches!(&place, JointPlace::Offset(offset) if offset.iter().all(Smooth::is_constant));
             let matter =
                 if frame && still { MatterPlan::Nothing } else { MatterPlan::Solid(Box::new(Solid::random(random))) };
             plan.links.push(LinkPlan { parent, place, turns, matter });
@@ -337,13 +337,13 @@ impl Plan {
         for _ in 0..below(random, 3) {
             let mut offset: [Smooth; 3] = std::array::from_fn(|_| Smooth::random_constant(random));
             if below(random, 2) == 0 && plan.rate_count() < shape.rates {
-                let q = plan.add(CoordinateKind::Scalar);
+                let q = plan.add(PlannedKind::Scalar);
                 let i = below(random, 3);
                 offset[i] = offset[i].clone().plus_multiple(8, q);
             }
             let parent = Some(below(random, shape.bodies));
             let matter = MatterPlan::Particle(1.5 + random.next());
-            plan.links.push(LinkPlan { parent, place: Place::Offset(offset), turns: Vec::new(), matter });
+            plan.links.push(LinkPlan { parent, place: JointPlace::Offset(offset), turns: Vec::new(), matter });
         }
         let choice = match shape.choice {
             SpeedChoice::Fewer(count) => SpeedChoice::Fewer(count.min(plan.rate_count())),
@@ -357,21 +357,21 @@ impl Plan {
     }
 
     /// Place and turns of a root that floats.
-    fn free_joint(&mut self, random: &mut Random) -> (Place, Vec<TurnPlan>) {
+    fn free_joint(&mut self, random: &mut Random) -> (JointPlace, Vec<TurnPlan>) {
         let coordinate = self.coordinates.len();
-        self.add(CoordinateKind::Pose { observed: below(random, 2) == 0 });
-        (Place::Pose(coordinate), vec![TurnPlan::Given(coordinate)])
+        self.add(PlannedKind::Pose { observed: below(random, 2) == 0 });
+        (JointPlace::Pose(coordinate), vec![TurnPlan::Given(coordinate)])
     }
 
-    fn joint(&mut self, random: &mut Random, only: Option<usize>, most: usize) -> (Place, Vec<TurnPlan>) {
+    fn joint(&mut self, random: &mut Random, only: Option<usize>, most: usize) -> (JointPlace, Vec<TurnPlan>) {
         let mut offset: [Smooth; 3] = std::array::from_fn(|_| Smooth::random_constant(random));
         let axis = only.unwrap_or_else(|| below(random, 3));
         let earlier = self.arguments();
         let room = most.saturating_sub(self.rate_count());
         let about = TurnPlan::About;
-        let angle = |plan: &mut Self| Smooth::variable(plan.add(CoordinateKind::Scalar));
+        let angle = |plan: &mut Self| Smooth::variable(plan.add(PlannedKind::Scalar));
         let slide = |plan: &mut Self, offset: &mut [Smooth; 3], i: usize| {
-            let q = plan.add(CoordinateKind::Scalar);
+            let q = plan.add(PlannedKind::Scalar);
             offset[i] = offset[i].clone().plus_multiple(8, q);
         };
         // The first link always moves.
@@ -398,7 +398,7 @@ impl Plan {
             }
             8 if room > 2 && only.is_none() => {
                 let coordinate = self.coordinates.len();
-                self.add(CoordinateKind::Rotation);
+                self.add(PlannedKind::Rotation);
                 let turn = if below(random, 3) == 0 { TurnPlan::Back } else { TurnPlan::Given };
                 vec![turn(coordinate)]
             }
@@ -410,7 +410,7 @@ impl Plan {
             _ if only.is_none() => vec![TurnPlan::Quarter(axis)],
             _ => Vec::new(),
         };
-        (Place::Offset(offset), turns)
+        (JointPlace::Offset(offset), turns)
     }
 }
 

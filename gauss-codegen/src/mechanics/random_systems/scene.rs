@@ -13,10 +13,10 @@ use crate::mechanics::print::names::Name;
 use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::terms::{Role, Shape};
 
-use super::plan::{ConstraintPlan, CoordinateKind, LinkPlan, MatterPlan, Place, Plan, Solid, TurnPlan};
+use super::plan::{ConstraintPlan, JointPlace, LinkPlan, MatterPlan, Plan, PlannedKind, Solid, TurnPlan};
 
 /// Everything that a plan names, as symbols.
-pub struct Symbols<'g> {
+pub struct PlanSymbols<'g> {
     graph: &'g Graph,
     pub time: Expr<'g>,
     /// Symbols of q, coordinate by coordinate.
@@ -40,7 +40,7 @@ enum MatterSymbols<'g> {
     Body(Box<Body<'g>>),
 }
 
-impl<'g> Symbols<'g> {
+impl<'g> PlanSymbols<'g> {
     pub fn new(graph: &'g Graph, plan: &Plan) -> Self {
         let many = |letter: &str, count: usize, constant: bool| -> Vec<Expr<'g>> {
             (1..=count).map(|k| graph.symbol(format!("{letter}{k}"), format!("{letter}_{{{k}}}"), constant)).collect()
@@ -65,7 +65,7 @@ impl<'g> Symbols<'g> {
         });
         let matter = plan.links.iter().enumerate().map(|(k, link)| symbols.matter(k, &link.matter)).collect();
         symbols.matter = matter;
-        for (k, _) in plan.coordinates.iter().enumerate().filter(|(_, kind)| **kind != CoordinateKind::Scalar) {
+        for (k, _) in plan.coordinates.iter().enumerate().filter(|(_, kind)| **kind != PlannedKind::Scalar) {
             let quaternion = ["x", "y", "z", "w"].map(|name| graph.symbol(name, name, false));
             let entries = rotation_of_quaternion(graph, quaternion).into_iter().flatten().map(Expr::group);
             let first = plan.variable_of(k) - 1;
@@ -116,13 +116,13 @@ impl<'g> Symbols<'g> {
 
     /// The coordinates as the scene has them.
     fn coordinates(&self, plan: &Plan) -> Vec<Coordinate<'g>> {
-        let of = |(k, kind): (usize, &CoordinateKind)| {
+        let of = |(k, kind): (usize, &PlannedKind)| {
             let own = &self.configuration[plan.variable_of(k) - 1..];
             let rotation = || std::array::from_fn(|i| std::array::from_fn(|j| own[3 * i + j]));
             match kind {
-                CoordinateKind::Scalar => Coordinate::Scalar(own[0]),
-                CoordinateKind::Rotation => Coordinate::Rotation(rotation()),
-                CoordinateKind::Pose { .. } => Coordinate::Pose(rotation(), [own[9], own[10], own[11]]),
+                PlannedKind::Scalar => Coordinate::Scalar(own[0]),
+                PlannedKind::Rotation => Coordinate::Rotation(rotation()),
+                PlannedKind::Pose { .. } => Coordinate::Pose(rotation(), [own[9], own[10], own[11]]),
             }
         };
         plan.coordinates.iter().enumerate().map(of).collect()
@@ -137,8 +137,13 @@ impl<'g> Symbols<'g> {
         rates.extend(self.configuration.iter().map(|s| s.key()).zip(symbol_rates));
         let coordinates = self.coordinates(plan);
         let pick = |all: &[Expr<'g>]| -> Vec<Expr<'g>> { kept.iter().map(|&k| all[k]).collect() };
-        let building =
-            Building { plan, coordinates: &coordinates, variables: &variables, kinematics: &kinematics, rates: &rates };
+        let building = SceneBuilder {
+            plan,
+            coordinates: &coordinates,
+            variables: &variables,
+            kinematics: &kinematics,
+            rates: &rates,
+        };
         let placements = plan.links.iter().zip(&self.matter).map(|(link, matter)| building.placement(link, matter));
         let (bodies, particles): (Vec<_>, Vec<_>) =
             placements.partition(|placement| !matches!(placement.matter, Matter::Particle(_)));
@@ -199,7 +204,7 @@ fn parameter(solid: &Solid, quantity: Role, row: usize, column: usize) -> f64 {
     }
 }
 
-struct Building<'a, 'g> {
+struct SceneBuilder<'a, 'g> {
     plan: &'a Plan,
     coordinates: &'a [Coordinate<'g>],
     variables: &'a [Expr<'g>],
@@ -207,16 +212,16 @@ struct Building<'a, 'g> {
     rates: &'a Map<u32, Expr<'g>>,
 }
 
-impl<'g> Building<'_, 'g> {
+impl<'g> SceneBuilder<'_, 'g> {
     fn graph(&self) -> &'g Graph {
         self.variables[0].graph()
     }
 
     fn placement(&self, link: &LinkPlan, matter: &MatterSymbols<'g>) -> Placement<'g> {
         let (position, velocity) = match &link.place {
-            Place::Offset(offset) => (self.triple(offset), None),
-            Place::Pose(k) => match (&self.coordinates[*k], self.plan.coordinates[*k]) {
-                (Coordinate::Pose(_, position), CoordinateKind::Pose { observed }) => {
+            JointPlace::Offset(offset) => (self.triple(offset), None),
+            JointPlace::Pose(k) => match (&self.coordinates[*k], self.plan.coordinates[*k]) {
+                (Coordinate::Pose(_, position), PlannedKind::Pose { observed }) => {
                     let rate = self.rate_of(*k);
                     (*position, (!observed).then(|| [rate[0], rate[1], rate[2]]))
                 }

@@ -6,12 +6,12 @@ use crate::mechanics::tests::Random;
 
 use super::dense::{Matrix, Saddle, apply, dot, inverse, largest, norm, transposed};
 use super::fluid::{self, Fluid};
-use super::numbers::{Jet, Number};
-use super::plan::{ConstraintPlan, CoordinateKind, MatterPlan, Place, Plan, TurnPlan};
+use super::numbers::{Jet, SmoothNumber};
+use super::plan::{ConstraintPlan, JointPlace, MatterPlan, Plan, PlannedKind, TurnPlan};
 
 /// t, the symbols of q, z.
 #[derive(Clone, Debug)]
-pub struct State {
+pub struct WitnessState {
     pub time: f64,
     pub configuration: Vec<f64>,
     pub speeds: Vec<f64>,
@@ -19,18 +19,18 @@ pub struct State {
     pub quaternions: Vec<[f64; 4]>,
 }
 
-impl State {
+impl WitnessState {
     pub fn random(plan: &Plan, random: &mut Random) -> Self {
         let (mut configuration, mut quaternions) = (Vec::new(), Vec::new());
         for kind in &plan.coordinates {
-            if *kind != CoordinateKind::Scalar {
+            if *kind != PlannedKind::Scalar {
                 let any: [f64; 4] = std::array::from_fn(|_| random.next());
                 let length = dot(&any, &any).sqrt();
                 let unit = any.map(|x| x / length);
                 configuration.extend(rotation_matrix(unit).into_iter().flatten());
                 quaternions.push(unit);
             }
-            let scalars = if *kind == CoordinateKind::Scalar { 1 } else { kind.symbols() - 9 };
+            let scalars = if *kind == PlannedKind::Scalar { 1 } else { kind.symbols() - 9 };
             configuration.extend((0..scalars).map(|_| 1.2 * random.next()));
         }
         let speeds = (0..plan.speeds).map(|_| random.next()).collect();
@@ -43,7 +43,7 @@ impl State {
         let (mut at, mut row, mut turned) = (0, 0, 0);
         for kind in &plan.coordinates {
             let own = &rates[row..row + kind.rates()];
-            if *kind == CoordinateKind::Scalar {
+            if *kind == PlannedKind::Scalar {
                 moved.configuration[at] += own[0];
             } else {
                 let omega = [own[own.len() - 3], own[own.len() - 2], own[own.len() - 1]];
@@ -129,7 +129,7 @@ fn about(axis: usize, angle: Jet) -> JetMatrix {
 }
 
 /// A motion through a state, and aside from it along one partial velocity.
-struct Motion {
+struct WitnessMotion {
     /// t, q, z with z pushed aside; and t, q with q moved aside by what that does to ψ.
     pushed: Vec<Jet>,
     moved: Vec<Jet>,
@@ -144,8 +144,8 @@ struct Particle {
     weighed: f64,
 }
 
-impl Motion {
-    fn new(plan: &Plan, state: &State, rates: &[f64], aside: Option<usize>) -> Self {
+impl WitnessMotion {
+    fn new(plan: &Plan, state: &WitnessState, rates: &[f64], aside: Option<usize>) -> Self {
         let count = state.configuration.len();
         let time = Jet { value: state.time, rate: 1.0, ..Jet::default() };
         let speeds = || state.speeds.iter().map(|&z| Jet::constant(z));
@@ -171,14 +171,20 @@ impl Motion {
         motion
     }
 
-    fn place(&self, plan: &Plan, parent: Option<usize>, place: &Place, turns: &[TurnPlan]) -> (JetTriple, JetMatrix) {
+    fn place(
+        &self,
+        plan: &Plan,
+        parent: Option<usize>,
+        place: &JointPlace,
+        turns: &[TurnPlan],
+    ) -> (JetTriple, JetMatrix) {
         let one = Jet::constant(1.0);
         let mut identity = JetMatrix::default();
         (0..3).for_each(|i| identity[i][i] = one);
         let (origin, mut rotation) = parent.map_or((JetTriple::default(), identity), |k| self.links[k]);
         let offset = match place {
-            Place::Offset(offset) => [0, 1, 2].map(|i| offset[i].at(&self.moved)),
-            Place::Pose(k) => [9, 10, 11].map(|i| self.moved[plan.variable_of(*k) + i]),
+            JointPlace::Offset(offset) => [0, 1, 2].map(|i| offset[i].at(&self.moved)),
+            JointPlace::Pose(k) => [9, 10, 11].map(|i| self.moved[plan.variable_of(*k) + i]),
         };
         let position = sum(&origin, &turned(&rotation, &offset));
         for turn in turns {
@@ -261,9 +267,9 @@ impl Motion {
 }
 
 /// Values of (3.1) and of the constraints at one state.
-pub struct Witness<'a> {
+pub struct DenseWitness<'a> {
     plan: &'a Plan,
-    state: &'a State,
+    state: &'a WitnessState,
     pub matrix: Matrix,
     /// −∂C/∂ż at ż = 0.
     pub force: Vec<f64>,
@@ -304,7 +310,7 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    fn new(plan: &Plan, state: &State, motions: &[Motion]) -> Self {
+    fn new(plan: &Plan, state: &WitnessState, motions: &[WitnessMotion]) -> Self {
         let particles = motions[0].particles(plan);
         let solid: f64 = particles.iter().map(|p| p.mass.max(p.weighed.abs())).sum();
         // Components of twists are no larger than √3 times those of velocities.
@@ -341,19 +347,19 @@ fn part(triple: &JetTriple, f: impl Fn(&Jet) -> f64) -> [f64; 3] {
 }
 
 /// φ of positions, and the level of velocities.
-pub fn residuals(plan: &Plan, state: &State) -> (Vec<f64>, Vec<f64>) {
-    let motion = Motion::new(plan, state, &vec![0.0; plan.speeds], None);
+pub fn residuals(plan: &Plan, state: &WitnessState) -> (Vec<f64>, Vec<f64>) {
+    let motion = WitnessMotion::new(plan, state, &vec![0.0; plan.speeds], None);
     let levels = plan.constraints.iter().map(|constraint| motion.constraint(constraint));
     levels.map(|(position, velocity)| (position, velocity.value)).unzip()
 }
 
-impl<'a> Witness<'a> {
+impl<'a> DenseWitness<'a> {
     /// `None` where there is no single minimiser.
-    pub fn new(plan: &'a Plan, state: &'a State) -> Option<Self> {
+    pub fn new(plan: &'a Plan, state: &'a WitnessState) -> Option<Self> {
         let n = plan.speeds;
         let gravity = plan.gravity.unwrap_or_default();
         let still = vec![0.0; n];
-        let motions: Vec<Motion> = (0..n).map(|k| Motion::new(plan, state, &still, Some(k))).collect();
+        let motions: Vec<WitnessMotion> = (0..n).map(|k| WitnessMotion::new(plan, state, &still, Some(k))).collect();
         let particles: Vec<Vec<Particle>> = motions.iter().map(|motion| motion.particles(plan)).collect();
         let fluids: Vec<Vec<Fluid>> = motions.iter().map(|motion| motion.fluids(plan)).collect();
         let (mut matrix, mut force, mut momentum) = (vec![vec![0.0; n]; n], vec![0.0; n], vec![0.0; n]);
@@ -426,7 +432,7 @@ impl<'a> Witness<'a> {
     /// `Σ m (a·w_α + v·ẇ_α)` along the motion that the forces and constraints make.
     fn add_momentum_rate(&mut self) {
         for k in 0..self.plan.speeds {
-            let motion = Motion::new(self.plan, self.state, &self.acceleration, Some(k));
+            let motion = WitnessMotion::new(self.plan, self.state, &self.acceleration, Some(k));
             let mut rate = 0.0;
             for Particle { position, mass, .. } in motion.particles(self.plan) {
                 let (v, a) = (part(&position, |x| x.rate), part(&position, |x| x.second));
@@ -443,7 +449,7 @@ impl<'a> Witness<'a> {
         }
     }
 
-    pub fn state(&self) -> &State {
+    pub fn state(&self) -> &WitnessState {
         self.state
     }
 
@@ -455,7 +461,7 @@ impl<'a> Witness<'a> {
     /// (3.1) up to what does not depend on ż: `½ Σ m |a − F/m|²`, the potential by its power.
     pub fn constraint_function(&self, rates: &[f64]) -> f64 {
         let gravity = self.plan.gravity.unwrap_or_default();
-        let motion = Motion::new(self.plan, self.state, rates, None);
+        let motion = WitnessMotion::new(self.plan, self.state, rates, None);
         let mut c = 0.0;
         for Particle { position, mass, weighed } in motion.particles(self.plan) {
             let a = part(&position, |x| x.second);
@@ -468,7 +474,7 @@ impl<'a> Witness<'a> {
 
     /// Absolute values in a difference of two of them, one at ż = 0.
     pub fn function_size(&self, rates: &[f64]) -> f64 {
-        let motion = Motion::new(self.plan, self.state, rates, None);
+        let motion = WitnessMotion::new(self.plan, self.state, rates, None);
         let acceleration = motion.largest(self.plan, |x| x.second) + self.sizes.velocity.powi(2);
         let own = 3.0 * self.sizes.mass * acceleration.powi(2);
         own + largest(rates) * (self.sizes.force + self.sizes.matrix * largest(rates))

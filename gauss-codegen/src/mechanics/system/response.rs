@@ -7,7 +7,7 @@ use crate::mechanics::arrangements::halves::Halves;
 use crate::mechanics::constraints::contact::Contact;
 use crate::mechanics::formula::{Arrangements, Formula, Method};
 
-use super::{Arrangement, System};
+use super::{EquationForm, System};
 
 /// One way to form the motion without contact forces, and what these forces do: what makes velocities of impulses —
 /// A⁻¹Wᵀ, row by row of the speeds, or its halves — then D.
@@ -97,7 +97,7 @@ impl<'g> System<'g> {
         let arrangements = self.arrangements();
         if !self.constraints.is_empty() {
             let columns =
-                |a: &Arrangement<'g>| rows.iter().map(|row| self.constraints.respond(&a.matrix, row).0).collect();
+                |a: &EquationForm<'g>| rows.iter().map(|row| self.constraints.respond(&a.matrix, row).0).collect();
             return arrangements.iter().map(|a| response(self.acceleration(a).0, columns(a))).collect();
         }
         if let Some(body) = self.balance_of_all() {
@@ -116,7 +116,7 @@ impl<'g> System<'g> {
     }
 
     /// A⁻¹ of every row, in the order of [`accelerations`](System::accelerations).
-    fn columns(&self, arrangements: &[Arrangement<'g>]) -> Vec<Vec<Vec<Expr<'g>>>> {
+    fn columns(&self, arrangements: &[EquationForm<'g>]) -> Vec<Vec<Vec<Expr<'g>>>> {
         let rows = &self.contacts.jacobian;
         let mut ways = Vec::new();
         for arrangement in arrangements {

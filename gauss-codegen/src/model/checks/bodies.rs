@@ -6,14 +6,20 @@ use crate::model::language::fields::{ReadField, Reader};
 use crate::model::language::statements::{Statement, Statements};
 use crate::model::language::words::{self, UNNAMED, same, word};
 use crate::model::scene::clauses::BodyClause;
-use crate::model::scene::elements::Argument;
-use crate::terms::{Role, Wanted};
+use crate::model::scene::elements::ElementArgument;
+use crate::terms::{KernelOptions, Role};
 use proc_macro2::Ident;
 use std::collections::{HashMap, HashSet};
 use syn::ext::IdentExt;
 
 /// Checks the clauses and the fields of bodies against one another; `scalar` is what proposed types are made of.
-pub fn check(statements: &Statements, reader: &Reader<'_>, wanted: &Wanted, scalar: &str, context: &mut Context) {
+pub fn check(
+    statements: &Statements,
+    reader: &Reader<'_>,
+    wanted: &KernelOptions,
+    scalar: &str,
+    context: &mut Context,
+) {
     check_names(statements, scalar, context);
     check_fields(statements, reader, scalar, context);
     check_references(statements, wanted, context);
@@ -148,7 +154,7 @@ fn places(bodies: &[BodyClause]) -> HashMap<String, usize> {
 
 /// Refuses names of parents, of bodies with points, of bodies with forces, in `frames(…)` and `reactions(…)` that are
 /// no bodies or frames of the system.
-fn check_references(statements: &Statements, wanted: &Wanted, context: &mut Context) {
+fn check_references(statements: &Statements, wanted: &KernelOptions, context: &mut Context) {
     if statements.missed_any(&[Statement::Body, Statement::Frame]) {
         return;
     }
@@ -161,7 +167,7 @@ fn check_references(statements: &Statements, wanted: &Wanted, context: &mut Cont
 }
 
 /// A name that a body or frame should have.
-struct Reference<'a> {
+struct BodyReference<'a> {
     written: &'a Ident,
     /// The body that it cannot be.
     other: Option<&'a Ident>,
@@ -171,44 +177,45 @@ struct Reference<'a> {
     joint: bool,
 }
 
-impl<'a> Reference<'a> {
+impl<'a> BodyReference<'a> {
     fn to(written: &'a Ident) -> Self {
         Self { written, other: None, optional: None, joint: false }
     }
 }
 
-fn references<'a>(statements: &'a Statements, wanted: &'a Wanted) -> Vec<Reference<'a>> {
+fn references<'a>(statements: &'a Statements, wanted: &'a KernelOptions) -> Vec<BodyReference<'a>> {
     let mut references = Vec::new();
     for body in &statements.bodies {
-        let parent = body.parent.as_ref().map(Reference::to);
+        let parent = body.parent.as_ref().map(BodyReference::to);
         let other = body.name.as_ref();
-        references.extend(parent.map(|parent| Reference { other, optional: Some("parent"), ..parent }));
+        references.extend(parent.map(|parent| BodyReference { other, optional: Some("parent"), ..parent }));
     }
     for particle in &statements.particles {
-        let parent = particle.parent.as_ref().map(Reference::to);
-        references.extend(parent.map(|parent| Reference { optional: Some("parent"), ..parent }));
+        let parent = particle.parent.as_ref().map(BodyReference::to);
+        references.extend(parent.map(|parent| BodyReference { optional: Some("parent"), ..parent }));
     }
-    references.extend(statements.points.iter().map(|point| Reference::to(&point.body)));
-    references.extend(statements.formal.iter().flatten().map(Reference::to));
-    references.extend(wanted.frames.iter().map(Reference::to));
-    references.extend(wanted.reactions.iter().map(|joint| Reference { joint: true, ..Reference::to(&joint.link) }));
+    references.extend(statements.points.iter().map(|point| BodyReference::to(&point.body)));
+    references.extend(statements.formal.iter().flatten().map(BodyReference::to));
+    references.extend(wanted.frames.iter().map(BodyReference::to));
+    references
+        .extend(wanted.reactions.iter().map(|joint| BodyReference { joint: true, ..BodyReference::to(&joint.link) }));
     for clause in &statements.forces {
         let body = clause.body();
-        references.extend(body.map(Reference::to));
-        let left_out = |argument: &Argument| argument.required.is_none().then_some(argument.word);
+        references.extend(body.map(BodyReference::to));
+        let left_out = |argument: &ElementArgument| argument.required.is_none().then_some(argument.word);
         let second = clause.other();
-        references.extend(second.map(|(written, argument)| Reference {
+        references.extend(second.map(|(written, argument)| BodyReference {
             other: body,
             optional: left_out(argument),
-            ..Reference::to(written)
+            ..BodyReference::to(written)
         }));
     }
     references
 }
 
 /// Notes that no body, frame or joint is called so, with the nearest name, or all of them.
-fn refuse_reference(reference: &Reference<'_>, statements: &Statements, context: &mut Context) {
-    let &Reference { written, other, optional, joint } = reference;
+fn refuse_reference(reference: &BodyReference<'_>, statements: &Statements, context: &mut Context) {
+    let &BodyReference { written, other, optional, joint } = reference;
     let names: Vec<String> = statements
         .bodies
         .iter()

@@ -7,7 +7,7 @@ use crate::model::language::statements::Statements;
 use crate::model::language::words::{self, same, word};
 use crate::model::names::scope::Scope;
 use crate::model::scene::clauses::{Coefficients, RoleValue};
-use crate::model::scene::forces::Value;
+use crate::model::scene::forces::ArgumentContent;
 use crate::terms::Shape;
 use proc_macro2::Ident;
 
@@ -18,8 +18,8 @@ pub fn fields<'a>(statements: &'a Statements) -> Vec<(&'a Ident, String)> {
     for clause in &statements.forces {
         let what = format!("the coefficients of {} are", words::a(clause.noun()));
         all.extend(clause.given.iter().filter_map(|given| match &given.value {
-            Value::Coefficients(coefficients) => Some((coefficients, what.clone())),
-            Value::Expression(_) | Value::Reference(_) | Value::Axes(_) => None,
+            ArgumentContent::Coefficients(coefficients) => Some((coefficients, what.clone())),
+            ArgumentContent::Expression(_) | ArgumentContent::Reference(_) | ArgumentContent::Axes(_) => None,
         }));
     }
     for clause in statements.all_role_clauses() {

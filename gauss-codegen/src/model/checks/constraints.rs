@@ -1,23 +1,23 @@
 //! Rules for constraints, and for the speeds that stay independent under them.
 
 use crate::model::language::context::Context;
-use crate::model::language::kind::Kind;
+use crate::model::language::kind::ValueKind;
 use crate::model::language::statements::{Statement, Statements};
 use crate::model::language::words::{self, same, word};
 use crate::model::names::kinds;
-use crate::model::names::moving::Moving;
-use crate::model::names::places::Place;
+use crate::model::names::moving_names::MovingNames;
+use crate::model::names::places::ExpressionPlace;
 use crate::model::names::scope::Scope;
-use crate::model::scene::clauses::{ConstraintClause, ConstraintKind, SpeedKind};
+use crate::model::scene::clauses::{ConstraintClause, ConstraintLevel, SpeedKind};
 use proc_macro2::Ident;
 
 /// Checks names and kinds in the constraints, and notes which of them are vectors. Returns for each whether it is
 /// without mistakes.
 pub fn check_kinds(statements: &mut Statements, scope: &Scope, context: &mut Context) -> Vec<bool> {
     let check = |constraint: &mut ConstraintClause| {
-        let place = Place::Constraint(constraint.kind);
+        let place = ExpressionPlace::Constraint(constraint.kind);
         let kind = kinds::check(&constraint.expression, place, scope, context);
-        constraint.vector = kind == Some(Kind::Vector);
+        constraint.vector = kind == Some(ValueKind::Vector);
         kind.is_some()
     };
     statements.constraints.iter_mut().map(check).collect()
@@ -25,7 +25,7 @@ pub fn check_kinds(statements: &mut Statements, scope: &Scope, context: &mut Con
 
 /// Checks what is constrained, in those that are `well`, and the speeds that stay independent.
 pub fn check(statements: &Statements, well: &[bool], uncertain: bool, context: &mut Context) {
-    let moving = Moving::new(statements);
+    let moving = MovingNames::new(statements);
     for (constraint, _) in statements.constraints.iter().zip(well).filter(|(_, well)| **well) {
         check_motion(constraint, &moving, context);
     }
@@ -34,7 +34,7 @@ pub fn check(statements: &Statements, well: &[bool], uncertain: bool, context: &
 }
 
 /// Motion has something to do with whether a constraint holds.
-fn check_motion(constraint: &ConstraintClause, moving: &Moving, context: &mut Context) {
+fn check_motion(constraint: &ConstraintClause, moving: &MovingNames, context: &mut Context) {
     let expression = &constraint.expression;
     let in_velocity = moving.in_velocity(expression);
     if !in_velocity && !moving.in_place(expression) {
@@ -43,7 +43,7 @@ fn check_motion(constraint: &ConstraintClause, moving: &Moving, context: &mut Co
             "the constraint names nothing that moves, so no motion makes it hold; \
              name a coordinate, a speed, or a body or point that moves",
         );
-    } else if constraint.kind == ConstraintKind::Velocity && !in_velocity {
+    } else if constraint.kind == ConstraintLevel::Velocity && !in_velocity {
         context.error(
             constraint.span,
             "the constraint contains no velocity of anything that moves; write `constraint(position = …)`, \

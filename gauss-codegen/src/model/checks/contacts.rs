@@ -4,9 +4,9 @@ use crate::model::language::context::Context;
 use crate::model::language::statements::Statements;
 use crate::model::language::words::{same, word};
 use crate::model::names::kinds;
-use crate::model::names::moving::Moving;
+use crate::model::names::moving_names::MovingNames;
 use crate::model::names::scope::Scope;
-use crate::model::scene::contacts::{Against, ContactClause, Copies, PointContact, Touching};
+use crate::model::scene::contacts::{ContactClause, ContactGeometry, Copies, Counterpart, PointContact};
 use crate::model::scene::expression::{Expression, ExpressionKind, Property};
 
 /// Checks names and kinds in the contacts. Returns for each clause whether it is without mistakes.
@@ -23,7 +23,7 @@ pub fn check_kinds(statements: &Statements, scope: &Scope, context: &mut Context
 
 /// Checks that gaps and slips are those of something that moves, in the clauses that are `well`.
 pub fn check(statements: &Statements, well: &[bool], context: &mut Context) {
-    let moving = Moving::new(statements);
+    let moving = MovingNames::new(statements);
     let check_slips = |slips: &[Expression], context: &mut Context| {
         for slip in slips.iter().filter(|slip| !moving.in_velocity(slip)) {
             context.error(
@@ -36,7 +36,7 @@ pub fn check(statements: &Statements, well: &[bool], context: &mut Context) {
     for (clause, _) in statements.contacts.iter().zip(well).filter(|(_, well)| **well) {
         check_axes(clause, context);
         match &clause.touching {
-            Touching::Gap { gap, slips, spin, rolls } => {
+            ContactGeometry::Gap { gap, slips, spin, rolls } => {
                 if !moving.in_place(gap) {
                     context.error(
                         gap.span,
@@ -53,13 +53,13 @@ pub fn check(statements: &Statements, well: &[bool], context: &mut Context) {
                     );
                 }
             }
-            Touching::Slip { slips, .. } => check_slips(slips, context),
-            Touching::Point(contact) => check_point(statements, clause, contact, &moving, context),
-            Touching::Range { along, .. } if !moving.in_place(along) => context.error(
+            ContactGeometry::Slip { slips, .. } => check_slips(slips, context),
+            ContactGeometry::Point(contact) => check_point(statements, clause, contact, &moving, context),
+            ContactGeometry::Range { along, .. } if !moving.in_place(along) => context.error(
                 along.span,
                 "the range is that of nothing that moves; name a coordinate, or a body or point that moves",
             ),
-            Touching::Range { .. } => {}
+            ContactGeometry::Range { .. } => {}
         }
     }
 }
@@ -73,7 +73,7 @@ fn check_axes(clause: &ContactClause, context: &mut Context) {
              `drilling`",
         );
     }
-    if let Touching::Gap { slips, .. } | Touching::Slip { slips, .. } = &clause.touching
+    if let ContactGeometry::Gap { slips, .. } | ContactGeometry::Slip { slips, .. } = &clause.touching
         && let ([_], [_, second]) = (&slips[..], &clause.friction[..])
     {
         context.error(second.span, "along one slip there is one friction; remove the second, or write `slip = [u, v]`");
@@ -85,12 +85,12 @@ fn check_point(
     statements: &Statements,
     clause: &ContactClause,
     contact: &PointContact,
-    moving: &Moving,
+    moving: &MovingNames,
     context: &mut Context,
 ) {
     let other = match &contact.against {
-        Against::Sphere { center, .. } => Some(center),
-        Against::Plane { .. } | Against::Ground(_) => None,
+        Counterpart::Sphere { center, .. } => Some(center),
+        Counterpart::Plane { .. } | Counterpart::Ground(_) => None,
     };
     let end = match &contact.copies {
         Copies::Ends(end) => Some(end),
@@ -110,7 +110,7 @@ fn check_point(
     needing.extend(end);
     let needing = needing.into_iter().filter(|_| needs_body);
     let turned = match &contact.against {
-        Against::Sphere { center, end, radius, .. } if rubs && (end.is_some() || radius.is_some()) => {
+        Counterpart::Sphere { center, end, radius, .. } if rubs && (end.is_some() || radius.is_some()) => {
             Some(center).filter(|center| moving.in_place(center))
         }
         _ => None,
@@ -128,7 +128,7 @@ fn check_point(
             check_turning(point, statements, context);
         }
     }
-    if let Against::Sphere { center, along: None, .. } = &contact.against
+    if let Counterpart::Sphere { center, along: None, .. } = &contact.against
         && rubs
     {
         context.error(
@@ -137,7 +137,7 @@ fn check_point(
              line never has",
         );
     }
-    if let Against::Plane { normal: Some(normal), along: None, .. } = &contact.against
+    if let Counterpart::Plane { normal: Some(normal), along: None, .. } = &contact.against
         && !clause.friction.is_empty()
         && normal.literal_components().is_none()
     {
@@ -150,8 +150,8 @@ fn check_point(
 }
 
 /// Both ends of a capsule that is touched are points of one body.
-fn check_capsule(against: &Against, statements: &Statements, context: &mut Context) {
-    let Against::Sphere { center, end: Some(end), .. } = against else { return };
+fn check_capsule(against: &Counterpart, statements: &Statements, context: &mut Context) {
+    let Counterpart::Sphere { center, end: Some(end), .. } = against else { return };
     let [first, last] = [center, end].map(|point| owner(point, statements));
     if first.is_none() || first != last {
         context.error(

@@ -1,7 +1,7 @@
 //! Rules between the fields: shapes that fit their roles, one scalar, no role missing, doubled or alone.
 
 use crate::model::language::context::Context;
-use crate::model::language::fields::{Claim, ReadField, Reader};
+use crate::model::language::fields::{ReadField, Reader, RoleClaim};
 use crate::model::language::role_words::ROLES;
 use crate::model::language::shapes::{ScalarType, TypeKind};
 use crate::model::language::words;
@@ -85,7 +85,7 @@ pub fn scalar_name(scalar: Option<&Scalar>, input: &DeriveInput) -> String {
 /// A role belongs to one field, but for that of being a body.
 fn check_duplicate(
     field: &ReadField<'_>,
-    claim: &Claim,
+    claim: &RoleClaim,
     owners: &[(Role, usize)],
     fields: &[ReadField<'_>],
     context: &mut Context,
@@ -140,7 +140,7 @@ fn check_scalar(
 }
 
 /// The shape of a field with a role.
-fn role_shape(field: &ReadField<'_>, claim: &Claim, scalar: &str, context: &mut Context) -> Shape {
+fn role_shape(field: &ReadField<'_>, claim: &RoleClaim, scalar: &str, context: &mut Context) -> Shape {
     let role = claim.role;
     let found = &field.reading.name;
     match (field.reading.kind, &claim.form) {

@@ -3,9 +3,9 @@
 use crate::model::language::context::Context;
 use crate::model::language::statements::Statements;
 use crate::model::language::words::{self, same, word};
-use crate::model::names::moving::Moving;
+use crate::model::names::moving_names::MovingNames;
 use crate::model::scene::clauses::CoordinateKind;
-use crate::model::scene::elements::{ElementKind, Takes, argument};
+use crate::model::scene::elements::{ArgumentType, ElementKind, argument};
 use crate::model::scene::expression::{Expression, ExpressionKind, Property};
 use crate::model::scene::forces::ForceClause;
 use proc_macro2::Ident;
@@ -112,7 +112,7 @@ fn check_drive(
 /// Every load has an effect, and every input a use. Checked only where all else is well, since the clause that is
 /// missed may be one that could not be read.
 pub fn check_effect(statements: &Statements, context: &mut Context) {
-    let moving = Moving::new(statements);
+    let moving = MovingNames::new(statements);
     for clause in &statements.forces {
         if let Some(message) = without_effect(clause, &moving) {
             context.error(clause.span, message);
@@ -136,9 +136,9 @@ pub fn check_effect(statements: &Statements, context: &mut Context) {
 }
 
 /// Why a force element does nothing, if that is so.
-fn without_effect(clause: &ForceClause, moving: &Moving) -> Option<String> {
+fn without_effect(clause: &ForceClause, moving: &MovingNames) -> Option<String> {
     let noun = clause.noun();
-    let all_rest = |takes: Takes| {
+    let all_rest = |takes: ArgumentType| {
         let mut all = clause.expressions().into_iter().filter(|(argument, ..)| argument.takes == takes).peekable();
         all.peek().is_some() && all.all(|(_, _, e)| !moving.in_place(e))
     };
@@ -155,7 +155,7 @@ fn without_effect(clause: &ForceClause, moving: &Moving) -> Option<String> {
         (Some(body), None) if !moving.moves(body) => {
             return Some(format!("`{body}` does not move, so the {noun} does nothing; name a body that moves"));
         }
-        (None, _) if all_rest(Takes::Point) => {
+        (None, _) if all_rest(ArgumentType::Point) => {
             let message = format!(
                 "the point of the {noun} is at rest, where it does nothing: it names no coordinate, and no body or point \
                  that moves; add `body = …` if it is meant in the axes of a body"
@@ -164,15 +164,15 @@ fn without_effect(clause: &ForceClause, moving: &Moving) -> Option<String> {
         }
         _ => {}
     }
-    if all_rest(Takes::End) {
+    if all_rest(ArgumentType::End) {
         return Some(format!("neither end of the {noun} moves; name a coordinate, or a body or point that moves"));
     }
-    if all_rest(Takes::Along) {
+    if all_rest(ArgumentType::Along) {
         return Some(format!(
             "the extent of the {noun} does not change: it names no coordinate, and no body or point that moves"
         ));
     }
-    let function = clause.expressions().into_iter().find(|(argument, ..)| argument.takes == Takes::Dissipation);
+    let function = clause.expressions().into_iter().find(|(argument, ..)| argument.takes == ArgumentType::Dissipation);
     function.filter(|(_, _, function)| !moving.in_velocity(function)).map(|_| {
         "the dissipation function contains no velocity of anything that moves, so it brakes nothing; name a speed, or a \
          velocity such as `rate(…)`"

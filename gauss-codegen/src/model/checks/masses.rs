@@ -3,13 +3,13 @@
 use super::field_shapes;
 use crate::model::language::context::Context;
 use crate::model::language::fields::{ReadField, Reader};
-use crate::model::language::kind::Kind;
+use crate::model::language::kind::ValueKind;
 use crate::model::language::shapes::TypeKind;
 use crate::model::language::statements::{Statement, Statements};
 use crate::model::language::words::same;
 use crate::model::names::expressions;
 use crate::model::names::kinds;
-use crate::model::names::places::Place;
+use crate::model::names::places::ExpressionPlace;
 use crate::model::names::scope::Scope;
 use crate::model::scene::clauses::{BodyClause, Coefficients, RoleClause, RoleValue};
 use crate::model::scene::expression::{Expression, ExpressionKind};
@@ -154,11 +154,13 @@ pub fn check(list: &mut [RoleClause], alone: bool, fields: &[ReadField<'_>], sco
                 }
                 continue;
             }
-            RoleValue::Expression(value) => match kinds::check(value, Place::Role(clause.role), scope, context) {
-                Some(Kind::Scalar) => clause.shape = Shape::Scalar,
-                Some(Kind::Vector) => clause.shape = Shape::Vector3,
-                _ => continue,
-            },
+            RoleValue::Expression(value) => {
+                match kinds::check(value, ExpressionPlace::Role(clause.role), scope, context) {
+                    Some(ValueKind::Scalar) => clause.shape = Shape::Scalar,
+                    Some(ValueKind::Vector) => clause.shape = Shape::Vector3,
+                    _ => continue,
+                }
+            }
         }
         if let Some((span, rule)) = broken_rule(clause, alone) {
             context.error(span, rule);

@@ -1,12 +1,12 @@
 //! Rules between coordinates, speeds and kinematics.
 
 use crate::model::language::context::Context;
-use crate::model::language::declarations::{Kinematics, Names};
+use crate::model::language::declarations::{KinematicsClause, Names};
 use crate::model::language::statements::Statements;
 use crate::model::language::words::{self, same, word};
 use crate::model::names::naming::is_reserved;
-use crate::model::names::places::Place;
-use crate::model::scene::clauses::{Coordinate, CoordinateKind, Speed, SpeedKind};
+use crate::model::names::places::ExpressionPlace;
+use crate::model::scene::clauses::{CoordinateClause, CoordinateKind, Speed, SpeedKind};
 use crate::model::scene::expression::Expression;
 use proc_macro2::Ident;
 use std::collections::HashSet;
@@ -43,7 +43,7 @@ fn refuse_beside_chart(statements: &Statements, context: &mut Context) {
 }
 
 /// Speeds and kinematics come together.
-fn refuse_half(statements: &Statements, coordinates: Option<&Names<Coordinate>>, context: &mut Context) {
+fn refuse_half(statements: &Statements, coordinates: Option<&Names<CoordinateClause>>, context: &mut Context) {
     match (&statements.speeds, &statements.kinematics) {
         (Some(speeds), None) => {
             let equations: Vec<String> = coordinates.iter().flat_map(|names| &names.names).map(equation).collect();
@@ -65,8 +65,8 @@ fn refuse_half(statements: &Statements, coordinates: Option<&Names<Coordinate>>,
 /// Each equation is that of a coordinate, and the only one of it. Gives back the coordinates that misspelt ones mean.
 fn refuse_strangers(
     statements: &Statements,
-    kinematics: &Kinematics,
-    coordinates: &Names<Coordinate>,
+    kinematics: &KinematicsClause,
+    coordinates: &Names<CoordinateClause>,
     context: &mut Context,
 ) -> Vec<String> {
     let table: Vec<(String, ())> = coordinates.names.iter().map(|name| (name.ident.unraw().to_string(), ())).collect();
@@ -99,9 +99,14 @@ fn refuse_strangers(
 }
 
 /// Each coordinate has an equation, but those that misspelt ones mean.
-fn refuse_missing(kinematics: &Kinematics, coordinates: &Names<Coordinate>, meant: &[String], context: &mut Context) {
+fn refuse_missing(
+    kinematics: &KinematicsClause,
+    coordinates: &Names<CoordinateClause>,
+    meant: &[String],
+    context: &mut Context,
+) {
     for (index, coordinate) in coordinates.names.iter().enumerate() {
-        let Coordinate { ident, .. } = coordinate;
+        let CoordinateClause { ident, .. } = coordinate;
         let word = ident.unraw().to_string();
         // A name that must change, or go, needs no kinematics yet.
         let refused =
@@ -120,16 +125,16 @@ fn refuse_missing(kinematics: &Kinematics, coordinates: &Names<Coordinate>, mean
 /// singular. What this sees in the names alone is said here; the rest shows when A is formed.
 ///
 /// What is named as a whole, or in any part, counts as named; `all` is every expression with its place.
-pub fn check_dependence(statements: &Statements, all: &[(Place, &Expression)], context: &mut Context) {
+pub fn check_dependence(statements: &Statements, all: &[(ExpressionPlace, &Expression)], context: &mut Context) {
     let Some(coordinates) = &statements.coordinates else { return };
-    let named = |at: &dyn Fn(Place) -> bool| {
+    let named = |at: &dyn Fn(ExpressionPlace) -> bool| {
         let mut names = HashSet::new();
         all.iter().filter(|(place, _)| at(*place)).for_each(|(_, expression)| expression.put_names(&mut names));
         names
     };
     match &statements.speeds {
         Some(speeds) => {
-            let named = named(&|place: Place| matches!(place, Place::Kinematics(_)));
+            let named = named(&|place: ExpressionPlace| matches!(place, ExpressionPlace::Kinematics(_)));
             for Speed { ident, .. } in speeds.names.iter().filter(|speed| !named.contains(&word(&speed.ident))) {
                 context.error(
                     ident.span(),
@@ -161,13 +166,11 @@ pub fn check_dependence(statements: &Statements, all: &[(Place, &Expression)], c
             }
         }
         None => {
-            let named = named(&|place: Place| {
-                matches!(place, Place::Position | Place::Rotation | Place::Particle { .. } | Place::Constraint(_))
-            });
+            let named = named(&is_motion);
             let geared = statements.armatures.iter().map(|(name, _)| word(name));
             let heavy: HashSet<String> = statements.modal_coordinates().map(word).chain(geared).collect();
             let idle = |ident: &Ident| !named.contains(&word(ident)) && !heavy.contains(&word(ident));
-            for Coordinate { ident, .. } in coordinates.names.iter().filter(|name| idle(&name.ident)) {
+            for CoordinateClause { ident, .. } in coordinates.names.iter().filter(|name| idle(&name.ident)) {
                 context.error(
                     ident.span(),
                     format!(
@@ -180,8 +183,14 @@ pub fn check_dependence(statements: &Statements, all: &[(Place, &Expression)], c
     }
 }
 
+/// The expression places matter, or constrains it.
+fn is_motion(place: ExpressionPlace) -> bool {
+    use ExpressionPlace::{Constraint, Particle, Position, Rotation};
+    matches!(place, Position | Rotation | Particle { .. } | Constraint(_))
+}
+
 /// The form of a coordinate's kinematics.
-fn equation(coordinate: &Coordinate) -> String {
+fn equation(coordinate: &CoordinateClause) -> String {
     let rate = match coordinate.kind {
         CoordinateKind::Scalar | CoordinateKind::Rotation => "…",
         CoordinateKind::Pose => "twist(…, …)",

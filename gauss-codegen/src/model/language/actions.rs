@@ -6,9 +6,9 @@ use super::attributes::{Clause, Content, Owner};
 use super::context::Context;
 use super::placements::{may_be_name, read_reference};
 use super::words::{self, Table, UNNAMED};
-use crate::model::scene::elements::{Argument, Form, Row, Rule, Takes, argument};
+use crate::model::scene::elements::{ArgumentRule, ArgumentType, ClauseForm, ElementArgument, Row, argument};
 use crate::model::scene::expression::Expression;
-use crate::model::scene::forces::{ForceAxes, ForceClause, Given, Value};
+use crate::model::scene::forces::{ArgumentContent, ArgumentValue, ForceAxes, ForceClause};
 use proc_macro2::{Ident, Span};
 
 const IN_MEDIUM: Owner = Owner::Action { word: "medium", example: "an argument such as `velocity = [c, 0, 0]`" };
@@ -20,9 +20,9 @@ const AXES: &Table<ForceAxes> = &[("body", ForceAxes::Body), ("observer", ForceA
 /// one body.
 pub fn read(row: &'static Row, clause: &Clause, in_chart: bool, context: &mut Context) -> Option<ForceClause> {
     match row.form {
-        Form::Arguments => read_arguments(row, clause, in_chart, context),
-        Form::Rates => read_rates(row, clause, context),
-        Form::Value => {
+        ClauseForm::Arguments => read_arguments(row, clause, in_chart, context),
+        ClauseForm::Rates => read_rates(row, clause, context),
+        ClauseForm::Value => {
             let function = value(clause, row.example, context)?;
             Some(ForceClause::dissipation(None, function, clause.name.span()))
         }
@@ -30,7 +30,7 @@ pub fn read(row: &'static Row, clause: &Clause, in_chart: bool, context: &mut Co
 }
 
 fn read_arguments(row: &'static Row, clause: &Clause, in_chart: bool, context: &mut Context) -> Option<ForceClause> {
-    let mut written = Written::read(row, clause, in_chart, context)?;
+    let mut written = ElementSyntax::read(row, clause, in_chart, context)?;
     let mut read = ForceClause::new(row, written.name.take(), written.span);
     let mut whole = true;
     for argument in row.arguments {
@@ -40,12 +40,12 @@ fn read_arguments(row: &'static Row, clause: &Clause, in_chart: bool, context: &
                 whole &= value.is_some();
                 value
             }
-            None if in_chart && argument.takes == Takes::Body => {
-                Some(Value::Reference(Ident::new(UNNAMED, written.span)))
+            None if in_chart && argument.takes == ArgumentType::Body => {
+                Some(ArgumentContent::Reference(Ident::new(UNNAMED, written.span)))
             }
             None => None,
         };
-        read.given.extend(value.map(|value| Given { argument, coordinate: None, value }));
+        read.given.extend(value.map(|value| ArgumentValue { argument, coordinate: None, value }));
     }
     for rule in row.rules {
         whole &= written.obeys(rule, context);
@@ -59,24 +59,31 @@ fn read_arguments(row: &'static Row, clause: &Clause, in_chart: bool, context: &
 }
 
 /// Reads the value of an argument; `None` if it is wrong, which is noted.
-fn read_value(row: &Row, argument: &Argument, clause: &Clause, context: &mut Context) -> Option<Value> {
+fn read_value(
+    row: &Row,
+    argument: &ElementArgument,
+    clause: &Clause,
+    context: &mut Context,
+) -> Option<ArgumentContent> {
     Some(match argument.takes {
-        Takes::Body | Takes::Other => Value::Reference(read_reference(clause, "a body or a frame", context)?),
-        Takes::Axes => Value::Axes(read_axes(clause, context)?),
-        Takes::Coefficients(_) | Takes::Matrix { .. } => {
+        ArgumentType::Body | ArgumentType::Other => {
+            ArgumentContent::Reference(read_reference(clause, "a body or a frame", context)?)
+        }
+        ArgumentType::Axes => ArgumentContent::Axes(read_axes(clause, context)?),
+        ArgumentType::Coefficients(_) | ArgumentType::Matrix { .. } => {
             let what = format!("the `{}` coefficients of {} are", argument.word, words::a(row.noun));
             let tokens = equals(clause, argument.example, context)?;
-            Value::Coefficients(arithmetic::read_coefficients(argument.word, &what, tokens, context)?)
+            ArgumentContent::Coefficients(arithmetic::read_coefficients(argument.word, &what, tokens, context)?)
         }
-        Takes::Point
-        | Takes::Force
-        | Takes::Torque
-        | Takes::Drive
-        | Takes::Dissipation
-        | Takes::End
-        | Takes::Along
-        | Takes::Constant { .. }
-        | Takes::Center => Value::Expression(value(clause, argument.example, context)?),
+        ArgumentType::Point
+        | ArgumentType::Force
+        | ArgumentType::Torque
+        | ArgumentType::Drive
+        | ArgumentType::Dissipation
+        | ArgumentType::End
+        | ArgumentType::Along
+        | ArgumentType::Constant { .. }
+        | ArgumentType::Center => ArgumentContent::Expression(value(clause, argument.example, context)?),
     })
 }
 
@@ -91,7 +98,7 @@ fn read_axes(clause: &Clause, context: &mut Context) -> Option<ForceAxes> {
 }
 
 /// An element as it is written: its name, if it has one, and its arguments, each of them once and in its row.
-struct Written {
+struct ElementSyntax {
     row: &'static Row,
     span: Span,
     in_chart: bool,
@@ -103,16 +110,16 @@ struct Written {
     complete: bool,
 }
 
-impl Written {
+impl ElementSyntax {
     /// `None` if there is nothing in brackets, which is noted.
-    fn read(row: &'static Row, clause: &Clause, in_chart: bool, context: &mut Context) -> Option<Written> {
+    fn read(row: &'static Row, clause: &Clause, in_chart: bool, context: &mut Context) -> Option<ElementSyntax> {
         let table = row.words();
         let group = brackets(clause, row.example, context)?;
         let place = Owner::Action { word: row.word, example: row.argument };
         let (arguments, complete) = arguments::arguments(group, place, context);
         let span = clause.name.span();
         let mut read =
-            Written { row, span, in_chart, name: None, arguments: Vec::new(), misspelt: Vec::new(), complete };
+            ElementSyntax { row, span, in_chart, name: None, arguments: Vec::new(), misspelt: Vec::new(), complete };
         let mut given = Vec::new();
         for (index, argument) in arguments.into_iter().enumerate() {
             let word = argument.word();
@@ -156,21 +163,21 @@ impl Written {
     }
 
     /// Whether a rule holds; if not, that is noted.
-    fn obeys(&self, rule: &Rule, context: &mut Context) -> bool {
+    fn obeys(&self, rule: &ArgumentRule, context: &mut Context) -> bool {
         match *rule {
-            Rule::Extent => self.has_extent(context),
-            Rule::Somewhere => self.is_somewhere(context),
-            Rule::OneOf(words, what) => {
+            ArgumentRule::Extent => self.has_extent(context),
+            ArgumentRule::Somewhere => self.is_somewhere(context),
+            ArgumentRule::OneOf(words, what) => {
                 if words.iter().all(|word| self.lacks(word)) {
                     context.error(self.span, format!("{} needs {what} or both", words::a(self.row.noun)));
                 }
                 words.iter().any(|word| self.find(word).is_some())
             }
-            Rule::With([first, second], what) => {
+            ArgumentRule::With([first, second], what) => {
                 let example = self.row.find(second).map_or("…", |argument| argument.example);
                 self.find(first).is_none() || self.require(second, what, example, context)
             }
-            Rule::OnlyWith([word, other], message) => {
+            ArgumentRule::OnlyWith([word, other], message) => {
                 if let Some(argument) = self.find(word).filter(|_| self.lacks(other)) {
                     context.error(argument.name.span(), message);
                 }

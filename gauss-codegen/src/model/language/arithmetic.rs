@@ -4,7 +4,7 @@
 //! not only the first.
 
 use super::context::Context;
-use super::functions::{FUNCTIONS, Function, PROPERTIES};
+use super::functions::{FUNCTIONS, FunctionCall, PROPERTIES};
 use super::words::{self, INPUT};
 use super::{attributes, chains, nesting};
 use crate::model::scene::clauses::Coefficients;
@@ -432,7 +432,7 @@ fn apply(
     }
     let function = words::resolve("function", name, FUNCTIONS, context).ok();
     // What stands after the base of a power is an exponent, which has rules of its own.
-    let values = if function == Some(Function::Power) { written.get(..1).unwrap_or_default() } else { &written };
+    let values = if function == Some(FunctionCall::Power) { written.get(..1).unwrap_or_default() } else { &written };
     let values: Vec<_> = values
         .iter()
         .map(|value| match value {
@@ -458,14 +458,14 @@ fn apply(
     }
     let values: Vec<Expression> = values.into_iter().collect::<Option<_>>()?;
     let kind = match function {
-        Function::Named(function) => {
+        FunctionCall::Named(function) => {
             if let Some((span, message)) = wrong_limits(function, &values) {
                 context.error(span, message);
                 return None;
             }
             ExpressionKind::Call(function, values)
         }
-        Function::Power => power(values.into_iter().next()?, written.get(1)?, context)?,
+        FunctionCall::Power => power(values.into_iter().next()?, written.get(1)?, context)?,
     };
     Some(Expression { kind, span: name.span() })
 }

@@ -6,7 +6,7 @@ use super::attributes::{Clause, Content, Owner};
 use super::context::Context;
 use super::placements::may_be_name;
 use super::words::{Table, same, word};
-use crate::model::scene::contacts::{Against, ContactClause, Copies, PointContact, Touching};
+use crate::model::scene::contacts::{ContactClause, ContactGeometry, Copies, Counterpart, PointContact};
 use crate::model::scene::expression::{Expression, ExpressionKind};
 use proc_macro2::{Ident, Span};
 use quote::format_ident;
@@ -112,7 +112,7 @@ const LIMITS: &Table<&str> =
 /// `contact(name, gap = …, …)` or `contact(name, point = …, …)`; `None` if something is missing or wrong, which is
 /// noted.
 pub fn read_contact(clause: &Clause, context: &mut Context) -> Option<ContactClause> {
-    let written = Written::read(clause, "contact", CONTACT, "name, gap = …", context)?;
+    let written = ContactSyntax::read(clause, "contact", CONTACT, "name, gap = …", context)?;
     let of_point = !written.lacks("point");
     let touching = if of_point { written.of_point(context) } else { written.of_gap(context) };
     let friction = written.one_or_two("friction", "mu", context);
@@ -140,7 +140,9 @@ pub fn read_contact(clause: &Clause, context: &mut Context) -> Option<ContactCla
     let (name, touching) = (written.name?, touching.filter(|_| well)?);
     let numbered = |k| format_ident!("{}_{k}", name.unraw(), span = name.span());
     let names: Vec<Ident> = match &touching {
-        Touching::Point(contact) if contact.copies.count() > 1 => (0..contact.copies.count()).map(numbered).collect(),
+        ContactGeometry::Point(contact) if contact.copies.count() > 1 => {
+            (0..contact.copies.count()).map(numbered).collect()
+        }
         _ => vec![name],
     };
     let rolls = |name: &Ident| rolling.as_ref().map(|_| format_ident!("{}_rolling", name.unraw(), span = name.span()));
@@ -160,7 +162,7 @@ pub fn read_contact(clause: &Clause, context: &mut Context) -> Option<ContactCla
 /// `dry_friction(x, bound = …)` of the coordinate or the speed x, or `dry_friction(name, slip = …, bound = …)`; `None`
 /// if something is missing or wrong, which is noted.
 pub fn read_dry_friction(clause: &Clause, context: &mut Context) -> Option<ContactClause> {
-    let written = Written::read(clause, "dry_friction", DRY_FRICTION, "x, bound = f", context)?;
+    let written = ContactSyntax::read(clause, "dry_friction", DRY_FRICTION, "x, bound = f", context)?;
     let named = written.find("slip").is_none();
     let slips = match (named, &written.name) {
         (true, Some(name)) => Some(vec![Expression { span: name.span(), kind: ExpressionKind::Name(name.clone()) }]),
@@ -171,7 +173,7 @@ pub fn read_dry_friction(clause: &Clause, context: &mut Context) -> Option<Conta
         context.error(clause.name.span(), "dry friction needs the largest force that it has; add `bound = f`");
     }
     let names = vec![written.name?];
-    let touching = Touching::Slip { slips: slips?, named };
+    let touching = ContactGeometry::Slip { slips: slips?, named };
     let friction = bound.filter(|bound| !bound.is_empty())?;
     Some(ContactClause {
         names,
@@ -188,7 +190,7 @@ pub fn read_dry_friction(clause: &Clause, context: &mut Context) -> Option<Conta
 /// `range(x, from = …, to = …, restitution = …)` of the coordinate x, or `range(name, along = …, …)`; `None` if
 /// something is missing or wrong, which is noted.
 pub fn read_range(clause: &Clause, context: &mut Context) -> Option<ContactClause> {
-    let written = Written::read(clause, "range", RANGE, "x, from = a, to = b", context)?;
+    let written = ContactSyntax::read(clause, "range", RANGE, "x, from = a, to = b", context)?;
     let along = match written.find("along") {
         Some(argument) => value(argument, "x", context),
         None => written.name.clone().map(|name| Expression { span: name.span(), kind: ExpressionKind::Name(name) }),
@@ -206,7 +208,7 @@ pub fn read_range(clause: &Clause, context: &mut Context) -> Option<ContactClaus
     if names.is_empty() {
         return None;
     }
-    let touching = Touching::Range { along: along?, from, to };
+    let touching = ContactGeometry::Range { along: along?, from, to };
     Some(ContactClause {
         names,
         touching,
@@ -256,7 +258,7 @@ fn place_over(height: &mut Expression, names: &[Ident]) {
 }
 
 /// A clause as it is written: its name, and its arguments, each of them once and known.
-struct Written {
+struct ContactSyntax {
     name: Option<Ident>,
     arguments: Vec<Clause>,
     /// Words that misspelt arguments may stand for, which are not missing too.
@@ -265,7 +267,7 @@ struct Written {
     complete: bool,
 }
 
-impl Written {
+impl ContactSyntax {
     /// `None` if there is nothing in brackets, which is noted.
     fn read(
         clause: &Clause,
@@ -320,10 +322,10 @@ impl Written {
     }
 
     /// Reads a gap with slips.
-    fn of_gap(&self, context: &mut Context) -> Option<Touching> {
+    fn of_gap(&self, context: &mut Context) -> Option<ContactGeometry> {
         let (gap, spin) = (self.value("gap", "z - r", context), self.value("spin", "w", context));
         let (slips, rolls) = (self.one_or_two("slip", "v", context), self.one_or_two("roll", "w", context));
-        Some(Touching::Gap { gap: gap?, slips: slips?, spin, rolls: rolls? })
+        Some(ContactGeometry::Gap { gap: gap?, slips: slips?, spin, rolls: rolls? })
     }
 
     /// Drilling and rolling have their rates, where no point says them.
@@ -356,7 +358,7 @@ impl Written {
     }
 
     /// Reads a contact at a point, or about it.
-    fn of_point(&self, context: &mut Context) -> Option<Touching> {
+    fn of_point(&self, context: &mut Context) -> Option<ContactGeometry> {
         let mut value = |word: &str, example: &str| self.value(word, example, context);
         let (point, radius) = (value("point", "tip"), value("radius", "r"));
         let (rim, axis) = (value("rim", "r"), value("axis", "[0, 0, 1]"));
@@ -369,13 +371,13 @@ impl Written {
         let edges = edges.map(|edges| three(edges, ["edges of a box", "edges"], context));
         let semi_axes = semi_axes.map(|axes| three(axes, ["semi-axes of an ellipsoid", "semi_axes"], context));
         let against = match (other, over) {
-            (Some(center), _) => Against::Sphere { center, end: end_of_other, radius: other_radius, along },
+            (Some(center), _) => Counterpart::Sphere { center, end: end_of_other, radius: other_radius, along },
             (None, Some(names)) => {
                 let mut height = height?;
                 place_over(&mut height, &names?);
-                Against::Ground(height)
+                Counterpart::Ground(height)
             }
-            (None, None) => Against::Plane { normal, height, along },
+            (None, None) => Counterpart::Plane { normal, height, along },
         };
         let copies = match (edges, end, length) {
             (Some(edges), ..) => Copies::Corners(edges?),
@@ -388,7 +390,7 @@ impl Written {
             Some(axes) => Some(axes?),
             None => None,
         };
-        Some(Touching::Point(Box::new(PointContact { point: point?, radius, rim, semi_axes, copies, against })))
+        Some(ContactGeometry::Point(Box::new(PointContact { point: point?, radius, rim, semi_axes, copies, against })))
     }
 
     /// Whether the arguments of a contact go together; if not, that is noted.

@@ -6,9 +6,9 @@ use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
 use super::placements;
 use super::words::{self, Table};
-use crate::model::scene::clauses::{Coordinate, CoordinateKind, Speed, SpeedKind, SpeedPart};
+use crate::model::scene::clauses::{CoordinateClause, CoordinateKind, Speed, SpeedKind, SpeedPart};
 use crate::model::scene::expression::Expression;
-use crate::terms::{InputKind, InputName, WantedJoint, WantedMethod};
+use crate::terms::{InputKind, InputName, OptionalMethod, ReactionJoint};
 use proc_macro2::{Ident, Span, TokenTree};
 
 /// Names that a clause declares, in brackets.
@@ -27,7 +27,7 @@ pub fn before<N>(clause: &mut Option<Names<N>>, names: Vec<N>, word: &str, span:
 }
 
 /// `kinematics(x = …)`.
-pub struct Kinematics {
+pub struct KinematicsClause {
     pub clause: Ident,
     /// Rates that could not be read are kept, so that they are not missing as well.
     pub rates: Vec<(Ident, Option<Expression>)>,
@@ -65,7 +65,7 @@ struct Language<K: 'static> {
 }
 
 /// `coordinates(x, pose: Pose)`.
-pub fn read_coordinates(clause: &Clause, context: &mut Context) -> Names<Coordinate> {
+pub fn read_coordinates(clause: &Clause, context: &mut Context) -> Names<CoordinateClause> {
     let language = Language {
         noun: "coordinate",
         example: "x, y, theta",
@@ -74,7 +74,7 @@ pub fn read_coordinates(clause: &Clause, context: &mut Context) -> Names<Coordin
         units: false,
         component: None,
     };
-    read_names(clause, &language, |ident, kind, _| Coordinate { ident, kind }, context)
+    read_names(clause, &language, |ident, kind, _| CoordinateClause { ident, kind }, context)
 }
 
 /// `speeds(v, w: Vector3)`.
@@ -98,15 +98,15 @@ pub fn read_independent(clause: &Clause, context: &mut Context) -> Names<SpeedPa
 }
 
 /// Words of `methods(…)`.
-pub const METHODS: &Table<WantedMethod> = &[
-    ("centroidal", WantedMethod::Centroidal),
-    ("nonlinear_effects", WantedMethod::NonlinearEffects),
-    ("gravity_torques", WantedMethod::GravityTorques),
-    ("jacobian_rates", WantedMethod::JacobianRates),
+pub const METHODS: &Table<OptionalMethod> = &[
+    ("centroidal", OptionalMethod::Centroidal),
+    ("nonlinear_effects", OptionalMethod::NonlinearEffects),
+    ("gravity_torques", OptionalMethod::GravityTorques),
+    ("jacobian_rates", OptionalMethod::JacobianRates),
 ];
 
 /// `methods(centroidal, gravity_torques)`: words, each once.
-pub fn read_methods(clause: &Clause, context: &mut Context) -> Vec<WantedMethod> {
+pub fn read_methods(clause: &Clause, context: &mut Context) -> Vec<OptionalMethod> {
     read_words(clause, ["method", "centroidal"], METHODS, context)
 }
 
@@ -138,9 +138,9 @@ pub fn read_frames(clause: &Clause, context: &mut Context) -> Vec<Ident> {
 
 /// `reactions(upper_arm, wrist)`: names of joints, each once. Of scenes that are written the bodies and frames that
 /// joints carry.
-pub fn read_reactions(clause: &Clause, context: &mut Context) -> Vec<WantedJoint> {
+pub fn read_reactions(clause: &Clause, context: &mut Context) -> Vec<ReactionJoint> {
     let names = read_once(clause, ["joint", "upper_arm"], context).into_iter();
-    names.map(|name| WantedJoint { link: name.clone(), name }).collect()
+    names.map(|name| ReactionJoint { link: name.clone(), name }).collect()
 }
 
 fn read_once(clause: &Clause, [noun, example]: [&'static str; 2], context: &mut Context) -> Vec<Ident> {
@@ -319,8 +319,8 @@ fn read_kind<K: Copy>(
     None
 }
 
-pub fn read_kinematics(clause: &Clause, context: &mut Context) -> Kinematics {
-    let mut kinematics = Kinematics { clause: clause.name.clone(), rates: Vec::new(), complete: false };
+pub fn read_kinematics(clause: &Clause, context: &mut Context) -> KinematicsClause {
+    let mut kinematics = KinematicsClause { clause: clause.name.clone(), rates: Vec::new(), complete: false };
     let Some(group) = brackets(clause, "x = v, …", context) else { return kinematics };
     let (equations, complete) = arguments::arguments(group, Owner::Kinematics, context);
     kinematics.complete = complete;

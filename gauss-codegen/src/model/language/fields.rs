@@ -17,7 +17,7 @@ pub struct ReadField<'a> {
     pub ident: &'a Ident,
     pub ty: &'a Type,
     pub reading: Reading,
-    pub role: Option<Claim>,
+    pub role: Option<RoleClaim>,
     /// Its scalar is one that the model computes with: it has a role, or an expression names it.
     pub computed: bool,
     /// The unit, if one is written and well.
@@ -26,7 +26,7 @@ pub struct ReadField<'a> {
 }
 
 /// A role as written on a field.
-pub struct Claim {
+pub struct RoleClaim {
     pub role: Role,
     pub span: Span,
     /// The word after `=`, when there is a valid one.
@@ -98,7 +98,7 @@ impl Reader<'_> {
         ident: &Ident,
         attributes: &[Attribute],
         context: &mut Context,
-    ) -> (Option<Claim>, Option<(String, Span)>) {
+    ) -> (Option<RoleClaim>, Option<(String, Span)>) {
         let (mut role, mut unit) = (None, None);
         for clause in attributes::clauses(attributes, Owner::Field, context) {
             if clause.word() == UNIT {
@@ -124,7 +124,7 @@ impl Reader<'_> {
     }
 
     /// Refuses a second role of a field, and a role that is written twice.
-    fn refuse_second(&mut self, ident: &Ident, first: &Claim, claim: &Claim, context: &mut Context) {
+    fn refuse_second(&mut self, ident: &Ident, first: &RoleClaim, claim: &RoleClaim, context: &mut Context) {
         let [earlier, word] = [first.role.word(), claim.role.word()];
         if first.role == claim.role {
             context.error(claim.span, format!("`{word}` is written twice on the field `{ident}`; write it once"));
@@ -141,7 +141,7 @@ impl Reader<'_> {
     }
 
     /// The role that a clause gives to its field.
-    fn claim(&mut self, clause: &Clause, context: &mut Context) -> Option<Claim> {
+    fn claim(&mut self, clause: &Clause, context: &mut Context) -> Option<RoleClaim> {
         let word = clause.word();
         let span = clause.name.span();
         let Some(&(_, role)) = SYSTEM_ROLES.iter().find(|(name, _)| *name == word) else {
@@ -150,7 +150,7 @@ impl Reader<'_> {
         };
         self.system |= role == Role::Body;
         let (form, malformed) = read_form(role, clause, context);
-        Some(Claim { role, span, form, malformed })
+        Some(RoleClaim { role, span, form, malformed })
     }
 
     /// Notes why a clause is no role.
@@ -198,7 +198,7 @@ impl Reader<'_> {
 }
 
 /// Mistake in the unit of a field.
-fn wrong_unit(field: &Ident, role: Option<&Claim>, reading: &Reading, unit: &str) -> Option<String> {
+fn wrong_unit(field: &Ident, role: Option<&RoleClaim>, reading: &Reading, unit: &str) -> Option<String> {
     let role = role.map(|claim| claim.role);
     if let Some((implied, dimension)) = role.and_then(Role::unit) {
         let word = role.map_or("", Role::word);

@@ -1,68 +1,68 @@
 //! The functions that expressions may call, what they take and what they give; and what they may ask of bodies.
 
-use super::kind::Kind;
+use super::kind::ValueKind;
 use super::words::Table;
 use crate::model::scene::expression::{FunctionName, Property};
 
 /// A function as it is called: integer powers are kept apart, since their exponent is no expression.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Function {
+pub enum FunctionCall {
     Named(FunctionName),
     Power,
 }
 
 /// Every function by its word.
-pub const FUNCTIONS: &Table<Function> = &[
-    ("sin", Function::Named(FunctionName::Sin)),
-    ("cos", Function::Named(FunctionName::Cos)),
-    ("tan", Function::Named(FunctionName::Tan)),
-    ("asin", Function::Named(FunctionName::Asin)),
-    ("acos", Function::Named(FunctionName::Acos)),
-    ("atan", Function::Named(FunctionName::Atan)),
-    ("tanh", Function::Named(FunctionName::Tanh)),
-    ("exp", Function::Named(FunctionName::Exp)),
-    ("ln", Function::Named(FunctionName::Ln)),
-    ("sqrt", Function::Named(FunctionName::Sqrt)),
-    ("powi", Function::Power),
-    ("powf", Function::Named(FunctionName::Powf)),
-    ("atan2", Function::Named(FunctionName::Atan2)),
-    ("dot", Function::Named(FunctionName::Dot)),
-    ("cross", Function::Named(FunctionName::Cross)),
-    ("rotation_x", Function::Named(FunctionName::RotationX)),
-    ("rotation_y", Function::Named(FunctionName::RotationY)),
-    ("rotation_z", Function::Named(FunctionName::RotationZ)),
-    ("inverse", Function::Named(FunctionName::Inverse)),
-    ("twist", Function::Named(FunctionName::Twist)),
-    ("rate", Function::Named(FunctionName::Rate)),
-    ("abs", Function::Named(FunctionName::Abs)),
-    ("min", Function::Named(FunctionName::Min)),
-    ("max", Function::Named(FunctionName::Max)),
-    ("hypot", Function::Named(FunctionName::Hypot)),
-    ("signum", Function::Named(FunctionName::Signum)),
-    ("clamp", Function::Named(FunctionName::Clamp)),
-    ("smooth_step", Function::Named(FunctionName::SmoothStep)),
+pub const FUNCTIONS: &Table<FunctionCall> = &[
+    ("sin", FunctionCall::Named(FunctionName::Sin)),
+    ("cos", FunctionCall::Named(FunctionName::Cos)),
+    ("tan", FunctionCall::Named(FunctionName::Tan)),
+    ("asin", FunctionCall::Named(FunctionName::Asin)),
+    ("acos", FunctionCall::Named(FunctionName::Acos)),
+    ("atan", FunctionCall::Named(FunctionName::Atan)),
+    ("tanh", FunctionCall::Named(FunctionName::Tanh)),
+    ("exp", FunctionCall::Named(FunctionName::Exp)),
+    ("ln", FunctionCall::Named(FunctionName::Ln)),
+    ("sqrt", FunctionCall::Named(FunctionName::Sqrt)),
+    ("powi", FunctionCall::Power),
+    ("powf", FunctionCall::Named(FunctionName::Powf)),
+    ("atan2", FunctionCall::Named(FunctionName::Atan2)),
+    ("dot", FunctionCall::Named(FunctionName::Dot)),
+    ("cross", FunctionCall::Named(FunctionName::Cross)),
+    ("rotation_x", FunctionCall::Named(FunctionName::RotationX)),
+    ("rotation_y", FunctionCall::Named(FunctionName::RotationY)),
+    ("rotation_z", FunctionCall::Named(FunctionName::RotationZ)),
+    ("inverse", FunctionCall::Named(FunctionName::Inverse)),
+    ("twist", FunctionCall::Named(FunctionName::Twist)),
+    ("rate", FunctionCall::Named(FunctionName::Rate)),
+    ("abs", FunctionCall::Named(FunctionName::Abs)),
+    ("min", FunctionCall::Named(FunctionName::Min)),
+    ("max", FunctionCall::Named(FunctionName::Max)),
+    ("hypot", FunctionCall::Named(FunctionName::Hypot)),
+    ("signum", FunctionCall::Named(FunctionName::Signum)),
+    ("clamp", FunctionCall::Named(FunctionName::Clamp)),
+    ("smooth_step", FunctionCall::Named(FunctionName::SmoothStep)),
 ];
 
-impl Function {
+impl FunctionCall {
     /// Number of its arguments; the value that a method is called on is the first.
     pub fn arguments(self) -> usize {
         match self {
-            Function::Power => 2,
-            Function::Named(name) => name.arguments(),
+            FunctionCall::Power => 2,
+            FunctionCall::Named(name) => name.arguments(),
         }
     }
 
     /// A call of it, for messages.
     pub fn example(self) -> String {
         match self {
-            Function::Power => "powi(x, 2)".into(),
-            Function::Named(FunctionName::Atan2) => "atan2(y, x)".into(),
-            Function::Named(FunctionName::Powf) => "powf(x, 1.5)".into(),
-            Function::Named(FunctionName::Inverse) => "inverse(r)".into(),
-            Function::Named(FunctionName::Clamp) => "clamp(x, low, high)".into(),
-            Function::Named(FunctionName::SmoothStep) => "smooth_step(x, from, to)".into(),
-            Function::Named(name) if name.arguments() == 2 => format!("{}(a, b)", name.word()),
-            Function::Named(name) => format!("{}(x)", name.word()),
+            FunctionCall::Power => "powi(x, 2)".into(),
+            FunctionCall::Named(FunctionName::Atan2) => "atan2(y, x)".into(),
+            FunctionCall::Named(FunctionName::Powf) => "powf(x, 1.5)".into(),
+            FunctionCall::Named(FunctionName::Inverse) => "inverse(r)".into(),
+            FunctionCall::Named(FunctionName::Clamp) => "clamp(x, low, high)".into(),
+            FunctionCall::Named(FunctionName::SmoothStep) => "smooth_step(x, from, to)".into(),
+            FunctionCall::Named(name) if name.arguments() == 2 => format!("{}(a, b)", name.word()),
+            FunctionCall::Named(name) => format!("{}(x)", name.word()),
         }
     }
 }
@@ -158,25 +158,25 @@ impl FunctionName {
     }
 
     /// The kind of each argument; `None` for a scalar or a vector.
-    pub fn takes(self) -> Option<Kind> {
+    pub fn takes(self) -> Option<ValueKind> {
         match self {
-            FunctionName::Dot | FunctionName::Cross | FunctionName::Twist => Some(Kind::Vector),
-            FunctionName::Inverse => Some(Kind::Rotation),
+            FunctionName::Dot | FunctionName::Cross | FunctionName::Twist => Some(ValueKind::Vector),
+            FunctionName::Inverse => Some(ValueKind::Rotation),
             FunctionName::Rate => None,
-            _ => Some(Kind::Scalar),
+            _ => Some(ValueKind::Scalar),
         }
     }
 
     /// The kind of the value; `None` for that of the argument.
-    pub fn gives(self) -> Option<Kind> {
+    pub fn gives(self) -> Option<ValueKind> {
         match self {
-            FunctionName::Cross => Some(Kind::Vector),
+            FunctionName::Cross => Some(ValueKind::Vector),
             FunctionName::RotationX | FunctionName::RotationY | FunctionName::RotationZ | FunctionName::Inverse => {
-                Some(Kind::Rotation)
+                Some(ValueKind::Rotation)
             }
-            FunctionName::Twist => Some(Kind::Twist),
+            FunctionName::Twist => Some(ValueKind::Twist),
             FunctionName::Rate => None,
-            _ => Some(Kind::Scalar),
+            _ => Some(ValueKind::Scalar),
         }
     }
 }

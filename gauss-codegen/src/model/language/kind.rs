@@ -2,7 +2,7 @@
 
 /// The kind of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ValueKind {
     Scalar,
     Vector,
     Rotation,
@@ -10,13 +10,13 @@ pub enum Kind {
     Twist,
 }
 
-impl Kind {
+impl ValueKind {
     pub fn noun(self) -> &'static str {
         match self {
-            Kind::Scalar => "a scalar",
-            Kind::Vector => "a vector",
-            Kind::Rotation => "a rotation",
-            Kind::Twist => "a twist",
+            ValueKind::Scalar => "a scalar",
+            ValueKind::Vector => "a vector",
+            ValueKind::Rotation => "a rotation",
+            ValueKind::Twist => "a twist",
         }
     }
 }

@@ -36,19 +36,19 @@ pub struct ModesFile {
 }
 
 /// A clause, and the file that its integrals are yet to come from.
-pub struct ReadModes {
+pub struct ModesInput {
     pub clause: ModesClause,
     pub file: Option<ModesFile>,
 }
 
 /// Lists of lists of scalars, as deep as they are written.
-pub enum Nested {
+pub enum NestedList {
     Scalar(Expression),
-    List(Vec<Nested>, Span),
+    List(Vec<NestedList>, Span),
 }
 
 /// `None` if something is missing or wrong, which is noted.
-pub fn read(clause: &Clause, context: &mut Context) -> Option<ReadModes> {
+pub fn read(clause: &Clause, context: &mut Context) -> Option<ModesInput> {
     let earlier = context.count();
     let group = brackets(clause, EXAMPLE, context)?;
     let owner = Owner::Action { word: "modes", example: "an argument such as `coordinates = [a, b]`" };
@@ -89,7 +89,7 @@ pub fn read(clause: &Clause, context: &mut Context) -> Option<ReadModes> {
     let n = coordinates.len();
     let integrals: Vec<_> = written.into_iter().map(|argument| read_integral(argument, n, context)).collect();
     let integrals = integrals.into_iter().collect::<Option<_>>()?;
-    Some(ReadModes { clause: ModesClause { body, coordinates, integrals, file: None, span }, file })
+    Some(ModesInput { clause: ModesClause { body, coordinates, integrals, file: None, span }, file })
 }
 
 /// `[a, b]`: names.
@@ -154,15 +154,15 @@ fn read_integral(argument: &Clause, n: usize, context: &mut Context) -> Option<G
 }
 
 /// Lists in brackets, and scalars in them.
-fn nested(word: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Nested> {
+fn nested(word: &str, tokens: &[TokenTree], context: &mut Context) -> Option<NestedList> {
     let flat = attributes::flat(tokens.iter().cloned().collect());
     match flat.as_slice() {
         [TokenTree::Group(group)] if group.delimiter() == Delimiter::Bracket => {
             let pieces = attributes::pieces(group.stream(), "an entry", context).into_iter();
             let entries: Vec<_> = pieces.map(|piece| nested(word, &piece, context)).collect();
-            Some(Nested::List(entries.into_iter().collect::<Option<_>>()?, group.span_open()))
+            Some(NestedList::List(entries.into_iter().collect::<Option<_>>()?, group.span_open()))
         }
-        _ => arithmetic::read(word, tokens, context).map(Nested::Scalar),
+        _ => arithmetic::read(word, tokens, context).map(NestedList::Scalar),
     }
 }
 
@@ -170,12 +170,12 @@ fn nested(word: &str, tokens: &[TokenTree], context: &mut Context) -> Option<Nes
 ///
 /// # Errors
 /// What has another shape, where it is.
-pub fn shaped(nested: Nested, integral: Integral, n: usize) -> Result<Vec<Expression>, (Span, String)> {
+pub fn shaped(nested: NestedList, integral: Integral, n: usize) -> Result<Vec<Expression>, (Span, String)> {
     let word = integral.word();
-    if let Nested::List(rows, _) = &nested
+    if let NestedList::List(rows, _) = &nested
         && integral.is_matrix()
         && rows.len() == n
-        && rows.iter().all(|row| matches!(row, Nested::Scalar(_)))
+        && rows.iter().all(|row| matches!(row, NestedList::Scalar(_)))
     {
         return Ok(on_diagonal(nested, n));
     }
@@ -185,12 +185,12 @@ pub fn shaped(nested: Nested, integral: Integral, n: usize) -> Result<Vec<Expres
 }
 
 /// A square matrix with these on its diagonal.
-fn on_diagonal(nested: Nested, n: usize) -> Vec<Expression> {
-    let Nested::List(rows, span) = nested else { return Vec::new() };
+fn on_diagonal(nested: NestedList, n: usize) -> Vec<Expression> {
+    let NestedList::List(rows, span) = nested else { return Vec::new() };
     let zero = Expression { kind: ExpressionKind::Number { value: Rational::zero(), twin: None }, span };
     let mut entries = vec![zero; n * n];
     for (k, row) in rows.into_iter().enumerate() {
-        if let Nested::Scalar(e) = row {
+        if let NestedList::Scalar(e) = row {
             entries[k * n + k] = e;
         }
     }
@@ -198,22 +198,22 @@ fn on_diagonal(nested: Nested, n: usize) -> Vec<Expression> {
 }
 
 fn flatten(
-    nested: Nested,
+    nested: NestedList,
     sizes: &[usize],
     path: &mut String,
     entries: &mut Vec<Expression>,
 ) -> Result<(), (Span, String)> {
     let top = !path.contains('[');
     match (nested, sizes) {
-        (Nested::Scalar(e), []) => entries.push(e),
-        (Nested::List(_, span), []) => {
+        (NestedList::Scalar(e), []) => entries.push(e),
+        (NestedList::List(_, span), []) => {
             return Err((span, format!("`{path}` is a number, found a list")));
         }
-        (Nested::Scalar(e), [size, ..]) => {
+        (NestedList::Scalar(e), [size, ..]) => {
             let modes = if top { ", one for each mode" } else { "" };
             return Err((e.span, format!("`{path}` is a list of {size}{modes}, found a scalar")));
         }
-        (Nested::List(rows, span), [size, rest @ ..]) => {
+        (NestedList::List(rows, span), [size, rest @ ..]) => {
             if rows.len() != *size {
                 let modes = if top { ", one for each mode" } else { "" };
                 let message = format!("`{path}` is a list of {size}{modes}, found {}", rows.len());

@@ -16,7 +16,7 @@ pub const LEVELS: usize = 2 * DEEPEST;
 const BRACKETS: usize = 500;
 
 /// Tokens of one level while they are counted.
-struct Level {
+struct TokenLevel {
     rest: IntoIter,
     /// The levels around it.
     around: usize,
@@ -27,11 +27,11 @@ struct Level {
     /// Angle brackets of types that are open.
     angles: usize,
     /// Kind of the token before.
-    after: After,
+    after: PrecedingToken,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum After {
+enum PrecedingToken {
     /// The sign of an attribute, whose tokens are read by themselves.
     Hash,
     Operator,
@@ -39,9 +39,9 @@ enum After {
     Operand,
 }
 
-impl Level {
+impl TokenLevel {
     fn new(tokens: TokenStream, around: usize) -> Self {
-        Self { rest: tokens.into_iter(), around, operand: 0, foreign: 0, angles: 0, after: After::Operator }
+        Self { rest: tokens.into_iter(), around, operand: 0, foreign: 0, angles: 0, after: PrecedingToken::Operator }
     }
 
     fn depth(&self) -> usize {
@@ -55,23 +55,25 @@ impl Level {
             TokenTree::Punct(sign) => {
                 match sign.as_char() {
                     ',' | ';' => (self.operand, self.foreign) = (0, 0),
-                    '+' | '-' | '*' | '/' if matches!(before, After::Word | After::Operand) => self.operand = 0,
+                    '+' | '-' | '*' | '/' if matches!(before, PrecedingToken::Word | PrecedingToken::Operand) => {
+                        self.operand = 0
+                    }
                     '-' => self.operand += 1,
                     '.' => self.operand += 1,
                     '<' => self.angles += 1,
                     '>' => self.angles = self.angles.saturating_sub(1),
                     _ => self.foreign += 1,
                 }
-                if sign.as_char() == '#' { After::Hash } else { After::Operator }
+                if sign.as_char() == '#' { PrecedingToken::Hash } else { PrecedingToken::Operator }
             }
             TokenTree::Ident(_) => {
-                self.foreign += usize::from(before == After::Word);
-                After::Word
+                self.foreign += usize::from(before == PrecedingToken::Word);
+                PrecedingToken::Word
             }
-            TokenTree::Literal(_) | TokenTree::Group(_) => After::Operand,
+            TokenTree::Literal(_) | TokenTree::Group(_) => PrecedingToken::Operand,
         };
         match token {
-            TokenTree::Group(group) if before != After::Hash || is_parsed(&group) => Some(group.stream()),
+            TokenTree::Group(group) if before != PrecedingToken::Hash || is_parsed(&group) => Some(group.stream()),
             _ => None,
         }
     }
@@ -84,7 +86,7 @@ fn is_parsed(attribute: &Group) -> bool {
 
 /// The first token that is too deep, if there is one.
 pub fn too_deep(tokens: TokenStream) -> Option<Span> {
-    let mut levels = vec![Level::new(tokens, 0)];
+    let mut levels = vec![TokenLevel::new(tokens, 0)];
     while let Some(level) = levels.last_mut() {
         let Some(token) = level.rest.next() else {
             levels.pop();
@@ -97,7 +99,7 @@ pub fn too_deep(tokens: TokenStream) -> Option<Span> {
             return Some(span);
         }
         if let Some(inner) = inner {
-            levels.push(Level::new(inner, depth + 1));
+            levels.push(TokenLevel::new(inner, depth + 1));
         }
     }
     None

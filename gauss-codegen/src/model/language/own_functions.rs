@@ -6,7 +6,7 @@ use super::context::Context;
 use super::placements::may_be_name;
 use super::words::{self, Table};
 use crate::algebra::MOST_VARIABLES;
-use crate::terms::{self, Axis, FunctionKind, Joined, UserFunction};
+use crate::terms::{self, Axis, FunctionKind, Interpolation, UserFunction};
 use proc_macro2::{Delimiter, Ident, TokenTree};
 use quote::ToTokens;
 use syn::ext::IdentExt;
@@ -17,7 +17,8 @@ use syn::{Path, Token};
 
 const FUNCTION: &Table<()> = &[("derivative", ()), ("second", ()), ("third", ())];
 const TABLE: &Table<()> = &[("points", ()), ("axes", ()), ("values", ()), ("kind", ())];
-const KINDS: &Table<Joined> = &[("linear", Joined::Linear), ("hermite", Joined::Hermite), ("cubic", Joined::Cubic)];
+const KINDS: &Table<Interpolation> =
+    &[("linear", Interpolation::Linear), ("hermite", Interpolation::Hermite), ("cubic", Interpolation::Cubic)];
 
 const IN_FUNCTION: Owner = Owner::Action { word: "function", example: "an argument such as `derivative = slope`" };
 const IN_TABLE: Owner = Owner::Action { word: "table", example: "an argument such as `points = POINTS`" };
@@ -65,7 +66,7 @@ pub fn read_table(clause: &Clause, context: &mut Context) -> Option<UserFunction
     let (first, further) = named(clause, &arguments, TABLE, "table", "points = …", context)?;
     let name = arguments::name(&first.name, "table", context)?;
     let mut given = Vec::new();
-    let (mut points, mut axes, mut values, mut joined) = (None, None, None, Some(Joined::Linear));
+    let (mut points, mut axes, mut values, mut joined) = (None, None, None, Some(Interpolation::Linear));
     for argument in further {
         match argument.word().as_str() {
             _ if !known(argument, "table", TABLE, &mut given, context) => {}

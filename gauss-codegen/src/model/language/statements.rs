@@ -4,15 +4,16 @@
 use super::arguments::{self, brackets, equals, value};
 use super::attributes::{self, Clause, Content, Owner};
 use super::context::Context;
-use super::declarations::{self, Definition, Kinematics, Names, StateClause};
-use super::modes::{self, ReadModes};
+use super::declarations::{self, Definition, KinematicsClause, Names, StateClause};
+use super::modes::{self, ModesInput};
 use super::words::{self, Table, same};
 use super::{actions, contacts, own_functions, placements, role_clauses};
 use crate::model::scene::clauses::{
-    BodyClause, ConstraintClause, ConstraintKind, Coordinate, ParticleClause, PointClause, RoleClause, Speed, SpeedPart,
+    BodyClause, ConstraintClause, ConstraintLevel, CoordinateClause, ParticleClause, PointClause, RoleClause, Speed,
+    SpeedPart,
 };
 use crate::model::scene::contacts::ContactClause;
-use crate::model::scene::elements::{ATTRACTION, ELEMENTS, Form, Row};
+use crate::model::scene::elements::{ATTRACTION, ClauseForm, ELEMENTS, Row};
 use crate::model::scene::expression::{Expression, ExpressionKind};
 use crate::model::scene::forces::ForceClause;
 use crate::terms::{InputName, UserFunction};
@@ -32,9 +33,9 @@ pub struct Statements {
     has_coordinates: bool,
     /// The name of the first clause: where a mistake of the scene as a whole is shown.
     pub first: Option<Ident>,
-    pub coordinates: Option<Names<Coordinate>>,
+    pub coordinates: Option<Names<CoordinateClause>>,
     pub speeds: Option<Names<Speed>>,
-    pub kinematics: Option<Kinematics>,
+    pub kinematics: Option<KinematicsClause>,
     /// States of elements.
     pub states: Vec<StateClause>,
     pub bodies: Vec<BodyClause>,
@@ -57,7 +58,7 @@ pub struct Statements {
     /// Links that are not called as in the file, by both names.
     pub links_of_file: Vec<(String, String)>,
     /// Bodies that deform.
-    pub modes: Vec<ReadModes>,
+    pub modes: Vec<ModesInput>,
     /// Coordinates with the inertia of their rates.
     pub armatures: Vec<(Ident, Expression)>,
     pub definitions: Vec<Definition>,
@@ -159,8 +160,8 @@ const fn statements() -> [(&'static str, Statement); COUNT] {
     all
 }
 
-const CONSTRAINT: &Table<ConstraintKind> =
-    &[("position", ConstraintKind::Position), ("velocity", ConstraintKind::Velocity)];
+const CONSTRAINT: &Table<ConstraintLevel> =
+    &[("position", ConstraintLevel::Position), ("velocity", ConstraintLevel::Velocity)];
 
 /// The clause that `word` is, or that it is a misspelling of.
 pub fn meant(word: &str) -> Option<Statement> {
@@ -171,7 +172,7 @@ pub fn meant(word: &str) -> Option<Statement> {
 pub fn form(word: &str) -> Option<String> {
     STATEMENTS.iter().find(|(name, _)| *name == word).map(|(_, statement)| match statement {
         Statement::Potential | Statement::Limit => format!("{word} = …"),
-        Statement::Element(row) if row.form == Form::Value => format!("{word} = …"),
+        Statement::Element(row) if row.form == ClauseForm::Value => format!("{word} = …"),
         Statement::Redundant => word.to_owned(),
         _ => format!("{word}(…)"),
     })
@@ -261,7 +262,7 @@ impl Statements {
             Statement::Potential => self.potential.is_some(),
             Statement::Limit => self.limit.is_some(),
             Statement::Input => self.inputs.is_some(),
-            Statement::Element(row) => row.form == Form::Value && self.damped,
+            Statement::Element(row) => row.form == ClauseForm::Value && self.damped,
             Statement::Medium => self.medium.is_some(),
             _ => false,
         };
@@ -366,7 +367,7 @@ impl Statements {
 
     /// A force element.
     fn read_element(&mut self, row: &'static Row, clause: &Clause, context: &mut Context) {
-        if row.form == Form::Rates && self.has_no_names() {
+        if row.form == ClauseForm::Rates && self.has_no_names() {
             context.error(
                 clause.name.span(),
                 "`drive` acts on rates of named coordinates, and those of a chart have no names; write `force(…)` or \
@@ -374,7 +375,7 @@ impl Statements {
             );
             return;
         }
-        self.damped |= row.form == Form::Value;
+        self.damped |= row.form == ClauseForm::Value;
         self.forces.extend(actions::read(row, clause, self.in_chart, context));
     }
 
@@ -506,8 +507,8 @@ fn read_constraint(clause: &Clause, context: &mut Context) -> Option<ConstraintC
         }
         several = true;
         let example = match kind {
-            ConstraintKind::Position => "x - l",
-            ConstraintKind::Velocity => "v - r * w",
+            ConstraintLevel::Position => "x - l",
+            ConstraintLevel::Velocity => "v - r * w",
         };
         let Some(expression) = value(argument, example, context) else { continue };
         read =

@@ -15,7 +15,7 @@ use super::role_words::ROLES;
 use super::statements::{self, STATEMENTS, Statement, Statements};
 use super::synonyms;
 use super::words::{self, Table};
-use crate::terms::{Chart, InChart, Motion, RotationChart, Wanted, WantedMethod};
+use crate::terms::{BodyChart, Chart, KernelOptions, Motion, OptionalMethod, RotationChart};
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::Parser;
@@ -24,10 +24,10 @@ use syn::{Attribute, Path, PathSegment};
 /// The contents of the clauses of the struct.
 pub struct Clauses {
     /// The chart of the body without a name, unless the scene has coordinates of its own only.
-    pub in_chart: Option<InChart>,
+    pub in_chart: Option<BodyChart>,
     pub runtime: Path,
     /// The methods and derivatives to generate besides the equations.
-    pub wanted: Wanted,
+    pub wanted: KernelOptions,
     /// Coordinates, bodies and forces.
     pub statements: Statements,
     /// Some clause declares a moving part besides the body of a chart.
@@ -93,7 +93,7 @@ const ROTATIONS: &Table<RotationChart> = &[
 ];
 
 /// A chart as written, before the motion is known.
-enum Written {
+enum ChartSyntax {
     Known(Chart),
     /// `jet`, with the word in its brackets if there are brackets.
     Jet {
@@ -144,19 +144,19 @@ pub fn read(attributes: &[Attribute], has_body: bool, context: &mut Context) -> 
     }
     let chart = chart.unwrap_or(Chart::LeftInvariant);
     let motion = motion.unwrap_or(Motion::Free);
-    let in_chart = in_chart.then_some(InChart { chart, motion });
+    let in_chart = in_chart.then_some(BodyChart { chart, motion });
     statements.of_chart = of_chart;
-    statements.speeds_of_chart = in_chart.map_or_else(Vec::new, InChart::speed_words);
+    statements.speeds_of_chart = in_chart.map_or_else(Vec::new, BodyChart::speed_words);
     Clauses { in_chart, runtime: runtime.flatten().unwrap_or_else(default_runtime), wanted, statements, own, robot }
 }
 
 /// Contents of the clauses that stand once; `Some(None)` where one could not be read.
 #[derive(Default)]
 struct Topics {
-    charts: Vec<Option<Written>>,
+    charts: Vec<Option<ChartSyntax>>,
     motion: Option<Option<Motion>>,
     runtime: Option<Option<Path>>,
-    wanted: Wanted,
+    wanted: KernelOptions,
     /// The topics of clauses so far, each with the clause.
     first: Vec<(Topic, String)>,
     /// The place of `methods(…)`.
@@ -191,10 +191,10 @@ impl Topics {
                 self.wanted.linearize.get_or_insert(clause.name.clone());
                 for further in read_linearize(clause, context) {
                     match further {
-                        Further::Parameters => self.wanted.by_parameters = true,
-                        Further::Inverse => self.wanted.inverse = true,
-                        Further::Hessian => self.wanted.hessian = true,
-                        Further::WithoutContacts => self.wanted.without_contacts = true,
+                        LinearizeOption::Parameters => self.wanted.by_parameters = true,
+                        LinearizeOption::Inverse => self.wanted.inverse = true,
+                        LinearizeOption::Hessian => self.wanted.hessian = true,
+                        LinearizeOption::WithoutContacts => self.wanted.without_contacts = true,
                     }
                 }
             }
@@ -219,7 +219,7 @@ impl Topics {
     fn check(&self, context: &mut Context) {
         let framed = self.first.iter().any(|(topic, _)| *topic == Topic::Frames);
         if let Some(span) =
-            self.methods.filter(|_| !framed && self.wanted.methods.contains(&WantedMethod::JacobianRates))
+            self.methods.filter(|_| !framed && self.wanted.methods.contains(&OptionalMethod::JacobianRates))
         {
             context.error(span, "`jacobian_rates` are those of the frames in `frames(…)`; add it with their names");
         }
@@ -279,11 +279,11 @@ fn all_clauses() -> String {
     format!("motion is declared by {moves}, forces and more by {acts}, and generated code is chosen by {wanted}")
 }
 
-fn read_chart(clause: &Clause, context: &mut Context) -> Option<Written> {
+fn read_chart(clause: &Clause, context: &mut Context) -> Option<ChartSyntax> {
     let Word { ident, arguments } = clause.bare_word(CHARTS, context)?;
     let chart = words::resolve("chart", &ident, CHARTS, context).ok()?;
     match (chart, arguments) {
-        (Some(chart), None) => Some(Written::Known(chart)),
+        (Some(chart), None) => Some(ChartSyntax::Known(chart)),
         (Some(_), Some(arguments)) => {
             let name = &clause.name;
             context.error(
@@ -292,10 +292,10 @@ fn read_chart(clause: &Clause, context: &mut Context) -> Option<Written> {
             );
             None
         }
-        (None, None) => Some(Written::Jet { jet: ident, argument: None }),
+        (None, None) => Some(ChartSyntax::Jet { jet: ident, argument: None }),
         (None, Some(arguments)) => {
             let argument = read_argument(&ident, &arguments, context)?;
-            Some(Written::Jet { jet: ident, argument: Some(argument) })
+            Some(ChartSyntax::Jet { jet: ident, argument: Some(argument) })
         }
     }
 }
@@ -334,12 +334,12 @@ fn read_argument(jet: &Ident, arguments: &Group, context: &mut Context) -> Optio
 }
 
 /// The chart in this motion; `motion` is `None` where it could not be read.
-fn settle(written: Written, motion: Option<Motion>, context: &mut Context) -> Option<Chart> {
+fn settle(written: ChartSyntax, motion: Option<Motion>, context: &mut Context) -> Option<Chart> {
     match (written, motion) {
-        (Written::Known(chart), _) => Some(chart),
-        (Written::Jet { argument: None, .. }, Some(Motion::Planar)) => Some(Chart::Jet(RotationChart::Angle)),
-        (Written::Jet { argument: None, .. }, None) => None,
-        (Written::Jet { jet, argument: None }, Some(_)) => {
+        (ChartSyntax::Known(chart), _) => Some(chart),
+        (ChartSyntax::Jet { argument: None, .. }, Some(Motion::Planar)) => Some(Chart::Jet(RotationChart::Angle)),
+        (ChartSyntax::Jet { argument: None, .. }, None) => None,
+        (ChartSyntax::Jet { jet, argument: None }, Some(_)) => {
             context.error(
                 jet.span(),
                 format!(
@@ -349,7 +349,7 @@ fn settle(written: Written, motion: Option<Motion>, context: &mut Context) -> Op
             );
             None
         }
-        (Written::Jet { argument: Some(argument), .. }, Some(Motion::Planar)) => {
+        (ChartSyntax::Jet { argument: Some(argument), .. }, Some(Motion::Planar)) => {
             context.error(
                 argument.span(),
                 format!(
@@ -359,7 +359,7 @@ fn settle(written: Written, motion: Option<Motion>, context: &mut Context) -> Op
             );
             None
         }
-        (Written::Jet { argument: Some(argument), .. }, _) => read_rotation(&argument, context).map(Chart::Jet),
+        (ChartSyntax::Jet { argument: Some(argument), .. }, _) => read_rotation(&argument, context).map(Chart::Jet),
     }
 }
 
@@ -416,22 +416,22 @@ fn check_alone(clause: &Clause, context: &mut Context) {
 
 /// Options of `linearize` besides the derivatives by state, time and input, and of which equations.
 #[derive(Clone, Copy, PartialEq)]
-enum Further {
+enum LinearizeOption {
     Parameters,
     Inverse,
     Hessian,
     WithoutContacts,
 }
 
-const FURTHER: &Table<Further> = &[
-    ("parameters", Further::Parameters),
-    ("inverse", Further::Inverse),
-    ("hessian", Further::Hessian),
-    ("without_contacts", Further::WithoutContacts),
+const FURTHER: &Table<LinearizeOption> = &[
+    ("parameters", LinearizeOption::Parameters),
+    ("inverse", LinearizeOption::Inverse),
+    ("hessian", LinearizeOption::Hessian),
+    ("without_contacts", LinearizeOption::WithoutContacts),
 ];
 
 /// `linearize`, `linearize(parameters, inverse)`.
-fn read_linearize(clause: &Clause, context: &mut Context) -> Vec<Further> {
+fn read_linearize(clause: &Clause, context: &mut Context) -> Vec<LinearizeOption> {
     match &clause.value {
         Content::Absent | Content::Malformed => Vec::new(),
         Content::Equals(tokens) => {

@@ -160,7 +160,7 @@ const WORDS: &[(&str, &str)] = &[
 /// # Errors
 /// What is wrong with it.
 pub fn read(text: &str) -> Result<Dimension, String> {
-    let mut reader = Reader { text, rest: text.chars().peekable(), depth: 0 };
+    let mut reader = UnitReader { text, rest: text.chars().peekable(), depth: 0 };
     reader.skip_spaces();
     if reader.rest.peek().is_none() {
         return Err(
@@ -174,14 +174,14 @@ pub fn read(text: &str) -> Result<Dimension, String> {
     }
 }
 
-struct Reader<'a> {
+struct UnitReader<'a> {
     text: &'a str,
     rest: Peekable<Chars<'a>>,
     /// Brackets that are open.
     depth: usize,
 }
 
-impl Reader<'_> {
+impl UnitReader<'_> {
     /// Factors, up to the end or a closing bracket.
     fn quotient(&mut self) -> Result<Dimension, String> {
         let mut total = self.factor()?;

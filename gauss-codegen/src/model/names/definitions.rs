@@ -2,7 +2,7 @@
 //! what it may contain depends on that. Afterwards its tree takes the place of its name: behind the model only
 //! printed equations know of it.
 
-use super::places::Place;
+use super::places::ExpressionPlace;
 use super::scope::{Meaning, Scope};
 use super::{expressions, kinds};
 use crate::model::language::context::Context;
@@ -23,7 +23,7 @@ pub fn check(definitions: &[Definition], scope: &mut Scope, context: &mut Contex
     refuse_circles(definitions, scope, context);
     for Definition { expression, .. } in definitions {
         let expression = expression.as_ref();
-        let well = expression.and_then(|e| kinds::check(e, Place::Definition, scope, context).and(Some(e)));
+        let well = expression.and_then(|e| kinds::check(e, ExpressionPlace::Definition, scope, context).and(Some(e)));
         scope.define(well.cloned());
     }
 }
@@ -100,7 +100,7 @@ fn shortest_circle(start: usize, named: &[Vec<(usize, Ident)>]) -> Option<Vec<us
 /// Refuses what would be too long or too deep with definitions written out; whether nothing is.
 pub fn check_sizes(statements: &Statements, context: &mut Context) -> bool {
     let definitions = &statements.definitions;
-    let mut written = WrittenOut { known: HashMap::new(), total: 0 };
+    let mut written = DefinitionSizes { known: HashMap::new(), total: 0 };
     for Definition { name, expression } in definitions {
         let (size, depth) = expression.as_ref().map_or((0, 0), |expression| written.measure(expression));
         if !written.accepts((size, depth), name.span(), &format!("`{name}`"), context) {
@@ -116,13 +116,13 @@ pub fn check_sizes(statements: &Statements, context: &mut Context) -> bool {
 }
 
 /// Definitions written out, as far as they are measured.
-struct WrittenOut {
+struct DefinitionSizes {
     /// Parts and levels of each, by its name.
     known: HashMap<String, (usize, usize)>,
     total: usize,
 }
 
-impl WrittenOut {
+impl DefinitionSizes {
     /// Parts and levels of the definition that a name stands for.
     fn find(&self, expression: &Expression) -> Option<(usize, usize)> {
         let ExpressionKind::Name(name) = &expression.kind else { return None };

@@ -1,58 +1,60 @@
 //! The expressions of a scene, each with its place.
 
-use super::places::{Holder, Place};
+use super::places::{ExpressionPlace, Holder};
 use crate::model::language::statements::Statements;
 use crate::model::language::words::{same, word};
 use crate::model::scene::clauses::{RoleClause, RoleValue};
-use crate::model::scene::contacts::{Against, ContactClause, Copies, PointContact, Touching};
-use crate::model::scene::elements::{Argument, Takes};
+use crate::model::scene::contacts::{ContactClause, ContactGeometry, Copies, Counterpart, PointContact};
+use crate::model::scene::elements::{ArgumentType, ElementArgument};
 use crate::model::scene::expression::{Expression, ExpressionKind, FunctionName};
-use crate::model::scene::forces::{ForceClause, Value};
+use crate::model::scene::forces::{ArgumentContent, ForceClause};
 use crate::terms::Role;
 
 /// Every expression, with its place; those of constraints and contacts come after the others.
-pub fn all(statements: &Statements) -> Vec<(Place, &Expression)> {
+pub fn all(statements: &Statements) -> Vec<(ExpressionPlace, &Expression)> {
     let mut all = Vec::new();
     let coordinates = || statements.coordinates.iter().flat_map(|names| &names.names);
     for (name, rate) in statements.kinematics.iter().flat_map(|kinematics| &kinematics.rates) {
         let kind = coordinates().find(|coordinate| same(&coordinate.ident, name)).map(|coordinate| coordinate.kind);
-        all.extend(rate.as_ref().map(|rate| (Place::Kinematics(kind), rate)));
+        all.extend(rate.as_ref().map(|rate| (ExpressionPlace::Kinematics(kind), rate)));
     }
-    all.extend(statements.states.iter().filter_map(|state| Some((Place::State, state.rate.as_ref()?))));
+    all.extend(statements.states.iter().filter_map(|state| Some((ExpressionPlace::State, state.rate.as_ref()?))));
     for body in &statements.bodies {
-        all.extend(body.position.as_ref().map(|position| (Place::Position, position)));
-        all.extend(body.rotation.as_ref().map(|rotation| (Place::Rotation, rotation)));
+        all.extend(body.position.as_ref().map(|position| (ExpressionPlace::Position, position)));
+        all.extend(body.rotation.as_ref().map(|rotation| (ExpressionPlace::Rotation, rotation)));
     }
     let clauses = statements.all_role_clauses();
     all.extend(clauses.flat_map(RoleClause::expressions));
     for particle in &statements.particles {
-        all.push((Place::Mass, &particle.mass));
-        all.push((Place::Particle { parent: particle.parent.is_some() }, &particle.position));
+        all.push((ExpressionPlace::Mass, &particle.mass));
+        all.push((ExpressionPlace::Particle { parent: particle.parent.is_some() }, &particle.position));
     }
-    all.extend(statements.points.iter().map(|point| (Place::At, &point.at)));
+    all.extend(statements.points.iter().map(|point| (ExpressionPlace::At, &point.at)));
     if let Some((_, Some(potential))) = &statements.potential {
-        all.push((Place::Potential, potential));
+        all.push((ExpressionPlace::Potential, potential));
     }
     if let Some((_, Some(velocity))) = &statements.medium {
-        all.push((Place::Medium, velocity));
+        all.push((ExpressionPlace::Medium, velocity));
     }
     all.extend(statements.attractions.iter().flat_map(|clause| clause.placed(statements.in_chart)));
-    let armature = Place::Constant { word: "inertia", of: Holder::Armature };
+    let armature = ExpressionPlace::Constant { word: "inertia", of: Holder::Armature };
     all.extend(statements.armatures.iter().map(|(_, inertia)| (armature, inertia)));
-    let integral = Place::Constant { word: "integral", of: Holder::Modes };
+    let integral = ExpressionPlace::Constant { word: "integral", of: Holder::Modes };
     let of_modes = statements.modes.iter().flat_map(|read| read.clause.expressions());
     all.extend(of_modes.map(|entry| (integral, entry)));
     for clause in &statements.forces {
         let on = clause.body();
         // The name of a point of the same body stands for its place in the body.
-        let named = |place: &Place, e: &Expression| {
+        let named = |place: &ExpressionPlace, e: &Expression| {
             let point = on.and_then(|body| statements.own_point(body, e));
-            matches!(place, Place::ForceAt { .. }) && point.is_some()
+            matches!(place, ExpressionPlace::ForceAt { .. }) && point.is_some()
         };
         let placed = clause.placed(statements.in_chart).into_iter();
         all.extend(placed.filter(|(place, expression)| !named(place, expression)));
     }
-    all.extend(statements.constraints.iter().map(|clause| (Place::Constraint(clause.kind), &clause.expression)));
+    all.extend(
+        statements.constraints.iter().map(|clause| (ExpressionPlace::Constraint(clause.kind), &clause.expression)),
+    );
     all.extend(statements.contacts.iter().flat_map(ContactClause::placed));
     all
 }
@@ -97,7 +99,7 @@ impl Statements {
         let coordinates = self.coordinates.iter().flat_map(|names| &names.names);
         let coordinates: Vec<String> = coordinates.map(|coordinate| word(&coordinate.ident)).collect();
         for clause in &mut self.contacts {
-            let Touching::Slip { slips, named: true } = &mut clause.touching else { continue };
+            let ContactGeometry::Slip { slips, named: true } = &mut clause.touching else { continue };
             for slip in slips {
                 if matches!(&slip.kind, ExpressionKind::Name(name) if coordinates.contains(&word(name))) {
                     let kind = ExpressionKind::Call(FunctionName::Rate, vec![slip.clone()]);
@@ -112,8 +114,8 @@ impl Statements {
         let mut forces = std::mem::take(&mut self.forces);
         for clause in &mut forces {
             let Some(body) = clause.body().cloned() else { continue };
-            for given in clause.given.iter_mut().filter(|given| given.argument.takes == Takes::Point) {
-                if let Value::Expression(at) = &mut given.value
+            for given in clause.given.iter_mut().filter(|given| given.argument.takes == ArgumentType::Point) {
+                if let ArgumentContent::Expression(at) = &mut given.value
                     && let Some(point) = self.own_point(&body, at)
                 {
                     *at = point.at.clone();
@@ -126,9 +128,9 @@ impl Statements {
 
 impl RoleClause {
     /// Its expressions, with their places.
-    pub fn expressions(&self) -> Vec<(Place, &Expression)> {
+    pub fn expressions(&self) -> Vec<(ExpressionPlace, &Expression)> {
         match &self.value {
-            RoleValue::Expression(value) => vec![(Place::Role(self.role), value)],
+            RoleValue::Expression(value) => vec![(ExpressionPlace::Role(self.role), value)],
             RoleValue::Coefficients(value) => value.entries().map(|e| (entry(self.role), e)).collect(),
         }
     }
@@ -143,64 +145,71 @@ impl RoleClause {
 }
 
 /// Place of an entry of an added mass, or of an inertia.
-pub fn entry(role: Role) -> Place {
-    Place::Constant { word: "entry", of: if role == Role::AddedMass { Holder::AddedMass } else { Holder::Inertia } }
+pub fn entry(role: Role) -> ExpressionPlace {
+    ExpressionPlace::Constant {
+        word: "entry",
+        of: if role == Role::AddedMass { Holder::AddedMass } else { Holder::Inertia },
+    }
 }
 
 impl ContactClause {
     /// Its expressions, with their places.
-    pub fn placed(&self) -> Vec<(Place, &Expression)> {
+    pub fn placed(&self) -> Vec<(ExpressionPlace, &Expression)> {
         let mut placed = match &self.touching {
-            Touching::Gap { gap, slips, spin, rolls } => {
-                let slips = slips.iter().chain(spin).chain(rolls).map(|slip| (Place::Slip, slip));
-                std::iter::once((Place::Gap, gap)).chain(slips).collect::<Vec<_>>()
+            ContactGeometry::Gap { gap, slips, spin, rolls } => {
+                let slips = slips.iter().chain(spin).chain(rolls).map(|slip| (ExpressionPlace::Slip, slip));
+                std::iter::once((ExpressionPlace::Gap, gap)).chain(slips).collect::<Vec<_>>()
             }
-            Touching::Point(contact) => contact.placed(),
-            Touching::Slip { slips, .. } => slips.iter().map(|slip| (Place::Slip, slip)).collect(),
-            Touching::Range { along, from, to } => {
-                let limits = from.iter().chain(to).map(|limit| (Place::Limit, limit));
-                std::iter::once((Place::Limited, along)).chain(limits).collect()
+            ContactGeometry::Point(contact) => contact.placed(),
+            ContactGeometry::Slip { slips, .. } => slips.iter().map(|slip| (ExpressionPlace::Slip, slip)).collect(),
+            ContactGeometry::Range { along, from, to } => {
+                let limits = from.iter().chain(to).map(|limit| (ExpressionPlace::Limit, limit));
+                std::iter::once((ExpressionPlace::Limited, along)).chain(limits).collect()
             }
         };
-        let bounds = if matches!(self.touching, Touching::Slip { .. }) { Place::Bound } else { Place::Friction };
+        let bounds = if matches!(self.touching, ContactGeometry::Slip { .. }) {
+            ExpressionPlace::Bound
+        } else {
+            ExpressionPlace::Friction
+        };
         placed.extend(self.friction.iter().map(|friction| (bounds, friction)));
-        let restitution = Place::Constant { word: "coefficient of restitution", of: Holder::Contact };
+        let restitution = ExpressionPlace::Constant { word: "coefficient of restitution", of: Holder::Contact };
         placed.extend(self.restitution.iter().map(|value| (restitution, value)));
-        let drilling = Place::Constant { word: "radius of drilling", of: Holder::Contact };
+        let drilling = ExpressionPlace::Constant { word: "radius of drilling", of: Holder::Contact };
         placed.extend(self.drilling.iter().map(|value| (drilling, value)));
-        placed.extend(self.rolling.iter().map(|value| (Place::Rolling, value)));
+        placed.extend(self.rolling.iter().map(|value| (ExpressionPlace::Rolling, value)));
         placed
     }
 }
 
 impl PointContact {
     /// Its expressions, with their places.
-    fn placed(&self) -> Vec<(Place, &Expression)> {
-        let constant = |word| Place::Constant { word, of: Holder::Contact };
+    fn placed(&self) -> Vec<(ExpressionPlace, &Expression)> {
+        let constant = |word| ExpressionPlace::Constant { word, of: Holder::Contact };
         let radius = constant("radius");
-        let mut placed = vec![(Place::Touching, &self.point)];
+        let mut placed = vec![(ExpressionPlace::Touching, &self.point)];
         placed.extend(self.radius.iter().map(|value| (radius, value)));
         if let Some([of_rim, axis]) = &self.rim {
-            placed.extend([(radius, of_rim), (Place::Direction, axis)]);
+            placed.extend([(radius, of_rim), (ExpressionPlace::Direction, axis)]);
         }
         placed.extend(self.semi_axes.iter().flatten().map(|value| (constant("semi-axis"), value)));
         match &self.copies {
             Copies::One => {}
             Copies::Corners(edges) => placed.extend(edges.iter().map(|edge| (constant("edge"), edge))),
-            Copies::Ends(end) => placed.push((Place::Touching, end)),
+            Copies::Ends(end) => placed.push((ExpressionPlace::Touching, end)),
             Copies::Rims(length) => placed.push((constant("length"), length)),
         }
         match &self.against {
-            Against::Plane { normal, height, along } => {
-                placed.extend(normal.iter().chain(along).map(|value| (Place::Direction, value)));
-                placed.extend(height.iter().map(|value| (Place::Height, value)));
+            Counterpart::Plane { normal, height, along } => {
+                placed.extend(normal.iter().chain(along).map(|value| (ExpressionPlace::Direction, value)));
+                placed.extend(height.iter().map(|value| (ExpressionPlace::Height, value)));
             }
-            Against::Ground(height) => placed.push((Place::Height, height)),
-            Against::Sphere { center, end, radius: other, along } => {
-                placed.push((Place::Touching, center));
-                placed.extend(end.iter().map(|end| (Place::Touching, end)));
+            Counterpart::Ground(height) => placed.push((ExpressionPlace::Height, height)),
+            Counterpart::Sphere { center, end, radius: other, along } => {
+                placed.push((ExpressionPlace::Touching, center));
+                placed.extend(end.iter().map(|end| (ExpressionPlace::Touching, end)));
                 placed.extend(other.iter().map(|value| (radius, value)));
-                placed.extend(along.iter().map(|value| (Place::Direction, value)));
+                placed.extend(along.iter().map(|value| (ExpressionPlace::Direction, value)));
             }
         }
         placed
@@ -209,32 +218,32 @@ impl PointContact {
 
 impl ForceClause {
     /// Its expressions, with their places.
-    fn placed(&self, in_chart: bool) -> Vec<(Place, &Expression)> {
+    fn placed(&self, in_chart: bool) -> Vec<(ExpressionPlace, &Expression)> {
         let placed = |(argument, _, expression)| Some((self.place(argument, in_chart)?, expression));
         self.expressions().into_iter().filter_map(placed).collect()
     }
 
     /// Place of the expression of an argument; `None` if it is none.
-    fn place(&self, argument: &Argument, in_chart: bool) -> Option<Place> {
+    fn place(&self, argument: &ElementArgument, in_chart: bool) -> Option<ExpressionPlace> {
         let holder = Holder::Element(self.row);
         Some(match argument.takes {
-            Takes::Body | Takes::Other | Takes::Axes => return None,
-            Takes::Point if self.body().is_none() => Place::ForcePoint,
-            Takes::Point => {
-                let needs_body = |a: &Argument| a.takes == Takes::Body && a.required.is_some();
-                Place::ForceAt { bound: in_chart || self.row.arguments.iter().any(needs_body) }
+            ArgumentType::Body | ArgumentType::Other | ArgumentType::Axes => return None,
+            ArgumentType::Point if self.body().is_none() => ExpressionPlace::ForcePoint,
+            ArgumentType::Point => {
+                let needs_body = |a: &ElementArgument| a.takes == ArgumentType::Body && a.required.is_some();
+                ExpressionPlace::ForceAt { bound: in_chart || self.row.arguments.iter().any(needs_body) }
             }
-            Takes::Force => Place::Force,
-            Takes::Torque => Place::Torque,
-            Takes::Drive => Place::Drive,
-            Takes::Dissipation => Place::Dissipation,
-            Takes::End => Place::End(holder),
-            Takes::Along => Place::Along(holder),
-            Takes::Constant { called, .. } | Takes::Matrix { called, .. } => {
-                Place::Constant { word: called, of: holder }
+            ArgumentType::Force => ExpressionPlace::Force,
+            ArgumentType::Torque => ExpressionPlace::Torque,
+            ArgumentType::Drive => ExpressionPlace::Drive,
+            ArgumentType::Dissipation => ExpressionPlace::Dissipation,
+            ArgumentType::End => ExpressionPlace::End(holder),
+            ArgumentType::Along => ExpressionPlace::Along(holder),
+            ArgumentType::Constant { called, .. } | ArgumentType::Matrix { called, .. } => {
+                ExpressionPlace::Constant { word: called, of: holder }
             }
-            Takes::Coefficients(_) => Place::Coefficient(holder),
-            Takes::Center => Place::Center,
+            ArgumentType::Coefficients(_) => ExpressionPlace::Coefficient(holder),
+            ArgumentType::Center => ExpressionPlace::Center,
         })
     }
 }

@@ -1,9 +1,9 @@
 //! Kinds of values of expressions, and whether they are those that their places need.
 
-use super::places::Place;
+use super::places::ExpressionPlace;
 use super::scope::{Meaning, Scope};
 use crate::model::language::context::Context;
-use crate::model::language::kind::Kind;
+use crate::model::language::kind::ValueKind;
 use crate::model::scene::clauses::{CoordinateKind, SpeedKind};
 use crate::model::scene::expression::{BinaryOperator, Expression, ExpressionKind, FunctionName, Property};
 use crate::terms::InputKind;
@@ -11,13 +11,18 @@ use proc_macro2::{Ident, Span};
 use std::cmp::Ordering;
 
 /// Checks names and kinds of an expression that stands at `place`; its kind, unless something is wrong, which is noted.
-pub fn check(expression: &Expression, place: Place, scope: &Scope, context: &mut Context) -> Option<Kind> {
-    let mut checker = Checker { place, scope, context, differentiated: false, within: None, faulty: false };
+pub fn check(
+    expression: &Expression,
+    place: ExpressionPlace,
+    scope: &Scope,
+    context: &mut Context,
+) -> Option<ValueKind> {
+    let mut checker = KindChecker { place, scope, context, differentiated: false, within: None, faulty: false };
     let found = match &expression.kind {
         // Only a whole rate is a twist.
-        ExpressionKind::Call(FunctionName::Twist, arguments) if matches!(place, Place::Kinematics(_)) => {
+        ExpressionKind::Call(FunctionName::Twist, arguments) if matches!(place, ExpressionPlace::Kinematics(_)) => {
             checker.arguments(FunctionName::Twist, arguments);
-            Kind::Twist
+            ValueKind::Twist
         }
         _ => checker.kind(expression)?,
     };
@@ -28,8 +33,8 @@ pub fn check(expression: &Expression, place: Place, scope: &Scope, context: &mut
     (!checker.faulty).then_some(found)
 }
 
-struct Checker<'a> {
-    place: Place,
+struct KindChecker<'a> {
+    place: ExpressionPlace,
     scope: &'a Scope,
     context: &'a mut Context,
     /// Inside `rate(…)`.
@@ -40,28 +45,28 @@ struct Checker<'a> {
     faulty: bool,
 }
 
-impl Checker<'_> {
+impl KindChecker<'_> {
     /// The kind of an expression; `None` where it cannot be told because something is wrong, which is then noted.
-    fn kind(&mut self, expression: &Expression) -> Option<Kind> {
+    fn kind(&mut self, expression: &Expression) -> Option<ValueKind> {
         let found = self.kind_of(expression);
         self.faulty |= found.is_none();
         found
     }
 
-    fn kind_of(&mut self, expression: &Expression) -> Option<Kind> {
+    fn kind_of(&mut self, expression: &Expression) -> Option<ValueKind> {
         match &expression.kind {
-            ExpressionKind::Number { .. } | ExpressionKind::Horizontal(..) => Some(Kind::Scalar),
+            ExpressionKind::Number { .. } | ExpressionKind::Horizontal(..) => Some(ValueKind::Scalar),
             ExpressionKind::Name(name) => self.name(name),
             // It names no input, which is noted.
             ExpressionKind::Input(_) => None,
             ExpressionKind::Property(base, property) => self.property(base, *property, expression.span),
             ExpressionKind::Component(base, _) => {
                 let kind = self.kind(base)?;
-                self.expect(kind, Kind::Vector, expression.span, "components are those of")?;
-                Some(Kind::Scalar)
+                self.expect(kind, ValueKind::Vector, expression.span, "components are those of")?;
+                Some(ValueKind::Scalar)
             }
             ExpressionKind::Negate(inner) => match self.kind(inner)? {
-                Kind::Rotation => {
+                ValueKind::Rotation => {
                     self.note(expression.span, "a rotation has no negative; the inverse of `r` is `inverse(r)`".into())
                 }
                 kind => Some(kind),
@@ -72,8 +77,8 @@ impl Checker<'_> {
             }
             ExpressionKind::Power(base, _) => {
                 let kind = self.kind(base)?;
-                self.expect(kind, Kind::Scalar, base.span, "`powi` takes")?;
-                Some(Kind::Scalar)
+                self.expect(kind, ValueKind::Scalar, base.span, "`powi` takes")?;
+                Some(ValueKind::Scalar)
             }
             ExpressionKind::Call(FunctionName::Twist, arguments) => {
                 self.arguments(FunctionName::Twist, arguments);
@@ -101,19 +106,19 @@ impl Checker<'_> {
             ExpressionKind::Vector(components) => {
                 for component in components {
                     if let Some(kind) = self.kind(component) {
-                        self.expect(kind, Kind::Scalar, component.span, "each component of a vector is");
+                        self.expect(kind, ValueKind::Scalar, component.span, "each component of a vector is");
                     }
                 }
-                Some(Kind::Vector)
+                Some(ValueKind::Vector)
             }
         }
     }
 
     /// A function that a clause declares.
-    fn own(&mut self, name: &Ident, arguments: &[Expression], span: Span) -> Option<Kind> {
+    fn own(&mut self, name: &Ident, arguments: &[Expression], span: Span) -> Option<ValueKind> {
         for argument in arguments {
             if let Some(kind) = self.kind(argument) {
-                self.expect(kind, Kind::Scalar, argument.span, &format!("`{name}` takes"));
+                self.expect(kind, ValueKind::Scalar, argument.span, &format!("`{name}` takes"));
             }
         }
         let declared = match self.scope.find_function(name) {
@@ -130,7 +135,7 @@ impl Checker<'_> {
             return self.note(span, format!("`{name}` takes {takes}, found {found}; write `{name}({variables})`"));
         }
         if !declared.kink {
-            return Some(Kind::Scalar);
+            return Some(ValueKind::Scalar);
         }
         let why = if self.differentiated {
             Some("`rate` takes derivatives".to_owned())
@@ -141,12 +146,12 @@ impl Checker<'_> {
             Some(why) => {
                 self.note(span, format!("the derivative of the table `{name}` jumps, and {why}; write `kind = cubic`"))
             }
-            None => Some(Kind::Scalar),
+            None => Some(ValueKind::Scalar),
         }
     }
 
     /// The exponent of `powf`: nothing in it moves.
-    fn exponent(&mut self, exponent: &Expression) -> Option<Kind> {
+    fn exponent(&mut self, exponent: &Expression) -> Option<ValueKind> {
         let mut moving = None;
         exponent.walk(&mut |part| {
             if let ExpressionKind::Name(name) = &part.kind {
@@ -164,12 +169,12 @@ impl Checker<'_> {
                     "`{name}` varies, and the exponent of `powf` is made of numbers and fields; write `exp` and `ln`"
                 ),
             ),
-            None => Some(Kind::Scalar),
+            None => Some(ValueKind::Scalar),
         }
     }
 
     /// The kind of the last argument, if nothing is wrong with it.
-    fn arguments(&mut self, function: FunctionName, arguments: &[Expression]) -> Option<Kind> {
+    fn arguments(&mut self, function: FunctionName, arguments: &[Expression]) -> Option<ValueKind> {
         let mut last = None;
         for argument in arguments {
             last = self.kind(argument);
@@ -192,7 +197,7 @@ impl Checker<'_> {
     }
 
     /// A time derivative, which is a velocity.
-    fn rate(&mut self, arguments: &[Expression], span: Span) -> Option<Kind> {
+    fn rate(&mut self, arguments: &[Expression], span: Span) -> Option<ValueKind> {
         if let Some(message) = self.place.refuses_velocity("rate(…)") {
             return self.note(span, message);
         }
@@ -203,7 +208,7 @@ impl Checker<'_> {
         let kind = self.arguments(FunctionName::Rate, arguments);
         self.differentiated = false;
         match kind? {
-            kind @ (Kind::Scalar | Kind::Vector) => Some(kind),
+            kind @ (ValueKind::Scalar | ValueKind::Vector) => Some(kind),
             kind => self.note(
                 arguments.first().map_or(span, |argument| argument.span),
                 format!("`rate` takes a scalar or a vector, found {}; ask bodies for `.angular_velocity`", kind.noun()),
@@ -229,7 +234,7 @@ impl Checker<'_> {
         }
     }
 
-    fn name(&mut self, name: &Ident) -> Option<Kind> {
+    fn name(&mut self, name: &Ident) -> Option<ValueKind> {
         let place = self.place;
         match self.meaning(name, |meaning| place.allows(meaning))? {
             Meaning::Speed(_) if self.differentiated => {
@@ -243,11 +248,14 @@ impl Checker<'_> {
                      and write it in the place of the rate"
                 ),
             ),
-            Meaning::Time | Meaning::Pi | Meaning::Scalar | Meaning::Coordinate(CoordinateKind::Scalar) => {
-                Some(Kind::Scalar)
-            }
-            Meaning::Speed(SpeedKind::Scalar) | Meaning::State | Meaning::Input(InputKind::Scalar) => Some(Kind::Scalar),
-            Meaning::Speed(SpeedKind::Vector) | Meaning::Input(InputKind::Vector) => Some(Kind::Vector),
+            Meaning::Time
+            | Meaning::Pi
+            | Meaning::Scalar
+            | Meaning::Coordinate(CoordinateKind::Scalar)
+            | Meaning::Speed(SpeedKind::Scalar)
+            | Meaning::State
+            | Meaning::Input(InputKind::Scalar) => Some(ValueKind::Scalar),
+            Meaning::Speed(SpeedKind::Vector) | Meaning::Input(InputKind::Vector) => Some(ValueKind::Vector),
             Meaning::Function(declared) => {
                 let call = declared.variables.join(", ");
                 self.note(name.span(), format!("`{name}` is a function; write `{name}({call})`"))
@@ -257,8 +265,8 @@ impl Checker<'_> {
                 format!("`{name}` is a wrench, which is two vectors; write `{name}.force` or `{name}.torque`"),
             ),
             Meaning::Definition(index) => self.definition(name, index),
-            Meaning::Vector | Meaning::Point => Some(Kind::Vector),
-            Meaning::Coordinate(CoordinateKind::Rotation) => Some(Kind::Rotation),
+            Meaning::Vector | Meaning::Point => Some(ValueKind::Vector),
+            Meaning::Coordinate(CoordinateKind::Rotation) => Some(ValueKind::Rotation),
             meaning => self.note(
                 name.span(),
                 format!("`{name}` is {}; write `{name}.position` or `{name}.rotation`", meaning.described()),
@@ -267,7 +275,7 @@ impl Checker<'_> {
     }
 
     /// The kind of a definition, whose expression stands where its name stands.
-    fn definition(&mut self, name: &Ident, index: usize) -> Option<Kind> {
+    fn definition(&mut self, name: &Ident, index: usize) -> Option<ValueKind> {
         let scope = self.scope;
         match scope.definition(index) {
             Ok(expression) => {
@@ -288,7 +296,7 @@ impl Checker<'_> {
     }
 
     /// `arm.position`.
-    fn property(&mut self, base: &Expression, property: Property, span: Span) -> Option<Kind> {
+    fn property(&mut self, base: &Expression, property: Property, span: Span) -> Option<ValueKind> {
         let word = property.word();
         let ExpressionKind::Name(name) = &base.kind else {
             self.kind(base)?;
@@ -312,17 +320,17 @@ impl Checker<'_> {
         let message = match (&meaning, property) {
             (meaning, property) if meaning.has_velocity(property) => match self.velocity(&format!("{name}.{word}")) {
                 Some(message) => message,
-                None => return Some(Kind::Vector),
+                None => return Some(ValueKind::Vector),
             },
             (Meaning::Body | Meaning::Frame | Meaning::Coordinate(CoordinateKind::Pose), Property::Position) => {
-                return Some(Kind::Vector);
+                return Some(ValueKind::Vector);
             }
             (Meaning::Body | Meaning::Frame | Meaning::Coordinate(CoordinateKind::Pose), Property::Rotation) => {
-                return Some(Kind::Rotation);
+                return Some(ValueKind::Rotation);
             }
             (Meaning::Input(InputKind::Wrench), Property::Force | Property::Torque) => {
                 if !self.differentiated {
-                    return Some(Kind::Vector);
+                    return Some(ValueKind::Vector);
                 }
                 rate_of_input(name)
             }
@@ -354,8 +362,8 @@ impl Checker<'_> {
         refused.or_else(|| self.differentiated.then(|| self.acceleration(written, &format!("`{written}` itself"))))
     }
 
-    fn binary(&mut self, operator: BinaryOperator, left: Kind, right: Kind, span: Span) -> Option<Kind> {
-        use Kind::{Rotation, Scalar, Vector};
+    fn binary(&mut self, operator: BinaryOperator, left: ValueKind, right: ValueKind, span: Span) -> Option<ValueKind> {
+        use ValueKind::{Rotation, Scalar, Vector};
         let found = format!("found {} and {}", left.noun(), right.noun());
         let message = match (operator, left, right) {
             (BinaryOperator::Add | BinaryOperator::Subtract, Scalar, Scalar) => return Some(Scalar),
@@ -382,7 +390,7 @@ impl Checker<'_> {
         self.note(span, message)
     }
 
-    fn expect(&mut self, found: Kind, expected: Kind, span: Span, what: &str) -> Option<()> {
+    fn expect(&mut self, found: ValueKind, expected: ValueKind, span: Span, what: &str) -> Option<()> {
         if found == expected {
             return Some(());
         }
@@ -390,7 +398,7 @@ impl Checker<'_> {
         None
     }
 
-    fn note(&mut self, span: Span, message: String) -> Option<Kind> {
+    fn note(&mut self, span: Span, message: String) -> Option<ValueKind> {
         self.faulty = true;
         let Some(definition) = self.within else {
             self.context.error(span, message);

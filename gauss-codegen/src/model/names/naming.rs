@@ -11,7 +11,7 @@ use std::collections::{HashMap, HashSet};
 use syn::ext::IdentExt;
 
 /// A name, and what it names.
-type Named<'a> = (&'a Ident, &'static str);
+type NamedItem<'a> = (&'a Ident, &'static str);
 
 /// Refuses names that are used twice, among fields, coordinates, speeds, states, inputs, definitions, functions,
 /// bodies, frames and points, and among force elements and contacts; and names that expressions use already.
@@ -39,7 +39,7 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
 }
 
 /// Names of loads, where they have one, and of contacts.
-fn acting(statements: &Statements) -> Vec<Named<'_>> {
+fn acting(statements: &Statements) -> Vec<NamedItem<'_>> {
     let clauses = statements.forces.iter().chain(&statements.attractions);
     let acting = clauses.filter_map(|clause| Some((clause.name.as_ref()?, clause.noun())));
     let contacts = statements.contacts.iter().flat_map(|clause| &clause.names);
@@ -47,7 +47,7 @@ fn acting(statements: &Statements) -> Vec<Named<'_>> {
 }
 
 /// Names that expressions can use.
-pub(super) fn declared<'a>(statements: &'a Statements, fields: &[ReadField<'a>]) -> Vec<Named<'a>> {
+pub(super) fn declared<'a>(statements: &'a Statements, fields: &[ReadField<'a>]) -> Vec<NamedItem<'a>> {
     let coordinates = statements.coordinates.iter().flat_map(|names| &names.names);
     let speeds = statements.speeds.iter().flat_map(|names| &names.names);
     let inputs = statements.inputs.iter().flat_map(|names| &names.names);
@@ -76,7 +76,7 @@ fn is_body(fields: &[ReadField<'_>], name: &Ident) -> bool {
 }
 
 /// Nothing else is called as the body without a name is.
-fn check_unnamed(statements: &Statements, (name, noun): Named<'_>, context: &mut Context) {
+fn check_unnamed(statements: &Statements, (name, noun): NamedItem<'_>, context: &mut Context) {
     // A field that nothing names confuses nothing.
     let confused = noun != "field" || statements.name(UNNAMED);
     if name.unraw() == UNNAMED && confused {
@@ -91,7 +91,7 @@ fn check_unnamed(statements: &Statements, (name, noun): Named<'_>, context: &mut
 }
 
 /// Whether expressions use the name already, which is then noted.
-fn check_reserved((name, noun): Named<'_>, context: &mut Context) -> bool {
+fn check_reserved((name, noun): NamedItem<'_>, context: &mut Context) -> bool {
     let word = name.unraw().to_string();
     let meaning = match word.as_str() {
         TIME => format!("`{TIME}` is time in expressions"),

@@ -1,9 +1,9 @@
 //! Places of expressions: which kind of value is needed there, and which names may stand there.
 
 use super::scope::Meaning;
-use crate::model::language::kind::Kind;
+use crate::model::language::kind::ValueKind;
 use crate::model::language::words;
-use crate::model::scene::clauses::{ConstraintKind, CoordinateKind};
+use crate::model::scene::clauses::{ConstraintLevel, CoordinateKind};
 use crate::model::scene::elements::{ElementKind, Row};
 use crate::model::scene::expression::FunctionName;
 use crate::terms::{Role, Shape};
@@ -44,7 +44,7 @@ impl Holder {
 
 /// Place of an expression.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Place {
+pub enum ExpressionPlace {
     /// The rate of a coordinate; of `None` it is not known which.
     Kinematics(Option<CoordinateKind>),
     /// The rate of a state.
@@ -63,7 +63,7 @@ pub enum Place {
     /// Position of a point in its body.
     At,
     Potential,
-    Constraint(ConstraintKind),
+    Constraint(ConstraintLevel),
     /// Gap of a contact.
     Gap,
     /// Velocity along a tangent of a contact.
@@ -116,58 +116,75 @@ pub enum Place {
     Definition,
 }
 
-impl Place {
+impl ExpressionPlace {
     /// Whether values of this kind are what is needed.
-    pub fn accepts(self, kind: Kind) -> bool {
+    pub fn accepts(self, kind: ValueKind) -> bool {
         match self {
-            Place::Kinematics(None) => true,
-            Place::Kinematics(Some(CoordinateKind::Scalar)) | Place::Mass | Place::Potential => kind == Kind::Scalar,
-            Place::Gap | Place::Slip | Place::Friction | Place::Bound | Place::Rolling => kind == Kind::Scalar,
-            Place::Limited | Place::Limit | Place::State => kind == Kind::Scalar,
-            Place::Drive | Place::Along(_) | Place::Constant { .. } | Place::Dissipation | Place::Coefficient(_) => {
-                kind == Kind::Scalar
-            }
-            Place::Kinematics(Some(CoordinateKind::Pose)) => kind == Kind::Twist,
-            Place::Kinematics(Some(CoordinateKind::Rotation))
-            | Place::Position
-            | Place::Particle { .. }
-            | Place::At => kind == Kind::Vector,
-            Place::ForcePoint | Place::ForceAt { .. } | Place::Force | Place::Torque | Place::End(_) => {
-                kind == Kind::Vector
-            }
-            Place::Medium | Place::Center | Place::Touching | Place::Direction => kind == Kind::Vector,
-            Place::Height => kind == Kind::Scalar,
-            Place::Rotation => kind == Kind::Rotation,
-            Place::Role(role) => match kind {
-                Kind::Scalar => role.takes(Shape::Scalar),
-                Kind::Vector => role.takes(Shape::Vector3),
+            ExpressionPlace::Kinematics(None) => true,
+            ExpressionPlace::Kinematics(Some(CoordinateKind::Scalar))
+            | ExpressionPlace::Mass
+            | ExpressionPlace::Potential => kind == ValueKind::Scalar,
+            ExpressionPlace::Gap
+            | ExpressionPlace::Slip
+            | ExpressionPlace::Friction
+            | ExpressionPlace::Bound
+            | ExpressionPlace::Rolling => kind == ValueKind::Scalar,
+            ExpressionPlace::Limited | ExpressionPlace::Limit | ExpressionPlace::State => kind == ValueKind::Scalar,
+            ExpressionPlace::Drive
+            | ExpressionPlace::Along(_)
+            | ExpressionPlace::Constant { .. }
+            | ExpressionPlace::Dissipation
+            | ExpressionPlace::Coefficient(_) => kind == ValueKind::Scalar,
+            ExpressionPlace::Kinematics(Some(CoordinateKind::Pose)) => kind == ValueKind::Twist,
+            ExpressionPlace::Kinematics(Some(CoordinateKind::Rotation))
+            | ExpressionPlace::Position
+            | ExpressionPlace::Particle { .. }
+            | ExpressionPlace::At => kind == ValueKind::Vector,
+            ExpressionPlace::ForcePoint
+            | ExpressionPlace::ForceAt { .. }
+            | ExpressionPlace::Force
+            | ExpressionPlace::Torque
+            | ExpressionPlace::End(_) => kind == ValueKind::Vector,
+            ExpressionPlace::Medium
+            | ExpressionPlace::Center
+            | ExpressionPlace::Touching
+            | ExpressionPlace::Direction => kind == ValueKind::Vector,
+            ExpressionPlace::Height => kind == ValueKind::Scalar,
+            ExpressionPlace::Rotation => kind == ValueKind::Rotation,
+            ExpressionPlace::Role(role) => match kind {
+                ValueKind::Scalar => role.takes(Shape::Scalar),
+                ValueKind::Vector => role.takes(Shape::Vector3),
                 _ => false,
             },
-            Place::Constraint(_) => matches!(kind, Kind::Scalar | Kind::Vector),
-            Place::Definition => kind != Kind::Twist,
+            ExpressionPlace::Constraint(_) => matches!(kind, ValueKind::Scalar | ValueKind::Vector),
+            ExpressionPlace::Definition => kind != ValueKind::Twist,
         }
     }
 
     /// Message about an expression of another kind.
-    pub fn mismatch(self, found: Kind) -> String {
+    pub fn mismatch(self, found: ValueKind) -> String {
         let (needed, remedy) = match self {
-            Place::Kinematics(Some(CoordinateKind::Pose)) => (
+            ExpressionPlace::Kinematics(Some(CoordinateKind::Pose)) => (
                 "a pose changes by `twist(linear, angular)`, two vectors in body axes",
                 "write `twist(u, w)` with speeds `u: Vector3, w: Vector3`",
             ),
-            Place::Kinematics(Some(CoordinateKind::Rotation)) => (
+            ExpressionPlace::Kinematics(Some(CoordinateKind::Rotation)) => (
                 "a rotation changes by its angular velocity, a vector in body axes",
                 "write `[w1, w2, w3]`, or the name of a speed `w: Vector3`",
             ),
-            Place::Kinematics(_) => {
+            ExpressionPlace::Kinematics(_) => {
                 ("the rate of a coordinate is a scalar", "write one number, such as `v * cos(theta)`")
             }
-            Place::Position | Place::Particle { .. } => ("a position is a vector", "write `[x, y, z]`"),
-            Place::State => ("the rate of a state is a scalar", "write one number, such as `(u - x) / tau`"),
-            Place::At => ("the place of a point in its body is a vector", "write `[x, y, z]`"),
-            Place::Rotation => ("expected a rotation", "write `rotation_z(theta)`, or a product of such turns"),
-            Place::Mass => ("the mass of a particle is a scalar", "write one number or the name of a field"),
-            Place::Role(role) => {
+            ExpressionPlace::Position | ExpressionPlace::Particle { .. } => {
+                ("a position is a vector", "write `[x, y, z]`")
+            }
+            ExpressionPlace::State => ("the rate of a state is a scalar", "write one number, such as `(u - x) / tau`"),
+            ExpressionPlace::At => ("the place of a point in its body is a vector", "write `[x, y, z]`"),
+            ExpressionPlace::Rotation => {
+                ("expected a rotation", "write `rotation_z(theta)`, or a product of such turns")
+            }
+            ExpressionPlace::Mass => ("the mass of a particle is a scalar", "write one number or the name of a field"),
+            ExpressionPlace::Role(role) => {
                 let remedy = match (role.takes(Shape::Scalar), role.takes(Shape::Vector3)) {
                     (true, true) => "write one number or `[a, b, c]`",
                     (false, _) => "write `[x, y, z]`",
@@ -175,56 +192,68 @@ impl Place {
                 };
                 return format!("{}, found {}; {remedy}", role.reason(), found.noun());
             }
-            Place::Potential => ("a potential is a scalar", "write one number, such as `k * x * x / 2`"),
-            Place::Constraint(_) => (
+            ExpressionPlace::Potential => ("a potential is a scalar", "write one number, such as `k * x * x / 2`"),
+            ExpressionPlace::Constraint(_) => (
                 "a constraint is a scalar or a vector that is zero",
                 "write numbers that vanish when it holds, such as products of unit vectors",
             ),
-            Place::Gap => ("a gap is a scalar", "write one number, such as `ball.position.z - r`"),
-            Place::Slip => ("a slip is a scalar", "write one number, such as `dot(tip.velocity, [1, 0, 0])`"),
-            Place::Friction => ("a coefficient of friction is a scalar", "write one number or the name of a field"),
-            Place::Rolling => ("the arm of rolling resistance is a scalar", "write one number or the name of a field"),
-            Place::Bound => ("the bound of dry friction is a scalar", "write one number or the name of a field"),
-            Place::Touching => {
+            ExpressionPlace::Gap => ("a gap is a scalar", "write one number, such as `ball.position.z - r`"),
+            ExpressionPlace::Slip => ("a slip is a scalar", "write one number, such as `dot(tip.velocity, [1, 0, 0])`"),
+            ExpressionPlace::Friction => {
+                ("a coefficient of friction is a scalar", "write one number or the name of a field")
+            }
+            ExpressionPlace::Rolling => {
+                ("the arm of rolling resistance is a scalar", "write one number or the name of a field")
+            }
+            ExpressionPlace::Bound => {
+                ("the bound of dry friction is a scalar", "write one number or the name of a field")
+            }
+            ExpressionPlace::Touching => {
                 ("the point of a contact is a vector", "write the name of a point, `arm.position` or `[x, y, z]`")
             }
-            Place::Direction => ("a direction is a vector", "write `[a, b, c]`"),
-            Place::Height => ("the height of a plane is a scalar", "write one number or the name of a field"),
-            Place::Limited if found == Kind::Rotation => (
+            ExpressionPlace::Direction => ("a direction is a vector", "write `[a, b, c]`"),
+            ExpressionPlace::Height => ("the height of a plane is a scalar", "write one number or the name of a field"),
+            ExpressionPlace::Limited if found == ValueKind::Rotation => (
                 "what stays in a range is a scalar",
                 "how far it may turn from an axis is a gap: `contact(limit, gap = dot(turn * [0, 0, 1], [0, 0, 1]) - \
                  cos(a))`",
             ),
-            Place::Limited => ("what stays in a range is a scalar", "write one number, such as the angle of a joint"),
-            Place::Limit => ("the limit of a range is a scalar", "write one number or the name of a field"),
-            Place::ForcePoint => {
+            ExpressionPlace::Limited => {
+                ("what stays in a range is a scalar", "write one number, such as the angle of a joint")
+            }
+            ExpressionPlace::Limit => ("the limit of a range is a scalar", "write one number or the name of a field"),
+            ExpressionPlace::ForcePoint => {
                 ("the point of a force is a vector", "write the name of a point, `arm.position` or `[x, y, z]`")
             }
-            Place::ForceAt { .. } => ("the point of a force in its body is a vector", "write `[x, y, z]`"),
-            Place::Force => ("a force is a vector", "write `[fx, fy, fz]`"),
-            Place::Torque => ("a torque is a vector", "write `[mx, my, mz]`"),
-            Place::Drive => {
+            ExpressionPlace::ForceAt { .. } => ("the point of a force in its body is a vector", "write `[x, y, z]`"),
+            ExpressionPlace::Force => ("a force is a vector", "write `[fx, fy, fz]`"),
+            ExpressionPlace::Torque => ("a torque is a vector", "write `[mx, my, mz]`"),
+            ExpressionPlace::Drive => {
                 ("the generalised force on the rate of a scalar coordinate is a scalar", "write one number")
             }
-            Place::End(holder) => {
+            ExpressionPlace::End(holder) => {
                 return format!(
                     "the end of {} is a vector, found {}; write the name of a point, `arm.position` or `[x, y, z]`",
                     holder.noun(),
                     found.noun()
                 );
             }
-            Place::Along(Holder::Element(row)) if found == Kind::Rotation && row.kind == ElementKind::Friction => (
-                "the extent of a friction law is a scalar",
-                "what brakes a turn is `damping = c * dot(turn.body_angular_velocity, turn.body_angular_velocity) / 2`",
-            ),
-            Place::Along(holder) if found == Kind::Rotation => {
+            ExpressionPlace::Along(Holder::Element(row))
+                if found == ValueKind::Rotation && row.kind == ElementKind::Friction =>
+            {
+                (
+                    "the extent of a friction law is a scalar",
+                    "what brakes a turn is `damping = c * dot(turn.body_angular_velocity, turn.body_angular_velocity) / 2`",
+                )
+            }
+            ExpressionPlace::Along(holder) if found == ValueKind::Rotation => {
                 return format!(
                     "the extent of {} is a scalar, found a rotation; how far it may turn from an axis is the cosine \
                      `along = dot(turn * [0, 0, 1], [0, 0, 1])`",
                     holder.noun()
                 );
             }
-            Place::Along(holder) => {
+            ExpressionPlace::Along(holder) => {
                 return format!(
                     "the extent of {} is a scalar, found {}; write one number such as an angle, or `from = …` and \
                      `to = …` for the distance of two points",
@@ -232,24 +261,26 @@ impl Place {
                     found.noun()
                 );
             }
-            Place::Constant { word, of } => {
+            ExpressionPlace::Constant { word, of } => {
                 return format!(
                     "the {word} of {} is a scalar, found {}; write one number or the name of a field",
                     of.noun(),
                     found.noun()
                 );
             }
-            Place::Coefficient(holder) => {
+            ExpressionPlace::Coefficient(holder) => {
                 return format!(
                     "a coefficient of {} is a scalar, found {}; write one number",
                     holder.noun(),
                     found.noun()
                 );
             }
-            Place::Medium => ("the velocity of the medium is a vector", "write `[cx, cy, cz]`"),
-            Place::Center => ("the center of gravity is a vector", "write `[x, y, z]`"),
-            Place::Definition => ("a definition is a scalar, a vector or a rotation", "write one of them"),
-            Place::Dissipation => ("a dissipation function is a scalar", "write one number, such as `c * v * v / 2`"),
+            ExpressionPlace::Medium => ("the velocity of the medium is a vector", "write `[cx, cy, cz]`"),
+            ExpressionPlace::Center => ("the center of gravity is a vector", "write `[x, y, z]`"),
+            ExpressionPlace::Definition => ("a definition is a scalar, a vector or a rotation", "write one of them"),
+            ExpressionPlace::Dissipation => {
+                ("a dissipation function is a scalar", "write one number, such as `c * v * v / 2`")
+            }
         };
         format!("{needed}, found {}; {remedy}", found.noun())
     }
@@ -267,17 +298,17 @@ impl Place {
                 self.is_action()
                     || matches!(
                         self,
-                        Place::Particle { parent: false }
-                            | Place::Potential
-                            | Place::Constraint(_)
-                            | Place::Gap
-                            | Place::Touching
-                            | Place::Slip
-                            | Place::Limited
-                            | Place::Limit
-                            | Place::ForcePoint
-                            | Place::End(_)
-                            | Place::Along(_)
+                        ExpressionPlace::Particle { parent: false }
+                            | ExpressionPlace::Potential
+                            | ExpressionPlace::Constraint(_)
+                            | ExpressionPlace::Gap
+                            | ExpressionPlace::Touching
+                            | ExpressionPlace::Slip
+                            | ExpressionPlace::Limited
+                            | ExpressionPlace::Limit
+                            | ExpressionPlace::ForcePoint
+                            | ExpressionPlace::End(_)
+                            | ExpressionPlace::Along(_)
                     )
             }
         }
@@ -287,86 +318,97 @@ impl Place {
     fn is_action(self) -> bool {
         matches!(
             self,
-            Place::Force
-                | Place::Torque
-                | Place::Drive
-                | Place::State
-                | Place::Dissipation
-                | Place::Coefficient(_)
-                | Place::Friction
-                | Place::Bound
-                | Place::Rolling
-                | Place::Definition
+            ExpressionPlace::Force
+                | ExpressionPlace::Torque
+                | ExpressionPlace::Drive
+                | ExpressionPlace::State
+                | ExpressionPlace::Dissipation
+                | ExpressionPlace::Coefficient(_)
+                | ExpressionPlace::Friction
+                | ExpressionPlace::Bound
+                | ExpressionPlace::Rolling
+                | ExpressionPlace::Definition
         )
     }
 
     /// It is looked at together with the other expressions of its contact.
     pub fn is_of_contact(self) -> bool {
-        let constant = matches!(self, Place::Constant { of: Holder::Contact, .. });
-        let of_point = matches!(self, Place::Touching | Place::Direction | Place::Height);
-        let of_gap = matches!(self, Place::Gap | Place::Slip | Place::Limited | Place::Limit);
-        constant || of_point || of_gap || matches!(self, Place::Friction | Place::Bound | Place::Rolling)
+        let constant = matches!(self, ExpressionPlace::Constant { of: Holder::Contact, .. });
+        let of_point = matches!(self, ExpressionPlace::Touching | ExpressionPlace::Direction | ExpressionPlace::Height);
+        let of_gap = matches!(
+            self,
+            ExpressionPlace::Gap | ExpressionPlace::Slip | ExpressionPlace::Limited | ExpressionPlace::Limit
+        );
+        constant
+            || of_point
+            || of_gap
+            || matches!(self, ExpressionPlace::Friction | ExpressionPlace::Bound | ExpressionPlace::Rolling)
     }
 
     /// Nothing that moves with the system may stand here, but time may.
     fn is_given(self) -> bool {
-        matches!(self, Place::Medium | Place::Center | Place::Height)
+        matches!(self, ExpressionPlace::Medium | ExpressionPlace::Center | ExpressionPlace::Height)
     }
 
     /// Speeds may stand here.
     fn of_velocities(self) -> bool {
         self.is_action()
-            || matches!(self, Place::Kinematics(_) | Place::Constraint(ConstraintKind::Velocity) | Place::Slip)
+            || matches!(
+                self,
+                ExpressionPlace::Kinematics(_)
+                    | ExpressionPlace::Constraint(ConstraintLevel::Velocity)
+                    | ExpressionPlace::Slip
+            )
     }
 
     /// Nothing that changes may stand here.
     fn is_constant(self) -> bool {
         matches!(
             self,
-            Place::Mass
-                | Place::Role(_)
-                | Place::At
-                | Place::ForceAt { .. }
-                | Place::Constant { .. }
-                | Place::Direction
+            ExpressionPlace::Mass
+                | ExpressionPlace::Role(_)
+                | ExpressionPlace::At
+                | ExpressionPlace::ForceAt { .. }
+                | ExpressionPlace::Constant { .. }
+                | ExpressionPlace::Direction
         )
     }
 
     /// Noun of the expression here, for messages.
     pub fn subject(self) -> String {
         let subject = match self {
-            Place::Kinematics(_) => "the rate of a coordinate",
-            Place::State => "the rate of a state",
-            Place::Position | Place::Particle { .. } => "a position",
-            Place::Rotation => "a rotation",
-            Place::Mass => "a mass",
-            Place::Role(_) => "a parameter of a body",
-            Place::At => "a point of a body",
-            Place::Potential => "a potential",
-            Place::Constraint(ConstraintKind::Position) => "a constraint of positions",
-            Place::Constraint(ConstraintKind::Velocity) => "a constraint of velocities",
-            Place::Gap => "a gap",
-            Place::Slip => "a slip",
-            Place::Friction => "a coefficient of friction",
-            Place::Bound => "the bound of dry friction",
-            Place::Rolling => "the arm of rolling resistance",
-            Place::Touching => "the point of a contact",
-            Place::Direction => "a direction",
-            Place::Height => "the height of a plane",
-            Place::Limited => "what stays in a range",
-            Place::Limit => "the limit of a range",
-            Place::ForcePoint | Place::ForceAt { .. } => "the point of a force",
-            Place::Force => "a force",
-            Place::Torque => "a torque",
-            Place::Drive => "a generalised force",
-            Place::End(holder) => return format!("the end of {}", holder.noun()),
-            Place::Along(holder) => return format!("the extent of {}", holder.noun()),
-            Place::Constant { of, .. } => return of.constant(),
-            Place::Dissipation => "a dissipation function",
-            Place::Coefficient(holder) => return format!("a coefficient of {}", holder.noun()),
-            Place::Medium => "the velocity of the medium",
-            Place::Center => "a center of gravity",
-            Place::Definition => "a definition",
+            ExpressionPlace::Kinematics(_) => "the rate of a coordinate",
+            ExpressionPlace::State => "the rate of a state",
+            ExpressionPlace::Position | ExpressionPlace::Particle { .. } => "a position",
+            ExpressionPlace::Rotation => "a rotation",
+            ExpressionPlace::Mass => "a mass",
+            ExpressionPlace::Role(_) => "a parameter of a body",
+            ExpressionPlace::At => "a point of a body",
+            ExpressionPlace::Potential => "a potential",
+            ExpressionPlace::Constraint(ConstraintLevel::Position) => "a constraint of positions",
+            ExpressionPlace::Constraint(ConstraintLevel::Velocity) => "a constraint of velocities",
+            ExpressionPlace::Gap => "a gap",
+            ExpressionPlace::Slip => "a slip",
+            ExpressionPlace::Friction => "a coefficient of friction",
+            ExpressionPlace::Bound => "the bound of dry friction",
+            ExpressionPlace::Rolling => "the arm of rolling resistance",
+            ExpressionPlace::Touching => "the point of a contact",
+            ExpressionPlace::Direction => "a direction",
+            ExpressionPlace::Height => "the height of a plane",
+            ExpressionPlace::Limited => "what stays in a range",
+            ExpressionPlace::Limit => "the limit of a range",
+            ExpressionPlace::ForcePoint | ExpressionPlace::ForceAt { .. } => "the point of a force",
+            ExpressionPlace::Force => "a force",
+            ExpressionPlace::Torque => "a torque",
+            ExpressionPlace::Drive => "a generalised force",
+            ExpressionPlace::End(holder) => return format!("the end of {}", holder.noun()),
+            ExpressionPlace::Along(holder) => return format!("the extent of {}", holder.noun()),
+            ExpressionPlace::Constant { of, .. } => return of.constant(),
+            ExpressionPlace::Dissipation => "a dissipation function",
+            ExpressionPlace::Coefficient(holder) => return format!("a coefficient of {}", holder.noun()),
+            ExpressionPlace::Medium => "the velocity of the medium",
+            ExpressionPlace::Center => "a center of gravity",
+            ExpressionPlace::Definition => "a definition",
         };
         subject.into()
     }
@@ -375,11 +417,11 @@ impl Place {
     pub fn refusal(self, name: &Ident, meaning: &Meaning) -> String {
         let what = meaning.described();
         match (self, meaning) {
-            (Place::Medium, Meaning::Input(_)) => format!(
+            (ExpressionPlace::Medium, Meaning::Input(_)) => format!(
                 "`{name}` is an input, whose rate is never known, and bodies feel the rate of the velocity of the medium \
                  by their added mass; write it in `t`, fields and numbers"
             ),
-            (Place::Medium, _) => format!(
+            (ExpressionPlace::Medium, _) => format!(
                 "`{name}` moves with the system, and there is no added mass in a stream that varies with the place; write \
                  the velocity of the medium in `t`, fields and numbers, and the drag in any other stream as `force(…)`"
             ),
@@ -392,74 +434,80 @@ impl Place {
                 "`{name}` is an input, whose value is not known before run time, and whose rate is never; inputs stand \
                  in values of `force`, `torque`, `wrench` and `drive`, in coefficients of `drag`, and in `damping`"
             ),
-            (Place::Center, _) => format!(
+            (ExpressionPlace::Center, _) => format!(
                 "`{name}` moves with the system, and the center of gravity is given beforehand; write it in `t`, fields \
                  and numbers"
             ),
-            (Place::Height, _) => format!(
+            (ExpressionPlace::Height, _) => format!(
                 "`{name}` moves with the system, and the height of a plane is given beforehand; write it in `t`, fields and \
                  numbers, or the whole gap as `gap = …`"
             ),
-            (Place::Direction, _) => {
+            (ExpressionPlace::Direction, _) => {
                 format!(
                     "`{name}` varies, and a direction is constant; write numbers and fields only, or the whole gap as `gap = …`"
                 )
             }
-            (Place::Kinematics(_), _) => format!(
+            (ExpressionPlace::Kinematics(_), _) => format!(
                 "`{name}` is {what}, and its velocity follows from the kinematics, not the kinematics from it; \
                  write rates in coordinates, speeds, fields and `t`"
             ),
-            (Place::Mass, _) => format!(
+            (ExpressionPlace::Mass, _) => format!(
                 "`{name}` varies, and the mass of a particle is constant; write numbers and fields only; a particle that \
                  loses mass moves as one of mass 1 does on which every force is divided by m(t)"
             ),
-            (Place::Role(role), _) => {
+            (ExpressionPlace::Role(role), _) => {
                 format!("`{name}` varies, and `{}` of a body is constant; write numbers and fields only", role.word())
             }
-            (Place::Constant { word, of }, _) => {
+            (ExpressionPlace::Constant { word, of }, _) => {
                 let of = of.noun();
                 format!("`{name}` varies, and the {word} of {of} is constant; write numbers and fields only")
             }
-            (Place::At, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
+            (ExpressionPlace::At, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
                 "`{name}` is {what}, and a point is given in the axes of its own body; write numbers and fields only"
             ),
-            (Place::At, _) => {
+            (ExpressionPlace::At, _) => {
                 format!("`{name}` varies, and a point is fixed in its body; write numbers and fields only")
             }
-            (Place::ForceAt { bound: true }, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
+            (ExpressionPlace::ForceAt { bound: true }, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
                 "`{name}` is {what}, which is known in observer axes, and the place where this acts is in the axes of its \
                  body; write numbers and fields, or the name of a point of that body"
             ),
-            (Place::ForceAt { bound: true }, _) => format!(
+            (ExpressionPlace::ForceAt { bound: true }, _) => format!(
                 "`{name}` varies, and the place where this acts is fixed in its body; write numbers and fields only"
             ),
-            (Place::ForceAt { .. }, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
+            (ExpressionPlace::ForceAt { .. }, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
                 "`{name}` is {what}, which is known in observer axes, and with `body` a force acts at a place in the axes \
                  of that body; write numbers and fields, the name of a point of that body, or leave `body` out"
             ),
-            (Place::ForceAt { .. }, _) => format!(
+            (ExpressionPlace::ForceAt { .. }, _) => format!(
                 "`{name}` varies, and with `body` a force acts at a fixed place of that body; write numbers and fields \
                  only, or leave `body` out"
             ),
-            (Place::Position | Place::Rotation, Meaning::Body | Meaning::Frame) => format!(
+            (ExpressionPlace::Position | ExpressionPlace::Rotation, Meaning::Body | Meaning::Frame) => format!(
                 "`{name}` is {what}, and bodies are placed relative to one another by parents; \
                  write `parent = {name}` and what is relative to it"
             ),
-            (Place::Position | Place::Rotation, Meaning::Point) => format!(
+            (ExpressionPlace::Position | ExpressionPlace::Rotation, Meaning::Point) => format!(
                 "`{name}` is a point, and bodies are placed relative to one another by parents; \
                  write `parent = …` with its body"
             ),
-            (Place::Particle { .. }, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
+            (ExpressionPlace::Particle { .. }, Meaning::Body | Meaning::Frame | Meaning::Point) => format!(
                 "`{name}` is {what}, which is known in observer axes, and the position of a particle with a parent is in \
                  the axes of the parent; leave `parent` out, or write the position without `{name}`"
             ),
             (place, _) => {
                 let remedy = match place {
-                    Place::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
-                    Place::Constraint(_) => "write `constraint(velocity = …)`",
-                    Place::Gap | Place::Touching => "its rate is formed from it; velocities stand in `slip = …`",
-                    Place::Limited | Place::Limit => "a constraint of velocities is `constraint(velocity = …)`",
-                    Place::ForcePoint | Place::End(_) | Place::Along(_) => "speeds stand in values of forces",
+                    ExpressionPlace::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
+                    ExpressionPlace::Constraint(_) => "write `constraint(velocity = …)`",
+                    ExpressionPlace::Gap | ExpressionPlace::Touching => {
+                        "its rate is formed from it; velocities stand in `slip = …`"
+                    }
+                    ExpressionPlace::Limited | ExpressionPlace::Limit => {
+                        "a constraint of velocities is `constraint(velocity = …)`"
+                    }
+                    ExpressionPlace::ForcePoint | ExpressionPlace::End(_) | ExpressionPlace::Along(_) => {
+                        "speeds stand in values of forces"
+                    }
                     _ => "speeds stand in `kinematics`",
                 };
                 let subject = place.subject();
@@ -472,11 +520,13 @@ impl Place {
     pub fn refuses_velocity(self, written: &str) -> Option<String> {
         let remedy = match self {
             place if place.is_action() => return None,
-            Place::Constraint(ConstraintKind::Velocity) | Place::Slip => return None,
-            Place::Constraint(ConstraintKind::Position) => "write `constraint(velocity = …)`",
-            Place::Gap | Place::Touching => "its rate is formed from it; velocities stand in `slip = …`",
-            Place::Kinematics(_) => "the rates of coordinates are written in speeds",
-            Place::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
+            ExpressionPlace::Constraint(ConstraintLevel::Velocity) | ExpressionPlace::Slip => return None,
+            ExpressionPlace::Constraint(ConstraintLevel::Position) => "write `constraint(velocity = …)`",
+            ExpressionPlace::Gap | ExpressionPlace::Touching => {
+                "its rate is formed from it; velocities stand in `slip = …`"
+            }
+            ExpressionPlace::Kinematics(_) => "the rates of coordinates are written in speeds",
+            ExpressionPlace::Potential => "write what depends on velocities as `force(…)` or `damping = …`",
             _ => "remove it",
         };
         Some(format!(
@@ -487,9 +537,16 @@ impl Place {
     /// Why nothing that is not smooth may stand here.
     pub fn refuses_kinks(self) -> Option<String> {
         match self {
-            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) | Place::State => None,
-            Place::Friction | Place::Bound | Place::Rolling | Place::Definition => None,
-            Place::Dissipation => Some("forces are derivatives of a dissipation function".into()),
+            ExpressionPlace::Force
+            | ExpressionPlace::Torque
+            | ExpressionPlace::Drive
+            | ExpressionPlace::Coefficient(_)
+            | ExpressionPlace::State => None,
+            ExpressionPlace::Friction
+            | ExpressionPlace::Bound
+            | ExpressionPlace::Rolling
+            | ExpressionPlace::Definition => None,
+            ExpressionPlace::Dissipation => Some("forces are derivatives of a dissipation function".into()),
             place if place.is_constant() => None,
             place => Some(format!("{} is differentiated", place.subject())),
         }
@@ -498,13 +555,20 @@ impl Place {
     /// Message about a function that is not smooth, where derivatives are taken.
     pub fn refuses_kink(self, function: FunctionName) -> Option<String> {
         match self {
-            Place::Force | Place::Torque | Place::Drive | Place::Coefficient(_) | Place::State => None,
-            Place::Friction | Place::Bound | Place::Rolling | Place::Definition => None,
+            ExpressionPlace::Force
+            | ExpressionPlace::Torque
+            | ExpressionPlace::Drive
+            | ExpressionPlace::Coefficient(_)
+            | ExpressionPlace::State => None,
+            ExpressionPlace::Friction
+            | ExpressionPlace::Bound
+            | ExpressionPlace::Rolling
+            | ExpressionPlace::Definition => None,
             place if place.is_constant() => Some(format!(
                 "`{}` stands in values of forces only; make the number a field of the struct",
                 function.word()
             )),
-            Place::Dissipation => Some(format!(
+            ExpressionPlace::Dissipation => Some(format!(
                 "{}, and forces are derivatives of a dissipation function; write the force itself as `force(…)`, \
                  `torque(…)` or `drive(…)`",
                 function.jump()

@@ -35,7 +35,7 @@ pub enum Meaning {
     /// A point of a body.
     Point,
     /// A function that a clause declares.
-    Function(Declared),
+    Function(DeclaredFunction),
     /// π.
     Pi,
     /// A field that expressions cannot use; the message says why.
@@ -44,7 +44,7 @@ pub enum Meaning {
 
 /// A function that a clause declares.
 #[derive(Clone, PartialEq, Eq)]
-pub struct Declared {
+pub struct DeclaredFunction {
     /// Variables of the function, in words for messages.
     pub variables: Vec<String>,
     /// Its derivative jumps.
@@ -169,7 +169,7 @@ impl Scope {
     ///
     /// # Errors
     /// What to say of one that is not declared; `None` where that is said elsewhere.
-    pub fn find_function(&self, name: &Ident) -> Result<&Declared, Option<String>> {
+    pub fn find_function(&self, name: &Ident) -> Result<&DeclaredFunction, Option<String>> {
         let word = name.unraw().to_string();
         let declared = self.meanings(&word).find_map(|meaning| match meaning {
             Meaning::Function(declared) => Some(declared),

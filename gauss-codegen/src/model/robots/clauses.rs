@@ -6,11 +6,11 @@ use proc_macro2::Ident;
 use quote::format_ident;
 use syn::ext::IdentExt;
 
-use super::drives::{self, Input};
-use super::joints::Writer;
+use super::drives::{self, RobotInput};
+use super::joints::ExpressionWriter;
 use gauss_robots::description::{Description, Fault, Inertial, Joint, JointKind, Note};
 
-use super::names::Names;
+use super::names::RobotNames;
 use super::source;
 
 use crate::model::language::context::Context;
@@ -19,11 +19,11 @@ use crate::model::language::fields::{ReadField, Reader};
 use crate::model::language::robots::{Base, File, Format, RobotClauses};
 use crate::model::language::statements::Statements;
 use crate::model::scene::clauses::{
-    BodyClause, Coefficients, Coordinate, CoordinateKind, RoleClause, RoleValue, Speed, SpeedKind,
+    BodyClause, Coefficients, CoordinateClause, CoordinateKind, RoleClause, RoleValue, Speed, SpeedKind,
 };
 use crate::model::scene::expression::{Expression, FunctionName, Property};
-use crate::terms::{Described, Remark};
-use crate::terms::{Role, Shape, WantedJoint};
+use crate::terms::{FileRemark, RobotFile};
+use crate::terms::{ReactionJoint, Role, Shape};
 use gauss_robots::{Coupling, Structure, Text, all_located, located};
 
 /// Name of the coordinate of the free root of a robot.
@@ -34,9 +34,9 @@ pub fn compose(
     file: &File,
     clauses: &RobotClauses,
     reader: &Reader<'_>,
-    (statements, reactions): (&mut Statements, &mut [WantedJoint]),
+    (statements, reactions): (&mut Statements, &mut [ReactionJoint]),
     context: &mut Context,
-) -> Option<Described> {
+) -> Option<RobotFile> {
     if file.format == Format::Mjcf && clauses.base.is_some() {
         context.error(file.span, "in an MJCF file <freejoint/> marks bodies that move freely; remove `base`");
     }
@@ -75,12 +75,12 @@ pub struct Robot<'a> {
     pub clauses: &'a RobotClauses,
     pub description: &'a Description,
     pub structure: &'a Structure,
-    pub writer: Writer,
+    pub writer: ExpressionWriter,
     /// The pose of the root, if it moves.
     base: Option<Ident>,
     /// Coordinates of each joint; none of those that are fixed or follow another.
-    pub coordinates: Vec<Vec<Coordinate>>,
-    pub inputs: Vec<Input>,
+    pub coordinates: Vec<Vec<CoordinateClause>>,
+    pub inputs: Vec<RobotInput>,
     pub links: Vec<Ident>,
     /// The mass data of the link are those of a field.
     pub in_field: Vec<bool>,
@@ -88,7 +88,7 @@ pub struct Robot<'a> {
     cut: Vec<bool>,
     pub gravity_in_field: bool,
     pub notes: Vec<Note>,
-    pub names: Names,
+    pub names: RobotNames,
 }
 
 impl<'a> Robot<'a> {
@@ -100,12 +100,12 @@ impl<'a> Robot<'a> {
         structure: &'a Structure,
     ) -> Self {
         let words = description.joints.iter().map(|joint| &joint.name);
-        let mut names = Names::new(file.span, words.chain(description.links.iter().map(|link| &link.name)));
+        let mut names = RobotNames::new(file.span, words.chain(description.links.iter().map(|link| &link.name)));
         let floating = clauses.base == Some(Base::Floating);
         let base = floating.then(|| names.chosen(BASE));
         let own = |index: usize| structure.coupling_of[index].joint == index;
         let all = || description.joints.iter().enumerate();
-        let coordinates: Vec<Vec<Coordinate>> =
+        let coordinates: Vec<Vec<CoordinateClause>> =
             all().map(|(k, joint)| if own(k) { coordinates(joint, &mut names) } else { Vec::new() }).collect();
         let inputs = drives::inputs(description, &coordinates, clauses.inputs, &mut names);
         let links: Vec<Ident> =
@@ -118,7 +118,7 @@ impl<'a> Robot<'a> {
         notes.append(&mut names.notes);
         notes.extend(drives::notes(description, &inputs));
         notes.extend(drives::lost(description, &inputs, clauses.inputs));
-        let writer = Writer { span: file.span };
+        let writer = ExpressionWriter { span: file.span };
         Robot {
             clauses,
             description,
@@ -138,9 +138,9 @@ impl<'a> Robot<'a> {
 
     /// Finds the links that joints carry whose reactions are wanted, by the names of either. Links that are fixed to
     /// one another keep the mass data of their own if one of the joints between them is among these.
-    fn cut(&mut self, reactions: &mut [WantedJoint], context: &mut Context) {
+    fn cut(&mut self, reactions: &mut [ReactionJoint], context: &mut Context) {
         let mut carried_links: Vec<usize> = Vec::new();
-        for WantedJoint { name, link } in reactions {
+        for ReactionJoint { name, link } in reactions {
             let word = name.unraw().to_string();
             let is_called = |&joint: &usize| {
                 let coordinates = self.coordinates[joint].iter().any(|q| q.ident.unraw() == word);
@@ -290,13 +290,14 @@ impl<'a> Robot<'a> {
     }
 
     /// Puts the clauses before those of the struct; gives back what is to be known of the file.
-    fn written(mut self, file: &File, text: &Text, statements: &mut Statements, context: &mut Context) -> Described {
+    fn written(mut self, file: &File, text: &Text, statements: &mut Statements, context: &mut Context) -> RobotFile {
         let span = self.writer.span;
         statements.first.get_or_insert_with(|| Ident::new("urdf", span));
         self.require_fields(context);
-        let mut coordinates: Vec<Coordinate> = Vec::new();
-        coordinates
-            .extend(self.base.iter().map(|ident| Coordinate { ident: ident.clone(), kind: CoordinateKind::Pose }));
+        let mut coordinates: Vec<CoordinateClause> = Vec::new();
+        coordinates.extend(
+            self.base.iter().map(|ident| CoordinateClause { ident: ident.clone(), kind: CoordinateKind::Pose }),
+        );
         coordinates.extend(self.coordinates.iter().flatten().cloned());
         if let (Some(speeds), Some(kinematics)) = (&mut statements.speeds, &mut statements.kinematics) {
             let (own, rates) = self.rates(&coordinates);
@@ -341,11 +342,11 @@ impl<'a> Robot<'a> {
         }
     }
 
-    fn described(&mut self, file: &File, text: &Text) -> Described {
+    fn described(&mut self, file: &File, text: &Text) -> RobotFile {
         self.notes = Note::gathered(std::mem::take(&mut self.notes));
         let known = |what: &String| self.clauses.ignored.iter().any(|word| word == what.as_str());
         let names = text.names();
-        let remark = |note: &Note| Remark {
+        let remark = |note: &Note| FileRemark {
             text: located(&names, note.at, &note.text),
             ignored: note.ignored.as_ref().is_some_and(|what| !known(what)),
         };
@@ -353,7 +354,7 @@ impl<'a> Robot<'a> {
         let called =
             links.filter(|(ident, link)| *ident != &link.name).map(|(ident, link)| (ident.clone(), link.name.clone()));
         let files = self.description.files.iter().map(|file| file.to_string_lossy().into_owned());
-        Described {
+        RobotFile {
             paths: text.paths().into_iter().chain(files).collect(),
             file: file.path.clone(),
             span: file.span,
@@ -385,7 +386,7 @@ impl<'a> Robot<'a> {
     }
 
     /// Speeds of the file's coordinates, and their kinematics, where the struct has speeds of its own.
-    fn rates(&self, coordinates: &[Coordinate]) -> (Vec<Speed>, Vec<(Ident, Option<Expression>)>) {
+    fn rates(&self, coordinates: &[CoordinateClause]) -> (Vec<Speed>, Vec<(Ident, Option<Expression>)>) {
         let (mut speeds, mut rates) = (Vec::new(), Vec::new());
         for coordinate in coordinates {
             let ident = &coordinate.ident;
@@ -503,7 +504,7 @@ impl<'a> Robot<'a> {
 }
 
 /// Coordinates of a joint that follows no other.
-fn coordinates(joint: &Joint, names: &mut Names) -> Vec<Coordinate> {
+fn coordinates(joint: &Joint, names: &mut RobotNames) -> Vec<CoordinateClause> {
     let ends: &[&str] = match joint.kind {
         JointKind::Fixed => &[],
         JointKind::Planar => &["_x", "_y", "_theta"],
@@ -519,7 +520,7 @@ fn coordinates(joint: &Joint, names: &mut Names) -> Vec<Coordinate> {
             "" => names.identifier(&joint.name, "joint", joint.at),
             end => names.chosen(&format!("{}{end}", joint.name)),
         };
-        Coordinate { ident, kind }
+        CoordinateClause { ident, kind }
     };
     ends.iter().map(coordinate).collect()
 }

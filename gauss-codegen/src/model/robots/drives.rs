@@ -3,21 +3,21 @@
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
-use super::names::Names;
+use super::names::RobotNames;
 use crate::model::language::robots::Inputs;
-use crate::model::scene::clauses::Coordinate;
+use crate::model::scene::clauses::CoordinateClause;
 use crate::terms::{InputKind, InputName};
 use gauss_robots::description::{Description, Drive, JointKind, Note};
 
 /// An input, and what it drives.
-pub struct Input {
+pub struct RobotInput {
     pub name: InputName,
     /// The index of a joint, or of a drive.
-    pub of: Driven,
+    pub of: DriveTarget,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Driven {
+pub enum DriveTarget {
     Joint(usize),
     Drive(usize),
 }
@@ -25,10 +25,10 @@ pub enum Driven {
 /// The inputs in the order of the file; of efforts that of the joints.
 pub fn inputs(
     description: &Description,
-    coordinates: &[Vec<Coordinate>],
+    coordinates: &[Vec<CoordinateClause>],
     asked: Option<Inputs>,
-    names: &mut Names,
-) -> Vec<Input> {
+    names: &mut RobotNames,
+) -> Vec<RobotInput> {
     let usual = if description.only_driven { Inputs::Transmissions } else { Inputs::All };
     let is_driven =
         |joint: &str| description.drives.iter().any(|drive| drive.along.iter().any(|(name, _)| name == joint));
@@ -39,12 +39,12 @@ pub fn inputs(
             let joints = description.joints.iter().enumerate().zip(coordinates);
             let own = joints.filter(|((_, joint), own)| joint.kind.is_scalar() && own.len() == 1);
             let driven = own.filter(|((_, joint), _)| asked == Inputs::All || is_driven(&joint.name));
-            let efforts: Vec<Input> = driven
+            let efforts: Vec<RobotInput> = driven
                 .map(|((index, joint), own)| {
                     // As the coordinate, whatever the file calls it.
                     let word = own[0].ident.unraw().to_string();
                     let ident = names.chosen(&format!("{word}_effort"));
-                    input(ident, &word, Some(unit(joint.kind)), Driven::Joint(index))
+                    input(ident, &word, Some(unit(joint.kind)), DriveTarget::Joint(index))
                 })
                 .collect();
             // A wrench is no effort of a joint.
@@ -55,7 +55,7 @@ pub fn inputs(
 }
 
 /// The controls of some drives, by their names.
-fn controls(description: &Description, which: impl Fn(&Drive) -> bool, names: &mut Names) -> Vec<Input> {
+fn controls(description: &Description, which: impl Fn(&Drive) -> bool, names: &mut RobotNames) -> Vec<RobotInput> {
     let kind = |name: &String| description.joints.iter().find(|joint| joint.name == *name).map(|j| j.kind);
     let drives = description.drives.iter().enumerate().filter(|(_, drive)| which(drive));
     drives
@@ -68,7 +68,7 @@ fn controls(description: &Description, which: impl Fn(&Drive) -> bool, names: &m
             };
             // The control of a gain has whatever unit that gives it.
             let unit = drive.along.first().filter(|_| drive.is_plain()).and_then(|(name, _)| kind(name)).map(unit);
-            input(ident, &drive.name, unit, Driven::Drive(index))
+            input(ident, &drive.name, unit, DriveTarget::Drive(index))
         })
         .collect()
 }
@@ -77,16 +77,17 @@ fn unit(kind: JointKind) -> &'static str {
     if kind == JointKind::Turning { "N m" } else { "N" }
 }
 
-fn input(ident: Ident, field: &str, unit: Option<&str>, of: Driven) -> Input {
+fn input(ident: Ident, field: &str, unit: Option<&str>, of: DriveTarget) -> RobotInput {
     let word = syn::parse_str::<Ident>(field);
     let called = word.map_or_else(|_| ident.clone(), |word| Ident::new(&word.to_string(), ident.span()));
     let name = InputName { ident, kind: InputKind::Scalar, unit: unit.map(str::to_owned), called };
-    Input { name, of }
+    RobotInput { name, of }
 }
 
 /// Notes on drives with gears or gains whose input is an effort.
-pub fn notes(description: &Description, inputs: &[Input]) -> Vec<Note> {
-    let is_drive = |input: &Input| matches!(input.of, Driven::Drive(drive) if !description.drives[drive].is_wrench());
+pub fn notes(description: &Description, inputs: &[RobotInput]) -> Vec<Note> {
+    let is_drive =
+        |input: &RobotInput| matches!(input.of, DriveTarget::Drive(drive) if !description.drives[drive].is_wrench());
     let plain = |drive: &&Drive| {
         let geared = drive.along.iter().any(|(_, factor)| *factor != 1.0);
         !drive.is_wrench() && (geared || !drive.is_plain())
@@ -102,13 +103,15 @@ pub fn notes(description: &Description, inputs: &[Input]) -> Vec<Note> {
 }
 
 /// Drives of joints that have no effort of their own for an input, because they mimic others.
-pub fn lost(description: &Description, inputs: &[Input], asked: Option<Inputs>) -> Vec<Note> {
+pub fn lost(description: &Description, inputs: &[RobotInput], asked: Option<Inputs>) -> Vec<Note> {
     if matches!(asked, Some(Inputs::None | Inputs::Actuators)) {
         return Vec::new();
     }
     let has_input = |joint: &str| {
-        let is_it = |input: &Input| matches!(input.of, Driven::Joint(index) if description.joints[index].name == joint);
-        inputs.iter().any(is_it)
+        inputs.iter().any(|input| match input.of {
+            DriveTarget::Joint(index) => description.joints[index].name == joint,
+            DriveTarget::Drive(_) => false,
+        })
     };
     let is_lost = |drive: &&Drive| {
         let joints = description.joints.iter().filter(|joint| drive.along.iter().any(|(name, _)| *name == joint.name));

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use proc_macro2::Ident;
 
 use super::clauses::Robot;
-use super::drives::{Driven, Input};
+use super::drives::{DriveTarget, RobotInput};
 use crate::model::scene::elements::WRENCH;
 use crate::model::scene::elements::argument::{BODY, FORCE, TORQUE};
 use crate::model::scene::expression::{Expression, FunctionName, Property};
@@ -51,14 +51,14 @@ impl Robot<'_> {
 
     /// Effects of an input in joints: the index of each, its coordinate with how many times its rate that of the joint
     /// is, and a factor of a force.
-    fn parts(&self, input: &Input) -> Vec<(usize, &Ident, f64, f64, Expression)> {
+    fn parts(&self, input: &RobotInput) -> Vec<(usize, &Ident, f64, f64, Expression)> {
         let control = self.writer.name(&input.name.ident);
         match input.of {
-            Driven::Joint(joint) => match self.coordinates[joint].as_slice() {
+            DriveTarget::Joint(joint) => match self.coordinates[joint].as_slice() {
                 [q] => vec![(joint, &q.ident, 1.0, 1.0, control)],
                 _ => Vec::new(),
             },
-            Driven::Drive(drive) => {
+            DriveTarget::Drive(drive) => {
                 let drive = &self.description.drives[drive];
                 let Some(length) = self.length(&drive.along) else { return Vec::new() };
                 let force = self.force(drive, control, length);
@@ -116,8 +116,8 @@ impl Robot<'_> {
     /// the frame along the wrench.
     pub fn thrusts(&self) -> Vec<ForceClause> {
         let writer = self.writer;
-        let thrust = |input: &Input| {
-            let Driven::Drive(drive) = input.of else { return None };
+        let thrust = |input: &RobotInput| {
+            let DriveTarget::Drive(drive) = input.of else { return None };
             let drive = &self.description.drives[drive];
             let (link, wrench) = drive.at_link.as_ref()?;
             let index = self.description.links.iter().position(|own| own.name == *link)?;

@@ -3,11 +3,11 @@
 use proc_macro2::Ident;
 
 use super::clauses::Robot;
-use super::still::Level;
-use super::touching::Made;
+use super::constant_heights::LevelPlane;
+use super::touching::ContactClauses;
 use crate::model::language::context::Context;
 use crate::model::language::ground::Ground;
-use crate::model::scene::contacts::Against;
+use crate::model::scene::contacts::Counterpart;
 use crate::model::scene::expression::{Expression, ExpressionKind};
 use gauss_robots::collision::{Collision, Shape, Surface, Touch};
 use gauss_robots::description::{At, Description, Note};
@@ -19,17 +19,17 @@ pub const WORLD: &str = "world";
 
 /// A plane, with the shape of the file that it is.
 struct Plane<'a> {
-    against: Against,
+    against: Counterpart,
     /// Level of the plane, if numbers say it.
-    level: Option<Level>,
+    level: Option<LevelPlane>,
     of: Option<&'a Collision>,
 }
 
 impl Robot<'_> {
     /// Contacts of links with planes, as far as they are asked for.
-    pub fn touching(&mut self, context: &mut Context) -> Made {
+    pub fn touching(&mut self, context: &mut Context) -> ContactClauses {
         let of_joints = self.ranges().into_iter().chain(self.dry_friction()).flat_map(|clause| clause.names);
-        let mut made = Made::new(self.names.clone(), of_joints, self.writer);
+        let mut made = ContactClauses::new(self.names.clone(), of_joints, self.writer);
         let mut notes = self.notes_of_surfaces();
         notes.extend(self.notes_of_shapes());
         for ground in &self.clauses.grounds {
@@ -151,7 +151,7 @@ impl Robot<'_> {
     /// The plane that a ground says, those of the file, or that through Ω.
     fn planes(&self, ground: &Ground) -> Vec<Plane<'_>> {
         let writer = self.writer;
-        let plane = |normal, height| Against::Plane { normal, height, along: ground.along.clone() };
+        let plane = |normal, height| Counterpart::Plane { normal, height, along: ground.along.clone() };
         let own = || {
             let against = plane(ground.normal.clone(), ground.height.clone());
             vec![Plane { against, level: level(ground), of: None }]
@@ -169,7 +169,7 @@ impl Robot<'_> {
             let place: Triple = std::array::from_fn(|i| at[i] + moved[i]);
             let normal = turned(&matrix, &collision.rotation.map(|row| row[2]));
             let height: f64 = (0..3).map(|i| normal[i] * place[i]).sum();
-            let level = Some(Level { normal, height });
+            let level = Some(LevelPlane { normal, height });
             let is_flat = normal == [0.0, 0.0, 1.0];
             let height = (height != 0.0).then(|| writer.number(height));
             let normal = writer.triple(&normal).filter(|_| !is_flat);
@@ -194,7 +194,7 @@ impl Robot<'_> {
 }
 
 /// The plane that a clause says by numbers, or that through Ω.
-fn level(ground: &Ground) -> Option<Level> {
+fn level(ground: &Ground) -> Option<LevelPlane> {
     let written = match ground.normal.as_ref().map(|normal| &normal.kind) {
         None => Some([0.0, 0.0, 1.0]),
         Some(ExpressionKind::Vector(entries)) => {
@@ -204,7 +204,7 @@ fn level(ground: &Ground) -> Option<Level> {
         Some(_) => None,
     };
     let height = ground.height.as_ref().map_or(Some(0.0), Expression::literal)?;
-    Some(Level { normal: direction(written?)?, height })
+    Some(LevelPlane { normal: direction(written?)?, height })
 }
 
 fn told_of_clear(first: &Collision, count: usize) -> Note {

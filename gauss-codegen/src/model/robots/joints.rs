@@ -12,11 +12,11 @@ use gauss_robots::rotation::{Rotation, Triple, turned};
 
 /// Writes expressions, all of them at one token.
 #[derive(Clone, Copy)]
-pub struct Writer {
+pub struct ExpressionWriter {
     pub span: Span,
 }
 
-impl Writer {
+impl ExpressionWriter {
     pub fn expression(self, kind: ExpressionKind) -> Expression {
         Expression { kind, span: self.span }
     }

@@ -9,7 +9,7 @@ use syn::ext::IdentExt;
 use super::clauses::Robot;
 use super::names;
 use crate::model::language::robots::{Friction, Limits};
-use crate::model::scene::contacts::{ContactClause, Touching};
+use crate::model::scene::contacts::{ContactClause, ContactGeometry};
 use crate::model::scene::elements::STOP;
 use crate::model::scene::elements::argument::{ALONG, DAMPING, LEAST, MOST, STIFFNESS, WIDTH};
 use crate::model::scene::expression::Expression;
@@ -18,7 +18,7 @@ use gauss_robots::description::{At, Note};
 use gauss_robots::rotation::Rotation;
 
 /// A joint or a tendon with limits.
-struct Limited {
+struct LimitedMotion {
     at: At,
     along: Expression,
     limits: [Option<f64>; 2],
@@ -31,7 +31,7 @@ struct Limited {
 impl Robot<'_> {
     /// Joints, then tendons along joints, then tendons through sites. Of balls what has a limit is −cos φ/sin φ₀, which
     /// is smooth also where they are not turned, and near φ₀ beyond it by as much as the angle φ.
-    fn limited(&self) -> Vec<Limited> {
+    fn limited(&self) -> Vec<LimitedMotion> {
         let writer = self.writer;
         let mut limited = Vec::new();
         for (index, joint, ..) in self.scalar_joints().filter(|(_, joint, ..)| joint.limits != [None; 2]) {
@@ -39,19 +39,19 @@ impl Robot<'_> {
             let coordinate = self.coordinates[index].first().filter(|_| own).map(|q| q.ident.clone());
             let along = self.values(index, 0.0).into_iter().next();
             let (at, limits, called) = (joint.at, joint.limits, joint.name.clone());
-            limited.extend(along.map(|along| Limited { at, along, limits, coordinate, called }));
+            limited.extend(along.map(|along| LimitedMotion { at, along, limits, coordinate, called }));
         }
         for (joint, q) in self.groups() {
             let [None, Some(most)] = joint.limits else { continue };
             let turn = self.turn(&writer.name(q), &Rotation::none());
             let along = writer.times(writer.number(-1.0 / most.sin()), turn.cosine);
             let (at, limits, called) = (joint.at, [None, Some(-1.0 / most.tan())], joint.name.clone());
-            limited.push(Limited { at, along, limits, coordinate: Some(q.clone()), called });
+            limited.push(LimitedMotion { at, along, limits, coordinate: Some(q.clone()), called });
         }
         let named = |name: &Option<String>| name.clone().unwrap_or_else(|| "tendon".to_owned());
         let mut add = |at: At, along: Option<Expression>, limits: Option<[f64; 2]>, called: String| {
             let found = along.zip(limits.map(|limits| limits.map(Some)));
-            limited.extend(found.map(|(along, limits)| Limited { at, along, limits, coordinate: None, called }));
+            limited.extend(found.map(|(along, limits)| LimitedMotion { at, along, limits, coordinate: None, called }));
         };
         for tendon in &self.description.tendons {
             add(tendon.at, self.length(&tendon.along), tendon.limits, named(&tendon.name));
@@ -75,7 +75,7 @@ impl Robot<'_> {
     pub fn stops(&self) -> Vec<ForceClause> {
         let writer = self.writer;
         let Some(Limits::Stop { stiffness, width, damping }) = &self.clauses.limits else { return Vec::new() };
-        let stop = |limited: Limited| {
+        let stop = |limited: LimitedMotion| {
             let [least, most] = limited.limits.map(|limit| limit.map(|limit| writer.number(limit)));
             let name = limited.coordinate.map(|q| format_ident!("{}_limits", q.unraw()));
             let stop = ForceClause::new(&STOP, name, writer.span).with(ALONG, Some(limited.along));
@@ -94,7 +94,7 @@ impl Robot<'_> {
         }
         let coordinates = self.coordinates.iter().flatten().map(|q| q.ident.unraw().to_string());
         let mut taken: HashSet<String> = coordinates.collect();
-        let range = |limited: Limited| {
+        let range = |limited: LimitedMotion| {
             let name = limited.coordinate.map(|q| q.unraw().to_string()).unwrap_or_else(|| {
                 let free = names::free(&limited.called, "limits", |word| !taken.contains(word));
                 taken.insert(free.clone());
@@ -103,7 +103,7 @@ impl Robot<'_> {
             let [from, to] = limited.limits.map(|limit| limit.map(|limit| writer.number(limit)));
             let ends = [("from", &from), ("to", &to)].into_iter().filter(|(_, limit)| limit.is_some());
             let names = ends.map(|(end, _)| format_ident!("{name}_{end}", span = writer.span)).collect();
-            let touching = Touching::Range { along: limited.along, from, to };
+            let touching = ContactGeometry::Range { along: limited.along, from, to };
             ContactClause {
                 names,
                 touching,
@@ -135,7 +135,7 @@ impl Robot<'_> {
         }
         let clause = |(q, bound): (&Ident, f64)| ContactClause {
             names: vec![q.clone()],
-            touching: Touching::Slip { slips: vec![writer.name(q)], named: true },
+            touching: ContactGeometry::Slip { slips: vec![writer.name(q)], named: true },
             friction: vec![writer.number(bound)],
             restitution: None,
             drilling: None,

@@ -10,12 +10,13 @@
 //! | `drives`, `efforts`, `turning`, `ranges` | inputs; what they do; in balls and free joints; how much of it at most |
 //! | `limits` | those of joints and tendons; dry friction of joints |
 //! | `ground`, `pairs`, `touching` | planes and what touches them; links that touch each other; contacts of shapes |
-//! | `still` | what stays clear of a plane, whatever moves |
+//! | `constant_heights` | what stays clear of a plane, whatever moves |
 //! | `laws`, `springs`, `relations` | other forces in joints; springs of all kinds; relations of links besides the tree |
 //! | `inertias` | mass data that no body has |
 //! | `states` | states with names, mass data for fields |
 
 mod clauses;
+mod constant_heights;
 mod drives;
 mod efforts;
 mod ground;
@@ -30,7 +31,6 @@ mod relations;
 mod source;
 mod springs;
 mod states;
-mod still;
 mod touching;
 mod turning;
 

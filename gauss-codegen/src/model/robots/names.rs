@@ -10,7 +10,7 @@ use gauss_robots::description::{At, Note};
 
 /// Identifiers that are taken.
 #[derive(Clone)]
-pub struct Names {
+pub struct RobotNames {
     span: Span,
     taken: HashSet<String>,
     /// Words of the file: nothing has one of them that is not called so there.
@@ -18,7 +18,7 @@ pub struct Names {
     pub notes: Vec<Note>,
 }
 
-impl Names {
+impl RobotNames {
     /// Names for a file that calls its joints and links so.
     pub fn new<'a>(span: Span, own: impl IntoIterator<Item = &'a String>) -> Self {
         Self { span, taken: HashSet::new(), own: own.into_iter().cloned().collect(), notes: Vec::new() }
@@ -67,7 +67,7 @@ mod tests {
 
     #[test]
     fn identifiers() {
-        let mut names = Names::new(Span::call_site(), &[]);
+        let mut names = RobotNames::new(Span::call_site(), &[]);
         let mut of = |name: &str, noun: &str| names.identifier(name, noun, At::default()).to_string();
         assert_eq!(of("elbow", "joint"), "elbow");
         assert_eq!(of("elbow", "link"), "elbow_link");
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn names_of_the_file_come_first() {
         let own = ["left-hip", "left_hip", "arm", "arm_link"].map(str::to_owned);
-        let mut names = Names::new(Span::call_site(), &own);
+        let mut names = RobotNames::new(Span::call_site(), &own);
         let mut of = |name: &str, noun: &str| names.identifier(name, noun, At::default()).to_string();
         assert_eq!(of("left-hip", "joint"), "left_hip_joint");
         assert_eq!(of("left_hip", "joint"), "left_hip");

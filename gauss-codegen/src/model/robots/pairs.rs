@@ -3,7 +3,7 @@
 
 use super::clauses::Robot;
 use super::ground::{WORLD, beyond};
-use super::touching::{Between, Made};
+use super::touching::{ContactClauses, LinkPair};
 use crate::model::language::context::Context;
 use crate::model::language::self_contact::SelfContact;
 use gauss_robots::collision::{Collision, Shape, Touch};
@@ -17,7 +17,7 @@ struct Candidate<'a> {
 
 impl Robot<'_> {
     /// Contacts of links with one another, as far as they are asked for.
-    pub fn touching_each_other(&mut self, made: &mut Made, context: &mut Context) {
+    pub fn touching_each_other(&mut self, made: &mut ContactClauses, context: &mut Context) {
         let mut notes = self.notes_of_pairs();
         for clause in &self.clauses.self_contacts {
             let links = match &clause.links {
@@ -39,7 +39,7 @@ impl Robot<'_> {
                 }
                 let [first, second] = shapes.map(|shape| self.link_of(shape).map(|link| &self.links[link]));
                 if let (Some(first), Some(second)) = (first, second) {
-                    let between = Between { links: [first, second], clause, friction };
+                    let between = LinkPair { links: [first, second], clause, friction };
                     made.add_pair(shapes, &between);
                 }
                 notes.extend(beyond(shapes[0], Some(shapes[1]), &candidate.touch));

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::clauses::Robot;
-use super::drives::Driven;
+use super::drives::DriveTarget;
 use crate::model::language::robots::Saturation;
 use crate::model::scene::expression::{Expression, FunctionName};
 use gauss_robots::description::Note;
@@ -63,10 +63,10 @@ impl Robot<'_> {
         let (mut driving, mut driven) = (HashSet::new(), HashSet::new());
         for input in &self.inputs {
             match input.of {
-                Driven::Joint(joint) => {
+                DriveTarget::Joint(joint) => {
                     driven.insert(self.description.joints[joint].name.as_str());
                 }
-                Driven::Drive(drive) => {
+                DriveTarget::Drive(drive) => {
                     driving.insert(drive);
                     driven.extend(self.description.drives[drive].along.iter().map(|(joint, _)| joint.as_str()));
                 }

@@ -1,7 +1,7 @@
 //! Relations of links besides the tree: points and rotations in common, coordinates that are polynomials of others.
 
 use super::clauses::Robot;
-use crate::model::scene::clauses::{ConstraintClause, ConstraintKind};
+use crate::model::scene::clauses::{ConstraintClause, ConstraintLevel};
 use crate::model::scene::expression::{BinaryOperator, Expression, FunctionName, Property};
 use gauss_robots::description::{At, Closure, Polynomial, Turn};
 use gauss_robots::located;
@@ -11,7 +11,7 @@ impl Robot<'_> {
     /// Links that have a point in common, or a place; coordinates that others determine.
     pub fn constraints(&self, names: &[String]) -> Vec<ConstraintClause> {
         let clause = |at: At, expression: Expression| ConstraintClause {
-            kind: ConstraintKind::Position,
+            kind: ConstraintLevel::Position,
             expression,
             vector: false,
             place: Some(located(names, at, "")),

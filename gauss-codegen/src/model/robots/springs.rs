@@ -18,7 +18,7 @@ use gauss_robots::rotation::{Rotation, Triple};
 const SMALL: f64 = 1e-32;
 
 /// A turn by an angle φ about a direction n: both are smooth where φ is zero, and φ is not.
-pub struct Turn {
+pub struct SpringTurn {
     /// sin φ n.
     sines: [Expression; 3],
     pub cosine: Expression,
@@ -87,7 +87,7 @@ impl Robot<'_> {
     /// digits where it is small.
     pub fn rotation_vector(&self, rotation: &Expression, from: &Rotation) -> Expression {
         let writer = self.writer;
-        let Turn { sines, cosine } = self.turn(rotation, from);
+        let SpringTurn { sines, cosine } = self.turn(rotation, from);
         let [x, y, z] = sines.clone().map(|e| writer.times(e.clone(), e));
         let square = writer.plus(writer.plus(x, y), z);
         let square = writer.call(FunctionName::Max, vec![square, writer.number(SMALL)]);
@@ -97,7 +97,7 @@ impl Robot<'_> {
     }
 
     /// Sines and cosine of the turn R₀ᵀR by the angle φ ≤ π about n.
-    pub fn turn(&self, rotation: &Expression, from: &Rotation) -> Turn {
+    pub fn turn(&self, rotation: &Expression, from: &Rotation) -> SpringTurn {
         let writer = self.writer;
         let unit: [Triple; 3] = Rotation::none().matrix;
         let vector = |v: Triple| writer.vector(v.map(|c| writer.number(c)));
@@ -113,7 +113,7 @@ impl Robot<'_> {
         });
         let trace = writer.plus(writer.plus(entry(0, 0), entry(1, 1)), entry(2, 2));
         let cosine = half(minus(trace, writer.number(1.0)));
-        Turn { sines, cosine }
+        SpringTurn { sines, cosine }
     }
 
     pub fn tendons(&self) -> (Vec<ForceClause>, Vec<Note>) {

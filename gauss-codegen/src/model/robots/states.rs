@@ -5,7 +5,7 @@ use quote::format_ident;
 use syn::ext::IdentExt;
 
 use super::clauses::Robot;
-use super::drives::{Driven, Input};
+use super::drives::{DriveTarget, RobotInput};
 use crate::model::scene::clauses::CoordinateKind;
 use crate::terms::{BodyOfFile, StateOfFile, ValueOfState};
 use gauss_robots::description::{JointKind, Posture};
@@ -59,9 +59,9 @@ impl Robot<'_> {
                 _ => {}
             }
         }
-        let control = |input: &Input| match input.of {
-            Driven::Drive(drive) => posture.controls.iter().find(|(of, _)| *of == drive).map(|(_, value)| *value),
-            Driven::Joint(_) => None,
+        let control = |input: &RobotInput| match input.of {
+            DriveTarget::Drive(drive) => posture.controls.iter().find(|(of, _)| *of == drive).map(|(_, value)| *value),
+            DriveTarget::Joint(_) => None,
         };
         let inputs =
             self.inputs.iter().filter_map(|input| Some((input.name.called.clone(), control(input)?))).collect();

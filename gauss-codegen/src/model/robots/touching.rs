@@ -6,21 +6,21 @@ use std::f64::consts::TAU;
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
-use super::joints::Writer;
-use super::names::{self, Names};
-use super::still::Seen;
+use super::constant_heights::LinkStates;
+use super::joints::ExpressionWriter;
+use super::names::{self, RobotNames};
 use crate::model::language::ground::Ground;
 use crate::model::language::self_contact::SelfContact;
 use crate::model::language::words::UNNAMED;
 use crate::model::names::naming::is_reserved;
 use crate::model::scene::clauses::{BodyClause, PointClause};
-use crate::model::scene::contacts::{Against, ContactClause, Copies, PointContact, Touching};
+use crate::model::scene::contacts::{ContactClause, ContactGeometry, Copies, Counterpart, PointContact};
 use crate::model::scene::expression::{Expression, Property};
 use gauss_robots::collision::{Collision, Shape, Touch};
 use gauss_robots::rotation::{Matrix, Rotation, Triple, sine_and_cosine, turned};
 
 /// Clauses as they are made, with the names that are taken.
-pub struct Made {
+pub struct ContactClauses {
     pub points: Vec<PointClause>,
     /// Frames of shapes that need axes of their own.
     pub frames: Vec<BodyClause>,
@@ -30,12 +30,12 @@ pub struct Made {
     /// Prefixes of contact names, one for each shape.
     shapes: HashSet<String>,
     /// Names of all that expressions name.
-    names: Names,
-    writer: Writer,
+    names: RobotNames,
+    writer: ExpressionWriter,
 }
 
 /// Points at which a shape touches.
-enum Form {
+enum TouchingPoints {
     /// At points, each of them the centre of a sphere.
     Spheres(Vec<Triple>, f64),
     /// The two of a capsule.
@@ -49,15 +49,15 @@ enum Form {
 }
 
 /// Two links that touch, and how.
-pub struct Between<'a> {
+pub struct LinkPair<'a> {
     pub links: [&'a Ident; 2],
     pub clause: &'a SelfContact,
     pub friction: Option<Expression>,
 }
 
-impl Made {
+impl ContactClauses {
     /// Contacts are not to have the names of those that are `taken`.
-    pub fn new(names: Names, taken: impl IntoIterator<Item = Ident>, writer: Writer) -> Self {
+    pub fn new(names: RobotNames, taken: impl IntoIterator<Item = Ident>, writer: ExpressionWriter) -> Self {
         let (points, frames, contacts) = (Vec::new(), Vec::new(), Vec::new());
         let taken = taken.into_iter().map(|name| name.unraw().to_string()).collect();
         Self { points, frames, contacts, taken, shapes: HashSet::new(), names, writer }
@@ -72,7 +72,7 @@ impl Made {
     pub fn add(
         &mut self,
         (collision, link): (&Collision, &Ident),
-        (against, seen): (&Against, Option<&Seen>),
+        (against, seen): (&Counterpart, Option<&LinkStates>),
         ground: &Ground,
         touch: &Touch,
     ) -> bool {
@@ -84,7 +84,7 @@ impl Made {
         let Some(form) = form else { return true };
         let mut contacts: Vec<(Vec<Ident>, PointContact)> = Vec::new();
         match form {
-            Form::Spheres(centers, radius) => {
+            TouchingPoints::Spheres(centers, radius) => {
                 let names = self.named(called, centers.len());
                 for (center, name) in centers.into_iter().zip(names) {
                     let point = self.point(link, &name, center);
@@ -92,26 +92,26 @@ impl Made {
                     contacts.push((vec![name], contact));
                 }
             }
-            Form::Ends([first, last], radius) => {
+            TouchingPoints::Ends([first, last], radius) => {
                 let names = self.named(called, 2);
                 let (point, end) = (self.point(link, &names[0], first), self.point(link, &names[1], last));
                 let contact = self.contact(point, size(radius), against);
                 contacts.push((names, PointContact { copies: Copies::Ends(end), ..contact }));
             }
-            Form::Corners(center, edges) => {
+            TouchingPoints::Corners(center, edges) => {
                 let copies = Copies::Corners(edges.map(|edge| writer.number(edge)));
                 let names = self.named(called, copies.count());
                 let point = self.point(link, &names[0], center);
                 contacts.push((names, PointContact { copies, ..self.contact(point, None, against) }));
             }
-            Form::Rims(center, radius, axis, length) => {
+            TouchingPoints::Rims(center, radius, axis, length) => {
                 let copies = if length == 0.0 { Copies::One } else { Copies::Rims(writer.number(length)) };
                 let names = self.named(called, copies.count());
                 let point = self.point(link, &names[0], center);
                 let rim = Some([writer.number(radius), writer.vector(axis.map(|c| writer.number(c)))]);
                 contacts.push((names, PointContact { copies, rim, ..self.contact(point, None, against) }));
             }
-            Form::Ellipsoid(center, axes, semi_axes) => {
+            TouchingPoints::Ellipsoid(center, axes, semi_axes) => {
                 let names = self.named(called, 1);
                 let point = match axes {
                     Some(axes) => self.frame(link, &names[0], center, &axes),
@@ -131,27 +131,27 @@ impl Made {
     }
 
     /// A contact of a sphere with a sphere or a capsule.
-    pub fn add_pair(&mut self, shapes: [&Collision; 2], between: &Between<'_>) {
+    pub fn add_pair(&mut self, shapes: [&Collision; 2], between: &LinkPair<'_>) {
         let writer = self.writer;
         let [first, second] = shapes.map(|shape| shape.name.as_ref().unwrap_or(&shape.link));
         let Some(name) = self.named(&format!("{first}_{second}"), 1).pop() else { return };
         let [own, other] = between.links;
-        let Some(Form::Spheres(centers, radius)) = form(shapes[0], None) else { return };
+        let Some(TouchingPoints::Spheres(centers, radius)) = form(shapes[0], None) else { return };
         let mut place = |link: &Ident, end: &str, at: Triple| self.point_called(link, &format!("{name}_{end}"), at);
         let point = place(own, "point", centers[0]);
         let (center, end, other_radius) = match form(shapes[1], None) {
-            Some(Form::Spheres(centers, radius)) => (place(other, "other", centers[0]), None, radius),
-            Some(Form::Ends([first, last], radius)) => {
+            Some(TouchingPoints::Spheres(centers, radius)) => (place(other, "other", centers[0]), None, radius),
+            Some(TouchingPoints::Ends([first, last], radius)) => {
                 (place(other, "other", first), Some(place(other, "other_end", last)), radius)
             }
             _ => return,
         };
         let along = between.clause.along.clone().filter(|_| between.friction.is_some());
-        let against = Against::Sphere { center, end, radius: Some(writer.number(other_radius)), along };
+        let against = Counterpart::Sphere { center, end, radius: Some(writer.number(other_radius)), along };
         let contact = self.contact(point, Some(writer.number(radius)), &against);
         self.contacts.push(ContactClause {
             names: vec![name],
-            touching: Touching::Point(Box::new(contact)),
+            touching: ContactGeometry::Point(Box::new(contact)),
             friction: between.friction.clone().into_iter().collect(),
             restitution: between.clause.restitution.clone(),
             drilling: None,
@@ -161,7 +161,7 @@ impl Made {
         });
     }
 
-    fn contact(&self, point: Expression, radius: Option<Expression>, against: &Against) -> PointContact {
+    fn contact(&self, point: Expression, radius: Option<Expression>, against: &Counterpart) -> PointContact {
         PointContact { point, radius, rim: None, semi_axes: None, copies: Copies::One, against: against.clone() }
     }
 
@@ -224,7 +224,7 @@ fn of_ground(
 ) -> ContactClause {
     ContactClause {
         names,
-        touching: Touching::Point(Box::new(contact)),
+        touching: ContactGeometry::Point(Box::new(contact)),
         friction,
         restitution: ground.restitution.clone(),
         drilling: None,
@@ -235,49 +235,57 @@ fn of_ground(
 }
 
 /// Points at which a shape touches, without those that stay clear of a plane, and whether some do.
-fn without_clear(form: Form, collision: &Collision, seen: Option<&Seen>) -> (Option<Form>, bool) {
+fn without_clear(
+    form: TouchingPoints,
+    collision: &Collision,
+    seen: Option<&LinkStates>,
+) -> (Option<TouchingPoints>, bool) {
     let Some(seen) = seen else { return (Some(form), false) };
     let (points, radius) = match &form {
-        Form::Spheres(points, radius) => (points.clone(), *radius),
-        Form::Ends(ends, radius) => (ends.to_vec(), *radius),
-        Form::Corners(center, edges) => {
+        TouchingPoints::Spheres(points, radius) => (points.clone(), *radius),
+        TouchingPoints::Ends(ends, radius) => (ends.to_vec(), *radius),
+        TouchingPoints::Corners(center, edges) => {
             let corners = corners(edges.map(|edge| edge / 2.0)).into_iter();
             (corners.map(|corner| std::array::from_fn(|i| center[i] + corner[i])).collect(), 0.0)
         }
-        Form::Rims(..) | Form::Ellipsoid(..) if seen.is_round_and_clear(collision) => return (None, true),
-        Form::Rims(..) | Form::Ellipsoid(..) => return (Some(form), false),
+        TouchingPoints::Rims(..) | TouchingPoints::Ellipsoid(..) if seen.is_round_and_clear(collision) => {
+            return (None, true);
+        }
+        TouchingPoints::Rims(..) | TouchingPoints::Ellipsoid(..) => return (Some(form), false),
     };
     let left: Vec<Triple> = points.iter().copied().filter(|point| !seen.is_clear(point, radius)).collect();
     match left.len() {
         count if count == points.len() => (Some(form), false),
         0 => (None, true),
-        _ => (Some(Form::Spheres(left, radius)), true),
+        _ => (Some(TouchingPoints::Spheres(left, radius)), true),
     }
 }
 
 /// Points at which a shape touches; rims by some points, if so many are given.
-fn form(collision: &Collision, points: Option<u32>) -> Option<Form> {
+fn form(collision: &Collision, points: Option<u32>) -> Option<TouchingPoints> {
     let center = collision.position;
     let placed = |own: Triple| -> Triple {
         let moved = turned(&collision.rotation, &own);
         std::array::from_fn(|i| center[i] + moved[i])
     };
     let ends = |half: f64, radius: f64| match half {
-        0.0 => Form::Spheres(vec![center], radius),
-        _ => Form::Ends([placed([0.0, 0.0, -half]), placed([0.0, 0.0, half])], radius),
+        0.0 => TouchingPoints::Spheres(vec![center], radius),
+        _ => TouchingPoints::Ends([placed([0.0, 0.0, -half]), placed([0.0, 0.0, half])], radius),
     };
     let is_along = collision.rotation == Rotation::none().matrix;
     Some(match collision.shape {
-        Shape::Sphere { radius } => Form::Spheres(vec![center], radius),
+        Shape::Sphere { radius } => TouchingPoints::Spheres(vec![center], radius),
         Shape::Capsule { radius, half } => ends(half, radius),
         Shape::Cylinder { radius: 0.0, half } => ends(half, 0.0),
         Shape::Cylinder { radius, half } => match points {
-            Some(points) => Form::Spheres(rims(radius, half, points).into_iter().map(placed).collect(), 0.0),
-            None => Form::Rims(center, radius, collision.rotation.map(|row| row[2]), 2.0 * half),
+            Some(points) => TouchingPoints::Spheres(rims(radius, half, points).into_iter().map(placed).collect(), 0.0),
+            None => TouchingPoints::Rims(center, radius, collision.rotation.map(|row| row[2]), 2.0 * half),
         },
-        Shape::Box { half } if is_along => Form::Corners(center, half.map(|half| 2.0 * half)),
-        Shape::Box { half } => Form::Spheres(corners(half).into_iter().map(placed).collect(), 0.0),
-        Shape::Ellipsoid { semi_axes } => Form::Ellipsoid(center, (!is_along).then_some(collision.rotation), semi_axes),
+        Shape::Box { half } if is_along => TouchingPoints::Corners(center, half.map(|half| 2.0 * half)),
+        Shape::Box { half } => TouchingPoints::Spheres(corners(half).into_iter().map(placed).collect(), 0.0),
+        Shape::Ellipsoid { semi_axes } => {
+            TouchingPoints::Ellipsoid(center, (!is_along).then_some(collision.rotation), semi_axes)
+        }
         Shape::Plane | Shape::Unread(_) => return None,
     })
 }

@@ -3,7 +3,7 @@
 use proc_macro2::Ident;
 
 use super::clauses::Robot;
-use super::drives::{Driven, Input};
+use super::drives::{DriveTarget, RobotInput};
 use crate::model::scene::elements;
 use crate::model::scene::elements::argument::{AXES, BODY, FORCE, REACTION, TORQUE, VALUE};
 use crate::model::scene::expression::{Expression, FunctionName, Property};
@@ -14,8 +14,8 @@ use gauss_robots::rotation::{Rotation, Triple};
 impl Robot<'_> {
     /// The clauses of drives in joints with several coordinates, called as their controls.
     pub fn turning(&self) -> Vec<ForceClause> {
-        let of = |input: &Input| {
-            let Driven::Drive(drive) = input.of else { return None };
+        let of = |input: &RobotInput| {
+            let DriveTarget::Drive(drive) = input.of else { return None };
             let drive = &self.description.drives[drive];
             let turned = drive.at_joint.as_ref()?;
             let (joint, q) = self.groups().find(|(joint, _)| joint.name == turned.name)?;
@@ -31,7 +31,7 @@ impl Robot<'_> {
     }
 
     /// Along observer's axes, and about them or those of the link.
-    fn pushed(&self, input: &Input, (drive, turned): (&Drive, &Turned), q: &Ident) -> Option<ForceClause> {
+    fn pushed(&self, input: &RobotInput, (drive, turned): (&Drive, &Turned), q: &Ident) -> Option<ForceClause> {
         let writer = self.writer;
         let [pull, turn] = turned.wrench;
         // What has no gear has a force of zero: its control is an input all the same.
@@ -51,7 +51,7 @@ impl Robot<'_> {
     }
 
     /// In the axes of the link, or in those that it has where it is not turned.
-    fn twisted(&self, input: &Input, (drive, turned): (&Drive, &Turned), q: &Ident) -> Option<ForceClause> {
+    fn twisted(&self, input: &RobotInput, (drive, turned): (&Drive, &Turned), q: &Ident) -> Option<ForceClause> {
         let writer = self.writer;
         let rotation = writer.name(q);
         let fixed = writer.vector(turned.wrench[1].map(|gear| writer.number(gear)));

@@ -7,7 +7,7 @@ use syn::Ident;
 
 /// One coordinate, or three or six that are an element of a group.
 #[derive(Clone)]
-pub struct Coordinate {
+pub struct CoordinateClause {
     /// Its name.
     pub ident: Ident,
     /// Kind of its values.
@@ -27,7 +27,7 @@ pub enum CoordinateKind {
 
 /// A state of an element: a number that changes at a given rate, and moves no body.
 #[derive(Clone)]
-pub struct State {
+pub struct ElementState {
     /// Its name.
     pub ident: Ident,
     /// ẋ = f(t, q, z, x, input): a scalar of all that is known at an instant.
@@ -128,7 +128,7 @@ pub struct PointClause {
 #[derive(Clone)]
 pub struct ConstraintClause {
     /// Level of the constraint.
-    pub kind: ConstraintKind,
+    pub kind: ConstraintLevel,
     /// A scalar or a vector: of t and q; of t, q and z if velocities are constrained.
     pub expression: Expression,
     /// The expression is a vector: three constraints.
@@ -141,7 +141,7 @@ pub struct ConstraintClause {
 
 /// Levels of constraints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ConstraintKind {
+pub enum ConstraintLevel {
     /// φ(t, q) = 0.
     Position,
     /// φ(t, q, z) = 0.

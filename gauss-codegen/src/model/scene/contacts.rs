@@ -10,7 +10,7 @@ pub struct ContactClause {
     /// Names of the contacts: one, `box_0` and so on, or `x_from` and `x_to` of a range.
     pub names: Vec<Ident>,
     /// Parts that may touch.
-    pub touching: Touching,
+    pub touching: ContactGeometry,
     /// The coefficient μ, or those of two tangents; of dry friction the bounds of its force. Scalars of t, q, z,
     /// inputs, fields and numbers; only with slip.
     pub friction: Vec<Expression>,
@@ -29,7 +29,7 @@ pub struct ContactClause {
 
 /// Ways in which parts may touch.
 #[derive(Clone)]
-pub enum Touching {
+pub enum ContactGeometry {
     /// `gap = …, slip = …, spin = …, roll = …`.
     Gap {
         /// A scalar of t and q that is not negative.
@@ -76,7 +76,7 @@ pub struct PointContact {
     /// Other places where it is.
     pub copies: Copies,
     /// Counterpart that it may touch.
-    pub against: Against,
+    pub against: Counterpart,
 }
 
 /// The places of the same body at which a point, a sphere or a rim is: each is a contact of its own.
@@ -128,7 +128,7 @@ impl Copies {
 
 /// Counterparts that a point may touch.
 #[derive(Clone)]
-pub enum Against {
+pub enum Counterpart {
     /// A half space: below a plane.
     Plane {
         /// A vector of fields and numbers, observer axes, out of the half space; `None`: against a scalar gravity.
@@ -153,9 +153,9 @@ impl PointContact {
         let own = std::iter::once(&self.point).chain(&self.radius).chain(of_rim);
         let own = own.chain(self.semi_axes.iter().flatten()).chain(self.copies.expressions());
         match &self.against {
-            Against::Plane { height, .. } => own.chain(height).collect(),
-            Against::Ground(height) => own.chain([height]).collect(),
-            Against::Sphere { center, end, radius, .. } => own.chain([center]).chain(end).chain(radius).collect(),
+            Counterpart::Plane { height, .. } => own.chain(height).collect(),
+            Counterpart::Ground(height) => own.chain([height]).collect(),
+            Counterpart::Sphere { center, end, radius, .. } => own.chain([center]).chain(end).chain(radius).collect(),
         }
     }
 
@@ -165,11 +165,11 @@ impl PointContact {
         let about = self.radius.iter_mut().chain(self.rim.iter_mut().flatten());
         about.chain(self.semi_axes.iter_mut().flatten()).chain(copies).for_each(&mut *change);
         match &mut self.against {
-            Against::Plane { normal, height, along } => {
+            Counterpart::Plane { normal, height, along } => {
                 normal.iter_mut().chain(height).chain(along).for_each(change);
             }
-            Against::Ground(height) => change(height),
-            Against::Sphere { center, end, radius, along } => {
+            Counterpart::Ground(height) => change(height),
+            Counterpart::Sphere { center, end, radius, along } => {
                 change(center);
                 end.iter_mut().chain(radius).chain(along).for_each(change);
             }
@@ -181,13 +181,13 @@ impl ContactClause {
     /// Calls `change` with each of its expressions.
     pub fn each_expression(&mut self, change: &mut dyn FnMut(&mut Expression)) {
         match &mut self.touching {
-            Touching::Gap { gap, slips, spin, rolls } => {
+            ContactGeometry::Gap { gap, slips, spin, rolls } => {
                 change(gap);
                 slips.iter_mut().chain(spin).chain(rolls).for_each(&mut *change);
             }
-            Touching::Point(contact) => contact.each_expression(change),
-            Touching::Slip { slips, .. } => slips.iter_mut().for_each(&mut *change),
-            Touching::Range { along, from, to } => {
+            ContactGeometry::Point(contact) => contact.each_expression(change),
+            ContactGeometry::Slip { slips, .. } => slips.iter_mut().for_each(&mut *change),
+            ContactGeometry::Range { along, from, to } => {
                 change(along);
                 from.iter_mut().chain(to).for_each(&mut *change);
             }

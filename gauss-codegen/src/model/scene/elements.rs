@@ -28,11 +28,11 @@ pub struct Row {
     pub word: &'static str,
     /// Noun in messages.
     pub noun: &'static str,
-    pub form: Form,
+    pub form: ClauseForm,
     /// In the order in which messages list them.
-    pub arguments: &'static [Argument],
+    pub arguments: &'static [ElementArgument],
     /// Rules among the arguments.
-    pub rules: &'static [Rule],
+    pub rules: &'static [ArgumentRule],
     /// Words that are refused in a way of their own.
     pub refused: &'static [(&'static str, &'static str)],
     /// All that stands in its brackets.
@@ -51,7 +51,7 @@ impl Eq for Row {}
 
 impl Row {
     /// The argument with this word.
-    pub fn find(&self, word: &str) -> Option<&'static Argument> {
+    pub fn find(&self, word: &str) -> Option<&'static ElementArgument> {
         self.arguments.iter().find(|argument| argument.word == word)
     }
 
@@ -63,7 +63,7 @@ impl Row {
 
 /// Forms of a clause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum ClauseForm {
     /// `spring(name, along = …, stiffness = …)`.
     Arguments,
     /// `drive(name, theta = …)`: the words are coordinates.
@@ -74,26 +74,31 @@ pub enum Form {
 
 /// One argument.
 #[derive(Clone, Copy)]
-pub struct Argument {
+pub struct ElementArgument {
     pub word: &'static str,
-    pub takes: Takes,
+    pub takes: ArgumentType,
     /// Example of a value, for messages.
     pub example: &'static str,
     /// Part that the element lacks without it, for messages; `None`: it may be left out.
     pub required: Option<&'static str>,
 }
 
-impl Argument {
-    const fn optional(word: &'static str, takes: Takes, example: &'static str) -> Argument {
-        Argument { word, takes, example, required: None }
+impl ElementArgument {
+    const fn optional(word: &'static str, takes: ArgumentType, example: &'static str) -> ElementArgument {
+        ElementArgument { word, takes, example, required: None }
     }
 
-    const fn required(word: &'static str, takes: Takes, example: &'static str, what: &'static str) -> Argument {
-        Argument { word, takes, example, required: Some(what) }
+    const fn required(
+        word: &'static str,
+        takes: ArgumentType,
+        example: &'static str,
+        what: &'static str,
+    ) -> ElementArgument {
+        ElementArgument { word, takes, example, required: Some(what) }
     }
 
-    const fn constant(word: &'static str, called: &'static str, unit: Unit, example: &'static str) -> Argument {
-        Argument::optional(word, Takes::Constant { called, unit, law: None }, example)
+    const fn constant(word: &'static str, called: &'static str, unit: Unit, example: &'static str) -> ElementArgument {
+        ElementArgument::optional(word, ArgumentType::Constant { called, unit, law: None }, example)
     }
 
     /// A constant that `kernel()` checks.
@@ -103,19 +108,19 @@ impl Argument {
         unit: Unit,
         example: &'static str,
         law: LawKind,
-    ) -> Argument {
-        Argument::optional(word, Takes::Constant { called, unit, law: Some(law) }, example)
+    ) -> ElementArgument {
+        ElementArgument::optional(word, ArgumentType::Constant { called, unit, law: Some(law) }, example)
     }
 
     /// It may not be left out.
-    const fn needed(self, what: &'static str) -> Argument {
-        Argument { required: Some(what), ..self }
+    const fn needed(self, what: &'static str) -> ElementArgument {
+        ElementArgument { required: Some(what), ..self }
     }
 }
 
 /// Kinds of values of arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Takes {
+pub enum ArgumentType {
     /// The name of the body or frame that it acts on. In a chart it may be left out.
     Body,
     /// The name of another body or frame, on which the reaction acts.
@@ -168,7 +173,7 @@ pub enum Unit {
 
 /// Rules among the arguments of an element.
 #[derive(Clone, Copy)]
-pub enum Rule {
+pub enum ArgumentRule {
     /// `along`, or `from` with `to`.
     Extent,
     /// `at` or `body`; `axes` only with `body`.
@@ -214,14 +219,16 @@ use argument::{
     OTHER, QUADRATIC, REACTION, STIFFNESS, TO, TORQUE as OF_TORQUE, VALUE, VISCOUS, WIDTH,
 };
 
-const ON_BODY: Argument = Argument::required(BODY, Takes::Body, "…", "the body that it acts on");
-const ON_OTHER: Argument = Argument::required(OTHER, Takes::Other, "…", "the body on which its reaction acts");
-const IN_AXES: Argument = Argument::optional(AXES, Takes::Axes, "body");
-const FROM_POINT: Argument = Argument::optional(FROM, Takes::End, "arm.position");
-const TO_POINT: Argument = Argument::optional(TO, Takes::End, "[0, 0, h]");
-const ALONG_SCALAR: Argument = Argument::optional(ALONG, Takes::Along, "theta");
-const STIFF: Argument = Argument::checked(STIFFNESS, "stiffness", Unit::ForceByExtent, "k", LawKind::Stiffness);
-const DAMPED: Argument = Argument::checked(DAMPING, "damping", Unit::ForceByRate, "c", LawKind::Damping);
+const ON_BODY: ElementArgument = ElementArgument::required(BODY, ArgumentType::Body, "…", "the body that it acts on");
+const ON_OTHER: ElementArgument =
+    ElementArgument::required(OTHER, ArgumentType::Other, "…", "the body on which its reaction acts");
+const IN_AXES: ElementArgument = ElementArgument::optional(AXES, ArgumentType::Axes, "body");
+const FROM_POINT: ElementArgument = ElementArgument::optional(FROM, ArgumentType::End, "arm.position");
+const TO_POINT: ElementArgument = ElementArgument::optional(TO, ArgumentType::End, "[0, 0, h]");
+const ALONG_SCALAR: ElementArgument = ElementArgument::optional(ALONG, ArgumentType::Along, "theta");
+const STIFF: ElementArgument =
+    ElementArgument::checked(STIFFNESS, "stiffness", Unit::ForceByExtent, "k", LawKind::Stiffness);
+const DAMPED: ElementArgument = ElementArgument::checked(DAMPING, "damping", Unit::ForceByRate, "c", LawKind::Damping);
 
 /// All elements that are force clauses, in the order in which messages list them.
 pub static ELEMENTS: &[&Row] = &[
@@ -244,14 +251,14 @@ pub static FORCE: Row = Row {
     kind: ElementKind::Force,
     word: "force",
     noun: "force",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
-        Argument::optional(AT, Takes::Point, "[l, 0, 0]"),
-        Argument::required(VALUE, Takes::Force, "[fx, fy, fz]", "its components"),
-        Argument::optional(BODY, Takes::Body, "…"),
+        ElementArgument::optional(AT, ArgumentType::Point, "[l, 0, 0]"),
+        ElementArgument::required(VALUE, ArgumentType::Force, "[fx, fy, fz]", "its components"),
+        ElementArgument::optional(BODY, ArgumentType::Body, "…"),
         IN_AXES,
     ],
-    rules: &[Rule::Somewhere],
+    rules: &[ArgumentRule::Somewhere],
     refused: &[
         ("force", "the components of a force are its value; write `value = [fx, fy, fz]`"),
         ("torque", "a force with a torque is a wrench; write `wrench(body = …, at = …, force = […], torque = […])`"),
@@ -270,12 +277,12 @@ pub static TORQUE: Row = Row {
     kind: ElementKind::Torque,
     word: "torque",
     noun: "torque",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
-        Argument::required(VALUE, Takes::Torque, "[mx, my, mz]", "its components"),
+        ElementArgument::required(VALUE, ArgumentType::Torque, "[mx, my, mz]", "its components"),
         IN_AXES,
-        Argument::optional(REACTION, Takes::Other, "…"),
+        ElementArgument::optional(REACTION, ArgumentType::Other, "…"),
     ],
     rules: &[],
     refused: &[
@@ -299,17 +306,20 @@ pub static WRENCH: Row = Row {
     kind: ElementKind::Wrench,
     word: "wrench",
     noun: "wrench",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
-        Argument::optional(AT, Takes::Point, "[l, 0, 0]"),
-        Argument::optional(OF_FORCE, Takes::Force, "[fx, fy, fz]"),
-        Argument::optional(OF_TORQUE, Takes::Torque, "[mx, my, mz]"),
+        ElementArgument::optional(AT, ArgumentType::Point, "[l, 0, 0]"),
+        ElementArgument::optional(OF_FORCE, ArgumentType::Force, "[fx, fy, fz]"),
+        ElementArgument::optional(OF_TORQUE, ArgumentType::Torque, "[mx, my, mz]"),
         IN_AXES,
     ],
     rules: &[
-        Rule::OneOf([OF_FORCE, OF_TORQUE], "its components; add `force = [fx, fy, fz]`, `torque = [mx, my, mz]`"),
-        Rule::OnlyWith(
+        ArgumentRule::OneOf(
+            [OF_FORCE, OF_TORQUE],
+            "its components; add `force = [fx, fy, fz]`, `torque = [mx, my, mz]`",
+        ),
+        ArgumentRule::OnlyWith(
             [AT, OF_FORCE],
             "a torque has no point: it does the same wherever it acts on its body; add `force = …`, or remove `at`",
         ),
@@ -332,8 +342,8 @@ pub static DRIVE: Row = Row {
     kind: ElementKind::Drive,
     word: "drive",
     noun: "drive",
-    form: Form::Rates,
-    arguments: &[Argument::optional(VALUE, Takes::Drive, "k * theta")],
+    form: ClauseForm::Rates,
+    arguments: &[ElementArgument::optional(VALUE, ArgumentType::Drive, "k * theta")],
     rules: &[],
     refused: &[],
     example: "theta = …",
@@ -345,16 +355,16 @@ pub static SPRING: Row = Row {
     kind: ElementKind::Spring,
     word: "spring",
     noun: "spring",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         FROM_POINT,
         TO_POINT,
         ALONG_SCALAR,
         STIFF.needed("its force by elongation"),
-        Argument::constant(LENGTH, "length", Unit::Extent, "l"),
+        ElementArgument::constant(LENGTH, "length", Unit::Extent, "l"),
         DAMPED,
     ],
-    rules: &[Rule::Extent],
+    rules: &[ArgumentRule::Extent],
     refused: &[],
     example: "from = …, to = …, stiffness = k",
     argument: "an argument such as `stiffness = k`",
@@ -365,19 +375,19 @@ pub static STOP: Row = Row {
     kind: ElementKind::Stop,
     word: "stop",
     noun: "stop",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         FROM_POINT,
         TO_POINT,
         ALONG_SCALAR,
-        Argument::constant(LEAST, "lower limit", Unit::Extent, "a"),
-        Argument::constant(MOST, "upper limit", Unit::Extent, "b"),
+        ElementArgument::constant(LEAST, "lower limit", Unit::Extent, "a"),
+        ElementArgument::constant(MOST, "upper limit", Unit::Extent, "b"),
         STIFF.needed("its force by distance beyond the limit"),
-        Argument::checked(WIDTH, "width", Unit::Extent, "e", LawKind::Width)
+        ElementArgument::checked(WIDTH, "width", Unit::Extent, "e", LawKind::Width)
             .needed("the distance over which it sets in smoothly"),
         DAMPED,
     ],
-    rules: &[Rule::Extent, Rule::OneOf([LEAST, MOST], "a limit; add `least = …`, `most = …`")],
+    rules: &[ArgumentRule::Extent, ArgumentRule::OneOf([LEAST, MOST], "a limit; add `least = …`, `most = …`")],
     refused: &[],
     example: "along = …, least = a, most = b, stiffness = k, width = e",
     argument: "an argument such as `stiffness = k`",
@@ -388,13 +398,13 @@ pub static DRAG: Row = Row {
     kind: ElementKind::Drag,
     word: "drag",
     noun: "drag",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
-        Argument::optional(LINEAR, Takes::Coefficients(["N s/m", "N m s"]), SIX),
-        Argument::optional(QUADRATIC, Takes::Coefficients(["N s^2/m^2", "N m s^2"]), SIX),
+        ElementArgument::optional(LINEAR, ArgumentType::Coefficients(["N s/m", "N m s"]), SIX),
+        ElementArgument::optional(QUADRATIC, ArgumentType::Coefficients(["N s^2/m^2", "N m s^2"]), SIX),
     ],
-    rules: &[Rule::OneOf([LINEAR, QUADRATIC], "its coefficients; add `linear = …`, `quadratic = …`")],
+    rules: &[ArgumentRule::OneOf([LINEAR, QUADRATIC], "its coefficients; add `linear = …`, `quadratic = …`")],
     refused: &[],
     example: "body = …, linear = …, quadratic = …",
     argument: "an argument such as `linear = d`",
@@ -405,20 +415,20 @@ pub static FRICTION: Row = Row {
     kind: ElementKind::Friction,
     word: "friction",
     noun: "friction law",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         FROM_POINT,
         TO_POINT,
         ALONG_SCALAR,
-        Argument::checked(VISCOUS, "viscous part", Unit::ForceByRate, "d", LawKind::Damping),
-        Argument::checked(DRY, "dry part", Unit::Force, "f", LawKind::NonNegative),
-        Argument::checked(WIDTH, "width", Unit::Rate, "w", LawKind::Width),
+        ElementArgument::checked(VISCOUS, "viscous part", Unit::ForceByRate, "d", LawKind::Damping),
+        ElementArgument::checked(DRY, "dry part", Unit::Force, "f", LawKind::NonNegative),
+        ElementArgument::checked(WIDTH, "width", Unit::Rate, "w", LawKind::Width),
     ],
     rules: &[
-        Rule::Extent,
-        Rule::OneOf([VISCOUS, DRY], "a coefficient; add `viscous = …`, `dry = …` with `width = …`"),
-        Rule::With([DRY, WIDTH], "the speed over which the dry part sets in smoothly"),
-        Rule::OnlyWith([WIDTH, DRY], "the width is that of dry friction; add `dry = …`, or remove `width`"),
+        ArgumentRule::Extent,
+        ArgumentRule::OneOf([VISCOUS, DRY], "a coefficient; add `viscous = …`, `dry = …` with `width = …`"),
+        ArgumentRule::With([DRY, WIDTH], "the speed over which the dry part sets in smoothly"),
+        ArgumentRule::OnlyWith([WIDTH, DRY], "the width is that of dry friction; add `dry = …`, or remove `width`"),
     ],
     refused: &[],
     example: "along = …, viscous = d",
@@ -430,11 +440,11 @@ pub static COUPLING: Row = Row {
     kind: ElementKind::Coupling,
     word: "coupling",
     noun: "coupling",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
         ON_OTHER,
-        Argument::checked(VISCOUS, "coefficient", Unit::Is("N m s"), "c", LawKind::Damping)
+        ElementArgument::checked(VISCOUS, "coefficient", Unit::Is("N m s"), "c", LawKind::Damping)
             .needed("its torque by relative angular velocity"),
     ],
     rules: &[],
@@ -449,14 +459,14 @@ pub static TORSIONAL_SPRING: Row = Row {
     kind: ElementKind::TorsionalSpring,
     word: "torsional_spring",
     noun: "torsional spring",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
         ON_OTHER,
-        Argument::checked(STIFFNESS, "stiffness", Unit::Is("N m"), "k", LawKind::Stiffness)
+        ElementArgument::checked(STIFFNESS, "stiffness", Unit::Is("N m"), "k", LawKind::Stiffness)
             .needed("its torque by twist"),
-        Argument::constant(ANGLE, "angle", Unit::Is("rad"), "a"),
-        Argument::checked(DAMPING, "damping", Unit::Is("N m s"), "c", LawKind::Damping),
+        ElementArgument::constant(ANGLE, "angle", Unit::Is("rad"), "a"),
+        ElementArgument::checked(DAMPING, "damping", Unit::Is("N m s"), "c", LawKind::Damping),
     ],
     rules: &[],
     refused: &[],
@@ -472,22 +482,22 @@ pub static BUSHING: Row = Row {
     kind: ElementKind::Bushing,
     word: "bushing",
     noun: "bushing",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
         ON_BODY,
         ON_OTHER,
-        Argument::optional(
+        ElementArgument::optional(
             STIFFNESS,
-            Takes::Matrix { called: "stiffness", units: ["N/m", "N m"], law: LawKind::StiffnessMatrix },
+            ArgumentType::Matrix { called: "stiffness", units: ["N/m", "N m"], law: LawKind::StiffnessMatrix },
             SIX,
         ),
-        Argument::optional(
+        ElementArgument::optional(
             DAMPING,
-            Takes::Matrix { called: "damping", units: ["N s/m", "N m s"], law: LawKind::DampingMatrix },
+            ArgumentType::Matrix { called: "damping", units: ["N s/m", "N m s"], law: LawKind::DampingMatrix },
             SIX,
         ),
     ],
-    rules: &[Rule::OneOf([STIFFNESS, DAMPING], "its coefficients; add `stiffness = …`, `damping = …`")],
+    rules: &[ArgumentRule::OneOf([STIFFNESS, DAMPING], "its coefficients; add `stiffness = …`, `damping = …`")],
     refused: &[],
     example: "body = …, other = …, stiffness = …, damping = …",
     argument: "an argument such as `stiffness = k`",
@@ -498,8 +508,8 @@ pub static DISSIPATION: Row = Row {
     kind: ElementKind::Dissipation,
     word: "damping",
     noun: "dissipation function",
-    form: Form::Value,
-    arguments: &[Argument::optional(VALUE, Takes::Dissipation, "c * v * v / 2")],
+    form: ClauseForm::Value,
+    arguments: &[ElementArgument::optional(VALUE, ArgumentType::Dissipation, "c * v * v / 2")],
     rules: &[],
     refused: &[],
     example: "c * v * v / 2",
@@ -511,11 +521,11 @@ pub static ATTRACTION: Row = Row {
     kind: ElementKind::Attraction,
     word: "central_gravity",
     noun: "attraction",
-    form: Form::Arguments,
+    form: ClauseForm::Arguments,
     arguments: &[
-        Argument::checked(MU, "gravitational parameter", Unit::Is("m^3/s^2"), "gm", LawKind::Attraction)
+        ElementArgument::checked(MU, "gravitational parameter", Unit::Is("m^3/s^2"), "gm", LawKind::Attraction)
             .needed("its gravitational parameter"),
-        Argument::optional(CENTER, Takes::Center, "[x, y, z]"),
+        ElementArgument::optional(CENTER, ArgumentType::Center, "[x, y, z]"),
     ],
     rules: &[],
     refused: &[],

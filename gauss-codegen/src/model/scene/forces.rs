@@ -1,7 +1,7 @@
 //! Clauses of force elements, checked: a row of the table of elements with what its arguments are.
 
 use super::clauses::Coefficients;
-use super::elements::{Argument, DISSIPATION, DRIVE, Row, Takes, argument};
+use super::elements::{ArgumentType, DISSIPATION, DRIVE, ElementArgument, Row, argument};
 use super::expression::Expression;
 use proc_macro2::{Ident, Span};
 
@@ -12,23 +12,23 @@ pub struct ForceClause {
     pub name: Option<Ident>,
     pub row: &'static Row,
     /// In the order of the row.
-    pub given: Vec<Given>,
+    pub given: Vec<ArgumentValue>,
     /// The word that the clause begins with.
     pub span: Span,
 }
 
 /// An argument with its value.
 #[derive(Clone)]
-pub struct Given {
-    pub argument: &'static Argument,
+pub struct ArgumentValue {
+    pub argument: &'static ElementArgument,
     /// The coordinate on whose rate it acts, of a drive.
     pub coordinate: Option<Ident>,
-    pub value: Value,
+    pub value: ArgumentContent,
 }
 
 /// Value that is given to an argument.
 #[derive(Clone)]
-pub enum Value {
+pub enum ArgumentContent {
     Expression(Expression),
     /// A body or a frame.
     Reference(Ident),
@@ -45,21 +45,21 @@ pub enum ForceAxes {
     Observer,
 }
 
-impl From<Expression> for Value {
-    fn from(value: Expression) -> Value {
-        Value::Expression(value)
+impl From<Expression> for ArgumentContent {
+    fn from(value: Expression) -> ArgumentContent {
+        ArgumentContent::Expression(value)
     }
 }
 
-impl From<Ident> for Value {
-    fn from(name: Ident) -> Value {
-        Value::Reference(name)
+impl From<Ident> for ArgumentContent {
+    fn from(name: Ident) -> ArgumentContent {
+        ArgumentContent::Reference(name)
     }
 }
 
-impl From<ForceAxes> for Value {
-    fn from(axes: ForceAxes) -> Value {
-        Value::Axes(axes)
+impl From<ForceAxes> for ArgumentContent {
+    fn from(axes: ForceAxes) -> ArgumentContent {
+        ArgumentContent::Axes(axes)
     }
 }
 
@@ -72,7 +72,7 @@ impl ForceClause {
     /// `drive(…)`.
     pub fn drive(name: Option<Ident>, rates: Vec<(Ident, Expression)>, span: Span) -> ForceClause {
         let mut clause = ForceClause::new(&DRIVE, name, span);
-        let given = |(coordinate, value): (Ident, Expression)| Given {
+        let given = |(coordinate, value): (Ident, Expression)| ArgumentValue {
             argument: &DRIVE.arguments[0],
             coordinate: Some(coordinate),
             value: value.into(),
@@ -87,11 +87,15 @@ impl ForceClause {
     }
 
     /// Adds the argument `word` of its row, if there is a value.
-    pub fn with(mut self, word: &str, value: Option<impl Into<Value>>) -> ForceClause {
+    pub fn with(mut self, word: &str, value: Option<impl Into<ArgumentContent>>) -> ForceClause {
         let argument = self.row.find(word);
         debug_assert!(argument.is_some(), "`{}` has no argument `{word}`", self.row.word);
         let given = argument.zip(value);
-        self.given.extend(given.map(|(argument, value)| Given { argument, coordinate: None, value: value.into() }));
+        self.given.extend(given.map(|(argument, value)| ArgumentValue {
+            argument,
+            coordinate: None,
+            value: value.into(),
+        }));
         self
     }
 
@@ -101,7 +105,7 @@ impl ForceClause {
     }
 
     /// The argument `word` of its row, if it is given.
-    pub fn find(&self, word: &str) -> Option<&Given> {
+    pub fn find(&self, word: &str) -> Option<&ArgumentValue> {
         debug_assert!(self.row.find(word).is_some(), "`{}` has no argument `{word}`", self.row.word);
         self.given.iter().find(|given| given.argument.word == word)
     }
@@ -109,60 +113,61 @@ impl ForceClause {
     /// The argument `word`, where that is an expression.
     pub fn expression(&self, word: &str) -> Option<&Expression> {
         match &self.find(word)?.value {
-            Value::Expression(value) => Some(value),
-            Value::Reference(_) | Value::Axes(_) | Value::Coefficients(_) => None,
+            ArgumentContent::Expression(value) => Some(value),
+            ArgumentContent::Reference(_) | ArgumentContent::Axes(_) | ArgumentContent::Coefficients(_) => None,
         }
     }
 
     /// The argument `word`, where that is six coefficients or a matrix.
     pub fn coefficients(&self, word: &str) -> Option<&Coefficients> {
         match &self.find(word)?.value {
-            Value::Coefficients(value) => Some(value),
-            Value::Reference(_) | Value::Axes(_) | Value::Expression(_) => None,
+            ArgumentContent::Coefficients(value) => Some(value),
+            ArgumentContent::Reference(_) | ArgumentContent::Axes(_) | ArgumentContent::Expression(_) => None,
         }
     }
 
     /// The body or frame that it acts on, if it names one.
     pub fn body(&self) -> Option<&Ident> {
-        self.reference(Takes::Body).map(|(name, _)| name)
+        self.reference(ArgumentType::Body).map(|(name, _)| name)
     }
 
     /// The body or frame on which the reaction acts, if it names one, and the argument that names it.
-    pub fn other(&self) -> Option<(&Ident, &'static Argument)> {
-        self.reference(Takes::Other)
+    pub fn other(&self) -> Option<(&Ident, &'static ElementArgument)> {
+        self.reference(ArgumentType::Other)
     }
 
-    fn reference(&self, takes: Takes) -> Option<(&Ident, &'static Argument)> {
+    fn reference(&self, takes: ArgumentType) -> Option<(&Ident, &'static ElementArgument)> {
         self.given.iter().find(|given| given.argument.takes == takes).and_then(|given| match &given.value {
-            Value::Reference(name) => Some((name, given.argument)),
-            Value::Expression(_) | Value::Axes(_) | Value::Coefficients(_) => None,
+            ArgumentContent::Reference(name) => Some((name, given.argument)),
+            ArgumentContent::Expression(_) | ArgumentContent::Axes(_) | ArgumentContent::Coefficients(_) => None,
         })
     }
 
     /// Axes that are given, else those of the body.
     pub fn axes(&self) -> ForceAxes {
-        let axes = |given: &Given| if let Value::Axes(axes) = given.value { Some(axes) } else { None };
+        let axes =
+            |given: &ArgumentValue| if let ArgumentContent::Axes(axes) = given.value { Some(axes) } else { None };
         self.given.iter().find_map(axes).unwrap_or(ForceAxes::Body)
     }
 
     /// Forces on the rates of coordinates, of a drive.
     pub fn rates(&self) -> impl Iterator<Item = (&Ident, &Expression)> {
         self.given.iter().filter_map(|given| match &given.value {
-            Value::Expression(value) => Some((given.coordinate.as_ref()?, value)),
-            Value::Reference(_) | Value::Axes(_) | Value::Coefficients(_) => None,
+            ArgumentContent::Expression(value) => Some((given.coordinate.as_ref()?, value)),
+            ArgumentContent::Reference(_) | ArgumentContent::Axes(_) | ArgumentContent::Coefficients(_) => None,
         })
     }
 
     /// Its expressions with their arguments, and which of six it is.
-    pub fn expressions(&self) -> Vec<(&'static Argument, usize, &Expression)> {
+    pub fn expressions(&self) -> Vec<(&'static ElementArgument, usize, &Expression)> {
         let mut all = Vec::new();
-        for Given { argument, value, .. } in &self.given {
+        for ArgumentValue { argument, value, .. } in &self.given {
             match value {
-                Value::Expression(value) => all.push((*argument, 0, value)),
-                Value::Coefficients(value) => {
+                ArgumentContent::Expression(value) => all.push((*argument, 0, value)),
+                ArgumentContent::Coefficients(value) => {
                     all.extend(value.entries().enumerate().map(|(k, entry)| (*argument, k, entry)));
                 }
-                Value::Reference(_) | Value::Axes(_) => {}
+                ArgumentContent::Reference(_) | ArgumentContent::Axes(_) => {}
             }
         }
         all
@@ -172,9 +177,9 @@ impl ForceClause {
     pub fn each_expression(&mut self, change: &mut dyn FnMut(&mut Expression)) {
         for given in &mut self.given {
             match &mut given.value {
-                Value::Expression(value) => change(value),
-                Value::Coefficients(value) => value.each_expression(change),
-                Value::Reference(_) | Value::Axes(_) => {}
+                ArgumentContent::Expression(value) => change(value),
+                ArgumentContent::Coefficients(value) => value.each_expression(change),
+                ArgumentContent::Reference(_) | ArgumentContent::Axes(_) => {}
             }
         }
     }

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use proc_macro2::Ident;
 
-use super::clauses::{BodyClause, Coefficients, Coordinate, CoordinateKind, RoleValue};
+use super::clauses::{BodyClause, Coefficients, CoordinateClause, CoordinateKind, RoleValue};
 use super::expression::{Expression, ExpressionKind};
 use crate::algebra::Rational;
 use crate::terms::Twin;
@@ -31,14 +31,14 @@ pub struct Limbs {
 
 /// Limbs that may turn out to be alike: for each of their bodies those of all limbs, limb by limb.
 #[derive(Default)]
-struct Found {
+struct LimbCandidates {
     bodies: Vec<Vec<usize>>,
     coordinates: Vec<Vec<Ident>>,
 }
 
 impl Limbs {
     /// Finds the limbs of a tree, whose numbers become twins where they differ.
-    pub fn found(bodies: &mut [BodyClause], coordinates: &[Coordinate]) -> Self {
+    pub fn found(bodies: &mut [BodyClause], coordinates: &[CoordinateClause]) -> Self {
         let mut limbs = Self::default();
         if coordinates.len() < 2 * JOINTS {
             return limbs;
@@ -51,7 +51,7 @@ impl Limbs {
                 None => roots.push(k),
             }
         }
-        let tree = Tree { bodies, coordinates, children: &children };
+        let tree = LimbTree { bodies, coordinates, children: &children };
         let mut all = Vec::new();
         roots.iter().for_each(|&root| tree.limbs_below(root, &mut all));
         for found in &all {
@@ -60,7 +60,7 @@ impl Limbs {
         limbs
     }
 
-    fn add(&mut self, found: &Found, bodies: &mut [BodyClause]) {
+    fn add(&mut self, found: &LimbCandidates, bodies: &mut [BodyClause]) {
         let first = self.limbs;
         self.limbs += found.coordinates.first().map_or(0, Vec::len);
         for names in &found.coordinates {
@@ -98,20 +98,20 @@ impl Limbs {
     }
 }
 
-struct Tree<'a> {
+struct LimbTree<'a> {
     bodies: &'a [BodyClause],
-    coordinates: &'a [Coordinate],
+    coordinates: &'a [CoordinateClause],
     children: &'a HashMap<String, Vec<usize>>,
 }
 
-impl Tree<'_> {
+impl LimbTree<'_> {
     fn children(&self, body: usize) -> &[usize] {
         let name = self.bodies[body].name.as_ref();
         name.and_then(|name| self.children.get(&name.to_string())).map_or(&[], Vec::as_slice)
     }
 
     /// Limbs that hang on a body, or farther out. What hangs on limbs that are alike is part of them.
-    fn limbs_below(&self, root: usize, all: &mut Vec<Found>) {
+    fn limbs_below(&self, root: usize, all: &mut Vec<LimbCandidates>) {
         let mut open = vec![root];
         while let Some(body) = open.pop() {
             let mut left: Vec<usize> = self.children(body).to_vec();
@@ -132,8 +132,8 @@ impl Tree<'_> {
     }
 
     /// Finds the parts of these limbs that are alike, joint by joint outward.
-    fn found(&self, limbs: Vec<usize>) -> Found {
-        let mut found = Found::default();
+    fn found(&self, limbs: Vec<usize>) -> LimbCandidates {
+        let mut found = LimbCandidates::default();
         let mut open = vec![limbs];
         while let Some(alike) = open.pop() {
             let Some(coordinates) = self.coordinates_of(&alike).filter(|_| alike.len() > 1) else { continue };

@@ -2,15 +2,15 @@
 //! constraints and forces.
 
 use super::clauses::{
-    BodyClause, Coefficients, ConstraintClause, Coordinate, ParticleClause, PointClause, RoleClause, RoleValue, Speed,
-    SpeedPart, State,
+    BodyClause, Coefficients, ConstraintClause, CoordinateClause, ElementState, ParticleClause, PointClause,
+    RoleClause, RoleValue, Speed, SpeedPart,
 };
 use super::contacts::ContactClause;
 use super::expression::Expression;
 use super::forces::ForceClause;
 use super::limbs::Limbs;
 use super::modes::ModesClause;
-use crate::terms::{InChart, Item};
+use crate::terms::{BodyChart, Item};
 use syn::Ident;
 use syn::ext::IdentExt;
 
@@ -21,9 +21,9 @@ pub struct Model {
     pub item: Item,
     /// The chart and the motion of the body without a name, which is then among [`bodies`](Self::bodies) without a
     /// place: the first coordinates, speeds and components of ψ are those of its chart.
-    pub in_chart: Option<InChart>,
+    pub in_chart: Option<BodyChart>,
     /// The coordinates q, in order; in a chart, those after the chart's.
-    pub coordinates: Vec<Coordinate>,
+    pub coordinates: Vec<CoordinateClause>,
     /// The speeds z, in order; `None` for the rates of the coordinates: ẋ of a scalar, ω (body axes) of a rotation, the
     /// twist (u, ω) (body axes, pole O) of a pose.
     pub speeds: Option<Vec<Speed>>,
@@ -31,7 +31,7 @@ pub struct Model {
     /// scalar for a scalar, ω in body axes for a rotation, a call of [`Twist`](super::FunctionName::Twist) for a pose.
     pub kinematics: Vec<(Ident, Expression)>,
     /// States of elements, in order: components of the configuration behind all others, with rates of their own.
-    pub states: Vec<State>,
+    pub states: Vec<ElementState>,
     /// The bodies and frames, in the order in which they are written: a parent may come after its child.
     pub bodies: Vec<BodyClause>,
     /// The particles of (3.3).
@@ -70,7 +70,7 @@ pub struct Model {
 
 impl Model {
     /// One body in a chart, which nothing is attached to and nothing constrains, and which is all of the state.
-    pub fn chart_of_all(&self) -> Option<InChart> {
+    pub fn chart_of_all(&self) -> Option<BodyChart> {
         let alone = self.bodies.len() == 1
             && self.coordinates.is_empty()
             && self.states.is_empty()

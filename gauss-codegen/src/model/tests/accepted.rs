@@ -1,17 +1,17 @@
 //! Structs that the language accepts, and the model that comes out.
 
 use super::{body, model, with};
-use crate::terms::{Chart, InChart, Motion, Role, RotationChart, Scalar, Shape};
+use crate::terms::{BodyChart, Chart, Motion, Role, RotationChart, Scalar, Shape};
 use quote::ToTokens;
 
-fn in_chart(attributes: &str) -> InChart {
+fn in_chart(attributes: &str) -> BodyChart {
     model(&body(attributes)).in_chart.expect("one body is in a chart")
 }
 
 #[test]
 fn defaults() {
     let model = model(&body(""));
-    assert_eq!(model.in_chart, Some(InChart { chart: Chart::LeftInvariant, motion: Motion::Free }));
+    assert_eq!(model.in_chart, Some(BodyChart { chart: Chart::LeftInvariant, motion: Motion::Free }));
     assert_eq!(model.item.scalar, Scalar::F64);
     assert_eq!(model.item.runtime.to_token_stream().to_string(), ":: gauss_runtime");
     assert_eq!(
@@ -48,7 +48,7 @@ fn every_chart() {
 #[test]
 fn clauses_merge() {
     let merged = model(&body("#[gauss(motion = fixed_point,)] #[gauss(chart = hybrid, crate = ::a::b)]"));
-    assert_eq!(merged.in_chart, Some(InChart { chart: Chart::Hybrid, motion: Motion::FixedPoint }));
+    assert_eq!(merged.in_chart, Some(BodyChart { chart: Chart::Hybrid, motion: Motion::FixedPoint }));
     assert_eq!(merged.item.runtime.to_token_stream().to_string(), ":: a :: b");
     // `jet` may come before the motion that it needs.
     assert_eq!(in_chart("#[gauss(chart = jet)] #[gauss(motion = planar)]").motion, Motion::Planar);

@@ -2,7 +2,7 @@
 
 use super::{check, model};
 use crate::model::CoordinateKind;
-use crate::terms::{Chart, InChart, Motion, Role, Shape};
+use crate::terms::{BodyChart, Chart, Motion, Role, Shape};
 
 /// A body in a chart under clauses, with more fields.
 fn body(clauses: &str) -> String {
@@ -20,7 +20,7 @@ fn a_chart_with_all_that_systems_have() {
          particle(mass = l, position = c, parent = mast), point(tip, at = c), constraint(velocity = r * l), \
          independent(b_dot, omega, w), drive(bend = -bend), limit = 1000",
     ));
-    assert_eq!(model.in_chart, Some(InChart { chart: Chart::Hybrid, motion: Motion::Free }));
+    assert_eq!(model.in_chart, Some(BodyChart { chart: Chart::Hybrid, motion: Motion::Free }));
     assert!(model.chart_of_all().is_none());
     let kinds: Vec<CoordinateKind> = model.coordinates.iter().map(|coordinate| coordinate.kind).collect();
     assert_eq!(kinds, [CoordinateKind::Scalar, CoordinateKind::Rotation]);

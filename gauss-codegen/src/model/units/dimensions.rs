@@ -17,7 +17,7 @@ use proc_macro2::{Ident, Span};
 
 /// Knowledge of the dimension of a number.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Found {
+pub enum InferredDimension {
     Unknown,
     /// It is zero, of any dimension, and makes products zero.
     Zero,
@@ -30,72 +30,72 @@ pub enum Found {
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Dimensions {
     Rotation,
-    Parts([Found; 3]),
+    Parts([InferredDimension; 3]),
 }
 
-impl Found {
-    fn times(self, other: Found) -> Found {
+impl InferredDimension {
+    fn times(self, other: InferredDimension) -> InferredDimension {
         match (self, other) {
-            (Found::Zero, _) | (_, Found::Zero) => Found::Zero,
-            (Found::Unknown, _) | (_, Found::Unknown) => Found::Unknown,
-            (Found::Number, other) | (other, Found::Number) => other,
-            (Found::Known(a), Found::Known(b)) => Found::known(a.times(b)),
+            (InferredDimension::Zero, _) | (_, InferredDimension::Zero) => InferredDimension::Zero,
+            (InferredDimension::Unknown, _) | (_, InferredDimension::Unknown) => InferredDimension::Unknown,
+            (InferredDimension::Number, other) | (other, InferredDimension::Number) => other,
+            (InferredDimension::Known(a), InferredDimension::Known(b)) => InferredDimension::known(a.times(b)),
         }
     }
 
-    fn known(dimension: Option<Dimension>) -> Found {
-        dimension.map_or(Found::Unknown, Found::Known)
+    fn known(dimension: Option<Dimension>) -> InferredDimension {
+        dimension.map_or(InferredDimension::Unknown, InferredDimension::Known)
     }
 
-    fn change(self, change: impl Fn(Dimension) -> Option<Dimension>) -> Found {
+    fn change(self, change: impl Fn(Dimension) -> Option<Dimension>) -> InferredDimension {
         match self {
-            Found::Known(dimension) => Found::known(change(dimension)),
+            InferredDimension::Known(dimension) => InferredDimension::known(change(dimension)),
             other => other,
         }
     }
 
     /// Dimension of a number without dimension that is made of this one.
-    fn without_dimension(self) -> Found {
+    fn without_dimension(self) -> InferredDimension {
         match self {
-            Found::Zero | Found::Number => Found::Number,
-            Found::Unknown | Found::Known(_) => Found::Known(Dimension::NONE),
+            InferredDimension::Zero | InferredDimension::Number => InferredDimension::Number,
+            InferredDimension::Unknown | InferredDimension::Known(_) => InferredDimension::Known(Dimension::NONE),
         }
     }
 }
 
 impl Dimensions {
-    pub const UNKNOWN: Dimensions = Dimensions::all(Found::Unknown);
+    pub const UNKNOWN: Dimensions = Dimensions::all(InferredDimension::Unknown);
 
-    const fn all(found: Found) -> Dimensions {
+    const fn all(found: InferredDimension) -> Dimensions {
         Dimensions::Parts([found; 3])
     }
 
     pub fn of(dimension: Dimension) -> Dimensions {
-        Dimensions::all(Found::Known(dimension))
+        Dimensions::all(InferredDimension::Known(dimension))
     }
 
-    pub fn parts(self) -> [Found; 3] {
+    pub fn parts(self) -> [InferredDimension; 3] {
         match self {
-            Dimensions::Rotation => [Found::Known(Dimension::NONE); 3],
+            Dimensions::Rotation => [InferredDimension::Known(Dimension::NONE); 3],
             Dimensions::Parts(parts) => parts,
         }
     }
 
-    fn change(self, change: impl Fn(Found) -> Found) -> Dimensions {
+    fn change(self, change: impl Fn(InferredDimension) -> InferredDimension) -> Dimensions {
         Dimensions::Parts(self.parts().map(change))
     }
 }
 
-pub struct Checker<'a> {
+pub struct UnitChecker<'a> {
     /// Units as they are written, of names.
     pub units: Vec<(&'a Ident, &'a str)>,
     pub names: HashMap<String, Dimensions>,
     /// The dimension of a number that is written: those of a file are in units of the SI, which need not be said.
-    pub number: Found,
+    pub number: InferredDimension,
     pub context: &'a mut Context,
 }
 
-impl Checker<'_> {
+impl UnitChecker<'_> {
     pub fn add(&mut self, name: &Ident, value: Dimensions) {
         self.name_as(word(name), value);
     }
@@ -122,24 +122,26 @@ impl Checker<'_> {
     /// The one dimension of several values, component by component; that they have several is noted once, with `what`
     /// they are and why they have one.
     fn agree(&mut self, span: Span, values: &[(&Expression, Dimensions)], what: &str, why: &str) -> Dimensions {
-        let mut common = [Found::Zero; 3];
+        let mut common = [InferredDimension::Zero; 3];
         for (index, common) in common.iter_mut().enumerate() {
             let mut first: Option<(&Expression, Dimension)> = None;
             for &(expression, value) in values {
                 match (value.parts()[index], first) {
-                    (Found::Known(found), None) => first = Some((expression, found)),
-                    (Found::Known(found), Some((earlier, expected))) if found != expected => {
+                    (InferredDimension::Known(found), None) => first = Some((expression, found)),
+                    (InferredDimension::Known(found), Some((earlier, expected))) if found != expected => {
                         let message = self.disagreement([(earlier, expected), (expression, found)], what, why);
                         self.context.error(span, message);
                         return Dimensions::UNKNOWN;
                     }
-                    (Found::Unknown, _) => *common = Found::Unknown,
-                    (Found::Number, _) if *common == Found::Zero => *common = Found::Number,
+                    (InferredDimension::Unknown, _) => *common = InferredDimension::Unknown,
+                    (InferredDimension::Number, _) if *common == InferredDimension::Zero => {
+                        *common = InferredDimension::Number
+                    }
                     _ => {}
                 }
             }
             if let Some((_, dimension)) = first {
-                *common = Found::Known(dimension);
+                *common = InferredDimension::Known(dimension);
             }
         }
         Dimensions::Parts(common)
@@ -174,7 +176,7 @@ impl Checker<'_> {
     fn inferred(&mut self, expression: &Expression) -> Dimensions {
         let span = expression.span;
         match &expression.kind {
-            ExpressionKind::Number { .. } if expression.is_zero() => Dimensions::all(Found::Zero),
+            ExpressionKind::Number { .. } if expression.is_zero() => Dimensions::all(InferredDimension::Zero),
             ExpressionKind::Number { .. } => Dimensions::all(self.number),
             ExpressionKind::Name(name) => self.name(name),
             ExpressionKind::Input(_) => Dimensions::UNKNOWN,
@@ -182,7 +184,7 @@ impl Checker<'_> {
             ExpressionKind::Property(_, property) => property_value(*property),
             ExpressionKind::Component(inner, index) => {
                 let parts = self.value(inner).parts();
-                Dimensions::all(parts.get(*index).copied().unwrap_or(Found::Unknown))
+                Dimensions::all(parts.get(*index).copied().unwrap_or(InferredDimension::Unknown))
             }
             ExpressionKind::Negate(inner) => self.value(inner),
             ExpressionKind::Binary(operator, left, right) => {
@@ -231,7 +233,7 @@ impl Checker<'_> {
         let mut known = None;
         for part in value.parts() {
             match (part, known) {
-                (Found::Known(found), Some(expected)) if found != expected => {
+                (InferredDimension::Known(found), Some(expected)) if found != expected => {
                     self.context.error(
                         span,
                         format!(
@@ -241,7 +243,7 @@ impl Checker<'_> {
                     );
                     return Dimensions::UNKNOWN;
                 }
-                (Found::Known(found), _) => known = Some(found),
+                (InferredDimension::Known(found), _) => known = Some(found),
                 _ => {}
             }
         }
@@ -261,7 +263,7 @@ impl Checker<'_> {
                 .change(|part| part.change(|dimension| dimension.to_the((2.0 * power) as i32)).change(Dimension::root)),
             _ => {
                 self.compare(base, value, &pure("the base"));
-                value.change(Found::without_dimension)
+                value.change(InferredDimension::without_dimension)
             }
         }
     }
@@ -276,7 +278,7 @@ impl Checker<'_> {
         match function {
             FunctionName::Sin | FunctionName::Cos | FunctionName::Tan => {
                 all.iter().for_each(|(argument, value)| self.compare(argument, *value, &angle));
-                first.change(Found::without_dimension)
+                first.change(InferredDimension::without_dimension)
             }
             FunctionName::RotationX | FunctionName::RotationY | FunctionName::RotationZ => {
                 all.iter().for_each(|(argument, value)| self.compare(argument, *value, &angle));
@@ -290,11 +292,11 @@ impl Checker<'_> {
             | FunctionName::Tanh => {
                 let need = Need::new(format!("the argument of `{word}` is"), ("1", Dimension::NONE));
                 all.iter().for_each(|(argument, value)| self.compare(argument, *value, &need));
-                first.change(Found::without_dimension)
+                first.change(InferredDimension::without_dimension)
             }
             FunctionName::Powf => Dimensions::UNKNOWN,
             FunctionName::Sqrt => first.change(|part| part.change(Dimension::root)),
-            FunctionName::Signum => first.change(Found::without_dimension),
+            FunctionName::Signum => first.change(InferredDimension::without_dimension),
             FunctionName::Abs | FunctionName::Inverse => first,
             FunctionName::Rate => first.change(|part| part.change(|dimension| dimension.over(Dimension::TIME))),
             FunctionName::Twist => Dimensions::UNKNOWN,
@@ -303,14 +305,14 @@ impl Checker<'_> {
             }
             FunctionName::Atan2 | FunctionName::SmoothStep => self
                 .agree(span, &all, &format!("`{word}` of"), "its arguments have one unit")
-                .change(Found::without_dimension),
+                .change(InferredDimension::without_dimension),
             FunctionName::Dot => {
                 let terms = product(first, second).parts();
                 self.sum_of_products(span, word, &terms).map_or(Dimensions::UNKNOWN, Dimensions::all)
             }
             FunctionName::Cross => {
                 let (a, b) = (first.parts(), second.parts());
-                let mut parts = [Found::Unknown; 3];
+                let mut parts = [InferredDimension::Unknown; 3];
                 for (index, part) in parts.iter_mut().enumerate() {
                     let (i, j) = ((index + 1) % 3, (index + 2) % 3);
                     let terms = [a[i].times(b[j]), a[j].times(b[i])];
@@ -323,16 +325,26 @@ impl Checker<'_> {
     }
 
     /// Dimension of one component of a scalar or vector product; `None` if its terms disagree, which is noted.
-    fn sum_of_products(&mut self, span: Span, function: &str, terms: &[Found]) -> Option<Found> {
+    fn sum_of_products(
+        &mut self,
+        span: Span,
+        function: &str,
+        terms: &[InferredDimension],
+    ) -> Option<InferredDimension> {
         let mut known = terms.iter().filter_map(|term| match term {
-            Found::Known(dimension) => Some(*dimension),
+            InferredDimension::Known(dimension) => Some(*dimension),
             _ => None,
         });
         let Some(first) = known.next() else {
-            let present = |found: &Found| terms.contains(found);
-            return Some([Found::Unknown, Found::Number].into_iter().find(present).unwrap_or(Found::Zero));
+            let present = |found: &InferredDimension| terms.contains(found);
+            return Some(
+                [InferredDimension::Unknown, InferredDimension::Number]
+                    .into_iter()
+                    .find(present)
+                    .unwrap_or(InferredDimension::Zero),
+            );
         };
-        let Some(other) = known.find(|other| *other != first) else { return Some(Found::Known(first)) };
+        let Some(other) = known.find(|other| *other != first) else { return Some(InferredDimension::Known(first)) };
         self.context.error(
             span,
             format!(
@@ -345,9 +357,12 @@ impl Checker<'_> {
 
     pub fn compare(&mut self, expression: &Expression, value: Dimensions, need: &Need) {
         let parts = value.parts();
-        let wrong = |part: &Found| matches!(part, Found::Known(dimension) if *dimension != need.dimension);
+        let wrong = |part: &InferredDimension| match part {
+            InferredDimension::Known(dimension) => *dimension != need.dimension,
+            _ => false,
+        };
         let Some(index) = parts.iter().position(wrong) else { return };
-        let Found::Known(found) = parts[index] else { return };
+        let InferredDimension::Known(found) = parts[index] else { return };
         let mut subject = subject(expression, "this");
         if parts[0] != parts[1] || parts[0] != parts[2] {
             subject = match subject.strip_suffix('`') {

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::dimensions::{Checker, Dimensions, Found};
+use super::dimensions::{Dimensions, InferredDimension, UnitChecker};
 use super::need::{ADDED_MASS, ANGULAR_VELOCITY, ENERGY, FORCE, LENGTH, MASS, Need, POWER, TORQUE, VELOCITY};
 use crate::model::language::context::Context;
 use crate::model::language::fields::ReadField;
@@ -10,8 +10,8 @@ use crate::model::language::statements::Statements;
 use crate::model::language::units::{self, Dimension, read};
 use crate::model::language::words::{self, PI, TIME, same};
 use crate::model::scene::clauses::CoordinateKind;
-use crate::model::scene::contacts::{ContactClause, Touching};
-use crate::model::scene::elements::{Argument, Takes, Unit};
+use crate::model::scene::contacts::{ContactClause, ContactGeometry};
+use crate::model::scene::elements::{ArgumentType, ElementArgument, Unit};
 use crate::model::scene::expression::{Expression, ExpressionKind, FunctionName};
 use crate::model::scene::forces::ForceClause;
 use crate::terms::Role;
@@ -28,7 +28,7 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
     if units.is_empty() {
         return;
     }
-    let mut checker = Checker { units, names: HashMap::new(), number: Found::Number, context };
+    let mut checker = UnitChecker { units, names: HashMap::new(), number: InferredDimension::Number, context };
     checker.name_as(TIME.into(), Dimensions::of(Dimension::TIME));
     checker.name_as(PI.into(), Dimensions::of(Dimension::NONE));
     for field in fields {
@@ -55,7 +55,7 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
         checker.add(&definition.name, value);
     }
     checker.places(statements);
-    let number = |of_file: bool| if of_file { Found::Unknown } else { Found::Number };
+    let number = |of_file: bool| if of_file { InferredDimension::Unknown } else { InferredDimension::Number };
     for (index, clause) in statements.forces.iter().enumerate() {
         checker.number = number(index < statements.forces_of_file);
         checker.element(clause);
@@ -64,11 +64,11 @@ pub fn check(statements: &Statements, fields: &[ReadField<'_>], context: &mut Co
         checker.number = number(index < statements.constraints_of_file);
         checker.value(&constraint.expression);
     }
-    checker.number = Found::Number;
+    checker.number = InferredDimension::Number;
     statements.contacts.iter().for_each(|clause| checker.contact(clause));
 }
 
-impl Checker<'_> {
+impl UnitChecker<'_> {
     /// Checks the units of all that moves and of all that has mass.
     pub fn places(&mut self, statements: &Statements) {
         let coordinates = || statements.coordinates.iter().flat_map(|names| &names.names);
@@ -143,21 +143,23 @@ impl Checker<'_> {
     fn contact(&mut self, clause: &ContactClause) {
         const NONE: (&str, Dimension) = ("no unit", Dimension::NONE);
         let extent = |found: Dimensions| match found.parts()[0] {
-            Found::Known(dimension) => Some(Extent { dimension, named: String::new() }),
+            InferredDimension::Known(dimension) => Some(Extent { dimension, named: String::new() }),
             _ => None,
         };
-        if let Touching::Slip { slips, .. } = &clause.touching {
+        if let ContactGeometry::Slip { slips, .. } = &clause.touching {
             return self.dry_friction(slips, &clause.friction);
         }
         let (first, others, what, unit) = match &clause.touching {
-            Touching::Slip { .. } => return,
-            Touching::Gap { gap, slips, .. } => (gap, slips.iter().collect(), "a slip with this gap is", Unit::Rate),
-            Touching::Point(contact) => {
+            ContactGeometry::Slip { .. } => return,
+            ContactGeometry::Gap { gap, slips, .. } => {
+                (gap, slips.iter().collect(), "a slip with this gap is", Unit::Rate)
+            }
+            ContactGeometry::Point(contact) => {
                 let lengths = Need::new("points, radii and heights of a contact are", LENGTH);
                 contact.lengths().into_iter().for_each(|e| self.require(e, &lengths));
                 (&contact.point, Vec::new(), "", Unit::Extent)
             }
-            Touching::Range { along, from, to } => {
+            ContactGeometry::Range { along, from, to } => {
                 (along, from.iter().chain(to).collect::<Vec<_>>(), "the limit of this range is", Unit::Extent)
             }
         };
@@ -182,12 +184,12 @@ impl Checker<'_> {
     /// Spins are angular velocities; the radius of drilling and the arm of rolling resistance are in the unit of the
     /// gap.
     fn turns(&mut self, clause: &ContactClause, of_gap: Option<(String, Dimension)>) {
-        if let Touching::Gap { spin, rolls, .. } = &clause.touching {
+        if let ContactGeometry::Gap { spin, rolls, .. } = &clause.touching {
             let rate = Need::new("a spin and a roll are", ANGULAR_VELOCITY);
             spin.iter().chain(rolls).for_each(|e| self.require(e, &rate));
         }
         let arm = match (&clause.touching, &of_gap) {
-            (Touching::Point(_), _) => Some(LENGTH),
+            (ContactGeometry::Point(_), _) => Some(LENGTH),
             (_, Some((text, dimension))) => Some((&text[..], *dimension)),
             _ => None,
         };
@@ -205,7 +207,7 @@ impl Checker<'_> {
     fn dry_friction(&mut self, slips: &[Expression], bounds: &[Expression]) {
         let found: Vec<Dimensions> = slips.iter().map(|slip| self.value(slip)).collect();
         let of = |found: &Dimensions| match found.parts()[0] {
-            Found::Known(dimension) => POWER.1.over(dimension),
+            InferredDimension::Known(dimension) => POWER.1.over(dimension),
             _ => None,
         };
         for (k, bound) in bounds.iter().enumerate() {
@@ -229,12 +231,14 @@ impl Checker<'_> {
                 Some(need) => self.require(expression, &need),
                 None => {
                     let found = self.value(expression);
-                    if let (Takes::Along, Found::Known(dimension)) = (argument.takes, found.parts()[0]) {
+                    if let (ArgumentType::Along, InferredDimension::Known(dimension)) =
+                        (argument.takes, found.parts()[0])
+                    {
                         extent = Some(Extent { dimension, named: named(dimension) });
                     }
                 }
             }
-            if argument.takes == Takes::End {
+            if argument.takes == ArgumentType::End {
                 extent = Some(Extent { dimension: LENGTH.1, named: String::new() });
             }
         }
@@ -244,32 +248,36 @@ impl Checker<'_> {
     fn need(
         &self,
         clause: &ForceClause,
-        (argument, index): (&Argument, usize),
+        (argument, index): (&ElementArgument, usize),
         extent: Option<&Extent>,
     ) -> Option<Need> {
         let noun = words::a(clause.noun());
         Some(match argument.takes {
-            Takes::Point => Need::new("the place where a force acts is", LENGTH),
-            Takes::Force => Need::new("the components of a force are", FORCE),
-            Takes::Torque => Need::new("the components of a torque are", TORQUE),
-            Takes::Dissipation => Need::new("a dissipation function is", POWER),
-            Takes::End => Need::new(format!("the ends of {noun} are"), LENGTH),
-            Takes::Center => Need::new("a center of gravity is", LENGTH),
-            Takes::Constant { called, unit: Unit::Is(unit), .. } => {
+            ArgumentType::Point => Need::new("the place where a force acts is", LENGTH),
+            ArgumentType::Force => Need::new("the components of a force are", FORCE),
+            ArgumentType::Torque => Need::new("the components of a torque are", TORQUE),
+            ArgumentType::Dissipation => Need::new("a dissipation function is", POWER),
+            ArgumentType::End => Need::new(format!("the ends of {noun} are"), LENGTH),
+            ArgumentType::Center => Need::new("a center of gravity is", LENGTH),
+            ArgumentType::Constant { called, unit: Unit::Is(unit), .. } => {
                 Need::new(format!("the {called} of {noun} is"), (unit, units::read(unit).ok()?))
             }
-            Takes::Constant { called, unit, .. } => {
+            ArgumentType::Constant { called, unit, .. } => {
                 let (text, dimension) = extent?.unit(unit)?;
                 let named = &extent?.named;
                 Need::new(format!("the {called} of {noun}{named} is"), (&text, dimension))
             }
-            Takes::Coefficients(units) | Takes::Matrix { units, .. } => {
+            ArgumentType::Coefficients(units) | ArgumentType::Matrix { units, .. } => {
                 let part = usize::from(index >= 3);
                 let (which, word) = (["first", "last"][part], argument.word);
                 let what = format!("the {which} three {word} coefficients of {noun} are");
                 Need::new(what, (units[part], read(units[part]).ok()?))
             }
-            Takes::Body | Takes::Other | Takes::Axes | Takes::Drive | Takes::Along => return None,
+            ArgumentType::Body
+            | ArgumentType::Other
+            | ArgumentType::Axes
+            | ArgumentType::Drive
+            | ArgumentType::Along => return None,
         })
     }
 

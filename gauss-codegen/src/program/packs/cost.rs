@@ -3,7 +3,7 @@
 //! Fog, Instruction tables; checked by `cargo bench -p gauss-benches --bench packs`.
 
 use super::graph::{Id, NOTHING};
-use super::kinds::{LANES, Operation, Place, Step};
+use super::kinds::{InputPlace, LANES, Operation, PackedStep};
 use super::partition::Partition;
 
 /// An addition or a product, of vectors.
@@ -25,12 +25,12 @@ const SHUFFLE_CYCLES: u32 = 3;
 
 /// Cost of having an operand in a vector.
 #[derive(Clone, Copy)]
-struct Source {
+struct OperandCost {
     cost: u32,
     cycles: u32,
 }
 
-const FREE: Source = Source { cost: 0, cycles: 0 };
+const FREE: OperandCost = OperandCost { cost: 0, cycles: 0 };
 
 impl Partition<'_> {
     /// Cost of the code; nothing where packs wait for one another in a circle.
@@ -42,11 +42,11 @@ impl Partition<'_> {
         let mut cost = 0;
         for step in steps {
             match step {
-                Step::Instruction(k) => cost += self.single(k, &mut ready, &mut taken_out),
-                Step::Angles(first, count) => {
+                PackedStep::Instruction(k) => cost += self.single(k, &mut ready, &mut taken_out),
+                PackedStep::Angles(first, count) => {
                     cost += (first..first + count).map(|k| self.single(k, &mut ready, &mut taken_out)).sum::<u32>();
                 }
-                Step::Pack(pack) => cost += self.packed(pack, &mut ready, &mut made),
+                PackedStep::Pack(pack) => cost += self.packed(pack, &mut ready, &mut made),
             }
         }
         let chain = self.graph.outputs.iter().map(|&output| self.ready(output, &ready)).max().unwrap_or(0);
@@ -119,24 +119,25 @@ impl Partition<'_> {
         cost
     }
 
-    fn source(&self, vector: &[Id]) -> Source {
-        let shuffle = Source { cost: SHUFFLE, cycles: SHUFFLE_CYCLES };
+    fn source(&self, vector: &[Id]) -> OperandCost {
+        let shuffle = OperandCost { cost: SHUFFLE, cycles: SHUFFLE_CYCLES };
         if vector.iter().all(|&id| id == vector[0]) {
-            let is_loaded = matches!(self.graph.place(vector[0]), Some(Place::Constant | Place::Argument { .. }));
-            return if is_loaded { Source { cost: SPREAD, cycles: 0 } } else { shuffle };
+            let is_loaded =
+                matches!(self.graph.place(vector[0]), Some(InputPlace::Constant | InputPlace::Argument { .. }));
+            return if is_loaded { OperandCost { cost: SPREAD, cycles: 0 } } else { shuffle };
         }
-        if vector.iter().all(|&id| self.graph.place(id) == Some(Place::Constant)) {
+        if vector.iter().all(|&id| self.graph.place(id) == Some(InputPlace::Constant)) {
             return FREE;
         }
         self.neighbours(vector).unwrap_or_else(|| self.gathered(vector))
     }
 
     /// Elements of one array that lie side by side.
-    fn neighbours(&self, vector: &[Id]) -> Option<Source> {
+    fn neighbours(&self, vector: &[Id]) -> Option<OperandCost> {
         let mut places = [(0, 0); LANES];
         for (place, &id) in places.iter_mut().zip(vector) {
             *place = match self.graph.place(id)? {
-                Place::Argument { array, index } => (array, index),
+                InputPlace::Argument { array, index } => (array, index),
                 _ => return None,
             };
         }
@@ -144,11 +145,11 @@ impl Partition<'_> {
         let indices = || places.iter().map(|place| place.1);
         let is_close = indices().max()? < indices().min()? + LANES && places.iter().all(|place| place.0 == places[0].0);
         let in_order = places.windows(2).all(|pair| pair[0].1 + 1 == pair[1].1);
-        is_close.then_some(Source { cost: if in_order { 0 } else { SHUFFLE }, cycles: FORWARDED_CYCLES })
+        is_close.then_some(OperandCost { cost: if in_order { 0 } else { SHUFFLE }, cycles: FORWARDED_CYCLES })
     }
 
     /// Lanes of other vectors, and numbers.
-    fn gathered(&self, vector: &[Id]) -> Source {
+    fn gathered(&self, vector: &[Id]) -> OperandCost {
         let (mut shuffles, mut parts) = (0, 0);
         for (lane, &id) in vector.iter().enumerate() {
             let Some((pack, at)) = self.of.get(id).copied().flatten() else {
@@ -164,6 +165,6 @@ impl Partition<'_> {
             shuffles += u32::from(at != lane || vector.iter().enumerate().any(moved));
         }
         let blends = parts - 1;
-        Source { cost: SHUFFLE * (shuffles + blends), cycles: SHUFFLE_CYCLES * (shuffles.min(1) + blends.min(2)) }
+        OperandCost { cost: SHUFFLE * (shuffles + blends), cycles: SHUFFLE_CYCLES * (shuffles.min(1) + blends.min(2)) }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::super::code::Code;
 use super::super::instruction::{Instruction, Operand};
-use super::kinds::{Operation, Place};
+use super::kinds::{InputPlace, Operation};
 
 /// Operand of an instruction: an earlier instruction by its index, or a leaf, counted on from the last instruction.
 pub(super) type Id = usize;
@@ -11,7 +11,7 @@ pub(super) type Id = usize;
 pub(super) const NOTHING: usize = usize::MAX;
 
 /// An instruction.
-pub(super) struct Node {
+pub(super) struct InstructionNode {
     /// Operation on vectors, if it can be packed.
     pub operation: Option<Operation>,
     /// The first so many of these.
@@ -25,19 +25,19 @@ pub(super) struct Node {
 }
 
 /// Instructions, what they read, and outputs.
-pub(super) struct Graph {
-    pub nodes: Vec<Node>,
-    pub leaves: Vec<Place>,
+pub(super) struct InstructionGraph {
+    pub nodes: Vec<InstructionNode>,
+    pub leaves: Vec<InputPlace>,
     /// The instruction that each is a result of, or `NOTHING`.
     pub waits: Vec<usize>,
     pub outputs: Vec<Id>,
 }
 
-impl Graph {
+impl InstructionGraph {
     /// The table, and what its leaves are.
     pub fn of<S: Copy + PartialEq>(
         code: &Code<S>,
-        place: impl Fn(S) -> Place,
+        place: impl Fn(S) -> InputPlace,
         rows: &[(usize, usize)],
     ) -> (Self, Vec<Operand<S>>) {
         let count = code.instructions.len();
@@ -53,7 +53,7 @@ impl Graph {
                     })
             }
         };
-        let mut nodes: Vec<Node> = Vec::with_capacity(count);
+        let mut nodes: Vec<InstructionNode> = Vec::with_capacity(count);
         for (k, instruction) in code.instructions.iter().enumerate() {
             let (mut operands, mut arity) = ([0; 3], 0);
             for operand in instruction.operands() {
@@ -62,13 +62,13 @@ impl Graph {
             }
             let row = rows.iter().copied().find(|&(first, length)| (first..first + length).contains(&k));
             let (operation, cycles, cost) = (Operation::of(instruction), instruction.cycles(), alone(instruction));
-            nodes.push(Node { operation, operands, arity, cycles, cost, row });
+            nodes.push(InstructionNode { operation, operands, arity, cycles, cost, row });
         }
         let outputs = code.outputs.iter().map(|&output| id(output)).collect();
         let place = |operand: &Operand<S>| match *operand {
             Operand::Input(input) => place(input),
-            Operand::Number(_) => Place::Constant,
-            _ => Place::Variable,
+            Operand::Number(_) => InputPlace::Constant,
+            _ => InputPlace::Variable,
         };
         // Leaves may be parts of a sine and cosine.
         let waits = (0..count).chain(leaves.iter().map(|leaf| leaf.instruction().unwrap_or(NOTHING))).collect();
@@ -76,7 +76,7 @@ impl Graph {
     }
 
     /// Place of a leaf.
-    pub fn place(&self, id: Id) -> Option<Place> {
+    pub fn place(&self, id: Id) -> Option<InputPlace> {
         self.leaves.get(id.checked_sub(self.nodes.len())?).copied()
     }
 }

@@ -7,7 +7,7 @@ pub(crate) const LANES: usize = 4;
 
 /// Place of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
+pub(crate) enum InputPlace {
     /// Among constants, whose order can be chosen.
     Constant,
     /// In an array that is an argument.
@@ -51,7 +51,7 @@ impl Operation {
 
 /// Steps in which packed code is carried out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Step {
+pub(crate) enum PackedStep {
     /// An instruction by itself.
     Instruction(usize),
     /// So many sines and cosines, from an instruction on.

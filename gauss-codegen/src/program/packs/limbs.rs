@@ -12,8 +12,8 @@ use crate::algebra::{Key, joined};
 use super::super::code::Code;
 use super::super::instruction::Operand;
 use super::super::order::order_of;
-use super::kinds::{Operation, Step};
-use super::{Pack, Packed};
+use super::kinds::{Operation, PackedStep};
+use super::{Pack, PackedCode};
 
 /// Relation of an input to a limb.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,7 +70,7 @@ impl<S: Copy + Key> Code<S> {
         &self,
         leaf: impl Fn(S) -> Likeness,
         rows: &[(usize, usize)],
-    ) -> Option<Packed<S>> {
+    ) -> Option<PackedCode<S>> {
         let tags = self.likeness(&leaf);
         let mut packs = self.alike(&tags);
         packs.iter_mut().for_each(|pack| self.bring_side_by_side(pack, &tags, &leaf));
@@ -79,7 +79,7 @@ impl<S: Copy + Key> Code<S> {
             return None;
         }
         let steps = self.steps_of(&packs, rows)?;
-        let packed = Packed { steps, packs };
+        let packed = PackedCode { steps, packs };
         let pays = packed.steps.len() * 10 <= self.instructions.len() * 9;
         (pays && packed.computes(self)).then_some(packed)
     }
@@ -171,20 +171,20 @@ impl<S: Copy + Key> Code<S> {
     }
 
     /// Order of the steps: packs, rows of angles and single instructions as a program of its own is ordered.
-    fn steps_of(&self, packs: &[Pack<S>], rows: &[(usize, usize)]) -> Option<Vec<Step>> {
+    fn steps_of(&self, packs: &[Pack<S>], rows: &[(usize, usize)]) -> Option<Vec<PackedStep>> {
         let count = self.instructions.len();
         let of = places(packs, count);
         let mut node_of = vec![usize::MAX; count];
-        let mut steps: Vec<(Step, Vec<usize>)> = Vec::new();
+        let mut steps: Vec<(PackedStep, Vec<usize>)> = Vec::new();
         for k in 0..count {
             if node_of[k] != usize::MAX {
                 continue;
             }
             let row = rows.iter().find(|(first, length)| (*first..first + length).contains(&k));
             let (step, own) = match (of[k], row) {
-                (Some((pack, _)), _) => (Step::Pack(pack), packs[pack].lanes.clone()),
-                (_, Some(&(first, length))) => (Step::Angles(first, length), (first..first + length).collect()),
-                _ => (Step::Instruction(k), vec![k]),
+                (Some((pack, _)), _) => (PackedStep::Pack(pack), packs[pack].lanes.clone()),
+                (_, Some(&(first, length))) => (PackedStep::Angles(first, length), (first..first + length).collect()),
+                _ => (PackedStep::Instruction(k), vec![k]),
             };
             own.iter().for_each(|&k| node_of[k] = steps.len());
             steps.push((step, own));
@@ -211,7 +211,7 @@ impl<S: Copy + Key> Code<S> {
     }
 }
 
-impl<S> Packed<S> {
+impl<S> PackedCode<S> {
     /// The pack of each of so many instructions, and its lane.
     pub(crate) fn places(&self, count: usize) -> Vec<Option<(usize, usize)>> {
         places(&self.packs, count)

@@ -24,8 +24,8 @@ use std::ops::Range;
 
 use super::code::Code;
 use super::instruction::Operand;
-use graph::Graph;
-pub(crate) use kinds::{LANES, Operation, Place, Step};
+use graph::InstructionGraph;
+pub(crate) use kinds::{InputPlace, LANES, Operation, PackedStep};
 pub(crate) use limbs::{Leaf, in_place};
 
 /// Instructions of code that is packed. A shorter one is all beginning and end; longer ones, chains of many joints,
@@ -44,19 +44,19 @@ pub(crate) struct Pack<S> {
 
 /// Code of which some is packed.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Packed<S> {
+pub(crate) struct PackedCode<S> {
     pub packs: Vec<Pack<S>>,
-    pub steps: Vec<Step>,
+    pub steps: Vec<PackedStep>,
 }
 
 impl<S: Copy + PartialEq> Code<S> {
     /// Packs the code, where packs win. `place` gives the place of an input; `rows` of sines and cosines, each its
     /// first instruction and how many there are, stay together.
-    pub(crate) fn packed(&self, place: impl Fn(S) -> Place, rows: &[(usize, usize)]) -> Option<Packed<S>> {
+    pub(crate) fn packed(&self, place: impl Fn(S) -> InputPlace, rows: &[(usize, usize)]) -> Option<PackedCode<S>> {
         if !LENGTHS.contains(&self.instructions.len()) {
             return None;
         }
-        let (graph, leaves) = Graph::of(self, place, rows);
+        let (graph, leaves) = InstructionGraph::of(self, place, rows);
         let best = search::best(&graph)?;
         let count = self.instructions.len();
         let operand = |&id: &usize| if id < count { Operand::Value(id) } else { leaves[id - count] };
@@ -71,16 +71,16 @@ impl<S: Copy + PartialEq> Code<S> {
             }));
         }
         let steps = best.steps()?.into_iter().map(|step| match step {
-            Step::Pack(pack) => Step::Pack(places[pack]),
+            PackedStep::Pack(pack) => PackedStep::Pack(places[pack]),
             other => other,
         });
-        let packed = Packed { packs, steps: steps.collect() };
+        let packed = PackedCode { packs, steps: steps.collect() };
         debug_assert!(packed.computes(self), "packs that compute something else");
         Some(packed)
     }
 }
 
-impl<S: Copy + PartialEq> Packed<S> {
+impl<S: Copy + PartialEq> PackedCode<S> {
     /// Whether every instruction of the code is carried out once, on its own operands, after what it waits for.
     fn computes(&self, code: &Code<S>) -> bool {
         let mut done = vec![false; code.instructions.len()];
@@ -89,9 +89,9 @@ impl<S: Copy + PartialEq> Packed<S> {
         };
         for step in &self.steps {
             let lanes = match *step {
-                Step::Instruction(k) => vec![k],
-                Step::Angles(first, count) => (first..first + count).collect(),
-                Step::Pack(pack) => self.packs[pack].lanes.clone(),
+                PackedStep::Instruction(k) => vec![k],
+                PackedStep::Angles(first, count) => (first..first + count).collect(),
+                PackedStep::Pack(pack) => self.packs[pack].lanes.clone(),
             };
             if !lanes.iter().all(|&k| is_ready(k, &done)) {
                 return false;

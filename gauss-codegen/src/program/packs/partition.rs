@@ -1,7 +1,7 @@
 //! Code of which some is packed: how a pack is added, in which order all is then done.
 
-use super::graph::{Graph, Id, NOTHING};
-use super::kinds::{LANES, Operation, Place, Step};
+use super::graph::{Id, InstructionGraph, NOTHING};
+use super::kinds::{InputPlace, LANES, Operation, PackedStep};
 
 /// A pack, in numbers.
 #[derive(Clone, Copy)]
@@ -26,7 +26,7 @@ impl Lanes {
 /// Code and its packs.
 #[derive(Clone)]
 pub(super) struct Partition<'c> {
-    pub graph: &'c Graph,
+    pub graph: &'c InstructionGraph,
     /// Packs; those that were taken into longer ones are gone.
     pub packs: Vec<Option<Lanes>>,
     /// The pack of an instruction, and its lane.
@@ -37,7 +37,7 @@ pub(super) struct Partition<'c> {
 
 impl<'c> Partition<'c> {
     /// Without packs.
-    pub fn new(graph: &'c Graph) -> Self {
+    pub fn new(graph: &'c InstructionGraph) -> Self {
         let mut partition = Self { graph, packs: Vec::new(), of: vec![None; graph.nodes.len()], cost: 0 };
         partition.cost = partition.counted().unwrap_or(u32::MAX);
         partition
@@ -111,9 +111,9 @@ impl<'c> Partition<'c> {
 
     fn kind(&self, id: Id) -> u32 {
         match self.graph.place(id) {
-            Some(Place::Constant) => 0,
-            Some(Place::Argument { .. }) => 1,
-            Some(Place::Variable) => 3,
+            Some(InputPlace::Constant) => 0,
+            Some(InputPlace::Argument { .. }) => 1,
+            Some(InputPlace::Variable) => 3,
             None => 2,
         }
     }
@@ -123,7 +123,7 @@ impl<'c> Partition<'c> {
             return 0;
         }
         let alike = match (self.graph.place(a), self.graph.place(b)) {
-            (Some(Place::Argument { array, .. }), Some(Place::Argument { array: other, .. })) => {
+            (Some(InputPlace::Argument { array, .. }), Some(InputPlace::Argument { array: other, .. })) => {
                 u32::from(array == other)
             }
             (None, None) => {
@@ -136,9 +136,9 @@ impl<'c> Partition<'c> {
     }
 
     /// Order of the steps; nothing where packs wait for one another in a circle.
-    pub fn steps(&self) -> Option<Vec<Step>> {
+    pub fn steps(&self) -> Option<Vec<PackedStep>> {
         let count = self.graph.nodes.len();
-        let mut visit = Visit { steps: Vec::with_capacity(count), state: vec![State::New; count] };
+        let mut visit = Visit { steps: Vec::with_capacity(count), state: vec![VisitState::New; count] };
         (0..count).try_for_each(|k| self.visit(k, &mut visit))?;
         Some(visit.steps)
     }
@@ -147,9 +147,9 @@ impl<'c> Partition<'c> {
     /// is done.
     fn visit(&self, k: usize, visit: &mut Visit) -> Option<()> {
         match visit.state[k] {
-            State::Done => return Some(()),
-            State::Begun => return None,
-            State::New => {}
+            VisitState::Done => return Some(()),
+            VisitState::Begun => return None,
+            VisitState::New => {}
         }
         let (mut own, mut count) = ([k; 8], 1);
         let step = match (self.of[k], self.graph.nodes[k].row) {
@@ -157,23 +157,23 @@ impl<'c> Partition<'c> {
                 let pack = self.packs[index].as_ref()?;
                 count = pack.count;
                 own[..count].copy_from_slice(pack.lanes());
-                Step::Pack(index)
+                PackedStep::Pack(index)
             }
             (_, Some((first, length))) => {
                 count = length.min(own.len());
                 (0..count).for_each(|k| own[k] = first + k);
-                Step::Angles(first, count)
+                PackedStep::Angles(first, count)
             }
-            _ => Step::Instruction(k),
+            _ => PackedStep::Instruction(k),
         };
         for &k in &own[..count] {
-            visit.state[k] = State::Begun;
+            visit.state[k] = VisitState::Begun;
         }
         for &k in &own[..count] {
             self.visit_operands(k, visit)?;
         }
         for &k in &own[..count] {
-            visit.state[k] = State::Done;
+            visit.state[k] = VisitState::Done;
         }
         visit.steps.push(step);
         Some(())
@@ -184,7 +184,7 @@ impl<'c> Partition<'c> {
         let mut operand = 0;
         while operand < node.arity {
             let before = self.graph.waits[node.operands[operand]];
-            if before != NOTHING && visit.state[before] != State::Done {
+            if before != NOTHING && visit.state[before] != VisitState::Done {
                 self.visit(before, visit)?;
             }
             operand += 1;
@@ -194,13 +194,13 @@ impl<'c> Partition<'c> {
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum State {
+enum VisitState {
     New,
     Begun,
     Done,
 }
 
 struct Visit {
-    steps: Vec<Step>,
-    state: Vec<State>,
+    steps: Vec<PackedStep>,
+    state: Vec<VisitState>,
 }

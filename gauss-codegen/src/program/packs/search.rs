@@ -2,12 +2,12 @@
 
 use std::collections::HashSet;
 
-use super::graph::{Graph, Id};
+use super::graph::{Id, InstructionGraph};
 use super::kinds::LANES;
 use super::partition::Partition;
 
 /// The best that was found; nothing unless a tenth is gained, more than the cost is known to.
-pub(super) fn best(graph: &Graph) -> Option<Partition<'_>> {
+pub(super) fn best(graph: &InstructionGraph) -> Option<Partition<'_>> {
     let single = Partition::new(graph);
     let mut best = [3, 4].map(|width| begun(&single, width)).into_iter().min_by_key(|partition| partition.cost)?;
     let mut tried = HashSet::new();
@@ -19,7 +19,7 @@ pub(super) fn best(graph: &Graph) -> Option<Partition<'_>> {
 
 /// Packs that are tried after one that was taken. What is alike grows with the code; with two and a half times its
 /// length in place of three a vehicle of 236 instructions loses a tenth, with twice its length one of 176 as well.
-fn patience(graph: &Graph) -> usize {
+fn patience(graph: &InstructionGraph) -> usize {
     graph.nodes.len() * 3
 }
 

@@ -7,10 +7,10 @@ fn input(argument: usize, component: usize) -> Operand {
 }
 
 /// Constants are argument 0.
-fn place(input: Input) -> Place {
+fn place(input: Input) -> InputPlace {
     match input {
-        Input::Component { argument: 0, .. } | Input::Number(_) => Place::Constant,
-        Input::Component { argument, component } => Place::Argument { array: argument, index: component },
+        Input::Component { argument: 0, .. } | Input::Number(_) => InputPlace::Constant,
+        Input::Component { argument, component } => InputPlace::Argument { array: argument, index: component },
     }
 }
 
@@ -35,7 +35,7 @@ fn product(rows: usize, columns: usize) -> Code {
 #[test]
 fn a_matrix_times_a_vector_is_done_column_by_column() {
     let packed = product(6, 6).packed(place, &[]).expect("packs");
-    assert!(packed.steps.iter().all(|step| matches!(step, Step::Pack(_))), "{:?}", packed.steps);
+    assert!(packed.steps.iter().all(|step| matches!(step, PackedStep::Pack(_))), "{:?}", packed.steps);
     assert_eq!(packed.packs.len(), 12);
     for pack in &packed.packs {
         let is_constant = |operand: &Operand| matches!(operand, Operand::Input(Input::Component { argument: 0, .. }));
@@ -76,7 +76,7 @@ fn angles_stay_together() {
     code.instructions = angles.into_iter().chain(instructions).collect();
     code.outputs = code.outputs.into_iter().map(moved).collect();
     let packed = code.packed(place, &[(0, 2)]).expect("packs");
-    assert_eq!(packed.steps[0], Step::Angles(0, 2));
+    assert_eq!(packed.steps[0], PackedStep::Angles(0, 2));
 }
 
 /// Sums Σ kᵢ sin qᵢ of two limbs with constants of their own, and what both give to a base.

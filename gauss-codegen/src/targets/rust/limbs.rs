@@ -7,15 +7,15 @@ use quote::{ToTokens, format_ident, quote};
 
 use super::packed::function;
 use super::{
-    BLOCK, Dialect, Kept, Line, Statement, angles_together, cosine, in_blocks, operand, pairs_read, row_of_angles,
-    sine, statement, value,
+    BLOCK, Binding, Dialect, Line, NamedResults, angles_together, cosine, in_blocks, operand, pairs_read,
+    row_of_angles, sine, statement, value,
 };
 use crate::algebra::{Key, joined};
-use crate::program::{Code, Instruction, Operand, Pack, Packed, Step, in_place};
+use crate::program::{Code, Instruction, Operand, Pack, PackedCode, PackedStep, in_place};
 
 /// Meaning of a name.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum Name {
+enum NameMeaning {
     Value(usize),
     Sine(usize),
     Cosine(usize),
@@ -23,32 +23,32 @@ enum Name {
     Gathered(usize),
 }
 
-impl Name {
+impl NameMeaning {
     fn ident(self) -> Ident {
         let own = |letter: &str, k: usize| format_ident!("__{}{}", letter, k, span = Span::mixed_site());
         match self {
-            Name::Value(k) => value(k),
-            Name::Sine(k) => sine(k),
-            Name::Cosine(k) => cosine(k),
-            Name::Vector(k) => own("p", k),
-            Name::Gathered(k) => own("g", k),
+            NameMeaning::Value(k) => value(k),
+            NameMeaning::Sine(k) => sine(k),
+            NameMeaning::Cosine(k) => cosine(k),
+            NameMeaning::Vector(k) => own("p", k),
+            NameMeaning::Gathered(k) => own("g", k),
         }
     }
 
     fn of<S: Copy>(operand: Operand<S>) -> Option<Self> {
         match operand {
-            Operand::Value(k) => Some(Name::Value(k)),
-            Operand::Sine(k) => Some(Name::Sine(k)),
-            Operand::Cosine(k) => Some(Name::Cosine(k)),
+            Operand::Value(k) => Some(NameMeaning::Value(k)),
+            Operand::Sine(k) => Some(NameMeaning::Sine(k)),
+            Operand::Cosine(k) => Some(NameMeaning::Cosine(k)),
             Operand::Input(_) | Operand::Number(_) => None,
         }
     }
 }
 
 /// Lines, and where names are bound and read.
-struct Writer<'a, S, D> {
+struct LaneWriter<'a, S, D> {
     code: &'a Code<S>,
-    packed: &'a Packed<S>,
+    packed: &'a PackedCode<S>,
     dialect: &'a D,
     /// Paths of functions of vectors, by the number of lanes.
     functions: &'a dyn Fn(usize) -> TokenStream,
@@ -56,21 +56,21 @@ struct Writer<'a, S, D> {
     apart: Vec<bool>,
     /// Vectors that have a name, by their words.
     gathered: HashMap<u64, (Vec<Operand<S>>, usize)>,
-    statements: Vec<Statement>,
-    bound: HashMap<Name, usize>,
+    statements: Vec<Binding>,
+    bound: HashMap<NameMeaning, usize>,
     /// The last line that reads a name.
-    read: HashMap<Name, usize>,
+    read: HashMap<NameMeaning, usize>,
 }
 
 /// The statements of packed code, and its outputs as expressions.
 pub(crate) fn statements<S: Copy + Key, D: Dialect<S>>(
     code: &Code<S>,
-    packed: &Packed<S>,
+    packed: &PackedCode<S>,
     dialect: &D,
     functions: &dyn Fn(usize) -> TokenStream,
 ) -> (TokenStream, Vec<TokenStream>) {
     let of = packed.places(code.instructions.len());
-    let mut writer = Writer {
+    let mut writer = LaneWriter {
         apart: taken_apart(code, packed, &of),
         code,
         packed,
@@ -82,46 +82,46 @@ pub(crate) fn statements<S: Copy + Key, D: Dialect<S>>(
         bound: HashMap::new(),
         read: HashMap::new(),
     };
-    let read = pairs_read(code, Kept::AsRead);
+    let read = pairs_read(code, NamedResults::AsRead);
     packed.steps.iter().for_each(|step| writer.step(step, &read));
-    code.outputs.iter().filter_map(|&output| Name::of(output)).for_each(|name| {
+    code.outputs.iter().filter_map(|&output| NameMeaning::of(output)).for_each(|name| {
         writer.read.insert(name, usize::MAX);
     });
     let outputs = code.outputs.iter().map(|output| operand(output, dialect)).collect();
     (in_blocks(writer.lines()), outputs)
 }
 
-impl<S: Copy + Key, D: Dialect<S>> Writer<'_, S, D> {
-    fn line(&mut self, bound: impl IntoIterator<Item = Name>, statement: Statement) {
+impl<S: Copy + Key, D: Dialect<S>> LaneWriter<'_, S, D> {
+    fn line(&mut self, bound: impl IntoIterator<Item = NameMeaning>, statement: Binding) {
         bound.into_iter().for_each(|name| {
             self.bound.insert(name, self.statements.len());
         });
         self.statements.push(statement);
     }
 
-    fn reads(&mut self, name: Name) {
+    fn reads(&mut self, name: NameMeaning) {
         self.read.insert(name, self.statements.len());
     }
 
-    fn step(&mut self, step: &Step, read: &[[bool; 2]]) {
+    fn step(&mut self, step: &PackedStep, read: &[[bool; 2]]) {
         match *step {
-            Step::Instruction(k) => {
+            PackedStep::Instruction(k) => {
                 let instruction = &self.code.instructions[k];
-                instruction.operands().filter_map(Name::of).for_each(|name| self.reads(name));
+                instruction.operands().filter_map(NameMeaning::of).for_each(|name| self.reads(name));
                 let names = match instruction {
-                    Instruction::SineCosine(_) => vec![Name::Sine(k), Name::Cosine(k)],
-                    _ => vec![Name::Value(k)],
+                    Instruction::SineCosine(_) => vec![NameMeaning::Sine(k), NameMeaning::Cosine(k)],
+                    _ => vec![NameMeaning::Value(k)],
                 };
                 self.line(names, statement(k, instruction, read[k], self.dialect));
             }
-            Step::Angles(first, count) => {
+            PackedStep::Angles(first, count) => {
                 let angles = row_of_angles(self.code, first);
-                angles.iter().filter_map(|&angle| Name::of(angle)).for_each(|name| self.reads(name));
+                angles.iter().filter_map(|&angle| NameMeaning::of(angle)).for_each(|name| self.reads(name));
                 let function = self.dialect.sines_and_cosines().unwrap_or_default();
                 let row = angles_together(first, &angles, &read[first..], &function, self.dialect);
-                self.line((first..first + count).flat_map(|k| [Name::Sine(k), Name::Cosine(k)]), row);
+                self.line((first..first + count).flat_map(|k| [NameMeaning::Sine(k), NameMeaning::Cosine(k)]), row);
             }
-            Step::Pack(p) => self.pack(p),
+            PackedStep::Pack(p) => self.pack(p),
         }
     }
 
@@ -129,14 +129,14 @@ impl<S: Copy + Key, D: Dialect<S>> Writer<'_, S, D> {
         let Pack { operation, lanes, operands } = &self.packed.packs[p];
         let operands: Vec<TokenStream> = operands.iter().map(|vector| self.vector(vector)).collect();
         let functions = (self.functions)(lanes.len());
-        let (name, function) = (Name::Vector(p).ident(), function(*operation));
-        self.line([Name::Vector(p)], Statement::new(&name, quote!(#functions::#function(#(#operands),*))));
+        let (name, function) = (NameMeaning::Vector(p).ident(), function(*operation));
+        self.line([NameMeaning::Vector(p)], Binding::new(&name, quote!(#functions::#function(#(#operands),*))));
         if self.apart[p] {
-            self.reads(Name::Vector(p));
+            self.reads(NameMeaning::Vector(p));
             let unused = (lanes.len()..lanes.len().next_power_of_two()).map(|_| quote!(_));
             let values = lanes.iter().map(|&k| value(k).into_token_stream()).chain(unused);
-            let names: Vec<Name> = lanes.iter().map(|&k| Name::Value(k)).collect();
-            self.line(names, Statement::new(quote!([#(#values),*]), quote!(#functions::lanes(#name))));
+            let names: Vec<NameMeaning> = lanes.iter().map(|&k| NameMeaning::Value(k)).collect();
+            self.line(names, Binding::new(quote!([#(#values),*]), quote!(#functions::lanes(#name))));
         }
     }
 
@@ -145,8 +145,8 @@ impl<S: Copy + Key, D: Dialect<S>> Writer<'_, S, D> {
     fn vector(&mut self, operands: &[Operand<S>]) -> TokenStream {
         let functions = (self.functions)(operands.len());
         if let Some(p) = in_place(operands, &self.of) {
-            self.reads(Name::Vector(p));
-            let name = Name::Vector(p).ident();
+            self.reads(NameMeaning::Vector(p));
+            let name = NameMeaning::Vector(p).ident();
             return quote!(#name);
         }
         let mut numbers: Vec<TokenStream> = operands.iter().map(|o| operand(o, self.dialect)).collect();
@@ -156,19 +156,19 @@ impl<S: Copy + Key, D: Dialect<S>> Writer<'_, S, D> {
         let first = &numbers[0];
         let written =
             if same { quote!(#functions::spread(#first)) } else { quote!(#functions::vector([#(#numbers),*])) };
-        if operands.iter().all(|operand| Name::of(*operand).is_none()) {
+        if operands.iter().all(|operand| NameMeaning::of(*operand).is_none()) {
             return written;
         }
         let word = operands.iter().fold(operands.len() as u64, |word, operand| joined(word, operand.word()));
         let known = self.gathered.get(&word).filter(|(known, _)| known == operands).map(|(_, number)| *number);
         let number = known.unwrap_or(self.statements.len());
         if known.is_none() {
-            operands.iter().filter_map(|&operand| Name::of(operand)).for_each(|name| self.reads(name));
-            self.line([Name::Gathered(number)], Statement::new(Name::Gathered(number).ident(), written));
+            operands.iter().filter_map(|&operand| NameMeaning::of(operand)).for_each(|name| self.reads(name));
+            self.line([NameMeaning::Gathered(number)], Binding::new(NameMeaning::Gathered(number).ident(), written));
             self.gathered.insert(word, (operands.to_vec(), number));
         }
-        self.reads(Name::Gathered(number));
-        let name = Name::Gathered(number).ident();
+        self.reads(NameMeaning::Gathered(number));
+        let name = NameMeaning::Gathered(number).ident();
         quote!(#name)
     }
 
@@ -185,7 +185,11 @@ impl<S: Copy + Key, D: Dialect<S>> Writer<'_, S, D> {
 }
 
 /// Whether lanes of each pack are read one by one.
-fn taken_apart<S: Copy + PartialEq>(code: &Code<S>, packed: &Packed<S>, of: &[Option<(usize, usize)>]) -> Vec<bool> {
+fn taken_apart<S: Copy + PartialEq>(
+    code: &Code<S>,
+    packed: &PackedCode<S>,
+    of: &[Option<(usize, usize)>],
+) -> Vec<bool> {
     let mut apart = vec![false; packed.packs.len()];
     let mut note = |operand: Operand<S>| {
         if let Operand::Value(k) = operand

@@ -82,7 +82,7 @@ const PART: usize = 8 * BLOCK;
 
 /// Parts of the results of a program that have a name afterwards.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kept {
+pub(crate) enum NamedResults {
     /// Results that the program itself reads, and its outputs.
     AsRead,
     /// All of it.
@@ -93,12 +93,12 @@ pub(crate) enum Kept {
 pub(crate) fn statements<S: Copy>(
     code: &Code<S>,
     dialect: &impl Dialect<S>,
-    kept: Kept,
+    kept: NamedResults,
 ) -> (TokenStream, Vec<TokenStream>) {
     // Names of everything are known to the caller by their places.
     match kept {
-        Kept::AsRead => in_this_order(&in_order(code, dialect), dialect, kept),
-        Kept::Everything => in_this_order(code, dialect, kept),
+        NamedResults::AsRead => in_this_order(&in_order(code, dialect), dialect, kept),
+        NamedResults::Everything => in_this_order(code, dialect, kept),
     }
 }
 
@@ -116,14 +116,14 @@ fn in_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>) -> Code<S> {
 }
 
 /// Names that are bound, and to what.
-pub(crate) struct Statement {
+pub(crate) struct Binding {
     pattern: TokenStream,
     value: TokenStream,
 }
 
-impl Statement {
-    pub(crate) fn new(pattern: impl ToTokens, value: TokenStream) -> Statement {
-        Statement { pattern: pattern.into_token_stream(), value }
+impl Binding {
+    pub(crate) fn new(pattern: impl ToTokens, value: TokenStream) -> Binding {
+        Binding { pattern: pattern.into_token_stream(), value }
     }
 
     fn bound(self) -> TokenStream {
@@ -160,9 +160,13 @@ fn collect_names(pattern: TokenStream, names: &mut Vec<Ident>) {
 }
 
 /// A line of a program: names that are read behind its block, and a statement unless another line's binds its names.
-pub(crate) type Line = (Vec<Ident>, Option<Statement>);
+pub(crate) type Line = (Vec<Ident>, Option<Binding>);
 
-fn in_this_order<S: Copy>(code: &Code<S>, dialect: &impl Dialect<S>, kept: Kept) -> (TokenStream, Vec<TokenStream>) {
+fn in_this_order<S: Copy>(
+    code: &Code<S>,
+    dialect: &impl Dialect<S>,
+    kept: NamedResults,
+) -> (TokenStream, Vec<TokenStream>) {
     let read = pairs_read(code, kept);
     let together = dialect.sines_and_cosines();
     let mut written = Vec::with_capacity(code.instructions.len());
@@ -212,7 +216,7 @@ fn angles_together<S: Copy>(
     read: &[[bool; 2]],
     function: &TokenStream,
     dialect: &impl Dialect<S>,
-) -> Statement {
+) -> Binding {
     let named = |(k, read): (usize, bool), name: fn(usize) -> Ident| {
         let name = name(first + k);
         if read { quote!(#name) } else { quote!(_) }
@@ -220,7 +224,7 @@ fn angles_together<S: Copy>(
     let part = |part: usize| read[..angles.len()].iter().map(move |read| read[part]).enumerate();
     let (sines, cosines) = (part(0).map(|k| named(k, sine)), part(1).map(|k| named(k, cosine)));
     let angles = angles.iter().map(|angle| operand(angle, dialect));
-    Statement::new(quote!(([#(#sines),*], [#(#cosines),*])), quote!(#function([#(#angles),*])))
+    Binding::new(quote!(([#(#sines),*], [#(#cosines),*])), quote!(#function([#(#angles),*])))
 }
 
 /// One instruction; of a sine and a cosine what is read.
@@ -229,7 +233,7 @@ fn statement<S: Copy>(
     instruction: &Instruction<S>,
     [sine_read, cosine_read]: [bool; 2],
     dialect: &impl Dialect<S>,
-) -> Statement {
+) -> Binding {
     let write = |o: &Operand<S>| operand(o, dialect);
     let binary = |a: &Operand<S>, operator: TokenStream, b: &Operand<S>| {
         let (a, b) = (write(a), write(b));
@@ -274,15 +278,15 @@ fn statement<S: Copy>(
             let (real, a, s, c) = (dialect.functions(), write(a), sine(k), cosine(k));
             let s = if sine_read { quote!(#s) } else { quote!(_) };
             let c = if cosine_read { quote!(#c) } else { quote!(_) };
-            return Statement::new(quote!((#s, #c)), quote!(#real::sin_cos(#a)));
+            return Binding::new(quote!((#s, #c)), quote!(#real::sin_cos(#a)));
         }
     };
-    Statement::new(value(k), result)
+    Binding::new(value(k), result)
 }
 
 /// Whether the sine and the cosine of each instruction are read.
-fn pairs_read<S: Copy>(code: &Code<S>, kept: Kept) -> Vec<[bool; 2]> {
-    let mut read = vec![[kept == Kept::Everything; 2]; code.instructions.len()];
+fn pairs_read<S: Copy>(code: &Code<S>, kept: NamedResults) -> Vec<[bool; 2]> {
+    let mut read = vec![[kept == NamedResults::Everything; 2]; code.instructions.len()];
     for operand in code.operands() {
         match operand {
             Operand::Sine(k) => read[k][0] = true,
@@ -294,7 +298,7 @@ fn pairs_read<S: Copy>(code: &Code<S>, kept: Kept) -> Vec<[bool; 2]> {
 }
 
 /// The names that each instruction hands on to instructions of later blocks, or to whoever reads on.
-fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<Ident>> {
+fn handed_on<S: Copy>(code: &Code<S>, kept: NamedResults, size: usize) -> Vec<Vec<Ident>> {
     // Of each instruction: value, sine and cosine.
     let mut read = vec![[false; 3]; code.instructions.len()];
     let mut note = |operand: Operand<S>, reader: usize| {
@@ -312,7 +316,7 @@ fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<Ident>
         for operand in instruction.operands() {
             note(operand, k / size);
         }
-        if kept == Kept::Everything {
+        if kept == NamedResults::Everything {
             match instruction {
                 Instruction::SineCosine(_) => [Operand::Sine(k), Operand::Cosine(k)].map(|o| note(o, usize::MAX)),
                 _ => [note(Operand::Value(k), usize::MAX); 2],
@@ -338,8 +342,8 @@ fn handed_on<S: Copy>(code: &Code<S>, kept: Kept, size: usize) -> Vec<Vec<Ident>
 /// again.
 fn in_functions<S: Copy>(
     code: &Code<S>,
-    kept: Kept,
-    written: Vec<Option<Statement>>,
+    kept: NamedResults,
+    written: Vec<Option<Binding>>,
     dialect: &impl Dialect<S>,
 ) -> TokenStream {
     let mut statements: Vec<_> = handed_on(code, kept, BLOCK).into_iter().zip(written).collect();
@@ -359,7 +363,7 @@ fn in_functions<S: Copy>(
 /// Statements one after the other, or block by block where there are many.
 pub(crate) fn in_blocks(lines: Vec<Line>) -> TokenStream {
     if lines.len() <= BLOCK {
-        return lines.into_iter().filter_map(|(_, statement)| statement).map(Statement::bound).collect();
+        return lines.into_iter().filter_map(|(_, statement)| statement).map(Binding::bound).collect();
     }
     let (mut blocks, mut left, mut lines) = (TokenStream::new(), lines.len(), lines.into_iter());
     while left > 0 {
@@ -372,7 +376,7 @@ pub(crate) fn in_blocks(lines: Vec<Line>) -> TokenStream {
 /// Lines of which the first has a statement: rows of angles are within one block.
 fn block(lines: impl Iterator<Item = Line>) -> TokenStream {
     let (mut declared, mut statements) = (Vec::new(), TokenStream::new());
-    let mut take = |(statement, is_read): (Statement, bool)| {
+    let mut take = |(statement, is_read): (Binding, bool)| {
         if is_read {
             declared.extend(statement.names());
             statements.extend(statement.assigned());
@@ -381,7 +385,7 @@ fn block(lines: impl Iterator<Item = Line>) -> TokenStream {
         }
     };
     // What binds names of several lines is read where one of these is.
-    let mut open: Option<(Statement, bool)> = None;
+    let mut open: Option<(Binding, bool)> = None;
     for (names, statement) in lines {
         match (statement, &mut open) {
             (Some(statement), _) => open.replace((statement, !names.is_empty())).into_iter().for_each(&mut take),

@@ -4,9 +4,10 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::{
-    Dialect, Kept, angles_together, in_order, operand, pairs_read, row_of_angles, rows_of_angles, statement, value,
+    Dialect, NamedResults, angles_together, in_order, operand, pairs_read, row_of_angles, rows_of_angles, statement,
+    value,
 };
-use crate::program::{Code, Instruction, LANES, Operand, Operation, Pack, Packed, Place, Step};
+use crate::program::{Code, InputPlace, Instruction, LANES, Operand, Operation, Pack, PackedCode, PackedStep};
 
 /// Tokens of vectors.
 pub(crate) trait Vectors<S> {
@@ -32,8 +33,8 @@ fn lane(packed: &[usize], pack: usize, lane: usize) -> Ident {
 pub(crate) fn packed<S: Copy + PartialEq>(
     code: &Code<S>,
     dialect: &impl Dialect<S>,
-    place: impl Fn(S) -> Place,
-) -> Option<(Code<S>, Packed<S>)> {
+    place: impl Fn(S) -> InputPlace,
+) -> Option<(Code<S>, PackedCode<S>)> {
     let code = in_order(code, dialect);
     let packed = code.packed(place, &rows_of_angles(&code))?;
     Some((code, packed))
@@ -42,20 +43,20 @@ pub(crate) fn packed<S: Copy + PartialEq>(
 /// The statements of packed code, and its outputs as expressions.
 pub(crate) fn statements<S: Copy + PartialEq>(
     code: &Code<S>,
-    packed: &Packed<S>,
+    packed: &PackedCode<S>,
     dialect: &impl Dialect<S>,
     vectors: &impl Vectors<S>,
 ) -> (TokenStream, Vec<TokenStream>) {
-    let (read, apart) = (pairs_read(code, Kept::AsRead), taken_apart(code, packed));
-    let step = |step: &Step| match *step {
-        Step::Instruction(k) => statement(k, &code.instructions[k], read[k], dialect).bound(),
-        Step::Angles(first, count) => {
+    let (read, apart) = (pairs_read(code, NamedResults::AsRead), taken_apart(code, packed));
+    let step = |step: &PackedStep| match *step {
+        PackedStep::Instruction(k) => statement(k, &code.instructions[k], read[k], dialect).bound(),
+        PackedStep::Angles(first, count) => {
             let (angles, read) = (row_of_angles(code, first), &read[first..]);
             debug_assert_eq!(angles.len(), count, "a row of angles");
             let function = dialect.sines_and_cosines().unwrap_or_default();
             angles_together(first, &angles, read, &function, dialect).bound()
         }
-        Step::Pack(p) => {
+        PackedStep::Pack(p) => {
             let Pack { operation, lanes, operands } = &packed.packs[p];
             let operands = operands.iter().map(|operands| gathered(operands, packed, dialect, vectors));
             let (name, operation, functions) = (vector(p), function(*operation), vectors.functions());
@@ -81,7 +82,7 @@ pub(super) fn function(operation: Operation) -> Ident {
 }
 
 /// The pack that all of these are lanes of, and whether they are in place.
-fn in_one_pack<S: Copy + PartialEq>(operands: &[Operand<S>], packed: &Packed<S>) -> Option<(usize, bool)> {
+fn in_one_pack<S: Copy + PartialEq>(operands: &[Operand<S>], packed: &PackedCode<S>) -> Option<(usize, bool)> {
     let place = |operand: &Operand<S>| match *operand {
         Operand::Value(k) => packed.packs.iter().enumerate().find_map(|(p, pack)| {
             let lane = pack.lanes.iter().position(|&lane| lane == k)?;
@@ -95,7 +96,7 @@ fn in_one_pack<S: Copy + PartialEq>(operands: &[Operand<S>], packed: &Packed<S>)
 }
 
 /// Whether lanes of each pack are read one by one.
-fn taken_apart<S: Copy + PartialEq>(code: &Code<S>, packed: &Packed<S>) -> Vec<bool> {
+fn taken_apart<S: Copy + PartialEq>(code: &Code<S>, packed: &PackedCode<S>) -> Vec<bool> {
     let mut read = vec![false; code.instructions.len()];
     let mut note = |operand: Operand<S>| {
         if let Operand::Value(k) = operand {
@@ -104,11 +105,11 @@ fn taken_apart<S: Copy + PartialEq>(code: &Code<S>, packed: &Packed<S>) -> Vec<b
     };
     for step in &packed.steps {
         match *step {
-            Step::Instruction(k) => code.instructions[k].operands().for_each(&mut note),
-            Step::Angles(first, count) => {
+            PackedStep::Instruction(k) => code.instructions[k].operands().for_each(&mut note),
+            PackedStep::Angles(first, count) => {
                 code.instructions[first..first + count].iter().flat_map(Instruction::operands).for_each(&mut note);
             }
-            Step::Pack(p) => {
+            PackedStep::Pack(p) => {
                 let vectors = packed.packs[p].operands.iter();
                 let in_place = |vector: &&Vec<Operand<S>>| matches!(in_one_pack(vector, packed), Some((_, true)));
                 vectors.filter(|vector| !in_place(vector)).flatten().copied().for_each(&mut note);
@@ -122,7 +123,7 @@ fn taken_apart<S: Copy + PartialEq>(code: &Code<S>, packed: &Packed<S>) -> Vec<b
 /// An operand of a pack: a vector that is there, a row of constants, or what lanes are gathered from.
 fn gathered<S: Copy + PartialEq>(
     operands: &[Operand<S>],
-    packed: &Packed<S>,
+    packed: &PackedCode<S>,
     dialect: &impl Dialect<S>,
     vectors: &impl Vectors<S>,
 ) -> TokenStream {

@@ -10,7 +10,7 @@ use crate::algebra::{OwnFunction, Rational};
 use crate::program::{Argument, ArgumentKind, Functions, Input, Instruction, Program, Results};
 
 use super::super::{header, is_handed_over, only_scalar, snake};
-use super::{Dialect, Kept, statements};
+use super::{Dialect, NamedResults, statements};
 
 /// A file with all programs of a struct: the constants, then every method. Arguments are arrays, but for the time;
 /// those without components are left out. Results are numbers, arrays, or arrays of rows; several are a tuple.
@@ -79,7 +79,7 @@ fn function(program: &Program) -> TokenStream {
         let count = count(argument.components.len());
         if argument.kind == ArgumentKind::Time { quote!(#name: f64) } else { quote!(#name: &[f64; #count]) }
     });
-    let (instructions, outputs) = statements(&program.code, &Plain { program }, Kept::AsRead);
+    let (instructions, outputs) = statements(&program.code, &PlainDialect { program }, NamedResults::AsRead);
     let mut outputs = outputs.into_iter();
     let results = program.results.iter().filter(|result| only_scalar(program) || result.len() > 0);
     let (types, values): (Vec<_>, Vec<_>) = results.map(|result| written(result, &mut outputs)).unzip();
@@ -147,11 +147,11 @@ fn count(numbers: usize) -> Literal {
     Literal::usize_unsuffixed(numbers)
 }
 
-struct Plain<'a> {
+struct PlainDialect<'a> {
     program: &'a Program,
 }
 
-impl Dialect<Input> for Plain<'_> {
+impl Dialect<Input> for PlainDialect<'_> {
     fn input(&self, input: Input) -> TokenStream {
         match input {
             Input::Number(number) => literal(self.program.numbers[number]),

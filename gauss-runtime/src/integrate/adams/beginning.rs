@@ -25,7 +25,7 @@ const ENDS: usize = 7;
 
 /// A state between: what it is made of the states at the ends and the derivatives there.
 #[derive(Clone, Copy)]
-struct Between {
+struct InterpolatedState {
     /// Number of short steps from the start.
     at: usize,
     /// The end next to it.
@@ -63,15 +63,15 @@ impl<const K: usize> Beginning<K> {
     };
 
     /// The states between, and how many there are.
-    const BETWEEN: ([Between; MOST], usize) = {
+    const BETWEEN: ([InterpolatedState; MOST], usize) = {
         let ends = Self::LENGTHS.len() + 1;
-        let none = Between { at: 0, near: 0, values: [0.0; ENDS], slopes: [0.0; ENDS] };
+        let none = InterpolatedState { at: 0, near: 0, values: [0.0; ENDS], slopes: [0.0; ENDS] };
         let (mut all, mut count, mut at, mut end) = ([none; MOST], 0, 1, 1);
         while end < ends {
             if at == Self::NODES[end] {
                 end += 1;
             } else {
-                let mut between = Between { at, near: end - 1, ..none };
+                let mut between = InterpolatedState { at, near: end - 1, ..none };
                 let mut i = 0;
                 while i < ends {
                     (between.values[i], between.slopes[i]) = Self::weights(at, i);
@@ -103,12 +103,12 @@ impl<const K: usize> Beginning<K> {
 }
 
 /// A state, and the derivatives there.
-type Known<S> = (State<S>, Rates<S>);
+type StateWithRates<S> = (State<S>, Rates<S>);
 
 /// The first K − 1 states of a run, and the derivatives there.
-pub struct Ahead<S: GaussSystem, const K: usize>([Known<S>; MOST]);
+pub struct StartingStates<S: GaussSystem, const K: usize>([StateWithRates<S>; MOST]);
 
-impl<S: GaussSystem, const K: usize> Ahead<S, K> {
+impl<S: GaussSystem, const K: usize> StartingStates<S, K> {
     /// Whether a run of so many steps begins so.
     pub fn serves(steps: u64) -> bool {
         !S::CONSTRAINED && !Beginning::<K>::LENGTHS.is_empty() && steps >= K as u64
@@ -128,7 +128,7 @@ impl<S: GaussSystem, const K: usize> Ahead<S, K> {
     }
 
     /// The end of one more step after so many.
-    pub fn after(&self, made: usize) -> Known<S> {
+    pub fn after(&self, made: usize) -> StateWithRates<S> {
         self.0[made]
     }
 }
@@ -138,7 +138,7 @@ fn ahead<S: GaussSystem, P: Problem<System = S>, const K: usize>(
     start: &State<S>,
     rates: &Rates<S>,
     h: S::Scalar,
-) -> Result<[Known<S>; MOST], IntegrationErrorKind> {
+) -> Result<[StateWithRates<S>; MOST], IntegrationErrorKind> {
     let number = |n: usize| S::Scalar::from_f64(n as f64);
     let time = |n: usize| number(n).fma(h, start.t);
     let mut ahead = [(*start, *rates); MOST];
@@ -158,7 +158,7 @@ fn ahead<S: GaussSystem, P: Problem<System = S>, const K: usize>(
         derivatives[i + 1] = point::<S>(&state.q, &rates);
     }
     let (between, count) = &Beginning::<K>::BETWEEN;
-    for Between { at, near, values, slopes } in &between[..*count] {
+    for InterpolatedState { at, near, values, slopes } in &between[..*count] {
         let mut change = Point::zero();
         for end in 0..=Beginning::<K>::LENGTHS.len() {
             let difference = ends[end].add_scaled(-S::Scalar::one(), &ends[*near]);
@@ -214,7 +214,7 @@ mod tests {
             assert_eq!(count + ends.len(), K);
             let power = |t: usize, n: usize| (t as f64).powi(n as i32);
             let mut largest = 0.0_f64;
-            for Between { at, near, values, slopes } in &between[..*count] {
+            for InterpolatedState { at, near, values, slopes } in &between[..*count] {
                 for n in 0..=2 * ends.len() {
                     let (mut value, mut size) = (power(ends[*near], n), power(K - 1, n));
                     for (i, &end) in ends.iter().enumerate() {

@@ -20,7 +20,7 @@ use core::ops::ControlFlow;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::control::{Control, StepCallback, one_step};
 use crate::integrate::drive::fixed::OneLength;
-use crate::integrate::problem::called::Called;
+use crate::integrate::problem::called_equations::CalledEquations;
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind, RunPart};
 use crate::integrate::problem::state::{Rates, State};
@@ -29,7 +29,7 @@ use crate::integrate::runge_kutta::tableau::DormandPrince8;
 use crate::integrate::step::checks::{check_chart, check_turn};
 use crate::real::Real;
 use crate::system::GaussSystem;
-pub use beginning::{Ahead, begin, point};
+pub use beginning::{StartingStates, begin, point};
 use formula::Formula;
 
 /// Adams' method of K steps, 2 to 12, with steps of one length: of order K + 1, or 9 for K from 9 on, because of how it
@@ -180,9 +180,10 @@ fn first_steps<S: GaussSystem, P: Problem<System = S>, const K: usize, const ROO
     emit: &mut StepCallback<'_, S>,
     history: &mut History<ComponentsOf<S>, S::Speeds, K, ROOM>,
 ) -> Result<ControlFlow<()>, IntegrationError> {
-    let problem = &Called(problem);
-    let long = Ahead::<S, K>::serves(run.steps);
-    let ahead = if long { Ahead::<S, K>::of(problem, &run.state, &run.rates, run.length()).ok() } else { None };
+    let problem = &CalledEquations(problem);
+    let long = StartingStates::<S, K>::serves(run.steps);
+    let ahead =
+        if long { StartingStates::<S, K>::of(problem, &run.state, &run.rates, run.length()).ok() } else { None };
     let mut made = 0;
     run.until(run.steps.min(K as u64 - 1), problem, emit, |state, rates, h| {
         let newest = point::<S>(&state.q, rates);
@@ -207,7 +208,7 @@ fn last_step<S: GaussSystem, P: Problem<System = S>, const K: usize>(
     run: &mut OneLength<S>,
     emit: &mut StepCallback<'_, S>,
 ) -> Result<(), IntegrationError> {
-    let problem = &Called(problem);
+    let problem = &CalledEquations(problem);
     run.until(run.steps, problem, emit, |state, rates, h| begin::<S, _, K>(problem, state, rates, h)).map(|_| ())
 }
 

@@ -15,9 +15,9 @@ mod step_control;
 
 pub use acceptance::{cause, pace, projection, tolerance};
 pub use events::{bounded, event, schedule, search};
+pub(in crate::integrate) use events::{departure, jump, watched, zero};
 #[cfg(feature = "alloc")]
 pub use events::{each, task};
-pub(in crate::integrate) use events::{jump, leaving, watched, zero};
 pub(in crate::integrate) use runs::interval;
 #[cfg(feature = "alloc")]
 pub use runs::{RunRecord, boxed, trajectory};

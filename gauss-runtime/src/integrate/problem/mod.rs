@@ -1,6 +1,6 @@
 //! The problem that is integrated: a system in one of two forms, under an input; states, their derivatives, errors.
 
-pub mod called;
+pub mod called_equations;
 pub mod equations;
 pub mod error;
 pub mod form;

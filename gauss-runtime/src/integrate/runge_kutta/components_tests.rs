@@ -14,7 +14,7 @@ use crate::lie::{se2, se3, so3};
 use crate::simd::Lanes;
 use crate::testing::FreeTop;
 use crate::testing::coasting::{Coasting, increment};
-use crate::testing::dual::{Dual, dual};
+use crate::testing::dual::{TestDual, dual};
 use crate::testing::order::{NONE, TOP, TORQUE, distance, march, measured_order, start_by_momentum, start_by_velocity};
 
 /// Numbers of steps whose errors are above rounding, for a span of 4.
@@ -71,7 +71,7 @@ fn orders_on_poses_in_space_and_in_the_plane_and_on_products() {
 fn rates_are_derivatives<Q, D>(q: Q, lift: impl Fn(&Q) -> D)
 where
     Q: Configuration<Scalar = f64>,
-    D: Configuration<Scalar = Dual>,
+    D: Configuration<Scalar = TestDual>,
 {
     let velocity: Q::Tangent = increment(6.0);
     let mut along = D::Tangent::zero();

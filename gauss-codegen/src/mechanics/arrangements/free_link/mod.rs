@@ -20,7 +20,8 @@ use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::mechanics::tidy::sums;
 
 use crate::mechanics::arrangements::balance::{
-    ARRANGEMENTS, Arrangement, Balance, Formal, KineticMatrix, LinearAcceleration, Weight, Weights, solve_balance,
+    ARRANGEMENTS, Balance, BalanceForm, FormalComponents, KineticMatrix, LinearAcceleration, Weight, Weights,
+    solve_balance,
 };
 
 /// Terms that a volume of partial angular velocities may have on the way to its normal form.
@@ -51,7 +52,7 @@ pub struct FreeLink<'g> {
     /// Formal arguments: momenta p, and a twist of O in body axes.
     pub momenta: Vec<Expr<'g>>,
     pub twist: [Expr<'g>; 6],
-    formal: Formal<'g>,
+    formal: FormalComponents<'g>,
     /// Axes in which v_O and ω depend on z most simply, and the rows ∂v_O/∂z, ∂ω/∂z there.
     linear_in: Axes,
     angular_in: Axes,
@@ -60,12 +61,12 @@ pub struct FreeLink<'g> {
     /// z from the twist, and (Q, Γ) from p: the rows and their transpose, on the motion's axes.
     from_twist: Solver<'g>,
     from_momenta: Solver<'g>,
-    formed: Formed<'g>,
+    formed: BalanceCache<'g>,
 }
 
 /// Parts that several equations share, formed when the first of them needs them.
 #[derive(Default)]
-struct Formed<'g> {
+struct BalanceCache<'g> {
     /// Values of the formal components of the balance.
     realisation: OnceCell<Substitution<'g>>,
     balances: OnceCell<Vec<Balance<'g>>>,
@@ -192,7 +193,7 @@ impl<'g> FreeLink<'g> {
         let matrix = KineticMatrix::new(graph, body, &linear, &angular_axes);
         let weights = Weights { gravity: Weight::new(body), field: None };
         let nothing = Wrench::zero(graph);
-        let formal = Formal::new(&kinematics, &nothing);
+        let formal = FormalComponents::new(&kinematics, &nothing);
         let twist = std::array::from_fn(|k| {
             let name = if k < 3 { Name::new("u", "u") } else { Name::new("ω", "\\omega") }.index(k % 3);
             graph.symbol(name.text, name.latex, false)
@@ -215,12 +216,12 @@ impl<'g> FreeLink<'g> {
             angular_in,
             linear_rows,
             angular_rows,
-            formed: Formed::default(),
+            formed: BalanceCache::default(),
         };
         if !scene.elements.is_empty() {
             let wrenches = scene.elements.iter().map(|element| free.wrench_of(scene, element));
             free.load = wrenches.fold(nothing, |sum, wrench| sum.plus(&wrench));
-            free.formal = Formal::new(&free.kinematics, &free.load);
+            free.formal = FormalComponents::new(&free.kinematics, &free.load);
             let root = scene.tree.root_of(link);
             let field = Loads::of(&scene.elements).field_on(root);
             free.weights.field = field.map(|gravity| Weight::of_matter(body, gravity));
@@ -235,7 +236,7 @@ impl<'g> FreeLink<'g> {
 
     /// Forgets what was formed.
     pub fn forget(&mut self) {
-        self.formed = Formed::default();
+        self.formed = BalanceCache::default();
     }
 
     /// The balance in all the ways that are worth trying.
@@ -243,10 +244,10 @@ impl<'g> FreeLink<'g> {
         self.formed.balances.get_or_init(|| {
             let mut balances = Vec::from(ARRANGEMENTS.map(|arrangement| self.balance(arrangement)));
             if self.adds_momentum() {
-                balances.push(self.balance(Arrangement::Whole));
+                balances.push(self.balance(BalanceForm::Whole));
             }
             if self.matrix.is_coupled(&self.kinematics.active) {
-                balances.push(self.balance(Arrangement::Eliminated));
+                balances.push(self.balance(BalanceForm::Eliminated));
             }
             balances
         })
@@ -255,7 +256,7 @@ impl<'g> FreeLink<'g> {
     /// ∂C/∂ż without the loads other than weight and buoyancy, arranged in two ways.
     pub fn inertial_residuals(&self) -> Vec<Vec<Expr<'g>>> {
         let load = Wrench::zero(self.kinematics.frame.graph);
-        let formal = Formal::new(&self.kinematics, &load);
+        let formal = FormalComponents::new(&self.kinematics, &load);
         let (matrix, weights) = (&self.matrix, &Weights { gravity: self.weights.gravity, field: None });
         let realisation = OnceCell::new();
         let residual = |arrangement| {
@@ -263,7 +264,7 @@ impl<'g> FreeLink<'g> {
             let realisation = realisation.get_or_init(|| formal.realisation(&self.kinematics, weights, &load));
             self.residual_of(&Terms { matrix, weights, load: &load, realisation }, &balance)
         };
-        [Arrangement::Structured, Arrangement::Collected].map(residual).into()
+        [BalanceForm::Structured, BalanceForm::Collected].map(residual).into()
     }
 
     /// `R·a_α + M_O·o_α` of the loads other than weight and buoyancy.
@@ -374,7 +375,7 @@ impl<'g> FreeLink<'g> {
         self.project(Pair { linear: named(&pair.linear, &load.linear), angular: named(&pair.angular, &load.angular) })
     }
 
-    fn balance(&self, arrangement: Arrangement) -> Balance<'g> {
+    fn balance(&self, arrangement: BalanceForm) -> Balance<'g> {
         solve_balance(&self.kinematics, &self.matrix, &self.weights, &self.load, &self.formal, arrangement)
     }
 

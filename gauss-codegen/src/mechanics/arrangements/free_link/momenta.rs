@@ -1,7 +1,7 @@
 //! Momenta of a free link: p from z, z from p, and ṗ.
 
 use crate::algebra::{Expr, Map};
-use crate::mechanics::arrangements::balance::{Arrangement, twist_of_momentum};
+use crate::mechanics::arrangements::balance::{BalanceForm, twist_of_momentum};
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, dot};
 use crate::mechanics::print::names::Name;
 
@@ -45,7 +45,7 @@ impl<'g> FreeLink<'g> {
     }
 
     /// From (q, p): (Q, Γ) by duality, the twist by M⁻¹, z by the kinematics.
-    fn state_of_momentum(&self, arrangement: Arrangement) -> (Pair<'g>, Vec<Expr<'g>>) {
+    fn state_of_momentum(&self, arrangement: BalanceForm) -> (Pair<'g>, Vec<Expr<'g>>) {
         let pair = self.momentum_pair(&self.momenta);
         let linear = self.vector(self.linear_in, pair.linear.map(Expr::group));
         let gamma = self.vector(self.angular_in, pair.angular.map(Expr::group));
@@ -59,9 +59,9 @@ impl<'g> FreeLink<'g> {
     }
 
     /// Ways in which (u, ω) is found from (Q, Γ).
-    fn solutions(&self) -> impl Iterator<Item = Arrangement> {
+    fn solutions(&self) -> impl Iterator<Item = BalanceForm> {
         let coupled = self.matrix.is_coupled(&self.kinematics.active);
-        [Arrangement::Structured].into_iter().chain(coupled.then_some(Arrangement::Eliminated))
+        [BalanceForm::Structured].into_iter().chain(coupled.then_some(BalanceForm::Eliminated))
     }
 
     /// ṗ_α = Q·(ȧ_α + v_O × o_α) + Γ_O·ȯ_α + R·a_α + M_O·o_α, a function of (q, p), in the ways that are worth trying:

@@ -1,7 +1,7 @@
 //! Shapes of a file that touch the ground: which ones, by what names, and what is refused and told.
 
 use super::{Scratch, joint, link, mistakes, model, remarks, robot};
-use crate::model::{Against, ContactClause, Copies, Touching};
+use crate::model::{ContactClause, ContactGeometry, Copies, Counterpart};
 
 /// A slider with shapes, and what hangs on it.
 fn legs(shapes: &str, rest: &str) -> String {
@@ -92,15 +92,15 @@ fn what_the_clause_says() {
     assert_eq!(found.iter().map(|clause| clause.friction.len()).collect::<Vec<_>>(), [2, 1, 1]);
     assert!(found[0].restitution.is_some() && found[1].restitution.is_none());
     let planes = found.iter().map(|clause| match &clause.touching {
-        Touching::Point(contact) => match &contact.against {
-            Against::Plane { normal, height, along } => [normal, height, along].map(Option::is_some),
+        ContactGeometry::Point(contact) => match &contact.against {
+            Counterpart::Plane { normal, height, along } => [normal, height, along].map(Option::is_some),
             _ => panic!("a plane"),
         },
         _ => panic!("a point"),
     });
     assert_eq!(planes.collect::<Vec<_>>(), [[true; 3], [false; 3], [false; 3]]);
     let rims = contacts(&legs(&shape("", "", ROD), ""), ", ground(cylinders = rims)");
-    assert!(matches!(&rims[0].touching, Touching::Point(contact) if matches!(contact.copies, Copies::Rims(_))));
+    assert!(matches!(&rims[0].touching, ContactGeometry::Point(contact) if matches!(contact.copies, Copies::Rims(_))));
 }
 
 /// Contacts of joints come first, and keep their names.
@@ -113,7 +113,7 @@ fn a_shape_with_the_name_of_a_joint() {
     let found = contacts(&text, ", limits = range, joint_friction = dry, ground");
     assert_eq!(names(&found), ["lift_from", "lift_to", "lift", "lift_2", "lift_to_2"]);
     assert_eq!(found[1].friction.first().and_then(|bound| bound.literal()), Some(2.0));
-    assert!(matches!(found[1].touching, Touching::Slip { named: true, .. }));
+    assert!(matches!(found[1].touching, ContactGeometry::Slip { named: true, .. }));
 }
 
 #[test]
@@ -229,7 +229,7 @@ fn a_cylinder_that_stands_has_points_alone() {
 mod mjcf {
     use super::names;
     use crate::model::tests::robots::{Scratch, read};
-    use crate::model::{Against, Model, Touching};
+    use crate::model::{ContactGeometry, Counterpart, Model};
 
     /// A world with a body that falls.
     fn file(world: &str, body: &str, rest: &str) -> Scratch {
@@ -279,7 +279,7 @@ mod mjcf {
         let read = model("", &[egg, bean, pea].concat(), "", "ground");
         assert_eq!(names(&read.contacts), ["egg", "bean", "pea"]);
         let semi_axes = |n: usize| {
-            let Touching::Point(contact) = &read.contacts[n].touching else { panic!("a point") };
+            let ContactGeometry::Point(contact) = &read.contacts[n].touching else { panic!("a point") };
             contact.semi_axes.as_ref().map(|axes| axes.each_ref().map(|length| length.literal().unwrap()))
         };
         assert_eq!([0, 1, 2].map(semi_axes), [Some([1.0, 2.0, 3.0]), Some([1.0, 2.0, 3.0]), None]);
@@ -297,8 +297,8 @@ mod mjcf {
         let worlds = format!("{FLOOR}{ramp}");
         let both = model(&worlds, foot, "", "ground").contacts;
         assert_eq!(names(&both), ["foot", "foot_2"]);
-        let Touching::Point(contact) = &both[1].touching else { panic!("a point") };
-        let Against::Plane { normal: Some(normal), height: Some(height), .. } = &contact.against else {
+        let ContactGeometry::Point(contact) = &both[1].touching else { panic!("a point") };
+        let Counterpart::Plane { normal: Some(normal), height: Some(height), .. } = &contact.against else {
             panic!("a plane")
         };
         let [x, y, z] = normal.literal_components().unwrap();

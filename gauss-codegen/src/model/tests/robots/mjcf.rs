@@ -4,7 +4,7 @@ use super::{Scratch, read};
 use crate::model::argument::{AT, FORCE, TORQUE, VALUE};
 use crate::model::scene::clauses::{RoleClause, RoleValue};
 use crate::model::tests::systems::{show, shown};
-use crate::model::{ConstraintKind, ElementKind, ForceClause, Model};
+use crate::model::{ConstraintLevel, ElementKind, ForceClause, Model};
 use crate::terms::{Role, ValueOfState};
 
 const INERTIAL: &str = "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>";
@@ -193,7 +193,7 @@ fn equalities() {
     );
     let welded = model(&format!("{TWO}<equality><weld body1=\"arm\"/></equality>"), "");
     assert_eq!(welded.constraints.len(), 4);
-    assert!(welded.constraints.iter().all(|constraint| constraint.kind == ConstraintKind::Position));
+    assert!(welded.constraints.iter().all(|constraint| constraint.kind == ConstraintLevel::Position));
 }
 
 /// Numbers of a file are in units of the SI: its polynomials of metres are sums whose terms have one unit.

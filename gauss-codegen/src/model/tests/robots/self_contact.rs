@@ -1,7 +1,7 @@
 //! Links that touch each other: which do, by what names, and what is refused and told.
 
 use super::{Scratch, joint, link, mistakes, model, remarks, robot};
-use crate::model::{Against, Touching};
+use crate::model::{ContactGeometry, Counterpart};
 
 const SPHERE: &str = "<sphere radius=\"0.1\"/>";
 const PILL: &str = "<capsule radius=\"0.1\" length=\"0.5\"/>";
@@ -33,8 +33,8 @@ fn links_that_do_not_hang_on_one_another() {
     let read = model(&arms(PILL, SPHERE), ", self_contact(friction = mu, along = [1, 0, 0])", "mu: f64");
     let found: Vec<String> = read.contacts.iter().map(|clause| clause.names[0].to_string()).collect();
     assert_eq!(found, ["trunk_hand", "hand_right"]);
-    let Touching::Point(contact) = &read.contacts[1].touching else { panic!("a point") };
-    let Against::Sphere { end: Some(_), radius: Some(_), along: Some(_), .. } = &contact.against else {
+    let ContactGeometry::Point(contact) = &read.contacts[1].touching else { panic!("a point") };
+    let Counterpart::Sphere { end: Some(_), radius: Some(_), along: Some(_), .. } = &contact.against else {
         panic!("a capsule")
     };
     let points: Vec<String> = read.points.iter().map(|point| point.name.to_string()).collect();

@@ -2,7 +2,7 @@
 
 use super::super::check;
 use super::{particle, show, system};
-use crate::model::ConstraintKind;
+use crate::model::ConstraintLevel;
 
 /// A particle in space, two speeds, a body on a path, with more `clauses`.
 fn moving(clauses: &str) -> String {
@@ -28,7 +28,7 @@ fn accepted() {
          constraint(velocity = rate(x * t)), independent(s, v), limit = 1_000",
     ));
     let constraints: Vec<_> = model.constraints.iter().map(|c| (c.kind, c.vector, show(&c.expression))).collect();
-    use ConstraintKind::{Position, Velocity};
+    use ConstraintLevel::{Position, Velocity};
     assert_eq!(
         constraints,
         [

@@ -2,7 +2,7 @@
 
 use super::super::{Mistake, check};
 use super::{show, system};
-use crate::model::{Against, Touching};
+use crate::model::{ContactGeometry, Counterpart};
 
 /// A body in space with a hinged arm, with more `clauses`.
 fn arm(clauses: &str) -> String {
@@ -40,22 +40,22 @@ fn accepted() {
     let shown = model.contacts.iter().map(|clause| {
         let names: Vec<String> = clause.names.iter().map(ToString::to_string).collect();
         let touching = match &clause.touching {
-            Touching::Gap { gap, slips, .. } => {
+            ContactGeometry::Gap { gap, slips, .. } => {
                 format!("gap {}, slips {:?}", show(gap), slips.iter().map(show).collect::<Vec<_>>())
             }
-            Touching::Slip { slips, .. } => {
+            ContactGeometry::Slip { slips, .. } => {
                 let all = [slips, &clause.friction].map(|all| all.iter().map(show).collect::<Vec<_>>());
                 format!("slips {:?}, bounds {:?}", all[0], all[1])
             }
-            Touching::Range { along, from, to } => {
+            ContactGeometry::Range { along, from, to } => {
                 format!("{} from {:?} to {:?}", show(along), from.as_ref().map(show), to.as_ref().map(show))
             }
-            Touching::Point(contact) => match &contact.against {
-                Against::Plane { normal, .. } => {
+            ContactGeometry::Point(contact) => match &contact.against {
+                Counterpart::Plane { normal, .. } => {
                     format!("{} above {:?}", show(&contact.point), normal.as_ref().map(show))
                 }
-                Against::Ground(height) => format!("{} over {}", show(&contact.point), show(height)),
-                Against::Sphere { center, .. } => format!("{} and {}", show(&contact.point), show(center)),
+                Counterpart::Ground(height) => format!("{} over {}", show(&contact.point), show(height)),
+                Counterpart::Sphere { center, .. } => format!("{} and {}", show(&contact.point), show(center)),
             },
         };
         format!("{}: {touching}", names.join(", "))

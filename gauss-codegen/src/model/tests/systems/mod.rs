@@ -15,7 +15,7 @@ mod states;
 mod two_bodies;
 
 use super::{Mistake, check};
-use crate::model::scene::forces::{Given, Value};
+use crate::model::scene::forces::{ArgumentContent, ArgumentValue};
 use crate::model::{Coefficients, Expression, ExpressionKind, ForceAxes, ForceClause, Model, parse};
 use syn::DeriveInput;
 
@@ -73,14 +73,16 @@ pub(super) fn show(expression: &Expression) -> String {
 
 /// A clause with its arguments, with all brackets of their expressions.
 pub(super) fn shown(clause: &ForceClause) -> String {
-    let argument = |given: &Given| {
+    let argument = |given: &ArgumentValue| {
         let word = given.coordinate.as_ref().map_or(given.argument.word.into(), ToString::to_string);
         let value = match &given.value {
-            Value::Expression(value) => show(value),
-            Value::Reference(name) | Value::Coefficients(Coefficients::Field(name)) => name.to_string(),
-            Value::Axes(ForceAxes::Body) => "body".into(),
-            Value::Axes(ForceAxes::Observer) => "observer".into(),
-            Value::Coefficients(Coefficients::Diagonal(entries)) => {
+            ArgumentContent::Expression(value) => show(value),
+            ArgumentContent::Reference(name) | ArgumentContent::Coefficients(Coefficients::Field(name)) => {
+                name.to_string()
+            }
+            ArgumentContent::Axes(ForceAxes::Body) => "body".into(),
+            ArgumentContent::Axes(ForceAxes::Observer) => "observer".into(),
+            ArgumentContent::Coefficients(Coefficients::Diagonal(entries)) => {
                 let entries: Vec<String> = entries.iter().map(|entry| show(entry)).collect();
                 format!("[{}]", entries.join(" "))
             }

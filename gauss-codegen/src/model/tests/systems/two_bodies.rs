@@ -2,7 +2,7 @@
 
 use super::super::check;
 use super::system;
-use crate::model::scene::elements::{Argument, ELEMENTS, Row, Takes};
+use crate::model::scene::elements::{ArgumentType, ELEMENTS, ElementArgument, Row};
 
 /// A hull with a mast that is hinged on it and a foot that is fixed in it, a quay and a pier at rest.
 fn boat(clause: &str) -> String {
@@ -19,7 +19,7 @@ fn boat(clause: &str) -> String {
 fn each(test: impl Fn(&Row, &str, &dyn Fn(&str, &str) -> String)) {
     let mut count = 0;
     for row in ELEMENTS {
-        let Some(other) = row.arguments.iter().find(|argument| argument.takes == Takes::Other) else { continue };
+        let Some(other) = row.arguments.iter().find(|argument| argument.takes == ArgumentType::Other) else { continue };
         let rest: Vec<String> = row.arguments.iter().filter_map(written).collect();
         let clause = |body: &str, second: &str| {
             format!("{}(body = {body}, {} = {second}, {})", row.word, other.word, rest.join(", "))
@@ -30,12 +30,14 @@ fn each(test: impl Fn(&Row, &str, &dyn Fn(&str, &str) -> String)) {
     assert!(count > 0);
 }
 
-fn written(argument: &Argument) -> Option<String> {
+fn written(argument: &ElementArgument) -> Option<String> {
     let value = match argument.takes {
-        Takes::Body | Takes::Other | Takes::Axes => return None,
-        Takes::Force | Takes::Torque | Takes::Point | Takes::End | Takes::Center => "c",
-        Takes::Constant { .. } | Takes::Drive | Takes::Dissipation | Takes::Along => "k",
-        Takes::Coefficients(_) | Takes::Matrix { .. } => "[1, 2, 3, 4, 5, k]",
+        ArgumentType::Body | ArgumentType::Other | ArgumentType::Axes => return None,
+        ArgumentType::Force | ArgumentType::Torque | ArgumentType::Point | ArgumentType::End | ArgumentType::Center => {
+            "c"
+        }
+        ArgumentType::Constant { .. } | ArgumentType::Drive | ArgumentType::Dissipation | ArgumentType::Along => "k",
+        ArgumentType::Coefficients(_) | ArgumentType::Matrix { .. } => "[1, 2, 3, 4, 5, k]",
     };
     Some(format!("{} = {value}", argument.word))
 }

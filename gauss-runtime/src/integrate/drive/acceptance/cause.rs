@@ -12,13 +12,13 @@ use crate::system::{GaussSystem, Smoothness};
 
 /// Ways in which a run comes to its end.
 #[derive(Clone, Copy, Debug)]
-pub enum Gave {
+pub enum StopReason {
     /// A step of the length that it had to have cannot be made.
     Step(IntegrationErrorKind),
     /// No step can be made, however short.
     AnyStep(IntegrationErrorKind),
     /// This number of steps was made: the limit that the user set, or one at which no end is in prospect.
-    Out {
+    StepLimit {
         /// The limit.
         limit: u64,
         /// Whether there is no prospect of an end.
@@ -27,7 +27,7 @@ pub enum Gave {
 }
 
 /// State and step at which a run came to its end.
-pub struct Place<'a, S: GaussSystem> {
+pub struct StopPlace<'a, S: GaussSystem> {
     /// The last state that it reached.
     pub state: &'a State<S>,
     /// The derivatives there.
@@ -60,14 +60,14 @@ const OUT_OF_REACH: f64 = 1e10;
 /// Finds the cause of the end of a run.
 pub fn cause<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
-    place: &Place<'_, S>,
-    gave: Gave,
+    place: &StopPlace<'_, S>,
+    gave: StopReason,
 ) -> IntegrationErrorKind {
-    let &Place { state, rates, length, left, stiff, ref lanes } = place;
+    let &StopPlace { state, rates, length, left, stiff, ref lanes } = place;
     let (kind, lost, shrunk) = match gave {
-        Gave::Step(kind) => (kind, false, false),
-        Gave::AnyStep(kind) => (kind, false, true),
-        Gave::Out { limit, hopeless } => (IntegrationErrorKind::TooManySteps { limit }, hopeless, false),
+        StopReason::Step(kind) => (kind, false, false),
+        StopReason::AnyStep(kind) => (kind, false, true),
+        StopReason::StepLimit { limit, hopeless } => (IntegrationErrorKind::TooManySteps { limit }, hopeless, false),
     };
     let undefined = matches!(kind, IntegrationErrorKind::NonFinite { part: RunPart::Step | RunPart::Derivative });
     let vanish = matches!(kind, IntegrationErrorKind::StepTooSmall { .. });
@@ -88,7 +88,7 @@ pub fn cause<S: GaussSystem, P: Problem<System = S>>(
         return IntegrationErrorKind::StepTooSmall { step: length };
     }
     let moves = change(state, rates, lanes);
-    let fastest = fastest(problem, (state, rates), lanes).unwrap_or(Fastest { rate: moves, decays: false });
+    let fastest = fastest(problem, (state, rates), lanes).unwrap_or(FastestMotion { rate: moves, decays: false });
     let rate = fastest.rate.max(moves);
     if !stiff && fastest.decays && fastest.rate * length > 1.0 && (run_away || moves * length < 0.05) {
         return IntegrationErrorKind::Stiff { rate: fastest.rate, step: length };
@@ -105,8 +105,8 @@ pub fn cause<S: GaussSystem, P: Problem<System = S>>(
 }
 
 /// The regularity of the coordinates where they are at a singularity or come to one at once, in the worst of the lanes.
-fn near_singularity<S: GaussSystem>(system: &S, place: &Place<'_, S>) -> Option<f64> {
-    let &Place { state, rates, length, ref lanes, .. } = place;
+fn near_singularity<S: GaussSystem>(system: &S, place: &StopPlace<'_, S>) -> Option<f64> {
+    let &StopPlace { state, rates, length, ref lanes, .. } = place;
     let part = Real::sqrt(S::Scalar::EPSILON);
     let soon = S::Scalar::from_f64(part * length);
     let here = system.regularity(state.t, &state.q);
@@ -119,7 +119,7 @@ fn near_singularity<S: GaussSystem>(system: &S, place: &Place<'_, S>) -> Option<
 }
 
 /// The fastest of the motions near a state.
-struct Fastest {
+struct FastestMotion {
     /// |λ| of the largest eigenvalue of the derivatives by the state, per unit of time.
     rate: f64,
     /// Whether it is about real and negative.
@@ -132,7 +132,7 @@ fn fastest<S: GaussSystem, P: Problem<System = S>>(
     problem: &P,
     (state, rates): (&State<S>, &Rates<S>),
     lanes: &Range<usize>,
-) -> Option<Fastest> {
+) -> Option<FastestMotion> {
     let sizes = sizes(state, lanes);
     let (norm, product) = (|v: &Rates<S>| norm(v, lanes), |a: &Rates<S>, b: &Rates<S>| product(a, b, lanes));
     // J v, with v in units of the sizes, and v small beside them.
@@ -162,7 +162,7 @@ fn fastest<S: GaussSystem, P: Problem<System = S>>(
     let along = product(&v, &once) / first;
     let back = product(&v, &twice) / second;
     let rate = Real::sqrt(first) * Real::sqrt(second);
-    rate.is_finite().then_some(Fastest { rate, decays: along < -0.5 && back > 0.5 })
+    rate.is_finite().then_some(FastestMotion { rate, decays: along < -0.5 && back > 0.5 })
 }
 
 /// Rate of change of the state relative to its own size, per unit of time: the largest of the components.

@@ -8,9 +8,9 @@
 //! would be a hundred steps.
 
 use crate::integrate::drive::control::Control;
-use crate::integrate::drive::cubic::Cubic;
-use crate::integrate::drive::leaving::rounding;
-use crate::integrate::drive::search::{Crossing, Function, Looking, SHORT, same_side, side, value};
+use crate::integrate::drive::cubic::StepCubic;
+use crate::integrate::drive::departure::rounding;
+use crate::integrate::drive::search::{Crossing, Function, SHORT, StepSearch, same_side, side, value};
 use crate::integrate::drive::zero::{below_zero, locate};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
@@ -66,7 +66,7 @@ const MORE: u32 = 1024;
 const BETWEEN: f64 = 1.5;
 
 /// A function that is followed on the curve of a step, by parts of it.
-struct Followed<'a, S: GaussSystem, G, A> {
+struct BoundedFunction<'a, S: GaussSystem, G, A> {
     bound: &'a dyn RateBound<S>,
     /// Its values on the curve with its rates there for the whole step, and its values in states that the method
     /// reaches.
@@ -89,9 +89,9 @@ struct Followed<'a, S: GaussSystem, G, A> {
 /// A part of the step with the value there.
 type Point = (f64, f64);
 
-type Found = Result<Option<Point>, IntegrationErrorKind>;
+type ZeroResult = Result<Option<Point>, IntegrationErrorKind>;
 
-impl<S, G, A> Followed<'_, S, G, A>
+impl<S, G, A> BoundedFunction<'_, S, G, A>
 where
     S: GaussSystem,
     G: FnMut(f64) -> Result<[f64; 2], IntegrationErrorKind>,
@@ -107,7 +107,7 @@ where
     }
 
     /// The first zero between two points.
-    fn first(&mut self, a: Point, b: Point, halvings: u32) -> Found {
+    fn first(&mut self, a: Point, b: Point, halvings: u32) -> ZeroResult {
         let width = b.0 - a.0;
         if a.1 > 0.0 && b.1 > 0.0 && a.1 + b.1 > self.most * width || width <= self.resolution {
             return Ok(None);
@@ -140,7 +140,7 @@ where
     }
 
     /// The zero in a part that is not halved again.
-    fn last(&mut self, a: Point, b: Point) -> Found {
+    fn last(&mut self, a: Point, b: Point) -> ZeroResult {
         let start = if a.0 == self.start.0 { self.start } else { (a.0, (self.along)(a.0)?) };
         if start.1 <= 0.0 {
             return self.between(self.start, start);
@@ -169,7 +169,7 @@ where
         Ok(None)
     }
 
-    fn between(&mut self, a: Point, b: Point) -> Found {
+    fn between(&mut self, a: Point, b: Point) -> ZeroResult {
         if !self.crossing.between(a.1, b.1) {
             return Ok(None);
         }
@@ -177,20 +177,20 @@ where
     }
 }
 
-impl<S, P, C> Looking<'_, S, P, C>
+impl<S, P, C> StepSearch<'_, S, P, C>
 where
     S: GaussSystem,
     P: Problem<System = S>,
     C: Control<S>,
 {
-    /// The first event behind a point of the step, from which a function goes on, as [`Looking::first`] finds it; with
-    /// a bound of a function that is above zero none is missed.
+    /// The first event behind a point of the step, from which a function goes on, as [`StepSearch::first`] finds it;
+    /// with a bound of a function that is above zero none is missed.
     pub(in crate::integrate) fn first_of(
         &self,
         (function, bound): (Function<'_, S>, Bound<'_, S>),
         crossing: Crossing,
         (from, back): (Point, f64),
-    ) -> Found {
+    ) -> ZeroResult {
         let Some(bound) = bound.filter(|_| from.1 > 0.0 && crossing != Crossing::Rising) else {
             return self.first(function, crossing, (from, back));
         };
@@ -226,7 +226,7 @@ where
         let resolution = self.resolution;
         let (start, more) = (from, MORE);
         let mut followed =
-            Followed { bound, curve, along, crossing, start, most, off, rounding, resolution, more, times };
+            BoundedFunction { bound, curve, along, crossing, start, most, off, rounding, resolution, more, times };
         Ok(followed.first(from, until, HALVINGS)?.or(known))
     }
 
@@ -234,7 +234,7 @@ where
     /// middle; a quarter of the way from an end it is off by most, in a part of the step by three times as much as the
     /// function in the middle.
     fn off(&self, function: Function<'_, S>, bound: &dyn RateBound<S>) -> Result<f64, IntegrationErrorKind> {
-        let (lane, cubic) = (self.made.lane, Cubic::of(self.made));
+        let (lane, cubic) = (self.made.lane, StepCubic::of(self.made));
         let at = |part: f64| value(self.problem, function, lane, &cubic.at(part));
         let mut most = 0.0_f64;
         for part in [0.25, 0.75] {

@@ -8,8 +8,8 @@
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::control::{Control, one_step};
-use crate::integrate::drive::leaving::{Parabola, rounding};
-use crate::integrate::drive::search::{Function, Looking, values};
+use crate::integrate::drive::departure::{Parabola, rounding};
+use crate::integrate::drive::search::{Function, StepSearch, values};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::integrate::problem::state::{Rates, State, TangentOf};
@@ -38,7 +38,7 @@ const MOST_STEPS: u32 = 12;
 const ENDS: f64 = 1e-14;
 const FAILS: f64 = 1e-9;
 
-impl<S, P, C> Looking<'_, S, P, C>
+impl<S, P, C> StepSearch<'_, S, P, C>
 where
     S: GaussSystem,
     P: Problem<System = S>,

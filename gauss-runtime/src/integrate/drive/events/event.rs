@@ -55,13 +55,13 @@ use core::ops::Range;
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::bounded::Bound;
 use crate::integrate::drive::control::Control;
+use crate::integrate::drive::departure::{Departure, RestAtZero, rounding};
 use crate::integrate::drive::jump::differs;
 pub use crate::integrate::drive::jump::{Jump, JumpFunction, NoJump};
-use crate::integrate::drive::leaving::{Leaving, OnZero, rounding};
 use crate::integrate::drive::projection::consistent;
 use crate::integrate::drive::schedule::Scheduled;
-use crate::integrate::drive::search::{Function, Looking, Made, side, value};
-use crate::integrate::drive::watched::BeforeJump;
+use crate::integrate::drive::search::{Function, StepEnds, StepSearch, side, value};
+use crate::integrate::drive::watched::JumpApproach;
 pub use crate::integrate::drive::watched::{Events, Mark, NoEvents, Watched};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake, SamplingMistake};
@@ -87,22 +87,22 @@ pub enum Outcome<S: GaussSystem> {
 }
 
 /// Cut of a run: the state, the state after the jump, the first event there, and the one that ends the run.
-type Here<S> = (State<S>, Option<State<S>>, usize, Option<usize>);
+type EventCut<S> = (State<S>, Option<State<S>>, usize, Option<usize>);
 
 impl Mark {
     /// The first event of the step.
     fn first<S: GaussSystem, P: Problem<System = S>, C: Control<S>>(
         &mut self,
-        looking: &Looking<'_, S, P, C>,
+        looking: &StepSearch<'_, S, P, C>,
         (function, bound): (Function<'_, S>, Bound<'_, S>),
         number: usize,
     ) -> Result<Option<(f64, f64)>, IntegrationErrorKind> {
-        let Made { lane, before: (state, _), .. } = *looking.made;
+        let StepEnds { lane, before: (state, _), .. } = *looking.made;
         if self.value == 0.0 && self.resting.is_none() {
-            self.resting = Some(OnZero::exactly(rounding(looking.problem, function, lane, state)));
+            self.resting = Some(RestAtZero::exactly(rounding(looking.problem, function, lane, state)));
         }
         let leaving = match &self.resting {
-            None => Leaving::known(self.value),
+            None => Departure::known(self.value),
             Some(on) => {
                 let Some(leaving) = looking.leaves(function, on)? else { return Ok(None) };
                 looking.led_back(function, number, (on, &leaving))?;
@@ -116,7 +116,7 @@ impl Mark {
     /// The next event of the step behind the one that was found.
     fn following<S: GaussSystem, P: Problem<System = S>, C: Control<S>>(
         &mut self,
-        looking: &Looking<'_, S, P, C>,
+        looking: &StepSearch<'_, S, P, C>,
         (function, bound): (Function<'_, S>, Bound<'_, S>),
     ) -> Result<Option<(f64, f64)>, IntegrationErrorKind> {
         let Some(from) = self.next else { return Ok(None) };
@@ -138,7 +138,7 @@ impl Mark {
             let rounding = rounding(problem, function, lane, start);
             let back = (jumped && !self.through).then_some((cut.side, cut.rate));
             // Else the jump has led away from zero.
-            (value.abs() <= rounding + cut.beyond).then(|| OnZero::after(value, rounding, back))
+            (value.abs() <= rounding + cut.beyond).then(|| RestAtZero::after(value, rounding, back))
         });
         // Of another event, that is to come at this very time.
         let to_come = value == 0.0 && self.value != 0.0 && !passed && !core::mem::take(&mut self.here);
@@ -244,10 +244,10 @@ where
     /// When a function is not a number, a state within the step cannot be made, or a jump is refused.
     pub fn step(
         &mut self,
-        made: &Made<'_, S>,
+        made: &StepEnds<'_, S>,
         report: &mut dyn FnMut(usize, &State<S>),
     ) -> Result<Outcome<S>, IntegrationErrorKind> {
-        let looking = Looking::of(self.control, self.problem, made);
+        let looking = StepSearch::of(self.control, self.problem, made);
         self.each_bounded(|number, function, mark| {
             (mark.last, mark.here) = (None, false);
             mark.next = mark.first(&looking, function, number)?;
@@ -256,7 +256,7 @@ where
 
         // What is no further than zeros are found to is at the same time.
         let together = 2.0 * looking.resolution;
-        let (mut cut, mut here) = (f64::INFINITY, None::<Here<S>>);
+        let (mut cut, mut here) = (f64::INFINITY, None::<EventCut<S>>);
         while let Some((number, part, terminal)) = self.earliest() {
             // Others at the very end of the run are told of, later ones are not.
             if part > cut + together {
@@ -310,7 +310,7 @@ where
     /// A state at an event, moved to where the derivatives of its function are zero as well.
     fn differentiated(
         &mut self,
-        looking: &Looking<'_, S, P, C>,
+        looking: &StepSearch<'_, S, P, C>,
         number: usize,
         mut state: State<S>,
     ) -> Result<State<S>, IntegrationErrorKind> {
@@ -328,10 +328,10 @@ where
     /// An event happens, which may end the run or make the state jump, perhaps after others there.
     fn happens(
         &mut self,
-        looking: &Looking<'_, S, P, C>,
+        looking: &StepSearch<'_, S, P, C>,
         (number, terminal): (usize, bool),
-        (at, after, first, stopped_by): Here<S>,
-    ) -> Result<Here<S>, IntegrationErrorKind> {
+        (at, after, first, stopped_by): EventCut<S>,
+    ) -> Result<EventCut<S>, IntegrationErrorKind> {
         let jumped = self.jump(number, &after.unwrap_or(at))?;
         let changed = jumped.is_some_and(|(_, changed)| changed);
         let jumped = jumped.map(|(state, _)| state);
@@ -348,13 +348,13 @@ where
     }
 
     /// Remembers of all functions that are on zero where the state jumps how they came there.
-    fn cut(&mut self, looking: &Looking<'_, S, P, C>, state: &State<S>) -> Result<(), IntegrationErrorKind> {
+    fn cut(&mut self, looking: &StepSearch<'_, S, P, C>, state: &State<S>) -> Result<(), IntegrationErrorKind> {
         let rates = self.problem.rates(state);
         self.each(|_, function, mark| {
             mark.cut = mark.last.filter(|_| mark.here).map(|(_, before)| {
                 let rate = looking.rate(function, state, &rates);
                 let beyond = 2.0 * looking.resolution * looking.duration() * rate.abs();
-                BeforeJump { side: side(before), rate, beyond }
+                JumpApproach { side: side(before), rate, beyond }
             });
             Ok(())
         })

@@ -11,12 +11,12 @@ use crate::integrate::{
     Classical4, Crossing, Fixed, IntegrationErrorKind, Observer, RunPart, RungeKutta, Sample, Simulation,
 };
 use crate::system::Smoothness;
-use crate::testing::oscillator::{Law, Oscillator};
+use crate::testing::oscillator::{ForceLaw, Oscillator};
 
 /// No force beside the spring: x = sin t from (0, 1).
 struct Nothing;
 
-impl Law for Nothing {
+impl ForceLaw for Nothing {
     const SMOOTHNESS: Smoothness = Smoothness::Smooth;
     fn force(_: f64, _: f64) -> f64 {
         0.0

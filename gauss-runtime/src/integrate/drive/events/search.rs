@@ -1,8 +1,8 @@
 //! The search for events within a step.
 
 use crate::integrate::drive::control::Control;
-use crate::integrate::drive::cubic::Cubic;
-pub use crate::integrate::drive::cubic::Made;
+use crate::integrate::drive::cubic::StepCubic;
+pub use crate::integrate::drive::cubic::StepEnds;
 use crate::integrate::drive::zero::{below_zero, least_of_cubic, locate};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationErrorKind, RunPart};
@@ -84,23 +84,23 @@ const PARTS: (usize, usize) = (2, 32);
 pub(in crate::integrate) const SHORT: f64 = 1.0 / 1024.0;
 
 /// A step that is searched.
-pub struct Looking<'a, S: GaussSystem, P, C> {
+pub struct StepSearch<'a, S: GaussSystem, P, C> {
     pub(super) control: &'a C,
     pub(in crate::integrate) problem: &'a P,
-    pub(in crate::integrate) made: &'a Made<'a, S>,
+    pub(in crate::integrate) made: &'a StepEnds<'a, S>,
     /// The part of the step to which a zero is found.
     pub(in crate::integrate) resolution: f64,
     parts: usize,
 }
 
-impl<'a, S, P, C> Looking<'a, S, P, C>
+impl<'a, S, P, C> StepSearch<'a, S, P, C>
 where
     S: GaussSystem,
     P: Problem<System = S>,
     C: Control<S>,
 {
     /// A step that a control has made.
-    pub fn of(control: &'a C, problem: &'a P, made: &'a Made<'a, S>) -> Self {
+    pub fn of(control: &'a C, problem: &'a P, made: &'a StepEnds<'a, S>) -> Self {
         let (from, to) = (made.before.0.t.lane(made.lane), made.after.0.t.lane(made.lane));
         let unit = S::Scalar::EPSILON.max(f64::EPSILON);
         // The part of a step that changes its end by four roundings of the time, at least of the step itself.
@@ -261,7 +261,7 @@ where
         let (before, rates) = self.made.before;
         let length = self.length();
         let mut along = C::LONG_STEPS.then(|| self.control.along(self.problem, before, rates));
-        let cubic = (!C::LONG_STEPS).then(|| Cubic::of(self.made));
+        let cubic = (!C::LONG_STEPS).then(|| StepCubic::of(self.made));
         move |part| match (&mut along, &cubic) {
             (Some(along), _) => along(length * S::Scalar::from_f64(part)),
             (None, Some(cubic)) => Ok(cubic.at(part)),

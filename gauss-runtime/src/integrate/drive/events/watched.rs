@@ -1,8 +1,8 @@
 //! The events of a run, and what is known of each from step to step.
 
 use crate::integrate::drive::bounded::Bound;
+use crate::integrate::drive::departure::RestAtZero;
 use crate::integrate::drive::jump::{Jump, JumpFunction, NoJump};
-use crate::integrate::drive::leaving::OnZero;
 use crate::integrate::drive::schedule::Scheduled;
 use crate::integrate::drive::search::{Crossing, Function};
 use crate::integrate::problem::state::Sample;
@@ -27,14 +27,14 @@ pub struct Mark {
     /// Whether a jump has led over it.
     pub(super) passed: bool,
     /// Side and rate of the function before a jump.
-    pub(super) cut: Option<BeforeJump>,
+    pub(super) cut: Option<JumpApproach>,
     /// The function has not been seen to leave zero.
-    pub(super) resting: Option<OnZero>,
+    pub(super) resting: Option<RestAtZero>,
 }
 
 /// Side and rate of a function where the state jumps at its zero.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct BeforeJump {
+pub(super) struct JumpApproach {
     /// The side that it came from.
     pub(super) side: f64,
     /// Per unit of time in the direction of integration.

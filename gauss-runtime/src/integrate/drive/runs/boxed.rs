@@ -71,7 +71,7 @@ assert!(kernel.energy(0.0, &SVector::from([model.angle]), &SVector::from([model.
 "##
 )]
 #[must_use = "a simulation does nothing before `run`"]
-pub struct BoxedSimulation<'k, S: GaussSystem>(Box<dyn Prepared<'k, S> + 'k>);
+pub struct BoxedSimulation<'k, S: GaussSystem>(Box<dyn CompleteSimulation<'k, S> + 'k>);
 
 impl<'k, S: GaussSystem> BoxedSimulation<'k, S> {
     pub(in crate::integrate) fn new<P, C, O, E>(
@@ -137,7 +137,7 @@ impl<S: GaussSystem> fmt::Debug for BoxedSimulation<'_, S> {
 }
 
 /// A simulation of which all is chosen.
-trait Prepared<'k, S: GaussSystem> {
+trait CompleteSimulation<'k, S: GaussSystem> {
     fn attempt(
         &mut self,
         q0: S::Configuration,
@@ -162,7 +162,7 @@ struct Parts<P, C, O, E> {
     limit: Option<u64>,
 }
 
-impl<'k, S, P, C, O, E> Prepared<'k, S> for Parts<P, C, O, E>
+impl<'k, S, P, C, O, E> CompleteSimulation<'k, S> for Parts<P, C, O, E>
 where
     S: GaussSystem,
     P: Problem<System = S> + 'k,

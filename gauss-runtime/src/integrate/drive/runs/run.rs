@@ -11,10 +11,10 @@ use crate::integrate::drive::event::{Events, Outcome, Watch};
 use crate::integrate::drive::interval::{begin, tick};
 use crate::integrate::drive::observer::Observer;
 use crate::integrate::drive::pace::Pace;
-use crate::integrate::drive::search::Made;
+use crate::integrate::drive::search::StepEnds;
 use crate::integrate::drive::summary::{End, Summary};
 #[cfg(feature = "alloc")]
-use crate::integrate::drive::trajectory::{EventSample, Kept};
+use crate::integrate::drive::trajectory::{EventSample, RunData};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::{IntegrationError, IntegrationErrorKind};
 use crate::integrate::problem::state::{Rates, State};
@@ -22,7 +22,7 @@ use crate::real::Real;
 use crate::system::GaussSystem;
 
 /// Items that a run passes on.
-pub(in crate::integrate) enum Seen<'a, S: GaussSystem> {
+pub(in crate::integrate) enum RunItem<'a, S: GaussSystem> {
     Sample(&'a State<S>),
     Event(usize, &'a State<S>),
     /// From this time on an input is held.
@@ -53,7 +53,7 @@ impl<'a, P, C> Run<'a, P, C> {
 
 /// Summary of a run, and the event that stopped it.
 #[derive(Default)]
-pub(in crate::integrate) struct Reached {
+pub(in crate::integrate) struct RunResult {
     pub(in crate::integrate) summary: Summary,
     pub(in crate::integrate) stopped_by: Option<usize>,
 }
@@ -104,7 +104,7 @@ impl Jumps {
 }
 
 /// Record of the states that a run has passed on since its start or the last jump.
-struct Passing<S: GaussSystem> {
+struct PassedStates<S: GaussSystem> {
     count: u64,
     /// The state before, for events.
     before: Option<(State<S>, Rates<S>)>,
@@ -114,15 +114,15 @@ struct Passing<S: GaussSystem> {
     resumed: bool,
 }
 
-impl<S: GaussSystem> Passing<S> {
+impl<S: GaussSystem> PassedStates<S> {
     const fn new() -> Self {
         Self { count: 0, before: None, held: false, resumed: false }
     }
 
     /// Passes on what was held back.
-    fn end(&mut self, pass: &mut dyn FnMut(Seen<'_, S>)) {
+    fn end(&mut self, pass: &mut dyn FnMut(RunItem<'_, S>)) {
         if let (true, Some((state, _))) = (core::mem::take(&mut self.held), &self.before) {
-            pass(Seen::Sample(state));
+            pass(RunItem::Sample(state));
         }
     }
 }
@@ -141,15 +141,15 @@ impl<S: GaussSystem> Cut<S> {
         counted: Result<(), IntegrationErrorKind>,
         (state, after): (State<S>, Option<State<S>>),
         stopped: bool,
-        pass: &mut dyn FnMut(Seen<'_, S>),
+        pass: &mut dyn FnMut(RunItem<'_, S>),
     ) -> Self {
-        pass(Seen::Sample(&state));
+        pass(RunItem::Sample(&state));
         match (counted, after) {
             (Err(kind), _) => Self::Failed(kind),
             (Ok(()), Some(after)) if !stopped => Self::Jumped(after),
             (Ok(()), after) => {
                 if let Some(after) = &after {
-                    pass(Seen::Sample(after));
+                    pass(RunItem::Sample(after));
                 }
                 Self::Stopped(after.unwrap_or(state))
             }
@@ -166,28 +166,28 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         mut observer: O,
         (q0, z0): (S::Configuration, S::Speeds),
         interval: Range<S::Scalar>,
-    ) -> (Kept<S>, Option<IntegrationError>) {
+    ) -> (RunData<S>, Option<IntegrationError>) {
         let problem = self.problem;
         let start = problem.state(interval.start, q0.renormalise(), &z0);
         let (mut samples, mut found, mut held) = (Vec::new(), Vec::new(), Vec::new());
         let (reached, outcome) = self.drive(events, start, interval.end, &mut |seen| match seen {
-            Seen::Sample(state) => {
+            RunItem::Sample(state) => {
                 let sample = problem.sample(state);
                 samples.push(sample);
                 observer.see(&sample);
             }
-            Seen::Event(number, state) => {
+            RunItem::Event(number, state) => {
                 let sample = problem.sample(state);
                 found.push(EventSample { number, sample });
                 observer.event(number, &sample);
             }
-            Seen::Held(t, input) => held.push((t, input)),
+            RunItem::Held(t, input) => held.push((t, input)),
         });
         if samples.is_empty() {
             samples.push(problem.sample(&start));
         }
-        let Reached { summary, stopped_by } = reached;
-        (Kept { samples, events: found, held, stopped_by, summary }, outcome.err())
+        let RunResult { summary, stopped_by } = reached;
+        (RunData { samples, events: found, held, stopped_by, summary }, outcome.err())
     }
 
     /// Keeps nothing but the end.
@@ -201,9 +201,9 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         let problem = self.problem;
         let start = problem.state(interval.start, q0.renormalise(), &z0);
         let (reached, outcome) = self.drive(events, start, interval.end, &mut |seen| match seen {
-            Seen::Sample(state) => observer.see(&problem.sample(state)),
-            Seen::Event(number, state) => observer.event(number, &problem.sample(state)),
-            Seen::Held(..) => {}
+            RunItem::Sample(state) => observer.see(&problem.sample(state)),
+            RunItem::Event(number, state) => observer.event(number, &problem.sample(state)),
+            RunItem::Held(..) => {}
         });
         let state = outcome?;
         Ok(End { sample: problem.sample(&state), stopped_by: reached.stopped_by, summary: reached.summary })
@@ -216,13 +216,13 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         events: E,
         start: State<S>,
         end: S::Scalar,
-        pass: &mut dyn FnMut(Seen<'_, S>),
-    ) -> (Reached, Result<State<S>, IntegrationError>) {
+        pass: &mut dyn FnMut(RunItem<'_, S>),
+    ) -> (RunResult, Result<State<S>, IntegrationError>) {
         let mut watch = Watch::new(self.control, self.problem, events, 0..S::Scalar::LANES);
         let mut jumps = Jumps::new::<S::Scalar>(start.t.lane(0), end.lane(0));
         let mut pace = Pace::new(start.t.lane(0), self.limit);
-        let mut reached = Reached::default();
-        let mut passing = Passing::new();
+        let mut reached = RunResult::default();
+        let mut passing = PassedStates::new();
         // Without controllers all of this is known when the program is compiled.
         let begun = if E::SAMPLED { begin(self.problem, &mut watch, (start, end), self.limit) } else { Ok(start) };
         let mut from = match begun {
@@ -233,7 +233,7 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
             let ticked = if E::SAMPLED { tick(self.problem, &mut watch, &from, end) } else { Ok((None, end)) };
             let stop = match ticked {
                 Ok((held, stop)) => {
-                    held.into_iter().for_each(|input| pass(Seen::Held(from.t, input)));
+                    held.into_iter().for_each(|input| pass(RunItem::Held(from.t, input)));
                     stop
                 }
                 Err(kind) => {
@@ -252,7 +252,7 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
             let failed = |kind| Err(IntegrationError::at(self.problem, &last, kind));
             match cut {
                 Some(Cut::Jumped(state)) => {
-                    (from, passing) = (state, Passing::new());
+                    (from, passing) = (state, PassedStates::new());
                     let (left, tries) =
                         ((end - from.t).lane(0).abs(), reached.summary.steps + reached.summary.rejected);
                     if pace.jumped(from.t.lane(0), left, tries) {
@@ -283,10 +283,10 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
     fn part<E: Events<S>>(
         &self,
         watch: &mut Watch<'_, P, C, E>,
-        (jumps, reached, passing): (&mut Jumps, &mut Reached, &mut Passing<S>),
+        (jumps, reached, passing): (&mut Jumps, &mut RunResult, &mut PassedStates<S>),
         start: State<S>,
         end: S::Scalar,
-        pass: &mut dyn FnMut(Seen<'_, S>),
+        pass: &mut dyn FnMut(RunItem<'_, S>),
     ) -> (Result<State<S>, IntegrationError>, Option<Cut<S>>, State<S>) {
         let mut cut = None;
         let limit = self.limit.saturating_sub(reached.summary.steps + reached.summary.rejected);
@@ -304,8 +304,8 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
                     let found = match &passing.before {
                         None => watch.begin(state).map(|()| Outcome::On),
                         Some((from, slopes)) => {
-                            let made = Made { lane: 0, before: (from, slopes), after: (state, rates) };
-                            watch.step(&made, &mut |number, state| pass(Seen::Event(number, state)))
+                            let made = StepEnds { lane: 0, before: (from, slopes), after: (state, rates) };
+                            watch.step(&made, &mut |number, state| pass(RunItem::Event(number, state)))
                         }
                     };
                     cut = match found {
@@ -327,7 +327,7 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
                 }
                 passing.held = !passing.count.is_multiple_of(self.every);
                 if !passing.held {
-                    pass(Seen::Sample(state));
+                    pass(RunItem::Sample(state));
                 }
                 if passing.held || E::ANY {
                     passing.before = Some((*state, *rates));

@@ -8,7 +8,7 @@ use crate::system::GaussSystem;
 use crate::vector_space::VectorSpace;
 
 /// A simulation with one controller more.
-type With<'k, S, F, I, K, C, O, E> =
+type SampledSimulation<'k, S, F, I, K, C, O, E> =
     Simulation<SystemProblem<'k, S, F, Sampled<S, <I as Samples<S>>::Rest>>, C, O, Controlled<E, Task<S, K>>>;
 
 impl<'k, S, F, I, C, O, E> Simulation<SystemProblem<'k, S, F, I>, C, O, E>
@@ -72,7 +72,7 @@ assert_eq!((push(0.005)?, push(0.01)?, push(0.059)?), (0.0, -8.0, -8.0));
     #[doc(alias = "hold")]
     #[doc(alias = "zero-order hold")]
     #[doc(alias = "discrete controller")]
-    pub fn sampled<G>(self, period: f64, controller: G) -> With<'k, S, F, I, Law<G>, C, O, E>
+    pub fn sampled<G>(self, period: f64, controller: G) -> SampledSimulation<'k, S, F, I, Law<G>, C, O, E>
     where
         I: Samples<S>,
         G: FnMut(S::Scalar, &S::Configuration, &S::Speeds) -> S::Input,
@@ -81,7 +81,7 @@ assert_eq!((push(0.005)?, push(0.01)?, push(0.059)?), (0.0, -8.0, -8.0));
     }
 
     /// A controller that samples, as a type that implements [`Controller`]: see [`sampled`](Self::sampled).
-    pub fn sampled_by<K>(self, period: f64, controller: K) -> With<'k, S, F, I, K, C, O, E>
+    pub fn sampled_by<K>(self, period: f64, controller: K) -> SampledSimulation<'k, S, F, I, K, C, O, E>
     where
         I: Samples<S>,
         K: Controller<S>,

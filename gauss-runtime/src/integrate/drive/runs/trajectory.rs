@@ -45,10 +45,10 @@ copy_and_debug!(EventSample { number, sample });
 pub struct Trajectory<'k, S: GaussSystem> {
     samples: Vec<Sample<S>>,
     events: Vec<EventSample<S>>,
-    held: Vec<Held<S>>,
+    held: Vec<HeldInput<S>>,
     stopped_by: Option<usize>,
     summary: Summary,
-    between: Rc<dyn Between<S> + 'k>,
+    between: Rc<dyn SampleInterpolation<S> + 'k>,
 }
 
 impl<S: GaussSystem> Clone for Trajectory<'_, S> {
@@ -72,13 +72,13 @@ impl<S: GaussSystem> fmt::Debug for Trajectory<'_, S> {
 }
 
 /// From when on controllers held which input.
-pub(in crate::integrate) type Held<S> = (<S as GaussSystem>::Scalar, <S as GaussSystem>::Input);
+pub(in crate::integrate) type HeldInput<S> = (<S as GaussSystem>::Scalar, <S as GaussSystem>::Input);
 
 /// The record of a run.
-pub(in crate::integrate) struct Kept<S: GaussSystem> {
+pub(in crate::integrate) struct RunData<S: GaussSystem> {
     pub(in crate::integrate) samples: Vec<Sample<S>>,
     pub(in crate::integrate) events: Vec<EventSample<S>>,
-    pub(in crate::integrate) held: Vec<Held<S>>,
+    pub(in crate::integrate) held: Vec<HeldInput<S>>,
     pub(in crate::integrate) stopped_by: Option<usize>,
     pub(in crate::integrate) summary: Summary,
 }
@@ -86,7 +86,7 @@ pub(in crate::integrate) struct Kept<S: GaussSystem> {
 #[allow(clippy::len_without_is_empty)] // Never empty.
 impl<'k, S: GaussSystem> Trajectory<'k, S> {
     /// The samples of a run that was made by a control, with all steps or not.
-    pub(in crate::integrate) fn new<P, C>(kept: Kept<S>, problem: P, control: C, every_step: bool) -> Self
+    pub(in crate::integrate) fn new<P, C>(kept: RunData<S>, problem: P, control: C, every_step: bool) -> Self
     where
         P: Problem<System = S> + 'k,
         C: Control<S> + 'k,
@@ -95,8 +95,8 @@ impl<'k, S: GaussSystem> Trajectory<'k, S> {
     }
 
     /// The samples of a run, with what makes states between them.
-    pub(in crate::integrate) fn made_by(kept: Kept<S>, between: Rc<dyn Between<S> + 'k>) -> Self {
-        let Kept { samples, events, held, stopped_by, summary } = kept;
+    pub(in crate::integrate) fn made_by(kept: RunData<S>, between: Rc<dyn SampleInterpolation<S> + 'k>) -> Self {
+        let RunData { samples, events, held, stopped_by, summary } = kept;
         Self { samples, events, held, stopped_by, summary, between }
     }
 
@@ -232,12 +232,12 @@ impl<'a, S: GaussSystem> IntoIterator for &'a Trajectory<'_, S> {
 }
 
 /// The computation of states between samples.
-pub(in crate::integrate) trait Between<S: GaussSystem> {
+pub(in crate::integrate) trait SampleInterpolation<S: GaussSystem> {
     /// The state at a time, from the sample before it, with what controllers held in the run.
-    fn reach(&self, from: &Sample<S>, t: S::Scalar, held: &[Held<S>]) -> Result<Sample<S>, IntegrationError>;
+    fn reach(&self, from: &Sample<S>, t: S::Scalar, held: &[HeldInput<S>]) -> Result<Sample<S>, IntegrationError>;
 
     /// The input at a time in a state.
-    fn input(&self, held: &[Held<S>], t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Input;
+    fn input(&self, held: &[HeldInput<S>], t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Input;
 
     /// The error for a state that cannot be found.
     fn refuse(&self, near: &Sample<S>, kind: IntegrationErrorKind) -> IntegrationError;
@@ -276,8 +276,8 @@ fn acting<T: Real, I>(held: &[(T, I)], t: T) -> usize {
     held.partition_point(|(since, _)| since.lane(0) <= t.lane(0)).saturating_sub(1)
 }
 
-impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Between<S> for Maker<P, C> {
-    fn reach(&self, from: &Sample<S>, t: S::Scalar, held: &[Held<S>]) -> Result<Sample<S>, IntegrationError> {
+impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> SampleInterpolation<S> for Maker<P, C> {
+    fn reach(&self, from: &Sample<S>, t: S::Scalar, held: &[HeldInput<S>]) -> Result<Sample<S>, IntegrationError> {
         let Some(cell) = self.problem.held() else { return self.step(from, t) };
         let mut state = *from;
         // Samples may be several instants apart.
@@ -294,7 +294,7 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Between<S> for Maker
         Ok(state)
     }
 
-    fn input(&self, held: &[Held<S>], t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Input {
+    fn input(&self, held: &[HeldInput<S>], t: S::Scalar, q: &S::Configuration, z: &S::Speeds) -> S::Input {
         match (self.problem.held(), held.get(acting(held, t))) {
             (Some(cell), Some(&(_, input))) => {
                 let before = cell.replace(input);

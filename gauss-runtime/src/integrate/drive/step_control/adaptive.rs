@@ -3,11 +3,11 @@
 use core::ops::Range;
 
 use crate::configuration::{Configuration, VectorSpace};
-use crate::integrate::drive::cause::{Gave, Place, cause, change};
+use crate::integrate::drive::cause::{StopPlace, StopReason, cause, change};
 use crate::integrate::drive::control::{
     Control, StepCallback, StepStatistics, check_tolerances, longest, prepare, smallest, to_a_number, unresolved,
 };
-use crate::integrate::drive::cubic::Made;
+use crate::integrate::drive::cubic::StepEnds;
 use crate::integrate::drive::looks::Looks;
 use crate::integrate::drive::pace::Pace;
 use crate::integrate::drive::projection::{AVOIDED, accept, check_move, clear_part, is_hopeless, onto_constraints};
@@ -174,7 +174,7 @@ impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
         let mut pace = Pace::new(start.t.lane(0), limit);
         loop {
             if let Some(hopeless) = pace.spent(run.state.t.lane(0), run.left()) {
-                return Err(stopped(&run.state, run.cause(Gave::Out { limit, hopeless })));
+                return Err(stopped(&run.state, run.cause(StopReason::StepLimit { limit, hopeless })));
             }
             match run.step() {
                 Ok(None) => {}
@@ -183,7 +183,7 @@ impl<S: GaussSystem, M: EstimatingStep<S>> Control<S> for Adaptive<M> {
                         return Ok(run.state);
                     }
                 }
-                Err(kind) => return Err(stopped(&run.state, run.cause(Gave::AnyStep(kind)))),
+                Err(kind) => return Err(stopped(&run.state, run.cause(StopReason::AnyStep(kind)))),
             }
         }
     }
@@ -219,12 +219,12 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
         (self.end - self.state.t).lane(0).abs()
     }
 
-    fn cause(&self, gave: Gave) -> IntegrationErrorKind {
+    fn cause(&self, gave: StopReason) -> IntegrationErrorKind {
         let Self { problem, state, rates, length, .. } = self;
         let stiff = self.control.method.properties().stiff;
         cause(
             *problem,
-            &Place { state, rates, length: *length, left: self.left(), stiff, lanes: 0..S::Scalar::LANES },
+            &StopPlace { state, rates, length: *length, left: self.left(), stiff, lanes: 0..S::Scalar::LANES },
             gave,
         )
     }
@@ -327,7 +327,7 @@ impl<S: GaussSystem, P: Problem<System = S>, M: EstimatingStep<S>> Drive<'_, S, 
     /// ends there.
     fn leads_over_input(&mut self, (used, error): (f64, f64), after: (&State<S>, &Rates<S>)) -> bool {
         if self.looks.want(self.state.t.lane(0), used, error) {
-            let made = Made { lane: 0, before: (&self.state, &self.rates), after };
+            let made = StepEnds { lane: 0, before: (&self.state, &self.rates), after };
             if let Some(shorter) = self.looks.unseen(self.problem, &made, &self.control.tolerance) {
                 self.length = shorter;
                 self.rejected += 1;

@@ -6,7 +6,7 @@ use crate::real::Real;
 use crate::system::GaussSystem;
 
 /// A step with the derivatives at its ends, of which one lane is looked at.
-pub struct Made<'a, S: GaussSystem> {
+pub struct StepEnds<'a, S: GaussSystem> {
     /// The lane.
     pub lane: usize,
     /// The start of the step, and the derivatives there.
@@ -17,15 +17,15 @@ pub struct Made<'a, S: GaussSystem> {
 
 /// The cubic through the states at the ends of a step with the derivatives there: in the algebra at the start, where q
 /// is `q₀ ∘ exp(σ)` and `σ̇ = dexp_inv(σ, V)`.
-pub(in crate::integrate) struct Cubic<'a, S: GaussSystem> {
-    made: &'a Made<'a, S>,
+pub(in crate::integrate) struct StepCubic<'a, S: GaussSystem> {
+    made: &'a StepEnds<'a, S>,
     h: S::Scalar,
     change: Rates<S>,
     end: Rates<S>,
 }
 
-impl<'a, S: GaussSystem> Cubic<'a, S> {
-    pub(in crate::integrate) fn of(made: &'a Made<'a, S>) -> Self {
+impl<'a, S: GaussSystem> StepCubic<'a, S> {
+    pub(in crate::integrate) fn of(made: &'a StepEnds<'a, S>) -> Self {
         let ((from, _), (to, rates)) = (made.before, made.after);
         let configuration = from.q.difference(&to.q);
         let end = S::Configuration::dexp_inv(&configuration, &rates.configuration);

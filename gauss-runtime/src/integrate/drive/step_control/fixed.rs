@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use crate::integrate::drive::cause::{Gave, Place, cause};
+use crate::integrate::drive::cause::{StopPlace, StopReason, cause};
 use crate::integrate::drive::control::{Control, StepCallback, StepStatistics, one_step, prepare};
 use crate::integrate::drive::projection::accept;
 use crate::integrate::lie_group::rkmk::Rkmk;
@@ -159,8 +159,8 @@ impl<S: GaussSystem> OneLength<S> {
             let this = if last { end - state.t } else { h };
             let failed = |kind| {
                 let (length, left) = (h.lane(0).abs(), (end - state.t).lane(0).abs());
-                let place = Place { state: &state, rates: &rates, length, left, stiff, lanes: 0..S::Scalar::LANES };
-                IntegrationError::at(problem, &state, cause(problem, &place, Gave::Step(kind)))
+                let place = StopPlace { state: &state, rates: &rates, length, left, stiff, lanes: 0..S::Scalar::LANES };
+                IntegrationError::at(problem, &state, cause(problem, &place, StopReason::Step(kind)))
             };
             let (mut next, known) = advance(&state, &rates, this).map_err(failed)?;
             n += 1;

@@ -6,7 +6,7 @@
 //! a part of the run. A step on which they leave what its ends and its curve show ends at the first point that does; a
 //! sixteenth of the distance is looked at from there on, so that stages come to lie in the push.
 
-use crate::integrate::drive::cubic::{Cubic, Made};
+use crate::integrate::drive::cubic::{StepCubic, StepEnds};
 use crate::integrate::drive::tolerance::{Tolerance, Trial};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
@@ -80,10 +80,10 @@ impl Looks {
     pub fn unseen<S: GaussSystem, P: Problem<System = S>>(
         &mut self,
         problem: &P,
-        made: &Made<'_, S>,
+        made: &StepEnds<'_, S>,
         tolerance: &Tolerance,
     ) -> Option<f64> {
-        let (lane, cubic) = (made.lane, Cubic::of(made));
+        let (lane, cubic) = (made.lane, StepCubic::of(made));
         let trial = Trial { from: made.before.0, to: made.after.0, length: S::Scalar::one(), floor: None };
         let hidden = problem.hides_action();
         let [first, last] = [made.before, made.after].map(|(state, rates)| problem.action(state, Some(rates)));

@@ -6,19 +6,19 @@ use proc_macro2::Span;
 
 use crate::algebra::{Expr, Map, Substitution};
 use crate::error::Result;
-use crate::mechanics::{Action, Element, LetGo, Placement, Turn};
+use crate::mechanics::{Action, Element, FreedScene, Placement, Turn};
 use crate::words::Unraw;
 
-use super::freedom::LetGoBy;
+use super::freedom::FreedJoint;
 use super::notes::Notes;
 use super::translator::Translator;
 
 impl<'g> Translator<'_, 'g> {
     /// The scene with the joints let go whose reactions are wanted; `None` where none are.
-    pub(super) fn let_go(&self) -> Result<Option<LetGo<'g>>> {
+    pub(super) fn let_go(&self) -> Result<Option<FreedScene<'g>>> {
         let graph = self.graph;
         let joints = self.model.item.wanted.reactions.iter();
-        let let_go: Vec<_> = joints.map(|joint| LetGoBy::new(graph, joint.link.unraw().to_string())).collect();
+        let let_go: Vec<_> = joints.map(|joint| FreedJoint::new(graph, joint.link.unraw().to_string())).collect();
         if let_go.is_empty() {
             return Ok(None);
         }
@@ -35,7 +35,7 @@ impl<'g> Translator<'_, 'g> {
         let mut own = self.notes.add();
         (own.literals, own.twins) = (noted.literals, noted.twins);
         drop(own);
-        Ok(Some(LetGo { scene, home }))
+        Ok(Some(FreedScene { scene, home }))
     }
 
     /// Zero for everything that joints that are let go move by.

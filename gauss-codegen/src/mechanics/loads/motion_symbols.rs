@@ -13,7 +13,7 @@ use crate::mechanics::print::names::Name;
 /// Symbols for the motion of a body: its pose, and its velocities in both frames, so that what is written in the one or
 /// in the other is never turned there and back.
 #[derive(Clone)]
-pub struct Observed<'g> {
+pub struct MotionSymbols<'g> {
     graph: &'g Graph,
     pub rotation: [Triple<'g>; 3],
     /// b = O − Ω, observer's components.
@@ -28,7 +28,7 @@ pub struct Observed<'g> {
     pub rates: Map<u32, Expr<'g>>,
 }
 
-impl<'g> Observed<'g> {
+impl<'g> MotionSymbols<'g> {
     pub fn new(graph: &'g Graph, time: Expr<'g>) -> Self {
         let entry = |i: usize, j: usize| graph.symbol(format!("E{}{}", i + 1, j + 1), "E", false);
         let rotation = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));

@@ -4,14 +4,14 @@ use crate::algebra::{Expr, Number};
 
 use crate::mechanics::formula::Method;
 
-use super::agreement::{Comparison, Disagreement, Summed, agree};
+use super::agreement::{Comparison, Disagreement, SizedSum, agree};
 use super::witness::{Witness, largest};
 
 /// Gaps of which it is tried which close and which open: all combinations.
 const MOST_GAPS: usize = 6;
 
 /// The definition with contact forces.
-pub struct Pushed<'w, 'a, 'g, N> {
+pub struct ContactDefinition<'w, 'a, 'g, N> {
     pub witness: &'w Witness<'a, 'g, N>,
     /// Jacobian of the constraints, speed by speed, and their multipliers without contact forces.
     pub jacobian: &'w [Vec<N>],
@@ -19,7 +19,7 @@ pub struct Pushed<'w, 'a, 'g, N> {
 }
 
 /// Values of the formulas at one state.
-struct Claim<'v, N> {
+struct FormulaValues<'v, N> {
     /// ż without contact forces, and b.
     still: &'v [N],
     bias: &'v [N],
@@ -28,7 +28,7 @@ struct Claim<'v, N> {
     delassus: &'v [N],
 }
 
-impl<'g, N: Number> Pushed<'_, '_, 'g, N> {
+impl<'g, N: Number> ContactDefinition<'_, '_, 'g, N> {
     /// Rates of gaps are those of dual numbers; motion and rates are right under forces of arbitrary sizes, and under
     /// those with which C is least where no closed gap may close further: λ ≥ 0, g̈ ≥ 0, λ·g̈ = 0 (Karush, Kuhn &
     /// Tucker).
@@ -41,8 +41,8 @@ impl<'g, N: Number> Pushed<'_, '_, 'g, N> {
         let normals: Vec<usize> = self.normals();
         let gaps: Vec<Expr<'g>> = system.scene.contacts.iter().filter_map(|contact| contact.gap).collect();
         let normal_rates = self.witness.along(&self.witness.flow(&vec![N::number(0.0); n]), &gaps);
-        let expected: Vec<_> = normal_rates.into_iter().map(|rate| Summed::of(rate, Vec::new())).collect();
-        if !expected.iter().all(Summed::is_in_range) {
+        let expected: Vec<_> = normal_rates.into_iter().map(|rate| SizedSum::of(rate, Vec::new())).collect();
+        if !expected.iter().all(SizedSum::is_in_range) {
             return Ok(Comparison::WithoutValue);
         }
         let claimed: Vec<Expr<'g>> = normals.iter().map(|&row| system.contacts.rates[row]).collect();
@@ -56,7 +56,7 @@ impl<'g, N: Number> Pushed<'_, '_, 'g, N> {
             let (still, rest) = values.split_at(n);
             let (bias, rest) = rest.split_at(rows);
             let (columns, delassus) = rest.split_at(n * rows);
-            let claim = Claim { still, bias, columns, delassus };
+            let claim = FormulaValues { still, bias, columns, delassus };
             let Some(_) = self.motion(&claim, &arbitrary)? else { return Ok(Comparison::WithoutValue) };
             // Where no motion opens all gaps there is no such force, as between walls that close in.
             let Some(forces) = claim.complementary(&normals[..normals.len().min(MOST_GAPS)]) else { continue };
@@ -64,7 +64,7 @@ impl<'g, N: Number> Pushed<'_, '_, 'g, N> {
             let least = normals.iter().take(MOST_GAPS).map(|&row| {
                 let pressed = claim.delassus[row * rows + row] * forces[row];
                 let terms = changes[row].to_f64().abs() + pressed.to_f64().abs() + largest(values.iter().copied());
-                Summed { value: if pressed < changes[row] { pressed } else { changes[row] }, terms }
+                SizedSum { value: if pressed < changes[row] { pressed } else { changes[row] }, terms }
             });
             let least: Vec<_> = least.collect();
             agree(Method::ImpulseDynamics, &vec![N::number(0.0); least.len()], &least)?;
@@ -86,7 +86,7 @@ impl<'g, N: Number> Pushed<'_, '_, 'g, N> {
 
     /// C is stationary at `ż + A⁻¹Wᵀλ` under the forces Wᵀλ, and the rates of gaps and slips change by `D λ + b` there:
     /// W and what changes them by dual numbers. These changes, where they have values.
-    fn motion(&self, claim: &Claim<'_, N>, forces: &[N]) -> Result<Option<Vec<N>>, Disagreement> {
+    fn motion(&self, claim: &FormulaValues<'_, N>, forces: &[N]) -> Result<Option<Vec<N>>, Disagreement> {
         let Self { witness, jacobian, .. } = self;
         let rates = &witness.system.contacts.rates;
         let (zero, rows) = (N::number(0.0), rates.len());
@@ -99,16 +99,16 @@ impl<'g, N: Number> Pushed<'_, '_, 'g, N> {
         let stationary = witness.stationarity(&moved).into_iter().enumerate().map(|(k, row)| {
             let of_contacts = transposed[k].iter().zip(forces).map(|(w, force)| -(*w * *force));
             let held = jacobian.get(k).into_iter().flatten().zip(&of_constraints).map(|(j, l)| -(*j * *l));
-            Summed::of(row, of_contacts.chain(held).collect()).over(scale)
+            SizedSum::of(row, of_contacts.chain(held).collect()).over(scale)
         });
         let changes = witness.along(&witness.flow(&moved), rates);
         let sizes = largest(moved.iter().copied()) * largest(transposed.iter().flatten().copied());
         let misses = changes.iter().enumerate().map(|(i, change)| {
             let sum = weighted(claim.bias[i], &claim.delassus[i * rows..(i + 1) * rows], forces);
-            Summed { value: *change - sum.value, terms: sum.terms + sizes }.over(scale)
+            SizedSum { value: *change - sum.value, terms: sum.terms + sizes }.over(scale)
         });
         for sums in [stationary.collect::<Vec<_>>(), misses.collect()] {
-            if !sums.iter().all(Summed::is_in_range) {
+            if !sums.iter().all(SizedSum::is_in_range) {
                 return Ok(None);
             }
             agree(Method::ImpulseDynamics, &vec![zero; sums.len()], &sums)?;
@@ -128,11 +128,11 @@ impl<'g, N: Number> Pushed<'_, '_, 'g, N> {
 }
 
 /// A number, and a sum of products.
-fn weighted<N: Number>(first: N, row: &[N], forces: &[N]) -> Summed<N> {
-    Summed::of(first, row.iter().zip(forces).map(|(x, force)| *x * *force).collect())
+fn weighted<N: Number>(first: N, row: &[N], forces: &[N]) -> SizedSum<N> {
+    SizedSum::of(first, row.iter().zip(forces).map(|(x, force)| *x * *force).collect())
 }
 
-impl<N: Number> Claim<'_, N> {
+impl<N: Number> FormulaValues<'_, N> {
     /// ż under contact forces.
     fn moved(&self, forces: &[N]) -> Vec<N> {
         let rows = self.columns.chunks(forces.len());
@@ -184,11 +184,11 @@ impl<N: Number> Claim<'_, N> {
 
 #[cfg(test)]
 mod tests {
-    use super::Claim;
+    use super::FormulaValues;
 
     fn forces(delassus: &[f64], bias: &[f64]) -> Option<Vec<f64>> {
         let normals: Vec<usize> = (0..bias.len()).collect();
-        Claim { still: &[], bias, columns: &[], delassus }.complementary(&normals)
+        FormulaValues { still: &[], bias, columns: &[], delassus }.complementary(&normals)
     }
 
     #[test]

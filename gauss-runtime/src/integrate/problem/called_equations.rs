@@ -9,14 +9,14 @@ use crate::system::GaussSystem;
 /// Equations that each stage of a step calls. Put into every stage, those of vectors make a step longer than the
 /// nearest cache of instructions; what a call costs is shared by the lanes. And where steps are few, those that are
 /// made often are left as the only ones into which compilers put the equations.
-pub struct Called<'a, P>(pub &'a P);
+pub struct CalledEquations<'a, P>(pub &'a P);
 
 type Scalar<P> = <<P as Problem>::System as GaussSystem>::Scalar;
 type Configuration<P> = <<P as Problem>::System as GaussSystem>::Configuration;
 type Speeds<P> = <<P as Problem>::System as GaussSystem>::Speeds;
 type Input<P> = <<P as Problem>::System as GaussSystem>::Input;
 
-impl<P: Problem> Problem for Called<'_, P> {
+impl<P: Problem> Problem for CalledEquations<'_, P> {
     type System = P::System;
     const LEAVES_CONTACTS_OUT: bool = P::LEAVES_CONTACTS_OUT;
 

@@ -4,15 +4,15 @@ use crate::accuracy::{Figure, Trial};
 use crate::methods::DerivativeKind;
 
 use super::columns::LoweredColumns;
-use super::derivatives::Differentiated;
-use super::expected::{Expected, Kept};
-use super::hessian::Curved;
+use super::derivatives::DirectionalDerivatives;
+use super::expected_outputs::{ExpectedOutputs, OutputSelection};
+use super::hessian::SecondDerivatives;
 use super::hoist::Hoister;
-use super::parametric::ByParameters;
+use super::parametric::ParametricDerivatives;
 use super::write::Program;
 
 /// A derivative that is wanted.
-pub struct Wanted<'g> {
+pub struct DerivativeRequest<'g> {
     pub kind: DerivativeKind,
     pub differentiation: Differentiation<'g>,
 }
@@ -20,13 +20,13 @@ pub struct Wanted<'g> {
 /// Functions that are differentiated, and the kind of derivative.
 pub enum Differentiation<'g> {
     /// Functions and then their derivatives along the first direction, and so on.
-    WithValues(Differentiated<'g>),
+    WithValues(DirectionalDerivatives<'g>),
     /// The derivatives alone.
-    Alone(Differentiated<'g>),
+    Alone(DirectionalDerivatives<'g>),
     /// Functions of the kernel by parameters: derivatives by the first one, and so on.
-    ByParameters(ByParameters<'g>),
+    ByParameters(ParametricDerivatives<'g>),
     /// One number twice: along directions i and j up to i.
-    Twice(Curved<'g>),
+    Twice(SecondDerivatives<'g>),
 }
 
 /// A derivative as it is carried out.
@@ -47,37 +47,39 @@ impl<'g> Derivative<'g> {
 }
 
 /// A derivative with its program and what that should compute.
-pub(super) struct Lowered<'a, 'g> {
+pub(super) struct DerivativeProgram<'a, 'g> {
     pub kind: DerivativeKind,
     pub program: Program<'g>,
     pub columns: Option<LoweredColumns<'g>>,
-    pub expected: Expected<'a, 'g>,
+    pub expected: ExpectedOutputs<'a, 'g>,
 }
 
-impl<'g> Wanted<'g> {
+impl<'g> DerivativeRequest<'g> {
     /// Lowers a derivative that does not wait for the constants of everything else.
-    pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Option<Lowered<'_, 'g>> {
+    pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Option<DerivativeProgram<'_, 'g>> {
         let ((program, columns), expected) = match &self.differentiation {
-            Differentiation::WithValues(functions) => functions.lower(hoister, Kept::ValuesToo, trial),
-            Differentiation::Alone(functions) => functions.lower(hoister, Kept::DerivativesAlone, trial),
+            Differentiation::WithValues(functions) => functions.lower(hoister, OutputSelection::ValuesToo, trial),
+            Differentiation::Alone(functions) => functions.lower(hoister, OutputSelection::DerivativesAlone, trial),
             Differentiation::ByParameters(_) => return None,
-            Differentiation::Twice(curved) => ((curved.lower(hoister, trial), None), Expected::of_second(curved)),
+            Differentiation::Twice(curved) => {
+                ((curved.lower(hoister, trial), None), ExpectedOutputs::of_second(curved))
+            }
         };
-        Some(Lowered { kind: self.kind, program, columns, expected })
+        Some(DerivativeProgram { kind: self.kind, program, columns, expected })
     }
 
     /// Forms that could be taken in place of its program; nothing of derivatives by parameters, which follow the
     /// functions.
     pub(super) fn forms(&self) -> Vec<Program<'g>> {
         match &self.differentiation {
-            Differentiation::WithValues(functions) => functions.forms(Kept::ValuesToo),
-            Differentiation::Alone(functions) => functions.forms(Kept::DerivativesAlone),
+            Differentiation::WithValues(functions) => functions.forms(OutputSelection::ValuesToo),
+            Differentiation::Alone(functions) => functions.forms(OutputSelection::DerivativesAlone),
             Differentiation::ByParameters(_) => Vec::new(),
             Differentiation::Twice(curved) => curved.forms(),
         }
     }
 
-    pub(super) fn by_parameters(&self) -> Option<&ByParameters<'g>> {
+    pub(super) fn by_parameters(&self) -> Option<&ParametricDerivatives<'g>> {
         match &self.differentiation {
             Differentiation::ByParameters(by_parameters) => Some(by_parameters),
             _ => None,
@@ -85,7 +87,7 @@ impl<'g> Wanted<'g> {
     }
 }
 
-impl<'g> Lowered<'_, 'g> {
+impl<'g> DerivativeProgram<'_, 'g> {
     pub fn programs(&self) -> impl Iterator<Item = &Program<'g>> {
         std::iter::once(&self.program).chain(self.columns.as_ref().map(|columns| &columns.program))
     }

@@ -8,7 +8,7 @@ use proc_macro2::Ident;
 use std::collections::{HashMap, HashSet};
 
 /// Moving things, by name.
-pub struct Moving {
+pub struct MovingNames {
     /// Coordinates; bodies, frames and points that are placed by them.
     places: HashSet<String>,
     speeds: HashSet<String>,
@@ -16,8 +16,8 @@ pub struct Moving {
     fixed: HashMap<String, Option<String>>,
 }
 
-impl Moving {
-    pub fn new(statements: &Statements) -> Moving {
+impl MovingNames {
+    pub fn new(statements: &Statements) -> MovingNames {
         let mut places: HashSet<String> = HashSet::new();
         places.extend(statements.coordinates.iter().flat_map(|names| &names.names).map(|name| word(&name.ident)));
         places.extend(statements.in_chart.then(|| UNNAMED.to_owned()));
@@ -50,7 +50,7 @@ impl Moving {
         };
         let bodies = statements.bodies.iter().filter(is_fixed);
         let fixed = bodies.map(|body| (body.word(), body.parent.as_ref().map(word))).collect();
-        Moving { places, speeds, fixed }
+        MovingNames { places, speeds, fixed }
     }
 
     /// Whether two bodies or frames never move relative to each other.

@@ -9,7 +9,7 @@
 
 use crate::configuration::{Configuration, VectorSpace};
 use crate::integrate::drive::control::Control;
-use crate::integrate::drive::search::{Function, Looking, SHORT, same_side, value, values};
+use crate::integrate::drive::search::{Function, SHORT, StepSearch, same_side, value, values};
 use crate::integrate::problem::equations::Problem;
 use crate::integrate::problem::error::IntegrationErrorKind;
 use crate::integrate::problem::state::{Rates, State, TangentOf};
@@ -32,7 +32,7 @@ const DIFFERS: f64 = 1e-6;
 
 /// A function that is on zero, to rounding.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::integrate) struct OnZero {
+pub(in crate::integrate) struct RestAtZero {
     value: f64,
     /// Rounding error of the values here.
     rounding: f64,
@@ -42,7 +42,7 @@ pub(in crate::integrate) struct OnZero {
 
 /// Departure of a function from zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::integrate) struct Leaving {
+pub(in crate::integrate) struct Departure {
     /// The part of the step at which it is on a side, and a number of that sign and nothing of a size.
     pub(in crate::integrate) from: (f64, f64),
     /// The last part before it is back, on the parabola; 1 where it does not come back.
@@ -53,14 +53,14 @@ pub(in crate::integrate) struct Leaving {
     seen: f64,
 }
 
-impl Leaving {
+impl Departure {
     /// A function that is on a side already.
     pub(in crate::integrate) fn known(value: f64) -> Self {
         Self { from: (0.0, value), until: 1.0, straight: true, seen: 0.0 }
     }
 }
 
-impl OnZero {
+impl RestAtZero {
     /// At a start, or where a step ends.
     pub(in crate::integrate) fn exactly(rounding: f64) -> Self {
         Self { value: 0.0, rounding, back: None }
@@ -73,7 +73,7 @@ impl OnZero {
 
     /// Which way the function goes that has these values at growing parts of a step; none where it does not leave in
     /// it.
-    fn leaves(&self, points: &[(f64, f64)]) -> Option<Leaving> {
+    fn leaves(&self, points: &[(f64, f64)]) -> Option<Departure> {
         let off = |n: usize| points[n].1 - self.value;
         let beyond = |n: usize| off(n).abs() > self.rounding;
         let next = |n: usize| n + 1 < points.len();
@@ -90,7 +90,7 @@ impl OnZero {
             None => (-toward, reaches(-toward)?, false),
         };
         let back = (at + 1..points.len()).find(|&n| points[n].1 * side < 0.0);
-        Some(Leaving {
+        Some(Departure {
             from: (points[at].0, side * f64::MIN_POSITIVE),
             until: back.map_or(1.0, |n| points[n - 1].0),
             straight,
@@ -181,7 +181,7 @@ fn moved<S: GaussSystem>(state: &State<S>, rates: &Rates<S>, h: S::Scalar) -> St
     }
 }
 
-impl<S, P, C> Looking<'_, S, P, C>
+impl<S, P, C> StepSearch<'_, S, P, C>
 where
     S: GaussSystem,
     P: Problem<System = S>,
@@ -192,8 +192,8 @@ where
     pub(in crate::integrate) fn leaves(
         &self,
         function: Function<'_, S>,
-        on: &OnZero,
-    ) -> Result<Option<Leaving>, IntegrationErrorKind> {
+        on: &RestAtZero,
+    ) -> Result<Option<Departure>, IntegrationErrorKind> {
         self.leaves_from(function, on, self.made.before, 0.0)
     }
 
@@ -201,10 +201,10 @@ where
     fn leaves_from(
         &self,
         function: Function<'_, S>,
-        on: &OnZero,
+        on: &RestAtZero,
         (state, rates): (&State<S>, &Rates<S>),
         start: f64,
-    ) -> Result<Option<Leaving>, IntegrationErrorKind> {
+    ) -> Result<Option<Departure>, IntegrationErrorKind> {
         let lane = self.made.lane;
         let whole = |part: f64| start + (1.0 - start) * part;
         let parabola = Parabola::of(self.problem, state, rates, self.length() * S::Scalar::from_f64(1.0 - start));
@@ -229,12 +229,12 @@ where
         &self,
         function: Function<'_, S>,
         (part, at): (f64, f64),
-    ) -> Result<Option<Leaving>, IntegrationErrorKind> {
+    ) -> Result<Option<Departure>, IntegrationErrorKind> {
         if at != 0.0 || part >= 1.0 {
-            return Ok(Some(Leaving { from: (part, at), ..Leaving::known(at) }));
+            return Ok(Some(Departure { from: (part, at), ..Departure::known(at) }));
         }
         let state = self.reach(part)?;
-        let on = OnZero::exactly(rounding(self.problem, function, self.made.lane, &state));
+        let on = RestAtZero::exactly(rounding(self.problem, function, self.made.lane, &state));
         self.leaves_from(function, &on, (&state, &self.problem.rates(&state)), part)
     }
 
@@ -269,7 +269,7 @@ where
         &self,
         function: Function<'_, S>,
         event: usize,
-        (on, leaving): (&OnZero, &Leaving),
+        (on, leaving): (&RestAtZero, &Departure),
     ) -> Result<(), IntegrationErrorKind> {
         let Some((side, before)) = on.back.filter(|(side, _)| !same_side(*side, leaving.from.1)) else { return Ok(()) };
         let (state, rates) = self.made.before;
@@ -294,7 +294,7 @@ mod tests {
     use super::*;
 
     /// Values of a function at the parts that are looked at.
-    fn leaves(on: &OnZero, function: impl Fn(f64) -> f64) -> Option<Leaving> {
+    fn leaves(on: &RestAtZero, function: impl Fn(f64) -> f64) -> Option<Departure> {
         let points: [(f64, f64); PARTS] = core::array::from_fn(|n| {
             let part = 0.25_f64.powi((PARTS - 1 - n) as i32);
             (part, function(part))
@@ -305,7 +305,7 @@ mod tests {
     #[test]
     fn flights_are_seen_however_short_and_low_ones_are_rest() {
         // From a little beyond zero by rounding, flights of lengths from 10⁻⁹ of the step on.
-        let on = OnZero::after(-1e-16, 1e-15, None);
+        let on = RestAtZero::after(-1e-16, 1e-15, None);
         for n in 0..60 {
             let length = 1e-9 * 1.4_f64.powi(n);
             let flight = |x: f64| -1e-16 + 1e3 * x * (length - x);
@@ -322,7 +322,7 @@ mod tests {
         assert!(leaves(&on, |x| -1e-16 - x * x).is_some_and(|found| !found.straight && found.from.1 < 0.0));
         assert_eq!(leaves(&on, |x| 1e-16 * x), None);
         // Beyond zero by more than it rises: it is not on the other side, and falls again.
-        let beyond = OnZero::after(-1e-12, 1e-15, None);
+        let beyond = RestAtZero::after(-1e-12, 1e-15, None);
         assert!(leaves(&beyond, |x| -1e-12 + 1e-6 * x * (1e-8 - x)).is_some_and(|found| found.from.1 < 0.0));
         assert_eq!(leaves(&beyond, |x| -1e-12 + 0.9e-12 * x), None);
     }

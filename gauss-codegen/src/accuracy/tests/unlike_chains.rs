@@ -18,12 +18,12 @@ struct Case {
 }
 
 /// The losses of accelerations at states by seeds, the most first, and what is said.
-struct Lost {
+struct SeedLosses {
     losses: Vec<f64>,
     said: f64,
 }
 
-fn lost(case: &Case, states: u64, bend: f64) -> Lost {
+fn lost(case: &Case, states: u64, bend: f64) -> SeedLosses {
     let fields: Vec<String> = case.fields.iter().map(|(name, _)| format!("{name}: f64")).collect();
     let source = format!("#[gauss({})] struct Scene {{ {} }}", case.clauses, fields.join(", "));
     let input: syn::DeriveInput = syn::parse_str(&source).expect("the source is a struct");
@@ -31,7 +31,7 @@ fn lost(case: &Case, states: u64, bend: f64) -> Lost {
         let at = |seed: u64| loss_at(derived, &case.fields, bend, seed);
         let mut losses: Vec<f64> = (0..states).filter_map(at).collect();
         losses.sort_by(|a, b| b.total_cmp(a));
-        Ok(Lost { losses, said: said(derived).expect("accelerations have a value") })
+        Ok(SeedLosses { losses, said: said(derived).expect("accelerations have a value") })
     };
     derive(&input, of).unwrap_or_else(|error| panic!("{error}: {source}"))
 }
@@ -46,7 +46,7 @@ fn loss_at(derived: &Derived<'_, '_>, fields: &[(String, f64)], bend: f64, seed:
     let configuration: Vec<Vec<f64>> = coordinates.collect();
     let speeds: Vec<f64> = system.scene.speeds.iter().map(|_| random.signed(0.5)).collect();
     let mut values = values_of(derived, &configuration, speeds.into_iter());
-    for source in &derived.subject.given.sources {
+    for source in &derived.subject.provenance.sources {
         let name = print(source.symbol, Notation::Text);
         let (_, value) = fields.iter().find(|(field, _)| *field == name)?;
         values.push((source.symbol.key(), *value));
@@ -109,7 +109,7 @@ fn parallel_hinges_of_unlike_links_keep_their_digits() {
             Case { clauses: chain(&numbers(&masses), &lengths, &hinges), fields: vec![] },
             Case { clauses: chain(&by_one, &lengths, &hinges), fields: vec![("m".into(), 1.3)] },
         ] {
-            let Lost { losses, said } = lost(&case, STATES, 3.0);
+            let SeedLosses { losses, said } = lost(&case, STATES, 3.0);
             println!("{n} links, each {ratio:e} times: {:.1e}, said {said:e}", losses[0]);
             assert!(losses[0] <= KEPT, "{n} links, each {ratio:e} times, lose {:e}: {}", losses[0], case.clauses);
         }
@@ -122,7 +122,7 @@ fn light_ends_behind_a_slide_keep_their_digits() {
     for axes in [['z', 'z', 'z'], ['z', 'y', 'x']] {
         let joints: Vec<Joint> = [Joint::Slide].into_iter().chain(axes.map(Joint::Hinge)).collect();
         let clauses = chain(&numbers(&[1.7, 2.4, 7.7e-4, 2.9e-6]), &numbers(&[0.6, 1.1, 0.7, 0.9]), &joints);
-        let Lost { losses, said } = lost(&Case { clauses, fields: vec![] }, STATES, 3.0);
+        let SeedLosses { losses, said } = lost(&Case { clauses, fields: vec![] }, STATES, 3.0);
         println!("{axes:?}: {:.1e}, said {said:e}", losses[0]);
         assert!(losses[0] <= KEPT, "{axes:?} loses {:e}", losses[0]);
     }
@@ -135,7 +135,7 @@ fn what_chains_of_unlike_fields_lose_is_said() {
         let masses: Vec<f64> = (0..n).map(|k| ratio.powi(k)).collect();
         let (names, fields) = fields("m", &masses);
         let clauses = chain(&names, &numbers(&vec![1.1; n as usize]), &[Joint::Hinge('z')]);
-        let Lost { losses, said } = lost(&Case { clauses, fields }, STATES, 3.0);
+        let SeedLosses { losses, said } = lost(&Case { clauses, fields }, STATES, 3.0);
         println!("{n} links, each {ratio:e} times: {:.1e}, said {said:e}", losses[0]);
         assert!(losses[0] <= WITHIN * said, "{n} links, each {ratio:e} times, lose {:e} of {said:e}", losses[0]);
     }
@@ -151,7 +151,7 @@ fn what_long_chains_lose_is_said() {
     let cases = [(straight, vec![1e-1, 1e-3, 1e-5, 1e-7]), (heavy, vec![3.0])];
     for (clauses, bends) in cases {
         for bend in bends {
-            let Lost { losses, said } = lost(&Case { clauses: clauses.clone(), fields: vec![] }, 4, bend);
+            let SeedLosses { losses, said } = lost(&Case { clauses: clauses.clone(), fields: vec![] }, 4, bend);
             println!("bent by {bend:e}: {:.1e}, said {said:e}", losses[0]);
             assert!(losses[0] <= WITHIN * said, "bent by {bend:e} it loses {:e} of {said:e}: {clauses}", losses[0]);
         }
@@ -194,7 +194,7 @@ fn what_random_chains_of_unlike_links_lose_is_said() {
     let threads = std::thread::available_parallelism().map_or(1, usize::from) as u64;
     let of = |seed: u64| {
         let case = random_chain(seed);
-        let Lost { losses, said } = lost(&case, 2, 3.0);
+        let SeedLosses { losses, said } = lost(&case, 2, 3.0);
         losses.first().map(|loss| (*loss, said, format!("scene {seed}: {} {:?}", case.clauses, case.fields)))
     };
     let mut found: Vec<(f64, f64, String)> = std::thread::scope(|scope| {

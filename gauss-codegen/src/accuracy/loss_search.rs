@@ -8,14 +8,14 @@ use crate::mechanics::Matter;
 use crate::program::Code;
 
 use super::figure::{Figure, NO_DIGIT};
-use super::flat::{Flat, Slot, Trace, Traced, unit};
+use super::flat::{Flat, Slot, Trace, TracedNumber, unit};
 use super::moves::{Draft, Move, Moves};
 use super::random::Random;
 use super::states::{PROFILES, Samples, States};
-use super::trial::{Deciding, Loss};
+use super::trial::{DecidingState, Loss};
 
 /// The programs whose losses are sought, and what they read.
-pub struct Sought<'a, 'g> {
+pub struct LossSearchInput<'a, 'g> {
     /// Constants, computed from parameters, and their symbols.
     pub constants: &'a Code<Expr<'g>>,
     pub symbols: &'a [Expr<'g>],
@@ -32,12 +32,12 @@ pub struct Sought<'a, 'g> {
 
 /// Figures of programs; none of those that have no value at any state.
 #[derive(Default)]
-pub struct Found {
+pub struct LossFigures {
     pub functions: Vec<Option<Figure>>,
     pub besides: Vec<Option<Figure>>,
 }
 
-/// Forms that could be taken in place of a program, by its number in the lists of [`Sought`].
+/// Forms that could be taken in place of a program, by its number in the lists of [`LossSearchInput`].
 pub struct Forms<'f, 'g> {
     pub of_function: &'f dyn Fn(usize) -> Vec<Vec<Expr<'g>>>,
     /// Forms of derivatives, as programs that read parameters, not constants.
@@ -93,7 +93,7 @@ pub(super) struct Search<'s, 'a, 'g> {
 impl<'s, 'g> Samples<'s, '_, 'g> {
     /// Looks for the states where functions and derivatives lose most; those of them where another form would keep what
     /// is lost.
-    pub fn seek(&self, sought: &Sought<'_, 'g>, forms: &Forms<'_, 'g>) -> (Found, Vec<Deciding>) {
+    pub fn seek(&self, sought: &LossSearchInput<'_, 'g>, forms: &Forms<'_, 'g>) -> (LossFigures, Vec<DecidingState>) {
         let mut search = Search::new(self, sought);
         let mut traces = search.rooms();
         let (mut drafts, best) = search.searched(self, &mut traces);
@@ -125,11 +125,11 @@ impl<'s, 'g> Samples<'s, '_, 'g> {
             let Best { loss, state } = (*worst)?;
             Some(Figure { worst: loss, median: Loss(ordinary).median(), at: at(state) })
         });
-        let found = Found { functions: functions.collect(), besides: of_besides.collect() };
+        let found = LossFigures { functions: functions.collect(), besides: of_besides.collect() };
         let deciding = search.deciding(&drafts, &best, &worst, forms).into_iter().map(|(function, draft)| {
             let mut values = draft.values;
             self.states.finish(&mut values);
-            Deciding { function, point: self.states.point(&values) }
+            DecidingState { function, point: self.states.point(&values) }
         });
         (found, deciding.collect())
     }
@@ -177,7 +177,7 @@ impl States<'_, '_> {
 }
 
 impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
-    pub fn new(samples: &'s Samples<'s, 'a, 'g>, sought: &Sought<'_, 'g>) -> Self {
+    pub fn new(samples: &'s Samples<'s, 'a, 'g>, sought: &LossSearchInput<'_, 'g>) -> Self {
         let Samples { states, seen, .. } = samples;
         let mut flat = Flat::default();
         states.units.iter().for_each(|unit| flat.scale(unit));
@@ -450,7 +450,7 @@ impl<'s, 'a, 'g> Search<'s, 'a, 'g> {
     pub fn loss_as_of(&self, traces: &[&Trace], outputs: &[Slot], others: &[Slot]) -> Option<f64> {
         let (mut worst, mut largest, mut vanishing) = (0.0_f64, 0.0_f64, 0.0_f64);
         for (slot, other) in outputs.iter().zip(others) {
-            let traced: Vec<Traced> = traces.iter().map(|trace| trace.slots()[*slot as usize]).collect();
+            let traced: Vec<TracedNumber> = traces.iter().map(|trace| trace.slots()[*slot as usize]).collect();
             let (error, unit) = (traced[0].error.abs(), unit(&traced));
             if !(error + unit).is_finite() {
                 return None;

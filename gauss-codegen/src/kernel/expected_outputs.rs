@@ -4,44 +4,49 @@ use std::borrow::Cow;
 
 use crate::algebra::{Evaluation, Expr, Number, Tangents};
 
-use super::hessian::Curved;
+use super::hessian::SecondDerivatives;
 use super::tangent::Direction;
 
 /// Whether the outputs themselves are wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kept {
+pub(super) enum OutputSelection {
     ValuesToo,
     DerivativesAlone,
 }
 
 /// Expected results of a program of derivatives.
-pub(super) struct Expected<'a, 'g> {
+pub(super) struct ExpectedOutputs<'a, 'g> {
     outputs: Cow<'a, [Expr<'g>]>,
     directions: Cow<'a, [Direction<'g>]>,
-    kept: Kept,
+    kept: OutputSelection,
     /// In place of all that, second derivatives.
-    second: Option<&'a Curved<'g>>,
+    second: Option<&'a SecondDerivatives<'g>>,
 }
 
-impl<'a, 'g> Expected<'a, 'g> {
+impl<'a, 'g> ExpectedOutputs<'a, 'g> {
     /// The outputs and their derivatives along each direction.
-    pub fn along(outputs: Vec<Expr<'g>>, directions: &'a [Direction<'g>], kept: Kept) -> Self {
+    pub fn along(outputs: Vec<Expr<'g>>, directions: &'a [Direction<'g>], kept: OutputSelection) -> Self {
         Self { outputs: Cow::Owned(outputs), directions: Cow::Borrowed(directions), kept, second: None }
     }
 
     /// Derivatives of functions alone.
     pub fn of_derivatives(outputs: Vec<Expr<'g>>, directions: Vec<Direction<'g>>) -> Self {
         let (outputs, directions) = (Cow::Owned(outputs), Cow::Owned(directions));
-        Self { outputs, directions, kept: Kept::DerivativesAlone, second: None }
+        Self { outputs, directions, kept: OutputSelection::DerivativesAlone, second: None }
     }
 
     /// The values of expressions.
     pub fn of(outputs: &'a [Expr<'g>]) -> Self {
-        Self { outputs: Cow::Borrowed(outputs), directions: Cow::Borrowed(&[]), kept: Kept::ValuesToo, second: None }
+        Self {
+            outputs: Cow::Borrowed(outputs),
+            directions: Cow::Borrowed(&[]),
+            kept: OutputSelection::ValuesToo,
+            second: None,
+        }
     }
 
     /// The second derivatives of a number.
-    pub fn of_second(second: &'a Curved<'g>) -> Self {
+    pub fn of_second(second: &'a SecondDerivatives<'g>) -> Self {
         Self { second: Some(second), ..Self::of(&second.arrangements[..1]) }
     }
 
@@ -55,7 +60,7 @@ impl<'a, 'g> Expected<'a, 'g> {
             return second.values(evaluation);
         }
         let mut expected = Vec::new();
-        if self.kept == Kept::ValuesToo {
+        if self.kept == OutputSelection::ValuesToo {
             expected.extend(self.outputs.iter().map(|e| evaluation.value(*e)));
         }
         for direction in self.directions.iter() {

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use crate::algebra::{Expr, Graph, Notation, Rational, Substitution, print};
 use crate::mechanics::print::names::Name;
-use crate::mechanics::print::rows::{Row, Section};
+use crate::mechanics::print::rows::{PrintedRow, Section};
 use crate::mechanics::tidy;
 
 /// Names and angles that are other in print than in kernels.
@@ -17,7 +17,7 @@ pub struct Readings<'g> {
 }
 
 /// The same with symbols for the names.
-pub(in crate::mechanics) struct Shown<'g> {
+pub(in crate::mechanics) struct PrintSymbols<'g> {
     angles: Vec<(Expr<'g>, i64)>,
     /// Expressions, and the symbols of their names.
     named: Vec<(Expr<'g>, Expr<'g>)>,
@@ -26,7 +26,7 @@ pub(in crate::mechanics) struct Shown<'g> {
     turned: RefCell<Vec<usize>>,
 }
 
-impl<'g> Shown<'g> {
+impl<'g> PrintSymbols<'g> {
     /// Prepares the readings; values of speeds that constraints were solved for come into the place of the names.
     pub fn new(readings: &Readings<'g>, replacement: Option<&Substitution<'g>>) -> Self {
         let whole = |e: Expr<'g>| replacement.map_or(e, |replacement| replacement.of(e));
@@ -99,7 +99,7 @@ impl<'g> Shown<'g> {
         }
         found.reverse();
         let names = self.names.iter().zip(used).filter(|(_, used)| *used).map(|(name, _)| name.clone());
-        let rows = names.zip(found).map(|(name, value)| Row::Definition(name, value)).collect();
+        let rows = names.zip(found).map(|(name, value)| PrintedRow::Definition(name, value)).collect();
         Section { title: Name::new("definitions", "definitions"), rows }
     }
 
@@ -111,7 +111,7 @@ impl<'g> Shown<'g> {
         let row = |k: usize| {
             let (number, quarters) = self.angles[k];
             let name = [Notation::Text, Notation::Latex].map(|notation| print(number, notation));
-            Row::Definition(Name::new(&name[0], &name[1]), pi.scale(Rational::new(quarters, 2)))
+            PrintedRow::Definition(Name::new(&name[0], &name[1]), pi.scale(Rational::new(quarters, 2)))
         };
         let title = "angles of the file that are quarter turns to their last digit, and are printed as these";
         Section { title: Name::new(title, title), rows: seen.into_iter().map(row).collect() }

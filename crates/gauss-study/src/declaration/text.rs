@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::declared::Declaration;
+use super::content::Declaration;
 
 impl Declaration {
     /// As it is kept beside the results: JSON.

@@ -4,7 +4,7 @@ use proc_macro2::Ident;
 
 /// The methods and derivatives that a kernel has on request.
 #[derive(Clone, Default)]
-pub struct Wanted {
+pub struct KernelOptions {
     /// `taylor`, where it is written: power series of the motion.
     pub taylor: Option<Ident>,
     /// `linearize`, where it is written: the derivatives of the equations by the state.
@@ -22,16 +22,16 @@ pub struct Wanted {
     /// `frames(…)`: bodies and frames whose poses and velocities are methods, by their names, each once.
     pub frames: Vec<Ident>,
     /// `reactions(…)`: joints whose reactions are methods, each once.
-    pub reactions: Vec<WantedJoint>,
+    pub reactions: Vec<ReactionJoint>,
     /// `python`, where it is written: a class of Python.
     pub python: Option<Ident>,
     /// `methods(…)`: quantities of the system as a whole, each once.
-    pub methods: Vec<WantedMethod>,
+    pub methods: Vec<OptionalMethod>,
 }
 
 /// A method, or several that belong together, that a kernel has on request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WantedMethod {
+pub enum OptionalMethod {
     /// Momenta about the centre of mass.
     Centroidal,
     /// Inverse dynamics at ż = 0.
@@ -44,7 +44,7 @@ pub enum WantedMethod {
 
 /// A joint whose reaction is wanted: what it is called, and the body or frame that it joins to a parent.
 #[derive(Clone)]
-pub struct WantedJoint {
+pub struct ReactionJoint {
     pub name: Ident,
     pub link: Ident,
 }

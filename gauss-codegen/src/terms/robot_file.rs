@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Span};
 
 /// A robot that was read from a file.
 #[derive(Clone)]
-pub struct Described {
+pub struct RobotFile {
     /// Paths of the file and of those that it includes: the generated code names them, so that an edit compiles the
     /// struct anew.
     pub paths: Vec<String>,
@@ -13,7 +13,7 @@ pub struct Described {
     /// The string of the clause.
     pub span: Span,
     /// Remarks on the file for a reader of the equations.
-    pub remarks: Vec<Remark>,
+    pub remarks: Vec<FileRemark>,
     /// Names of the bodies and frames in the file, where they differ from those here.
     pub called: Vec<(Ident, String)>,
     /// Bodies that are fields, with the mass data of the file.
@@ -54,7 +54,7 @@ pub enum ValueOfState {
 
 /// Something to know of a file, with its place in it.
 #[derive(Clone)]
-pub struct Remark {
+pub struct FileRemark {
     pub text: String,
     /// Something that acts in the file does not act in the equations.
     pub ignored: bool,

@@ -5,7 +5,7 @@ use crate::algebra::{Evaluation, Expr, Map, Number, Precise};
 use crate::mechanics::formula::Method;
 use crate::mechanics::reactions::Reactions;
 
-use super::agreement::{Disagreement, Summed, agree};
+use super::agreement::{Disagreement, SizedSum, agree};
 use super::witness::{Witness, sample_state};
 
 /// Evaluates the rows at a few states, with speeds and rates of any size. As everywhere, what double precision finds
@@ -48,9 +48,9 @@ fn compare<N: Number>(reactions: &Reactions<'_>, shift: u32) -> Result<bool, Dis
     let motion: Vec<N> =
         (0..all).map(|k| if k < own { N::number(0.7 - 0.3 * (k % 4) as f64) } else { still }).collect();
     let witness = Witness::new(system, state);
-    let expected: Vec<Summed<N>> =
-        witness.stationarity(&motion)[own..].iter().map(|row| Summed::of(*row, Vec::new())).collect();
-    if !expected.iter().all(Summed::is_in_range) {
+    let expected: Vec<SizedSum<N>> =
+        witness.stationarity(&motion)[own..].iter().map(|row| SizedSum::of(*row, Vec::new())).collect();
+    if !expected.iter().all(SizedSum::is_in_range) {
         return Ok(false);
     }
     let mut state = witness.state;

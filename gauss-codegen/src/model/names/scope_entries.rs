@@ -1,6 +1,6 @@
 //! Declarations of a scene, for expressions to name.
 
-use super::scope::{Declared, Meaning, Scope};
+use super::scope::{DeclaredFunction, Meaning, Scope};
 use crate::model::language::fields::ReadField;
 use crate::model::language::shapes::TypeKind;
 use crate::model::language::statements::{Statement, Statements};
@@ -63,7 +63,8 @@ pub fn scope(
         scope.add(name, Meaning::Frame);
     }
     for function in &statements.functions {
-        let declared = Declared { kink: function.kind.continuous() == Some(0), variables: function.kind.variables() };
+        let declared =
+            DeclaredFunction { kink: function.kind.continuous() == Some(0), variables: function.kind.variables() };
         scope.add(&function.name, Meaning::Function(declared));
     }
     for point in &statements.points {

@@ -8,14 +8,14 @@ use gauss_robots::rotation::{Matrix, Triple, turned};
 
 /// A plane in observer's axes, whose direction and height are numbers.
 #[derive(Clone, Copy)]
-pub struct Level {
+pub struct LevelPlane {
     pub normal: Triple,
     pub height: f64,
 }
 
 /// A link in some states, as a plane sees it.
-pub struct Seen {
-    level: Level,
+pub struct LinkStates {
+    level: LevelPlane,
     /// None where the link moves in more ways than joints with one coordinate let it.
     states: Vec<(Triple, Matrix)>,
 }
@@ -27,7 +27,7 @@ const SLACK: f64 = 1e-12;
 
 impl Robot<'_> {
     /// A link as a plane sees it, if what holds the file stays where it is.
-    pub fn seen(&self, link: usize, level: Level) -> Option<Seen> {
+    pub fn seen(&self, link: usize, level: LevelPlane) -> Option<LinkStates> {
         let held = !self.is_floating() && self.clauses.mount.is_none();
         let mut chain = std::iter::successors(Some(link), |&link| self.structure.parent_of[link]);
         let joint = |link: usize| Some(self.description.joints[self.structure.joint_of[link]?].kind);
@@ -44,11 +44,11 @@ impl Robot<'_> {
         };
         let place =
             |state| self.structure.moved(self.description, link, |joint| value(state, &joint.name).unwrap_or(0.0));
-        Some(Seen { level, states: (0..STATES).map(place).collect() })
+        Some(LinkStates { level, states: (0..STATES).map(place).collect() })
     }
 }
 
-impl Seen {
+impl LinkStates {
     /// The height of a point over the plane, if it stays.
     fn height(&self, point: &Triple) -> Option<f64> {
         let over = |(at, matrix): &(Triple, Matrix)| {
