@@ -213,8 +213,8 @@ pub fn error_matrix<S: LinearizedSystem>(
 
 type Velocity<S> = <<S as GaussSystem>::Configuration as Configuration>::Tangent;
 
-/// Entries of ½ [σ, V] as a matrix on the state, column by column. V is put into a velocity that is there: of models that
-/// come at run time it knows of what groups it is.
+/// Entries of ½ [σ, V] as a matrix on the state, column by column. V is put into a velocity that is there: of models
+/// that come at run time it knows of what groups it is.
 pub(crate) fn brackets<S: LinearizedSystem>(
     linear: &S::Linearization,
     mut velocity: Velocity<S>,

@@ -334,9 +334,7 @@ impl fmt::Display for ContactErrorKind {
             Self::Zeno { impacts } => write!(f, "{impacts} impacts at one time do not end"),
             Self::Chatter { changes } => write!(f, "{changes} changes of modes at one time do not end"),
             Self::EventsPile { events, span } => write!(f, "more than {events} events within {span:e}"),
-            Self::TooManyEvents { limit } => {
-                write!(f, "{limit} events do not reach the end; allow more by `max_events`")
-            }
+            Self::TooManyEvents { limit } => write!(f, "{limit} events do not reach the end; allow more by `max_events`"),
             Self::Grazes { rate } => {
                 write!(f, "what ends the mode only touches zero (rate {rate:.1e}): its time has no derivative")
             }

@@ -97,8 +97,8 @@ impl Kernel {
         }))
     }
 
-    /// Warnings about parameters that are likely not meant, although a kernel can be made of them: drag and damping that
-    /// feed energy, gravity that points upward, added mass with the sign of hydrodynamic derivatives.
+    /// Warnings about parameters that are likely not meant, although a kernel can be made of them: drag and damping
+    /// that feed energy, gravity that points upward, added mass with the sign of hydrodynamic derivatives.
     pub fn warnings(&self) -> &ParameterWarnings {
         &self.warnings
     }
@@ -137,8 +137,8 @@ impl Kernel {
         Ok(results)
     }
 
-    /// `q ∘ exp(increment)`: the configuration moved by an increment that is seen from the body, rotations at norm 1. It
-    /// has as many components as q, and the increment as many as `kinematics` gives.
+    /// `q ∘ exp(increment)`: the configuration moved by an increment that is seen from the body, rotations at norm 1.
+    /// It has as many components as q, and the increment as many as `kinematics` gives.
     ///
     /// # Errors
     /// Lists of other lengths; more than 31 rotations and poses.

@@ -67,8 +67,8 @@ impl Derivation {
         Self::new(&struct_in(source, name)?)
     }
 
-    /// The same of the only struct with a `#[gauss(…)]` attribute in a text, without its code in Rust: for programs that
-    /// read a scene while they run, and wait for it.
+    /// The same of the only struct with a `#[gauss(…)]` attribute in a text, without its code in Rust: for programs
+    /// that read a scene while they run, and wait for it.
     ///
     /// # Errors
     /// What is no Rust; no such struct, or several; every mistake of the struct.

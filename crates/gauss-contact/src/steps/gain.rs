@@ -13,10 +13,11 @@
 //! it is more than all that moves has (`EnergyFromNowhere`). What all steps of a run gain is told by `account`.
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::contact::{Contact, ContactSystem};
 
-use crate::error::ContactErrorKind;
+use crate::error::{ContactError, ContactErrorKind};
 
+use super::account::Account;
 use super::motion;
 use super::outcome::{Attempt, End};
 use super::stepper::ContactStepper;
@@ -27,7 +28,7 @@ const LITTLE: f64 = 1e-3;
 const MUCH: f64 = 0.1;
 
 /// By what part of itself energy is rounded: some hundred terms.
-pub(super) const ROUNDING: f64 = 128.0 * f64::EPSILON;
+const ROUNDING: f64 = 128.0 * f64::EPSILON;
 
 /// By what part of a step states are moved for rates of energy.
 const NEAR: f64 = 1e-4;
@@ -108,5 +109,33 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         let (rate, acceleration) = (kernel.kinematics(t, q, z), kernel.acceleration(t, q, z, input));
         let moved = |by: f64| kernel.energy(t + by, &q.advance(&rate.scale(by)), &z.add_scaled(by, &acceleration));
         (moved(NEAR * h) - moved(-NEAR * h)) / (2.0 * NEAR * h)
+    }
+
+    /// The account after a step.
+    pub(super) fn accounted(&self, h: f64, made: &Attempt<K>) -> Result<Option<Account>, ContactError> {
+        let Some(Account { low, most }) = self.account else { return Ok(None) };
+        let (kernel, t, end) = (self.kernel, self.t + h, &made.end);
+        let (potential, kinetic) = (kernel.potential_energy(t, &end.q), kernel.kinetic_energy(t, &end.q, &end.z));
+        let [taken, given] = if end.touches { self.work(h, end) } else { [0.0; 2] };
+        let of_law = if Self::rubs(&end.impulses) { taken.max(0.0) } else { 0.0 };
+        let energy = potential + kinetic;
+        let low = (low + of_law + given.max(0.0)).min(energy);
+        let most = most.max(low - potential);
+        // What weight makes of rest in a step, and rounding.
+        let of_weight = || kernel.kinetic_energy(t, &end.q, &made.acceleration.scale(h));
+        let rounding = ROUNDING * (potential.abs() + kinetic + low.abs());
+        let gained = energy - low;
+        if gained > most + rounding && gained > most + rounding + of_weight() {
+            return Err(self.error(None, ContactErrorKind::EnergyFromNowhere { gained, kinetic: most, step: h }));
+        }
+        Ok(Some(Account { low, most }))
+    }
+
+    /// Whether there is friction, without which no impact gives energy.
+    fn rubs(impulses: &K::ContactRows) -> bool {
+        let normal = |contact: &Contact, row: usize| contact.has_gap() && row == contact.normal;
+        let rubs =
+            |contact: &Contact| contact.rows().any(|row| !normal(contact, row) && impulses.component(row) != 0.0);
+        K::CONTACTS.iter().any(rubs)
     }
 }

@@ -11,7 +11,8 @@
 //! zero is pulled shut by at most what the impulse of the step does at another time of it, and stays open else. No
 //! event is sought, so that dozens of contacts, and impacts that pile up, are no more work than one; the time of an
 //! impact is known to a step. A step whose forces were taken at other speeds than its mean ones is made again
-//! (`speeds`), or at another place where they change much with it (`stiffness`).
+//! (`speeds`), or at another place where they change much with it (`stiffness`; `springs`: what
+//! steps without a memory refuse).
 
 mod account;
 mod active;
@@ -41,6 +42,7 @@ mod report;
 mod rounds;
 mod run;
 mod speeds;
+mod springs;
 mod stepper;
 mod stiffness;
 mod together;

@@ -1,17 +1,81 @@
-//! A kernel of a model as Python's classes see it.
+//! A model and its kernels as Python's classes see them.
 
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
-use gauss_jit::Kernel;
+use gauss_jit::{Kernel, Notation};
+use gauss_runtime::accuracy::Loss;
+use gauss_runtime::contact::Contact;
 
 use super::runs;
 use super::scene::LoadedScene;
-use crate::kernels::{AnyKernel, AnyScene, OffGroup, off_group};
-use crate::methods::{Id, SPECS, Slot, Work};
+use crate::description::Description;
+use crate::kernels::{AnyKernel, AnyScene, OffGroup, Violation, off_group};
+use crate::methods::{Id, SPECS, Sizes, Slot, Work};
 use crate::runs::{Many, ManyEnds, one_by_one, request};
 use crate::steps::{self, Control, InContact, NO_CONTACTS, Outcome, Request};
+
+impl AnyScene for LoadedScene {
+    fn description(&self) -> &Description {
+        &self.description
+    }
+
+    fn equations(&self) -> [&str; 2] {
+        [Notation::Text, Notation::Latex].map(|notation| self.model.equations(notation))
+    }
+
+    fn operations(&self) -> String {
+        self.model.operations().map(|(name, counts)| format!("{name:<20}{counts}")).collect::<Vec<_>>().join("\n")
+    }
+
+    fn accuracy(&self) -> String {
+        let line = |(name, lost): &(String, [f64; 2])| format!("{name:<20}{}", Loss::new(lost[0], lost[1]));
+        self.model.accuracy().iter().map(line).collect::<Vec<_>>().join("\n")
+    }
+
+    fn names(&self) -> [&[&'static str]; 2] {
+        [&self.names[0], &self.names[1]]
+    }
+
+    fn sizes(&self) -> Sizes {
+        self.sizes
+    }
+
+    fn frames(&self) -> &[&'static str] {
+        &self.frames
+    }
+
+    fn joints(&self) -> &[&'static str] {
+        &self.joints
+    }
+
+    fn contacts(&self) -> &[Contact] {
+        &[]
+    }
+
+    fn contact_names(&self) -> Vec<&'static str> {
+        self.contacts.clone()
+    }
+
+    fn has(&self, id: Id) -> bool {
+        self.plans.has(id)
+    }
+
+    fn at_rest(&self) -> [Vec<f64>; 2] {
+        let mut q = vec![0.0; self.sizes.configuration];
+        for (place, count) in self.description.unit_blocks() {
+            // The real part: last of a quaternion, first of a rotation in the plane.
+            q[if count == 4 { place + 3 } else { place }] = 1.0;
+        }
+        [q, vec![0.0; self.sizes.speeds]]
+    }
+
+    fn kernel(self: Arc<Self>, numbers: Vec<f64>) -> Result<Box<dyn AnyKernel>, Vec<Violation>> {
+        let kernel = self.of_numbers(&numbers)?;
+        Ok(Box::new(LoadedKernel { scene: self, kernel, numbers }))
+    }
+}
 
 /// A kernel with the numbers that it was made from.
 pub struct LoadedKernel {

@@ -1,27 +1,22 @@
 //! The scene of a model.
 
-use std::sync::Arc;
+use gauss_jit::{KernelError, Model, Quantity};
 
-use gauss_jit::{KernelError, Model, Notation, Quantity};
-use gauss_runtime::accuracy::Loss;
-use gauss_runtime::contact::Contact;
-
-use super::kernel::LoadedKernel;
 use super::names::kept;
 use super::rows::Plans;
 use crate::description::{Description, Field, Part, Remark, Shape};
-use crate::kernels::{AnyKernel, AnyScene, Violation};
-use crate::methods::{Id, Sizes};
+use crate::kernels::Violation;
+use crate::methods::Sizes;
 
 /// A model with its names.
 pub struct LoadedScene {
     pub(super) model: Model,
-    description: Description,
-    sizes: Sizes,
-    names: [Vec<&'static str>; 2],
-    frames: Vec<&'static str>,
-    joints: Vec<&'static str>,
-    contacts: Vec<&'static str>,
+    pub(super) description: Description,
+    pub(super) sizes: Sizes,
+    pub(super) names: [Vec<&'static str>; 2],
+    pub(super) frames: Vec<&'static str>,
+    pub(super) joints: Vec<&'static str>,
+    pub(super) contacts: Vec<&'static str>,
     pub(super) plans: Plans,
 }
 
@@ -44,7 +39,7 @@ fn fields(model: &Model) -> Vec<Field> {
     fields
 }
 
-/// The axes of a field by how many numbers it has: those of structs are numbers, vectors of three and six, and matrices.
+/// The axes of a field by how many numbers it has: structs have numbers, vectors of three and six, and matrices.
 fn shape(count: usize) -> Shape {
     match count {
         1 => Shape::Array(&[]),
@@ -114,66 +109,5 @@ impl LoadedScene {
                 message: other.to_string(),
             }],
         })
-    }
-}
-
-impl AnyScene for LoadedScene {
-    fn description(&self) -> &Description {
-        &self.description
-    }
-
-    fn equations(&self) -> [&str; 2] {
-        [Notation::Text, Notation::Latex].map(|notation| self.model.equations(notation))
-    }
-
-    fn operations(&self) -> String {
-        self.model.operations().map(|(name, counts)| format!("{name:<20}{counts}")).collect::<Vec<_>>().join("\n")
-    }
-
-    fn accuracy(&self) -> String {
-        let line = |(name, lost): &(String, [f64; 2])| format!("{name:<20}{}", Loss::new(lost[0], lost[1]));
-        self.model.accuracy().iter().map(line).collect::<Vec<_>>().join("\n")
-    }
-
-    fn names(&self) -> [&[&'static str]; 2] {
-        [&self.names[0], &self.names[1]]
-    }
-
-    fn sizes(&self) -> Sizes {
-        self.sizes
-    }
-
-    fn frames(&self) -> &[&'static str] {
-        &self.frames
-    }
-
-    fn joints(&self) -> &[&'static str] {
-        &self.joints
-    }
-
-    fn contacts(&self) -> &[Contact] {
-        &[]
-    }
-
-    fn contact_names(&self) -> Vec<&'static str> {
-        self.contacts.clone()
-    }
-
-    fn has(&self, id: Id) -> bool {
-        self.plans.has(id)
-    }
-
-    fn at_rest(&self) -> [Vec<f64>; 2] {
-        let mut q = vec![0.0; self.sizes.configuration];
-        for (place, count) in self.description.unit_blocks() {
-            // The real part: last of a quaternion, first of a rotation in the plane.
-            q[if count == 4 { place + 3 } else { place }] = 1.0;
-        }
-        [q, vec![0.0; self.sizes.speeds]]
-    }
-
-    fn kernel(self: Arc<Self>, numbers: Vec<f64>) -> Result<Box<dyn AnyKernel>, Vec<Violation>> {
-        let kernel = self.of_numbers(&numbers)?;
-        Ok(Box::new(LoadedKernel { scene: self, kernel, numbers }))
     }
 }
