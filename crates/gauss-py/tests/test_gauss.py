@@ -303,6 +303,7 @@ def test_the_command_shows_a_file():
 
 
 def test_stubs_are_those_of_the_module(tmp_path):
+    assert (Path(gauss.__file__).parent / "_native.pyi").read_text() == gauss._native.stubs()
     mypy = pytest.importorskip("mypy.api")
     file = tmp_path / "use.py"
     file.write_text(
