@@ -11,7 +11,7 @@ use crate::error::ContactError;
 use crate::history::EventKind;
 use crate::trajectory::ContactTrajectory;
 
-/// Where the energy of a run with contacts went; units of energy. See [`ContactTrajectory::energy_balance`].
+/// Account of the energy of a run with contacts, in units of energy. See [`ContactTrajectory::energy_balance`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ContactBalance {
@@ -21,7 +21,7 @@ pub struct ContactBalance {
     pub supplied: f64,
     /// The work of contact forces: of friction, and of surfaces that move.
     pub contacts: f64,
-    /// What impacts took away.
+    /// Energy that impacts took away.
     pub impacts: f64,
 }
 

@@ -30,7 +30,7 @@ use crate::trajectory::{ContactTrajectory, InputOf};
 
 /// Events within the time of these steps pile up, unless the run says otherwise.
 const SPAN: f64 = 10.0;
-/// How many of them there may be: so many, and so many for each contact.
+/// Most events in that time that do not pile up: so many, and so many for each contact.
 const EVENTS: usize = 50;
 const EVENTS_EACH: usize = 4;
 /// Steps without an impact after which events are tried again.
@@ -52,7 +52,7 @@ pub struct ChangingRun<'k, K, C = NoControl, I = NoInput> {
 pub struct EventPart<'k, K: ContactSystem> {
     /// The motion.
     pub trajectory: ContactTrajectory<'k, K>,
-    /// What its errors are controlled to, between events and in their times: relative, then absolute; see
+    /// Tolerance of its errors between events and of the times of these: relative, then absolute; see
     /// [`ContactRun::tolerance`].
     pub tolerance: [f64; 2],
 }
@@ -68,7 +68,7 @@ pub struct StepPart<'k, K: ContactSystem<Scalar = f64>> {
     /// The length of the steps: impacts are known to that time, so that places after one are off by it times what
     /// speeds jump by. Between impacts errors are of the order of the scheme.
     pub h: f64,
-    /// How many gaps have closed in all.
+    /// Number of gaps that have closed, in all.
     pub impacts: usize,
     /// The worst residuals of the laws.
     pub residual: Residual,
@@ -148,13 +148,13 @@ impl<'k, K: ContactSystem<Scalar = f64>, C, I> ChangingRun<'k, K, C, I> {
         self
     }
 
-    /// How long no gap may close before events are tried again.
+    /// Sets the time for which no gap may close before events are tried again.
     pub fn quiet(mut self, span: f64) -> Self {
         self.quiet = span;
         self
     }
 
-    /// How steps take the motion between impacts.
+    /// Sets how steps take the motion between impacts.
     pub fn scheme(mut self, scheme: StepScheme) -> Self {
         self.scheme = scheme;
         self
@@ -238,7 +238,7 @@ struct Driver<'k, K: ContactSystem<Scalar = f64>, C> {
     piles: (usize, f64),
     quiet: f64,
     end: f64,
-    /// How long the next part in steps is at least.
+    /// Least length of the next part in steps.
     least: f64,
 }
 

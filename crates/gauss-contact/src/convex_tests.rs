@@ -80,7 +80,7 @@ fn posed(convex: &Convex, frictions: &[f64]) -> Contacts {
     Contacts::new(convex.contacts.iter().zip(frictions).map(law).collect(), matrix, b)
 }
 
-/// How far x of the solver may be from the minimum, in the norm of energy.
+/// Bound on the distance of the solver's x from the minimum, in the norm of energy.
 ///
 /// The solver promises rates to `256 (1 + R) ε` of their terms; ρ is the norm of these over the sizes of the rows. The
 /// minimum is strongly convex: what is wrong with forces by ρ moves x by no more than that. What is wrong with rates of
@@ -102,14 +102,15 @@ fn bound(convex: &Convex, contacts: &Contacts, found: &Solution, minimum: &Minim
     rho * (1.0 + (0..zero.len()).map(diagonal).sum::<f64>()).sqrt()
 }
 
-/// What became of the draws.
+/// Tally of the draws.
 #[derive(Debug, Default)]
 struct Seen {
-    /// How far x was from the minimum, over the largest x.
+    /// Distances of x from the minimum, over the largest x.
     off: Vec<f64>,
-    /// Where the witness has no more than what the convex solver says.
+    /// Number of draws in which the witness has no more than the answer of the convex solver.
     rough: usize,
-    /// Where the solver found nothing, which is an error with a type: of bodies of one mass, and of masses that differ.
+    /// Numbers of draws in which the solver found nothing, which is an error with a type: of bodies of one mass, and of
+    /// masses that differ.
     refused: [usize; 2],
 }
 
@@ -138,7 +139,7 @@ impl Seen {
         self.off.push(worst);
     }
 
-    /// How far half of the draws are off, at most.
+    /// The median of the distances: half of the draws are off by no more.
     fn half(&mut self) -> f64 {
         self.off.sort_by(f64::total_cmp);
         self.off[self.off.len() / 2]

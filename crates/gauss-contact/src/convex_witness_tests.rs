@@ -71,7 +71,7 @@ pub(super) struct Convex {
     pub(super) c: Vec<f64>,
 }
 
-/// What the convex solver says.
+/// Answer of the convex solver.
 pub(super) struct Rough {
     pub(super) x: Vec<f64>,
     /// Whether the gap of a contact stays closed, and whether it sticks.
@@ -107,7 +107,7 @@ impl Convex {
         2.0_f64.powi(-largest.log2().round() as i32)
     }
 
-    /// By the convex solver. The size of each slip is a variable of its own, behind x.
+    /// Solves the problem by the convex solver. The size of each slip is a variable of its own, behind x.
     pub(super) fn solve(&self) -> Rough {
         let (n, slips) = (self.start.len(), self.rubbing().len());
         let wide = |row: usize, unit: f64| self.w[row].iter().map(move |w| -unit * w).chain(vec![0.0; slips]).collect();
@@ -143,7 +143,7 @@ impl Convex {
         self.judged(answer.x[..n].to_vec(), &answer.s, &answer.z)
     }
 
-    /// What contacts do, by the larger of rate and force in units in which rows have length 1.
+    /// Judges what contacts do by the larger of rate and force in units in which rows have length 1.
     fn judged(&self, x: Vec<f64>, rates: &[f64], forces: &[f64]) -> Rough {
         let (mut closed, mut sticks) = (vec![true; self.contacts.len()], vec![true; self.contacts.len()]);
         let mut at = 0;
@@ -271,7 +271,7 @@ impl Convex {
         holds
     }
 
-    /// What is left of the equations, and their matrix.
+    /// Residuals of the equations, and their matrix.
     fn newton(&self, x: &[Long], forces: &[Long], rows: &[usize], sliding: &[usize]) -> (Vec<f64>, Vec<Vec<f64>>) {
         let n = x.len();
         let mut rest: Vec<Long> = x.iter().zip(&self.start).map(|(x, start)| x.minus(&Long::new(*start))).collect();
@@ -342,7 +342,7 @@ pub(in crate::solver) fn independent(w: &[Vec<f64>], rows: &[usize]) -> Vec<usiz
     found
 }
 
-/// By elimination with pivots, with the smallest of them; nothing where one is zero.
+/// Solution by elimination with pivots, with the smallest of them; nothing where one is zero.
 pub(in crate::solver) fn eliminated(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<(Vec<f64>, f64)> {
     let (n, mut least) = (right.len(), f64::INFINITY);
     for k in 0..n {

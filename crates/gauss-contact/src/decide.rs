@@ -1,4 +1,4 @@
-//! What becomes of a state at an event: impacts, then the modes of the contacts.
+//! Decisions about a state at an event: impacts, then the modes of the contacts.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -24,7 +24,7 @@ use crate::solver::Contacts;
 use crate::trajectory::ContactTrajectory;
 use crate::witness::Watched;
 
-/// What a run tells apart.
+/// Scales by which a run tells values from zero.
 pub(crate) struct Scales {
     pub(crate) tolerance: Tolerance,
     /// The largest speed at an event so far.
@@ -78,7 +78,7 @@ pub(crate) struct Instant<'k, K: ContactSystem> {
     pub(crate) jams: bool,
 }
 
-/// What is known of the contacts while modes are chosen.
+/// State of the contacts while their modes are chosen.
 pub(crate) struct Choice<T> {
     /// Gap and its rate are zero.
     pub(crate) resting: Vec<bool>,
@@ -214,8 +214,8 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         Ok(())
     }
 
-    /// Where a sliding contact that was pushed apart by its force no longer is: the contact, if it is stopped there;
-    /// else that is an error.
+    /// Checks a sliding contact that was pushed apart by its force, where it no longer is: returns the contact if it is
+    /// stopped there; else that is an error.
     fn check_paradox(
         &mut self,
         scales: &Scales,

@@ -28,7 +28,7 @@ impl<T: Real> Matrix<T> {
         Self { size, entries }
     }
 
-    /// How many rows.
+    /// Number of rows.
     pub(crate) fn size(&self) -> usize {
         self.size
     }
@@ -218,7 +218,7 @@ pub(crate) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     sum(a.iter().zip(b).map(|(a, b)| *a * *b))
 }
 
-/// Of zeros without derivatives it is one, too.
+/// Euclidean norm; of zeros without derivatives it is a zero without derivatives.
 pub(crate) fn norm<T: Real>(a: &[T]) -> T {
     let zero = T::DERIVATIVES && a.iter().all(|x| value(*x) == 0.0 && largest_derivative(*x) == 0.0);
     if zero { T::zero() } else { dot(a, a).sqrt() }

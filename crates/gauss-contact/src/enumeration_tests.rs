@@ -21,7 +21,7 @@ fn zero() -> BigRational {
     BigRational::from_integer(BigInt::from(0))
 }
 
-/// What a contact does: leaves, sticks, or slides along its tangent; a contact without one slides at μ = 0.
+/// Modes of a contact: it leaves, sticks, or slides along its tangent; a contact without one slides at μ = 0.
 const MODES: [Option<i32>; 4] = [None, Some(0), Some(1), Some(-1)];
 
 /// Solves by elimination; nothing where the matrix is singular.

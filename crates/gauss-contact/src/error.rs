@@ -69,15 +69,15 @@ pub enum ContactErrorKind {
     },
     /// No steppers for the lanes of a pack, or more than these.
     Lanes {
-        /// How many lanes there are.
+        /// Number of lanes.
         lanes: usize,
-        /// How many steppers were given.
+        /// Number of steppers given.
         given: usize,
     },
     /// Elements have [states](gauss_runtime::system::GaussSystem::STATES), which steps of one length do not follow:
     /// runs from event to event do.
     States {
-        /// How many.
+        /// Number of states of the elements.
         states: usize,
     },
     /// Forces change with places or speeds more than a step can follow, in parts as well: stiff springs and dampers, a
@@ -126,7 +126,7 @@ pub enum ContactErrorKind {
     Indeterminate,
     /// No forces were found that satisfy the laws.
     Unsolved {
-        /// How far the best ones are from them.
+        /// Distance of the best forces from the laws.
         residual: Residual,
     },
     /// The impact would create energy: Newton's law with friction can (T. R. Kane 1984).
@@ -140,17 +140,17 @@ pub enum ContactErrorKind {
     },
     /// Impacts follow each other without end in no time, and are not those of one gap that comes to rest.
     Zeno {
-        /// How many there were at this time.
+        /// Number of impacts at this time.
         impacts: u32,
     },
     /// Contacts change their modes without end in no time.
     Chatter {
-        /// How many changes there were at this time.
+        /// Number of changes at this time.
         changes: u32,
     },
     /// More events than so many within so long a time, at several contacts, in a run that changes over to steps there.
     EventsPile {
-        /// How many there may be.
+        /// Number of events that there may be.
         events: usize,
         /// Within what time.
         span: f64,
@@ -190,7 +190,7 @@ pub enum ContactErrorKind {
     NoDerivative,
     /// Derivatives of a step: the system in dual numbers is another one, with other contacts or parameters.
     OtherSystem {
-        /// How far its step ends from that in `f64`.
+        /// Difference of the end of its step from that in `f64`.
         difference: f64,
     },
     /// A closed gap is closing, so that an impact comes before accelerations are finite.
@@ -205,7 +205,7 @@ pub enum ContactErrorKind {
 }
 
 impl ContactErrorKind {
-    /// What steps alone are refused for.
+    /// Writes the errors of steps alone.
     fn of_steps(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::InvalidStep { step } => {

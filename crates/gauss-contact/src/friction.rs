@@ -1,4 +1,4 @@
-//! What bounds the friction of a contact: a circle, an ellipse or an ellipsoid of forces.
+//! Bounds of the friction of a contact: a circle, an ellipse or an ellipsoid of forces.
 //!
 //! Friction along two axes is `(λ₁/μ₁)² + (λ₂/μ₂)² ≤ λ_N²`, and takes the most of the power of slip; with friction of
 //! drilling `(λ₃/μ₃)²` is a term more. With the largest μ and weights `κ_k = μ_k/μ` the ellipse of λ and s is the
@@ -46,7 +46,7 @@ impl<T: Real> Bounds<T> {
         Self { largest, weights: [weight(first), weight(second), weight(third)] }
     }
 
-    /// What is known in values.
+    /// The same bounds without derivatives.
     pub(crate) fn values(self) -> Bounds {
         Bounds { largest: value(self.largest), weights: self.weights.map(value) }
     }

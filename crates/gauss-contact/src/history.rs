@@ -1,4 +1,4 @@
-//! What happened at the contacts of a run.
+//! Events at the contacts of a run.
 
 use core::fmt;
 
@@ -16,7 +16,7 @@ pub struct ContactEvent {
     pub time: f64,
     /// The contact, by its place in [`ContactSystem::CONTACTS`].
     pub contact: usize,
-    /// What happened.
+    /// Kind of the event.
     pub kind: EventKind,
 }
 
@@ -28,7 +28,7 @@ impl ContactEvent {
     }
 }
 
-/// What happens to a contact.
+/// Kinds of events at a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EventKind {
@@ -40,9 +40,9 @@ pub enum EventKind {
     Rests {
         /// The rate of the gap that was taken away.
         speed: f64,
-        /// How high the first flight would have been that was left out.
+        /// Height of the first flight that was left out.
         height: f64,
-        /// How long all of them would have taken.
+        /// Time that all of them would have taken.
         remaining: f64,
     },
     /// The gap opens.

@@ -15,7 +15,7 @@ use crate::residual::Residual;
 use crate::solution::Failure;
 use crate::solver::Contacts;
 
-/// What an impact does to velocities u⁻ of the contacts that are closed: `u⁺ = u⁻ + D Λ` with impulses Λ.
+/// Law of an impact, by which the velocities u⁻ of the contacts that are closed jump: `u⁺ = u⁻ + D Λ` with impulses Λ.
 ///
 /// A gap that opens before the impact may close after it, at e times its rate: it strikes again at once, which takes
 /// more energy away. Held to stay open instead, it would give energy: three balls that fall on one another would.

@@ -1,4 +1,4 @@
-//! What is known of a contact before its force is.
+//! Data of a contact that its law has before its force is known.
 
 use gauss_runtime::contact::Contact;
 use gauss_runtime::real::Real;
@@ -6,10 +6,10 @@ use gauss_runtime::real::Real;
 use crate::dense::value;
 use crate::friction::Bounds;
 
-/// What is known of a contact before its force is.
+/// Data of a contact that its law has before its force is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Law<T = f64> {
-    /// Of a gap; else of dry friction.
+    /// Whether it is the law of a gap; else it is that of dry friction.
     pub(crate) has_normal: bool,
     /// The law, among those of the same problem, whose normal force bounds friction: of rolling resistance.
     pub(crate) on: Option<usize>,
@@ -19,7 +19,7 @@ pub(crate) struct Law<T = f64> {
     pub(crate) friction: T,
     /// ŝ on the circle where it slides already.
     pub(crate) slip: Option<[T; 3]>,
-    /// By which forces and slips are scaled to a circle.
+    /// Bounds by which forces and slips are scaled to a circle.
     pub(crate) bounds: Bounds<T>,
 }
 
@@ -36,7 +36,7 @@ impl<T: Real> Law<T> {
         }
     }
 
-    /// Of the friction of a contact alone, with bounds that are known.
+    /// Law of the friction of a contact alone, with bounds that are known.
     pub(crate) fn dry(contact: &Contact, bounds: Bounds<T>) -> Self {
         Self { has_normal: false, ..Self::new(contact, bounds, None) }
     }
@@ -74,7 +74,7 @@ pub(crate) fn carrier(contacts: &[Contact], i: usize) -> usize {
     contacts[i].rolls_on().unwrap_or(i)
 }
 
-/// By what forces of the rows of a contact are those of the circle, and slips in reverse.
+/// Factors of the rows of a contact by which forces on the circle become its own, and slips in reverse.
 pub(crate) fn scales<T: Real>(law: &Law<T>) -> impl Iterator<Item = T> + use<T> {
     core::iter::repeat_n(T::one(), usize::from(law.has_normal)).chain(law.bounds.weights.into_iter().take(law.tangents))
 }

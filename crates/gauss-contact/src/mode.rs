@@ -24,7 +24,7 @@ use crate::impact::after;
 use crate::law::carrier;
 use crate::lockstep::{Lockstep, larger};
 
-/// What a contact does during a part of a run. Dry friction sticks or slides.
+/// Mode of a contact during a part of a run. Dry friction sticks or slides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mode<T = f64> {
     /// The gap is open.
@@ -103,7 +103,7 @@ impl<K: ContactSystem> Loads<K> {
         each.fold(self.dynamics.bias.component(row), |u, (j, force)| u + d[(row, j)] * *force)
     }
 
-    /// What rounding makes of the normal force of a contact, or of dry friction: that of the terms of its acceleration.
+    /// Rounding of the normal force of a contact, or of dry friction: that of the terms of its acceleration.
     pub(crate) fn rounding(&self, contact: &Contact) -> f64 {
         let d = &self.dynamics.response.delassus;
         let of_row = |of: usize| {
@@ -145,7 +145,7 @@ pub(crate) fn terms<T: Real, V: VectorSpace<T>>(column: &V, z: &V) -> f64 {
     (0..V::DIM).map(|j| value(column.component(j) * z.component(j)).abs()).sum()
 }
 
-/// Where the slip of a contact with several rows of friction leads, as a smooth function beyond the line or plane
+/// Direction of the slip of a contact with several rows of friction, as a smooth function beyond the line or plane
 /// through zero that is perpendicular to `reference`: mirrored there, so that a motion that stops passes on straight.
 /// What is across the reference by rounding alone has no direction, however small the slip is. Slips of about `rest`
 /// keep to the reference: they turn at a rate of friction over slip, without bound where the slip begins.
@@ -165,7 +165,7 @@ fn direction<T: Real>(reference: [T; 3], slip: [T; 3], rounding: f64, rest: f64)
     if straight { core::array::from_fn(kept) } else { turned }
 }
 
-/// What is left of the derivative of a closed gap is rounding up to this part of those of the configuration.
+/// Part of the derivatives of the configuration up to which the derivative of a closed gap is rounding.
 pub(crate) const UNCLOSED: f64 = 1e-9;
 
 /// The largest derivative in a configuration.
@@ -180,8 +180,8 @@ fn corrections<T: Real>() -> usize {
     if T::DERIVATIVES { 3 } else { 0 }
 }
 
-/// What is smaller than this part of the largest speed, before or after impulses, may be rounding: terms can be some
-/// 10⁴ times larger than it.
+/// Part of the largest speed, before or after impulses, below which a speed may be rounding: terms can be some 10⁴
+/// times larger than it.
 const NEAR: f64 = 1e-9;
 
 /// The speeds `z + A⁻¹WᵀP` after impulses P, where components that are no more than the rounding of their terms are 0:
@@ -236,7 +236,7 @@ pub(crate) fn pushed<K: ContactSystem>(x: &K::Speeds, columns: &K::ContactColumn
     settled((x, f64::INFINITY), speeds, acting::<K>(&Lockstep::default(), &rows), || impulse_terms::<K>(columns, &rows))
 }
 
-/// How many of the rows act.
+/// Number of rows that act.
 pub(crate) fn acting<K: ContactSystem>(lockstep: &Lockstep, rows: &K::ContactRows) -> u32 {
     let acts = |row: &usize| K::Scalar::DERIVATIVES || !lockstep.is_zero(rows.component(*row));
     (0..K::ContactRows::DIM).filter(acts).fold(0, |count, _| count + 1)
@@ -250,7 +250,7 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
         Self::with(kernel, modes, Least { rest: 0.0, rounding: Rc::new([]), start: 0.0 })
     }
 
-    /// With slips that have no direction of their own.
+    /// The system in these modes, with slips that have no direction of their own.
     pub(crate) fn with(kernel: &'k K, modes: &[Mode<K::Scalar>], least: Least) -> Self {
         Self { kernel, modes: modes.into(), least }
     }

@@ -66,7 +66,7 @@ impl<K: ContactSystem> Clone for InModeProblem<'_, K> {
 }
 
 impl<'k, K: ContactSystem> InModeProblem<'k, K> {
-    /// With how fast each gap changes with the time alone.
+    /// The problem of a system in its modes under an input. `moving`: the rates of gaps that come from the time alone.
     pub(crate) fn new(system: InMode<'k, K>, input: InputOf<'k, K>, moving: Rc<[f64]>) -> Self {
         let (last, light) = (Rc::new(RefCell::new(None)), Rc::new(RefCell::new(vec![0.0; K::CONTACTS.len()])));
         Self { system, input, last, fast: Rc::new(RefCell::new([None, None])), light, moving }

@@ -42,7 +42,7 @@ pub(crate) struct Reserve {
 
 /// Bounds of forces, over the size of the ones that are given.
 const LARGEST: f64 = 1e3;
-/// By how much less the barrier weighs each time, and at last.
+/// Factor of the weight of the barrier from one time to the next, and its least.
 const LESS: f64 = 0.2;
 const LEAST: f64 = 1e-11;
 /// Newton's steps for each weight.

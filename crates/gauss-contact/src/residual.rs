@@ -1,18 +1,18 @@
-//! How far contacts are from their laws.
+//! Distances of contacts from their laws.
 
 use gauss_runtime::real::Real;
 
-/// How far a contact is from its laws, in units of u: a velocity after an impact, else an acceleration.
+/// Distance of a contact from its laws, in units of u: a velocity after an impact, else an acceleration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Residual<T = f64> {
     /// `min(u_N, D_NN λ_N)`, without its sign: 0 where the gap does not close and nothing pulls.
     pub signorini: T,
-    /// By how much friction is larger than μ λ_N, times D_TT.
+    /// Excess of friction over μ λ_N, times D_TT.
     pub coulomb: T,
-    /// How far friction is from the force within μ λ_N that opposes slip most, times D_TT.
+    /// Distance of friction from the force within μ λ_N that opposes slip most, times D_TT.
     pub dissipation: T,
-    /// What rounding makes of these.
+    /// Rounding of these.
     pub rounding: T,
 }
 
@@ -38,7 +38,7 @@ impl<T: Real> Residual<T> {
         self.signorini.max(self.coulomb).max(self.dissipation)
     }
 
-    /// That of one lane.
+    /// The residual of one lane.
     pub(crate) fn lane(&self, lane: usize) -> Residual {
         Residual {
             signorini: self.signorini.lane(lane),

@@ -1,4 +1,4 @@
-//! What is rounding of places.
+//! Rounding of places.
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;

@@ -50,7 +50,7 @@ impl<'k, K: ContactSystem> ContactRun<'k, K> {
 }
 
 impl<'k, K: ContactSystem, C, I, E> ContactRun<'k, K, C, I, E> {
-    /// With the tolerance of its steps.
+    /// A run of these parts, with the tolerance of its steps.
     pub(crate) fn of_parts(kernel: &'k K, control: C, input: I, events: E) -> Self {
         const { assert!(K::Scalar::LANES == 1, "runs with contacts take one state at a time, no packs of numbers") }
         Self { kernel, control, input, settings: Settings::new(), events }
@@ -457,7 +457,7 @@ where
         }
     }
 
-    /// What the end of a run falls on to the resolution of its time: a gap that closes, a slip that ends.
+    /// The event on which the end of a run falls to the resolution of its time: a gap that closes, a slip that ends.
     fn touches(&self, end: &Instant<'k, K>) -> Option<Watched> {
         // In a segment of no length nothing changes. The derivatives of an end that an event falls on are those of the
         // side from which it comes.
@@ -524,7 +524,7 @@ where
         }
     }
 
-    /// What ends the segment from here.
+    /// Witnesses of the events that may end the segment from here.
     fn witnesses(&self, from: &Instant<'k, K>, problem: &InModeProblem<'k, K>) -> Vec<Witness<'k, K>> {
         let mut found = Vec::new();
         let gaps = self.kernel.gaps(from.t, &from.q);

@@ -1,4 +1,4 @@
-//! What sensors at contacts measure: forces, wrenches of several, centres of pressure.
+//! Measurements of sensors at contacts: forces, wrenches of several, centres of pressure.
 
 use alloc::borrow::ToOwned;
 use alloc::string::String;
@@ -20,7 +20,7 @@ use crate::rounding::Rounding;
 pub struct ContactForce<T = f64> {
     /// The contact, by its place in [`ContactSystem::CONTACTS`].
     pub contact: usize,
-    /// Where it acts.
+    /// Point at which it acts.
     pub point: Vector3<T>,
     /// The force on the first body.
     pub force: Vector3<T>,
@@ -44,7 +44,7 @@ pub enum SensorError {
     NoSuchContact {
         /// The number.
         contact: usize,
-        /// How many contacts there are.
+        /// Number of contacts.
         count: usize,
     },
     /// No contact is one of a body, a frame or a link with this name.
@@ -52,7 +52,7 @@ pub enum SensorError {
         /// The name.
         body: String,
     },
-    /// Where it acts is not known: a gap that is written, a range, or dry friction.
+    /// The point at which it acts is not known: a gap that is written, a range, or dry friction.
     NoPlace {
         /// The name of the contact.
         contact: &'static str,
@@ -122,7 +122,7 @@ impl<K: ContactSystem> Deref for ContactForces<'_, K> {
 }
 
 impl<'k, K: ContactSystem> ContactForces<'k, K> {
-    /// Of forces that are known row by row, at a configuration.
+    /// Sensors of forces that are known row by row, at a configuration.
     pub fn new(kernel: &'k K, t: K::Scalar, q: K::Configuration, rows: K::ContactRows) -> Self {
         Self { kernel, t, q, rows }
     }
@@ -181,7 +181,7 @@ impl<'k, K: ContactSystem> ContactForces<'k, K> {
         Ok((first..K::CONTACTS.len()).filter(move |i| K::CONTACTS[*i].bodies[0] == name))
     }
 
-    /// What some contacts together do to their first bodies: the sum of their forces, and that of their moments about
+    /// Wrench of some contacts together on their first bodies: the sum of their forces, and that of their moments about
     /// a pole, from Ω in the observer's axes. One that is named twice counts twice.
     ///
     /// # Errors
@@ -198,7 +198,7 @@ impl<'k, K: ContactSystem> ContactForces<'k, K> {
         Ok(sum)
     }
 
-    /// What all contacts of a body do to it: those that have it first, and the opposite of those that touch it.
+    /// Wrench of all contacts of a body on it: those that have it first, and the opposite of those that touch it.
     ///
     /// # Errors
     /// `NoSuchBody` where there are none, `NoPlace`, `Torque`.
@@ -213,8 +213,8 @@ impl<'k, K: ContactSystem> ContactForces<'k, K> {
         if found { Ok(sum) } else { Err(SensorError::NoSuchBody { body: body.to_owned() }) }
     }
 
-    /// Where the normal forces of some contacts on one plane would act together: about this point of the plane they
-    /// have no moment. `None` where there is no normal force. Contacts without a force may be anywhere.
+    /// Point at which the normal forces of some contacts on one plane would act together: about this point of the plane
+    /// they have no moment. `None` where there is no normal force. Contacts without a force may be anywhere.
     ///
     /// # Errors
     /// `NoSuchContact`; `NoPlace`, `Torque`, and `NoCommonPlane` of contacts with a force. Planes are one where normals

@@ -1,10 +1,10 @@
-//! What a solver of the laws comes to.
+//! Solutions of the laws of contact.
 
 use alloc::vec::Vec;
 
 use crate::residual::Residual;
 
-/// What a contact does.
+/// State of a contact in a solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum State<T = f64> {
     Leaves,

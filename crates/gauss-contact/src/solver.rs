@@ -60,13 +60,13 @@ impl<T: Real> Contacts<T> {
         Self { laws, first, matrix, b, noise: Vec::new() }
     }
 
-    /// With what rounding has made of b, row by row: laws hold no better than that.
+    /// Adds the rounding of b, row by row: laws hold no better than that.
     pub(crate) fn known_to(self, noise: impl Iterator<Item = f64>) -> Self {
         let noise = noise.zip(self.scales()).map(|(noise, scale)| noise * value(scale)).collect();
         Self { noise, ..self }
     }
 
-    /// By what forces of rows are those on circles.
+    /// Factors of all rows by which forces on circles become those of contacts.
     pub(crate) fn scales(&self) -> impl Iterator<Item = T> {
         self.laws.iter().flat_map(scales)
     }
@@ -98,7 +98,7 @@ impl<T: Real> Contacts<T> {
         (0..self.laws.len()).filter(move |&j| self.laws[j].on == Some(i))
     }
 
-    /// What is known in values.
+    /// The same problem without derivatives.
     pub(crate) fn values(&self) -> Contacts {
         let laws = self.laws.iter().map(Law::values).collect();
         Contacts {
@@ -354,7 +354,7 @@ impl Contacts {
         left > ROUNDINGS * f64::EPSILON * terms || terms == 0.0
     }
 
-    /// Where solutions need not be unique: the only one, if it is.
+    /// Looks for all solutions where they need not be unique: returns the only one, else an error.
     fn only(&self, contact: usize) -> Result<Solution, Failure> {
         let normal = self.first[contact];
         let Some(found) = self.choices(None).map(|choices| self.all(&choices)) else {
@@ -469,7 +469,7 @@ impl Contacts {
         self.tangents(i).map(|row| self.matrix.at(row, row)).sum()
     }
 
-    /// What each contact does, judged by forces and rates.
+    /// States of the contacts, judged by forces and rates.
     fn states(&self, forces: &[f64], rates: &[f64]) -> Vec<State> {
         let state = |i: usize| {
             let law = self.laws[i];
@@ -507,7 +507,7 @@ impl Contacts {
         Solution { forces, rates, states, residuals }
     }
 
-    /// What rounding does to the rate of a row.
+    /// Rounding of the rate of a row.
     fn rounding(&self, row: usize, forces: &[f64]) -> f64 {
         let terms = self.matrix.row(row).iter().zip(forces).map(|(d, force)| (d * force).abs());
         ROUNDINGS * (1 + self.b.len()) as f64 * f64::EPSILON * terms.fold(self.b[row].abs(), |sum, term| sum + term)

@@ -19,7 +19,7 @@ impl Numbers {
     }
 }
 
-/// Of a contact with isotropic friction.
+/// Law of a contact with isotropic friction.
 fn law(tangents: usize, friction: f64, slip: Option<[f64; 3]>) -> Law {
     Law::new(&Contact::new("", 0, tangents), Bounds { largest: friction, weights: [1.0; 3] }, slip)
 }

@@ -1,4 +1,4 @@
-//! What must hold of the state in which a motion with contacts starts.
+//! Conditions on the state in which a motion with contacts starts.
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;

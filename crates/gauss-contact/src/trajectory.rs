@@ -1,4 +1,4 @@
-//! What a run with contacts hands out.
+//! Trajectory of a run with contacts.
 
 use alloc::rc::Rc;
 use alloc::vec::Vec;

@@ -17,7 +17,7 @@ use crate::law::carrier;
 use crate::mode::{InMode, Mode, slip, tangents};
 use crate::problem::InModeProblem;
 
-/// What is watched, by the number of the contact. All of them fall to zero.
+/// Values that are watched, by the number of the contact. All of them fall to zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Watched {
     /// The gap of an open contact.
@@ -55,7 +55,7 @@ impl Watched {
 pub(crate) struct GapBound<'k, K: ContactSystem> {
     pub(crate) problem: InModeProblem<'k, K>,
     pub(crate) contact: usize,
-    /// Where a gap is known by samples alone.
+    /// Gaps that are known by samples alone, and when.
     pub(crate) sampled: Rc<RefCell<Vec<SampledGap>>>,
 }
 

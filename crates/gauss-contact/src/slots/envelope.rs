@@ -9,13 +9,13 @@ use gauss_runtime::real::Real;
 /// L of a matrix of D rows.
 pub(super) struct Envelope<const D: usize> {
     lower: SMatrix<f64, D, D>,
-    /// Of each row the first column that is not zero.
+    /// First column of each row that is not zero.
     first: [usize; D],
 }
 
 impl<const D: usize> Envelope<D> {
-    /// Of a symmetric matrix, whose entries on and below the diagonal are read. What is not positive definite gives no
-    /// finite numbers.
+    /// Factors a symmetric matrix, whose entries on and below the diagonal are read. One that is not positive definite
+    /// gives no finite numbers.
     pub(super) fn of(mut lower: SMatrix<f64, D, D>) -> Self {
         let first = core::array::from_fn(|i| (0..i).find(|&j| lower[(i, j)] != 0.0).unwrap_or(i));
         for i in 0..D {
@@ -49,7 +49,7 @@ impl<const D: usize> Envelope<D> {
     }
 }
 
-/// Where each column is not zero: from, and up to.
+/// Range of rows in which each column is not zero: from, and up to.
 pub(super) fn extents<const D: usize, const R: usize>(columns: &SMatrix<f64, D, R>) -> [(usize, usize); R] {
     core::array::from_fn(|row| {
         let x = &columns.data.0[row];

@@ -1,4 +1,4 @@
-//! Where the point of a slot is beside its plane, and how it moves there.
+//! Place and motion of the point of a slot beside its plane.
 //!
 //! In the axes of the plane's frame, whose origin moves with u and a and which turns with ω and α, the point is at r.
 //! Its velocity relative to that frame is `v = u_p − u − ω × r`, and that is ṙ; so of a direction e that is fixed there
@@ -40,7 +40,7 @@ impl Touch {
         slot.normal.dot(&(self.at - slot.origin)) - slot.radius
     }
 
-    /// What the twists of both frames are multiplied by to give the rate along a direction in the plane's axes.
+    /// Factors of the twists of both frames in the rate along a direction, which is in the plane's axes.
     pub(super) fn arms<F>(&self, slot: &Slot<F>, direction: &Vector3<f64>) -> [Twist; 2] {
         let (own, to_plane) = (self.turn.transpose() * direction, self.turn.transpose() * slot.normal * slot.radius);
         [

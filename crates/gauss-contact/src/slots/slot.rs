@@ -38,9 +38,9 @@ pub struct SlotError {
     pub slot: usize,
     /// Which of its fields.
     pub field: SlotField,
-    /// What the field is: of a vector its length, of frames and numbers of slots how many.
+    /// Value of the field: of a vector its length, of frames and numbers of slots how many.
     pub value: f64,
-    /// What the field must be.
+    /// Rule that the field breaks.
     pub rule: SlotRule,
 }
 
@@ -66,13 +66,13 @@ pub enum SlotField {
     Restitution,
 }
 
-/// What a field must be.
+/// Rules for a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum SlotRule {
     /// Less than so many slots as there are.
     Below {
-        /// How many there are.
+        /// Number of slots.
         count: usize,
     },
     /// Two different ones, of which one may be at rest.
@@ -122,7 +122,7 @@ impl fmt::Display for SlotRule {
 impl core::error::Error for SlotError {}
 
 impl<F: Copy + PartialEq> Slot<F> {
-    /// With a normal of length one, or what is wrong.
+    /// The slot with a normal of length one, or the error in it.
     pub(super) fn checked(&self, slot: usize) -> Result<Self, SlotError> {
         let refuse = |field, value, rule| Err(SlotError { slot, field, value, rule });
         if self.first == self.second {

@@ -18,7 +18,7 @@ use crate::mode::{Mode, presses, tangents};
 
 /// Contacts depend on one another where this is left of a column: as of the solver.
 pub(super) const DEPENDENT: f64 = 1e-11;
-/// What may be left of derivatives of equations, as a part of the largest.
+/// Part of the largest derivative that may be left of those of equations.
 pub(super) const LEFT: f64 = 1e-6;
 
 /// Derivatives, by a metre, a radian or their rates, that are none beside the rates themselves.
@@ -106,7 +106,7 @@ impl<const N: usize, K: ContactSystem<Scalar = Dual<N>>> Active<'_, K> {
         (rows, equations)
     }
 
-    /// What each equation misses, in rates.
+    /// Residual of each equation, in rates.
     fn misses(&self, rows: &[usize], equations: &[Equation], impulses: &[Dual<N>]) -> Vec<Dual<N>> {
         let miss = |(row, equation): (&usize, &Equation)| match *equation {
             Equation::Rate => self.rate(*row, impulses),
@@ -120,8 +120,8 @@ impl<const N: usize, K: ContactSystem<Scalar = Dual<N>>> Active<'_, K> {
         rows.iter().zip(equations).map(miss).collect()
     }
 
-    /// By how much an equation may miss because the direction of a slip is known no better than its rates are: slips of
-    /// a corner that just begins to move are as small as these.
+    /// Amount by which an equation may miss because the direction of a slip is known no better than its rates are:
+    /// slips of a corner that just begins to move are as small as these.
     fn unknown_direction(&self, equation: Equation, impulses: &[Dual<N>], rates: f64) -> f64 {
         let Equation::Slides { contact, .. } = equation else { return 0.0 };
         let size = norm(&self.slip(contact, impulses)).value;

@@ -31,15 +31,15 @@ use super::stepper::ContactStepper;
 const ORDER: f64 = 2.0;
 /// The part of the length that a tolerance allows which is tried.
 const SAFETY: f64 = 0.9;
-/// How much shorter or longer the next step may be.
+/// Least and largest ratio of the length of the next step to that of this one.
 const SHORTER: f64 = 0.2;
 const LONGER: f64 = 4.0;
-/// By how much a step is shortened that is too long for a change of contacts.
+/// Factor by which a step is shortened that is too long for a change of contacts.
 const NEARER: f64 = 0.25;
 /// The shortest step at impacts unless said otherwise, as a part of the longest.
 const SHORTEST: f64 = 1e-3;
-/// Where within half of a step the input is looked at beside its start, as parts of it. Its end is one of them: what
-/// begins before it is seen as long as it lasts from there to the next.
+/// Times within half of a step at which the input is looked at beside its start, as parts of it. Its end is one of
+/// them: what begins before it is seen as long as it lasts from there to the next.
 const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// Roundings of the time that a step takes at least.
 const ROUNDINGS: f64 = 16.0;
@@ -255,8 +255,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
         sum
     }
 
-    /// What a step as a whole is off by, over the tolerance: the largest of all components, of places alone where
-    /// speeds jump. `unheld`: what the input adds to speeds that steps have not seen.
+    /// Error of a step as a whole, over the tolerance: the largest of all components, of places alone where speeds
+    /// jump. `unheld`: what the input adds to speeds that steps have not seen.
     fn estimate(&self, (before, whole, end): (&Kept<K>, &Kept<K>, &Kept<K>), unheld: &K::Speeds, jumps: bool) -> f64 {
         let over = |off: f64, size: f64| off.abs() / (self.absolute + self.relative * size).max(f64::MIN_POSITIVE);
         let larger = |worst: f64, x: f64| if x > worst || x.is_nan() { x } else { worst };
@@ -274,7 +274,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
     }
 }
 
-/// What an impact has parted is open: in the next step, of whatever length, it closes only where its gap does.
+/// Opens the contacts that an impact has parted: in the next step, of whatever length, each closes only where its gap
+/// does.
 fn part<K: ContactSystem<Scalar = f64>>(stepper: &mut ContactStepper<'_, K>) {
     for (i, contact) in K::CONTACTS.iter().enumerate() {
         if contact.has_gap() && !stepper.rests[i] {
@@ -311,7 +312,7 @@ enum Verdict {
     Shorten,
 }
 
-/// How long steps are.
+/// Lengths of steps.
 #[derive(Clone, Copy, Debug)]
 struct Lengths {
     longest: f64,
@@ -335,7 +336,7 @@ impl Lengths {
         }
     }
 
-    /// What becomes of a step, and the length of the next one. A step that has no solution is too long.
+    /// Judges a step, and sets the length of the next one. A step that has no solution is too long.
     fn judge(&mut self, h: f64, trial: Option<&Trial>) -> Verdict {
         let Some(trial) = trial else {
             self.next = NEARER * h;

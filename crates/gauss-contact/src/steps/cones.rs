@@ -43,7 +43,8 @@ impl<T: Real> Cone<T> {
 /// The contacts of a system in a step.
 pub(crate) struct Laws<K: ContactSystem> {
     pub(crate) cones: K::EachContact<Cone<K::Scalar>>,
-    /// By what forces of rows are those of circles, and slips in reverse: 1 but for friction that differs by direction.
+    /// Factors by which forces on circles become those of rows, and slips in reverse: 1 but for friction that differs
+    /// by direction.
     pub(crate) scales: K::EachRow<K::Scalar>,
 }
 

@@ -38,9 +38,9 @@ pub struct StepDerivatives<const D: usize, const U: usize, const P: usize> {
     pub by_parameters: SMatrix<f64, D, P>,
     /// A contact that is at a change of its mode, within the tolerance of the laws: derivatives are one-sided.
     pub at_change: Option<AtChange>,
-    /// What the step did.
+    /// Report of the step.
     pub report: StepReport,
-    /// How often the step was made in dual numbers.
+    /// Number of times that the step was made in dual numbers.
     pub passes: usize,
 }
 

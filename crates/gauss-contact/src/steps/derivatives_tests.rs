@@ -36,7 +36,7 @@ type Z<S, const P: usize, const N: usize> = <<S as Pair<P, N>>::Plain as GaussSy
 /// So that the laws are solved to rounding: what is left of them is divided by the steps of differences.
 const TIGHT: f64 = 1e-11;
 
-/// What was checked.
+/// Tally of the checks.
 #[derive(Debug, Default)]
 struct Tally {
     checked: usize,

@@ -45,7 +45,7 @@ impl fmt::Display for AtChange {
     }
 }
 
-/// What is known of contacts in a step, in values.
+/// Data of contacts in a step, in values.
 pub(super) struct Known<'a> {
     pub(super) gaps: &'a dyn Fn(usize) -> f64,
     pub(super) restitution: &'a dyn Fn(usize) -> f64,

@@ -103,8 +103,8 @@ impl<T: Real> Impulses<'_, T> {
         }
     }
 
-    /// Of `d P_a − d μ P_N t_a − part Σ_b (δ_ab − t_a t_b) (d P_b − u_b) = 0`, which is Coulomb's law to first order
-    /// in the direction t: the factor of an impulse.
+    /// Entry of the equation `d P_a − d μ P_N t_a − part Σ_b (δ_ab − t_a t_b) (d P_b − u_b) = 0`, which is Coulomb's
+    /// law to first order in the direction t: the factor of an impulse.
     fn sliding_entry(&self, cone: &Cone<T>, (along, part, scale): (&[T; 3], T, T), a: usize, column: usize) -> T {
         let is_own = column == cone.first + a;
         let mut entry = if is_own { scale * T::from_f64(1.0 + self.pull()) } else { T::zero() };

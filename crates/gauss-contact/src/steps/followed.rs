@@ -28,18 +28,18 @@ use super::watch::{Part, Taken};
 pub(super) struct State<L: ContactSystem> {
     pub(super) q: L::Configuration,
     pub(super) z: L::Speeds,
-    /// Of the part before, between impacts.
+    /// Acceleration of the part before, between impacts.
     pub(super) acceleration: Option<L::Speeds>,
 }
 
-/// How many attempts are added for derivatives where values have settled: they begin with those of speeds that were
-/// foreseen.
+/// Number of attempts that are added for derivatives where values have settled: they begin with those of speeds that
+/// were foreseen.
 const FURTHER: usize = 8;
 
 /// Roundings of equations, as a part of their terms.
 const ROUNDING: f64 = 1e-6;
 
-/// What is the same for all directions.
+/// Data that are the same for all directions.
 pub(super) struct Same {
     pub(super) scheme: StepScheme,
     pub(super) tolerance: f64,
@@ -48,7 +48,7 @@ pub(super) struct Same {
     pub(super) at_change: Option<AtChange>,
     /// Equations of attempts that were solved once, in their order.
     pub(super) solvable: Vec<Solvable>,
-    /// How many attempts of this pass solved equations so far.
+    /// Number of attempts of this pass that solved equations so far.
     pub(super) solved: usize,
 }
 

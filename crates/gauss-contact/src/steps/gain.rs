@@ -27,15 +27,15 @@ const LITTLE: f64 = 1e-3;
 /// The part of it that a step may gain whose forces are not those at its mean speeds.
 const MUCH: f64 = 0.1;
 
-/// By what part of itself energy is rounded: some hundred terms.
+/// Part of itself by which energy is rounded: some hundred terms.
 const ROUNDING: f64 = 128.0 * f64::EPSILON;
 
-/// By what part of a step states are moved for rates of energy.
+/// Part of a step by which states are moved for rates of energy.
 const NEAR: f64 = 1e-4;
 
 /// The energy that a step gains.
 pub(super) struct Gain {
-    /// What nothing explains of it.
+    /// Energy gained that nothing explains.
     pub(super) unexplained: f64,
     /// The work that impulses give: Newton's law has such with friction.
     of_law: f64,
@@ -43,7 +43,7 @@ pub(super) struct Gain {
     kinetic: f64,
     /// The larger of those at both ends, without what nothing explains.
     explained: f64,
-    /// What weight makes of rest in the step, and rounding.
+    /// Energy that weight gives to what rests in the step, and rounding.
     least: f64,
 }
 
@@ -59,7 +59,7 @@ impl Gain {
         self.unexplained - self.of_law > self.explained + self.least
     }
 
-    /// What a step of length `h` is refused for.
+    /// Error for which a step of length `h` is refused.
     pub(super) fn kind(&self, h: f64) -> ContactErrorKind {
         ContactErrorKind::EnergyFromNowhere { gained: self.unexplained, kinetic: self.explained, step: h }
     }

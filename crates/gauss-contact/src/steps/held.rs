@@ -14,7 +14,7 @@ use super::report::{StepReport, StepScheme};
 use super::stepper::ContactStepper;
 use super::stiffness::LastForces;
 
-/// What a contact did in the step before.
+/// Mode of a contact in the step before, and whether it rests.
 type Carried = Option<(Mode, bool)>;
 
 /// All of a [`ContactStepper`] but its kernel, whose data are free to change: the answer of
@@ -76,12 +76,12 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> HeldSteps<K, M> {
         &self.z
     }
 
-    /// What the last step did.
+    /// Report of the last step.
     pub fn report(&self) -> StepReport {
         self.report
     }
 
-    /// What the contacts did in the last step.
+    /// Modes of the contacts in the last step.
     pub fn modes(&self) -> &[Mode] {
         self.modes.as_ref()
     }
@@ -140,7 +140,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         HeldSteps { t, q, z, scheme, law, tolerance, memory, impulses, dependent, last, modes, rests, report }
     }
 
-    /// What was held, with contacts whose data may be other ones.
+    /// The stepper of what was held, with contacts whose data may be other ones.
     fn resumed(kernel: &'k K, held: HeldSteps<K, M>, before: impl Fn(usize) -> Option<usize>) -> Self {
         let (impulses, known) = held.carried(before);
         let HeldSteps { t, q, z, scheme, law, tolerance, memory, dependent, last, report, .. } = held;

@@ -22,34 +22,34 @@ use super::cones::Cone;
 use super::linear::{Place, dot, dot_and_size, solve, solve_symmetric, stride};
 use super::unknowns::{State, UnknownsIn};
 
-/// By what part of the diagonal impulses are pulled towards those before at first, where contacts depend on one
+/// Part of the diagonal by which impulses are pulled towards those before at first, where contacts depend on one
 /// another. What cannot stick all at once, as two corners that an impact parts, or cannot all stay closed, drifts to
 /// the bound of its friction or to zero by the inverse of that; corrections that gain nothing pull less, those that go
 /// too far more.
 pub(super) const PULL: f64 = 1e-5;
 const LEAST_PULL: f64 = 1e-9;
 const MOST_PULL: f64 = 1e-3;
-/// What is looked for at first, as a part of the tolerance.
+/// Residual that is looked for at first, as a part of the tolerance.
 pub(super) const STRICT: f64 = 1e-4;
 /// Corrections of a round.
 const CORRECTIONS: usize = 60;
 /// Roundings of each product of a row that its sum may be off by.
 const ROUNDINGS: f64 = 64.0;
 
-/// How a solution was found.
+/// Account of how a solution was found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Found<T = f64> {
     /// The worst of all contacts.
     pub(crate) residual: Residual<T>,
     /// Whether it is within the tolerance.
     pub(crate) holds: bool,
-    /// How many corrections and sweeps there were.
+    /// Number of corrections and sweeps.
     pub(crate) corrections: u32,
     pub(crate) sweeps: u32,
 }
 
 impl<T: Real> Found<T> {
-    /// That of one lane.
+    /// The account of one lane.
     pub(super) fn lane(&self, lane: usize) -> Found {
         let Self { residual, holds, corrections, sweeps } = *self;
         Found { residual: residual.lane(lane), holds, corrections, sweeps }
@@ -80,7 +80,7 @@ pub(crate) struct Impulses<'m, T = f64> {
     pub(super) unknown: &'m mut [Place],
     pub(super) order: &'m mut [Place],
     pub(super) states: &'m mut [State<T>],
-    /// Of each row of D, where its first entry is that is not zero, and where the last is behind.
+    /// Places, in each row of D, of the first entry that is not zero, and behind the last.
     pub(super) extents: &'m mut [[Place; 2]],
     /// Whether contacts depend on one another, as far as is known.
     pub(crate) dependent: bool,
@@ -92,7 +92,7 @@ pub(crate) struct Impulses<'m, T = f64> {
     pub(crate) lockstep: Lockstep,
 }
 
-/// How many numbers [`Impulses`] need for so many rows.
+/// Number of numbers that [`Impulses`] need for so many rows.
 pub(crate) const fn memory(rows: usize) -> usize {
     rows * rows + stride(rows) * (rows + 1) + 7 * rows
 }
@@ -160,7 +160,7 @@ impl<'m, T: Real> Impulses<'m, T> {
         usize::from(from)..usize::from(to)
     }
 
-    /// What impulses are multiplied with in a row, from the first that acts on it to the last; with these.
+    /// Factors of impulses in a row, from the first that acts on it to the last; with these impulses.
     fn row(&self, row: usize) -> [&[T]; 2] {
         let (n, extent) = (self.b.len(), self.extent(row));
         [&self.delassus[row * n..(row + 1) * n][extent.clone()], &self.impulses[extent]]
@@ -224,7 +224,7 @@ impl<'m, T: Real> Impulses<'m, T> {
         if self.relaxed { self.rates[row] - self.lift(cones, row) } else { self.rates[row] }
     }
 
-    /// What a contact does, judged by impulses and rates.
+    /// State of a contact, judged by impulses and rates.
     pub(super) fn state(&self, cones: &[Cone<T>], cone: &Cone<T>) -> State<T> {
         if !cone.acts {
             return State::Leaves;
@@ -250,7 +250,7 @@ impl<'m, T: Real> Impulses<'m, T> {
         }
     }
 
-    /// What a contact does in a lane, by its state, in forces and slips as they are: rows were scaled. Slips within the
+    /// Mode of a contact in a lane, by its state, in forces and slips as they are: rows were scaled. Slips within the
     /// tolerance are none.
     pub(crate) fn mode(&self, (cone, state): (&Cone<T>, &State<T>), scales: &[T], tolerance: f64, lane: usize) -> Mode {
         let largest = |of: &dyn Fn(usize) -> T| cone.tangents().map(|row| of(row).lane(lane)).fold(0.0, f64::max);

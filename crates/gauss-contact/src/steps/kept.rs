@@ -25,7 +25,7 @@ pub(super) struct Kept<K: ContactSystem<Scalar = f64>> {
 }
 
 impl<K: ContactSystem<Scalar = f64>> Kept<K> {
-    /// What a contact does: of one that an impact parts it is open.
+    /// Mode of a contact: of one that an impact parts it is open.
     pub(super) fn mode(&self, i: usize) -> Mode {
         if self.rests[i] { self.modes[i] } else { Mode::Open }
     }

@@ -57,17 +57,17 @@ impl<W, K: ContactSystem<Scalar = f64>> LanesOf<K> for W where
 pub struct ContactLanes<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> {
     pub(super) wide: &'k W,
     pub(super) steppers: Vec<ContactStepper<'k, K>>,
-    /// What the last step came to, lane by lane.
+    /// Outcome of the last step, lane by lane.
     pub(super) outcomes: Vec<Result<StepReport, ContactError>>,
-    /// How far the lanes are in a step.
+    /// Progress of the lanes in a step.
     stages: Vec<Stage<K>>,
-    /// What impulses do, in lanes that solve their laws alone: large, so that it stays where it is.
+    /// Responses to impulses, in lanes that solve their laws alone: large, so that they stay where they are.
     responses: Vec<Option<ImpulseResponse<K>>>,
     /// The state of all lanes in packs, where the last step was made in packs.
     pub(super) packed: Option<PackedState<W>>,
     /// The modes after a step in packs, and what the laws came to, lane by lane.
     pub(super) solved: Vec<(K::EachContact<Mode>, Solved<K>)>,
-    /// For the laws of all lanes.
+    /// Memory for the laws of all lanes.
     pub(super) memory: Vec<W::Scalar>,
     /// Whether contacts of a lane depended on one another before the step.
     known: Vec<bool>,
@@ -95,28 +95,28 @@ pub(super) struct PackedState<W: ContactSystem> {
     pub(super) acceleration: W::Speeds,
 }
 
-/// Where forces were taken, and the acceleration by them.
+/// State at which forces were taken, and the acceleration by them.
 type Forces<K> = (Middle<K>, <K as GaussSystem>::Speeds);
 
-/// How far a lane is in a step.
+/// Progress of a lane in a step.
 enum Stage<K: ContactSystem<Scalar = f64>> {
     /// It goes this step alone.
     Alone,
     /// The step is made.
     Made,
-    /// With the speeds at half of the step.
+    /// It has the speeds at half of the step.
     Middle(Middle<K>),
     /// The same in flight.
     Flies(Middle<K>),
-    /// With the speeds at the end of a flight.
+    /// It has the speeds at the end of a flight.
     Flown(Forces<K>, K::Speeds),
     /// At the end of a flight.
     Lands(Forces<K>, K::Configuration, K::Speeds, K::Gaps),
-    /// With impulses.
+    /// It has impulses.
     Pushed(Forces<K>, Pushed<K>),
     /// At the end, before closed gaps are zero.
     Open(Forces<K>, K::Configuration, K::Speeds, Pushed<K>),
-    /// With closed gaps at zero.
+    /// It has closed gaps at zero.
     Closed(Forces<K>, Closed<K>, K::Speeds, Pushed<K>),
 }
 
@@ -163,7 +163,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
         &self.steppers
     }
 
-    /// How many steps of lanes were made alone in all.
+    /// Number of steps of lanes that were made alone, in all.
     pub fn alone(&self) -> u64 {
         self.alone
     }
@@ -422,7 +422,7 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
     }
 }
 
-/// How many numbers the laws of all lanes need.
+/// Number of numbers that the laws of all lanes need.
 const fn memory<W: ContactSystem>() -> usize {
     impulses::memory(W::ContactRows::DIM) + Projection::<W>::MEMORY
 }

@@ -88,7 +88,7 @@ pub(crate) fn solve<T: Real>(factors: &[T], order: &[Place], right: &[T], x: &mu
 /// Numbers that are worked on together: rows of symmetric matrices begin at multiples of so many.
 const WIDTH: usize = 4;
 
-/// How long rows of a symmetric matrix of n unknowns are in memory; what is after them is zero.
+/// Length in memory of the rows of a symmetric matrix of n unknowns; what is after them is zero.
 pub(crate) const fn stride(n: usize) -> usize {
     n.next_multiple_of(WIDTH)
 }

@@ -26,7 +26,7 @@ pub struct StepSample<K: ContactSystem<Scalar = f64>> {
     pub impulses: K::ContactRows,
     /// The modes of the contacts in it.
     pub modes: Vec<Mode>,
-    /// How the laws were solved.
+    /// Report of the step, with how the laws were solved.
     pub report: StepReport,
 }
 
@@ -60,7 +60,7 @@ impl<K: ContactSystem<Scalar = f64>> StepSample<K> {
     }
 }
 
-/// Where a stepper is.
+/// State of a stepper.
 fn state<K: ContactSystem<Scalar = f64>>(stepper: &ContactStepper<'_, K>) -> Sample<K> {
     let (t, q, z) = (stepper.time(), *stepper.configuration(), *stepper.speeds());
     Sample { t, q, z, p: stepper.kernel.momentum(t, &q, &z) }
@@ -76,7 +76,7 @@ pub struct StepStatistics {
     pub rejected: u64,
     /// Kept steps in which a contact changed what it does.
     pub changes: u64,
-    /// Of these the ones that are off by more than the tolerance: they have the shortest length.
+    /// Number of these that are off by more than the tolerance: they have the shortest length.
     pub beyond: u64,
     /// The largest estimate of the others, over the tolerance; at most 1.
     pub largest: f64,
@@ -93,7 +93,7 @@ pub struct SteppedRun<'k, K: ContactSystem<Scalar = f64>> {
     pub start: Sample<K>,
     /// The ends of the steps; of steps with a tolerance each report has the estimate of its step.
     pub samples: Vec<StepSample<K>>,
-    /// Of all steps with a tolerance.
+    /// Statistics of all steps with a tolerance.
     pub statistics: StepStatistics,
     /// The states in which functions that the run was given ([`ContactSteps::event`](super::ContactSteps::event))
     /// passed through zero, in order of time, as accurate as states between the ends of steps are.

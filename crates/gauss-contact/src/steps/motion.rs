@@ -75,12 +75,12 @@ impl Mean {
     }
 }
 
-/// How the next attempt at a step follows from one.
+/// Rule by which the next attempt at a step follows from one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rule {
     /// The mean speeds that it goes to.
     pub(super) mean: Mean,
-    /// By what part of the difference to them.
+    /// Part of the difference to them by which it goes.
     pub(super) part: f64,
     /// Whether its forces are taken at the mean place.
     pub(super) at_mean_place: bool,
@@ -91,7 +91,7 @@ pub(super) fn towards<T: Real, V: VectorSpace<T>>(used: &V, wanted: &V, part: f6
     if part == 1.0 { *wanted } else { used.add_scaled(T::from_f64(part), &wanted.add_scaled(-T::one(), used)) }
 }
 
-/// Where half of a step leads with the rate of places before it.
+/// Configuration to which half of a step leads with the rate of places before it.
 pub(super) fn half_way<K: ContactSystem>(h: f64, q: &K::Configuration, rate: &TangentOf<K>) -> K::Configuration {
     q.advance(&rate.scale(K::Scalar::from_f64(0.5 * h)))
 }
@@ -139,7 +139,7 @@ pub(super) fn fastest<K: ContactSystem>(rates: &[K::ContactRows; 2]) -> K::Scala
     each.fold(K::Scalar::zero(), larger)
 }
 
-/// By what part of the fastest rate one that is zero may be off for rounding.
+/// Part of the fastest rate by which one that is zero may be off for rounding.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The rate before a step that an impact reverses a part of. It is that of an approach; and of a gap that opens before
@@ -153,7 +153,7 @@ pub(super) fn reversed<T: Real>(before: T, end: T, fastest: T) -> T {
     before.min(T::zero()) + T::select_lt(T::from_f64(ROUNDING) * fastest, before, opens, T::zero())
 }
 
-/// How large numbers of a configuration are.
+/// Size of a configuration: the largest magnitude of its numbers.
 pub(super) fn magnitude<Q: Configuration>(q: &Q) -> Q::Scalar {
     (0..Q::Tangent::DIM).map(|i| q.magnitudes(i)).fold(Q::Scalar::zero(), larger)
 }

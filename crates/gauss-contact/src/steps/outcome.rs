@@ -1,4 +1,4 @@
-//! What an attempt at a step has come to.
+//! Outcome of an attempt at a step.
 
 use gauss_runtime::contact::ContactSystem;
 
@@ -12,7 +12,7 @@ use super::relaxed::{StepLaw, lifts};
 use super::report::StepReport;
 use super::watch::Attempted;
 
-/// What impulses have made of the speeds of a step.
+/// Speeds of a step after its impulses, with these.
 pub(super) struct Pushed<K: ContactSystem> {
     pub(super) z: K::Speeds,
     pub(super) impulses: K::ContactRows,
@@ -34,7 +34,7 @@ pub(super) struct End<K: ContactSystem> {
     pub(super) gaps: K::Gaps,
     pub(super) rates: K::ContactRows,
     pub(super) impulses: K::ContactRows,
-    /// What is closed and stays so.
+    /// Contacts that are closed and stay so.
     pub(super) rests: K::EachContact<bool>,
     /// Contacts that acted and are open.
     pub(super) left: K::EachContact<bool>,
@@ -50,7 +50,7 @@ pub(super) struct End<K: ContactSystem> {
 }
 
 impl<K: ContactSystem> End<K> {
-    /// With what contacts did.
+    /// The attempt at this end, with the modes of the contacts.
     pub(super) fn attempted<'a>(&'a self, modes: &'a [Mode]) -> Attempted<'a, K> {
         let Self { impulses, rests, left, opened, dependent, struck, .. } = self;
         let modes = self.touches.then_some(modes);
@@ -59,10 +59,10 @@ impl<K: ContactSystem> End<K> {
     }
 }
 
-/// What the laws of a step came to.
+/// Solution of the laws of a step.
 pub(super) struct Solved<K: ContactSystem> {
     pub(super) found: Found,
-    /// How far it is from Coulomb's law.
+    /// Distance of it from Coulomb's law.
     pub(super) from_coulomb: Residual,
     /// Contacts that are closed after the step.
     pub(super) rests: K::EachContact<bool>,
@@ -70,7 +70,7 @@ pub(super) struct Solved<K: ContactSystem> {
     pub(super) struck: bool,
     /// Gaps that have closed.
     pub(super) impacts: usize,
-    /// Of the impulses.
+    /// Work of the impulses.
     pub(super) work: f64,
 }
 

@@ -15,7 +15,7 @@ use super::outcome::Solved;
 use super::relaxed::{StepLaw, lifts};
 use super::unknowns::State;
 
-/// What is known of a step before its impulses.
+/// Data of a step before its impulses.
 pub(super) struct Posed<'a, K: ContactSystem> {
     pub(super) h: f64,
     pub(super) law: StepLaw,
@@ -29,7 +29,7 @@ pub(super) struct Posed<'a, K: ContactSystem> {
     pub(super) rates: [K::ContactRows; 2],
     /// The fastest of them.
     pub(super) fastest: K::Scalar,
-    /// Of the step before.
+    /// Impulses of the step before.
     pub(super) impulses: K::ContactRows,
     pub(super) modes: &'a [Mode],
     /// Whether contacts depend on one another, as far as is known.
@@ -37,7 +37,7 @@ pub(super) struct Posed<'a, K: ContactSystem> {
 }
 
 impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
-    /// What an impact passes on: a part of the rate before it.
+    /// Rate that an impact passes on: a part of that before it.
     pub(super) fn passed_on(&self, i: usize) -> T {
         let [before, free] = [0, 1].map(|k: usize| self.rates[k].component(K::CONTACTS[i].normal));
         -self.restitution.component(i) * motion::reversed(before, self.gap_at_end(i, free), self.fastest)
@@ -123,7 +123,7 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
         impulses
     }
 
-    /// What the laws came to.
+    /// The answer of the laws.
     pub(super) fn answer(&self, problem: &Impulses<T>, found: Found<T>, cones: &[Cone<T>]) -> Answer<T, K> {
         let scales = self.laws.scales.as_ref();
         let from_coulomb = if problem.relaxed { problem.residual_of_coulomb(cones) } else { found.residual };
@@ -155,7 +155,7 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
     }
 }
 
-/// What the laws of a step came to, of all lanes.
+/// Answer of the laws of a step, of all lanes.
 pub(super) struct Answer<T: Real, K: ContactSystem<Scalar = T>> {
     found: Found<T>,
     from_coulomb: Residual<T>,

@@ -11,7 +11,7 @@ use crate::mode::{Mode, after_impulses};
 use super::bounds::{Bounds, NotClosed, Touched, contact_at, gaps_of, lowest_of, not_closed};
 use super::linear::{Place, factorise_symmetric, solve_symmetric, stride};
 
-/// By what part of the diagonal a matrix is made regular where contacts depend on one another: corrections are
+/// Parts of the diagonal by which a matrix is made regular where contacts depend on one another: corrections are
 /// repeated.
 const PULLS: [f64; 3] = [1e-10, 1e-8, 1e-6];
 /// Corrections at most. With the matrix of half of the step each leaves a part of the order of the step.
@@ -24,7 +24,7 @@ pub(crate) struct Projection<'m, K: ContactSystem> {
     right: &'m mut [K::Scalar],
     solution: &'m mut [K::Scalar],
     rows: K::EachRow<Place>,
-    /// Of the rows of factors.
+    /// Ends of the rows of factors.
     ends: K::EachRow<Place>,
     count: usize,
     pub(crate) lockstep: Lockstep,
@@ -36,18 +36,18 @@ pub(crate) struct Projection<'m, K: ContactSystem> {
 pub(crate) struct Closed<K: ContactSystem> {
     pub(crate) q: K::Configuration,
     pub(crate) gaps: K::Gaps,
-    /// How far the lowest gap was below zero.
+    /// Depth of the lowest gap below zero, before corrections.
     pub(crate) penetration: K::Scalar,
-    /// How far from zero those were that are closed, above it too.
+    /// Distance from zero of the gaps that are closed, above it too, before corrections.
     pub(crate) closure: K::Scalar,
     /// Contacts that were to be closed and are open: to close them asks for more than the step has done.
     pub(crate) left: K::EachContact<bool>,
 }
 
 impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
-    /// How many rows there are.
+    /// Number of rows.
     const ROWS: usize = K::ContactRows::DIM;
-    /// How many numbers it needs.
+    /// Number of numbers that it needs.
     pub(crate) const MEMORY: usize = stride(Self::ROWS) * (Self::ROWS + 1) + Self::ROWS;
 
     pub(crate) fn new(memory: &'m mut [T]) -> Self {
@@ -207,7 +207,7 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
         if self.held[i] { gaps.component(i) } else { T::zero() }
     }
 
-    /// Where impulses move a configuration.
+    /// Configuration to which impulses move one.
     fn moved(
         &self,
         kernel: &K,

@@ -46,7 +46,7 @@ impl<T: Real> Impulses<'_, T> {
         cones.iter().enumerate().filter(own)
     }
 
-    /// What the slips at a normal take from its rate: `μ |u_T|`, with ρ |ω| of rolling resistance.
+    /// Rate that the slips at a normal take from its own: `μ |u_T|`, with ρ |ω| of rolling resistance.
     pub(super) fn lift(&self, cones: &[Cone<T>], normal: usize) -> T {
         let slip = |cone: &Cone<T>| {
             let mut slip = [T::zero(); 3];
@@ -56,8 +56,8 @@ impl<T: Real> Impulses<'_, T> {
         Self::pressed_by(cones, normal).map(|(_, cone)| slip(cone)).fold(T::zero(), |sum, slip| sum + slip)
     }
 
-    /// What is added to the equation of a normal, in an unknown: to second order |u_T| is `−t·u_T` with the direction t
-    /// of friction.
+    /// Entry that is added to the equation of a normal, in an unknown: to second order |u_T| is `−t·u_T` with the
+    /// direction t of friction.
     pub(super) fn lift_entry(&self, cones: &[Cone<T>], states: &[State<T>], normal: usize, column: usize) -> T {
         self.lift_along(cones, states, normal, |this, row| this.at(row, column))
     }

@@ -1,10 +1,10 @@
-//! How steps are made, and what one did.
+//! Schemes of steps, and the report of one.
 
 use gauss_runtime::configuration::VectorSpace;
 
 use crate::residual::Residual;
 
-/// How a step takes the motion between impacts.
+/// Scheme by which a step takes the motion between impacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum StepScheme {
@@ -22,19 +22,19 @@ pub enum StepScheme {
     Midpoint,
 }
 
-/// What a step did.
+/// Report of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct StepReport {
     /// The worst residuals of all contacts, in the units of rates.
     pub residual: Residual,
-    /// How far the step is from Coulomb's law. Under [`StepLaw::Coulomb`](super::StepLaw::Coulomb) that is `residual`;
+    /// Distance of the step from Coulomb's law. Under [`StepLaw::Coulomb`](super::StepLaw::Coulomb) that is `residual`;
     /// under the relaxed law `signorini` of it is the largest rate at which what slides separates.
     pub from_coulomb: Residual,
     /// The largest gap below zero before the projection, as a positive number.
     pub penetration: f64,
-    /// How far gaps that stay closed were from zero before the projection, above it too: the way on which a contact
-    /// closes within the step.
+    /// Largest distance from zero of gaps that stay closed, before the projection, above it too: the way on which a
+    /// contact closes within the step.
     pub closure: f64,
     /// Contacts with an impulse.
     pub closed: usize,
@@ -58,7 +58,7 @@ pub struct StepReport {
     pub length: f64,
     /// Gaps that have closed, or from which an impact passed something on.
     pub impacts: usize,
-    /// What the step is off by at most, over the tolerance, where a run has one ([`AdaptiveContactSteps`]); else 0.
+    /// Largest error of the step, over the tolerance, where a run has one ([`AdaptiveContactSteps`]); else 0.
     ///
     /// [`AdaptiveContactSteps`]: super::AdaptiveContactSteps
     pub estimate: f64,
@@ -70,7 +70,7 @@ impl StepReport {
         if self.length > 0.0 { impulses.scale(1.0 / self.length) } else { R::zero() }
     }
 
-    /// Of two parts of a step.
+    /// Report of two parts of a step as one.
     pub(super) fn and(self, later: Self) -> Self {
         Self {
             residual: self.residual.worse(later.residual),

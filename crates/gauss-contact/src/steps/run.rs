@@ -39,7 +39,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> ContactSteps<'k, K> {
 }
 
 impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
-    /// With every how many states are kept, and the most steps.
+    /// Steps of these parts, with every how many states are kept and the most steps.
     pub(crate) fn of_parts(kernel: &'k K, h: f64, (input, events): (I, E), (every, limit): (u64, Option<u64>)) -> Self {
         let (scheme, law, tolerance) = (StepScheme::default(), StepLaw::default(), 1e-8);
         Self { kernel, h, input, events, scheme, law, tolerance, every, limit }
@@ -97,7 +97,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
         self
     }
 
-    /// How the motion between impacts is taken.
+    /// Sets the scheme by which the motion between impacts is taken.
     pub fn scheme(mut self, scheme: StepScheme) -> Self {
         self.scheme = scheme;
         self

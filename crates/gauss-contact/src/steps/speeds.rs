@@ -43,8 +43,8 @@ const NEARLY: f64 = 3e-8;
 const MILD: f64 = 1e-2;
 /// The number of times a step is made again, at most.
 const CORRECTIONS: usize = 24;
-/// Where the second difference is more than this part of the first, a step is made in parts: where a body turns by a
-/// fifth of a radian in it, so that places err by its square over 24, or a speed is damped by a fifth.
+/// Part of the first difference above which the second one has a step made in parts: where a body turns by a fifth of a
+/// radian in it, so that places err by its square over 24, or a speed is damped by a fifth.
 const STIFF: f64 = 0.1;
 /// The same where parts cannot be shorter.
 const STIFF_AT_LAST: f64 = 0.5;
@@ -81,7 +81,7 @@ fn opposes<V: VectorSpace<f64>>(before: &Off<V>, after: &Off<V>) -> bool {
     product(before, after) < -0.7 * Real::sqrt(product(before, before) * product(after, after))
 }
 
-/// By what part of a difference speeds are changed next, from the part before and the differences before and after it
+/// Part of a difference by which speeds are changed next, from the part before and the differences before and after it
 /// (A. C. Aitken; B. Irons & R. Tuck 1969): of one linear force that is all that is left, whatever its sign.
 fn relaxation<V: VectorSpace<f64>>(part: f64, before: &Off<V>, after: &Off<V>) -> f64 {
     let change = core::array::from_fn(|k| after[k].add_scaled(-1.0, &before[k]));

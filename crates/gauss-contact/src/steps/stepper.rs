@@ -52,14 +52,14 @@ pub struct ContactStepper<'k, K: ContactSystem<Scalar = f64>, M = Vec<f64>> {
     /// At the state.
     pub(super) gaps: K::Gaps,
     pub(super) rates: K::ContactRows,
-    /// Of the last step.
+    /// Forces of the last step.
     pub(super) last: LastForces<K::Speeds>,
-    /// Of the energy, where nothing but contacts can raise it.
+    /// Account of the energy, where nothing but contacts can raise it.
     pub(super) account: Option<Account>,
     pub(super) modes: K::EachContact<Mode>,
-    /// What is closed at the state and stays so.
+    /// Contacts that are closed at the state and stay so.
     pub(super) rests: K::EachContact<bool>,
-    /// Of the step that is being made.
+    /// Modes of the step that is being made.
     pub(super) next: K::EachContact<Mode>,
     pub(super) report: StepReport,
 }
@@ -88,7 +88,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> ContactStepper<'k, K> {
 
 impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, M> {
     const ROWS: usize = K::ContactRows::DIM;
-    /// How many numbers steps need.
+    /// Number of numbers that steps need.
     pub const MEMORY: usize = memory(Self::ROWS) + Projection::<K>::MEMORY;
 
     /// Like [`new`](ContactStepper::new), in memory of one's own.
@@ -136,7 +136,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         Ok(stepper)
     }
 
-    /// How the motion between impacts is taken.
+    /// Sets the scheme by which the motion between impacts is taken.
     #[must_use]
     pub fn scheme(mut self, scheme: StepScheme) -> Self {
         self.scheme = scheme;
@@ -150,8 +150,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         self
     }
 
-    /// How far from the laws a solution may be, as a part of the largest rate, in place of 10⁻⁸. A ten thousandth of
-    /// that is looked for first, and rounding is always allowed for; what was found is in the report.
+    /// Sets how far from the laws a solution may be, as a part of the largest rate, in place of 10⁻⁸. A ten thousandth
+    /// of that is looked for first, and rounding is always allowed for; what was found is in the report.
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
@@ -188,18 +188,18 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         ContactForces::new(self.kernel, self.t, self.q, self.report.mean(&self.impulses))
     }
 
-    /// What the contacts did in the last step.
+    /// Modes of the contacts in the last step.
     pub fn modes(&self) -> &[Mode] {
         self.modes.as_ref()
     }
 
-    /// What the last step did.
+    /// Report of the last step.
     pub fn report(&self) -> StepReport {
         self.report
     }
 
-    /// What touches at the start: gaps of zero, to rounding, that stay so. One that closes there is an impact of the
-    /// first step: its jump is no acceleration.
+    /// Finds the contacts that touch at the start: gaps of zero, to rounding, that stay so. One that closes there is an
+    /// impact of the first step: its jump is no acceleration.
     pub(super) fn find_closed(&mut self) {
         let (gaps, rates) = (self.gaps, self.rates);
         let near = crate::rounding::Rounding::of::<K>(&self.q).half_of_the_digits();
@@ -480,7 +480,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         Ok(closed)
     }
 
-    /// What a contact does at the end of a step, whose rates are brought to zero.
+    /// Mode of a contact at the end of a step, whose rates are brought to zero.
     pub(super) fn mode_at_end(&self, pushed: &Pushed<K>, i: usize) -> Mode {
         if pushed.solved.rests[i] { self.next[i] } else { Mode::Open }
     }
@@ -491,7 +491,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         (0..K::CONTACTS.len()).any(|i| kind(&next[i]) != kind(&self.modes[i]))
     }
 
-    /// What is rounding of rates: what begins to rest is brought to zero to the last bit, and stays there.
+    /// Rounding of rates at the end of a step: what begins to rest is brought to zero to the last bit, and stays there.
     pub(super) fn rounding_at_end(&self, next: &[Mode], solved: &Solved<K>) -> f64 {
         if self.changes(next) { 0.0 } else { solved.found.residual.rounding }
     }

@@ -17,7 +17,7 @@ use super::used::Used;
 
 /// The square of ωh from which on forces are taken at the mean place of a step.
 const SWING: f64 = 0.09;
-/// For how many steps that is so after the last with such a force: more than two swings of it.
+/// Number of steps for which that is so after the last with such a force: more than two swings of it.
 const STAYS: u32 = 64;
 
 /// The forces of the step before, as far as the next one is made by them.
@@ -25,9 +25,9 @@ const STAYS: u32 = 64;
 pub(super) struct LastForces<V> {
     /// The mean acceleration, where no speeds have jumped.
     pub(super) acceleration: Option<V>,
-    /// That without contacts, at half of the step, with its length.
+    /// Acceleration without contacts, at half of the step, with its length.
     free: Option<(f64, V)>,
-    /// For how many steps forces are to be taken at mean places.
+    /// Number of steps for which forces are to be taken at mean places.
     stays: u32,
 }
 

@@ -20,7 +20,7 @@ use super::report::StepScheme;
 use super::unknowns::Unknowns;
 use super::used::Used;
 
-/// What impulses have made of the speeds of all lanes.
+/// Speeds of all lanes after their impulses, with these.
 struct PushedLanes<W: ContactSystem> {
     z: W::Speeds,
     impulses: W::ContactRows,

@@ -1,10 +1,10 @@
-//! What is unknown in a step: which rows, in which states, in memory of the size of the system.
+//! Unknowns of a step: which rows, in which states, in memory of the size of the system.
 
 use gauss_runtime::contact::{ContactSystem, Each};
 
 use super::linear::Place;
 
-/// What a contact does in a step.
+/// State of a contact in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum State<T = f64> {
     Leaves,
@@ -33,9 +33,9 @@ pub(crate) struct Unknowns<K: ContactSystem> {
 /// The same in slices: of rows, and of contacts.
 pub(crate) struct UnknownsIn<'m, T = f64> {
     pub(crate) rows: &'m mut [Place],
-    /// Of pivots; of symmetric factors the ends of their rows.
+    /// Order of pivots; of symmetric factors the ends of their rows.
     pub(crate) order: &'m mut [Place],
-    /// Of rows of D.
+    /// Extents of the rows of D: from the first entry that is not zero to behind the last.
     pub(crate) extents: &'m mut [[Place; 2]],
     pub(crate) states: &'m mut [State<T>],
 }

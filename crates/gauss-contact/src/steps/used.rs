@@ -2,16 +2,16 @@
 
 use gauss_runtime::configuration::VectorSpace;
 
-/// By what part of a speed that which forces are taken at may differ from the mean one without further notice.
+/// Part of a speed by which that at which forces are taken may differ from the mean one without further notice.
 const NEAR: f64 = 1e-5;
 /// The part of a speed by which forces may change it for having been taken at another one that was foreseen.
 pub(super) const ALLOWED: f64 = 1e-6;
-/// By what part of the sizes of speeds before and after a step these may change before one looks whether that is so
+/// Part of the sizes of speeds before and after a step by which these may change before one looks whether that is so
 /// because forces do: a quarter of a swing.
 const ROUGH: f64 = 0.5;
 /// The same of what speeds at half of a step were foreseen to be: where a motion turns back, speeds at both ends agree.
 const FAR: f64 = 0.2;
-/// By what part of a speed before a step forces may change it by changing along half of the step.
+/// Part of a speed before a step by which forces may change it by changing along half of the step.
 const STEEP: f64 = 0.25;
 /// The part of the largest speed below which one counts as zero. Units of speeds may differ.
 const SMALL: f64 = 1e-3;

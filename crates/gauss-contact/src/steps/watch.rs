@@ -1,4 +1,4 @@
-//! What a step decided, for whoever makes it again in numbers with derivatives.
+//! Decisions of a step, for whoever makes it again in numbers with derivatives.
 
 use alloc::vec::Vec;
 
@@ -9,10 +9,10 @@ use crate::mode::Mode;
 
 use super::motion::Rule;
 
-/// What an attempt at a part of a step came to.
+/// Outcome of an attempt at a part of a step.
 pub(super) struct Attempted<'a, K: ContactSystem> {
     pub(super) impulses: &'a K::ContactRows,
-    /// What contacts did, where the laws were solved.
+    /// Modes of the contacts, where the laws were solved.
     pub(super) modes: Option<&'a [Mode]>,
     /// Contacts that are closed after the step, and those that were to be and are open.
     pub(super) rests: &'a [bool],
@@ -53,9 +53,9 @@ impl<K: ContactSystem> Watch<K> for () {
     fn part(&mut self, _: (f64, f64), _: Attempted<K>) {}
 }
 
-/// What an attempt decided.
+/// Decisions of an attempt.
 pub(super) struct Taken {
-    /// What contacts did, where the laws were solved.
+    /// Modes of the contacts, where the laws were solved.
     pub(super) modes: Option<Vec<Mode>>,
     /// Impulses, row by row.
     pub(super) impulses: Vec<f64>,
