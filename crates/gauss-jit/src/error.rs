@@ -4,7 +4,7 @@ use std::fmt;
 
 use gauss_runtime::error::ParameterError;
 
-/// Where a mistake is.
+/// Place of a mistake.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
@@ -23,7 +23,7 @@ pub enum Place {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Mistake {
-    /// Where it is.
+    /// Its place.
     pub place: Place,
     /// The mistake with its remedy, as the compiler says it of a struct.
     pub message: String,
@@ -78,9 +78,9 @@ pub enum KernelError {
     Given(Vec<Misgiven>),
     /// A check needs a matrix with more rows than are supported at run time.
     TooLarge {
-        /// How many rows it has.
+        /// Number of rows of the matrix.
         rows: usize,
-        /// How many are supported.
+        /// Number of rows that are supported.
         most: usize,
     },
 }
@@ -99,9 +99,9 @@ pub enum Misgiven {
     Count {
         /// Its name.
         name: String,
-        /// How many numbers it has.
+        /// Count of its numbers.
         expected: usize,
-        /// How many are given.
+        /// Count of the numbers given.
         found: usize,
     },
 }
@@ -159,7 +159,7 @@ pub enum CallError {
         method: String,
         /// The names of its arguments.
         expected: Vec<String>,
-        /// How many lists are given.
+        /// Number of lists given.
         found: usize,
     },
     /// The configuration has more rotations and poses than the method moves: 31.
@@ -173,9 +173,9 @@ pub enum CallError {
         method: String,
         /// The argument: `q`; or `results`.
         name: String,
-        /// How many numbers it has.
+        /// Count of its numbers.
         expected: usize,
-        /// How many there are.
+        /// Count of the numbers that there are.
         found: usize,
     },
 }

@@ -256,7 +256,7 @@ impl<'k> Method<'k> {
         self.results
     }
 
-    /// How many numbers it gives.
+    /// Count of the numbers that it gives.
     pub fn outputs(&self) -> usize {
         self.outputs
     }

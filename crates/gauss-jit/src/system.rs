@@ -14,7 +14,7 @@ use crate::kernel::{Kernel, Method};
 
 /// The inputs of a system: `()` or `SVector<f64, U>`.
 pub trait Inputs: Copy + fmt::Debug + Send + Sync + 'static {
-    /// How many numbers they are.
+    /// Count of the numbers.
     const COUNT: usize;
 
     /// The numbers.
@@ -196,7 +196,7 @@ impl<'k, const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> Sys
         ((self.increments() + self.sizes.speeds).max(1) as f64 / (Q + Z).max(1) as f64).sqrt()
     }
 
-    /// How many components an increment of the model's configuration has.
+    /// Number of components that an increment of the model's configuration has.
     fn increments(&self) -> usize {
         self.methods[const { place_of("kinematics") }].map_or(0, |method| method.outputs())
     }

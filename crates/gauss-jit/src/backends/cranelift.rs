@@ -20,7 +20,8 @@ use super::backend::{Backend, Compiled, MOST_ARGUMENTS};
 use super::functions::{binary, is_fused, unary};
 use super::machine::{self, MachineCode};
 
-/// How hard Cranelift tries to keep values in registers. Its optimiser is left out: it undoes the order of statements.
+/// Effort with which Cranelift tries to keep values in registers. Its optimiser is left out: it undoes the order of
+/// statements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Effort {
@@ -39,7 +40,7 @@ const LONGEST: usize = 10_000;
 /// Machine code by Cranelift.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cranelift {
-    /// How hard it tries.
+    /// Effort to keep values in registers.
     pub effort: Effort,
 }
 
@@ -103,19 +104,19 @@ fn declare_symbols(builder: &mut JITBuilder) {
     });
 }
 
-/// What has been written of a program.
+/// A program as far as it has been written.
 struct Writer<'a, 'b> {
     program: &'a Program,
     builder: FunctionBuilder<'b>,
     module: &'a mut JITModule,
-    /// Where the numbers of each argument are.
+    /// Addresses of the numbers of each argument.
     arguments: Vec<Value>,
     results: Vec<Computed>,
     functions: Vec<(&'static str, FuncRef)>,
     is_fused: bool,
 }
 
-/// Where the result of an instruction is.
+/// Place of the result of an instruction.
 #[derive(Clone, Copy)]
 enum Computed {
     Value(Value),
@@ -305,7 +306,7 @@ impl Writer<'_, '_> {
     }
 }
 
-/// Of memory that is aligned and there.
+/// Flags of memory that is aligned and there.
 fn trusted() -> MemFlags {
     MemFlags::trusted()
 }

@@ -18,7 +18,7 @@ type Function = unsafe extern "C" fn(*const *const f64, *mut f64);
 /// A compiled program with the memory that it is in, which is never written again.
 pub struct MachineCode {
     function: Function,
-    /// How many numbers each argument has.
+    /// Count of the numbers of each argument.
     counts: Vec<usize>,
     outputs: usize,
     memory: Memory,
@@ -75,7 +75,7 @@ impl fmt::Debug for MachineCode {
     }
 }
 
-/// What machine code calls for several angles.
+/// Computes sines and cosines of several angles, for machine code.
 ///
 /// # Safety
 /// There are `count` numbers at `angles`, and place for twice as many at `results`, none of them among the former.
