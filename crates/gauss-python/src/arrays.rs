@@ -29,7 +29,7 @@ fn is_plain(array: &Bound<'_, PyArrayDyn<f64>>) -> bool {
     array.is_c_contiguous() && array.is_aligned()
 }
 
-/// How far rows are apart, in numbers, where they are parts of longer rows that follow each other, as fields of
+/// Distance between rows, in numbers, where they are parts of longer rows that follow each other, as fields of
 /// structured arrays are; nothing where the array is no such.
 fn apart(array: &Bound<'_, PyArrayDyn<f64>>) -> Option<usize> {
     const SIZE: isize = size_of::<f64>() as isize;
@@ -240,7 +240,7 @@ fn is_writeable(array: &Bound<'_, PyArrayDyn<f64>>) -> bool {
     flags & numpy::npyffi::NPY_ARRAY_WRITEABLE != 0
 }
 
-/// Where results go.
+/// The place to which results go.
 pub fn target(array: &Bound<'_, PyArrayDyn<f64>>, stride: usize) -> Target {
     // SAFETY: the array is alive over the call, has rows of this length, and shares no memory with arguments.
     #[allow(unsafe_code)]

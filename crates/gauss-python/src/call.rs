@@ -20,9 +20,9 @@ const DETACHED: usize = 64;
 /// Rows that a thread takes at a time: whole lanes, and work for some microseconds.
 const CHUNK: usize = 512;
 
-/// What was given in Python: arrays by their slots, the time, where results go.
+/// Values of a call that were given in Python: arrays by their slots, the time, arrays for results.
 pub struct Given<'a, 'py> {
-    /// By [`Slot`].
+    /// Arguments, by [`Slot`].
     pub arguments: [Option<&'a Bound<'py, PyAny>>; 4],
     /// One number, or one for each state; 0 where it is left out.
     pub t: Option<&'a Bound<'py, PyAny>>,
@@ -42,7 +42,7 @@ struct Reading<'py> {
     zero: f64,
 }
 
-/// Where the time is among what is read.
+/// Place of the time among what is read.
 const TIME: usize = 4;
 
 /// Calls a method.

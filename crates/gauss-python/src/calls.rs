@@ -9,7 +9,7 @@ use pyo3::exceptions::{PyImportError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
 
-/// How long a run goes on before somebody looks for Ctrl-C, and is told how far it is.
+/// Time for which a run goes on before somebody looks for Ctrl-C, and is told how far it is.
 const PATIENCE: Duration = Duration::from_millis(50);
 
 /// Functions of Python in a run: the first error of any ends it.

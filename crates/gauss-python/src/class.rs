@@ -179,8 +179,8 @@ impl Kernel {
         parameters::as_dict(py, self.kernel())
     }
 
-    /// What of the robot's file does not act in the equations, and what is likely not meant, although a kernel can be
-    /// made of it.
+    /// Remarks on what of the robot's file does not act in the equations, and on what is likely not meant, although a
+    /// kernel can be made of it.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.kernel.warnings()
@@ -202,13 +202,13 @@ impl Kernel {
         format!("$$\n{}\n$$", self.scene().equations()[1])
     }
 
-    /// What every method costs.
+    /// Operations that every method costs, as text.
     #[getter]
     fn operations(&self) -> String {
         self.scene().operations()
     }
 
-    /// What methods lose to rounding.
+    /// Losses of methods to rounding, as text.
     #[getter]
     fn accuracy(&self) -> String {
         self.scene().accuracy()
@@ -251,7 +251,7 @@ impl Kernel {
         self.scene().joints().to_vec()
     }
 
-    /// How many speeds there are.
+    /// Number of speeds.
     #[getter]
     fn dof(&self) -> usize {
         self.scene().sizes().speeds

@@ -27,7 +27,7 @@ impl Columns {
         Self { numbers: ScalarBuffer::new(Buffer::from_vec(numbers), 0, length), names, rows }
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn len(&self) -> usize {
         self.rows
     }

@@ -1,4 +1,4 @@
-//! What is known of a scene without a kernel: its parameters, coordinates, speeds and inputs in words.
+//! Description of a scene without a kernel: its parameters, coordinates, speeds and inputs in words.
 
 /// A field of the struct: a keyword of the class.
 #[derive(Clone, Copy, Debug)]
@@ -9,11 +9,11 @@ pub struct Field {
     pub unit: &'static str,
     /// Its doc comment; empty where there is none.
     pub documentation: &'static str,
-    /// What values it takes.
+    /// Shape of its values.
     pub shape: Shape,
 }
 
-/// What values a field takes.
+/// Shapes of the values of fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// An array of these axes, none of a number; matrices row by row.
@@ -25,7 +25,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// How many numbers it has.
+    /// Count of its numbers.
     #[must_use]
     pub fn size(self) -> usize {
         match self {
@@ -41,18 +41,18 @@ impl Shape {
 pub struct Part {
     /// Its name.
     pub name: &'static str,
-    /// How many numbers it consists of.
+    /// Count of its numbers.
     pub size: usize,
-    /// How many of them, in the beginning, have squares that add up to 1.
+    /// Number of these, in the beginning, whose squares add up to 1.
     pub unit: usize,
-    /// What it is, in words, with its unit where that is known.
+    /// Description in words, with its unit where that is known.
     pub label: &'static str,
 }
 
 /// Something to know of the file that a scene comes from.
 #[derive(Clone, Copy, Debug)]
 pub struct Remark {
-    /// What, with its place in the file.
+    /// Text of the remark, with its place in the file.
     pub text: &'static str,
     /// Whether something that acts in the file does not act in the equations.
     pub ignored: bool,
@@ -73,7 +73,7 @@ pub struct Description {
     pub speeds: Vec<Part>,
     /// Inputs, in their order.
     pub inputs: Vec<Part>,
-    /// What there is to know of its file.
+    /// Remarks on its file.
     pub remarks: Vec<Remark>,
 }
 
@@ -93,7 +93,7 @@ impl Description {
         self.configuration().filter(|(_, part)| part.unit > 0).map(|(place, part)| (place, part.unit))
     }
 
-    /// How many numbers the input has.
+    /// Count of the numbers of the input.
     #[must_use]
     pub fn input_size(&self) -> usize {
         self.inputs.iter().map(|part| part.size).sum()

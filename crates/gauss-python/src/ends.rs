@@ -21,7 +21,7 @@ pub struct Ends {
 }
 
 impl Ends {
-    /// Those of a scene.
+    /// The ends of runs of a scene.
     pub fn new(scene: &dyn AnyScene, ends: ManyEnds, (touches, interrupted): (bool, bool)) -> Self {
         let sizes = scene.sizes();
         let ManyEnds { columns, stopped, errors, .. } = ends;

@@ -1,4 +1,4 @@
-//! What runs are given in Python: inputs, events, states, methods, controllers.
+//! Values that runs are given in Python: inputs, events, states, methods, controllers.
 
 use gauss_contact::{Impact, StepLaw, StepScheme};
 use gauss_runtime::prelude::Crossing;
@@ -11,13 +11,13 @@ use crate::calls::Calls;
 use crate::kernels::{AnyKernel, AnyScene};
 use crate::steps::{Control, Effect, Function, Jumped, Table, Until, Watched};
 
-/// What an input may be in Python.
+/// An input as given in Python.
 pub enum GivenInput {
     /// The same at all times.
     Numbers(Vec<f64>),
     /// Over time.
     Table(Table),
-    /// Of (t, q, z).
+    /// A function of (t, q, z).
     Function(Py<PyAny>),
 }
 
@@ -66,11 +66,11 @@ fn table(times: &Bound<'_, PyAny>, values: &Bound<'_, PyAny>, size: usize) -> Py
     Ok(Table { times, values })
 }
 
-/// What happens in a run or ends it, as given in Python.
+/// A value that passes through zero at an event or an end, as given in Python.
 pub enum GivenEnd {
     /// A number of q, or behind these of z, less a value.
     Number(usize, f64),
-    /// Of (t, q, z).
+    /// A function of (t, q, z).
     Function(Py<PyAny>),
 }
 
@@ -170,7 +170,7 @@ pub struct Words<'a> {
     pub step: Option<f64>,
     /// Relative and absolute tolerance, the longest step.
     pub tolerances: (f64, f64, Option<f64>),
-    /// How contacts are followed.
+    /// Way in which contacts are followed.
     pub contacts: Option<&'a str>,
     /// The law of impacts.
     pub impact: Option<&'a str>,
@@ -264,7 +264,7 @@ fn touching(words: Words<'_>, (rtol, atol, largest): (f64, f64, f64)) -> PyResul
 
 /// A controller that samples, as given in Python: its function, period and delay.
 pub struct GivenController {
-    /// Of (t, q, z).
+    /// Function of (t, q, z).
     pub law: Py<PyAny>,
     /// From one instant to the next.
     pub period: f64,
@@ -356,7 +356,7 @@ pub fn until_of<'a>(given: &GivenEvent, (watched, jump): (Function<'a, f64>, Fun
     Until { watched, crossing: given.crossing, effect }
 }
 
-/// What becomes of a run at an event.
+/// Effect of an event on a run, as given in Python.
 pub enum GivenEffect {
     /// It goes on.
     None,
@@ -368,11 +368,11 @@ pub enum GivenEffect {
 
 /// An event as given in Python.
 pub struct GivenEvent {
-    /// What is watched.
+    /// The value that is watched.
     pub end: GivenEnd,
     /// In which direction.
     pub crossing: Crossing,
-    /// What becomes of the run.
+    /// Effect on the run.
     pub effect: GivenEffect,
 }
 

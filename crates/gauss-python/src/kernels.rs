@@ -24,9 +24,9 @@ pub trait AnyScene: Send + Sync {
     fn description(&self) -> &Description;
     /// The equations as text and in LaTeX.
     fn equations(&self) -> [&str; 2];
-    /// What methods cost.
+    /// Operations that methods cost, as text.
     fn operations(&self) -> String;
-    /// What methods lose to rounding.
+    /// Losses of methods to rounding, as text.
     fn accuracy(&self) -> String;
     /// Names of the numbers of q and of z.
     fn names(&self) -> [&[&'static str]; 2];
@@ -88,7 +88,7 @@ pub trait AnyKernel: Send + Sync {
     fn scene(&self) -> &dyn AnyScene;
     /// Its parameters.
     fn numbers(&self) -> &[f64];
-    /// What of the scene's file does not act, and what is likely not meant.
+    /// Remarks on what of the scene's file does not act, and on what is likely not meant.
     fn warnings(&self) -> Vec<String>;
     /// Computes rows; the first row whose rotation is none, with how far the squares of its numbers are from 1.
     ///
@@ -106,7 +106,7 @@ pub trait AnyKernel: Send + Sync {
     /// # Errors
     /// A state that is none, one from which no such state is found.
     fn project(&self, t: f64, q: &[f64], z: &[f64]) -> Result<[Vec<f64>; 2], String>;
-    /// What contacts do at a state.
+    /// Acceleration at a state, with modes and forces of the contacts.
     ///
     /// # Errors
     /// A state that is none or at which velocities jump; no contacts.
@@ -128,7 +128,7 @@ pub struct OffGroup {
     pub slot: Slot,
     /// The first of its numbers.
     pub place: usize,
-    /// How many numbers.
+    /// Count of its numbers.
     pub count: usize,
     /// The sum of their squares.
     pub squares: f64,
@@ -145,7 +145,7 @@ pub struct Registered<S: Scene> {
 }
 
 impl<S: Scene> Registered<S> {
-    /// With all methods that the struct asked for.
+    /// The scene with all methods that the struct asked for.
     #[must_use]
     pub fn new() -> Self {
         let (mut single, mut packed, mut steps) = (Table::new(), Table::new(), Methods::new());

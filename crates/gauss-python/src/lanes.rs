@@ -14,7 +14,7 @@ use crate::memory::Source;
 /// the cache, as `Lanes<f64, 8>` need not do.
 pub type Pack = wide::f64x8;
 
-/// How many lanes there are.
+/// Number of lanes.
 pub const WIDTH: usize = <Pack as Packed>::WIDTH;
 
 /// Up to so many numbers of a row kernels make lanes of themselves.

@@ -26,7 +26,7 @@ unsafe impl Send for Target {}
 unsafe impl Sync for Target {}
 
 impl Source {
-    /// Of a method that does not read it.
+    /// Source of a method that does not read it.
     pub const NONE: Self = Self { first: std::ptr::null(), stride: 0 };
 
     /// # Safety
@@ -85,7 +85,7 @@ impl Source {
 }
 
 impl Target {
-    /// Of results that a method does not have.
+    /// Target of results that a method does not have.
     pub const NONE: Self = Self { first: std::ptr::null_mut(), stride: 0 };
 
     /// # Safety

@@ -33,7 +33,7 @@ impl<'a, T: Copy> Numbers<'a, T> {
             `RigidBody<{T}>` and `UnitQuaternion<{T}>`"
 )]
 pub trait Parameter<T> {
-    /// What values it takes.
+    /// Shape of its values.
     const SHAPE: Shape;
 
     /// The value made of the next numbers.

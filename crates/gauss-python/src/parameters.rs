@@ -11,7 +11,7 @@ use crate::errors;
 use crate::kernels::{AnyKernel, AnyScene, Violation};
 use crate::steps::{off_group, off_group_words};
 
-/// What is wrong: the name of a field, and why.
+/// Mistakes in fields: the name of each, and why it is one.
 type Mistakes = Vec<(String, String)>;
 
 /// The parts of a body, with their numbers.
@@ -96,7 +96,7 @@ fn array(name: &str, value: &Bound<'_, PyAny>, axes: &[usize]) -> Result<Vec<f64
     Err(format!("has shape {}; expected {expected}", shown(&found)))
 }
 
-/// That the components of a quaternion are those of a rotation.
+/// Checks that the components of a quaternion are those of a rotation.
 fn rotation(numbers: &[f64]) -> Result<(), String> {
     let squares = numbers.iter().map(|number| number * number).sum();
     if off_group(squares) { Err(format!("is no rotation: {}", off_group_words(squares))) } else { Ok(()) }

@@ -16,7 +16,7 @@ pub struct Run {
     columns: Columns,
     coordinates: usize,
     speeds: usize,
-    /// How many jumps were looked for, and behind them how many events.
+    /// Numbers of jumps and of events that were looked for, one after the other.
     kinds: (usize, usize),
     /// The names of contacts, and how many rows each has; none where they have no part in the run.
     contacts: Vec<(String, usize)>,
@@ -39,7 +39,7 @@ impl Run {
         self.outcome.touched.clone().unwrap_or_default()
     }
 
-    /// Those of some of the events.
+    /// Events with these numbers.
     fn events_of<'py>(&self, py: Python<'py>, numbers: std::ops::Range<usize>) -> PyResult<Bound<'py, PyList>> {
         let events: PyResult<Vec<_>> = numbers.map(|number| self.event(py, number)).collect();
         PyList::new(py, events?)
@@ -122,15 +122,15 @@ impl Run {
         self.events_of(py, self.kinds.0..self.kinds.0 + self.kinds.1)
     }
 
-    /// Those of `jumps`: the states before them.
+    /// Events of `jumps`: the states before them.
     #[getter]
     fn jumps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         self.events_of(py, 0..self.kinds.0)
     }
 
-    /// What happened at contacts, in order of time: tuples t, contact, kind ("impact", "closes", "rests", "leaves",
-    /// "sticks", "slides", "reverses"), and of an impact the rates before and after it, the impulse (along the normal,
-    /// then the tangents and the spin) and the energy that it took away.
+    /// Events at contacts, in order of time: tuples t, contact, kind ("impact", "closes", "rests", "leaves", "sticks",
+    /// "slides", "reverses"), and of an impact the rates before and after it, the impulse (along the normal, then the
+    /// tangents and the spin) and the energy that it took away.
     #[getter]
     fn contact_events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let one = |Happening { time, contact, kind, impact }: &Happening| {
@@ -143,7 +143,7 @@ impl Run {
         PyList::new(py, events?)
     }
 
-    /// How well the laws of contact were kept, by name; empty of runs without contacts.
+    /// Measures of how well the laws of contact were kept, by name; empty of runs without contacts.
     #[getter]
     fn contact_report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let report = PyDict::new(py);
@@ -151,8 +151,8 @@ impl Run {
         Ok(report)
     }
 
-    /// Where open gaps were looked at by samples alone, so that a touch may have been missed: contact, from when on,
-    /// until when.
+    /// Spans in which open gaps were looked at by samples alone, so that a touch may have been missed: contact, from
+    /// when on, until when.
     #[getter]
     fn sampled_gaps(&self) -> Vec<(String, f64, f64)> {
         self.touched().sampled.iter().map(|&(contact, from, to)| (self.contacts[contact].0.clone(), from, to)).collect()
@@ -278,5 +278,5 @@ impl Run {
 
 /// Coordinates, speeds, jumps and events, contacts, as pickles have them.
 type PickledSizes = (usize, usize, (usize, usize), Vec<(String, usize)>);
-/// What contacts did, as pickles have it.
+/// Account of the contacts, as pickles have it.
 type PickledTouches = (Vec<(f64, usize, usize, Vec<f64>)>, Vec<(String, f64)>, Vec<(usize, f64, f64)>);

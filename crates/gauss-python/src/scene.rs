@@ -42,7 +42,7 @@ pub trait Scene: Sized + 'static {
     /// Parameters that no body can have, in any lane.
     fn packed(numbers: &[ScalarOf<Self::Packed>]) -> Result<Self::Packed, ParameterError>;
 
-    /// What is likely not meant.
+    /// Warnings of what is likely not meant.
     fn warnings(numbers: &[f64]) -> ParameterWarnings;
 
     /// The state at rest in the origin.
@@ -52,7 +52,7 @@ pub trait Scene: Sized + 'static {
     fn offer(single: &mut Table<Self::Single>, packed: &mut Table<Self::Packed>, steps: &mut Methods<Self::Single>);
 }
 
-/// What the derive calls for a struct with `#[gauss(python)]`: the struct in words, and its kernels.
+/// Code that the derive calls for a struct with `#[gauss(python)]`: the struct in words, and its kernels.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! scene {

@@ -260,7 +260,7 @@ impl Kernel {
     }
 }
 
-/// What ended a run before its time, with what there is of it.
+/// The exception that ended a run before its time, with what there is of the run.
 fn ended_by(py: Python<'_>, error: PyErr, name: &str, there: PyResult<Bound<'_, PyAny>>) -> PyErr {
     if let Ok(there) = there {
         // An exception that takes no attributes is raised as it is.

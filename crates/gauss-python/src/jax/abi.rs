@@ -144,7 +144,7 @@ impl Frame {
         self.arguments.buffers()
     }
 
-    /// Those that are written.
+    /// Arrays that are written.
     pub fn results(&self) -> Vec<&Buffer> {
         self.results.buffers()
     }
@@ -170,7 +170,7 @@ impl Frame {
         Err(format!("the call has no whole number {name}"))
     }
 
-    /// What a runtime asks of the handler itself, if it does.
+    /// Answers a runtime that asks about the handler itself; whether it does.
     fn answered(&self) -> bool {
         let mut extension = self.extensions;
         while !extension.is_null() {

@@ -36,7 +36,7 @@ fn place(kernel: &Arc<dyn AnyKernel>) -> PyResult<usize> {
     Ok(all.len() - 1)
 }
 
-/// What XLA calls. All kernels of a module have this one handler.
+/// Handler that XLA calls. All kernels of a module have this one handler.
 #[allow(unsafe_code)]
 unsafe extern "C" fn handler(frame: *mut Frame) -> *mut c_void {
     // SAFETY: XLA calls it with frames.

@@ -6,12 +6,12 @@ use gauss_jit::{CallError, Kernel, Model};
 
 use crate::methods::{Id, SPECS, Sizes, Slot, Work};
 
-/// How a method is computed.
+/// Way in which a method is computed.
 #[derive(Clone, Debug)]
 enum Plan {
-    /// By a program with these arguments, one for each frame where it is one of a frame.
+    /// A program with these arguments, one for each frame where it is one of a frame.
     Program(Vec<String>, Vec<Input>),
-    /// By a program for each frame that gives the origin, then the rotation row by row.
+    /// A program for each frame that gives the origin, then the rotation row by row.
     Pose(Vec<String>),
     /// Inverse dynamics without acceleration, where no program of its own has it.
     Nonlinear,
@@ -35,11 +35,11 @@ enum Input {
     In(Slot),
 }
 
-/// How all methods of a model are computed; none of those that it does not have.
+/// Plans of all methods of a model; none of those that it does not have.
 pub struct Plans([Option<Plan>; SPECS.len()]);
 
 impl Plans {
-    /// Those of a model.
+    /// The plans of a model.
     pub fn of(model: &Model, frames: &[&'static str], joints: &[&'static str]) -> Self {
         Self(Id::ALL.map(|id| plan(model, id, frames, joints)))
     }

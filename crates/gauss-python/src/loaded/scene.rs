@@ -56,7 +56,7 @@ fn part(own: &Quantity) -> Part {
 }
 
 impl LoadedScene {
-    /// With all methods of the model.
+    /// The scene of a model, with all its methods.
     pub fn new(model: Model) -> Self {
         let own = model.description();
         let parts = |list: &[Quantity]| list.iter().map(part).collect::<Vec<_>>();

@@ -149,7 +149,7 @@ impl<S: System> Table<S> {
         self.add(Id::Multipliers, |s, at, out| out.vector(&s.multipliers(at.t(), &at.q(), &at.z(), &at.input())));
     }
 
-    /// What holds the weight.
+    /// Adds the generalised forces that balance weight and buoyancy.
     pub fn gravity_torques(&mut self)
     where
         S: GravityTorques,

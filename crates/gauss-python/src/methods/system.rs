@@ -1,4 +1,4 @@
-//! What kernels of Python are to the code that calls them.
+//! Kernels of Python, as the code that calls them sees them.
 
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;

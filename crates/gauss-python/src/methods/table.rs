@@ -11,7 +11,7 @@ use super::words::{COUNT, Id, Size, Slot};
 use crate::lanes::SHORT;
 use crate::memory::{Source, Target};
 
-/// How many numbers the vectors of a system have.
+/// Numbers of components that the vectors of a system have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sizes {
     /// Components of the configuration.
@@ -27,7 +27,7 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// Those of a system.
+    /// The sizes of a system.
     #[must_use]
     pub fn of<S: System>(multipliers: usize) -> Self {
         Self {
@@ -63,16 +63,16 @@ pub const MOST_RESULTS: usize = 6;
 pub struct Work {
     /// Times.
     pub t: Source,
-    /// By [`Slot`].
+    /// Arguments, by [`Slot`].
     pub arguments: [Source; 4],
-    /// What is written.
+    /// Arrays that are written.
     pub results: [Target; MOST_RESULTS],
     /// The frame, by its number.
     pub frame: usize,
 }
 
 impl Work {
-    /// Of no arrays.
+    /// Work on no arrays.
     pub const NONE: Self =
         Self { t: Source::NONE, arguments: [Source::NONE; 4], results: [Target::NONE; MOST_RESULTS], frame: 0 };
 
@@ -187,7 +187,7 @@ impl<'a, S: System> At<'a, S> {
     }
 }
 
-/// Where results of as many rows as there are lanes go.
+/// Writer of the results of as many rows as there are lanes.
 pub struct Writer<'a> {
     targets: &'a [Target; MOST_RESULTS],
     result: usize,
@@ -247,7 +247,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What follows belongs to the next array.
+    /// Goes on to the next array.
     #[inline(always)]
     pub fn next(&mut self) {
         self.result += 1;
@@ -260,7 +260,7 @@ type Loop<S> = Box<dyn Fn(&S, &Work, Range<usize>) + Send + Sync>;
 /// The methods that a kernel has.
 pub struct Table<S> {
     loops: [Option<Loop<S>>; COUNT],
-    /// How many multipliers there are.
+    /// Number of multipliers.
     pub multipliers: usize,
     /// The names of the frames.
     pub frames: Vec<&'static str>,
@@ -269,7 +269,7 @@ pub struct Table<S> {
 }
 
 impl<S: System> Table<S> {
-    /// Those that every kernel has.
+    /// The table of the methods that every kernel has.
     #[must_use]
     pub fn new() -> Self {
         let mut table =

@@ -74,7 +74,7 @@ impl Id {
     ];
 }
 
-/// How many methods there are.
+/// Number of methods.
 pub const COUNT: usize = SPECS.len();
 
 /// Which of the arrays of a call an argument is.
@@ -84,13 +84,13 @@ pub enum Slot {
     Q,
     /// Speeds, or momenta.
     Z,
-    /// What only some methods have.
+    /// The argument that only some methods have.
     X,
     /// The input.
     U,
 }
 
-/// How many numbers a vector has, or an axis of a result.
+/// Count of the numbers of a vector, or length of an axis of a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
     /// Components of the configuration.
@@ -116,9 +116,9 @@ pub enum Size {
 pub struct Argument {
     /// Its name in Python.
     pub name: &'static str,
-    /// Where it is handed over.
+    /// Array of the call in which it is handed over.
     pub slot: Slot,
-    /// How many numbers it has.
+    /// Count of its numbers.
     pub size: Size,
 }
 
@@ -131,7 +131,7 @@ pub struct Result {
     pub axes: &'static [Size],
 }
 
-/// What a method is in Python.
+/// Description of a method in Python.
 #[derive(Clone, Copy, Debug)]
 pub struct Spec {
     /// Its name.
@@ -140,11 +140,11 @@ pub struct Spec {
     pub frame: bool,
     /// Its arguments besides time.
     pub arguments: &'static [Argument],
-    /// What it gives.
+    /// Arrays that it gives.
     pub results: &'static [Result],
     /// The clause of the struct that it needs; empty of those that every kernel has.
     pub clause: &'static str,
-    /// What it is, for the stubs.
+    /// Text about it, for the stubs.
     pub documentation: &'static str,
 }
 

@@ -15,11 +15,11 @@ use crate::threads;
 
 /// Many runs over one interval.
 pub struct Many<'a> {
-    /// How many.
+    /// Number of runs.
     pub count: usize,
     /// The numbers of the first q of each.
     pub q: &'a [f64],
-    /// Those of the first z.
+    /// The numbers of the first z of each.
     pub z: &'a [f64],
     /// Parameters that each has for itself: the place among the numbers of all, and a number for each run.
     pub parameters: Vec<(usize, Vec<f64>)>,
@@ -31,11 +31,11 @@ pub struct Many<'a> {
     pub limit: Option<u64>,
     /// The input, the same for all.
     pub input: Input<'a>,
-    /// Where a run ends before its time.
+    /// Event at which a run ends before its time.
     pub until: Option<Until<'a>>,
     /// Set from outside, all runs end with what there is.
     pub stop: &'a AtomicBool,
-    /// How many have ended.
+    /// Number of runs that have ended.
     pub ended: &'a AtomicUsize,
 }
 
@@ -56,14 +56,13 @@ impl Many<'_> {
     }
 }
 
-/// Where the runs ended, column by column: time, the numbers of q and z, steps, and of runs with contacts what
-/// [`TOUCHED`](super::TOUCHED) has. Of a run that could not begin there is
-/// no number.
+/// Ends of runs, column by column: time, the numbers of q and z, steps, and of runs with contacts what
+/// [`TOUCHED`](super::TOUCHED) has. Of a run that could not begin there is no number.
 #[derive(Clone, Debug)]
 pub struct ManyEnds {
     /// The columns, one after the other.
     pub columns: Vec<f64>,
-    /// How many columns there are.
+    /// Number of columns.
     pub width: usize,
     /// Whether the end was that of `until`.
     pub stopped: Vec<bool>,

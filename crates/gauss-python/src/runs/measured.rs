@@ -1,4 +1,4 @@
-//! How long the same batch takes in Rust: what `benches/peers/python_calls.py` compares calls from Python with.
+//! Time that the same batch takes in Rust: `benches/peers/python_calls.py` compares calls from Python with it.
 
 use std::time::{Duration, Instant};
 

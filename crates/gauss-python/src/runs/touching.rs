@@ -77,7 +77,7 @@ fn one<S: Scene>(
     methods.simulate(own.as_ref().unwrap_or(shared), &request(many, i))
 }
 
-/// What is asked of a run: no state but the last.
+/// Request of one run among many: no state but the last.
 pub fn request<'a>(many: &'a Many<'_>, i: usize) -> Request<'a> {
     let [q, z] = many.first(i);
     Request {

@@ -75,7 +75,7 @@ mod tests {
     use gauss_runtime::constraint::ConstraintLevel;
     use gauss_runtime::integrate::RunPart;
 
-    /// What a run from Python can end with: none of the words is a name of Rust.
+    /// Errors with which a run from Python can end: none of their words is a name of Rust.
     #[test]
     fn remedies_are_those_of_python() {
         use IntegrationErrorKind as Kind;
@@ -120,7 +120,7 @@ mod tests {
         }
     }
 
-    /// What stops runs with contacts: one of each kind that a run of a scene can meet.
+    /// Errors that stop runs with contacts: one of each kind that a run of a scene can meet.
     fn all_of_contacts() -> Vec<String> {
         use ContactErrorKind as Kind;
         let law = gauss_contact::Impact::Newton;

@@ -12,7 +12,7 @@ use super::request::{Control, Request};
 use super::watching::Watch;
 use crate::methods::System;
 
-/// What runs with contacts need of a system.
+/// Requirements that runs with contacts have of a system.
 pub(super) trait Touching: System<Scalar = f64> + ContactSystem {}
 
 impl<S: System<Scalar = f64> + ContactSystem> Touching for S {}

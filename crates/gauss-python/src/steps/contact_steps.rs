@@ -63,7 +63,7 @@ pub(super) fn run<S: Touching>(
     })
 }
 
-/// What contacts did, step by step, and how well the laws were kept.
+/// Account of the contacts, step by step, and of how well the laws were kept.
 fn touched<S: Touching>(run: &SteppedRun<'_, S>) -> Touched {
     let (mut worst, mut work, mut impacts) = (StepReport::default(), 0.0, 0);
     let (mut happened, mut modes) = (Vec::new(), run.modes(run.start.t).map_or_else(|_| Vec::new(), <[Mode]>::to_vec));
@@ -98,7 +98,7 @@ fn touched<S: Touching>(run: &SteppedRun<'_, S>) -> Touched {
     }
 }
 
-/// What a change of modes is, by its place in [`KINDS`](outcome::KINDS).
+/// Kind of a change of modes, by its place in [`KINDS`](outcome::KINDS).
 fn change(before: &Mode, after: &Mode) -> Option<usize> {
     match (before, after) {
         (Mode::Open, Mode::Closed) => Some(1),
@@ -118,7 +118,7 @@ struct Sampled<'a, U> {
     late: f64,
     /// The number of the next instant.
     next: u32,
-    /// What acts, and from when on others will.
+    /// Input that acts, and from when on others will.
     acts: U,
     to_come: VecDeque<(f64, U)>,
 }
@@ -134,7 +134,7 @@ impl<'a, U: VectorSpace<f64>> Sampled<'a, U> {
         Ok(Self { held, start, late, next: 0, acts: U::zero(), to_come: VecDeque::new() })
     }
 
-    /// What is held from the time of a step on.
+    /// The input that is held from the time of a step on.
     fn at<Q: Configuration<Scalar = f64>, Z: VectorSpace<f64>>(&mut self, t: f64, q: &Q, z: &Z) -> U {
         let instant = self.start + f64::from(self.next) * self.held.period;
         if instant <= t + self.late {

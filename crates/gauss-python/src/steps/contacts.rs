@@ -22,7 +22,7 @@ pub fn run<S: System<Scalar = f64> + ContactSystem>(system: &S, request: &Reques
     }
 }
 
-/// What contacts do at a state: a run of no length decides it.
+/// Acceleration at a state, with modes and forces of the contacts: a run of no length decides it.
 ///
 /// # Errors
 /// A state that is none, or at which velocities jump.

@@ -77,7 +77,7 @@ impl<S: System<Scalar = f64>> Methods<S> {
         self.contacts.as_ref().map_or(&[], |contacts| contacts.all)
     }
 
-    /// What contacts do at a state.
+    /// Acceleration at a state, with modes and forces of the contacts.
     ///
     /// # Errors
     /// Velocities jump there; there are no contacts.
@@ -153,7 +153,7 @@ pub fn stiff<S: Moving + LinearizedSystem>(
     run(&stoppable(system, request), q, request, bounded(control, largest, Adaptive::largest_step))
 }
 
-/// What a method needs that its struct does not say.
+/// Message that a method needs a clause, which its struct does not say.
 pub fn lacks(method: &str, clause: &str) -> String {
     format!("the method {method} needs `#[gauss({clause})]` at the struct, which does not say it")
 }
@@ -197,7 +197,7 @@ fn run<'a, S: Moving, C: Steps<Stoppable<'a, S>>>(
     outcome(system, request, &run, error)
 }
 
-/// What became of a run.
+/// The outcome of a run.
 fn outcome<'a, S: Moving>(
     system: &Stoppable<'a, S>,
     request: &Request<'_>,

@@ -1,4 +1,4 @@
-//! What becomes of a run, in numbers.
+//! Outcome of a run, in numbers.
 
 use gauss_runtime::contact::Contact;
 use gauss_runtime::integrate::Summary;
@@ -14,7 +14,7 @@ use super::{components, numbers_of};
 pub struct Outcome {
     /// The columns, one after the other.
     pub columns: Vec<f64>,
-    /// How many states there are.
+    /// Number of states.
     pub rows: usize,
     /// The last state: time, and the numbers of q and z.
     pub last: Vec<f64>,
@@ -24,7 +24,7 @@ pub struct Outcome {
     pub stopped_by: Option<usize>,
     /// Its steps.
     pub summary: Summary,
-    /// What contacts did; none of runs that leave them out.
+    /// Account of the contacts; none of runs that leave them out.
     pub touched: Option<Touched>,
     /// Why it did not reach its end.
     pub error: Option<String>,
@@ -41,17 +41,17 @@ pub struct Event {
     pub row: Vec<f64>,
 }
 
-/// What happens to a contact, by its name.
+/// Names of the events at a contact.
 pub const KINDS: [&str; 7] = ["impact", "closes", "rests", "leaves", "sticks", "slides", "reverses"];
 
-/// What contacts did in a run.
+/// Account of the contacts in a run.
 #[derive(Clone, Debug, Default)]
 pub struct Touched {
     /// Changes of contacts, in order of time.
     pub happened: Vec<Happening>,
-    /// How well the laws were kept, and in steps what became of gaps.
+    /// Measures of how well the laws were kept, and in steps of what became of gaps.
     pub report: Vec<(String, f64)>,
-    /// Where open gaps were looked at by samples alone: the contact, from when to when.
+    /// Spans in which open gaps were looked at by samples alone: the contact, from when to when.
     pub sampled: Vec<(usize, f64, f64)>,
 }
 
@@ -62,9 +62,9 @@ pub struct Happening {
     pub time: f64,
     /// Which contact.
     pub contact: usize,
-    /// What, by its place in [`KINDS`].
+    /// Kind, by its place in [`KINDS`].
     pub kind: usize,
-    /// Of an impact: rates before and after it and the impulse, row by row, then the energy that it takes away.
+    /// Numbers of an impact: rates before and after it and the impulse, row by row, then the energy that it takes away.
     pub impact: Vec<f64>,
 }
 
@@ -83,12 +83,12 @@ pub fn column_names(contacts: &[Contact]) -> Vec<String> {
     contacts.iter().flat_map(of).collect()
 }
 
-/// What contacts do at a state.
+/// Acceleration at a state, with modes and forces of the contacts.
 #[derive(Clone, Debug)]
 pub struct InContact {
     /// The rates of the speeds.
     pub acceleration: Vec<f64>,
-    /// Of each contact.
+    /// Mode of each contact.
     pub modes: Vec<&'static str>,
     /// All rows.
     pub forces: Vec<f64>,

@@ -1,4 +1,4 @@
-//! What is asked of runs.
+//! Requests for runs.
 
 use std::sync::atomic::AtomicBool;
 
@@ -61,13 +61,13 @@ impl Table {
 /// A function of time and the numbers of q and z.
 pub type Function<'a, R> = &'a (dyn Fn(f64, &[f64], &[f64]) -> R + Sync);
 
-/// Where the input comes from.
+/// Source of the input.
 pub enum Input<'a> {
     /// The same at all times; no number where a scene has no input.
     Constant(Vec<f64>),
     /// Over time.
     Table(Table),
-    /// Of time and state.
+    /// A function of time and state.
     Function(Function<'a, Vec<f64>>),
 }
 
@@ -87,7 +87,7 @@ impl Input<'_> {
     }
 }
 
-/// What passes through zero where a run ends.
+/// Value that passes through zero at an event.
 pub enum Watched<'a> {
     /// A number of q, or behind these of z, less a value.
     Number(usize, f64),
@@ -98,7 +98,7 @@ pub enum Watched<'a> {
 /// The configuration and the speeds after a jump; none where the state stays as it is.
 pub type Jumped = Option<(Vec<f64>, Vec<f64>)>;
 
-/// What becomes of a run at an event.
+/// Effect of an event on a run.
 #[derive(Clone, Copy)]
 pub enum Effect<'a> {
     /// It goes on.
@@ -111,11 +111,11 @@ pub enum Effect<'a> {
 
 /// An event of a run.
 pub struct Until<'a> {
-    /// What passes through zero.
+    /// Value that passes through zero.
     pub watched: Watched<'a>,
     /// In which direction.
     pub crossing: Crossing,
-    /// What becomes of the run.
+    /// Effect on the run.
     pub effect: Effect<'a>,
 }
 
@@ -140,7 +140,7 @@ pub struct Held<'a> {
 pub struct Request<'a> {
     /// The numbers of the first q.
     pub q: &'a [f64],
-    /// Those of the first z.
+    /// The numbers of the first z.
     pub z: &'a [f64],
     /// From when to when.
     pub interval: (f64, f64),
@@ -148,9 +148,9 @@ pub struct Request<'a> {
     pub control: Control,
     /// The input.
     pub input: &'a Input<'a>,
-    /// What is added to it.
+    /// Controller, whose input is added to it.
     pub controller: Option<Held<'a>>,
-    /// Where something happens; what ends it is behind all else.
+    /// Events of the run; those that end it are behind all others.
     pub until: &'a [Until<'a>],
     /// The times at which states are wanted; those of the steps where there are none.
     pub times: Option<&'a [f64]>,

@@ -1,11 +1,11 @@
-//! What a run asks of its request while it goes on: inputs, events, jumps.
+//! Answers that a run has of its request while it goes on: inputs, events, jumps.
 
 use gauss_runtime::prelude::*;
 
 use super::request::{Effect, Function, Input, Request, Until, Watched};
 use super::{components, numbers_of, vector};
 
-/// What a run needs of a system.
+/// Requirements that a run has of a system.
 pub trait Moving: GaussSystem<Scalar = f64, Input: VectorSpace<f64>> {}
 
 impl<S: GaussSystem<Scalar = f64, Input: VectorSpace<f64>>> Moving for S {}
@@ -29,7 +29,7 @@ pub(super) fn watched<'a, S: Moving>(
     request.until.iter().map(move |until| (watch::<S>(until), until.crossing, [until.ends(), through(until)]))
 }
 
-/// What an event does to a state; whether it does.
+/// Makes the jump of an event in a state; returns whether it did.
 pub(super) fn jump<S: Moving>(request: &Request<'_>, place: usize, state: &mut Sample<S>) -> bool {
     let Effect::Jumps(function, _) = request.until[place].effect else { return false };
     let Some((q, z)) = function(state.t, &numbers_of(&state.q), &components(&state.z)) else { return false };
