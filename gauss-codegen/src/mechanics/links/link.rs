@@ -6,7 +6,7 @@ use crate::algebra::{Expr, Graph, Map};
 
 use crate::mechanics::kinematics::rotation::product;
 use crate::mechanics::kinematics::turn::{Turn, angular_velocity, inward};
-use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, Vector, add, cross, is_zero};
+use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, Vector, add, cross, is_zero, subtract};
 use crate::mechanics::matter::body::Body;
 use crate::mechanics::matter::moments::Moments;
 use crate::mechanics::tidy::compact;
@@ -97,6 +97,8 @@ pub struct Link<'g> {
     pub angular_velocity: Triple<'g>,
     /// The same with each part in the axes where it is simplest.
     pub angular_velocity_in_parts: Vector<'g>,
+    /// Angular velocity of the body beyond that of its working axes, which a rotor leaves behind.
+    pub spin_beyond_axes: Triple<'g>,
     /// ∂v_O/∂z^α and ∂ω/∂z^α beyond what the parent's motion gives.
     pub linear_rows: Vec<Vector<'g>>,
     pub angular_rows: Vec<Triple<'g>>,
@@ -224,6 +226,14 @@ impl<'g> Link<'g> {
             }
             Some(parent) => LinkMotion::with(parent, &frame, &joint, planar.then_some(&spin)),
         };
+        // Working axes that stay behind turn with those of the parent alone.
+        let spin_beyond_axes = match (&turned, joint.turns.last()) {
+            (Some(_), Some(last)) => {
+                let above = parent.map_or([frame.graph.zero(); 3], |parent| parent.spin_beyond_axes);
+                add(&inward(&joint.turns, &above), &last.spin)
+            }
+            _ => [frame.graph.zero(); 3],
+        };
         let named = |e: Expr<'g>| compact(e).group();
         let linear_rows = speeds.iter().map(|&z| own_velocity.partial(z).map(named)).collect();
         let turning = if planar { spin } else { angular_velocity(&joint.turns, &[frame.graph.zero(); 3]) };
@@ -243,6 +253,7 @@ impl<'g> Link<'g> {
             shift: [frame.graph.zero(); 3],
             velocity,
             angular_velocity: omega,
+            spin_beyond_axes,
             angular_velocity_in_parts: known_spin.unwrap_or_else(|| frame.body_vector(omega)),
             frame,
             linear_rows,
@@ -308,6 +319,14 @@ impl<'g> Link<'g> {
     pub fn turns_about(&self) -> Vec<usize> {
         let (_, omega) = self.twist();
         (0..3).filter(|&axis| !omega[axis].is_zero()).collect()
+    }
+
+    /// Angular velocity of the working axes, in these.
+    pub fn axes_velocity(&self) -> Triple<'g> {
+        match is_zero(&self.spin_beyond_axes) {
+            true => self.angular_velocity,
+            false => subtract(&self.angular_velocity, &self.spin_beyond_axes).map(Expr::group),
+        }
     }
 
     /// The only working axis that it turns about.

@@ -468,7 +468,7 @@ impl<'g> Tree<'g> {
             };
             let (mut a, alpha) = match link.parent {
                 None => {
-                    let omega = frame.body_vector(link.angular_velocity);
+                    let omega = frame.body_vector(link.axes_velocity());
                     let along_o = if relative.is_some() { &self.rates } else { along };
                     let a = frame.derivative(&link.velocity, along_o, &omega).map(Expr::group);
                     let fields = loads.into_iter().flat_map(|loads| self.gravity.into_iter().chain(loads.field_on(k)));
@@ -529,7 +529,7 @@ impl<'g> Tree<'g> {
         let mut bracket = vec![self.graph.zero(); self.speeds.len()];
         for (link, (q, gamma)) in self.links.iter().zip(&gathered) {
             let frame = &link.frame;
-            let omega = if self.planar.is_some() { frame.zero() } else { frame.body_vector(link.angular_velocity) };
+            let omega = if self.planar.is_some() { frame.zero() } else { frame.body_vector(link.axes_velocity()) };
             // A multiple of v_O drops out of v_O × Q.
             let beside = if link.is_alone() && link.body().is_none_or(|body| body.added_mass.is_none()) {
                 frame.body_vector(cross(&link.angular_velocity, &link.moments.first))

@@ -6,12 +6,12 @@ use gauss_runtime::prelude::*;
 use gauss_runtime::system::Smoothness;
 
 use crate::testing::order::{NONE, TOP, start_by_velocity};
-use crate::testing::oscillator::{Law, Oscillator};
+use crate::testing::oscillator::{ForceLaw, Oscillator};
 
 /// No force beside the spring.
 struct Nothing;
 
-impl Law for Nothing {
+impl ForceLaw for Nothing {
     const SMOOTHNESS: Smoothness = Smoothness::Smooth;
     fn force(_: f64, _: f64) -> f64 {
         0.0
