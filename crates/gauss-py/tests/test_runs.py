@@ -104,6 +104,41 @@ def test_loops_are_closed():
         bead.simulate([0.7, -0.8], [0, 0], (0, 1))
 
 
+def test_rooms_have_place_for_inputs_and_multipliers():
+    # More inputs than numbers of q; three constraints of which two are independent.
+    text = "coordinates(x, y), particle(mass=1, position=[x, y, 0]), constraint(position = x*x + y*y - 1)"
+    driven = gauss.scene(text + ", input(a, b, c, d, e), drive(x = a + b + c + d + e)")()
+    q, z = driven.project([1.0, 0.0], [0.0, 1.0])
+    assert q.tolist() == [1, 0] and z.tolist() == [0, 1]
+    run = driven.simulate(q, z, (0, 1), input=np.zeros(5))
+    np.testing.assert_allclose(run.q[-1], [np.cos(1), np.sin(1)], atol=1e-8)
+
+
+def test_names_that_occur_twice_are_told_apart():
+    body = "body(b, position = [r_i, 0, 0], rotation = r, mass = 1, inertia = [1, 1, 1])"
+    scene = gauss.scene(f"coordinates(r: Rotation, r_i), {body}")()
+    assert scene.coordinate_names == ["r_i_2", "r_j", "r_k", "r_w", "r_i"]
+    q, z = scene.state(r_i=7.0)
+    z[scene.speed_names.index("r_i_dot")] = 0.5
+    run = scene.simulate(q, z, (0, 1), until=("r_i", 7.2))
+    np.testing.assert_allclose([run["r_i"][-1], run.t[-1]], [7.2, 0.4], atol=1e-9)
+    assert run[-1]["r_i"] == run["r_i"][-1] and len(set(run.columns)) == len(run.columns)
+    assert scene.states(3, r_i=1.0)["r_i"].tolist() == [1, 1, 1]
+    energy = gauss.scene("coordinates(kinetic_energy), particle(mass=2, position=[kinetic_energy,0,0])")()
+    run = energy.simulate([1.0], [10.0], (0, 1))
+    assert run["kinetic_energy"][-1] == run.q[-1, 0] and run.kinetic_energy.tolist() == run["kinetic_energy_2"].tolist()
+    np.testing.assert_allclose(run.kinetic_energy, 100, atol=1e-10)
+    steps = gauss.scene("coordinates(steps), particle(mass=2, position=[steps,0,0])")()
+    ends = steps.ensemble([[5.0]], [0.0], (0, 1))
+    assert ends.steps[0] == ends["steps_2"][0] and ends["steps"][0] == 5
+
+
+def test_what_rests_in_the_origin_falls():
+    body = gauss.scene("chart = hybrid, mass = 1, inertia = [1, 1, 1], gravity = 9.81")()
+    run = body.simulate(*body.state(), (0, 1), method="collocation", step=0.01)
+    np.testing.assert_allclose(run.q[-1, 6], -9.81 / 2, atol=1e-12)
+
+
 def test_events_and_jumps_have_the_numbers_of_the_model():
     """A ball that turns, and a plane that throws it back: functions see what the model has, and no room."""
     ball = gauss.scene(TOP)(m=2, i=[0.1, 0.1, 0.1], g=9.81)

@@ -71,9 +71,10 @@ impl Kernel {
             return Ok(());
         }
         let contacts = self.scene().contact_names();
+        let others = if self.scene().contacts().is_empty() { "" } else { " `in_contact` and `simulate` have them;" };
         let message = format!(
-            "{what} has no forces of contacts, and the scene has {}: `in_contact` and `simulate` have them; with \
-             `{way}` all gaps are open, and nothing rubs",
+            "{what} has no forces of contacts, and the scene has {}:{others} with `{way}` all gaps are open, and nothing \
+             rubs",
             contacts.join(", ")
         );
         Err(errors::new(py, "ContactError", message, ("contacts", contacts)))

@@ -55,10 +55,15 @@ impl Columns {
         array
     }
 
+    /// One column by its place.
+    pub fn column_at<'py>(&self, owner: Bound<'py, PyAny>, place: usize) -> PyResult<Bound<'py, PyAny>> {
+        self.view(owner, place, 1).call_method0("ravel")
+    }
+
     /// One column.
-    pub fn column<'py>(&self, owner: Bound<'py, PyAny>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    fn column<'py>(&self, owner: Bound<'py, PyAny>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         match self.names.iter().position(|other| other == name) {
-            Some(place) => self.view(owner, place, 1).call_method0("ravel"),
+            Some(place) => self.column_at(owner, place),
             None => Err(PyKeyError::new_err(format!("no column {name}; there are {}", self.names.join(", ")))),
         }
     }

@@ -37,7 +37,7 @@ impl Ends {
     /// When each run ended.
     #[getter]
     fn t<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.get().columns.column(slf.clone().into_any(), "t")
+        slf.get().columns.column_at(slf.clone().into_any(), 0)
     }
 
     /// The last configuration of each.
@@ -57,7 +57,8 @@ impl Ends {
     /// Steps that each made; NaN of those in `errors`.
     #[getter]
     fn steps<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.get().columns.column(slf.clone().into_any(), "steps")
+        let place = 1 + slf.get().coordinates + slf.get().speeds;
+        slf.get().columns.column_at(slf.clone().into_any(), place)
     }
 
     /// Whether each came to the end in `until`.

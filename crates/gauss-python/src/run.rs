@@ -72,8 +72,14 @@ impl Run {
 /// `t`, the numbers of q and z, and more.
 pub fn names(scene: &dyn AnyScene, more: &[&str]) -> Vec<String> {
     let [coordinates, speeds] = scene.names();
-    let all = ["t"].iter().chain(coordinates).chain(speeds).chain(more);
-    all.map(ToString::to_string).collect()
+    let mut names: Vec<String> = vec!["t".to_owned()];
+    // A name of the state stays, and one that is there already has a number behind it.
+    for name in coordinates.iter().chain(speeds).chain(more) {
+        let numbered = (2..).map(|n| format!("{name}_{n}"));
+        let free = std::iter::once((*name).to_owned()).chain(numbered).find(|name| !names.contains(name));
+        names.extend(free);
+    }
+    names
 }
 
 #[pymethods]
@@ -81,7 +87,7 @@ impl Run {
     /// Times, in order.
     #[getter]
     fn t<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.get().columns.column(slf.clone().into_any(), "t")
+        slf.get().columns.column_at(slf.clone().into_any(), 0)
     }
 
     /// Configurations, a row for each time.
@@ -101,13 +107,15 @@ impl Run {
     /// Kinetic energies.
     #[getter]
     fn kinetic_energy<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.get().columns.column(slf.clone().into_any(), "kinetic_energy")
+        let place = 1 + slf.get().coordinates + slf.get().speeds;
+        slf.get().columns.column_at(slf.clone().into_any(), place)
     }
 
     /// Potential energies.
     #[getter]
     fn potential_energy<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.get().columns.column(slf.clone().into_any(), "potential_energy")
+        let place = 2 + slf.get().coordinates + slf.get().speeds;
+        slf.get().columns.column_at(slf.clone().into_any(), place)
     }
 
     /// The names of the columns.

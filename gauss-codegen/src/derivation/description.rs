@@ -1,14 +1,18 @@
 //! The names of a scene as plain data.
 
 use crate::description::{Description, Quantity, Remark};
-use crate::emit::{Derived, parts, without_rust};
+use crate::emit::{Derived, numbers, parts, without_rust};
 use crate::translate::NamedQuantity as Part;
 use crate::words::Unraw;
 
 /// The names of what is derived.
 pub fn description(derived: &Derived<'_, '_>) -> Description {
     let item = derived.item();
-    let [coordinates, speeds, inputs] = parts(derived).map(|parts| parts.iter().map(quantity).collect());
+    let [coordinates, speeds, inputs] = parts(derived);
+    // Numbers of a state are told apart among all of them.
+    let state = numbers(&[coordinates.clone(), speeds.clone()].concat());
+    let [coordinates, speeds] = [coordinates, speeds].map(|parts| quantities(&parts, &state));
+    let inputs = quantities(&inputs, &numbers(&inputs));
     let remarks = item.described.iter().flat_map(|file| &file.remarks);
     Description {
         documentation: item.documentation.clone(),
@@ -23,7 +27,12 @@ pub fn description(derived: &Derived<'_, '_>) -> Description {
     }
 }
 
-fn quantity(part: &Part) -> Quantity {
-    let name = part.ident.unraw().to_string();
-    Quantity { name, kind: part.kind, label: part.label.clone(), numbers: part.names() }
+/// Parts with the names of their numbers.
+fn quantities(parts: &[Part], numbers: &[(String, Vec<String>)]) -> Vec<Quantity> {
+    let quantity = |part: &Part| {
+        let name = part.ident.unraw().to_string();
+        let own = numbers.iter().find(|(word, _)| *word == name).map(|(_, names)| names.clone());
+        Quantity { name, kind: part.kind, label: part.label.clone(), numbers: own.unwrap_or_default() }
+    };
+    parts.iter().map(quantity).collect()
 }

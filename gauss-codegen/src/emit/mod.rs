@@ -43,7 +43,7 @@ pub use derivatives::hessian::blocks;
 pub use derived::Derived;
 pub use dialect::arguments::{OF_EQUATIONS, OF_HESSIAN, OF_REGRESSOR, OF_RESIDUAL, arguments_of};
 pub use fallback::fallback;
-pub use python::{parts, without_rust};
+pub use python::{numbers, parts, without_rust};
 pub use text::documentation::{Equations, figures};
 pub use text::file::file;
 

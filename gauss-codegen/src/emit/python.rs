@@ -5,7 +5,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 
 use crate::emit::derived::Derived;
-use crate::emit::records::record::Part;
+use crate::emit::records::record::{Part, PartKind, number_names};
 use crate::emit::records::{input, state};
 use crate::methods::DerivativeKind;
 use crate::terms::{Field, FileRemark, OptionalMethod, Scalar};
@@ -50,6 +50,14 @@ pub fn scene(derived: &Derived<'_, '_>) -> TokenStream {
 pub fn parts(derived: &Derived<'_, '_>) -> [Vec<Part>; 3] {
     let [coordinates, speeds] = state::parts(derived);
     [coordinates, speeds, input::parts(derived)]
+}
+
+/// Names of the numbers of each of these, which are those of a state, of coordinates that are scalars last, or inputs.
+pub fn numbers(parts: &[Part]) -> Vec<(String, Vec<String>)> {
+    let (scalars, others): (Vec<&Part>, Vec<&Part>) = parts.iter().partition(|part| part.kind == PartKind::Scalar);
+    let ordered = [others, scalars].concat();
+    let words = ordered.iter().map(|part| part.ident.unraw().to_string());
+    words.zip(number_names(&ordered)).collect()
 }
 
 /// A remark without words of Rust: runs with contacts are those of `simulate`.

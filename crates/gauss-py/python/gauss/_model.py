@@ -168,8 +168,9 @@ class Kernel(_native.Kernel):
         return [*super().__dir__(), *self.methods]
 
     def __reduce__(self):
-        make, _ = super().__reduce__()
-        return _kernel, (self.model, make.keywords)
+        make, nothing = super().__reduce__()
+        # A class of the user's own is found by its name.
+        return (_kernel, (self.model, make.keywords)) if type(self) is self.model._class else (make, nothing)
 
 
 def _kernel(model, parameters):

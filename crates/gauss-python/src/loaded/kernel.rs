@@ -121,7 +121,7 @@ impl AnyKernel for LoadedKernel {
 
     fn project(&self, t: f64, q: &[f64], z: &[f64]) -> Result<[Vec<f64>; 2], String> {
         self.check(q, z)?;
-        runs::project(&self.kernel, t, q, z)
+        runs::project(&self.kernel, &self.scene.sizes, t, (q, z))
     }
 
     fn in_contact(&self, _: f64, _: (&[f64], &[f64]), _: &[f64]) -> Result<InContact, String> {

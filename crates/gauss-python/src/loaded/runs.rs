@@ -72,8 +72,8 @@ pub fn simulate(kernel: &Kernel, sizes: &Sizes, request: &Request<'_>) -> Result
 ///
 /// # Errors
 /// A model that is too large; no such state is found.
-pub fn project(kernel: &Kernel, t: f64, q: &[f64], z: &[f64]) -> Result<[Vec<f64>; 2], String> {
-    in_room!(kernel, q.len().max(z.len()), |system| {
+pub fn project(kernel: &Kernel, sizes: &Sizes, t: f64, (q, z): (&[f64], &[f64])) -> Result<[Vec<f64>; 2], String> {
+    in_room!(kernel, least(sizes), |system| {
         let start = system.configuration(q).renormalise();
         let found = system.project(t, &start, &vector(z)).map_err(|error| error.to_string())?;
         Ok([own(&numbers_of(&found.0), q.len()), own(&components(&found.1), z.len())])

@@ -46,6 +46,26 @@ impl Part {
     }
 }
 
+/// Names of the numbers of parts, each once: scalars have theirs, and where a number of another part has one that is
+/// there already, `_2` follows.
+pub fn number_names(parts: &[&Part]) -> Vec<Vec<String>> {
+    let scalars = parts.iter().filter(|part| part.kind == PartKind::Scalar);
+    let mut taken: Vec<String> = scalars.map(|part| part.ident.unraw().to_string()).collect();
+    let mut names = |part: &&Part| -> Vec<String> {
+        if part.kind == PartKind::Scalar {
+            return part.names();
+        }
+        let free = |name: String| {
+            let numbered = (2..).map(|n| format!("{name}_{n}"));
+            let free = std::iter::once(name.clone()).chain(numbered).find(|name| !taken.contains(name));
+            taken.extend(free.clone());
+            free.unwrap_or_default()
+        };
+        part.names().into_iter().map(free).collect()
+    };
+    parts.iter().map(&mut names).collect()
+}
+
 /// The type with what it is, and `Clone`, `Copy`, `Debug` and `Default`, which is at `rest`.
 pub fn record(
     derived: &Derived<'_, '_>,

@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use crate::words::Unraw;
 
 use crate::emit::derived::{Derived, KernelGenerics};
-use crate::emit::records::record::{Part, PartKind, from_numbers, record, to_numbers};
+use crate::emit::records::record::{Part, PartKind, from_numbers, number_names, record, to_numbers};
 
 /// The name of the type.
 pub fn state_name(derived: &Derived<'_, '_>) -> Ident {
@@ -39,7 +39,10 @@ pub fn ordered_parts(derived: &Derived<'_, '_>) -> [Vec<Part>; 2] {
 
 /// Names of all numbers of a state: those of the configuration and the speeds.
 pub fn component_names(derived: &Derived<'_, '_>) -> [Vec<String>; 2] {
-    ordered_parts(derived).map(|parts| parts.iter().flat_map(Part::names).collect())
+    let all = ordered_parts(derived);
+    let mut names = number_names(&all.iter().flatten().collect::<Vec<_>>());
+    let speeds = names.split_off(all[0].len());
+    [names.concat(), speeds.concat()]
 }
 
 /// The type, and what it implements.

@@ -240,16 +240,17 @@ fn total<S: GaussSystem, const N: usize>(parts: &[Rates<S>; N]) -> Rates<S> {
     sum
 }
 
-/// Change of a part of the increment, relative to the state and its increment: angles to 1 rad, translations to the
-/// distance from the origin, variables to the largest of them.
+/// Change of a part of the increment, relative to the state, its increment and that part: angles to 1 rad, translations
+/// to the distance from the origin, variables to the largest of them. At rest in the origin there is nothing but the
+/// part that comes.
 fn change<S: GaussSystem>(state: &State<S>, sum: &Rates<S>, old: &Rates<S>, new: &Rates<S>) -> f64 {
     let mut result = 0.0_f64;
     let mut see = |old, new, size| result = worst(result, relative_change(old, new, size));
-    let moved = sum.configuration.max_norm();
+    let moved = sum.configuration.max_norm().max(new.configuration.max_norm());
     for i in 0..TangentOf::<S>::DIM {
         see(old.configuration.component(i), new.configuration.component(i), state.q.magnitude(i).max(moved));
     }
-    let size = state.y.max_norm().max(sum.variables.max_norm());
+    let size = state.y.max_norm().max(sum.variables.max_norm()).max(new.variables.max_norm());
     for i in 0..S::Speeds::DIM {
         see(old.variables.component(i), new.variables.component(i), size);
     }

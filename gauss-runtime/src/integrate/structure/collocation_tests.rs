@@ -225,6 +225,21 @@ fn a_state_at_rest_stays() {
     assert_eq!(distance(&march(&Collocation::order_6(), &problem, &start, 1.0, 4), &start), 0.0);
 }
 
+/// Nothing but the part that comes has a size: the first sweep has nothing to compare with.
+#[test]
+fn what_rests_in_the_origin_is_set_going() {
+    let system = Oscillator::<Viscous>::new(0.0);
+    for onset in [0.0, 0.3] {
+        let push = |t: f64, _: &SVector<f64, 1>, _: &SVector<f64, 1>| if t > onset { 2.0 * (t - onset) } else { 0.0 };
+        let run = Simulation::new(&system).input(push).control(Fixed::by(Collocation::order_6(), 0.1));
+        let end = run.run_to_end(SVector::zeros(), SVector::zeros(), 0.0..1.0).expect("a run");
+        let exact = Simulation::new(&system).input(push).adaptive(1e-12, 1e-12);
+        let exact = exact.run_to_end(SVector::zeros(), SVector::zeros(), onset..1.0).expect("a run");
+        // Steps of a tenth have errors of some 1e-9 of order 6; the onset is at the end of one.
+        assert!((end.q[0] - exact.q[0]).abs() < 1e-7 && end.q[0] > 0.05, "{} {}", end.q[0], exact.q[0]);
+    }
+}
+
 #[test]
 fn constraints_hold_and_the_order_stays() {
     let (rod, angle) = (pendulum::<f64>(2.0), pendulum_by_angle());
