@@ -8,17 +8,6 @@ use core::ops::Range;
 use gauss_codegen::description::{Description, QuantityKind};
 use gauss_runtime::prelude::{Configuration, Isometry2, Isometry3, SVector, UnitQuaternion, VectorSpace};
 
-/// A part of a configuration that is no plain coordinate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Group {
-    /// A unit quaternion x, y, z, w; increments are rotations in the body's frame.
-    Rotation,
-    /// The rotation of a body, then its position; increments are twists × time, pole O, body frame.
-    Pose,
-    /// Cosine and sine, then the position in the plane.
-    Plane,
-}
-
 /// Groups at the beginning of a configuration, in their order; what follows are plain coordinates. Vectors that were
 /// made without a configuration do not know theirs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -27,8 +16,11 @@ pub struct Groups(u64);
 /// A part of a configuration.
 #[derive(Clone, Copy)]
 enum Part {
+    /// A unit quaternion x, y, z, w; increments are rotations in the body's frame.
     Rotation,
+    /// The rotation of a body, then its position; increments are twists × time, pole O, body frame.
     Pose,
+    /// Cosine and sine, then the position in the plane.
     Plane,
     Coordinate,
 }
@@ -54,23 +46,15 @@ macro_rules! of_part {
 impl Groups {
     /// The groups of a scene; none where they are more than [`MOST_GROUPS`].
     pub fn of(description: &Description) -> Option<Self> {
-        let groups = description.coordinates.iter().filter_map(|part| match part.kind {
-            QuantityKind::Rotation => Some(Group::Rotation),
-            QuantityKind::Pose => Some(Group::Pose),
-            QuantityKind::Plane => Some(Group::Plane),
+        let codes = description.coordinates.iter().filter_map(|part| match part.kind {
+            QuantityKind::Rotation => Some(1),
+            QuantityKind::Pose => Some(2),
+            QuantityKind::Plane => Some(3),
             QuantityKind::Scalar | QuantityKind::Vector(_) => None,
         });
-        Self::new(&groups.collect::<Vec<_>>())
-    }
-
-    /// These groups; none where they are more than [`MOST_GROUPS`].
-    pub fn new(list: &[Group]) -> Option<Self> {
-        let code = |group: &Group| *group as u64 + 1;
-        let all = list
-            .iter()
-            .enumerate()
-            .fold(0, |all, (k, group)| if k < MOST_GROUPS { all | code(group) << (2 * k) } else { all });
-        (list.len() <= MOST_GROUPS).then_some(Self(all | KNOWN))
+        let codes: Vec<u64> = codes.collect();
+        let all = codes.iter().take(MOST_GROUPS).rev().fold(0, |all, code| all << 2 | code);
+        (codes.len() <= MOST_GROUPS).then_some(Self(all | KNOWN))
     }
 
     /// Plain coordinates alone.

@@ -149,10 +149,12 @@ fn a_body_in_a_chart_of_its_own() {
 #[test]
 fn rotations_and_poses_among_coordinates() {
     let (compiled, loaded) = (carrier::Carrier {}.kernel().expect("a kernel"), kernel(carrier::SOURCE));
-    let mut state = carrier::CarrierState::default();
-    state.craft = Isometry3::new(Vector3::new(0.1, 0.2, 0.3), Vector3::new(0.3, -0.2, 0.5));
-    state.head = UnitQuaternion::from_euler_angles(0.4, 0.1, -0.7);
-    state.slide = 0.25;
+    let state = carrier::CarrierState {
+        craft: Isometry3::new(Vector3::new(0.1, 0.2, 0.3), Vector3::new(0.3, -0.2, 0.5)),
+        head: UnitQuaternion::from_euler_angles(0.4, 0.1, -0.7),
+        slide: 0.25,
+        ..Default::default()
+    };
     let z = SVector::from_fn(|i, _| [0.4, -0.3, 0.2, 1.0, -2.0, 0.5, 0.8, -0.6, 1.1, 0.3][i]);
     compare(&compiled, &loaded.system::<12, 10, None>().expect("room"), (state.q(), z), free);
     compare(&compiled, &loaded.system::<16, 16, None>().expect("room"), (state.q(), z), free);
@@ -192,9 +194,8 @@ fn states_of_elements_and_kinks() {
 fn stiff_scenes_have_their_jacobians() {
     let (compiled, loaded) = (damped::Damped {}.kernel().expect("a kernel"), kernel(damped::SOURCE));
     let system = loaded.system::<8, 8, SVector<f64, 8>>().expect("room");
-    let mut state = damped::DampedState::default();
-    state.head = UnitQuaternion::from_euler_angles(0.4, 0.1, -0.7);
-    state.slide = 0.25;
+    let head = UnitQuaternion::from_euler_angles(0.4, 0.1, -0.7);
+    let state = damped::DampedState { head, slide: 0.25, ..Default::default() };
     let (q, z) = (state.q(), SVector::from([0.0, 0.3, -0.8, 0.5]));
     let start = system.configuration(&numbers(&q.components()));
     let speeds = SVector::from_fn(|i, _| if i < 4 { z[i] } else { 0.0 });
