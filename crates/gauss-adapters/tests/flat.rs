@@ -13,7 +13,7 @@ mod triple;
 use gauss_adapters::{Differences, FlatSystem, JacobianFunction, JacobianProduct};
 
 use crate::testing::FreeTop;
-use crate::testing::dual::{Dual, dual};
+use crate::testing::dual::{TestDual, dual};
 use crate::testing::order::{NONE, TOP, start_by_velocity};
 
 /// A quaternion of another length turns as fast, and the velocities do not see its length.
@@ -40,7 +40,7 @@ fn differences_are_right_to_their_step() {
     let system = FlatSystem::new(&TOP).input_from(NONE);
     let x: [f64; 7] = system.vector(0.0, &start.q, &start.y);
     let exact = FreeTop { inertia: TOP.inertia.map(|i| dual(i, 0.0)) };
-    let exact = FlatSystem::new(&exact).input(|_: Dual, _: &_, _: &_| [dual(0.0, 0.0); 3]);
+    let exact = FlatSystem::new(&exact).input(|_: TestDual, _: &_, _: &_| [dual(0.0, 0.0); 3]);
     let directions: [[f64; 7]; 3] = [
         [0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
         [0.1, -0.2, 0.3, 0.4, -0.5, 0.6, 0.7],
