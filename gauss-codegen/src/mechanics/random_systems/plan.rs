@@ -377,7 +377,13 @@ impl Plan {
         // The first link always moves.
         let kind = if self.coordinates.is_empty() { 1 + below(random, 6) } else { below(random, 10) };
         let turns = match kind {
-            1 | 2 if room > 0 => vec![about(axis, angle(self))],
+            1 if room > 0 => vec![about(axis, angle(self))],
+            // A hinge on a slide along any axis.
+            2 if room > 1 => {
+                slide(self, &mut offset, below(random, 3));
+                vec![about(axis, angle(self))]
+            }
+            2 if room > 0 => vec![about(axis, angle(self))],
             // A screw.
             3 if room > 0 => {
                 slide(self, &mut offset, axis);
