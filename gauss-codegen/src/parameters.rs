@@ -36,6 +36,8 @@ pub struct Parameter {
     pub name: String,
     /// Count of its numbers; a matrix is row after row.
     pub count: usize,
+    /// Its axes: none of a number, one of a vector, two of a matrix.
+    pub axes: &'static [usize],
     /// The unit, if one is written.
     pub unit: Option<String>,
     /// The comment of the field.

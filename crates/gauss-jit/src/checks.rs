@@ -1,29 +1,14 @@
 //! The checks of parameters by `kernel()` at run time: the same rules by the same functions of the runtime.
 
-use std::collections::HashSet;
-use std::sync::{Mutex, PoisonError};
-
 use gauss_codegen::parameters::{Check, Given, Parameters, Rule, Warning, WarningRule};
 use gauss_runtime::__private_0_1_0::{DragKind, ParameterCheck, WarningCheck};
 use gauss_runtime::error::{ParameterError, ParameterWarnings};
 
 use crate::error::KernelError;
+use crate::names::kept;
 
 /// The most rows of a matrix that is checked.
 pub const MOST_ROWS: usize = 32;
-
-/// Names in messages, each kept once as long as the process runs: those of the runtime are not freed.
-fn kept(name: &str) -> &'static str {
-    static NAMES: Mutex<Option<HashSet<&'static str>>> = Mutex::new(None);
-    let mut names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
-    let names = names.get_or_insert_default();
-    if let Some(known) = names.get(name) {
-        return known;
-    }
-    let kept: &'static str = Box::leak(name.to_owned().into_boxed_str());
-    names.insert(kept);
-    kept
-}
 
 /// Rows of a square matrix of N rows.
 fn rows<const N: usize>(values: &[f64]) -> [[f64; N]; N] {

@@ -7,6 +7,7 @@ mod configuration;
 mod error;
 mod kernel;
 mod model;
+mod names;
 mod system;
 
 pub use backends::{Backend, Compiled, Interpreter};
@@ -18,4 +19,6 @@ pub use gauss_codegen::description::{Description, Quantity, QuantityKind, Remark
 pub use gauss_codegen::{Clause, Field, Notation, Scene};
 pub use kernel::{Kernel, Method};
 pub use model::Model;
+#[doc(hidden)]
+pub use names::kept;
 pub use system::{Inputs, NoSystem, System};

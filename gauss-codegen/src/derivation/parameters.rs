@@ -69,23 +69,29 @@ pub fn parameters<'g>(derived: &Derived<'_, 'g>, signature: &Signature<'g>) -> R
     Ok(Parameters { list, read, checks, warnings, computed, label, in_sum: derived.mass_laws.in_sum })
 }
 
-/// The parts that a field has, with the sizes of each.
-fn parts(shape: Shape) -> &'static [(&'static str, usize)] {
+/// The parts that a field has, with the axes of each.
+fn parts(shape: Shape) -> &'static [(&'static str, &'static [usize])] {
     match shape {
-        Shape::Scalar => &[("", 1)],
-        Shape::Vector3 => &[("", 3)],
-        Shape::Vector6 => &[("", 6)],
-        Shape::Matrix3 => &[("", 9)],
-        Shape::Matrix6 => &[("", 36)],
-        Shape::RigidBody | Shape::CentralBody => &[(".mass", 1), (".center_of_mass", 3), (".inertia", 9)],
+        Shape::Scalar => &[("", &[])],
+        Shape::Vector3 => &[("", &[3])],
+        Shape::Vector6 => &[("", &[6])],
+        Shape::Matrix3 => &[("", &[3, 3])],
+        Shape::Matrix6 => &[("", &[6, 6])],
+        Shape::RigidBody | Shape::CentralBody => &[(".mass", &[]), (".center_of_mass", &[3]), (".inertia", &[3, 3])],
         Shape::Other => &[],
     }
 }
 
+/// Count of the numbers of a field.
+fn numbers(shape: Shape) -> usize {
+    parts(shape).iter().map(|(_, axes)| axes.iter().product::<usize>()).sum()
+}
+
 fn of_field(field: &Field) -> impl Iterator<Item = Parameter> {
-    parts(field.shape).iter().map(|(part, count)| Parameter {
+    parts(field.shape).iter().map(|(part, axes)| Parameter {
         name: format!("{}{part}", field.ident.unraw()),
-        count: *count,
+        count: axes.iter().product(),
+        axes,
         unit: field.unit.clone(),
         documentation: field.documentation.clone(),
     })
@@ -94,7 +100,7 @@ fn of_field(field: &Field) -> impl Iterator<Item = Parameter> {
 /// The place of the first number of each field.
 fn first_numbers(fields: &[Field]) -> Vec<usize> {
     let mut next = 0;
-    let size = |field: &Field| parts(field.shape).iter().map(|(_, count)| count).sum::<usize>();
+    let size = |field: &Field| numbers(field.shape);
     let first = |field: &Field| {
         let own = next;
         next += size(field);
@@ -153,7 +159,7 @@ impl<'g> CheckedLaws<'_, '_, 'g> {
         let provenance = self.derived.subject.provenance;
         match datum {
             Datum::Field(k) => {
-                let count: usize = parts(provenance.item.fields[k].shape).iter().map(|(_, count)| count).sum();
+                let count = numbers(provenance.item.fields[k].shape);
                 (self.first[k]..self.first[k] + count).map(Given::Number).collect()
             }
             Datum::Part(k, role) => {

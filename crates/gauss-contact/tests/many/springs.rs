@@ -54,9 +54,9 @@ struct Plate {
     contact(left, gap = x, restitution = 1),
     contact(right, gap = 1 - y, restitution = 1),
 )]
-struct Walls {
-    r: f64,
-    k: f64,
+pub struct Walls {
+    pub r: f64,
+    pub k: f64,
 }
 
 /// Three masses in a row, on springs of unlike stiffness.
@@ -71,9 +71,9 @@ struct Walls {
     spring(third, along = z - y, stiffness = 1),
     contact(far, gap = x + 1e9),
 )]
-struct Row {
-    a: f64,
-    b: f64,
+pub struct Row {
+    pub a: f64,
+    pub b: f64,
 }
 
 /// A bead on a ring that a constraint holds, between two walls.

@@ -7,8 +7,10 @@ use gauss_runtime::prelude::*;
 
 use crate::common::numbers;
 
+use super::springs::{Row, Walls};
+
 const H: f64 = 0.01;
-/// By what part energy is more than at the start, to and fro: the quarter of the kinetic energy that a step is off by.
+/// Part by which energy is more than at the start, to and fro: the quarter of the kinetic energy that a step is off by.
 const TO_AND_FRO: f64 = 1.0 / 3.0;
 
 /// A mass on a spring, between two walls.
@@ -25,21 +27,6 @@ struct One<T> {
     far: T,
 }
 
-/// Two masses on a spring, between two walls.
-#[derive(GaussDynamics)]
-#[gauss(
-    coordinates(x, y),
-    particle(mass = 1, position = [x, 0, 0]),
-    particle(mass = r, position = [y, 0, 0]),
-    spring(coil, along = y - x, length = 0.2, stiffness = k),
-    contact(left, gap = x, restitution = 1),
-    contact(right, gap = 1 - y, restitution = 1),
-)]
-struct Two {
-    r: f64,
-    k: f64,
-}
-
 /// A mass on a spring that a drive makes: no potential energy.
 #[derive(GaussDynamics)]
 #[gauss(
@@ -50,23 +37,6 @@ struct Two {
 )]
 struct Held {
     k: f64,
-}
-
-/// Three masses in a row, on springs of unlike stiffness.
-#[derive(GaussDynamics)]
-#[gauss(
-    coordinates(x, y, z),
-    particle(mass = 1, position = [x, 0, 0]),
-    particle(mass = 1, position = [y, 0, 0]),
-    particle(mass = 1, position = [z, 0, 0]),
-    spring(first, along = x, stiffness = a),
-    spring(second, along = y - x, stiffness = b),
-    spring(third, along = z - y, stiffness = 1),
-    contact(far, gap = x + 1e9),
-)]
-struct Three {
-    a: f64,
-    b: f64,
 }
 
 /// Two masses on a spring between stops that give way without loss, and a wall behind one.
@@ -146,14 +116,14 @@ fn linear_springs_gain_a_third_or_are_refused() {
         check("one", phase, largest(&one, ([x].into(), [v].into()), 2000));
 
         let r = 10.0_f64.powf(2.0 * number());
-        let two = Two { r, k: r / (1.0 + r) * stiffness(phase) }.kernel().unwrap();
+        let two = Walls { r, k: r / (1.0 + r) * stiffness(phase) }.kernel().unwrap();
         let (q, z) = ([0.35 + 0.05 * number(), 0.55 + 0.05 * number()].into(), [number(), number()].into());
         check("two", phase, largest(&two, (q, z), 2000));
 
         let [a, b] = [0, 1].map(|_| stiffness(0.5 * between(&mut number)));
         // No square of ω is more than the largest sum of the entries of a row (S. A. Geršgorin 1931).
         let fastest = H * (a + 2.0 * b).max(2.0 * b + 2.0).sqrt();
-        let three = Three { a, b }.kernel().unwrap();
+        let three = Row { a, b }.kernel().unwrap();
         let [q, z] = [0, 1].map(|_| SVector::from_fn(|_, _| number()));
         check("three", fastest, largest(&three, (q, z), 2000));
     }
@@ -267,7 +237,7 @@ fn steps_with_a_tolerance_are_shortened_instead() {
     assert!((run.last().unwrap().state.q[0] - exact).abs() < 1e-3);
 }
 
-/// What may raise the energy is told by the derivation.
+/// The derivation tells what may raise the energy.
 #[test]
 fn scenes_say_whether_they_keep_their_energy() {
     const { assert!(OneKernel::<f64>::KEEPS_ENERGY && SoftKernel::KEEPS_ENERGY && MarbleKernel::KEEPS_ENERGY) };

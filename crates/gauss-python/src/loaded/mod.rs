@@ -4,7 +4,6 @@
 //! that all else of this crate knows nothing of it. `rows` has its methods, `runs` its runs.
 
 mod kernel;
-mod names;
 mod rows;
 mod runs;
 mod scene;
@@ -20,7 +19,7 @@ use scene::LoadedScene;
 /// Adds what a module of such models has: the class of kernels, runs, ends, exceptions, tuples, `jax`.
 ///
 /// # Errors
-/// Those of Python.
+/// Errors of Python.
 pub fn begin(module: &Bound<'_, PyModule>) -> PyResult<()> {
     crate::begin(module)?;
     crate::finish(module, Vec::new())
@@ -29,7 +28,7 @@ pub fn begin(module: &Bound<'_, PyModule>) -> PyResult<()> {
 /// The attributes of a class of kernels: its scene, its documentation, its keywords.
 ///
 /// # Errors
-/// Those of Python.
+/// Errors of Python.
 pub fn attributes<'py>(py: Python<'py>, model: &gauss_jit::Model) -> PyResult<Bound<'py, PyDict>> {
     crate::make::attributes(py, &(Arc::new(LoadedScene::new(model.clone())) as Arc<dyn AnyScene>))
 }

@@ -1,8 +1,7 @@
 //! The scene of a model.
 
-use gauss_jit::{KernelError, Model, Quantity};
+use gauss_jit::{KernelError, Model, Quantity, kept};
 
-use super::names::kept;
 use super::rows::Plans;
 use crate::description::{Description, Field, Part, Remark, Shape};
 use crate::kernels::Violation;
@@ -30,24 +29,13 @@ fn fields(model: &Model) -> Vec<Field> {
         let (name, shape) = match BODY.iter().find_map(|part| own.name.strip_suffix(part).map(|name| (name, *part))) {
             Some((name, ".mass")) => (name, Shape::Body),
             Some(_) => continue,
-            None => (own.name.as_str(), shape(own.count)),
+            None => (own.name.as_str(), Shape::Array(own.axes)),
         };
         let unit = own.unit.as_deref().unwrap_or_default();
         let (name, unit, documentation) = (kept(name), kept(unit), kept(&own.documentation));
         fields.push(Field { name, unit, documentation, shape });
     }
     fields
-}
-
-/// The axes of a field by how many numbers it has: structs have numbers, vectors of three and six, and matrices.
-fn shape(count: usize) -> Shape {
-    match count {
-        1 => Shape::Array(&[]),
-        3 => Shape::Array(&[3]),
-        9 => Shape::Array(&[3, 3]),
-        36 => Shape::Array(&[6, 6]),
-        _ => Shape::Array(&[6]),
-    }
 }
 
 fn part(own: &Quantity) -> Part {

@@ -107,7 +107,7 @@ impl<'g> AccelerationField<'g> {
 }
 
 /// Pushes on links by the moments of each link by itself: matter that moves with a parent as well is left where it is.
-/// Where joints change, which say what moves with a parent, by those that are left.
+/// Joints that change, which say what moves with a parent, by those that are left.
 fn pushes<'g>(
     motion: &ResidualMotion<'_, 'g>,
     accelerated: &[AccelerationField<'g>],

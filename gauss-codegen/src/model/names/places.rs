@@ -534,18 +534,27 @@ impl ExpressionPlace {
         ))
     }
 
+    /// Whether functions that are not smooth may stand here: no derivative is taken, or what is defined is looked at
+    /// where it is used.
+    fn takes_kinks(self) -> bool {
+        matches!(
+            self,
+            ExpressionPlace::Force
+                | ExpressionPlace::Torque
+                | ExpressionPlace::Drive
+                | ExpressionPlace::Coefficient(_)
+                | ExpressionPlace::State
+                | ExpressionPlace::Friction
+                | ExpressionPlace::Bound
+                | ExpressionPlace::Rolling
+                | ExpressionPlace::Definition
+        )
+    }
+
     /// Why nothing that is not smooth may stand here.
     pub fn refuses_kinks(self) -> Option<String> {
         match self {
-            ExpressionPlace::Force
-            | ExpressionPlace::Torque
-            | ExpressionPlace::Drive
-            | ExpressionPlace::Coefficient(_)
-            | ExpressionPlace::State => None,
-            ExpressionPlace::Friction
-            | ExpressionPlace::Bound
-            | ExpressionPlace::Rolling
-            | ExpressionPlace::Definition => None,
+            place if place.takes_kinks() => None,
             ExpressionPlace::Dissipation => Some("forces are derivatives of a dissipation function".into()),
             place if place.is_constant() => None,
             place => Some(format!("{} is differentiated", place.subject())),
@@ -555,15 +564,7 @@ impl ExpressionPlace {
     /// Message about a function that is not smooth, where derivatives are taken.
     pub fn refuses_kink(self, function: FunctionName) -> Option<String> {
         match self {
-            ExpressionPlace::Force
-            | ExpressionPlace::Torque
-            | ExpressionPlace::Drive
-            | ExpressionPlace::Coefficient(_)
-            | ExpressionPlace::State => None,
-            ExpressionPlace::Friction
-            | ExpressionPlace::Bound
-            | ExpressionPlace::Rolling
-            | ExpressionPlace::Definition => None,
+            place if place.takes_kinks() => None,
             place if place.is_constant() => Some(format!(
                 "`{}` stands in values of forces only; make the number a field of the struct",
                 function.word()

@@ -1,9 +1,10 @@
-//! Names of models, each kept once as long as the process runs: classes name their parts as compiled ones do, for ever.
+//! Names of models that outlive them.
 
 use std::collections::HashSet;
 use std::sync::{Mutex, PoisonError};
 
-/// The name, kept.
+/// A name, kept once as long as the process runs: those in messages of the runtime, and of classes of Python, are not
+/// freed.
 pub fn kept(name: &str) -> &'static str {
     static NAMES: Mutex<Option<HashSet<&'static str>>> = Mutex::new(None);
     let mut names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
