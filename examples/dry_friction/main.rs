@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             _ => "turns round",
         };
         let q = run.at(event.time)?.q;
-        println!("  {:<9.6}  {:+.6}  {:+.6} rad  {} {kind}", event.time, q[0], q[1], event.name::<ArmKernel>());
+        println!("  {:<9.6}  {:+.6}  {:+.6} rad  {} {kind}", event.time, q[0], q[1], event.name);
     }
     let (first, last) = (run.at(0.0)?, run.at(WATCHED)?);
     let lost = kernel.energy(first.t, &first.q, &first.z) - kernel.energy(last.t, &last.q, &last.z);

@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         } else {
             format!("{:?}", event.kind)
         };
-        println!("  {:.6} s  {:<5} {what}", event.time, event.name::<WoodpeckerKernel>());
+        println!("  {:.6} s  {:<5} {what}", event.time, event.name);
     }
     println!("  period {:.6} s (published: 0.1452 s for parameters of two digits)", pecks[1] - pecks[0]);
     println!("  {}", run.energy_balance()?);

@@ -5,6 +5,7 @@
 
 /// The names of a scene. It refers to none.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Description {
     /// The doc comment of the struct.
@@ -20,8 +21,10 @@ pub struct Description {
     pub frames: Vec<String>,
     /// Names of the joints of `reactions(…)`.
     pub joints: Vec<String>,
-    /// Names of contacts, ranges and dry joints.
-    pub contacts: Vec<String>,
+    /// Contacts, ranges and dry joints, in the order of their rows.
+    pub contacts: Vec<ContactDescription>,
+    /// Whether nothing but contacts can raise the energy.
+    pub keeps_energy: bool,
     /// Remarks about the robot's file, in words that are not of Rust.
     pub remarks: Vec<Remark>,
     /// Whether a run can drift away from constraints, so that states are projected onto them.
@@ -30,6 +33,7 @@ pub struct Description {
 
 /// A coordinate, a speed or an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Quantity {
     /// Its name.
@@ -42,8 +46,38 @@ pub struct Quantity {
     pub numbers: Vec<String>,
 }
 
+/// A contact, a range, dry friction or rolling resistance, with the kinds of its rows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct ContactDescription {
+    /// Its name.
+    pub name: String,
+    /// Whether it has a gap, whose normal is its first row.
+    pub has_gap: bool,
+    /// Number of its tangents.
+    pub tangents: usize,
+    /// Whether a row of friction of drilling follows the tangents.
+    pub drills: bool,
+    /// Place of the contact whose normal force bounds its rolling resistance.
+    pub rolls_on: Option<usize>,
+    /// Names of the bodies that touch, where they are known: of the one that has the point, and of the other.
+    pub bodies: [Option<String>; 2],
+    /// Number of axes of its frame, the normal among them: 0 where its place is not known.
+    pub axes: usize,
+}
+
+impl ContactDescription {
+    /// Number of its rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        usize::from(self.has_gap) + self.tangents + usize::from(self.drills)
+    }
+}
+
 /// The type of a coordinate, a speed or an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum QuantityKind {
     /// One number.
     Scalar,
@@ -71,6 +105,7 @@ impl QuantityKind {
 
 /// A remark about a robot's file.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Remark {
     /// The remark, with its place in the file.

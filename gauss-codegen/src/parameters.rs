@@ -7,6 +7,7 @@ use crate::program::Program;
 
 /// The fields of a struct, and what must hold of their numbers. It refers to no scene.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Parameters {
     /// In the order of the fields; a body is three of them. Fields of other types are left out.
@@ -30,6 +31,7 @@ pub struct Parameters {
 
 /// Numbers that are given together: a field, or a part of one that is a body.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Parameter {
     /// `m`, `arm.center_of_mass`.
@@ -37,7 +39,7 @@ pub struct Parameter {
     /// Count of its numbers; a matrix is row after row.
     pub count: usize,
     /// Its axes: none of a number, one of a vector, two of a matrix.
-    pub axes: &'static [usize],
+    pub axes: Vec<usize>,
     /// The unit, if one is written.
     pub unit: Option<String>,
     /// The comment of the field.
@@ -46,6 +48,7 @@ pub struct Parameter {
 
 /// A number that a check is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Given {
     /// A place among the numbers of all parameters.
     Number(usize),
@@ -57,6 +60,7 @@ pub enum Given {
 
 /// A rule whose breach is likely not meant, and what it is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Warning {
     /// The name of the numbers in messages.
@@ -69,6 +73,7 @@ pub struct Warning {
 
 /// Rules of numbers that a kernel does without: each is a method of the runtime's `WarningCheck`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum WarningRule {
     /// Drag with velocities, or with their squares where that is said, six by six: takes energy away.
     Drag {
@@ -91,6 +96,7 @@ pub enum WarningRule {
 
 /// A rule, and what it is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Check {
     /// The name of the numbers in messages.
@@ -106,6 +112,7 @@ pub struct Check {
 /// Rules of numbers: each is a method of the runtime's `ParameterCheck`, with its arguments in order. Whoever
 /// makes checks makes all of them: a rule that is added is an error of its compiler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Rule {
     /// All are finite.
     Finite,

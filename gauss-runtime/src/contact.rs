@@ -66,8 +66,10 @@ pub trait ContactSystem: GaussSystem {
     /// `[T; R]`: something of each row.
     type EachRow<T: Copy + Debug>: Each<T>;
 
-    /// The contacts, in the order in which they are written. Names are unique.
-    const CONTACTS: &'static [Contact];
+    /// The contacts, in the order in which they are written. Names are unique. A kernel that was compiled has the list
+    /// of its struct, one that came at run time that of its model: rows may be fewer than
+    /// [`ContactRows`](Self::ContactRows) has room for, and those behind them are zero.
+    fn contacts(&self) -> &'static [Contact];
 
     /// g(t, q) of each contact: positive where it is open; 0 of dry friction and of rolling resistance.
     fn gaps(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::Gaps;
@@ -81,7 +83,7 @@ pub trait ContactSystem: GaussSystem {
     /// Wᵀ, `W = ∂(ġ, s)/∂z`: the generalised force of a unit contact force, column by column.
     fn contact_jacobian(&self, t: Self::Scalar, q: &Self::Configuration) -> Self::ContactColumns;
 
-    /// Point, normal and tangents of a contact, by its number among [`CONTACTS`](Self::CONTACTS); `None` of gaps and
+    /// Point, normal and tangents of a contact, by its number among [`contacts`](Self::contacts); `None` of gaps and
     /// slips that are written as expressions, of ranges and of dry friction.
     fn contact_frame(
         &self,
@@ -270,7 +272,7 @@ pub enum ContactKind {
     DryFriction,
     /// The force along the normal of another contact: a torque resists rolling of at most ρ times it. There is no gap.
     Rolling {
-        /// Place of that contact in [`CONTACTS`](ContactSystem::CONTACTS), before this one.
+        /// Place of that contact in [`contacts`](ContactSystem::contacts), before this one.
         on: usize,
     },
 }

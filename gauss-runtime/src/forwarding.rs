@@ -60,6 +60,10 @@ macro_rules! forward_system {
         const STATES: usize = <$system as $crate::system::GaussSystem>::STATES;
         const KEEPS_ENERGY: bool = <$system as $crate::system::GaussSystem>::KEEPS_ENERGY;
         const SMOOTHNESS: $crate::system::Smoothness = <$system as $crate::system::GaussSystem>::SMOOTHNESS;
+        #[inline]
+        fn keeps_energy(&self) -> bool {
+            self.$field.keeps_energy()
+        }
     };
     (@motion $attributes:tt $system:ty, $field:ident) => {
         #[inline]

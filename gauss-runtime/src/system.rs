@@ -61,6 +61,12 @@ pub trait GaussSystem {
     /// refuse a run that gains more than all there was; `false` claims nothing.
     const KEEPS_ENERGY: bool = false;
 
+    /// [`KEEPS_ENERGY`](Self::KEEPS_ENERGY), which a system whose equations come at run time knows by itself alone.
+    #[inline(always)]
+    fn keeps_energy(&self) -> bool {
+        Self::KEEPS_ENERGY
+    }
+
     /// Smoothness of the accelerations as functions of the state: adaptive integrators step with more care where they
     /// are not smooth.
     const SMOOTHNESS: Smoothness = Smoothness::Smooth;

@@ -30,7 +30,7 @@ where
     K: ContactSystem<Scalar = f64, Configuration = Posture<N>>,
 {
     let gaps = kernel.gaps(0.0, &(base, angles));
-    base.translation.z -= (0..K::CONTACTS.len()).map(|i| gaps.component(i)).fold(f64::INFINITY, f64::min);
+    base.translation.z -= (0..kernel.contacts().len()).map(|i| gaps.component(i)).fold(f64::INFINITY, f64::min);
     (base, angles)
 }
 

@@ -103,7 +103,7 @@ fn a_motor_holds_a_pendulum_at_its_stop() {
     let run = run.run(SVector::zeros(), SVector::zeros(), 0.0..14.0).unwrap();
     let weight = 2.0 * l * g * most.sin();
     let leaves = run.events().iter().find(|event| event.kind == EventKind::Leaves && event.time > 5.0).unwrap();
-    assert_eq!(leaves.name::<BetweenKernel>(), "a_to");
+    assert_eq!(leaves.name, "a_to");
     assert!((leaves.time - (19.0 - weight)).abs() < 1e-9, "{:e}", leaves.time - (19.0 - weight));
     // Held, it is at the stop, and the stop bears what is left of the motor.
     let held = run.at(8.0).unwrap();

@@ -153,7 +153,7 @@ where
                 let (after, impulses) = (self.rates(&stepper), stepper.impulses());
                 solves.add(&report);
                 let gaps = self.kernel.gaps(stepper.time(), stepper.configuration());
-                lowest = (0..K::CONTACTS.len()).map(|i| gaps.component(i)).fold(lowest, f64::min);
+                lowest = (0..self.kernel.contacts().len()).map(|i| gaps.component(i)).fold(lowest, f64::min);
                 let by_motors = efforts.component_mul(&(stepper.configuration().1 - joints));
                 // Of the impulses by the mean of the rates before and after them.
                 let of_row =
@@ -162,9 +162,9 @@ where
                 work += by_motors.sum() + by_contacts;
                 done += by_motors.abs().sum() + by_contacts.abs();
                 slips.extend(
-                    K::CONTACTS.iter().filter(|contact| impulses.component(contact.normal) > 0.0).map(|contact| {
-                        contact.tangent_rows().map(|row| after.component(row).powi(2)).sum::<f64>().sqrt()
-                    }),
+                    self.kernel.contacts().iter().filter(|contact| impulses.component(contact.normal) > 0.0).map(
+                        |contact| contact.tangent_rows().map(|row| after.component(row).powi(2)).sum::<f64>().sqrt(),
+                    ),
                 );
             }
         }

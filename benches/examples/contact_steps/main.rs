@@ -70,7 +70,7 @@ where
     let q = (base, angles);
     // From where it touches: down by the lowest gap.
     let gaps = kernel.gaps(0.0, &q);
-    let lowest = (0..K::CONTACTS.len()).map(|i| gaps.component(i)).fold(f64::INFINITY, f64::min);
+    let lowest = (0..kernel.contacts().len()).map(|i| gaps.component(i)).fold(f64::INFINITY, f64::min);
     let mut base = base;
     base.translation.z -= lowest;
     let q = (base, angles);
@@ -98,7 +98,7 @@ where
                 standing.steps += 1;
             }
             let gaps = kernel.gaps(0.0, stepper.configuration());
-            (0..K::CONTACTS.len()).for_each(|i| standing.lowest = standing.lowest.min(gaps.component(i)));
+            (0..kernel.contacts().len()).for_each(|i| standing.lowest = standing.lowest.min(gaps.component(i)));
         }
     }
     let end = feet(stepper.configuration());
@@ -123,7 +123,7 @@ fn report(name: &str, standing: &Standing) {
 
 /// Places of contacts.
 fn places<K: ContactSystem<Scalar = f64>>(kernel: &K, q: &K::Configuration) -> Vec<f64> {
-    let frames = (0..K::CONTACTS.len()).filter_map(|i| kernel.contact_frame(i, 0.0, q));
+    let frames = (0..kernel.contacts().len()).filter_map(|i| kernel.contact_frame(i, 0.0, q));
     frames.flat_map(|frame| [frame.point.x, frame.point.y, frame.point.z]).collect()
 }
 

@@ -12,11 +12,11 @@ impl<K: ContactSystem> InMode<'_, K> {
     pub(crate) fn action(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds, input: &K::Input) -> K::Speeds {
         let mut action = self.kernel.acceleration(t, q, z, input);
         let is_dry = |contact: &&Contact| contact.kind == ContactKind::DryFriction;
-        if !K::CONTACTS.iter().any(|contact| is_dry(&contact)) {
+        if !self.kernel.contacts().iter().any(|contact| is_dry(&contact)) {
             return action;
         }
         let (bounds, columns) = (self.kernel.friction(t, q, z, input), self.kernel.contact_response(t, q).columns);
-        for row in K::CONTACTS.iter().filter(is_dry).flat_map(|contact| contact.rows()) {
+        for row in self.kernel.contacts().iter().filter(is_dry).flat_map(|contact| contact.rows()) {
             if let Some(column) = columns.nth(row) {
                 action = action.add_scaled(bounds.component(row), &column);
             }

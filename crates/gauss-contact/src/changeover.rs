@@ -136,7 +136,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, C, I> ContactRun<'k, K, C, I> {
     ///
     /// Impacts go by Newton's law. The trajectory says which part was made how, and what its errors are.
     pub fn changing_over(self, h: f64) -> ChangingRun<'k, K, C, I> {
-        let events = EVENTS + EVENTS_EACH * K::CONTACTS.len();
+        let events = EVENTS + EVENTS_EACH * self.kernel.contacts().len();
         ChangingRun { run: self, h, scheme: StepScheme::default(), events, span: SPAN * h, quiet: QUIET * h }
     }
 }

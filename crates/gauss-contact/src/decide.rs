@@ -108,13 +108,14 @@ pub(crate) fn takes_impulses(contact: &Contact) -> bool {
 }
 
 /// A contact with the resistance to rolling on it.
-pub(crate) fn with_rolling<K: ContactSystem>(i: usize) -> impl Iterator<Item = usize> {
-    (0..K::CONTACTS.len()).filter(move |&n| carrier(K::CONTACTS, n) == i)
+pub(crate) fn with_rolling<K: ContactSystem>(kernel: &K, i: usize) -> impl Iterator<Item = usize> + use<K> {
+    let contacts = kernel.contacts();
+    (0..contacts.len()).filter(move |&n| carrier(contacts, n) == i)
 }
 
 impl<'k, K: ContactSystem> Instant<'k, K> {
     fn error(&self, contact: Option<usize>, kind: ContactErrorKind) -> ContactError {
-        ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: value(self.t), kind }
+        ContactError { contact: contact.map(|i| self.kernel.contacts()[i].name), time: value(self.t), kind }
     }
 
     fn failed(&self, contacts: &[usize], failure: Failure) -> ContactError {
@@ -134,7 +135,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let of_rate = (0..K::ContactRows::DIM).map(|row| of_row(row) * 64.0 * epsilon::<K::Scalar>());
         let Rounding { size, .. } = Rounding::of::<K>(q);
         let here = kernel.gaps(*t, q);
-        let mut rounding = vec![0.0; K::CONTACTS.len()];
+        let mut rounding = vec![0.0; self.kernel.contacts().len()];
         for i in 0..TangentOf::<K>::DIM {
             let mut sigma = TangentOf::<K>::zero();
             sigma.set_component(i, K::Scalar::from_f64(16.0 * epsilon::<K::Scalar>() * size));
@@ -147,7 +148,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let late = 4.0 * scales.resolution(value(*t));
         let within =
             |(contact, rounding): (&Contact, &f64)| late.fma(value(rates.component(contact.normal)).abs(), *rounding);
-        let of_gap = K::CONTACTS.iter().zip(&rounding).map(within).collect();
+        let of_gap = self.kernel.contacts().iter().zip(&rounding).map(within).collect();
         Sizes { of_rate: of_rate.collect(), of_gap, rounding, rates }
     }
 
@@ -168,23 +169,24 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let mut still: Vec<f64> = before.of_rate.iter().zip(&now.of_rate).map(|(a, b)| a.max(*b)).collect();
         scales.of_rate.resize(still.len(), 0.0);
         scales.of_rate.iter_mut().zip(&still).for_each(|(most, still)| *most = most.max(*still));
-        for row in K::CONTACTS.iter().flat_map(tangents) {
+        for row in self.kernel.contacts().iter().flat_map(tangents) {
             still[row] = scales.of_rate[row];
         }
         still.iter_mut().zip(strike.iter().flat_map(|strike| &strike.noise)).for_each(|(still, noise)| *still += noise);
         let rests = |i: usize| {
-            let i = carrier(K::CONTACTS, i);
-            let contact = &K::CONTACTS[i];
+            let i = carrier(self.kernel.contacts(), i);
+            let contact = &self.kernel.contacts()[i];
             closed[i] && (!contact.has_gap() || value(now.rates.component(contact.normal)) <= still[contact.normal])
         };
         let stuck = |i: usize| match self.fired {
             Some(Watched::Speed(n, _)) if n == i => true,
             Some(Watched::Slip(n)) if n == i => {
-                tangents(&K::CONTACTS[i]).len() == 1 || size(&slip(&K::CONTACTS[i], &now.rates)) <= scales.rest()
+                tangents(&self.kernel.contacts()[i]).len() == 1
+                    || size(&slip(&self.kernel.contacts()[i], &now.rates)) <= scales.rest()
             }
             _ => matches!(self.modes[i], Mode::Sticks),
         };
-        let contacts = 0..K::CONTACTS.len();
+        let contacts = 0..self.kernel.contacts().len();
         let mut choice = Choice {
             resting: contacts.clone().map(rests).collect(),
             leaves,
@@ -198,14 +200,14 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         loop {
             let accelerations = self.choose(&mut choice, scales.law, made)?;
             let next = contacts.clone().find_map(|i| {
-                let candidate = closed[i] && !choice.resting[i] && K::CONTACTS[i].has_gap();
+                let candidate = closed[i] && !choice.resting[i] && self.kernel.contacts()[i].has_gap();
                 let first = strike.as_ref().filter(|_| candidate)?.first;
                 Some((i, self.comes_to_rest((i, first), (&accelerations, &choice), scales)?))
             });
             let Some((i, kind)) = next else { break };
-            with_rolling::<K>(i).for_each(|n| choice.resting[n] = true);
+            with_rolling(self.kernel, i).for_each(|n| choice.resting[n] = true);
             self.leave_out_bounces(i, &choice, made)?;
-            events.push(ContactEvent { time: value(self.t), contact: i, kind });
+            events.push(ContactEvent { time: value(self.t), contact: i, name: self.kernel.contacts()[i].name, kind });
         }
         if !self.first {
             self.changes(&old, &choice.stuck, &mut events);
@@ -224,10 +226,10 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let Some(Watched::Pushes(i)) = self.fired else { return Ok(None) };
         let input = (made.input)(self.t, &self.q, &self.z);
         let bias = self.kernel.contact_dynamics(self.t, &self.q, &self.z, &input).bias;
-        let presses = value(bias.component(K::CONTACTS[i].normal)) < 0.0;
+        let presses = value(bias.component(self.kernel.contacts()[i].normal)) < 0.0;
         if presses && self.jams {
-            let closed =
-                (0..K::CONTACTS.len()).filter(|&n| self.modes[n].is_closed() && takes_impulses(&K::CONTACTS[n]));
+            let closed = (0..self.kernel.contacts().len())
+                .filter(|&n| self.modes[n].is_closed() && takes_impulses(&self.kernel.contacts()[n]));
             self.jam(i, &closed.collect::<Vec<_>>(), scales.law, made)?;
             return Ok(Some(i));
         }
@@ -246,9 +248,9 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let friction = self.friction(made)?;
         let rates = self.kernel.contact_rates(self.t, &self.q, &self.z);
         let response = self.kernel.contact_response(self.t, &self.q);
-        let rows = rows::<K>(contacts);
+        let rows = rows(self.kernel, contacts);
         let laws = contacts.iter().map(|&n| {
-            let contact = &K::CONTACTS[n];
+            let contact = &self.kernel.contacts()[n];
             Law::new(contact, Bounds::of(contact, &friction), None).among(contact, contacts)
         });
         let matrix = Matrix::from_fn(rows.len(), |a, b| response.delassus[(rows[a], rows[b])]);
@@ -273,12 +275,12 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let gaps = self.kernel.gaps(self.t, &self.q);
         let sizes = self.sizes(scales);
         let landed = if let Some(Watched::Gap(i)) = self.fired { Some(i) } else { None };
-        let closed: Vec<bool> = (0..K::CONTACTS.len())
+        let closed: Vec<bool> = (0..self.kernel.contacts().len())
             .map(|i| self.modes[i].is_closed() || landed == Some(i) || value(gaps.component(i)) <= sizes.of_gap[i])
             .collect();
         // A rim that lies flat on the ground has no rate, whose rounding would hide that the gap is zero.
         let is_unknown = |&i: &usize| {
-            let (contact, gap) = (&K::CONTACTS[i], value(gaps.component(i)));
+            let (contact, gap) = (&self.kernel.contacts()[i], value(gaps.component(i)));
             contact.has_gap() && gap <= sizes.rounding[i] && !sizes.rates.component(contact.normal).is_finite()
         };
         if let Some(unknown) = (0..closed.len()).find(is_unknown) {
@@ -286,7 +288,8 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         }
         // What else closes at this time has to do so nearby, too.
         let known = |i: usize| {
-            let late = value(sizes.rates.component(K::CONTACTS[i].normal)).abs() * largest_derivative(self.t);
+            let late =
+                value(sizes.rates.component(self.kernel.contacts()[i].normal)).abs() * largest_derivative(self.t);
             UNCLOSED * late.max(largest_derivative_of(&self.q))
         };
         let comes = |&i: &usize| closed[i] && !self.first && landed != Some(i) && !self.modes[i].is_closed();
@@ -306,7 +309,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
     /// Friction of all contacts, checked.
     pub(crate) fn friction(&self, made: &ContactTrajectory<'k, K>) -> Result<K::ContactRows, ContactError> {
         let friction = self.kernel.friction(self.t, &self.q, &self.z, &(made.input)(self.t, &self.q, &self.z));
-        for (i, contact) in K::CONTACTS.iter().enumerate() {
+        for (i, contact) in self.kernel.contacts().iter().enumerate() {
             if let Some(friction) = invalid(contact, &friction) {
                 return Err(self.error(Some(i), ContactErrorKind::InvalidFriction { friction }));
             }
@@ -328,13 +331,17 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let most = if scales.law == Impact::Sequential { 10_000 } else { 100 };
         for count in 0..=most {
             let sizes = self.sizes(scales);
-            let rate = |i: usize| value(sizes.rates.component(K::CONTACTS[i].normal));
+            let rate = |i: usize| value(sizes.rates.component(self.kernel.contacts()[i].normal));
             let roundings: Vec<f64> =
                 sizes.of_rate.iter().zip(&noise).map(|(of_rate, noise)| of_rate + noise).collect();
             let rounding = |row: usize| roundings[row];
-            let touches = |&i: &usize| closed[carrier(K::CONTACTS, i)] && takes_impulses(&K::CONTACTS[i]);
-            let strikes =
-                |i: &usize| touches(i) && K::CONTACTS[*i].has_gap() && rate(*i) < -rounding(K::CONTACTS[*i].normal);
+            let touches =
+                |&i: &usize| closed[carrier(self.kernel.contacts(), i)] && takes_impulses(&self.kernel.contacts()[i]);
+            let strikes = |i: &usize| {
+                touches(i)
+                    && self.kernel.contacts()[*i].has_gap()
+                    && rate(*i) < -rounding(self.kernel.contacts()[*i].normal)
+            };
             let fastest = (0..closed.len()).filter(strikes).min_by(|&a, &b| rate(a).total_cmp(&rate(b)));
             let Some(fastest) = fastest else { return Ok(first.map(|first| Strike { noise, first })) };
             first = first.or(Some((fastest, -rate(fastest))));
@@ -342,11 +349,12 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
                 return Err(self.error(Some(fastest), ContactErrorKind::Zeno { impacts: count }));
             }
             let contacts: Vec<usize> = match scales.law {
-                Impact::Sequential => with_rolling::<K>(fastest).collect(),
+                Impact::Sequential => with_rolling(self.kernel, fastest).collect(),
                 _ => (0..closed.len()).filter(touches).collect(),
             };
             let response = self.kernel.contact_response(self.t, &self.q);
             let struck = Struck {
+                kernel: self.kernel,
                 contacts: &contacts,
                 response: &response,
                 rates: &sizes.rates,
@@ -378,7 +386,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         let now = self.kernel.contact_rates(self.t, &self.q, &self.z);
         let (mut lost, mut terms) = (0.0, 0.0);
         for &i in contacts {
-            let contact = &K::CONTACTS[i];
+            let contact = &self.kernel.contacts()[i];
             let first = usize::from(!contact.has_gap());
             let four = |of: &dyn Fn(usize) -> f64| {
                 let mut four = [0.0; 4];
@@ -393,7 +401,12 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             terms += (0..4).map(|k| (impulse[k] * u[k]).abs() + (impulse[k] * v[k]).abs()).sum::<f64>();
             if impulse != [0.0; 4] {
                 let kind = EventKind::Impact(ImpactRecord { before: u, after: v, impulse, energy_lost });
-                made.events.push(ContactEvent { time: value(self.t), contact: i, kind });
+                made.events.push(ContactEvent {
+                    time: value(self.t),
+                    contact: i,
+                    name: self.kernel.contacts()[i].name,
+                    kind,
+                });
             }
         }
         // Rates after are sums of R products, each with its roundings.
@@ -415,18 +428,18 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
     ) -> Result<Vec<f64>, ContactError> {
         // Each time some of those that are forced are given up.
         loop {
-            let stays = |i: usize| choice.resting[i] && !choice.leaves.contains(&carrier(K::CONTACTS, i));
-            let contacts: Vec<usize> = (0..K::CONTACTS.len()).filter(|&i| stays(i)).collect();
+            let stays = |i: usize| choice.resting[i] && !choice.leaves.contains(&carrier(self.kernel.contacts(), i));
+            let contacts: Vec<usize> = (0..self.kernel.contacts().len()).filter(|&i| stays(i)).collect();
             let laws = self.bring_to_rest(&contacts, choice, made)?;
             let input = (made.input)(self.t, &self.q, &self.z);
             let dynamics = self.kernel.contact_dynamics(self.t, &self.q, &self.z, &input);
-            let rows = rows::<K>(&contacts);
+            let rows = rows(self.kernel, &contacts);
             let delassus = &dynamics.response.delassus;
             let solver = self.posed(laws.clone(), &rows, &dynamics);
             let solution = match solver.solve() {
                 // A contact is stopped once: then its slip is not known to go on.
                 Err(Failure::Inconsistent(n)) if self.jams && laws[n].along().is_some() => {
-                    let gaps = contacts.iter().copied().filter(|&i| takes_impulses(&K::CONTACTS[i]));
+                    let gaps = contacts.iter().copied().filter(|&i| takes_impulses(&self.kernel.contacts()[i]));
                     self.jam(contacts[n], &gaps.collect::<Vec<_>>(), law, made)?;
                     choice.stuck[contacts[n]] = true;
                     continue;
@@ -442,11 +455,11 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             };
             let accelerations: Vec<(f64, f64)> = (0..K::ContactRows::DIM).map(rate).collect();
             let falls_back = |i: &usize| {
-                let (rate, rounding) = accelerations[K::CONTACTS[*i].normal];
+                let (rate, rounding) = accelerations[self.kernel.contacts()[*i].normal];
                 choice.resting[*i] && rate < -rounding
             };
             let slides_back = |(i, along): &(usize, [K::Scalar; 3])| {
-                let each = tangents(&K::CONTACTS[*i]).zip(along);
+                let each = tangents(&self.kernel.contacts()[*i]).zip(along);
                 each.clone().map(|(row, s)| accelerations[row].0 * value(*s)).sum::<f64>()
                     < -each.map(|(row, _)| accelerations[row].1).sum::<f64>()
             };
@@ -456,7 +469,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
                 (choice.leaves, choice.slides) = (leaves, slides);
                 continue;
             }
-            let mut modes = vec![Mode::Open; K::CONTACTS.len()];
+            let mut modes = vec![Mode::Open; self.kernel.contacts().len()];
             for ((&i, law), state) in contacts.iter().zip(&laws).zip(&solution.states) {
                 modes[i] = match (state, law.along()) {
                     (State::Leaves, _) => Mode::Open,
@@ -495,9 +508,9 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         // Slips that depend on one another end together: what one of them stops, no other slides on by.
         let slips = loop {
             let slips: Vec<_> = contacts.iter().map(|&i| self.slides(i, choice)).collect();
-            let mut modes = vec![Mode::Open; K::CONTACTS.len()];
+            let mut modes = vec![Mode::Open; self.kernel.contacts().len()];
             for (&i, slip) in contacts.iter().zip(&slips) {
-                modes[i] = match (tangents(&K::CONTACTS[i]).len(), slip) {
+                modes[i] = match (tangents(&self.kernel.contacts()[i]).len(), slip) {
                     (0, _) => Mode::Closed,
                     (_, Some(along)) => Mode::Slides(*along),
                     _ => Mode::Sticks,
@@ -515,7 +528,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         };
         let friction = self.friction(made)?;
         let law = |(&i, slip): (&usize, Option<[K::Scalar; 3]>)| {
-            let contact = &K::CONTACTS[i];
+            let contact = &self.kernel.contacts()[i];
             let forced = choice.slides.iter().find(|(n, _)| *n == i).map(|(_, along)| *along);
             let along = slip.or(forced).filter(|_| !tangents(contact).is_empty());
             Law::new(contact, Bounds::of(contact, &friction), along).among(contact, contacts)
@@ -525,7 +538,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
 
     /// The direction in which a contact slides.
     pub(crate) fn slides(&self, i: usize, choice: &Choice<K::Scalar>) -> Option<[K::Scalar; 3]> {
-        let contact = &K::CONTACTS[i];
+        let contact = &self.kernel.contacts()[i];
         let along = slip(contact, &self.kernel.contact_rates(self.t, &self.q, &self.z));
         let slow = if tangents(contact).len() > 1 { choice.slow } else { 0.0 };
         let moves = !choice.stuck[i] && size(&along) > norm(&choice.still[tangents(contact)]).max(slow);
@@ -539,11 +552,11 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
     fn changes(&self, old: &[Mode<K::Scalar>], stopped: &[bool], events: &mut Vec<ContactEvent>) {
         for (contact, (old, new)) in old.iter().zip(&self.modes).enumerate() {
             let reverses = |a: &[K::Scalar; 3], b: &[K::Scalar; 3]| value(dot(a, b)) < 0.0;
-            let several = |i: usize| tangents(&K::CONTACTS[i]).len() > 1;
+            let several = |i: usize| tangents(&self.kernel.contacts()[i]).len() > 1;
             let turned = |i: usize| self.fired == Some(Watched::Slip(i)) && several(i) && !stopped[i];
             let kind = match (old, new) {
                 (Mode::Open, Mode::Sticks | Mode::Slides(_)) | (Mode::Sticks | Mode::Slides(_), Mode::Open)
-                    if !K::CONTACTS[contact].has_gap() =>
+                    if !self.kernel.contacts()[contact].has_gap() =>
                 {
                     continue;
                 }
@@ -560,7 +573,12 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
                 }
                 _ => continue,
             };
-            events.push(ContactEvent { time: value(self.t), contact, kind });
+            events.push(ContactEvent {
+                time: value(self.t),
+                contact,
+                name: self.kernel.contacts()[contact].name,
+                kind,
+            });
         }
     }
 }

@@ -14,18 +14,12 @@ use crate::residual::Residual;
 pub struct ContactEvent {
     /// When.
     pub time: f64,
-    /// The contact, by its place in [`ContactSystem::CONTACTS`].
+    /// The contact, by its place in [`ContactSystem::contacts`].
     pub contact: usize,
+    /// Its name in the scene.
+    pub name: &'static str,
     /// Kind of the event.
     pub kind: EventKind,
-}
-
-impl ContactEvent {
-    /// The name of the contact in the system of the run.
-    #[must_use]
-    pub fn name<K: ContactSystem>(&self) -> &'static str {
-        K::CONTACTS[self.contact].name
-    }
 }
 
 /// Kinds of events at a contact.
@@ -76,7 +70,7 @@ pub struct ImpactRecord {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SampledGap {
-    /// The contact, by its place in [`ContactSystem::CONTACTS`].
+    /// The contact, by its place in [`ContactSystem::contacts`].
     pub contact: usize,
     /// From when on.
     pub start: f64,

@@ -50,6 +50,7 @@ pub enum Impact {
 
 /// A part of the contacts at an impact, with all velocities before.
 pub(crate) struct Struck<'a, K: ContactSystem> {
+    pub(crate) kernel: &'a K,
     /// Which, by their numbers.
     pub(crate) contacts: &'a [usize],
     pub(crate) response: &'a ContactResponse<K>,
@@ -67,8 +68,8 @@ pub(crate) struct Blow<T> {
 }
 
 /// The rows of some contacts, one contact after the other.
-pub(crate) fn rows<K: ContactSystem>(contacts: &[usize]) -> Vec<usize> {
-    contacts.iter().flat_map(|&i| K::CONTACTS[i].rows()).collect()
+pub(crate) fn rows<K: ContactSystem>(kernel: &K, contacts: &[usize]) -> Vec<usize> {
+    contacts.iter().flat_map(|&i| kernel.contacts()[i].rows()).collect()
 }
 
 impl<K: ContactSystem> Struck<'_, K> {
@@ -78,10 +79,13 @@ impl<K: ContactSystem> Struck<'_, K> {
             return self.poisson();
         }
         let (zero, one) = (K::Scalar::zero(), K::Scalar::one());
-        let rows = rows::<K>(self.contacts);
-        let owner: Vec<usize> =
-            self.contacts.iter().flat_map(|&i| core::iter::repeat_n(i, K::CONTACTS[i].rows().len())).collect();
-        let e = |i: usize| self.restitution.component(carrier(K::CONTACTS, i));
+        let rows = rows(self.kernel, self.contacts);
+        let owner: Vec<usize> = self
+            .contacts
+            .iter()
+            .flat_map(|&i| core::iter::repeat_n(i, self.kernel.contacts()[i].rows().len()))
+            .collect();
+        let e = |i: usize| self.restitution.component(carrier(self.kernel.contacts(), i));
         let delassus = &self.response.delassus;
         let moreau = law == Impact::Moreau;
         let entry = |a: usize, b: usize| {
@@ -89,12 +93,12 @@ impl<K: ContactSystem> Struck<'_, K> {
             delassus[(rows[a], rows[b])] / part
         };
         let before = |a: usize| {
-            let struck = &K::CONTACTS[owner[a]];
+            let struck = &self.kernel.contacts()[owner[a]];
             let normal = struck.has_gap() && struck.normal == rows[a];
             let part = if normal && !moreau { one + e(owner[a]) } else { one };
             part * self.rates.component(rows[a])
         };
-        let laws = self.contacts.iter().map(|&i| self.law(&K::CONTACTS[i])).collect();
+        let laws = self.contacts.iter().map(|&i| self.law(&self.kernel.contacts()[i])).collect();
         let b = (0..rows.len()).map(before).collect();
         let contacts = Contacts::new(laws, Matrix::from_fn(rows.len(), entry), b);
         let solution = contacts.known_to(rows.iter().map(|&row| 2.0 * self.noise[row])).solve()?;

@@ -116,8 +116,8 @@ impl<K: ContactSystem> Loads<K> {
     }
 
     /// The force that friction of a contact may not exceed, over the friction that it has.
-    pub(crate) fn reserve(&self, contact: &Contact, bounds: Bounds<K::Scalar>) -> K::Scalar {
-        let pressed = presses::<K>(contact).map_or(K::Scalar::one(), |normal| self.forces[normal]);
+    pub(crate) fn reserve(&self, contacts: &[Contact], contact: &Contact, bounds: Bounds<K::Scalar>) -> K::Scalar {
+        let pressed = presses(contacts, contact).map_or(K::Scalar::one(), |normal| self.forces[normal]);
         bounds.largest * pressed - bounds.size(&self.forces[contact.friction_rows()])
     }
 }
@@ -128,8 +128,8 @@ pub(crate) fn tangents(contact: &Contact) -> core::ops::Range<usize> {
 }
 
 /// The row of the normal force that bounds friction; none of dry friction.
-pub(crate) fn presses<K: ContactSystem>(contact: &Contact) -> Option<usize> {
-    let carrier = contact.rolls_on().map_or(contact, |on| &K::CONTACTS[on]);
+pub(crate) fn presses(contacts: &[Contact], contact: &Contact) -> Option<usize> {
+    let carrier = contact.rolls_on().map_or(contact, |on| &contacts[on]);
     carrier.has_gap().then_some(carrier.normal)
 }
 
@@ -243,7 +243,7 @@ pub(crate) fn acting<K: ContactSystem>(lockstep: &Lockstep, rows: &K::ContactRow
 }
 
 impl<'k, K: ContactSystem> InMode<'k, K> {
-    /// A system whose contacts have these modes, in the order of [`ContactSystem::CONTACTS`]; those left out are open.
+    /// A system whose contacts have these modes, in the order of [`ContactSystem::contacts`]; those left out are open.
     /// [`project`](GaussSystem::project) brings a state onto them.
     #[must_use]
     pub fn new(kernel: &'k K, modes: &[Mode<K::Scalar>]) -> Self {
@@ -267,9 +267,9 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
     }
 
     pub(crate) fn closed(&self) -> impl Iterator<Item = (usize, &'static Contact, Mode<K::Scalar>)> {
-        let each = K::CONTACTS.iter().zip(self.modes.iter()).enumerate();
+        let each = self.kernel.contacts().iter().zip(self.modes.iter()).enumerate();
         // Where a contact is open, nothing resists rolling on it.
-        let closed = |i: usize| self.modes.get(carrier(K::CONTACTS, i)).is_some_and(Mode::is_closed);
+        let closed = |i: usize| self.modes.get(carrier(self.kernel.contacts(), i)).is_some_and(Mode::is_closed);
         let closed = each.filter(move |(i, (_, mode))| mode.is_closed() && closed(*i));
         closed.map(|(i, (contact, mode))| (i, contact, *mode))
     }
@@ -336,7 +336,7 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
             if contact.has_gap() {
                 rows.push(contact.normal);
                 with.push(core::iter::once((contact.normal, one)).chain(against).collect());
-            } else if let Some(normal) = presses::<K>(contact) {
+            } else if let Some(normal) = presses(self.kernel.contacts(), contact) {
                 let pressing = rows.iter().zip(&mut with).find(|(row, _)| **row == normal);
                 if let Some((_, with)) = pressing {
                     with.extend(against);
@@ -392,7 +392,8 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
         mut q: K::Configuration,
     ) -> Result<K::Configuration, ProjectionError> {
         let given = q;
-        let contact = |row: usize| K::CONTACTS.iter().position(|contact| contact.normal == row && contact.has_gap());
+        let contact =
+            |row: usize| self.kernel.contacts().iter().position(|contact| contact.normal == row && contact.has_gap());
         let rows = self.rows(false);
         let mut left = f64::INFINITY;
         for n in 0..20 {

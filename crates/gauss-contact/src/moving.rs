@@ -19,7 +19,7 @@ const BETWEEN: f64 = 2.0;
 /// The largest rate of each gap in a run where nothing moves but what the time moves.
 pub(crate) fn in_time<K: ContactSystem>(kernel: &K, q: &K::Configuration, interval: &Range<K::Scalar>) -> Rc<[f64]> {
     let (start, span) = (value(interval.start), value(interval.end) - value(interval.start));
-    let mut fastest = vec![0.0_f64; K::CONTACTS.len()];
+    let mut fastest = vec![0.0_f64; kernel.contacts().len()];
     if !(span.is_finite() && span > 0.0) {
         return fastest.into();
     }

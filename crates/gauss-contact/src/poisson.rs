@@ -25,13 +25,13 @@ struct Restitution<T> {
 impl<K: ContactSystem> Struck<'_, K> {
     /// Compression, then restitution.
     pub(crate) fn poisson(&self) -> Result<Blow<K::Scalar>, Failure> {
-        let rows = rows::<K>(self.contacts);
-        let laws = self.contacts.iter().map(|&i| self.law(&K::CONTACTS[i])).collect();
+        let rows = rows(self.kernel, self.contacts);
+        let laws = self.contacts.iter().map(|&i| self.law(&self.kernel.contacts()[i])).collect();
         let matrix = Matrix::from_fn(rows.len(), |a, b| self.response.delassus[(rows[a], rows[b])]);
         let before = rows.iter().map(|&row| self.rates.component(row)).collect();
         let noise = rows.iter().map(|&row| self.noise[row]);
         let compression = Contacts::new(laws, matrix.clone(), before).known_to(noise).solve()?;
-        let place = |i: &usize| rows.iter().position(|row| *row == K::CONTACTS[*i].normal);
+        let place = |i: &usize| rows.iter().position(|row| *row == self.kernel.contacts()[*i].normal);
         let first: Vec<usize> = self.contacts.iter().filter_map(place).collect();
         let e = |n: usize| self.restitution.component(self.contacts[n]);
         let least: Vec<K::Scalar> = (0..first.len()).map(|n| e(n) * compression.forces[first[n]]).collect();
@@ -41,7 +41,7 @@ impl<K: ContactSystem> Struck<'_, K> {
         for _ in 0..2 * first.len() + 2 {
             let found = self.restitution(&first, &matrix, (&compression.rates, &least), &more)?;
             let mut changed = false;
-            for n in (0..first.len()).filter(|&n| K::CONTACTS[self.contacts[n]].has_gap()) {
+            for n in (0..first.len()).filter(|&n| self.kernel.contacts()[self.contacts[n]].has_gap()) {
                 let normal = first[n];
                 let terms = matrix.row(normal).iter().zip(&found.impulses).map(|(d, x)| value(*d * *x).abs());
                 let size = terms.fold(value(compression.rates[normal]).abs(), |sum, x| sum + x);
@@ -82,10 +82,10 @@ impl<K: ContactSystem> Struck<'_, K> {
         let mut impulses = vec![K::Scalar::zero(); rates.len()];
         let (mut rows, mut laws, mut owners) = (Vec::new(), Vec::new(), Vec::new());
         for (n, &i) in self.contacts.iter().enumerate() {
-            let contact = &K::CONTACTS[i];
+            let contact = &self.kernel.contacts()[i];
             let all = first[n]..first[n] + contact.rows().len();
             // The contact with the normal impulse.
-            let carries = self.contacts.iter().position(|&c| c == carrier(K::CONTACTS, i)).unwrap_or(n);
+            let carries = self.contacts.iter().position(|&c| c == carrier(self.kernel.contacts(), i)).unwrap_or(n);
             if more[carries] {
                 rows.extend(all);
                 let on = owners.iter().position(|owner| *owner == carries);
@@ -108,7 +108,7 @@ impl<K: ContactSystem> Struck<'_, K> {
         };
         let b = rows.iter().map(|&row| rate(&impulses, row)).collect();
         let part = Matrix::from_fn(rows.len(), |a, b| matrix.at(rows[a], rows[b]));
-        let all: Vec<usize> = self.contacts.iter().flat_map(|&i| K::CONTACTS[i].rows()).collect();
+        let all: Vec<usize> = self.contacts.iter().flat_map(|&i| self.kernel.contacts()[i].rows()).collect();
         let noise = rows.iter().map(|&row| 2.0 * self.noise[all[row]]);
         let found = Contacts::new(laws, part, b).known_to(noise).solve()?;
         rows.iter().zip(&found.forces).for_each(|(&row, x)| impulses[row] = *x);

@@ -36,18 +36,18 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
         let tolerance = Tolerance { relative: 1e-9, absolute: 1e-9 };
         let mut scales = Scales::new(tolerance, Impact::Newton, t);
         let mut made = ContactTrajectory::begun(input);
-        let modes = vec![Mode::Open; K::CONTACTS.len()];
+        let modes = vec![Mode::Open; kernel.contacts().len()];
         let (q, jams) = (q.renormalise(), false);
         let mut instant = Instant { kernel, t, q, z: *z, modes, fired: None, first: true, jams };
         let rates = kernel.contact_rates(t, &instant.q, z);
         instant.decide(&mut scales, &mut made)?;
         if let Some(impact) = made.solves.iter().find(|solve| solve.impact) {
             let struck: Vec<usize> = impact.residuals.iter().map(|(contact, _)| *contact).collect();
-            let rate = |i: &usize| value(rates.component(K::CONTACTS[*i].normal));
-            let fastest = struck.into_iter().filter(|i| K::CONTACTS[*i].has_gap());
+            let rate = |i: &usize| value(rates.component(kernel.contacts()[*i].normal));
+            let fastest = struck.into_iter().filter(|i| kernel.contacts()[*i].has_gap());
             if let Some(i) = fastest.min_by(|a, b| rate(a).total_cmp(&rate(b))) {
                 let kind = ContactErrorKind::Strikes { rate: rate(&i) };
-                return Err(ContactError { contact: Some(K::CONTACTS[i].name), time: value(t), kind });
+                return Err(ContactError { contact: Some(kernel.contacts()[i].name), time: value(t), kind });
             }
         }
         Ok(Self::new(kernel, &instant.modes))

@@ -68,7 +68,8 @@ impl<K: ContactSystem> Clone for InModeProblem<'_, K> {
 impl<'k, K: ContactSystem> InModeProblem<'k, K> {
     /// The problem of a system in its modes under an input. `moving`: the rates of gaps that come from the time alone.
     pub(crate) fn new(system: InMode<'k, K>, input: InputOf<'k, K>, moving: Rc<[f64]>) -> Self {
-        let (last, light) = (Rc::new(RefCell::new(None)), Rc::new(RefCell::new(vec![0.0; K::CONTACTS.len()])));
+        let (last, light) =
+            (Rc::new(RefCell::new(None)), Rc::new(RefCell::new(vec![0.0; system.kernel.contacts().len()])));
         Self { system, input, last, fast: Rc::new(RefCell::new([None, None])), light, moving }
     }
 
@@ -119,7 +120,7 @@ impl<'k, K: ContactSystem> InModeProblem<'k, K> {
             let moving = value(moving.component(row)).abs().max(self.moving[i]);
             [fastest(&energy) + moving, fastest(&power) + grows]
         };
-        K::CONTACTS.iter().enumerate().map(bound).collect()
+        self.system.kernel.contacts().iter().enumerate().map(bound).collect()
     }
 }
 

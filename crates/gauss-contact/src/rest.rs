@@ -27,7 +27,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         (accelerations, choice): (&[f64], &Choice<K::Scalar>),
         scales: &Scales,
     ) -> Option<EventKind> {
-        let normal = K::CONTACTS[i].normal;
+        let normal = self.kernel.contacts()[i].normal;
         let sizes = self.sizes(scales);
         let (speed, fall) = (value(sizes.rates.component(normal)), -accelerations[normal]);
         // What others hold as they come to rest.
@@ -55,24 +55,24 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
         choice: &Choice<K::Scalar>,
         made: &ContactTrajectory<'k, K>,
     ) -> Result<(), ContactError> {
-        let rests = |n: &usize| choice.resting[*n] && takes_impulses(&K::CONTACTS[*n]);
-        let contacts: Vec<usize> = (0..K::CONTACTS.len()).filter(rests).collect();
+        let rests = |n: &usize| choice.resting[*n] && takes_impulses(&self.kernel.contacts()[*n]);
+        let contacts: Vec<usize> = (0..self.kernel.contacts().len()).filter(rests).collect();
         let friction = self.friction(made)?;
         let law = |&n: &usize| {
-            let contact = &K::CONTACTS[n];
+            let contact = &self.kernel.contacts()[n];
             Law::new(contact, Bounds::of(contact, &friction), self.slides(n, choice)).among(contact, &contacts)
         };
         let laws = contacts.iter().map(law).collect();
         let rates = self.kernel.contact_rates(self.t, &self.q, &self.z);
         let response = self.kernel.contact_response(self.t, &self.q);
-        let rows = rows::<K>(&contacts);
+        let rows = rows(self.kernel, &contacts);
         let matrix = Matrix::from_fn(rows.len(), |a, b| response.delassus[(rows[a], rows[b])]);
         let before = rows.iter().map(|&row| rates.component(row)).collect();
         let mut impulses = vec![K::Scalar::zero(); K::ContactRows::DIM];
         let stops = Contacts::new(laws, matrix, before).stops();
         rows.iter().zip(stops).for_each(|(&row, impulse)| impulses[row] = impulse);
         // Else the rates alone are taken away, with the projection.
-        if value(impulses[K::CONTACTS[i].normal]) < 0.0 {
+        if value(impulses[self.kernel.contacts()[i].normal]) < 0.0 {
             self.z = after::<K>(&response, &self.z, &impulses);
         }
         Ok(())

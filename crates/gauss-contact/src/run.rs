@@ -296,7 +296,7 @@ where
 {
     fn go(&mut self, (t, q, z): (K::Scalar, K::Configuration, K::Speeds)) -> Result<(), ContactError> {
         self.check_start(t, &q, &z)?;
-        let (modes, jams) = (vec![Mode::Open; K::CONTACTS.len()], self.settings.jams);
+        let (modes, jams) = (vec![Mode::Open; self.kernel.contacts().len()], self.settings.jams);
         let mut instant = Instant { kernel: self.kernel, t, q, z, modes, fired: None, first: true, jams };
         loop {
             let before = instant.z;
@@ -349,7 +349,8 @@ where
 
     /// Counts events that do not move the time.
     fn count(&mut self, t: f64, fired: Watched) -> Result<(), ContactError> {
-        let stop = |kind| Err(ContactError { contact: Some(K::CONTACTS[fired.contact()].name), time: t, kind });
+        let stop =
+            |kind| Err(ContactError { contact: Some(self.kernel.contacts()[fired.contact()].name), time: t, kind });
         self.at_once = if t - self.last <= 16.0 * self.scales.resolution(t) { self.at_once + 1 } else { 0 };
         self.last = t;
         if self.at_once > AT_ONCE {
@@ -411,7 +412,7 @@ where
         self.made.segments.push(Segment { system, trajectory });
         if let Some(error) = error {
             let grazes = |event: usize, rate| ContactError {
-                contact: Some(K::CONTACTS[watched[event].contact()].name),
+                contact: Some(self.kernel.contacts()[watched[event].contact()].name),
                 time: value(end),
                 kind: ContactErrorKind::Grazes { rate },
             };
@@ -471,7 +472,7 @@ where
             let late = 4.0 * self.scales.resolution(value(end.t)) * value(loads.row_acceleration(row)).abs();
             rate(row).abs() <= sizes.of_rate[row] + late
         };
-        let mut each = K::CONTACTS.iter().zip(&end.modes).enumerate();
+        let mut each = self.kernel.contacts().iter().zip(&end.modes).enumerate();
         each.find_map(|(i, (contact, mode))| match mode {
             Mode::Open if contact.has_gap() && rate(contact.normal) < -sizes.of_rate[contact.normal] => {
                 (value(gaps.component(i)) <= sizes.of_gap[i]).then_some(Watched::Gap(i))
@@ -490,7 +491,7 @@ where
         let (gaps, rates) = (self.kernel.gaps(t, q), self.kernel.contact_rates(t, q, z));
         let t = value(t);
         let bound = Rounding::of::<K>(q).half_of_the_digits();
-        for (i, (contact, mode)) in K::CONTACTS.iter().zip(modes).enumerate() {
+        for (i, (contact, mode)) in self.kernel.contacts().iter().zip(modes).enumerate() {
             let stop = |kind| Err(ContactError { contact: Some(contact.name), time: t, kind });
             // Events are found to the resolution of the time.
             let late = 8.0 * self.scales.resolution(t) * value(rates.component(contact.normal)).abs();
@@ -512,7 +513,7 @@ where
 
     /// Watches for the end of a slip.
     fn watch_slip(&self, i: usize, of_rate: &[f64], watch: &mut AddWitness<'_>) {
-        let rows = tangents(&K::CONTACTS[i]);
+        let rows = tangents(&self.kernel.contacts()[i]);
         let (several, rest) = (rows.len() > 1, self.scales.rest());
         let rounding = rows.map(|row| of_rate[row]).fold(0.0, f64::max);
         watch(Watched::Slip(i), &|slip| if slip.abs() <= rounding { -slip } else { 0.0 });
@@ -544,7 +545,7 @@ where
         if let Some(first) = from.modes.iter().position(Mode::is_closed).filter(|_| shared) {
             watch(Watched::Reserve(first), &|part| (LEAST_RESERVE - part).max(0.0));
         }
-        for (i, contact) in K::CONTACTS.iter().enumerate() {
+        for (i, contact) in self.kernel.contacts().iter().enumerate() {
             // Forces that are no more than rounding start above zero by as much.
             let least = loads.as_ref().map_or(0.0, |loads| loads.rounding(contact).max(f64::MIN_POSITIVE));
             let above = move |value: f64| if value > least { 0.0 } else { least - value };

@@ -18,7 +18,7 @@ use crate::rounding::Rounding;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ContactForce<T = f64> {
-    /// The contact, by its place in [`ContactSystem::CONTACTS`].
+    /// The contact, by its place in [`ContactSystem::contacts`].
     pub contact: usize,
     /// Point at which it acts.
     pub point: Vector3<T>,
@@ -138,7 +138,7 @@ impl<'k, K: ContactSystem> ContactForces<'k, K> {
     /// # Errors
     /// `NoSuchContact`.
     pub fn in_frame(&self, contact: usize) -> Result<[K::Scalar; 3], SensorError> {
-        let own = known::<K>(contact)?;
+        let own = known(self.kernel, contact)?;
         let mut force = [K::Scalar::zero(); 3];
         if own.has_gap() {
             force[0] = self.rows.component(own.normal);
@@ -151,7 +151,7 @@ impl<'k, K: ContactSystem> ContactForces<'k, K> {
     /// ([`contact_frame`](ContactSystem::contact_frame)).
     pub fn vectors(&self) -> Vec<ContactForce<K::Scalar>> {
         let acts = |contact: &usize| !self.rests(*contact).unwrap_or(true);
-        (0..K::CONTACTS.len()).filter(acts).filter_map(|contact| self.in_world(contact).ok()).collect()
+        (0..self.kernel.contacts().len()).filter(acts).filter_map(|contact| self.in_world(contact).ok()).collect()
     }
 
     /// The force of a contact on its first body, and where it acts.
@@ -168,8 +168,9 @@ impl<'k, K: ContactSystem> ContactForces<'k, K> {
     /// # Errors
     /// `NoSuchBody` where there are none.
     pub fn of_body(&self, body: &str) -> Result<impl Iterator<Item = usize> + Clone + use<K>, SensorError> {
-        let (mut first, mut count) = (K::CONTACTS.len(), 0);
-        for (i, contact) in K::CONTACTS.iter().enumerate() {
+        let contacts = self.kernel.contacts();
+        let (mut first, mut count) = (contacts.len(), 0);
+        for (i, contact) in contacts.iter().enumerate() {
             if contact.bodies[0] == Some(body) {
                 (first, count) = (first.min(i), count + 1);
             }
@@ -177,8 +178,8 @@ impl<'k, K: ContactSystem> ContactForces<'k, K> {
         if count == 0 {
             return Err(SensorError::NoSuchBody { body: body.to_owned() });
         }
-        let name = K::CONTACTS[first].bodies[0];
-        Ok((first..K::CONTACTS.len()).filter(move |i| K::CONTACTS[*i].bodies[0] == name))
+        let name = contacts[first].bodies[0];
+        Ok((first..contacts.len()).filter(move |i| contacts[*i].bodies[0] == name))
     }
 
     /// Wrench of some contacts together on their first bodies: the sum of their forces, and that of their moments about
@@ -204,7 +205,7 @@ impl<'k, K: ContactSystem> ContactForces<'k, K> {
     /// `NoSuchBody` where there are none, `NoPlace`, `Torque`.
     pub fn wrench_on(&self, body: &str, pole: &Vector3<K::Scalar>) -> Result<ContactWrench<K::Scalar>, SensorError> {
         let (mut sum, mut found) = (nothing(), false);
-        for (i, contact) in K::CONTACTS.iter().enumerate() {
+        for (i, contact) in self.kernel.contacts().iter().enumerate() {
             for (side, _) in contact.bodies.iter().enumerate().filter(|(_, own)| **own == Some(body)) {
                 found = true;
                 self.add(&mut sum, i, pole, side == 1)?;
@@ -241,7 +242,9 @@ impl<'k, K: ContactSystem> ContactForces<'k, K> {
             let plane = plane(&frame.normal, &foot);
             match first {
                 Some((other, known)) if !self.agree(known, plane) => {
-                    return Err(SensorError::NoCommonPlane { contacts: [K::CONTACTS[other].name, own.name] });
+                    return Err(SensorError::NoCommonPlane {
+                        contacts: [self.kernel.contacts()[other].name, own.name],
+                    });
                 }
                 Some(_) => {}
                 None => first = Some((contact, plane)),
@@ -255,12 +258,12 @@ impl<'k, K: ContactSystem> ContactForces<'k, K> {
 
     /// Whether all rows of a contact are zero.
     fn rests(&self, contact: usize) -> Result<bool, SensorError> {
-        Ok(known::<K>(contact)?.rows().all(|row| value(self.rows.component(row)) == 0.0))
+        Ok(known(self.kernel, contact)?.rows().all(|row| value(self.rows.component(row)) == 0.0))
     }
 
     /// A contact with its frame.
     fn placed(&self, contact: usize) -> Result<(&'static Contact, ContactFrame<K::Scalar>), SensorError> {
-        let own = known::<K>(contact)?;
+        let own = known(self.kernel, contact)?;
         if own.rolls_on().is_some() {
             return Err(SensorError::Torque { contact: own.name });
         }
@@ -280,7 +283,7 @@ impl<'k, K: ContactSystem> ContactForces<'k, K> {
             return Ok(());
         }
         let ContactForce { point, force, .. } = self.in_world(contact)?;
-        let own = &K::CONTACTS[contact];
+        let own = &self.kernel.contacts()[contact];
         if own.drills && value(self.rows.component(own.tangent_rows().end)) != 0.0 {
             return Err(SensorError::Torque { contact: own.name });
         }
@@ -304,9 +307,9 @@ fn plane<T: Real>(normal: &Vector3<T>, point: &Vector3<T>) -> [f64; 4] {
     [a, b, c, a * x + b * y + c * z]
 }
 
-fn known<K: ContactSystem>(contact: usize) -> Result<&'static Contact, SensorError> {
-    let count = K::CONTACTS.len();
-    K::CONTACTS.get(contact).ok_or(SensorError::NoSuchContact { contact, count })
+fn known<K: ContactSystem>(kernel: &K, contact: usize) -> Result<&'static Contact, SensorError> {
+    let count = kernel.contacts().len();
+    kernel.contacts().get(contact).ok_or(SensorError::NoSuchContact { contact, count })
 }
 
 fn zero<T: Real>() -> Vector3<T> {

@@ -54,7 +54,8 @@ impl<K: ContactSystem> InMode<'_, K> {
             let rounding = loads.rounding(contact);
             let presses = !contact.has_gap() || value(loads.forces[contact.normal]) >= -rounding;
             let bounds = Bounds::of(contact, friction);
-            presses && (mode != Mode::Sticks || value(loads.reserve(contact, bounds)) >= -rounding)
+            presses
+                && (mode != Mode::Sticks || value(loads.reserve(self.kernel.contacts(), contact, bounds)) >= -rounding)
         })
     }
 
@@ -81,7 +82,7 @@ impl<K: ContactSystem> InMode<'_, K> {
             if mode == Mode::Sticks { State::Sticks } else { State::Closed }
         };
         let states: Vec<State> = self.closed().map(state).collect();
-        let rows = rows::<K>(&contacts);
+        let rows = rows(self.kernel, &contacts);
         let dynamics = self.kernel.contact_dynamics(t, q, z, input);
         let matrix = Matrix::from_fn(rows.len(), |i, j| dynamics.response.delassus[(rows[i], rows[j])]);
         let bias = rows.iter().map(|&row| dynamics.bias.component(row)).collect();
@@ -91,7 +92,7 @@ impl<K: ContactSystem> InMode<'_, K> {
         for ((&row, force), scale) in rows.iter().zip(&found.forces).zip(laws.scales()) {
             forces[row] = K::Scalar::from_f64(*force) * scale;
         }
-        let mut weights = vec![0.0; K::CONTACTS.len()];
+        let mut weights = vec![0.0; self.kernel.contacts().len()];
         contacts.iter().zip(&found.weights).for_each(|(&i, weight)| weights[i] = *weight);
         Some(Shared { part: found.part, forces, weights })
     }
@@ -110,7 +111,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
             Some(Watched::Force(i)) => (vec![i], Vec::new()),
             Some(Watched::Cone(i)) => {
                 let loads = system.loads(self.t, &self.q, &self.z, &input);
-                let contact = &K::CONTACTS[i];
+                let contact = &self.kernel.contacts()[i];
                 let along = Bounds::of(contact, &friction()).gives_way(&loads.forces[tangents(contact)]);
                 (Vec::new(), along.into_iter().map(|along| (i, along)).collect())
             }
@@ -121,7 +122,7 @@ impl<'k, K: ContactSystem> Instant<'k, K> {
                 let friction = friction();
                 let (mut leaves, mut slides) = (Vec::new(), Vec::new());
                 for i in reserve.binding() {
-                    let contact = &K::CONTACTS[i];
+                    let contact = &self.kernel.contacts()[i];
                     let along = Bounds::of(contact, &friction).gives_way(&reserve.forces[tangents(contact)]);
                     match along.filter(|_| !reserve.is_free(contact)) {
                         Some(along) => slides.push((i, along)),

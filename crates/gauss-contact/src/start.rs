@@ -28,10 +28,10 @@ pub(crate) fn check_contacts<K: ContactSystem>(
     allowed: impl Fn(&K::Configuration) -> f64,
 ) -> Result<(), ContactError> {
     let stop = |contact: Option<usize>, kind| {
-        Err(ContactError { contact: contact.map(|i: usize| K::CONTACTS[i].name), time: value(t), kind })
+        Err(ContactError { contact: contact.map(|i: usize| kernel.contacts()[i].name), time: value(t), kind })
     };
     let (gaps, restitution) = (kernel.gaps(t, q), kernel.restitution());
-    for i in 0..K::CONTACTS.len() {
+    for i in 0..kernel.contacts().len() {
         let (gap, e) = (value(gaps.component(i)), value(restitution.component(i)));
         if !(0.0..=1.0).contains(&e) {
             return stop(Some(i), ContactErrorKind::InvalidRestitution { restitution: e });

@@ -73,7 +73,13 @@ impl<'k, K: ContactSystem> RateBound<InMode<'k, K>> for GapBound<'k, K> {
     }
 
     fn rate(&self, State { t, q, y }: &State<InMode<'k, K>>) -> f64 {
-        value(self.problem.system.kernel.contact_rates(*t, q, y).component(K::CONTACTS[self.contact].normal))
+        value(
+            self.problem
+                .system
+                .kernel
+                .contact_rates(*t, q, y)
+                .component(self.problem.system.kernel.contacts()[self.contact].normal),
+        )
     }
 
     fn sampled(&self, start: f64, end: f64) {
@@ -103,7 +109,7 @@ impl<K: ContactSystem> Witness<'_, K> {
 
     pub(crate) fn bare(&self, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> K::Scalar {
         let kernel = self.problem.system.kernel;
-        let slip_of = |i: usize| slip(&K::CONTACTS[i], &kernel.contact_rates(t, q, z));
+        let slip_of = |i: usize| slip(&self.problem.system.kernel.contacts()[i], &kernel.contact_rates(t, q, z));
         let input = || (self.problem.input)(t, q, z);
         match self.watched {
             Watched::Gap(i) => kernel.gaps(t, q).component(i),
@@ -120,10 +126,10 @@ impl<K: ContactSystem> Witness<'_, K> {
                 let beyond = K::Scalar::DERIVATIVES && along < -0.99 * value(speed);
                 (if beyond { -speed } else { speed }) - K::Scalar::from_f64(level)
             }
-            Watched::Force(i) => self.problem.loads(t, q, z).forces[K::CONTACTS[i].normal],
+            Watched::Force(i) => self.problem.loads(t, q, z).forces[self.problem.system.kernel.contacts()[i].normal],
             Watched::Cone(i) => {
-                let (loads, contact) = (self.problem.loads(t, q, z), &K::CONTACTS[i]);
-                loads.reserve(contact, Bounds::of(contact, &kernel.friction(t, q, z, &input())))
+                let (loads, contact) = (self.problem.loads(t, q, z), &self.problem.system.kernel.contacts()[i]);
+                loads.reserve(kernel.contacts(), contact, Bounds::of(contact, &kernel.friction(t, q, z, &input())))
             }
             Watched::Reserve(_) => {
                 let (system, loads) = (&self.problem.system, self.problem.loads(t, q, z));
@@ -146,15 +152,17 @@ impl<K: ContactSystem> Witness<'_, K> {
     /// p over its own first term.
     fn pushes(&self, i: usize, t: K::Scalar, q: &K::Configuration, z: &K::Speeds) -> K::Scalar {
         let kernel = self.problem.system.kernel;
-        let normal = K::CONTACTS[i].normal;
+        let normal = self.problem.system.kernel.contacts()[i].normal;
         let input = (self.problem.input)(t, q, z);
         let loads = self.problem.loads(t, q, z);
         let delassus = &loads.dynamics.response.delassus;
         let friction = kernel.friction(t, q, z, &input);
         let mut coupled = K::Scalar::zero();
         // With the resistance to rolling on it.
-        for n in (0..K::CONTACTS.len()).filter(|&n| carrier(K::CONTACTS, n) == i) {
-            let contact = &K::CONTACTS[n];
+        for n in (0..self.problem.system.kernel.contacts().len())
+            .filter(|&n| carrier(self.problem.system.kernel.contacts(), n) == i)
+        {
+            let contact = &self.problem.system.kernel.contacts()[n];
             if !matches!(self.problem.system.modes()[n], Mode::Slides(_)) {
                 continue;
             }

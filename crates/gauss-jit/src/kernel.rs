@@ -2,6 +2,7 @@
 
 use gauss_codegen::parameters::Parameter;
 use gauss_codegen::program::{Argument, Results};
+use gauss_runtime::contact::Contact;
 use gauss_runtime::error::ParameterWarnings;
 
 use crate::backends::{Compiled, MOST_ARGUMENTS, interpreted};
@@ -23,6 +24,7 @@ pub struct Kernel {
     /// None where there are too many.
     pub(crate) groups: Option<Groups>,
     warnings: ParameterWarnings,
+    contacts: &'static [Contact],
 }
 
 /// A method of a kernel, compiled.
@@ -50,7 +52,7 @@ impl Model {
 
 impl Kernel {
     fn new(model: Model, numbers: &[f64]) -> Result<Self, KernelError> {
-        let derived = &model.derived;
+        let derived = &model.derived.data;
         let read: Vec<f64> = derived.parameters.read.iter().map(|&k| numbers[k]).collect();
         let run = |program, arguments: &[&[f64]], count: usize| {
             let mut outputs = vec![0.0; count];
@@ -63,7 +65,8 @@ impl Kernel {
         let constants = run(&derived.constants, &[&read], derived.constants.code.outputs.len());
         let groups = Groups::of(model.description());
         let warnings = warnings(&derived.parameters, numbers, &computed)?;
-        let kernel = Self { model: model.clone(), constants, groups, warnings };
+        let contacts = model.derived.contacts;
+        let kernel = Self { model: model.clone(), constants, groups, warnings, contacts };
         if checks.wants_mass_matrix() {
             checks.mass_matrices(&kernel.mass_matrices()?)?;
         }
@@ -74,7 +77,7 @@ impl Kernel {
     /// Mass matrices at a few configurations of general position: turns of any size, and lengths and coordinates from a
     /// thousandth to a thousand.
     fn mass_matrices(&self) -> Result<[Vec<f64>; 4], KernelError> {
-        let derived = &self.model.derived;
+        let derived = &self.model.derived.data;
         let Some(place) = derived.methods.iter().position(|program| program.name == "mass_matrix") else {
             return Ok([const { Vec::new() }; 4]);
         };
@@ -103,6 +106,17 @@ impl Kernel {
         &self.warnings
     }
 
+    /// Contacts, ranges and dry joints, in the order of their rows; none where they are left out.
+    pub fn contacts(&self) -> &'static [Contact] {
+        self.contacts
+    }
+
+    /// The kernel as if all gaps stayed open and no joint had dry friction.
+    #[must_use]
+    pub fn without_contacts(&self) -> Self {
+        Self { contacts: &[], ..self.clone() }
+    }
+
     /// The model that it is of.
     pub fn model(&self) -> &Model {
         &self.model
@@ -114,7 +128,7 @@ impl Kernel {
     /// [`CallError::NoMethod`].
     pub fn method(&self, name: &str) -> Result<Method<'_>, CallError> {
         let place = self.model.method(name)?;
-        let program = &self.model.derived.methods[place];
+        let program = &self.model.derived.data.methods[place];
         Ok(Method {
             name: &program.name,
             constants: &self.constants,
@@ -185,7 +199,7 @@ impl Kernel {
 
     /// The groups of a configuration, and how many components it and an increment of it have.
     fn groups(&self, method: &str) -> Result<(Groups, [usize; 2]), CallError> {
-        let kinematics = &self.model.derived.methods[self.model.method("kinematics")?];
+        let kinematics = &self.model.derived.data.methods[self.model.method("kinematics")?];
         let sizes = [kinematics.arguments[2].components.len(), kinematics.code.outputs.len()];
         let groups = self.groups.ok_or_else(|| CallError::Groups { method: method.to_owned() })?;
         Ok((groups, sizes))

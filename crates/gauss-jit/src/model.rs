@@ -9,8 +9,10 @@ use gauss_codegen::description::Description;
 use gauss_codegen::parameters::{Parameter, Parameters};
 use gauss_codegen::program::{Argument, Counts, Instruction, Program, Results};
 use gauss_codegen::{Derivation, Notation, Scene};
+use gauss_runtime::contact::Contact;
 
 use crate::backends::{Backend, Compiled, interpreted};
+use crate::contacts::contacts;
 use crate::error::{CallError, Mistake, Mistakes, Place};
 
 /// A scene with its equations of motion, and the programs that compute them.
@@ -25,23 +27,44 @@ pub struct Model {
 /// The derivation that all kernels of a model share.
 #[derive(Debug)]
 pub(crate) struct Derived {
+    pub data: Data,
+    pub contacts: &'static [Contact],
+    compiled: Vec<OnceLock<Box<dyn Compiled>>>,
+    backend: Box<dyn Backend>,
+}
+
+/// A derivation as plain data.
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "cache", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Data {
     name: String,
     equations: [String; 2],
     accuracy: Vec<(String, [f64; 2])>,
     remarks: Vec<String>,
-    files: Vec<String>,
+    pub files: Vec<String>,
     pub parameters: Parameters,
     pub unit_components: Vec<Range<usize>>,
     description: Description,
     pub constants: Program,
     pub methods: Vec<Program>,
-    compiled: Vec<OnceLock<Box<dyn Compiled>>>,
-    backend: Box<dyn Backend>,
+}
+
+#[cfg(feature = "cache")]
+impl Data {
+    /// All of its programs.
+    pub fn programs(&self) -> impl Iterator<Item = &Program> {
+        [&self.constants, &self.parameters.computed].into_iter().chain(&self.methods)
+    }
 }
 
 impl Derived {
+    fn new(data: Data, backend: Box<dyn Backend>) -> Self {
+        let compiled = data.methods.iter().map(|_| OnceLock::new()).collect();
+        Self { contacts: contacts(&data.description), data, compiled, backend }
+    }
+
     pub fn compiled(&self, method: usize) -> &dyn Compiled {
-        let program = &self.methods[method];
+        let program = &self.data.methods[method];
         let make = || {
             self.backend.compile(program).unwrap_or_else(|| {
                 say_interpreted();
@@ -123,7 +146,7 @@ impl Model {
                 format!("the equations call `{name}`, a function of Rust or a table, which is not there at run time");
             return Err(Mistake { place: Place::Clause(functions.name.clone()), message });
         }
-        let derived = Derived {
+        Ok(Self::of(Data {
             name: functions.name.clone(),
             equations: [Notation::Text, Notation::Latex].map(|notation| derivation.equations(notation).to_owned()),
             accuracy: derivation.accuracy().to_vec(),
@@ -134,89 +157,80 @@ impl Model {
             description: derivation.description().clone(),
             constants: functions.constants.clone(),
             methods: functions.methods.clone(),
-            compiled: functions.methods.iter().map(|_| OnceLock::new()).collect(),
-            backend: default_backend(),
-        };
-        Ok(Self { derived: Arc::new(derived) })
+        }))
+    }
+
+    /// The model of a derivation.
+    pub(crate) fn of(data: Data) -> Self {
+        Self { derived: Arc::new(Derived::new(data, default_backend())) }
     }
 
     /// The same model whose programs are carried out in another way.
     #[must_use]
     pub fn with_backend(&self, backend: impl Backend + 'static) -> Self {
-        let Derived { name, equations, accuracy, remarks, files, .. } = &*self.derived;
-        let Derived { parameters, unit_components, description, constants, methods, .. } = &*self.derived;
-        let derived = Derived {
-            name: name.clone(),
-            equations: equations.clone(),
-            accuracy: accuracy.clone(),
-            remarks: remarks.clone(),
-            files: files.clone(),
-            parameters: parameters.clone(),
-            unit_components: unit_components.clone(),
-            description: description.clone(),
-            constants: constants.clone(),
-            methods: methods.clone(),
-            compiled: methods.iter().map(|_| OnceLock::new()).collect(),
-            backend: Box::new(backend),
-        };
-        Self { derived: Arc::new(derived) }
+        Self { derived: Arc::new(Derived::new(self.derived.data.clone(), Box::new(backend))) }
     }
 
     /// The name of the struct.
     pub fn name(&self) -> &str {
-        &self.derived.name
+        &self.derived.data.name
     }
 
     /// The equations of motion: a page of text, or LaTeX.
     pub fn equations(&self, notation: Notation) -> &str {
         match notation {
-            Notation::Text => &self.derived.equations[0],
-            Notation::Latex => &self.derived.equations[1],
+            Notation::Text => &self.derived.data.equations[0],
+            Notation::Latex => &self.derived.data.equations[1],
         }
     }
 
     /// The operations of each method by their kind: `OPERATIONS` of a compiled kernel, counted where no vectors are
     /// formed.
     pub fn operations(&self) -> impl Iterator<Item = (&str, Counts)> {
-        self.derived.methods.iter().map(|program| (program.name.as_str(), program.code.counts()))
+        self.derived.data.methods.iter().map(|program| (program.name.as_str(), program.code.counts()))
     }
 
     /// The rounding error of each method at the worst state that a search found, and the median, in units of the change
     /// of the result when every parameter and argument changes in its last place.
     pub fn accuracy(&self) -> &[(String, [f64; 2])] {
-        &self.derived.accuracy
+        &self.derived.data.accuracy
     }
 
     /// Remarks about a robot from a file: names that were changed, elements that do not act in the equations.
     pub fn remarks(&self) -> &[String] {
-        &self.derived.remarks
+        &self.derived.data.remarks
     }
 
     /// The files that its scene was read from, by their paths: of robots, and those that these name.
     pub fn files(&self) -> &[String] {
-        &self.derived.files
+        &self.derived.data.files
     }
 
     /// The components of a configuration that have the length one together, as those of a unit quaternion have: where
     /// they are among all.
     pub fn unit_components(&self) -> &[Range<usize>] {
-        &self.derived.unit_components
+        &self.derived.data.unit_components
     }
 
     /// The scene in words: names of coordinates, speeds, inputs, frames, joints and contacts.
     pub fn description(&self) -> &Description {
-        &self.derived.description
+        &self.derived.data.description
+    }
+
+    /// Contacts, ranges and dry joints, in the order of their rows.
+    pub fn contacts(&self) -> &'static [Contact] {
+        self.derived.contacts
     }
 
     /// The parameters: the fields of the struct; a body is three of them, `arm.mass`, `arm.center_of_mass`,
     /// `arm.inertia`.
     pub fn parameters(&self) -> &[Parameter] {
-        &self.derived.parameters.list
+        &self.derived.data.parameters.list
     }
 
     /// The names of the methods.
     pub fn methods(&self) -> impl Iterator<Item = &str> {
-        self.derived.methods.iter().map(|program| program.name.as_str())
+        self.derived.data.methods.iter().map(|program| program.name.as_str())
     }
 
     /// The arguments of a method, the constants left out: the name of each, and those of its components.
@@ -224,7 +238,7 @@ impl Model {
     /// # Errors
     /// [`CallError::NoMethod`].
     pub fn arguments(&self, method: &str) -> Result<&[Argument], CallError> {
-        Ok(&self.derived.methods[self.method(method)?].arguments[1..])
+        Ok(&self.derived.data.methods[self.method(method)?].arguments[1..])
     }
 
     /// The results of a method: numbers, vectors and matrices, one after another; matrices row after row.
@@ -232,13 +246,13 @@ impl Model {
     /// # Errors
     /// [`CallError::NoMethod`].
     pub fn results(&self, method: &str) -> Result<&[Results], CallError> {
-        Ok(&self.derived.methods[self.method(method)?].results)
+        Ok(&self.derived.data.methods[self.method(method)?].results)
     }
 
     pub(crate) fn method(&self, name: &str) -> Result<usize, CallError> {
         // One program with two names, as of compiled kernels.
         let own = if name == "inverse_dynamics" { "gauss_residual" } else { name };
-        let found = self.derived.methods.iter().position(|program| program.name == own);
+        let found = self.derived.data.methods.iter().position(|program| program.name == own);
         found.ok_or_else(|| CallError::NoMethod {
             name: name.to_owned(),
             known: self.methods().map(str::to_owned).collect(),
@@ -248,7 +262,7 @@ impl Model {
 
 /// The struct of a robot's file, with a line for each clause.
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
-fn of_file(format: &str, path: &Path, clauses: &[&str]) -> String {
+pub(crate) fn of_file(format: &str, path: &Path, clauses: &[&str]) -> String {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let clauses: String = clauses.iter().map(|clause| format!("\n    {clause},")).collect();
     format!("#[gauss({format} = {:?},{clauses}\n)]\nstruct Robot;\n", path.to_string_lossy())

@@ -1,18 +1,42 @@
 //! Names of models that outlive them.
 
 use std::collections::HashSet;
+use std::hash::Hash;
 use std::sync::{Mutex, PoisonError};
 
-/// A name, kept once as long as the process runs: those in messages of the runtime, and of classes of Python, are not
-/// freed.
-pub fn kept(name: &str) -> &'static str {
-    static NAMES: Mutex<Option<HashSet<&'static str>>> = Mutex::new(None);
-    let mut names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
-    let names = names.get_or_insert_default();
-    if let Some(known) = names.get(name) {
-        return known;
+use gauss_runtime::contact::Contact;
+
+/// Values of which each is stored once as long as the process runs: those in messages of the runtime, and of classes of
+/// Python, are not freed.
+struct Pool<T: ?Sized + 'static>(Mutex<Option<HashSet<&'static T>>>);
+
+impl<T: ?Sized + Eq + Hash> Pool<T> {
+    fn of(&self, value: &T, own: impl FnOnce() -> Box<T>) -> &'static T {
+        let mut values = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let values = values.get_or_insert_default();
+        if let Some(known) = values.get(value) {
+            return known;
+        }
+        let stored: &'static T = Box::leak(own());
+        values.insert(stored);
+        stored
     }
-    let kept: &'static str = Box::leak(name.to_owned().into_boxed_str());
-    names.insert(kept);
-    kept
+}
+
+/// A name for as long as the process runs.
+pub fn kept(name: &str) -> &'static str {
+    static NAMES: Pool<str> = Pool(Mutex::new(None));
+    NAMES.of(name, || name.into())
+}
+
+/// Axes of a parameter for as long as the process runs.
+pub fn kept_axes(axes: &[usize]) -> &'static [usize] {
+    static AXES: Pool<[usize]> = Pool(Mutex::new(None));
+    AXES.of(axes, || axes.into())
+}
+
+/// A list of contacts for as long as the process runs.
+pub fn kept_contacts(list: &[Contact]) -> &'static [Contact] {
+    static LISTS: Pool<[Contact]> = Pool(Mutex::new(None));
+    LISTS.of(list, || list.into())
 }

@@ -48,8 +48,15 @@ pub enum NoSystem {
         /// The room that was asked for.
         found: [usize; 3],
     },
-    /// The model has no equations of motion, more rotations than a system has, or constraints where the type says that
-    /// it has none, or none where it says that it has some.
+    /// The model has more rows of contacts than the system has room for.
+    Rows {
+        /// The rows of the model.
+        expected: usize,
+        /// The room that was asked for.
+        found: usize,
+    },
+    /// The model has no equations of motion, more rotations than a system has, or constraints or contacts where the type
+    /// says that it has none, or none where it says that it has some.
     Has(&'static str),
 }
 
@@ -61,6 +68,9 @@ impl fmt::Display for NoSystem {
                     f,
                     "the model has {q} numbers of the configuration, {z} speeds and {u} inputs, and {found:?} are asked for"
                 )
+            }
+            Self::Rows { expected, found } => {
+                write!(f, "the model has {expected} rows of contacts, and room for {found} is asked for")
             }
             Self::Has(what) => write!(f, "the model has {what}"),
         }
@@ -76,7 +86,7 @@ impl std::error::Error for NoSystem {}
 /// all errors: tolerances times [`share`](Self::share) leave these out. A call costs what a call of a [`Method`] costs:
 /// some nanoseconds beside the code.
 ///
-/// Contacts are open: the forces of contacts are those of runs of compiled kernels. A velocity knows of what groups its
+/// A model with contacts is a [`SystemWithContacts`](crate::SystemWithContacts). A velocity knows of what groups its
 /// configuration is, which the vectors of [`Linearization`] do not: `error_matrix` of it is NaN.
 #[derive(Clone, Copy, Debug)]
 pub struct System<'k, const Q: usize, const Z: usize, I, const CONSTRAINED: bool = false> {
@@ -84,6 +94,7 @@ pub struct System<'k, const Q: usize, const Z: usize, I, const CONSTRAINED: bool
     groups: Groups,
     sizes: Sizes,
     smoothness: Smoothness,
+    keeps_energy: bool,
     inputs: std::marker::PhantomData<I>,
 }
 
@@ -96,30 +107,48 @@ struct Sizes {
     multipliers: usize,
 }
 
-/// Methods by name, each with whether every model has it.
-const METHODS: [(&str, bool); 18] = [
-    ("kinematics", true),
-    ("acceleration", true),
-    ("momentum", true),
-    ("velocity", true),
-    ("momentum_rate", true),
-    ("mass_matrix", true),
-    ("kinetic_energy", true),
-    ("potential_energy", true),
-    ("gauss_residual", true),
-    ("constraint_function", true),
-    ("configuration_rates", false),
-    ("regularity", false),
-    ("linearize", false),
-    ("multipliers", false),
-    ("position_residual", false),
-    ("velocity_residual", false),
-    ("position_correction", false),
-    ("velocity_correction", false),
+/// Which models have a method.
+#[derive(Clone, Copy, PartialEq)]
+enum Of {
+    All,
+    Some,
+    /// Those with contacts, of whose systems they are.
+    Contacts,
+}
+
+/// Methods by name, each with the models that have it.
+const METHODS: [(&str, Of); 27] = [
+    ("kinematics", Of::All),
+    ("acceleration", Of::All),
+    ("momentum", Of::All),
+    ("velocity", Of::All),
+    ("momentum_rate", Of::All),
+    ("mass_matrix", Of::All),
+    ("kinetic_energy", Of::All),
+    ("potential_energy", Of::All),
+    ("gauss_residual", Of::All),
+    ("constraint_function", Of::All),
+    ("configuration_rates", Of::Some),
+    ("regularity", Of::Some),
+    ("linearize", Of::Some),
+    ("multipliers", Of::Some),
+    ("position_residual", Of::Some),
+    ("velocity_residual", Of::Some),
+    ("position_correction", Of::Some),
+    ("velocity_correction", Of::Some),
+    ("gaps", Of::Contacts),
+    ("contact_rates", Of::Contacts),
+    ("contact_jacobian", Of::Contacts),
+    ("contact_frames", Of::Contacts),
+    ("friction", Of::Contacts),
+    ("restitution", Of::Contacts),
+    ("impulse_response", Of::Contacts),
+    ("impulse_dynamics", Of::Contacts),
+    ("impulse_velocities", Of::Contacts),
 ];
 
 /// The place of a method in the list.
-const fn place_of(name: &str) -> usize {
+pub(crate) const fn place_of(name: &str) -> usize {
     let mut place = 0;
     while place < METHODS.len() {
         let (own, name, mut k) = (METHODS[place].0.as_bytes(), name.as_bytes(), 0);
@@ -140,24 +169,25 @@ impl Kernel {
     /// compiled.
     ///
     /// # Errors
-    /// Less room than the model needs; constraints.
+    /// Less room than the model needs; constraints; contacts, which [`without_contacts`](Self::without_contacts) leaves
+    /// out.
     pub fn system<const Q: usize, const Z: usize, I: Inputs>(&self) -> Result<System<'_, Q, Z, I>, NoSystem> {
-        System::new(self)
+        System::new(self, false)
     }
 
     /// The same of a model with constraints, onto which runs project states.
     ///
     /// # Errors
-    /// Less room than the model needs; no constraints.
+    /// Less room than the model needs; no constraints; contacts.
     pub fn constrained_system<const Q: usize, const Z: usize, I: Inputs>(
         &self,
     ) -> Result<System<'_, Q, Z, I, true>, NoSystem> {
-        System::new(self)
+        System::new(self, false)
     }
 }
 
 impl<'k, const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> System<'k, Q, Z, I, CONSTRAINED> {
-    fn new(kernel: &'k Kernel) -> Result<Self, NoSystem> {
+    pub(crate) fn new(kernel: &'k Kernel, with_contacts: bool) -> Result<Self, NoSystem> {
         const { assert!(MOST_GROUPS == 31, "the message below names it") };
         let groups = kernel.groups.ok_or(NoSystem::Has("more than 31 rotations and poses"))?;
         let model = kernel.model();
@@ -166,15 +196,23 @@ impl<'k, const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> Sys
             (false, true) => return Err(NoSystem::Has("no constraints: `system` is for it")),
             _ => {}
         }
+        match (kernel.contacts().is_empty(), with_contacts) {
+            (false, false) => {
+                return Err(NoSystem::Has("contacts: `contact_system` has them, `without_contacts()` leaves them out"));
+            }
+            (true, true) => return Err(NoSystem::Has("no contacts: `system` is for it")),
+            _ => {}
+        }
         let mut methods = [None; METHODS.len()];
-        for (own, (name, always)) in methods.iter_mut().zip(METHODS) {
+        let wanted = methods.iter_mut().zip(METHODS).filter(|(_, (_, of))| *of != Of::Contacts || with_contacts);
+        for (own, (name, of)) in wanted {
             *own = kernel.method(name).ok();
-            if own.is_none() && always {
+            if own.is_none() && of == Of::All {
                 return Err(NoSystem::Has("no equations of motion"));
             }
         }
         let acceleration = model.method("acceleration").map_err(|_| NoSystem::Has("no equations of motion"))?;
-        let program = &model.derived.methods[acceleration];
+        let program = &model.derived.data.methods[acceleration];
         let counts: Vec<usize> = program.arguments[2..].iter().map(|argument| argument.components.len()).collect();
         let [q, z, u] = counts[..] else { return Err(NoSystem::Has("no equations of motion")) };
         let multipliers = methods[place_of("multipliers")].map_or(0, |method: Method<'_>| method.outputs());
@@ -187,7 +225,8 @@ impl<'k, const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> Sys
             program::Smoothness::Jumps => Smoothness::Jumps,
         };
         let sizes = Sizes { configuration: q, speeds: z, inputs: u, multipliers };
-        Ok(Self { methods, groups, sizes, smoothness, inputs: std::marker::PhantomData })
+        let keeps_energy = model.description().keeps_energy;
+        Ok(Self { methods, groups, sizes, smoothness, keeps_energy, inputs: std::marker::PhantomData })
     }
 
     /// The root of the part of the room for increments and speeds that the model fills: the factor of tolerances with
@@ -209,15 +248,15 @@ impl<'k, const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> Sys
     }
 
     /// The numbers of the model among these.
-    fn own<'a>(&self, q: &'a MixedConfiguration<Q>) -> &'a [f64] {
+    pub(crate) fn own<'a>(&self, q: &'a MixedConfiguration<Q>) -> &'a [f64] {
         &q.as_slice()[..self.sizes.configuration]
     }
 
-    fn speeds<'a>(&self, z: &'a SVector<f64, Z>) -> &'a [f64] {
+    pub(crate) fn speeds<'a>(&self, z: &'a SVector<f64, Z>) -> &'a [f64] {
         &z.as_slice()[..self.sizes.speeds]
     }
 
-    fn inputs<'a>(&self, input: &'a I) -> &'a [f64] {
+    pub(crate) fn inputs<'a>(&self, input: &'a I) -> &'a [f64] {
         &input.numbers()[..self.sizes.inputs]
     }
 
@@ -225,8 +264,27 @@ impl<'k, const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> Sys
         &residual.as_slice()[..self.sizes.multipliers]
     }
 
+    /// Number of the model's own speeds.
+    pub(crate) fn degrees_of_freedom(&self) -> usize {
+        self.sizes.speeds
+    }
+
+    /// Whether the model has the method at that place of the list.
+    pub(crate) fn has(&self, method: usize) -> bool {
+        self.methods[method].is_some()
+    }
+
+    /// The results of a method that the model has, one after another; none of others.
+    pub(crate) fn numbers(&self, method: usize, arguments: &[&[f64]]) -> Vec<f64> {
+        let Some(method) = self.methods[method] else { return Vec::new() };
+        let mut numbers = vec![f64::NAN; method.outputs()];
+        let called = method.call(arguments, &mut numbers);
+        debug_assert_eq!(called, Ok(()));
+        numbers
+    }
+
     /// The results of the method at that place of the list, and zeros.
-    fn vector<const N: usize>(&self, method: usize, arguments: &[&[f64]]) -> SVector<f64, N> {
+    pub(crate) fn vector<const N: usize>(&self, method: usize, arguments: &[&[f64]]) -> SVector<f64, N> {
         let mut results = SVector::<f64, N>::zeros();
         let called = self.methods[method].is_some_and(|method| {
             let own = &mut results.as_mut_slice()[..method.outputs().min(N)];
@@ -299,11 +357,11 @@ linearized!(4 8, 8 16, 16 32, 32 64, 64 128);
 
 /// Results of a method by its name, which is looked up when this is compiled.
 macro_rules! results {
-    ($self:ident.$kind:ident($name:literal, $($argument:expr),*)) => {
-        $self.$kind(const { place_of($name) }, &[$($argument),*])
+    ($self:ident$(.$part:ident)+($name:literal, $($argument:expr),*)) => {
+        $self$(.$part)+(const { $crate::system::place_of($name) }, &[$($argument),*])
     };
 }
-
+pub(crate) use results;
 impl<const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> GaussSystem
     for System<'_, Q, Z, I, CONSTRAINED>
 {
@@ -318,6 +376,10 @@ impl<const Q: usize, const Z: usize, I: Inputs, const CONSTRAINED: bool> GaussSy
 
     fn smoothness(&self) -> Smoothness {
         self.smoothness
+    }
+
+    fn keeps_energy(&self) -> bool {
+        self.keeps_energy
     }
 
     fn kinematics(&self, t: f64, q: &MixedConfiguration<Q>, z: &SVector<f64, Z>) -> MixedVector<Q> {

@@ -59,7 +59,7 @@ mod of_runs {
         }
 
         /// The same, with the point, the normal and the tangents of contacts of which the kernel does not know them:
-        /// those of a contact, by its place in [`CONTACTS`](ContactSystem::CONTACTS), at a state. A contact of which
+        /// those of a contact, by its place in [`contacts`](ContactSystem::contacts), at a state. A contact of which
         /// they are not always known is not drawn.
         #[must_use]
         pub fn contacts_at<'k>(
@@ -72,7 +72,7 @@ mod of_runs {
         where
             S: 'k,
         {
-            for (n, contact) in S::CONTACTS.iter().enumerate() {
+            for (n, contact) in kernel.contacts().iter().enumerate() {
                 let frame = |s: &Sample<S>| kernel.contact_frame(n, s.t, &s.q).or_else(|| place(n, s));
                 let Some(frames) = self.samples.iter().map(frame).collect::<Option<Vec<_>>>() else { continue };
                 if let Some(plane) = plane(kernel, n, &self.samples, &frames)
@@ -104,7 +104,7 @@ mod of_runs {
         samples: &[Sample<S>],
         frames: &[ContactFrame<f64>],
     ) -> Option<Plane> {
-        if S::CONTACTS[contact].bodies[1].is_some() || !S::CONTACTS[contact].has_gap() {
+        if kernel.contacts()[contact].bodies[1].is_some() || !S::CONTACTS[contact].has_gap() {
             return None;
         }
         let seen = samples.iter().zip(frames).map(|(s, frame)| {

@@ -1,6 +1,6 @@
 //! A model: a scene with its equations.
 
-use gauss_jit::Notation;
+use gauss_jit::{Cache, Notation};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -26,17 +26,23 @@ impl Model {
     /// The model of the struct in a text.
     #[staticmethod]
     fn of_text(py: Python<'_>, source: &str) -> PyResult<Self> {
-        let derived = py.detach(|| gauss_jit::Model::from_source(source));
+        let derived = py.detach(|| match Cache::of_user() {
+            Some(cache) => cache.from_source(source),
+            None => gauss_jit::Model::from_source(source),
+        });
         derived.map(|model| Self { model }).map_err(|mistakes| errors::scene(py, &mistakes))
     }
 
-    /// The model of a robot's file.
+    /// The model of a robot's file. `lasts`: whether the file will be there another time.
     #[staticmethod]
-    fn of_file(py: Python<'_>, format: &str, path: &str, clauses: Vec<String>) -> PyResult<Self> {
+    #[pyo3(signature = (format, path, clauses, lasts=true))]
+    fn of_file(py: Python<'_>, format: &str, path: &str, clauses: Vec<String>, lasts: bool) -> PyResult<Self> {
         let clauses: Vec<&str> = clauses.iter().map(String::as_str).collect();
-        let derived = py.detach(|| match format {
-            "urdf" => Some(gauss_jit::Model::from_urdf(path, &clauses)),
-            "mjcf" => Some(gauss_jit::Model::from_mjcf(path, &clauses)),
+        let derived = py.detach(|| match (format, Cache::of_user().filter(|_| lasts)) {
+            ("urdf", Some(cache)) => Some(cache.from_urdf(path, &clauses)),
+            ("mjcf", Some(cache)) => Some(cache.from_mjcf(path, &clauses)),
+            ("urdf", None) => Some(gauss_jit::Model::from_urdf(path, &clauses)),
+            ("mjcf", None) => Some(gauss_jit::Model::from_mjcf(path, &clauses)),
             _ => None,
         });
         let derived = derived.ok_or_else(|| PyValueError::new_err(format!("`{format}` is neither urdf nor mjcf")))?;

@@ -203,10 +203,3 @@ def test_what_is_not_there_is_refused(pendulum):
         pendulum.simulate([1.0], [0.0], (0, 1), method="taylor")
     with pytest.raises(ValueError, match="the method rosenbrock needs `#.gauss.linearize"):
         pendulum.simulate([1.0], [0.0], (0, 1), method="rosenbrock")
-    text = "coordinates(x, y), particle(mass = 1, position = [x, 0, y]), contact(floor, gap = y), gravity = 9.81"
-    ball = gauss.scene(text)()
-    for call in (ball.simulate, ball.ensemble):
-        with pytest.raises(ValueError, match="forces of contacts are those of compiled kernels"):
-            call([[0.0, 1.0]] if call == ball.ensemble else [0.0, 1.0], [0.0, 0.0], (0, 1))
-    run = ball.without_contacts().simulate([0, 1], [0, 0], (0, 1))
-    np.testing.assert_allclose(run.q[-1], [0, 1 - 9.81 / 2], atol=1e-9)

@@ -62,7 +62,7 @@ impl Kernel {
 
     /// Whether contacts act, of which only runs know the forces.
     pub fn touches(&self) -> bool {
-        !self.open && !self.scene().contact_names().is_empty()
+        !self.open && !self.scene().contacts().is_empty()
     }
 
     /// Refuses to answer what forces do where those of contacts are among them.
@@ -70,11 +70,10 @@ impl Kernel {
         if !self.touches() {
             return Ok(());
         }
-        let contacts = self.scene().contact_names();
-        let others = if self.scene().contacts().is_empty() { "" } else { " `in_contact` and `simulate` have them;" };
+        let contacts = self.contact_names();
         let message = format!(
-            "{what} has no forces of contacts, and the scene has {}:{others} with `{way}` all gaps are open, and nothing \
-             rubs",
+            "{what} has no forces of contacts, and the scene has {}: `in_contact` and `simulate` have them; with `{way}` \
+             all gaps are open, and nothing rubs",
             contacts.join(", ")
         );
         Err(errors::new(py, "ContactError", message, ("contacts", contacts)))
@@ -171,7 +170,7 @@ impl Kernel {
     /// The names of contacts, ranges and dry joints.
     #[getter]
     fn contact_names(&self) -> Vec<&'static str> {
-        self.scene().contact_names()
+        self.scene().contacts().iter().map(|contact| contact.name).collect()
     }
 
     /// The parameters by name.

@@ -38,10 +38,6 @@ pub trait AnyScene: Send + Sync {
     fn joints(&self) -> &[&'static str];
     /// Contacts, ranges and dry joints, of which runs have the forces.
     fn contacts(&self) -> &[Contact];
-    /// The names of all that touches or rubs.
-    fn contact_names(&self) -> Vec<&'static str> {
-        self.contacts().iter().map(|contact| contact.name).collect()
-    }
     /// Whether kernels have the method.
     fn has(&self, id: Id) -> bool;
     /// The numbers of q and z at rest in the origin.

@@ -122,7 +122,8 @@ macro_rules! scene {
                     steps: &mut $crate::Methods<Self::Single>,
                 ) {
                     let _ = (&single, &packed, &steps);
-                    $(steps.$step();)*
+                    type Kernel = $crate::__in_scalar!($kernel [$($scalar)?] ::core::primitive::f64);
+                    $($crate::__step!(steps.$step Kernel);)*
                     $(
                         single.$offer();
                         packed.$offer();
@@ -159,6 +160,18 @@ macro_rules! __from_numbers {
                 Self { $($field: <$ty as $crate::Parameter<$scalar>>::read(numbers)),* }
             }
         }
+    };
+}
+
+/// A way of running: contacts are said with their list.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __step {
+    ($steps:ident.contacts $kernel:ident) => {
+        $steps.contacts($kernel::CONTACTS)
+    };
+    ($steps:ident.$step:ident $kernel:ident) => {
+        $steps.$step()
     };
 }
 

@@ -7,6 +7,9 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 /// The pool, and the process whose threads it has.
 static POOL: Mutex<Option<(u32, &'static ThreadPool)>> = Mutex::new(None);
 
+/// Steps with contacts hand matrices of many rows on by value.
+const STACK: usize = 16 << 20;
+
 /// The threads of this process, as many as `RAYON_NUM_THREADS` says, or one for each core.
 ///
 /// A process that was forked has no thread but the one that forked it: work for the pool of its parent would wait for
@@ -22,7 +25,7 @@ pub fn pool() -> Result<&'static ThreadPool, ThreadPoolBuildError> {
         _ => {}
     }
     // Not while it is locked: a fork in the meantime would have the lock for ever.
-    let made = ThreadPoolBuilder::new().build()?;
+    let made = ThreadPoolBuilder::new().stack_size(STACK).build()?;
     let mut known = known();
     match *known {
         // Another thread was faster.

@@ -147,7 +147,7 @@ impl<S: GaussSystem> Table<Sample<S>> {
     where
         S: ContactSystem,
     {
-        let names = S::CONTACTS.iter().flat_map(|contact| {
+        let names = system.contacts().iter().flat_map(|contact| {
             let drills = contact.drills;
             let drilling = ["spin", "drilling"].map(|what| format!("{} {what}", contact.name));
             let of_tangent = move |k: usize| if contact.tangents > 1 { format!(" {}", k + 1) } else { String::new() };
@@ -163,7 +163,7 @@ impl<S: GaussSystem> Table<Sample<S>> {
                 (system.gaps(sample.t, &sample.q), system.contact_rates(sample.t, &sample.q, &sample.z));
             let forces = forces(sample);
             let force = |row: usize| forces.as_ref().map_or(f64::NAN, |rows| rows.component(row).lane(0));
-            for (i, contact) in S::CONTACTS.iter().enumerate() {
+            for (i, contact) in system.contacts().iter().enumerate() {
                 if contact.has_gap() {
                     put(gaps.component(i).lane(0));
                     put(force(contact.normal));

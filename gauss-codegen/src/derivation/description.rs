@@ -21,7 +21,8 @@ pub fn description(derived: &Derived<'_, '_>) -> Description {
         inputs,
         frames: derived.frames().iter().map(|frame| frame.unraw().to_string()).collect(),
         joints: item.wanted.reactions.iter().map(|joint| joint.name.unraw().to_string()).collect(),
-        contacts: derived.subject.system.scene.contacts.iter().map(|contact| contact.name.clone()).collect(),
+        contacts: derived.subject.contacts(),
+        keeps_energy: derived.keeps_energy(),
         remarks: remarks.map(|own| Remark { text: without_rust(&own.text), ignored: own.ignored }).collect(),
         is_constrained: derived.subject.can_drift,
     }

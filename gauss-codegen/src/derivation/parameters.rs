@@ -91,7 +91,7 @@ fn of_field(field: &Field) -> impl Iterator<Item = Parameter> {
     parts(field.shape).iter().map(|(part, axes)| Parameter {
         name: format!("{}{part}", field.ident.unraw()),
         count: axes.iter().product(),
-        axes,
+        axes: axes.to_vec(),
         unit: field.unit.clone(),
         documentation: field.documentation.clone(),
     })

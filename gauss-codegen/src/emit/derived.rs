@@ -183,6 +183,11 @@ impl<'a, 'g> Derived<'a, 'g> {
         of_states.map_or(of_loads, |own| own.max(of_loads))
     }
 
+    /// Whether nothing but contacts can raise the energy.
+    pub fn keeps_energy(&self) -> bool {
+        self.formal().inputs.is_empty() && self.subject.system.keeps_energy()
+    }
+
     /// The module of the runtime that generated code names, with the version that both were made for.
     pub fn private(&self) -> TokenStream {
         self.private.clone()

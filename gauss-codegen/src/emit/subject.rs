@@ -5,6 +5,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::algebra::Expr;
+use crate::description::ContactDescription;
 use crate::mechanics::{Constraints, Coordinate, Method, System};
 use crate::translate::Provenance;
 
@@ -144,6 +145,20 @@ impl<'g> Subject<'_, 'g> {
             Coordinate::Plane { .. } => quote!(#private::unmoved_in_plane()),
         });
         self.configuration_of(private, &values.collect::<Vec<_>>())
+    }
+
+    /// The contacts in words.
+    pub fn contacts(&self) -> Vec<ContactDescription> {
+        let contacts = self.system.scene.contacts.iter().map(|contact| ContactDescription {
+            name: contact.name.clone(),
+            has_gap: contact.gap.is_some(),
+            tangents: contact.slips.len() - usize::from(contact.drills),
+            drills: contact.drills,
+            rolls_on: contact.rolls_on,
+            bodies: contact.bodies.clone(),
+            axes: contact.frame.as_ref().map_or(0, |frame| frame.axes.len()),
+        });
+        contacts.collect()
     }
 
     /// Places of the components of an increment of the configuration among those in the order of the coordinates:

@@ -185,7 +185,7 @@ where
 {
     let columns = kernel.contact_jacobian(0.0, q);
     let mut seen = 0;
-    for (i, contact) in K::CONTACTS.iter().enumerate() {
+    for (i, contact) in kernel.contacts().iter().enumerate() {
         let frame = kernel.contact_frame(i, 0.0, q).unwrap();
         let rows: Vec<f64> = contact.rows().map(|row| 0.7 - 0.4 * (row % 5) as f64).collect();
         let force = frame.force(&rows);

@@ -24,6 +24,6 @@ impl Account {
         kernel: &K,
         (t, q, z): (f64, &K::Configuration, &K::Speeds),
     ) -> Option<Self> {
-        K::KEEPS_ENERGY.then(|| Self { low: kernel.energy(t, q, z), most: kernel.kinetic_energy(t, q, z) })
+        kernel.keeps_energy().then(|| Self { low: kernel.energy(t, q, z), most: kernel.kinetic_energy(t, q, z) })
     }
 }

@@ -7,7 +7,7 @@
 
 use alloc::vec::Vec;
 
-use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::contact::{Contact, ContactSystem};
 use gauss_runtime::dual::Dual;
 use gauss_runtime::real::Real;
 
@@ -35,6 +35,7 @@ enum Equation {
 
 /// The contacts that act, with what their equations are made of.
 pub(super) struct Active<'a, K: ContactSystem> {
+    pub(super) contacts: &'static [Contact],
     pub(super) delassus: &'a K::Delassus,
     /// Rates without impulses, of normals without what an impact passes on.
     pub(super) b: Vec<K::Scalar>,
@@ -68,24 +69,25 @@ impl<const N: usize, K: ContactSystem<Scalar = Dual<N>>> Active<'_, K> {
     /// The slip of a contact.
     pub(super) fn slip(&self, contact: usize, impulses: &[Dual<N>]) -> [Dual<N>; 3] {
         let mut slip = [Dual::constant(0.0); 3];
-        tangents(&K::CONTACTS[contact]).zip(&mut slip).for_each(|(row, s)| *s = self.rate(row, impulses));
+        tangents(&self.contacts[contact]).zip(&mut slip).for_each(|(row, s)| *s = self.rate(row, impulses));
         slip
     }
 
     /// The impulse that friction is a multiple of: of the normal, or of dry friction the length of the step.
     pub(super) fn pressed(&self, contact: usize, impulses: &[Dual<N>]) -> Dual<N> {
-        presses::<K>(&K::CONTACTS[contact]).map_or(Dual::constant(self.h), |normal| impulses[normal])
+        presses(self.contacts, &self.contacts[contact]).map_or(Dual::constant(self.h), |normal| impulses[normal])
     }
 
     /// The largest diagonal entry of friction.
     pub(super) fn scale(&self, contact: usize) -> f64 {
-        tangents(&K::CONTACTS[contact]).map(|row| self.delassus[(row, row)].value).fold(0.0, f64::max)
+        tangents(&self.contacts[contact]).map(|row| self.delassus[(row, row)].value).fold(0.0, f64::max)
     }
 
     /// The equations of given modes.
     fn equations(&self, modes: &[Mode], impulses: &[Dual<N>]) -> (Vec<usize>, Vec<Equation>) {
         let (mut rows, mut equations) = (Vec::new(), Vec::new());
-        for (i, (contact, mode)) in K::CONTACTS.iter().zip(modes).enumerate().filter(|(_, (_, mode))| mode.is_closed())
+        for (i, (contact, mode)) in
+            self.contacts.iter().zip(modes).enumerate().filter(|(_, (_, mode))| mode.is_closed())
         {
             if contact.has_gap() {
                 rows.push(contact.normal);
@@ -140,14 +142,15 @@ impl<const N: usize, K: ContactSystem<Scalar = Dual<N>>> Active<'_, K> {
         let size = norm(&on_circle);
         let along = on_circle.map(|x| x / size);
         // Of the direction: what is across it, over the size of the slip.
-        let changes = tangents(&K::CONTACTS[contact]).enumerate().map(|(k, row)| {
+        let changes = tangents(&self.contacts[contact]).enumerate().map(|(k, row)| {
             let across = f64::from(u8::from(k == of)) - along[of] * along[k];
             across * weighted(k, d(row)) / size
         });
         let turns: f64 = changes.sum();
         let friction = -weighted(of, bounds.largest);
         let pressed = self.pressed(contact, impulses).value;
-        let by_normal = if presses::<K>(&K::CONTACTS[contact]) == Some(column) { friction * along[of] } else { 0.0 };
+        let by_normal =
+            if presses(self.contacts, &self.contacts[contact]) == Some(column) { friction * along[of] } else { 0.0 };
         let own = f64::from(u8::from(row == column));
         self.scale(contact) * (own - by_normal - pressed * friction * turns)
     }

@@ -218,8 +218,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
         let end = stepper.kept();
         impacts += first.impacts + second.impacts;
         // At the start what contacts do is not known yet.
-        let differs = !starts && (before.differs(&whole) || before.differs(&middle));
-        let changes = differs || middle.differs(&end) || whole.differs(&end) || impacts > 0;
+        let count = stepper.kernel.contacts().len();
+        let differs = !starts && (before.differs(&whole, count) || before.differs(&middle, count));
+        let changes = differs || middle.differs(&end, count) || whole.differs(&end, count) || impacts > 0;
         stepper.impulses = stepper.impulses.add_scaled(1.0, &of_first);
         let parts = if first.parts + second.parts > 0 { first.parts.max(1) + second.parts.max(1) } else { 0 };
         let report = StepReport { parts, ..first.and(second) };
@@ -277,7 +278,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
 /// Opens the contacts that an impact has parted: in the next step, of whatever length, each closes only where its gap
 /// does.
 fn part<K: ContactSystem<Scalar = f64>>(stepper: &mut ContactStepper<'_, K>) {
-    for (i, contact) in K::CONTACTS.iter().enumerate() {
+    for (i, contact) in stepper.kernel.contacts().iter().enumerate() {
         if contact.has_gap() && !stepper.rests[i] {
             stepper.modes[i] = Mode::Open;
         }

@@ -32,7 +32,8 @@ pub(super) struct NotClosed {
 }
 
 /// The bounds of a projection.
-pub(super) struct Bounds<K: ContactSystem> {
+pub(super) struct Bounds<'m, K: ContactSystem> {
+    kernel: &'m K,
     /// The impulses of pulls, at most.
     pulls: K::Gaps,
     /// Half of the digits of places: what moves by less, or is open by less, is where it was.
@@ -41,18 +42,18 @@ pub(super) struct Bounds<K: ContactSystem> {
     pub(super) rounding: f64,
 }
 
-impl<T: Real, K: ContactSystem<Scalar = T>> Bounds<K> {
-    pub(super) fn new(touched: &Touched<'_, K>, delassus: &K::Delassus, magnitude: T) -> Self {
+impl<'m, T: Real, K: ContactSystem<Scalar = T>> Bounds<'m, K> {
+    pub(super) fn new(kernel: &'m K, touched: &Touched<'_, K>, delassus: &K::Delassus, magnitude: T) -> Self {
         let near = T::from_f64(Real::sqrt(f64::EPSILON)) * magnitude;
         let mut pulls = K::Gaps::zero();
-        for (i, contact) in gaps_of::<K>().filter(|(i, _)| touched.closed[*i]) {
+        for (i, contact) in gaps_of(kernel).filter(|(i, _)| touched.closed[*i]) {
             let (row, least) = (contact.normal, T::from_f64(f64::MIN_POSITIVE));
             let positive = |x: T| larger(x, T::zero());
             let (impulse, rate) = (positive(touched.impulses.component(row)), positive(touched.rates.component(row)));
             let half = T::from_f64(0.5 * touched.h);
             pulls.set_component(i, half * impulse + (half * rate + near) / larger(delassus[(row, row)], least));
         }
-        Self { pulls, near, rounding: f64::EPSILON * value(magnitude) }
+        Self { kernel, pulls, near, rounding: f64::EPSILON * value(magnitude) }
     }
 
     /// The least impulse of a row, after those that were.
@@ -73,12 +74,12 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Bounds<K> {
             let row = contact.normal;
             lockstep.less(moves.component(row), self.lowest(i, row, done).min(T::zero()))
         };
-        if !gaps_of::<K>().any(beyond) {
+        if !gaps_of(self.kernel).any(beyond) {
             return false;
         }
-        let asked = gaps_of::<K>().map(|(i, contact)| alone::<K>(delassus, gap(i).abs(), contact.normal));
+        let asked = gaps_of(self.kernel).map(|(i, contact)| alone::<K>(delassus, gap(i).abs(), contact.normal));
         let asked = T::from_f64(ALONE) * asked.fold(T::zero(), larger);
-        !lockstep.at_most(farthest::<K>(delassus, moves), larger(self.near, asked))
+        !lockstep.at_most(farthest(self.kernel, delassus, moves), larger(self.near, asked))
     }
 
     /// Refuses motions that are larger than what gaps ask for, each alone, and than pulls, which have their bounds.
@@ -88,7 +89,7 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Bounds<K> {
         delassus: &K::Delassus,
         (done, entries): (&K::ContactRows, &K::Gaps),
     ) -> Result<(), NotClosed> {
-        let (zero, moved) = (T::zero(), farthest::<K>(delassus, done));
+        let (zero, moved) = (T::zero(), farthest(self.kernel, delassus, done));
         if lockstep.at_most(moved, self.near) {
             return Ok(());
         }
@@ -97,16 +98,16 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Bounds<K> {
             let pulled = -impulse * delassus[(row, row)];
             alone::<K>(delassus, T::select_lt(impulse, zero, pulled, entries.component(i)), row)
         };
-        let sum = gaps_of::<K>().map(each).fold(zero, |sum, alone| sum + alone);
+        let sum = gaps_of(self.kernel).map(each).fold(zero, |sum, alone| sum + alone);
         let allowed = self.near + T::from_f64(TOGETHER) * sum;
         if lockstep.at_most(moved, allowed) {
             return Ok(());
         }
         let strength = |i: usize| {
-            let row = K::CONTACTS[i].normal;
+            let row = self.kernel.contacts()[i].normal;
             value(done.component(row) * delassus[(row, row)])
         };
-        let contact = gaps_of::<K>().map(|(i, _)| i).reduce(|a, b| if strength(b) > strength(a) { b } else { a });
+        let contact = gaps_of(self.kernel).map(|(i, _)| i).reduce(|a, b| if strength(b) > strength(a) { b } else { a });
         let gap = contact.map_or(0.0, |i| value(entries.component(i)));
         Err(NotClosed { contact, kind: ContactErrorKind::Displacement { gap, moved: value(moved) } })
     }
@@ -120,31 +121,32 @@ fn alone<K: ContactSystem>(delassus: &K::Delassus, gap: K::Scalar, row: usize) -
 }
 
 /// The largest distance by which impulses move a point of a contact.
-fn farthest<K: ContactSystem>(delassus: &K::Delassus, moves: &K::ContactRows) -> K::Scalar {
+fn farthest<K: ContactSystem>(kernel: &K, delassus: &K::Delassus, moves: &K::ContactRows) -> K::Scalar {
     let zero = K::Scalar::zero();
-    let moved = |row: usize| gap_after::<K>(delassus, zero, row, moves).abs();
+    let moved = |row: usize| gap_after(kernel, delassus, zero, row, moves).abs();
     (0..K::ContactRows::DIM).map(moved).fold(zero, larger)
 }
 
 /// A gap, or a place along a tangent, after impulses at all gaps.
 pub(super) fn gap_after<K: ContactSystem>(
+    kernel: &K,
     delassus: &K::Delassus,
     gap: K::Scalar,
     row: usize,
     moves: &K::ContactRows,
 ) -> K::Scalar {
-    let each = gaps_of::<K>().map(|(_, contact)| contact.normal);
+    let each = gaps_of(kernel).map(|(_, contact)| contact.normal);
     each.fold(gap, |sum, column| sum + delassus[(row, column)] * moves.component(column))
 }
 
 /// The contacts that have gaps.
-pub(super) fn gaps_of<K: ContactSystem>() -> impl Iterator<Item = (usize, &'static Contact)> {
-    K::CONTACTS.iter().enumerate().filter(|(_, contact)| contact.has_gap())
+pub(super) fn gaps_of<K: ContactSystem>(kernel: &K) -> impl Iterator<Item = (usize, &'static Contact)> + use<K> {
+    kernel.contacts().iter().enumerate().filter(|(_, contact)| contact.has_gap())
 }
 
 /// The contact whose gap has this row.
-pub(super) fn contact_at<K: ContactSystem>(row: usize) -> Option<usize> {
-    gaps_of::<K>().find(|(_, contact)| contact.normal == row).map(|(i, _)| i)
+pub(super) fn contact_at<K: ContactSystem>(kernel: &K, row: usize) -> Option<usize> {
+    gaps_of(kernel).find(|(_, contact)| contact.normal == row).map(|(i, _)| i)
 }
 
 /// Gaps that did not come to zero.
@@ -154,7 +156,7 @@ pub(super) fn not_closed(contact: Option<usize>, gap: f64) -> NotClosed {
 }
 
 /// The lowest gap that is below zero, or zero.
-pub(super) fn lowest_of<K: ContactSystem>(gaps: &K::Gaps) -> K::Scalar {
+pub(super) fn lowest_of<K: ContactSystem>(kernel: &K, gaps: &K::Gaps) -> K::Scalar {
     let smaller = |a: K::Scalar, b: K::Scalar| K::Scalar::select_lt(b, a, b, a);
-    gaps_of::<K>().map(|(i, _)| gaps.component(i)).fold(K::Scalar::zero(), smaller)
+    gaps_of(kernel).map(|(i, _)| gaps.component(i)).fold(K::Scalar::zero(), smaller)
 }

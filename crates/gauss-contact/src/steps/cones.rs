@@ -50,17 +50,17 @@ pub(crate) struct Laws<K: ContactSystem> {
 
 impl<T: Real, K: ContactSystem<Scalar = T>> Laws<K> {
     /// Cones that do not act yet, of friction in all rows. An error is the contact whose friction is no bound, with it.
-    pub(crate) fn new(h: f64, friction: &K::ContactRows) -> Result<Self, (usize, ContactErrorKind)> {
+    pub(crate) fn new(kernel: &K, h: f64, friction: &K::ContactRows) -> Result<Self, (usize, ContactErrorKind)> {
         let none = Cone { normal: None, pressed: None, first: 0, count: 0, friction: T::zero(), acts: false };
         let mut laws = Self { cones: Each::from_fn(|_| none), scales: Each::from_fn(|_| T::one()) };
-        for (i, contact) in K::CONTACTS.iter().enumerate() {
+        for (i, contact) in kernel.contacts().iter().enumerate() {
             if let Some(friction) = invalid(contact, friction) {
                 return Err((i, ContactErrorKind::InvalidFriction { friction }));
             }
             let rows = contact.friction_rows();
             let largest = rows.clone().map(|row| friction.component(row)).fold(T::zero(), larger);
             let normal = contact.has_gap().then_some(contact.normal);
-            let pressed = contact.rolls_on().map(|on| K::CONTACTS[on].normal).or(normal);
+            let pressed = contact.rolls_on().map(|on| kernel.contacts()[on].normal).or(normal);
             // 1 where there is none.
             let scale = |row: usize| T::select_lt(T::zero(), largest, friction.component(row) / largest, T::one());
             rows.clone().for_each(|row| laws.scales[row] = scale(row));

@@ -124,7 +124,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
                 D == TangentOf::<L>::DIM + L::Speeds::DIM
                     && K::Speeds::DIM == L::Speeds::DIM
                     && U == <L::Input as VectorSpace<Dual<N>>>::DIM
-                    && K::CONTACTS.len() == L::CONTACTS.len()
+                    && K::Gaps::DIM == L::Gaps::DIM
                     && K::ContactRows::DIM == L::ContactRows::DIM,
                 "the system in dual numbers is another one"
             );

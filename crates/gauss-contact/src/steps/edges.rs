@@ -47,6 +47,7 @@ impl fmt::Display for AtChange {
 
 /// Data of contacts in a step, in values.
 pub(super) struct Known<'a> {
+    pub(super) contacts: &'a [Contact],
     pub(super) gaps: &'a dyn Fn(usize) -> f64,
     pub(super) restitution: &'a dyn Fn(usize) -> f64,
     /// Rates before the step, and without impulses after it, row by row.
@@ -59,6 +60,7 @@ pub(super) struct Known<'a> {
 
 /// The first open gap that would just be brought to zero at the end of a step, or just not: gaps before that and after.
 pub(super) fn of_gaps<L: ContactSystem>(
+    kernel: &L,
     (before, after): (&L::Gaps, &L::Gaps),
     rests: &[bool],
     nothing: f64,
@@ -67,7 +69,7 @@ pub(super) fn of_gaps<L: ContactSystem>(
         let [before, after] = [before, after].map(|gaps| value(gaps.component(*i)));
         contact.has_gap() && !rests[*i] && if before < 0.0 { -before <= nothing } else { after <= nothing }
     };
-    let found = L::CONTACTS.iter().enumerate().find(at_edge);
+    let found = kernel.contacts().iter().enumerate().find(at_edge);
     found.map(|(_, contact)| AtChange { contact: contact.name, change: Change::OpenClosed })
 }
 
@@ -85,8 +87,8 @@ impl Known<'_> {
     }
 
     /// The first open gap that would just close; where no contact acts.
-    pub(super) fn in_flight<K: ContactSystem>(&self) -> Option<AtChange> {
-        let open = K::CONTACTS.iter().enumerate().filter(|(_, contact)| contact.has_gap());
+    pub(super) fn in_flight(&self) -> Option<AtChange> {
+        let open = self.contacts.iter().enumerate().filter(|(_, contact)| contact.has_gap());
         let mut at_zero =
             open.filter(|(i, contact)| self.ends_at_zero(*i, contact.normal, (self.free)(contact.normal)));
         at_zero.next().map(|(_, contact)| AtChange { contact: contact.name, change: Change::OpenClosed })
@@ -101,7 +103,7 @@ impl Known<'_> {
     ) -> Option<AtChange> {
         let find = |(i, mode): (usize, &Mode)| {
             let change = self.normal(i, mode, active, impulses).or_else(|| self.friction(i, mode, active, impulses));
-            change.map(|change| AtChange { contact: K::CONTACTS[i].name, change })
+            change.map(|change| AtChange { contact: self.contacts[i].name, change })
         };
         modes.iter().enumerate().find_map(find)
     }
@@ -113,7 +115,7 @@ impl Known<'_> {
         active: &Active<K>,
         impulses: &[Dual<N>],
     ) -> Option<Change> {
-        let contact = &K::CONTACTS[i];
+        let contact = &self.contacts[i];
         if !contact.has_gap() {
             return None;
         }
@@ -140,7 +142,7 @@ impl Known<'_> {
         active: &Active<K>,
         impulses: &[Dual<N>],
     ) -> Option<Change> {
-        let rows = K::CONTACTS[i].friction_rows();
+        let rows = self.contacts[i].friction_rows();
         let nothing = self.tolerance * rows.clone().map(|row| active.terms(row, impulses)).fold(0.0, f64::max);
         let edge = match mode {
             Mode::Sticks => {

@@ -157,6 +157,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
             let gaps = kernel.gaps(t, &state.q);
             let rates = [state.z, z].map(|z| kernel.contact_rates(middle.t, &middle.q, &z));
             let known = Known {
+                contacts: self.kernel.contacts(),
                 gaps: &|i| gaps.component(i).value,
                 restitution: &|_| 0.0,
                 before: &|row| rates[0].component(row).value,
@@ -164,7 +165,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
                 h: *h,
                 tolerance: same.tolerance,
             };
-            same.at_change = known.in_flight::<L>();
+            same.at_change = known.in_flight();
         }
         self.second_half(z)
     }
@@ -202,6 +203,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         if same.looks && same.at_change.is_none() {
             let e = kernel.restitution();
             let known = Known {
+                contacts: self.kernel.contacts(),
                 gaps: &|i| gaps.component(i).value,
                 restitution: &|i| e.component(i).value,
                 before: &|row| rates[0].component(row).value,
@@ -235,7 +237,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
             let passes = before.value <= nothing || motion::reversed(before.value, end, fastest) > 0.0;
             (contact.has_gap() && e.value > 0.0 && passes).then_some(-e * before)
         };
-        L::CONTACTS.iter().enumerate().map(of).collect()
+        self.kernel.contacts().iter().enumerate().map(of).collect()
     }
 
     /// The contacts that act, from friction and rates before the step and after it without impulses.
@@ -245,15 +247,16 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         (friction, dynamics): (&L::ContactRows, &'d ImpulseDynamics<L>),
         mut free: L::ContactRows,
     ) -> Active<'d, L> {
-        for (i, contact) in L::CONTACTS.iter().enumerate().filter(|(_, contact)| contact.has_gap()) {
+        for (i, contact) in self.kernel.contacts().iter().enumerate().filter(|(_, contact)| contact.has_gap()) {
             if let (true, Some(passed)) = (modes[i].is_closed(), passes[i]) {
                 free.set_component(contact.normal, free.component(contact.normal) - passed);
             }
         }
         Active {
+            contacts: self.kernel.contacts(),
             delassus: &dynamics.response.delassus,
             b: (0..L::ContactRows::DIM).map(|row| free.component(row)).collect(),
-            bounds: L::CONTACTS.iter().map(|contact| Bounds::of(contact, friction)).collect(),
+            bounds: self.kernel.contacts().iter().map(|contact| Bounds::of(contact, friction)).collect(),
             h: self.h,
         }
     }
@@ -268,19 +271,20 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
     ) -> Moved<L> {
         let (kernel, t) = (self.kernel, Dual::constant(self.t + self.h));
         let mut memory = vec![Dual::constant(0.0); Projection::<L>::MEMORY];
-        let mut projection = Projection::<L>::new(&mut memory);
+        let mut projection = Projection::new(kernel, &mut memory);
         let before = kernel.gaps(t, &q);
         let touched = Touched { closed: &taken.closed, impulses, rates, h: self.h };
         let closed = projection.close(kernel, (t, q, before), (&dynamics.response, motion::magnitude(&q)), &touched);
         let Closed { mut q, gaps, .. } = closed.map_err(|not_closed| not_closed.kind)?;
         if same.looks && same.at_change.is_none() {
             let nothing = same.tolerance * self.h * (1.0 + z.max_norm());
-            same.at_change = edges::of_gaps::<L>((&before, &gaps), &taken.rests, nothing);
+            same.at_change = edges::of_gaps(kernel, (&before, &gaps), &taken.rests, nothing);
         }
         let held = |(i, _): &(usize, &Contact)| projection.held[*i];
         let normals: Vec<usize> =
-            L::CONTACTS.iter().enumerate().filter(held).map(|(_, contact)| contact.normal).collect();
-        let gap_of = |row: usize| L::CONTACTS.iter().position(|contact| contact.normal == row && contact.has_gap());
+            self.kernel.contacts().iter().enumerate().filter(held).map(|(_, contact)| contact.normal).collect();
+        let gap_of =
+            |row: usize| self.kernel.contacts().iter().position(|contact| contact.normal == row && contact.has_gap());
         let gap = |gaps: &L::Gaps, row: usize| gap_of(row).map_or(Dual::constant(0.0), |i| gaps.component(i));
         let zero = L::Speeds::zero();
         let moved = self.cancelling((t, &q), dynamics, &normals, |row| gap(&gaps, row));
@@ -295,7 +299,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         let (mut z, rates) =
             projection.stop(kernel, (t, &q, z, rates), &dynamics.response, (mode, Dual::constant(0.0)));
         let stopped: Vec<usize> =
-            L::CONTACTS.iter().enumerate().flat_map(|(i, contact)| stopped(contact, &mode(i))).collect();
+            self.kernel.contacts().iter().enumerate().flat_map(|(i, contact)| stopped(contact, &mode(i))).collect();
         let passed = |row: usize| gap_of(row).and_then(|i| passes[i]).unwrap_or(Dual::constant(0.0));
         let by = self.cancelling((t, &q), dynamics, &stopped, |row| rates.component(row) - passed(row));
         z = z.add_scaled(Dual::constant(1.0), &by);

@@ -117,7 +117,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         let (kernel, t, end) = (self.kernel, self.t + h, &made.end);
         let (potential, kinetic) = (kernel.potential_energy(t, &end.q), kernel.kinetic_energy(t, &end.q, &end.z));
         let [taken, given] = if end.touches { self.work(h, end) } else { [0.0; 2] };
-        let of_law = if Self::rubs(&end.impulses) { taken.max(0.0) } else { 0.0 };
+        let of_law = if Self::rubs(self.kernel, &end.impulses) { taken.max(0.0) } else { 0.0 };
         let energy = potential + kinetic;
         let low = (low + of_law + given.max(0.0)).min(energy);
         let most = most.max(low - potential);
@@ -132,10 +132,10 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
     }
 
     /// Whether there is friction, without which no impact gives energy.
-    fn rubs(impulses: &K::ContactRows) -> bool {
+    fn rubs(kernel: &K, impulses: &K::ContactRows) -> bool {
         let normal = |contact: &Contact, row: usize| contact.has_gap() && row == contact.normal;
         let rubs =
             |contact: &Contact| contact.rows().any(|row| !normal(contact, row) && impulses.component(row) != 0.0);
-        K::CONTACTS.iter().any(rubs)
+        kernel.contacts().iter().any(rubs)
     }
 }

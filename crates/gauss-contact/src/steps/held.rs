@@ -118,10 +118,16 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> HeldSteps<K, M> {
     }
 
     /// The rows that contacts begin with, their modes and whether they rest.
-    fn carried(&self, before: impl Fn(usize) -> Option<usize>) -> (K::ContactRows, K::EachContact<Carried>) {
+    fn carried(
+        &self,
+        kernel: &K,
+        before: impl Fn(usize) -> Option<usize>,
+    ) -> (K::ContactRows, K::EachContact<Carried>) {
         let (mut impulses, mut modes) = (K::ContactRows::zero(), <K::EachContact<Carried>>::from_fn(|_| None));
-        for (i, contact) in K::CONTACTS.iter().enumerate() {
-            let Some((from, known)) = before(i).and_then(|from| Some((from, K::CONTACTS.get(from)?))) else { continue };
+        for (i, contact) in kernel.contacts().iter().enumerate() {
+            let Some((from, known)) = before(i).and_then(|from| Some((from, kernel.contacts().get(from)?))) else {
+                continue;
+            };
             modes[i] = Some((self.modes[from], self.rests[from]));
             for (row, from) in contact.rows().zip(known.rows()) {
                 impulses.set_component(row, self.impulses.component(from));
@@ -142,7 +148,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 
     /// The stepper of what was held, with contacts whose data may be other ones.
     fn resumed(kernel: &'k K, held: HeldSteps<K, M>, before: impl Fn(usize) -> Option<usize>) -> Self {
-        let (impulses, known) = held.carried(before);
+        let (impulses, known) = held.carried(kernel, before);
         let HeldSteps { t, q, z, scheme, law, tolerance, memory, dependent, last, report, .. } = held;
         let (gaps, rates) = (kernel.gaps(t, &q), kernel.contact_rates(t, &q, &z));
         let open = Each::from_fn(|_| Mode::Open);

@@ -378,7 +378,9 @@ impl<'k, W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'k, W, K> {
                         Err(_) => Stage::Alone,
                     }
                 }
-                (Stage::Lands(..), _) if ContactStepper::<K, Vec<f64>>::is_below_zero(&gaps) => Stage::Alone,
+                (Stage::Lands(..), _) if ContactStepper::<K, Vec<f64>>::is_below_zero(stepper.kernel, &gaps) => {
+                    Stage::Alone
+                }
                 (Stage::Lands(forces, q, z, _), _) => Stage::Lands(forces, q, z, gaps),
                 (other, _) => other,
             };

@@ -145,7 +145,7 @@ impl<'k, K: ContactSystem<Scalar = f64>> SteppedRun<'k, K> {
         let q = q.renormalise();
         let start = Sample { t, q, z, p: kernel.momentum(t, &q, &z) };
         let (samples, passages, statistics) = (Vec::new(), Vec::new(), StepStatistics::default());
-        let open = vec![Mode::Open; K::CONTACTS.len()];
+        let open = vec![Mode::Open; kernel.contacts().len()];
         Self { kernel, start, samples, statistics, passages, stopped_by: None, open }
     }
 

@@ -120,14 +120,15 @@ pub(super) fn free_rates<K: ContactSystem>(
     (free, bias): (&K::Speeds, &K::ContactRows),
     (dependent, bounces): (bool, impl Fn(usize) -> bool),
 ) -> [K::ContactRows; 2] {
-    let at_half = |i: usize| dependent || bounces(carrier(K::CONTACTS, i));
+    let at_half = |i: usize| dependent || bounces(carrier(kernel.contacts(), i));
     let mut taken = [*rates, rates.add_scaled(K::Scalar::from_f64(h), bias)];
-    if !(0..K::CONTACTS.len()).any(at_half) {
+    if !(0..kernel.contacts().len()).any(at_half) {
         return taken;
     }
     let halves = [*z, *free].map(|z| kernel.contact_rates(middle.t, &middle.q, &z));
     for (taken, half) in taken.iter_mut().zip(&halves) {
-        let rows = K::CONTACTS.iter().enumerate().filter(|(i, _)| at_half(*i)).flat_map(|(_, contact)| contact.rows());
+        let rows =
+            kernel.contacts().iter().enumerate().filter(|(i, _)| at_half(*i)).flat_map(|(_, contact)| contact.rows());
         rows.for_each(|row| taken.set_component(row, half.component(row)));
     }
     taken

@@ -1,6 +1,6 @@
 //! Outcome of an attempt at a step.
 
-use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::contact::{Contact, ContactSystem};
 
 use crate::error::{ContactError, ContactErrorKind};
 use crate::law::carrier;
@@ -80,18 +80,18 @@ impl<K: ContactSystem<Scalar = f64>> Solved<K> {
     /// to lie on zero, as those that press nothing do step by step, is no impact.
     pub(super) fn tell(
         &mut self,
-        law: StepLaw,
+        (contacts, law): (&[Contact], StepLaw),
         (rested, after): (&[bool], &[Mode]),
         of: impl Fn(usize) -> (f64, bool),
     ) {
-        for i in 0..K::CONTACTS.len() {
+        for i in 0..contacts.len() {
             let (was_open, is_closed) = (!rested[i], after[i].is_closed());
-            let closes = is_closed && K::CONTACTS[i].has_gap();
-            let lifts = lifts::<K>(law, after, i);
+            let closes = is_closed && contacts[i].has_gap();
+            let lifts = lifts(contacts, law, after, i);
             self.struck |= closes && (was_open || lifts);
-            let carries = carrier(K::CONTACTS, i);
+            let carries = carrier(contacts, i);
             let (passed_on, approaches) = of(carries);
-            let parts = K::CONTACTS[carries].has_gap() && passed_on != 0.0;
+            let parts = contacts[carries].has_gap() && passed_on != 0.0;
             let bounces = passed_on.abs() > self.found.residual.rounding;
             self.impacts += usize::from(closes && (was_open && approaches || bounces));
             self.rests[i] = is_closed && !parts && !lifts;

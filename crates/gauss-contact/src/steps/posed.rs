@@ -17,6 +17,7 @@ use super::unknowns::State;
 
 /// Data of a step before its impulses.
 pub(super) struct Posed<'a, K: ContactSystem> {
+    pub(super) kernel: &'a K,
     pub(super) h: f64,
     pub(super) law: StepLaw,
     pub(super) tolerance: f64,
@@ -39,27 +40,27 @@ pub(super) struct Posed<'a, K: ContactSystem> {
 impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
     /// Rate that an impact passes on: a part of that before it.
     pub(super) fn passed_on(&self, i: usize) -> T {
-        let [before, free] = [0, 1].map(|k: usize| self.rates[k].component(K::CONTACTS[i].normal));
+        let [before, free] = [0, 1].map(|k: usize| self.rates[k].component(self.kernel.contacts()[i].normal));
         -self.restitution.component(i) * motion::reversed(before, self.gap_at_end(i, free), self.fastest)
     }
 
     /// Whether a gap was closed in the step before, and does not lie open since: an impact may leave a gap on its way
     /// to zero.
     fn stays_closed(&self, i: usize, lockstep: &Lockstep) -> bool {
-        let free = self.rates[1].component(K::CONTACTS[i].normal);
+        let free = self.rates[1].component(self.kernel.contacts()[i].normal);
         let is_open = |lane: usize| self.approaches(i, lane) && self.gap_at_end(i, free).lane(lane) > 0.0;
         self.modes[i].is_closed() && !lockstep.agree::<T>(is_open)
     }
 
     /// Whether a gap closes before the step, to half of the digits: what is slower lies still.
     fn approaches(&self, i: usize, lane: usize) -> bool {
-        let before = self.rates[0].component(K::CONTACTS[i].normal);
+        let before = self.rates[0].component(self.kernel.contacts()[i].normal);
         before.lane(lane) < -Real::sqrt(f64::EPSILON) * self.fastest.lane(lane)
     }
 
     /// The gap with which a contact ends the step, given its rate there.
     fn gap_at_end(&self, i: usize, rate: T) -> T {
-        let before = self.rates[0].component(K::CONTACTS[i].normal);
+        let before = self.rates[0].component(self.kernel.contacts()[i].normal);
         self.gaps.component(i) + T::from_f64(0.5 * self.h) * (before + rate)
     }
 
@@ -75,13 +76,14 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
         let row = |row: usize| [self.rates[1].component(row), self.impulses.component(row)];
         problem.set_up(self.laws.scales.as_ref(), |i, j| self.delassus[(i, j)], row);
         let mut cones = self.laws.cones;
-        for (i, contact) in K::CONTACTS.iter().enumerate() {
+        for (i, contact) in self.kernel.contacts().iter().enumerate() {
             // Rolling resistance comes after the contact that it is of.
             cones[i].acts = match contact.rolls_on() {
                 Some(on) => cones[on].acts,
                 None => {
                     !contact.has_gap()
-                        || (self.stays_closed(i, &problem.lockstep) && !lifts::<K>(self.law, self.modes, i))
+                        || (self.stays_closed(i, &problem.lockstep)
+                            && !lifts(self.kernel.contacts(), self.law, self.modes, i))
                         || problem.lockstep.at_most(self.gap_at_end(i, problem.b[contact.normal]), T::zero())
                 }
             };
@@ -150,7 +152,9 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
         let rests = Each::from_fn(|_| false);
         let mut solved = Solved { found, from_coulomb, rests, struck: false, impacts: 0, work };
         let approaches = |i: usize| self.approaches(i, lane);
-        solved.tell(self.law, (rested, after), |i| (self.passed_on(i).lane(lane), approaches(i)));
+        solved.tell((self.kernel.contacts(), self.law), (rested, after), |i| {
+            (self.passed_on(i).lane(lane), approaches(i))
+        });
         solved
     }
 }

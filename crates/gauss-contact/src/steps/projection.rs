@@ -20,6 +20,7 @@ const CORRECTIONS: usize = 12;
 const BELOW: f64 = 64.0;
 /// Memory for projections.
 pub(crate) struct Projection<'m, K: ContactSystem> {
+    pub(super) kernel: &'m K,
     matrix: &'m mut [K::Scalar],
     right: &'m mut [K::Scalar],
     solution: &'m mut [K::Scalar],
@@ -50,12 +51,13 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     /// Number of numbers that it needs.
     pub(crate) const MEMORY: usize = stride(Self::ROWS) * (Self::ROWS + 1) + Self::ROWS;
 
-    pub(crate) fn new(memory: &'m mut [T]) -> Self {
+    pub(crate) fn new(kernel: &'m K, memory: &'m mut [T]) -> Self {
         let (matrix, memory) = memory.split_at_mut(Self::ROWS * stride(Self::ROWS));
         let (solution, memory) = memory.split_at_mut(stride(Self::ROWS));
         let right = &mut memory[..Self::ROWS];
         let (rows, ends) = (Each::from_fn(|_| 0), Each::from_fn(|_| 0));
         Self {
+            kernel,
             matrix,
             right,
             solution,
@@ -120,15 +122,15 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
         touched: &Touched<'_, K>,
     ) -> Result<Closed<K>, NotClosed> {
         let (zero, infinite) = (T::zero(), T::from_f64(f64::INFINITY));
-        let lowest = |gaps: &K::Gaps| lowest_of::<K>(gaps);
-        let (lowest_before, bounds) = (lowest(&gaps), Bounds::new(touched, &response.delassus, magnitude));
+        let lowest = |gaps: &K::Gaps| lowest_of(kernel, gaps);
+        let (lowest_before, bounds) = (lowest(&gaps), Bounds::new(self.kernel, touched, &response.delassus, magnitude));
         self.held = Each::from_fn(|_| false);
         let (mut left, mut size, mut closure, mut goes_on) = (infinite, zero, zero, T::one());
         let (mut entries, mut done) = (K::Gaps::zero(), K::ContactRows::zero());
         let (below, mut parted) = (T::from_f64(BELOW * f64::EPSILON) * magnitude, false);
         for n in 0..CORRECTIONS {
             let grown = self.join((&gaps, &mut entries), |i| n == 0 && touched.closed[i]) || n == 0;
-            size = gaps_of::<K>().map(|(i, _)| self.held_gap(&gaps, i).abs()).fold(zero, larger);
+            size = gaps_of(self.kernel).map(|(i, _)| self.held_gap(&gaps, i).abs()).fold(zero, larger);
             if n == 0 {
                 closure = size;
             }
@@ -145,7 +147,7 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
             }
             left = size;
             let held = self.held;
-            let normals = gaps_of::<K>().filter(|(i, _)| held[*i]).map(|(_, contact)| contact.normal);
+            let normals = gaps_of(self.kernel).filter(|(i, _)| held[*i]).map(|(_, contact)| contact.normal);
             if grown && !self.factorise(&response.delassus, normals) {
                 break;
             }
@@ -175,10 +177,10 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     fn correction(
         &mut self,
         delassus: &K::Delassus,
-        (gaps, bounds, done): (&K::Gaps, &Bounds<K>, &K::ContactRows),
+        (gaps, bounds, done): (&K::Gaps, &Bounds<'_, K>, &K::ContactRows),
         parts: bool,
     ) -> Option<(K::ContactRows, bool)> {
-        let moves = self.taking_away(|row| contact_at::<K>(row).map_or(T::zero(), |i| gaps.component(i)));
+        let moves = self.taking_away(|row| contact_at(self.kernel, row).map_or(T::zero(), |i| gaps.component(i)));
         let gap = |i: usize| self.held_gap(gaps, i);
         if !(parts || bounds.pulls_too_much(&self.lockstep, delassus, (done, &moves), gap)) {
             return Some((moves, false));
@@ -190,7 +192,7 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     /// Holds contacts that are to be closed, and those that are below zero; whether there are more now.
     fn join(&mut self, (gaps, entries): (&K::Gaps, &mut K::Gaps), closes: impl Fn(usize) -> bool) -> bool {
         let mut grown = false;
-        for (i, _) in gaps_of::<K>() {
+        for (i, _) in gaps_of(self.kernel) {
             let gap = gaps.component(i);
             let joins = !self.held[i] && (closes(i) || self.lockstep.less(gap, T::zero()));
             if joins {
@@ -230,7 +232,7 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
             return Ok(());
         }
         let off = |i: usize| value(gaps.component(i)).abs();
-        let held = gaps_of::<K>().map(|(i, _)| i).filter(|i| self.held[*i]);
+        let held = gaps_of(self.kernel).map(|(i, _)| i).filter(|i| self.held[*i]);
         let worst = held.reduce(|a, b| if off(b) > off(a) { b } else { a });
         Err(not_closed(worst, worst.map_or(value(size), |i| value(entries.component(i)))))
     }
@@ -238,7 +240,8 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     /// Contacts that were to be closed and are not.
     fn left_open(&self, closed: &[bool], gaps: &K::Gaps, near: T) -> K::EachContact<bool> {
         let open = |i: usize| (0..T::LANES).any(|lane| gaps.component(i).lane(lane) > near.lane(lane));
-        let is_left = |i: usize| K::CONTACTS[i].has_gap() && closed[i] && !self.held[i] && open(i);
+        // A kernel may have fewer contacts than its lists have room for; what is there is closed at times.
+        let is_left = |i: usize| closed[i] && self.kernel.contacts()[i].has_gap() && !self.held[i] && open(i);
         Each::from_fn(is_left)
     }
 
@@ -252,7 +255,7 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
         (mode, rounding): (impl Fn(usize) -> Mode, T),
     ) -> (K::Speeds, K::ContactRows) {
         let rows = || {
-            K::CONTACTS.iter().enumerate().flat_map(|(i, contact)| match mode(i) {
+            self.kernel.contacts().iter().enumerate().flat_map(|(i, contact)| match mode(i) {
                 Mode::Open => 0..0,
                 Mode::Sticks => contact.rows(),
                 Mode::Closed | Mode::Slides(_) => contact.normal..contact.tangent_rows().start,

@@ -8,7 +8,7 @@
 //! The minimum always exists where rates in the dual cones do, and its rates are unique. Sweeps go down to it, cone by
 //! cone; Newton's method of the other law ends at it.
 
-use gauss_runtime::contact::ContactSystem;
+use gauss_runtime::contact::Contact;
 use gauss_runtime::real::Real;
 
 use crate::law::carrier;
@@ -32,11 +32,11 @@ pub enum StepLaw {
 }
 
 /// Whether slips separate a closed gap: such a gap is open after the step.
-pub(super) fn lifts<K: ContactSystem>(law: StepLaw, modes: &[Mode], i: usize) -> bool {
-    let carries = carrier(K::CONTACTS, i);
-    let slides = |n: usize| carrier(K::CONTACTS, n) == carries && matches!(modes[n], Mode::Slides(_));
-    let relaxed = law == StepLaw::ConvexRelaxation && K::CONTACTS[carries].has_gap();
-    relaxed && (0..K::CONTACTS.len()).any(slides)
+pub(super) fn lifts(contacts: &[Contact], law: StepLaw, modes: &[Mode], i: usize) -> bool {
+    let carries = carrier(contacts, i);
+    let slides = |n: usize| carrier(contacts, n) == carries && matches!(modes[n], Mode::Slides(_));
+    let relaxed = law == StepLaw::ConvexRelaxation && contacts[carries].has_gap();
+    relaxed && (0..contacts.len()).any(slides)
 }
 
 impl<T: Real> Impulses<'_, T> {

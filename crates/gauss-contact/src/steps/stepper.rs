@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::contact::{ContactSystem, Each, ImpulseDynamics, ImpulseResponse};
+use gauss_runtime::contact::{Contact, ContactSystem, Each, ImpulseDynamics, ImpulseResponse};
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 
@@ -16,7 +16,7 @@ use crate::mode::{Mode, after_impulses};
 use crate::sensors::ContactForces;
 
 use super::account::Account;
-use super::bounds::{NotClosed, Touched};
+use super::bounds::{NotClosed, Touched, gaps_of};
 use super::cones::Laws;
 use super::impulses::{Impulses, memory};
 use super::kept::Kept;
@@ -205,7 +205,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let near = crate::rounding::Rounding::of::<K>(&self.q).half_of_the_digits();
         let fastest = (0..K::ContactRows::DIM).map(|row| rates.component(row).abs()).fold(0.0, f64::max);
         let still = Real::sqrt(f64::EPSILON) * fastest;
-        for (i, contact) in K::CONTACTS.iter().enumerate() {
+        for (i, contact) in self.kernel.contacts().iter().enumerate() {
             let rate = || rates.component(contact.normal);
             if contact.has_gap() && gaps.component(i) <= near && (-still..=0.0).contains(&rate()) {
                 self.modes[i] = Mode::Closed;
@@ -322,7 +322,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         (self.q, self.z, self.impulses) = (end.q, end.z, end.impulses);
         if end.touches {
             core::mem::swap(&mut self.modes, &mut self.next);
-            (0..K::CONTACTS.len()).filter(|i| end.left[*i]).for_each(|i| self.modes[i] = Mode::Open);
+            (0..self.kernel.contacts().len()).filter(|i| end.left[*i]).for_each(|i| self.modes[i] = Mode::Open);
         }
         (self.gaps, self.rates, self.rests) = (end.gaps, end.rates, end.rests);
         Ok(StepReport { length: h, ..end.report })
@@ -337,7 +337,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     }
 
     pub(super) fn error(&self, contact: Option<usize>, kind: ContactErrorKind) -> ContactError {
-        ContactError { contact: contact.map(|i| K::CONTACTS[i].name), time: self.t, kind }
+        ContactError { contact: contact.map(|i| self.kernel.contacts()[i].name), time: self.t, kind }
     }
 
     /// The second half of a step, given the rate of places, and what keeps bilateral constraints.
@@ -354,13 +354,17 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     /// Whether a contact is open and passes on a part of an approach. What has no restitution may come to lie on zero
     /// and leave it by a rounding from step to step: its rates are those of what rests, so that this is no jump.
     pub(super) fn may_bounce(&self, i: usize) -> bool {
-        K::CONTACTS[i].has_gap() && !self.modes[i].is_closed() && self.kernel.restitution().component(i) > 0.0
+        self.kernel.contacts().get(i).is_some_and(Contact::has_gap)
+            && !self.modes[i].is_closed()
+            && self.kernel.restitution().component(i) > 0.0
     }
 
     /// Whether all contacts are open.
     pub(super) fn flies(&self) -> bool {
-        let is_open = |i: usize| K::CONTACTS[carrier(K::CONTACTS, i)].has_gap() && !self.modes[i].is_closed();
-        (0..K::CONTACTS.len()).all(is_open)
+        let is_open = |i: usize| {
+            self.kernel.contacts()[carrier(self.kernel.contacts(), i)].has_gap() && !self.modes[i].is_closed()
+        };
+        (0..self.kernel.contacts().len()).all(is_open)
     }
 
     /// A step in which no gap closes: the motion without contacts is all that it needs.
@@ -378,15 +382,11 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let half = kernel.kinematics(middle.t, &middle.half, &z);
         let (q, z) = self.second_half(h, middle, (z, &half))?;
         let gaps = kernel.gaps(self.t + h, &q);
-        if Self::is_below_zero(&gaps) {
+        if Self::is_below_zero(kernel, &gaps) {
             return Ok(None);
         }
         let rates = kernel.contact_rates(self.t + h, &q, &z);
         Ok(Some(Attempt { end: Self::flown((q, z), gaps, rates), acceleration }))
-    }
-
-    fn gaps_of() -> impl Iterator<Item = usize> {
-        (0..K::CONTACTS.len()).filter(|i| K::CONTACTS[*i].has_gap())
     }
 
     /// The mean speeds of a flight to others.
@@ -396,11 +396,12 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
 
     /// Whether a gap would not be open at the end of a step, given its mean rates.
     pub(super) fn comes_to_zero(&self, h: f64, mean: &K::ContactRows) -> bool {
-        !Self::gaps_of().all(|i| self.gaps.component(i) + h * mean.component(K::CONTACTS[i].normal) > 0.0)
+        !gaps_of(self.kernel)
+            .all(|(i, _)| self.gaps.component(i) + h * mean.component(self.kernel.contacts()[i].normal) > 0.0)
     }
 
-    pub(super) fn is_below_zero(gaps: &K::Gaps) -> bool {
-        !Self::gaps_of().all(|i| gaps.component(i) >= 0.0)
+    pub(super) fn is_below_zero(kernel: &K, gaps: &K::Gaps) -> bool {
+        !gaps_of(kernel).all(|(i, _)| gaps.component(i) >= 0.0)
     }
 
     /// The end of a step in flight.
@@ -448,7 +449,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         friction: &K::ContactRows,
         (acceleration, bias, response): (&K::Speeds, &K::ContactRows, &ImpulseResponse<K>),
     ) -> Result<Pushed<K>, ContactError> {
-        let laws = Laws::<K>::new(h, friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
+        let laws = Laws::new(self.kernel, h, friction).map_err(|(i, kind)| self.error(Some(i), kind))?;
         let free = self.z.add_scaled(h, acceleration);
         let known = self.dependent;
         let mut solved = self.solve(h, (&laws, response), self.free_rates(h, middle, (&free, bias)));
@@ -473,10 +474,14 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let of_projection = &mut self.memory.as_mut()[memory(K::ContactRows::DIM)..];
         let (closed, impulses, rates) = (pushed.solved.rests.as_ref(), &pushed.impulses, &self.rates);
         let touched = Touched { closed, impulses, rates, h };
-        let closed =
-            Projection::<K>::new(of_projection).close(self.kernel, at_end, (response, motion::magnitude(&q)), &touched);
+        let closed = Projection::new(self.kernel, of_projection).close(
+            self.kernel,
+            at_end,
+            (response, motion::magnitude(&q)),
+            &touched,
+        );
         let closed = closed.map_err(|NotClosed { contact, kind }| self.error(contact, kind))?;
-        (0..K::CONTACTS.len()).filter(|i| closed.left[*i]).for_each(|i| pushed.solved.rests[i] = false);
+        (0..self.kernel.contacts().len()).filter(|i| closed.left[*i]).for_each(|i| pushed.solved.rests[i] = false);
         Ok(closed)
     }
 
@@ -488,7 +493,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     /// Whether contacts do something else than before the step, in which they come to these modes.
     fn changes(&self, next: &[Mode]) -> bool {
         let kind = |mode: &Mode| core::mem::discriminant(mode);
-        (0..K::CONTACTS.len()).any(|i| kind(&next[i]) != kind(&self.modes[i]))
+        (0..self.kernel.contacts().len()).any(|i| kind(&next[i]) != kind(&self.modes[i]))
     }
 
     /// Rounding of rates at the end of a step: what begins to rest is brought to zero to the last bit, and stays there.
@@ -509,7 +514,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let (kernel, modes): (_, K::EachContact<Mode>) = (self.kernel, modes);
         let of_projection = &mut self.memory.as_mut()[memory(Self::ROWS)..];
         let at_end = (self.t + h, &closed.q, z, rates);
-        Projection::<K>::new(of_projection).stop(kernel, at_end, response, (|i| modes[i], rounding))
+        Projection::new(self.kernel, of_projection).stop(kernel, at_end, response, (|i| modes[i], rounding))
     }
 
     /// The end of a step.
@@ -566,8 +571,21 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let Self { law, tolerance, gaps, impulses, dependent, .. } = *self;
         let (restitution, delassus, modes) = (self.kernel.restitution(), &response.delassus, self.modes.as_ref());
         let fastest = motion::fastest::<K>(&rates);
-        let posed =
-            Posed { h, law, tolerance, laws, delassus, restitution, gaps, rates, fastest, impulses, modes, dependent };
+        let posed = Posed {
+            kernel: self.kernel,
+            h,
+            law,
+            tolerance,
+            laws,
+            delassus,
+            restitution,
+            gaps,
+            rates,
+            fastest,
+            impulses,
+            modes,
+            dependent,
+        };
         let memory = &mut self.memory.as_mut()[..memory(Self::ROWS)];
         let mut problem = Impulses::new(memory, unknowns.slices());
         let mut cones = posed.pose(&mut problem);

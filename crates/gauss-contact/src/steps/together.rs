@@ -43,7 +43,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let goes_on = |lane: usize| !self.halted[lane] && known(lane) && !of(lane).last.is_stiff();
         (h > 0.0 && h.is_finite() && of(0).law == StepLaw::Coulomb && !of(0).flies())
             && (self.alike(law) && (0..self.steppers.len()).all(goes_on))
-            && (0..W::CONTACTS.len()).all(closed)
+            && (0..self.wide.contacts().len()).all(closed)
     }
 
     /// The states of all lanes.
@@ -71,7 +71,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let z = state.z.add_scaled(half, &state.acceleration);
         let middle = Middle::<W>::new((state.t, h), motion::half_way::<W>(h, &state.q, &rate), state.z, z);
         let friction = self.wide.friction(middle.t, &middle.q, &middle.z, input);
-        let laws = Laws::<W>::new(h, &friction).ok()?;
+        let laws = Laws::new(self.wide, h, &friction).ok()?;
         let dynamics = self.wide.impulse_dynamics(middle.t, &middle.q, &middle.z, input);
         let pushed = self.push_together(h, (&state, &middle), &laws, &dynamics)?;
         let (q, z) = self.second_half_together(h, &middle, pushed.z)?;
@@ -100,6 +100,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let at = (&free, &dynamics.bias);
         let rates = motion::free_rates(self.wide, h, middle, before, at, (dependent, bounces));
         let posed = Posed::<W> {
+            kernel: self.wide,
             h,
             law: StepLaw::Coulomb,
             tolerance: first.tolerance,
@@ -176,7 +177,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
             mode => mode,
         };
         let modes: W::EachContact<Mode> = Each::from_fn(|i| mode(0, i));
-        let contacts = 0..W::CONTACTS.len();
+        let contacts = 0..self.wide.contacts().len();
         if !contacts.clone().all(|i| self.alike(|lane| (rest(lane, i), mode(lane, i)))) {
             return None;
         }
@@ -185,7 +186,7 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
             self.steppers[lane].rounding_at_end(after.as_ref(), solved)
         };
         let rounding = self.number(rounding);
-        let mut projection = Projection::<W>::new(&mut self.memory[impulses::memory(W::ContactRows::DIM)..]);
+        let mut projection = Projection::<W>::new(self.wide, &mut self.memory[impulses::memory(W::ContactRows::DIM)..]);
         let (gaps, magnitude) = (self.wide.gaps(t, &q), motion::magnitude(&q));
         let (closed, impulses, rates) = (rests.as_ref(), &pushed.impulses, &state.rates);
         let touched = Touched { closed, impulses, rates, h };

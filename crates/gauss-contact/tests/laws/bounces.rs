@@ -90,7 +90,7 @@ fn newtons_cradle_has_the_answer_of_its_law() {
             .map(|event| if let EventKind::Impact(hit) = event.kind { hit.energy_lost } else { 0.0 })
             .sum();
         assert!(lost.abs() < 32.0 * f64::EPSILON, "{lost:e}");
-        assert_eq!(run.events()[0].name::<Scene<Line, 3, 2, 2>>(), "first");
+        assert_eq!(run.events()[0].name, "first");
     }
 }
 

@@ -116,7 +116,9 @@ impl<L: Layout, const N: usize, const C: usize, const R: usize> ContactSystem fo
     type Delassus = SMatrix<f64, R, R>;
     type EachContact<T: Copy + core::fmt::Debug> = [T; C];
     type EachRow<T: Copy + core::fmt::Debug> = [T; R];
-    const CONTACTS: &'static [Contact] = L::CONTACTS;
+    fn contacts(&self) -> &'static [Contact] {
+        L::CONTACTS
+    }
 
     fn gaps(&self, _: f64, q: &V<N>) -> V<C> {
         (self.gaps)(q)

@@ -282,7 +282,7 @@ def _restored(recipe):
             place = Path(folder, os.path.relpath(own, common))
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(content)
-        native = _native.Model.of_file(format, str(Path(folder, os.path.relpath(first, common))), list(clauses))
+        native = _native.Model.of_file(format, str(Path(folder, os.path.relpath(first, common))), list(clauses), False)
     return _model(native, recipe)
 
 

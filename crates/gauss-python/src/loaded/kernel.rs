@@ -13,8 +13,8 @@ use super::scene::LoadedScene;
 use crate::description::Description;
 use crate::kernels::{AnyKernel, AnyScene, OffGroup, Violation, off_group};
 use crate::methods::{Id, SPECS, Sizes, Slot, Work};
-use crate::runs::{Many, ManyEnds, one_by_one, request};
-use crate::steps::{self, Control, InContact, NO_CONTACTS, Outcome, Request};
+use crate::runs::{Many, ManyEnds, TOUCHED, one_by_one, request};
+use crate::steps::{self, Control, InContact, Outcome, Request};
 
 impl AnyScene for LoadedScene {
     fn description(&self) -> &Description {
@@ -51,11 +51,7 @@ impl AnyScene for LoadedScene {
     }
 
     fn contacts(&self) -> &[Contact] {
-        &[]
-    }
-
-    fn contact_names(&self) -> Vec<&'static str> {
-        self.contacts.clone()
+        self.model.contacts()
     }
 
     fn has(&self, id: Id) -> bool {
@@ -124,8 +120,9 @@ impl AnyKernel for LoadedKernel {
         runs::project(&self.kernel, &self.scene.sizes, t, (q, z))
     }
 
-    fn in_contact(&self, _: f64, _: (&[f64], &[f64]), _: &[f64]) -> Result<InContact, String> {
-        Err(NO_CONTACTS.to_owned())
+    fn in_contact(&self, t: f64, (q, z): (&[f64], &[f64]), input: &[f64]) -> Result<InContact, String> {
+        self.check(q, z)?;
+        runs::in_contact(&self.kernel, &self.scene.sizes, t, (q, z), input)
     }
 
     fn simulate(&self, request: &Request<'_>) -> Result<Outcome, String> {
@@ -134,10 +131,8 @@ impl AnyKernel for LoadedKernel {
     }
 
     fn ensemble(&self, many: &Many<'_>) -> Result<ManyEnds, String> {
-        if matches!(many.control, Control::ContactEvents(..) | Control::ContactSteps(..)) {
-            return Err(NO_CONTACTS.to_owned());
-        }
-        one_by_one(many, &[], |i| {
+        let touches = matches!(many.control, Control::ContactEvents(..) | Control::ContactSteps(..));
+        one_by_one(many, if touches { &TOUCHED } else { &[] }, |i| {
             let [q, z] = many.first(i);
             let of_state = steps::mistakes(self.scene.description(), self.scene.names(), q, z);
             let own = (!many.parameters.is_empty()).then(|| self.scene.of_numbers(&many.own(&self.numbers, i)));

@@ -4,42 +4,81 @@
 //! have are zero there, stand still, and are taken out of all that leaves the run or asks its functions. Tolerances are
 //! those of the model's own numbers ([`System::share`]).
 
-use gauss_jit::{Kernel, MixedConfiguration, System};
+use gauss_jit::{Kernel, MixedConfiguration, System, SystemWithContacts};
 use gauss_runtime::prelude::{Configuration, GaussSystem, SVector};
 
 use crate::methods::Sizes;
 use crate::steps::{
-    Control, Effect, Event, Held, Input, Jumped, Outcome, Request, Until, Watched, components, lacks, numbers_of,
-    smooth, stiff, vector,
+    self, Control, Effect, Event, Held, InContact, Input, Jumped, Outcome, Request, Until, Watched, components, lacks,
+    no_contacts, numbers_of, smooth, stiff, touching, vector,
 };
 
 /// A system with room for N numbers of each kind.
 type InRoom<'k, const N: usize, const CONSTRAINED: bool> = System<'k, N, N, SVector<f64, N>, CONSTRAINED>;
+/// The same with R rows of contacts.
+type WithContacts<'k, const N: usize, const R: usize, const CONSTRAINED: bool> =
+    SystemWithContacts<'k, N, N, SVector<f64, N>, R, CONSTRAINED>;
 
-/// Calls a function with the system in the smallest room, of a model with constraints or without.
-macro_rules! in_room {
-    ($kernel:expr, $least:expr, |$system:ident| $value:expr; $($room:literal)+) => {{
-        let most = [$($room),+].into_iter().fold(0, usize::max);
-        match ($least, $kernel.model().description().is_constrained) {
-            $(
-                (..=$room, false) => {
-                    let $system: InRoom<'_, $room, false> = $kernel.system().map_err(|error| error.to_string())?;
-                    $value
-                }
-                (..=$room, true) => {
-                    let $system: InRoom<'_, $room, true> =
-                        $kernel.constrained_system().map_err(|error| error.to_string())?;
-                    $value
-                }
-            )+
-            (least, _) => Err(format!(
-                "such runs are of at most {most} numbers of q, of z and of the input, and this model has {least}"
-            )),
+/// Calls a function with the first system that has room for a model with constraints or without.
+macro_rules! in_first {
+    ($kernel:expr, $least:expr, |$system:ident| $value:expr; $(
+        $room:expr => $free:ty = $by:ident, $constrained:ty = $by_constrained:ident
+    );+) => {{
+        let (least, is_constrained) = ($least, $kernel.model().description().is_constrained);
+        let fits = |room: [usize; 2]| least.iter().zip(room).all(|(own, room)| *own <= room);
+        $(
+            if fits($room) && !is_constrained {
+                let $system: $free = $kernel.$by().map_err(|error| error.to_string())?;
+                $value
+            } else if fits($room) {
+                let $system: $constrained = $kernel.$by_constrained().map_err(|error| error.to_string())?;
+                $value
+            } else
+        )+ {
+            let most = [$($room),+].into_iter().fold([0; 2], |most, room| [most[0].max(room[0]), most[1].max(room[1])]);
+            Err(too_large(most, least))
         }
     }};
+}
+
+/// The same without contacts.
+macro_rules! in_room {
+    ($kernel:expr, $least:expr, |$system:ident| $value:expr; $($room:literal)+) => {
+        in_first!($kernel, [$least, 0], |$system| $value; $(
+            [$room, 0] => InRoom<'_, $room, false> = system, InRoom<'_, $room, true> = constrained_system
+        );+)
+    };
     ($kernel:expr, $least:expr, |$system:ident| $value:expr) => {
         in_room!($kernel, $least, |$system| $value; 4 8 16 32 64 128)
     };
+}
+
+/// The same with contacts, in rooms of which each is code of its own for two ways of running.
+macro_rules! in_contact_room {
+    ($kernel:expr, $least:expr, |$system:ident| $value:expr) => {
+        in_contact_room!($kernel, $least, |$system| $value; 8 24, 32 48, 64 96)
+    };
+    ($kernel:expr, $least:expr, |$system:ident| $value:expr; $($room:literal $rows:literal),+) => {
+        in_first!($kernel, [$least, rows($kernel)], |$system| $value; $(
+            [$room, $rows] => WithContacts<'_, $room, $rows, false> = contact_system,
+                WithContacts<'_, $room, $rows, true> = constrained_contact_system
+        );+)
+    };
+}
+
+/// Why no room is large enough.
+fn too_large([most, most_rows]: [usize; 2], [least, rows]: [usize; 2]) -> String {
+    let contacts = |rows: usize| if rows > 0 { format!(" and {rows} rows of contacts") } else { String::new() };
+    format!(
+        "such runs are of at most {most} numbers of q, of z and of the input{}, and this model has {least}{}",
+        contacts(most_rows),
+        contacts(rows)
+    )
+}
+
+/// The rows of contacts of a model.
+fn rows(kernel: &Kernel) -> usize {
+    kernel.contacts().last().map_or(0, |contact| contact.rows().end)
 }
 
 /// The room that a model needs.
@@ -47,11 +86,20 @@ fn least(sizes: &Sizes) -> usize {
     [sizes.configuration, sizes.increment, sizes.speeds, sizes.input, sizes.multipliers].into_iter().fold(0, usize::max)
 }
 
-/// A run without contacts.
+/// A run.
 ///
 /// # Errors
 /// A model that is too large; what [`smooth`] refuses.
 pub fn simulate(kernel: &Kernel, sizes: &Sizes, request: &Request<'_>) -> Result<Outcome, String> {
+    if let Control::ContactEvents(..) | Control::ContactSteps(..) = request.control {
+        if kernel.contacts().is_empty() {
+            return Err(no_contacts());
+        }
+        return in_contact_room!(kernel, least(sizes), |system| {
+            in_its_room(system.system(), sizes, request, |q, request| touching(&system, q, request))
+        });
+    }
+    let kernel = &kernel.without_contacts();
     match request.control {
         Control::Stiff(..) if !kernel.model().methods().any(|name| name == "linearize") => {
             Err(lacks("rosenbrock", "linearize"))
@@ -73,10 +121,29 @@ pub fn simulate(kernel: &Kernel, sizes: &Sizes, request: &Request<'_>) -> Result
 /// # Errors
 /// A model that is too large; no such state is found.
 pub fn project(kernel: &Kernel, sizes: &Sizes, t: f64, (q, z): (&[f64], &[f64])) -> Result<[Vec<f64>; 2], String> {
+    let kernel = &kernel.without_contacts();
     in_room!(kernel, least(sizes), |system| {
         let start = system.configuration(q).renormalise();
         let found = system.project(t, &start, &vector(z)).map_err(|error| error.to_string())?;
         Ok([own(&numbers_of(&found.0), q.len()), own(&components(&found.1), z.len())])
+    })
+}
+
+/// Acceleration at a state, with modes and forces of the contacts.
+///
+/// # Errors
+/// A model that is too large; a state at which velocities jump.
+pub fn in_contact(
+    kernel: &Kernel,
+    sizes: &Sizes,
+    t: f64,
+    (q, z): (&[f64], &[f64]),
+    input: &[f64],
+) -> Result<InContact, String> {
+    in_contact_room!(kernel, least(sizes), |system| {
+        let start = system.system().configuration(q).renormalise();
+        let found = steps::in_contact(&system, t, (start, z), input)?;
+        Ok(InContact { acceleration: own(&found.acceleration, z.len()), ..found })
     })
 }
 
@@ -127,6 +194,9 @@ fn in_its_room<const N: usize, const CONSTRAINED: bool>(
     let control = match request.control {
         Control::Adaptive(relative, absolute, largest) => {
             Control::Adaptive(tolerance(relative, share), absolute * share, largest)
+        }
+        Control::ContactEvents(relative, absolute, largest, law) => {
+            Control::ContactEvents(tolerance(relative, share), absolute * share, largest, law)
         }
         other => other,
     };

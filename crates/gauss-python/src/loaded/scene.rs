@@ -1,6 +1,6 @@
 //! The scene of a model.
 
-use gauss_jit::{KernelError, Model, Quantity, kept};
+use gauss_jit::{KernelError, Model, Quantity, kept, kept_axes};
 
 use super::rows::Plans;
 use crate::description::{Description, Field, Part, Remark, Shape};
@@ -15,7 +15,6 @@ pub struct LoadedScene {
     pub(super) names: [Vec<&'static str>; 2],
     pub(super) frames: Vec<&'static str>,
     pub(super) joints: Vec<&'static str>,
-    pub(super) contacts: Vec<&'static str>,
     pub(super) plans: Plans,
 }
 
@@ -29,7 +28,7 @@ fn fields(model: &Model) -> Vec<Field> {
         let (name, shape) = match BODY.iter().find_map(|part| own.name.strip_suffix(part).map(|name| (name, *part))) {
             Some((name, ".mass")) => (name, Shape::Body),
             Some(_) => continue,
-            None => (own.name.as_str(), Shape::Array(own.axes)),
+            None => (own.name.as_str(), Shape::Array(kept_axes(&own.axes))),
         };
         let unit = own.unit.as_deref().unwrap_or_default();
         let (name, unit, documentation) = (kept(name), kept(unit), kept(&own.documentation));
@@ -64,7 +63,7 @@ impl LoadedScene {
         let (scalars, groups): (Vec<Quantity>, Vec<Quantity>) =
             own.coordinates.iter().cloned().partition(|own| own.numbers.len() == 1);
         let names = [numbers(&[groups, scalars].concat()), numbers(&own.speeds)];
-        let (frames, joints, contacts) = (all(&own.frames), all(&own.joints), all(&own.contacts));
+        let (frames, joints) = (all(&own.frames), all(&own.joints));
         let count = |method: &str| {
             let results = model.results(method).unwrap_or_default();
             results.iter().map(|result| result.rows * result.columns).sum()
@@ -77,7 +76,7 @@ impl LoadedScene {
             multipliers: count("multipliers"),
         };
         let plans = Plans::of(&model, &frames, &joints);
-        Self { model, description, sizes, names, frames, joints, contacts, plans }
+        Self { model, description, sizes, names, frames, joints, plans }
     }
 
     /// The kernel with these numbers of all fields.

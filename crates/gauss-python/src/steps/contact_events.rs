@@ -50,7 +50,7 @@ pub(super) fn run<S: Touching>(
         events: outcome::happened(request, run.passages().iter().map(|passage| (passage.number, &passage.sample))),
         stopped_by: run.stopped_by().map(|number| outcome::number_of_end(request, number)),
         summary: summary(&run),
-        touched: Some(touched(&run)),
+        touched: Some(touched(system, &run)),
         error: error.filter(|_| !interrupted).map(|error| of_contacts(&error)),
         interrupted,
     })
@@ -68,9 +68,9 @@ fn summary<S: Touching>(run: &ContactTrajectory<'_, S>) -> Summary {
     all
 }
 
-fn touched<S: Touching>(run: &ContactTrajectory<'_, S>) -> Touched {
+fn touched<S: Touching>(system: &S, run: &ContactTrajectory<'_, S>) -> Touched {
     let happened = run.events().iter().map(|event| {
-        let rows = S::CONTACTS[event.contact].rows().len();
+        let rows = system.contacts()[event.contact].rows().len();
         let (kind, impact) = match event.kind {
             EventKind::Impact(impact) => {
                 let each = [impact.before, impact.after, impact.impulse];

@@ -9,13 +9,12 @@ use gauss_runtime::prelude::*;
 use super::causes::of_contacts;
 use super::outcome;
 use super::request::{Control, Request};
-use super::watching::Watch;
-use crate::methods::System;
+use super::watching::{Moving, Watch};
 
 /// Requirements that runs with contacts have of a system.
-pub(super) trait Touching: System<Scalar = f64> + ContactSystem {}
+pub trait Touching: Moving + ContactSystem {}
 
-impl<S: System<Scalar = f64> + ContactSystem> Touching for S {}
+impl<S: Moving + ContactSystem> Touching for S {}
 
 /// A state with its energies and the columns of its contacts.
 fn row<S: Touching>(system: &S, sample: &Sample<S>, forces: Option<&S::ContactRows>) -> Vec<f64> {
@@ -24,7 +23,7 @@ fn row<S: Touching>(system: &S, sample: &Sample<S>, forces: Option<&S::ContactRo
     row.extend(outcome::energies(system, sample));
     let (gaps, rates) = (system.gaps(*t, q), system.contact_rates(*t, q, z));
     let force = |row: usize| forces.map_or(f64::NAN, |forces| forces.component(row));
-    for (i, contact) in S::CONTACTS.iter().enumerate() {
+    for (i, contact) in system.contacts().iter().enumerate() {
         if contact.has_gap() {
             row.extend([gaps.component(i), force(contact.normal)]);
         }

@@ -1,21 +1,20 @@
 //! Runs with contacts, and what these do at a state.
 
 use gauss_contact::{ContactRun, EventKind, Mode};
-use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::prelude::*;
 
 use super::causes::of_contacts;
+use super::contact_rows::Touching;
 use super::outcome::{InContact, Outcome};
 use super::request::{Control, Request};
-use super::{components, configuration, contact_events, contact_steps, vector};
-use crate::methods::System;
+use super::{components, contact_events, contact_steps, vector};
 
 /// A run with contacts.
 ///
 /// # Errors
-/// A first state that is none; times of a controller that are no multiples of the step.
-pub fn run<S: System<Scalar = f64> + ContactSystem>(system: &S, request: &Request<'_>) -> Result<Outcome, String> {
-    let start = (configuration::<S::Configuration>(request.q)?, vector::<S::Speeds>(request.z));
+/// Times of a controller that are no multiples of the step.
+pub fn run<S: Touching>(system: &S, q: S::Configuration, request: &Request<'_>) -> Result<Outcome, String> {
+    let start = (q, vector::<S::Speeds>(request.z));
     match request.control {
         Control::ContactSteps(length, scheme, law) => contact_steps::run(system, request, start, (length, scheme, law)),
         _ => contact_events::run(system, request, start),
@@ -25,21 +24,18 @@ pub fn run<S: System<Scalar = f64> + ContactSystem>(system: &S, request: &Reques
 /// Acceleration at a state, with modes and forces of the contacts: a run of no length decides it.
 ///
 /// # Errors
-/// A state that is none, or at which velocities jump.
-pub fn at<S: System<Scalar = f64> + ContactSystem>(
+/// A state at which velocities jump.
+pub fn at<S: Touching>(
     system: &S,
     t: f64,
-    (q, z): (&[f64], &[f64]),
+    (q, z): (S::Configuration, &[f64]),
     input: &[f64],
 ) -> Result<InContact, String> {
-    let (q, z, u) = (configuration::<S::Configuration>(q)?, vector::<S::Speeds>(z), vector::<S::Input>(input));
+    let (z, u) = (vector::<S::Speeds>(z), vector::<S::Input>(input));
     let run = ContactRun::new(system).adaptive(1e-9, 1e-9).input(move |_: f64, _: &S::Configuration, _: &S::Speeds| u);
     let run = run.run(q, z, t..t).map_err(|error| of_contacts(&error))?;
     if let Some(struck) = run.events().iter().find(|event| matches!(event.kind, EventKind::Impact(_))) {
-        return Err(format!(
-            "contact {} is closing: velocities jump there, and forces are not finite",
-            struck.name::<S>()
-        ));
+        return Err(format!("contact {} is closing: velocities jump there, and forces are not finite", struck.name));
     }
     let (forces, modes) = (run.forces(t), run.modes(t));
     let (forces, modes) = (forces.map_err(|error| of_contacts(&error))?, modes.map_err(|error| of_contacts(&error))?);

@@ -63,12 +63,16 @@ impl<S: System<Scalar = f64>> Methods<S> {
         });
     }
 
-    /// Runs with contacts.
-    pub fn contacts(&mut self)
+    /// Runs with these contacts, which are those of all kernels of the type.
+    pub fn contacts(&mut self, all: &'static [Contact])
     where
         S: ContactSystem,
     {
-        self.contacts = Some(Contacts { all: S::CONTACTS, run: contacts::run, at: contacts::at });
+        self.contacts = Some(Contacts {
+            all,
+            run: |system, request| contacts::run(system, configuration(request.q)?, request),
+            at: |system, t, (q, z), input| contacts::at(system, t, (configuration(q)?, z), input),
+        });
     }
 
     /// The contacts; none where the system has no such runs.
@@ -105,7 +109,7 @@ impl<S: System<Scalar = f64>> Methods<S> {
             },
             Control::ContactEvents(..) | Control::ContactSteps(..) => match &self.contacts {
                 Some(contacts) => (contacts.run)(system, request),
-                None => Err(lacks("of contacts", "contact(…)")),
+                None => Err(no_contacts()),
             },
         }
     }
@@ -116,9 +120,6 @@ impl<S: System<Scalar = f64>> Default for Methods<S> {
         Self::new()
     }
 }
-
-/// Why a kernel without forces of contacts is not run with them.
-pub const NO_CONTACTS: &str = "forces of contacts are those of compiled kernels: `without_contacts()` leaves them out";
 
 /// A run by a method that every system has.
 ///
@@ -135,7 +136,7 @@ pub fn smooth<S: Moving>(system: &S, q: S::Configuration, request: &Request<'_>)
         Control::Implicit(step) => run(system, q, request, Fixed::by(Collocation::order_6(), step)),
         Control::Stiff(..) => Err(lacks("rosenbrock", "linearize")),
         Control::Taylor(..) => Err("the method taylor is one of compiled kernels".to_owned()),
-        Control::ContactEvents(..) | Control::ContactSteps(..) => Err(NO_CONTACTS.to_owned()),
+        Control::ContactEvents(..) | Control::ContactSteps(..) => Err(no_contacts()),
     }
 }
 
@@ -151,6 +152,11 @@ pub fn stiff<S: Moving + LinearizedSystem>(
 ) -> Result<Outcome, String> {
     let control = Adaptive::by(Rosenbrock, relative, absolute);
     run(&stoppable(system, request), q, request, bounded(control, largest, Adaptive::largest_step))
+}
+
+/// Message that a run with contacts needs some.
+pub fn no_contacts() -> String {
+    lacks("of contacts", "contact(…)")
 }
 
 /// Message that a method needs a clause, which its struct does not say.

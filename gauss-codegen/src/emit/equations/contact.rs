@@ -5,7 +5,7 @@ use quote::quote;
 
 use crate::mechanics::Method;
 
-use crate::emit::derived::Derived;
+use crate::emit::derived::{Derived, KernelGenerics};
 use crate::emit::dialect::arguments::{arguments_of, declared};
 use crate::program::ArgumentKind;
 
@@ -54,7 +54,10 @@ pub fn contact_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         type Delassus = #private::SMatrix<#ty, #rows, #rows>;
         type EachContact<__T: ::core::marker::Copy + ::core::fmt::Debug> = [__T; #count];
         type EachRow<__T: ::core::marker::Copy + ::core::fmt::Debug> = [__T; #rows];
-        const CONTACTS: &'static [#private::Contact] = &[#(#listed),*];
+        #[inline]
+        fn contacts(&self) -> &'static [#private::Contact] {
+            Self::CONTACTS
+        }
         #(#methods)*
         #frames
         #[inline]
@@ -65,7 +68,16 @@ pub fn contact_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         #of_motion
         #velocities
     };
-    Some(derived.implementation(quote!(ContactSystem), items))
+    let (kernel, KernelGenerics { bounded, used, .. }) = (derived.kernel_name(), derived.kernel_generics());
+    let system = derived.implementation(quote!(ContactSystem), items);
+    Some(quote! {
+        #system
+        #[automatically_derived]
+        impl #bounded #kernel #used {
+            /// The contacts, in the order in which they are written.
+            pub const CONTACTS: &'static [#private::Contact] = &[#(#listed),*];
+        }
+    })
 }
 
 /// The frame of one contact: all of them are computed, since only one of them is rarely wanted.
@@ -74,11 +86,11 @@ fn frames(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let (body, outputs) = derived.computed(derived.program(Method::ContactFrames)?);
     let vector = |of: &[TokenStream]| quote!(#private::vector([#(#of),*]));
     let mut vectors = outputs.chunks(3).map(vector);
-    let each = derived.subject.system.scene.contacts.iter().map(|contact| match &contact.frame {
-        None => quote!(::core::option::Option::None),
-        Some(frame) => {
+    let each = derived.subject.contacts().into_iter().map(|contact| match contact.axes {
+        0 => quote!(::core::option::Option::None),
+        count => {
             let point = vectors.next();
-            let axes: Vec<TokenStream> = vectors.by_ref().take(frame.axes.len()).collect();
+            let axes: Vec<TokenStream> = vectors.by_ref().take(count).collect();
             let (normal, tangents) = axes.split_first().map_or((None, &[][..]), |(normal, rest)| (Some(normal), rest));
             quote!(::core::option::Option::Some(#private::ContactFrame::new(#point, #normal, &[#(#tangents),*])))
         }
@@ -101,15 +113,15 @@ fn frames(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 fn listed(derived: &Derived<'_, '_>) -> Vec<TokenStream> {
     let private = derived.private();
     let mut next = 0;
-    let contacts = derived.subject.system.scene.contacts.iter().map(|contact| {
-        let (name, first, rows) = (&contact.name, next, contact.slips.len());
-        next += usize::from(contact.gap.is_some()) + rows;
-        let (tangents, drilling) = if contact.drills { (rows - 1, quote!(.with_drilling())) } else { (rows, quote!()) };
+    let contacts = derived.subject.contacts().into_iter().map(|contact| {
+        let (name, first, tangents) = (&contact.name, next, contact.tangents);
+        next += contact.rows();
+        let drilling = if contact.drills { quote!(.with_drilling()) } else { quote!() };
         let between = between(&contact.bodies);
-        match (contact.gap, contact.rolls_on) {
-            (Some(_), _) => quote!(#private::Contact::new(#name, #first, #tangents)#drilling #between),
-            (None, Some(on)) => quote!(#private::Contact::rolling(#name, #first, #tangents, #on)#between),
-            (None, None) => quote!(#private::Contact::dry_friction(#name, #first, #tangents)),
+        match contact.rolls_on {
+            _ if contact.has_gap => quote!(#private::Contact::new(#name, #first, #tangents)#drilling #between),
+            Some(on) => quote!(#private::Contact::rolling(#name, #first, #tangents, #on)#between),
+            None => quote!(#private::Contact::dry_friction(#name, #first, #tangents)),
         }
     });
     contacts.collect()

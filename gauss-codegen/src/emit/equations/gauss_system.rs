@@ -58,9 +58,8 @@ fn states(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 
 /// Whether gaps may close, and whether only they can raise the energy then.
 fn contacts(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    let system = &derived.subject.system;
-    let keeps_energy = derived.formal().inputs.is_empty() && system.keeps_energy();
-    (!system.contacts.is_empty()).then(|| {
+    let keeps_energy = derived.keeps_energy();
+    (!derived.subject.system.contacts.is_empty()).then(|| {
         quote!(
             const HAS_CONTACTS: ::core::primitive::bool = true;
             const KEEPS_ENERGY: ::core::primitive::bool = #keeps_energy;

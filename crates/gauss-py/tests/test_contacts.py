@@ -1,0 +1,87 @@
+"""Contacts of models at run time: closed forms, a robot of a file on its feet, and what no room is large enough for."""
+
+import pickle
+from pathlib import Path
+
+import gauss
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).parents[3]
+G = 9.81
+BALL = "coordinates(x, y), particle(mass = 1, position = [x, 0, y]), contact(floor, gap = y, restitution = 0.5), gravity = 9.81"
+
+
+def test_a_bouncing_ball_comes_to_rest_when_galileo_says():
+    ball = gauss.scene(BALL)()
+    run = ball.simulate([0.0, 1.0], [0.0, 0.0], (0, 2), rtol=1e-10, atol=1e-10)
+    first = np.sqrt(2 / G)
+    # Each flight takes half of the time of the one before: 2 e + 2 e² + … = 2 for e = 1/2.
+    times = [event.t for event in run.contact_events]
+    np.testing.assert_allclose(times[0], first, atol=1e-9)
+    assert run.contact_events[0].kind == "impact" and run.contact_events[-1].kind == "rests"
+    np.testing.assert_allclose(times[-1], 3 * first, atol=1e-6)
+    np.testing.assert_allclose(run.q[-1], [0, 0], atol=1e-9)
+    steps = ball.simulate([0.0, 1.0], [0.0, 0.0], (0, 2), contacts="steps", step=1e-4)
+    np.testing.assert_allclose(steps.q[-1], [0, 0], atol=1e-9)
+    held = ball.in_contact([0.0, 0.0], [0.0, 0.0])
+    assert held.modes == {"floor": "closed"}
+    np.testing.assert_allclose(held.forces["floor"], [G])
+    np.testing.assert_allclose(held.acceleration, [0, 0], atol=1e-14)
+    again = pickle.loads(pickle.dumps(ball))
+    np.testing.assert_array_equal(again.simulate([0.0, 1.0], [0.0, 0.0], (0, 2), rtol=1e-10, atol=1e-10).q, run.q)
+    flight = ball.without_contacts().simulate([0, 1], [0, 0], (0, 1))
+    np.testing.assert_allclose(flight.q[-1], [0, 1 - G / 2], atol=1e-9)
+    with pytest.raises(gauss.ContactError, match="`in_contact` and `simulate` have them"):
+        ball.acceleration([0.0, 1.0], [0.0, 0.0])
+
+
+def test_ensembles_of_blocks_stop_where_coulomb_says():
+    text = """coordinates(x, z), particle(mass = m, position = [x, 0, z]), gravity = 9.81,
+        contact(floor, gap = z, slip = rate(x), friction = mu)"""
+    block = gauss.scene(text, m=None, mu=None)
+    speeds, frictions = np.linspace(0.5, 3, 8), np.linspace(0.2, 0.9, 8)
+    starts = np.stack([speeds, np.zeros(8)], axis=1)
+    ends = block(m=2, mu=0.5).ensemble(np.zeros((8, 2)), starts, (0, 3), parameters={"mu": frictions}, rtol=1e-9, atol=1e-9)
+    assert not ends.errors
+    np.testing.assert_allclose(ends.q[:, 0], speeds**2 / (2 * frictions * G), rtol=1e-8)
+
+
+def test_a_robot_of_a_file_stands_on_its_feet():
+    feet = [("LF", 1, 1), ("RF", 1, -1), ("LH", -1, 1), ("RH", -1, -1)]
+    clauses = [f"point(p{leg}, body = {leg}_KFE_link, at = [{0.033 * x}, {0.01305 * y}, -0.33797])" for leg, x, y in feet]
+    clauses += [f"contact({leg}_foot, point = p{leg}, radius = 0.031, friction = 0.8)" for leg, _, _ in feet]
+    robot = gauss.load(ROOT / "tests/robots/anymal.urdf", clauses=["base = floating", *clauses], gravity=G)
+    assert robot.contact_names == ["LF_foot", "RF_foot", "LH_foot", "RH_foot"]
+    legs = np.array([[0, 0.4, -0.8] if x > 0 else [0, -0.4, 0.8] for _, x, _ in [feet[0], feet[2], feet[1], feet[3]]]).ravel()
+    q, hold = np.concatenate([[0, 0, 0, 1, 0, 0, 0.6], legs]), legs.copy()
+    lowest = min(np.ravel(robot.gaps(q)))
+    q[6] -= lowest
+    stiffness, damping = 200.0, 8.0
+    run = robot.simulate(
+        q, np.zeros(18), (0, 1.5), contacts="steps", step=1e-3,
+        input=lambda t, q, z: stiffness * (hold - q[7:]) - damping * z[6:],
+    )
+    names = [f"{name} force" for name in robot.contact_names]
+    carried = sum(run[name][-1] for name in names)
+    mass = robot.mass_matrix(run.q[-1])[0, 0]
+    weight = mass * G
+    # It has come to rest: its feet carry it, and nothing moves.
+    np.testing.assert_allclose(carried, weight, rtol=1e-3)
+    assert np.abs(run.z[-1]).max() < 0.05 and run.contact_report["penetration"] < 1e-6
+    state = robot.in_contact(run.q[-1], np.zeros(18), stiffness * (hold - run.q[-1, 7:]))
+    np.testing.assert_allclose(sum(force[0] for force in state.forces.values()), weight, rtol=0.2)
+
+
+def test_rooms_say_what_they_are_too_small_for():
+    corners = "".join(
+        f"contact(c{k}, point = case.position + case.rotation * [{0.01 * k}, 0, -0.1], friction = 0.4), " for k in range(33)
+    )
+    box = gauss.scene(
+        "coordinates(pose: Pose), body(case, pose = pose, mass = 2, inertia = [0.03, 0.04, 0.05]), " + corners + "gravity = 9.81"
+    )()
+    with pytest.raises(ValueError, match="at most 64 numbers .* and 96 rows of contacts, .* has 7 and 99 rows"):
+        box.simulate([0, 0, 0, 1, 0, 0, 1], np.zeros(6), (0, 0.1))
+    free = gauss.scene("coordinates(x), particle(mass = 1, position = [x, 0, 0])")()
+    with pytest.raises((ValueError, TypeError), match="contact"):
+        free.simulate([0.0], [0.0], (0, 1), contacts="steps", step=1e-3)
