@@ -198,6 +198,19 @@ def test_stiff_scenes():
         slow.simulate([1.0, 0.0], [0.0, 0.0], (0, 3), max_steps=3000)
 
 
+def test_beams_bend():
+    """A free beam that turns: energy is kept, and it bends by what the turning asks for."""
+    beam = gauss.scene("""coordinates(angle, s),
+        body(beam, rotation = rotation_z(angle), mass = 2, center_of_mass = [0.5, 0, 0], inertia = [0, 2 / 3, 2 / 3]),
+        modes(beam, coordinates = [s], translation = [[1.25, 0, 0]], mass = [34 / 35], stiffness = [300],
+            inertia = [[0, 1.6, 1.6, 0, 0, 0]])""")()
+    run = beam.simulate([0.0, 0.02], [2.0, 0.0], (0, 2), rtol=1e-11, atol=1e-11)
+    energy = run.kinetic_energy + run.potential_energy
+    # Tolerances of 1e-11, over some hundred steps of numbers of order 1.
+    np.testing.assert_allclose(energy, energy[0], rtol=1e-8)
+    assert np.ptp(run["s"]) > 0.01
+
+
 def test_what_is_not_there_is_refused(pendulum):
     with pytest.raises(ValueError, match="the method taylor is one of compiled kernels"):
         pendulum.simulate([1.0], [0.0], (0, 1), method="taylor")

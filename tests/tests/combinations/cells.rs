@@ -71,10 +71,6 @@ pub const fn refused(why: &'static str) -> Cell {
     Cell { kind: Kind::Refused, why, ..UNSHOWN }
 }
 
-pub const fn unshown(why: &'static str) -> Cell {
-    Cell { why, ..UNSHOWN }
-}
-
 pub const fn missing(why: &'static str) -> Cell {
     Cell { kind: Kind::Missing, why, ..UNSHOWN }
 }

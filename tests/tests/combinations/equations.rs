@@ -235,6 +235,7 @@ pub const MODES: Row = Row {
         ("dst", together("modes::of_a_step")),
         ("run", together("modes::along_a_run")),
         ("stu", together("modes::study")),
+        ("py", shown("crates/gauss-py/tests/test_runs.py", "test_beams_bend")),
     ],
 };
 

@@ -1,6 +1,6 @@
 //! Rows of what happens in a run: samples of controllers, events, jumps, stops, contacts, slots.
 
-use super::cells::{Row, missing, moot, refused, shown, together, unshown};
+use super::cells::{Row, missing, moot, refused, shown, together};
 
 const AT_A_STATE: &str = "it happens in a run; the equations at a state have no part of it";
 const NOT_IN_RUNS: &str = "`contact_events()` takes inputs and events, and nothing that changes them: a compile error";
@@ -195,8 +195,13 @@ pub const RANGES: Row = Row {
                 "lanes_and_derivatives_have_friction_along_driven_coordinates",
             ),
         ),
+        ("thr", shown(TOUCHING, "ranges_on_threads_have_the_bits_of_one")),
         ("at", shown("tests/tests/touching.rs", "a_motor_holds_a_pendulum_at_its_stop").but("by events")),
-        ("pag", unshown("the example `dry_friction` writes one")),
+        ("tab", shown(TOUCHING, "ranges_in_tables_and_plots")),
+        ("plt", shown(TOUCHING, "ranges_in_tables_and_plots")),
+        ("pag", shown(TOUCHING, "ranges_in_pages")),
+        ("mon", shown(TOUCHING, "energy_between_stops_is_accounted_for").but("by events")),
+        ("fwd", shown(TOUCHING, "places_between_stops_have_derivatives").but("by events, in dual numbers")),
         ("adj", refused(FALLS_THROUGH)),
         (
             "lin",
@@ -212,7 +217,7 @@ pub const RANGES: Row = Row {
             .but(FREE_STEP_DERIVATIVES),
         ),
         ("run", shown("examples/tests/hop_mpc.rs", "plans_hop_on_after_a_blow_and_thrusts_alone_do_not")),
-        ("stu", unshown("the examples `lander_legs` and `study` are such studies")),
+        ("stu", shown(TOUCHING, "ranges_in_rows_of_studies")),
         ("py", shown("examples/python/tests/test_contacts.py", "test_ranges_and_dry_friction").but(IN_PYTHON)),
     ],
 };
@@ -250,7 +255,7 @@ pub const CONTACTS: Row = Row {
             .but("by events; in steps `both_records_are_read_alike`"),
         ),
         ("tab", shown("tests/tests/touching/history.rs", "tables_take_runs_by_events_and_in_steps_alike")),
-        ("plt", unshown("the example `hopping` draws such a table")),
+        ("plt", shown(TOUCHING, "contacts_in_tables_and_plots")),
         (
             "pag",
             shown("crates/gauss-playback/tests/contact.rs", "contacts_have_places_modes_and_forces")
@@ -277,11 +282,12 @@ pub const CONTACTS: Row = Row {
             .but(FREE_STEP_DERIVATIVES),
         ),
         ("run", shown("examples/tests/trot_regulator.rs", "gains_from_derivatives_of_steps_hold_a_trot")),
-        ("stu", unshown("the examples `lander_legs` and `study` are such studies")),
+        ("stu", shown(TOUCHING, "contacts_in_rows_of_studies")),
         ("py", shown("examples/python/tests/test_contacts.py", "test_from_event_to_event").but(IN_PYTHON)),
     ],
 };
 
+const TOUCHING: &str = "tests/tests/goes_together/touching.rs";
 const ONE_SCALAR: &str = "`Slots` are in `f64` alone";
 const OF_SLOTS: &str = "`Slots` have no such trait: a compile error";
 
@@ -299,12 +305,17 @@ pub const SLOTS: Row = Row {
         ("one", refused(FREE_STEP)),
         ("lan", missing(ONE_SCALAR)),
         ("thr", missing("`ContactEnsemble` takes packs, and slots are in `f64` alone")),
+        ("at", shown(TOUCHING, "states_of_slots_between_samples")),
+        ("tab", shown(TOUCHING, "slots_in_tables_and_plots")),
+        ("plt", shown(TOUCHING, "slots_in_tables_and_plots")),
+        ("pag", shown(TOUCHING, "slots_in_pages")),
         ("mon", missing("`Slots` have no powers, so that `energy_balance` is not there; `report.work` is")),
         ("fwd", missing(ONE_SCALAR)),
         ("adj", missing(ONE_SCALAR)),
         ("lin", missing(OF_SLOTS)),
         ("dst", missing(ONE_SCALAR)),
         ("run", missing(ONE_SCALAR)),
+        ("stu", shown(TOUCHING, "slots_in_rows_of_studies")),
         ("py", missing("there is no class for them")),
     ],
 };

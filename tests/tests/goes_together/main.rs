@@ -9,6 +9,7 @@ mod happenings;
 mod records;
 mod runs;
 mod scenes;
+mod touching;
 
 use happenings::{Event, Jump, Sampled};
 use scenes::{Bending, Constrained, Input, Recorded, Redundant, Stateful, TableOfOne, TableOfTwo};

@@ -3,11 +3,13 @@
 use core::fmt;
 use core::ops::Range;
 
+use gauss_runtime::accuracy::Accuracy;
 use gauss_runtime::chart::Chart;
 use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::{
     Contact, ContactFrame, ContactSystem, ImpulseDynamics, ImpulseResponse, impulse_terms, impulse_velocities,
 };
+use gauss_runtime::description::{DescribedSystem, Equations, Operations};
 use gauss_runtime::frames::{FrameMotion, FramePose, FramedSystem};
 use gauss_runtime::nalgebra::{SMatrix, SVector};
 use gauss_runtime::system::{GaussSystem, Smoothness};
@@ -57,6 +59,8 @@ impl<'k, K, const N: usize, const R: usize, const D: usize> Slots<'k, K, N, R, D
 where
     K: FramedSystem<Scalar = f64, Speeds = SVector<f64, D>, Jacobian = SMatrix<f64, 6, D>>,
 {
+    /// A contact for each slot.
+    pub const CONTACTS: &'static [Contact] = &Self::TABLE;
     const TABLE: [Contact; N] = {
         let mut table = [Contact::new("", 0, 2); N];
         let mut i = 0;
@@ -261,6 +265,18 @@ where
     const SMOOTHNESS: Smoothness = K::SMOOTHNESS;
 }
 
+/// Names, equations and figures are those of the kernel: contact forces are not among its methods.
+impl<K, const N: usize, const R: usize, const D: usize> DescribedSystem for Slots<'_, K, N, R, D>
+where
+    K: DescribedSystem + FramedSystem<Scalar = f64, Speeds = SVector<f64, D>, Jacobian = SMatrix<f64, 6, D>>,
+{
+    const EQUATIONS: Equations = K::EQUATIONS;
+    const OPERATIONS: Operations = K::OPERATIONS;
+    const ACCURACY: Accuracy = K::ACCURACY;
+    const COORDINATE_NAMES: &'static [&'static str] = K::COORDINATE_NAMES;
+    const SPEED_NAMES: &'static [&'static str] = K::SPEED_NAMES;
+}
+
 impl<K, const N: usize, const R: usize, const D: usize> ContactSystem for Slots<'_, K, N, R, D>
 where
     K: FramedSystem<Scalar = f64, Speeds = SVector<f64, D>, Jacobian = SMatrix<f64, 6, D>>,
@@ -273,7 +289,10 @@ where
     type EachContact<T: Copy + fmt::Debug> = [T; N];
     type EachRow<T: Copy + fmt::Debug> = [T; R];
 
-    const CONTACTS: &'static [Contact] = &Self::TABLE;
+    #[inline]
+    fn contacts(&self) -> &'static [Contact] {
+        Self::CONTACTS
+    }
 
     fn gaps(&self, t: f64, q: &Self::Configuration) -> Self::Gaps {
         let mut gaps = SVector::from([OPEN; N]);
