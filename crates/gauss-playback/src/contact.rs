@@ -104,7 +104,7 @@ mod of_runs {
         samples: &[Sample<S>],
         frames: &[ContactFrame<f64>],
     ) -> Option<Plane> {
-        if kernel.contacts()[contact].bodies[1].is_some() || !S::CONTACTS[contact].has_gap() {
+        if kernel.contacts()[contact].bodies[1].is_some() || !kernel.contacts()[contact].has_gap() {
             return None;
         }
         let seen = samples.iter().zip(frames).map(|(s, frame)| {
