@@ -216,3 +216,17 @@ def test_what_is_not_there_is_refused(pendulum):
         pendulum.simulate([1.0], [0.0], (0, 1), method="taylor")
     with pytest.raises(ValueError, match="the method rosenbrock needs `#.gauss.linearize"):
         pendulum.simulate([1.0], [0.0], (0, 1), method="rosenbrock")
+
+
+def test_plots_have_a_line_for_each_column(pendulum):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    run = pendulum.simulate([1.0], [0.0], (0, 2))
+    lines = lambda axes: [[line.get_label() for line in own.get_lines()] for own in axes]
+    assert lines(run.plot()) == [["angle"], ["angle_dot"], ["kinetic_energy", "potential_energy"]]
+    axes = run.plot("angle_dot", ["angle", "kinetic_energy"])
+    assert lines(axes) == [["angle_dot"], ["angle", "kinetic_energy"]]
+    np.testing.assert_array_equal(axes[0].get_lines()[0].get_ydata(), run["angle_dot"])
+    with pytest.raises(KeyError, match="no column speed; it has t, angle, angle_dot"):
+        run.plot("speed")
+    matplotlib.pyplot.close("all")

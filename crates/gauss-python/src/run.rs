@@ -45,6 +45,21 @@ impl Run {
         PyList::new(py, events?)
     }
 
+    /// The columns in panels: configuration, speeds, energies, gaps and slips of contacts, their forces.
+    fn panels(&self) -> Vec<Vec<String>> {
+        let (state, rest) = self.columns.names()[1..].split_at(self.coordinates + self.speeds);
+        let (q, z) = state.split_at(self.coordinates);
+        let (energies, contacts) = rest.split_at(2);
+        let is_force = |name: &&String| {
+            let what = name.split_once(' ').map_or("", |(_, what)| what);
+            ["force", "friction", "drilling"].iter().any(|word| what.starts_with(word))
+        };
+        let (forces, rates): (Vec<&String>, Vec<&String>) = contacts.iter().partition(is_force);
+        let all = [q.iter().collect(), z.iter().collect(), energies.iter().collect(), rates, forces];
+        let all = all.into_iter().map(|panel: Vec<&String>| panel.into_iter().cloned().collect::<Vec<_>>());
+        all.filter(|panel| !panel.is_empty()).collect()
+    }
+
     /// When it ended.
     pub fn reached(&self) -> f64 {
         self.outcome.last[0]
@@ -225,6 +240,17 @@ impl Run {
         // A wish that need not be fulfilled, by the protocol.
         let _ = requested_schema;
         self.columns.stream(py)
+    }
+
+    /// A picture by matplotlib: a panel for each argument, a column or several, in order of time; without arguments
+    /// the configuration, the speeds, the energies, and of contacts the gaps and the forces. Events at contacts are
+    /// grey lines. Returns the axes.
+    #[pyo3(signature = (*names))]
+    fn plot<'py>(slf: &Bound<'py, Self>, names: &Bound<'py, PyTuple>) -> PyResult<Bound<'py, PyAny>> {
+        let py = slf.py();
+        let text = std::ffi::CString::new(include_str!("plot.py"))?;
+        let module = PyModule::from_code(py, &text, c"gauss_python_plot.py", c"gauss_python_plot")?;
+        module.getattr("plot")?.call1((slf, names, slf.get().panels()))
     }
 
     fn __repr__(&self) -> String {
