@@ -267,7 +267,7 @@ where
     fn events(&self, from: &mut At<K>, parts: &mut Vec<RunPart<'k, K>>) -> Option<ContactError> {
         let (t, q, z) = *from;
         let (mut made, error) =
-            self.run.again().attempt_with(Rc::clone(&self.input), Some(self.piles), (q, z), t..self.end);
+            self.run.again().attempt_with((Rc::clone(&self.input), None), Some(self.piles), (q, z), t..self.end);
         if let Some(ContactErrorKind::Penetration { .. }) = error.as_ref().map(|error| &error.kind)
             && let Some(segment) = made.segments.pop()
         {

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use gauss_runtime::constraint::ProjectionError;
-use gauss_runtime::integrate::IntegrationError;
+use gauss_runtime::integrate::{IntegrationError, IntegrationErrorKind};
 
 use crate::impact::Impact;
 use crate::residual::Residual;
@@ -202,6 +202,8 @@ pub enum ContactErrorKind {
     OutsideRun,
     /// The integration between two events failed.
     Integration(IntegrationError),
+    /// A controller cannot [sample](gauss_runtime::integrate::Simulation::sampled).
+    Sampling(IntegrationErrorKind),
 }
 
 impl ContactErrorKind {
@@ -350,6 +352,7 @@ impl fmt::Display for ContactErrorKind {
             ),
             Self::OutsideRun => f.write_str("the run does not cover this time"),
             Self::Integration(error) => error.fmt(f),
+            Self::Sampling(kind) => kind.fmt(f),
         }
     }
 }

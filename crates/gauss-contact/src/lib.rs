@@ -75,6 +75,7 @@ mod residual;
 mod rest;
 mod rounding;
 mod run;
+mod sampling;
 mod sensors;
 mod settings;
 mod shared;

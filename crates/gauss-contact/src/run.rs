@@ -10,6 +10,7 @@ use gauss_runtime::configuration::{Configuration, VectorSpace};
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::integrate::drive::event::{Events, NoEvents, Watched as Watching};
 use gauss_runtime::integrate::drive::simulation::NoControl;
+use gauss_runtime::integrate::drive::task::Unscheduled;
 use gauss_runtime::integrate::drive::tolerance::Tolerance;
 use gauss_runtime::integrate::{
     Adaptive, Control, Crossing, Feedback, InputSource, IntegrationErrorKind, NoInput, Sample, Simulation,
@@ -26,6 +27,7 @@ use crate::mode::{InMode, Least, Mode, slip, tangents};
 use crate::moving::in_time;
 use crate::problem::InModeProblem;
 use crate::rounding::Rounding;
+use crate::sampling::{self, Holds, with_holds};
 use crate::settings::{Settings, TOLERANCE};
 use crate::trajectory::{ContactTrajectory, InputOf, Segment, integration};
 use crate::witness::{GapBound, Watched, Witness};
@@ -192,7 +194,8 @@ impl<'k, K: ContactSystem, C, I, E> ContactRun<'k, K, C, I, E> {
         E: Events<InMode<'k, K>>,
     {
         let (run, input) = self.parted();
-        run.attempt_with(Rc::new(move |t, q, z| input.input(t, q, z)), None, (q0, z0), interval)
+        let (input, holds) = with_holds(input);
+        run.attempt_with((input, holds), None, (q0, z0), interval)
     }
 }
 
@@ -217,7 +220,7 @@ impl<'k, K: ContactSystem, C, E> ContactRun<'k, K, C, NoInput, E> {
     /// so many within so long a time.
     pub(crate) fn attempt_with(
         self,
-        input: InputOf<'k, K>,
+        (input, holds): (InputOf<'k, K>, Option<Holds<K>>),
         piles: Option<(usize, f64)>,
         (q0, z0): (K::Configuration, K::Speeds),
         interval: Range<K::Scalar>,
@@ -232,6 +235,7 @@ impl<'k, K: ContactSystem, C, E> ContactRun<'k, K, C, NoInput, E> {
             kernel,
             control,
             made: ContactTrajectory::begun(input),
+            holds,
             scales,
             settings,
             events,
@@ -253,6 +257,8 @@ struct Driver<'k, K: ContactSystem, C, E> {
     kernel: &'k K,
     control: C,
     made: ContactTrajectory<'k, K>,
+    /// Inputs that controllers have held, where there are some that sample.
+    holds: Option<Holds<K>>,
     scales: Scales,
     settings: Settings,
     /// The events of the user.
@@ -296,27 +302,48 @@ where
 {
     fn go(&mut self, (t, q, z): (K::Scalar, K::Configuration, K::Speeds)) -> Result<(), ContactError> {
         self.check_start(t, &q, &z)?;
+        sampling::begin::<K, E>(&mut self.events, self.holds.is_some(), (t, self.end), self.settings.steps)?;
         let (modes, jams) = (vec![Mode::Open; self.kernel.contacts().len()], self.settings.jams);
         let mut instant = Instant { kernel: self.kernel, t, q, z, modes, fired: None, first: true, jams };
         loop {
             let before = instant.z;
+            let until = self.sample(&instant)?;
             instant.decide(&mut self.scales, &mut self.made)?;
             if !instant.first {
                 self.led_over(&before, &instant);
             }
-            let fired = match self.segment(&instant)? {
+            let fired = match self.segment(&instant, until)? {
                 Stop::Contact(fired) => Some(fired),
                 Stop::End => None,
             };
             let Some(last) = self.made.last() else { return Ok(()) };
+            let goes_on = value(last.t) < value(self.end) && value(last.t) == value(until);
             instant = Instant { t: last.t, q: last.q, z: last.z, fired, first: false, ..instant };
             if self.made.stopped_by.is_some() {
                 return Ok(());
             }
             instant.fired = fired.or_else(|| self.touches(&instant));
-            let Some(fired) = instant.fired else { return Ok(()) };
+            let Some(fired) = instant.fired else {
+                if goes_on {
+                    continue;
+                }
+                return Ok(());
+            };
             self.count(value(last.t), fired)?;
         }
+    }
+
+    /// Lets controllers sample where the run is; until when they hold what they give.
+    fn sample(&mut self, Instant { t, q, z, .. }: &Instant<'k, K>) -> Result<K::Scalar, ContactError> {
+        if !E::SAMPLED {
+            return Ok(self.end);
+        }
+        let now = (*t, *q, *z, self.kernel.momentum(*t, q, z));
+        let (held, until) = sampling::tick::<K, E>(&mut self.events, now, None, self.end)?;
+        if let (Some(holds), Some(held)) = (&self.holds, held) {
+            holds.borrow_mut().push((value(*t), held));
+        }
+        Ok(until)
     }
 
     /// Events of the user over whose zeros an impact has led.
@@ -384,7 +411,7 @@ where
     }
 
     /// One segment, with what ended it.
-    fn segment(&mut self, from: &Instant<'k, K>) -> Result<Stop, ContactError> {
+    fn segment(&mut self, from: &Instant<'k, K>, until: K::Scalar) -> Result<Stop, ContactError> {
         let system = InMode::with(self.kernel, &from.modes, self.least(from));
         let problem = InModeProblem::new(system.clone(), Rc::clone(&self.made.input), Rc::clone(&self.moving));
         let witnesses = self.witnesses(from, &problem);
@@ -395,13 +422,13 @@ where
             (move |t: K::Scalar, q: &K::Configuration, z: &K::Speeds| witness.value(t, q, z), bound)
         });
         let users = Events::<InMode<'k, K>>::count(&self.events);
-        let simulation = Simulation::of(problem).control(self.control.clone()).events_by(&mut self.events);
+        let simulation = Simulation::of(problem).control(self.control.clone()).events_by(Unscheduled(&mut self.events));
         let simulation = simulation.every(self.settings.every);
         let mut simulation = simulation.until_each_bounded(Crossing::Falling, functions.collect());
         if let Some(limit) = self.settings.steps {
             simulation = simulation.max_steps(limit.saturating_sub(self.used));
         }
-        let (trajectory, error) = simulation.attempt(from.q, from.z, from.t..self.end);
+        let (trajectory, error) = simulation.attempt(from.q, from.z, from.t..until);
         let (last, end) = (*trajectory.last(), trajectory.last().t);
         self.used += trajectory.summary().steps + trajectory.summary().rejected;
         let passed = trajectory.events().iter().filter(|event| event.number < users);

@@ -32,22 +32,16 @@ struct Given {
 }
 
 impl Given {
-    /// Refuses what runs with contacts do not have.
-    fn without_what_contacts_have_not(&self) -> PyResult<()> {
-        let in_steps = match self.control {
-            Control::ContactEvents(..) => false,
-            Control::ContactSteps(..) => true,
-            _ => return Ok(()),
-        };
+    /// Refuses jumps in runs with contacts.
+    fn without_jumps_among_contacts(&self) -> PyResult<()> {
+        let touches = matches!(self.control, Control::ContactEvents(..) | Control::ContactSteps(..));
         let jumps = self.watched.iter().any(|event| matches!(event.effect, given::GivenEffect::Jumps(..)));
-        let why = match (in_steps, &self.controller) {
-            _ if jumps => {
-                "jumps of one's own are those of runs without contacts: end the run by `until` and begin another"
-            }
-            (false, Some(_)) => "controllers that sample go with contacts=\"steps\", or without contacts",
-            _ => return Ok(()),
-        };
-        Err(PyTypeError::new_err(why))
+        if touches && jumps {
+            return Err(PyTypeError::new_err(
+                "jumps of one's own are those of runs without contacts: end the run by `until` and begin another",
+            ));
+        }
+        Ok(())
     }
 
     /// Runs it.
@@ -162,7 +156,7 @@ impl Kernel {
             times: times.map(|times| given::times_within(times, interval)).transpose()?,
             limit: max_steps,
         };
-        given.without_what_contacts_have_not()?;
+        given.without_jumps_among_contacts()?;
         // Last of all, so that no bar is shown for a run that is refused.
         let calls = Calls::new(Progress::of(progress, interval, "s")?);
         let run = given.run(py, self, &calls).map(|outcome| Run::new(scene, outcome, kinds));

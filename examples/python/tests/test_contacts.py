@@ -204,8 +204,27 @@ def test_controllers_in_steps_of_contacts(puck):
     late = puck.simulate(*puck.state(), (0, 0.1), controller=lambda t, q, z: [3.0], period=0.02, delay=0.03, **how)
     moves = late.t[np.flatnonzero(late.q[:, 0] > 0)[0]]
     assert abs(moves - 0.031) < 1e-9
-    with pytest.raises(ValueError, match="period is 0.0015, which is no multiple of the step, 0.001"):
-        puck.simulate(*start, (0, 1), controller=law, period=0.0015, **how)
+    # An instant that is no end of a step cuts one.
+    called.clear()
+    puck.simulate(*start, (0, 0.1), controller=law, period=0.0015, **how)
+    assert np.allclose(called, 0.0015 * np.arange(67), atol=1e-12)
+
+
+def test_controllers_from_event_to_event(puck):
+    called = []
+
+    def law(t, q, z):
+        called.append(t)
+        return [3.0 if t < 0.05 else 0.0]
+
+    late = puck.simulate(*puck.state(), (0, 0.2), controller=law, period=0.02, delay=0.03, rtol=1e-10, atol=1e-10)
+    assert np.allclose(called, 0.02 * np.arange(10), atol=1e-12)
+    steps = puck.simulate(
+        *puck.state(), (0, 0.2), controller=law, period=0.02, delay=0.03, contacts="steps", step=1e-4
+    )
+    # Nothing acts for 30 ms, then what was sampled before 50 ms, until 90 ms.
+    assert late.q[np.searchsorted(late.t, 0.03, "right") - 1, 0] == 0.0
+    assert late.q[-1, 0] > 1e-5 and abs(late.q[-1, 0] - steps.q[-1, 0]) < 1e-5
 
 
 def test_ranges_and_dry_friction(gate):

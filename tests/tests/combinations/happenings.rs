@@ -3,6 +3,7 @@
 use super::cells::{Row, missing, moot, refused, shown, together};
 
 const AT_A_STATE: &str = "it happens in a run; the equations at a state have no part of it";
+const WITH_CONTACTS: &str = "crates/gauss-contact/tests/many/sampled.rs";
 const NOT_IN_RUNS: &str = "`contact_events()` takes inputs and events, and nothing that changes them: a compile error";
 const BETWEEN_STEPS: &str = "what is done between two steps is the caller's";
 
@@ -19,8 +20,8 @@ pub const SAMPLED: Row = Row {
         ),
         ("ros", together("sampled::stiff")),
         ("imp", together("sampled::implicit")),
-        ("evt", missing(NOT_IN_RUNS)),
-        ("stp", missing("an input is asked in each step; another period is a loop over `ContactStepper`")),
+        ("evt", shown(WITH_CONTACTS, "from_event_to_event")),
+        ("stp", shown(WITH_CONTACTS, "in_steps_of_any_length")),
         ("one", moot(BETWEEN_STEPS)),
         ("lan", missing("`Batch` and `Ensemble` have no such method")),
         ("thr", missing("`Batch` and `Ensemble` have no such method")),

@@ -20,6 +20,8 @@ use gauss_runtime::real::Real;
 use crate::error::{ContactError, ContactErrorKind};
 use crate::mode::{InMode, Mode};
 
+use crate::sampling;
+
 use super::kept::Kept;
 use super::made::{StepSample, StepStatistics, SteppedRun};
 use super::passing::look;
@@ -158,19 +160,22 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
         let mut stepper = self.steps.stepper(interval.start, q0, z0)?;
         // A step that is made in parts does not differ from its halves where these are; impacts are made short anyway.
         stepper.accounts = false;
+        let (holds, whole) = (self.steps.input.held().is_some(), (interval.start, interval.end));
+        sampling::begin::<K, E>(&mut self.steps.events, holds, whole, Some(self.limit))?;
+        let mut until = self.steps.sample(&stepper, interval.end)?;
         let mut lengths = Lengths::new(self.steps.h, self.shortest);
         while stepper.t < interval.end {
             let (before, statistics) = (stepper.kept(), &mut made.statistics);
             if statistics.accepted + statistics.rejected >= self.limit {
                 return Err(stepper.error(None, ContactErrorKind::TooManySteps { limit: self.limit }));
             }
-            let (h, last) = lengths.within(interval.end - before.t);
+            let (h, last) = lengths.within(until - before.t);
             let trial = self.trial(&mut stepper, (&before, statistics.accepted == 0), h);
             let least = ROUNDINGS * f64::EPSILON * before.t.abs().max(h);
             match lengths.judge(h, trial.as_ref().ok()) {
                 Verdict::Keep => {
                     let trial = trial?;
-                    stepper.t = if last { interval.end } else { before.t + h };
+                    stepper.t = if last { until } else { before.t + h };
                     stepper.report = StepReport { estimate: trial.estimate, ..trial.report };
                     statistics.keep(&trial);
                     let sample = StepSample::of(&stepper);
@@ -178,6 +183,9 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> AdaptiveContactSteps<'k, K, I, E>
                     made.samples.push(sample);
                     if look(&mut self.steps.events, made)? {
                         return Ok(());
+                    }
+                    if last && stepper.t < interval.end {
+                        until = self.steps.sample(&stepper, interval.end)?;
                     }
                 }
                 Verdict::Shorten if lengths.next >= least && lengths.next < h => {

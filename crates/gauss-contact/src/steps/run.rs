@@ -9,11 +9,16 @@ use gauss_runtime::integrate::{Crossing, Feedback, InputSource, NoInput};
 use crate::error::{ContactError, ContactErrorKind};
 use crate::mode::InMode;
 
+use crate::sampling;
+
 use super::made::{StepSample, SteppedRun};
 use super::passing::look;
 use super::relaxed::StepLaw;
 use super::report::StepScheme;
 use super::stepper::ContactStepper;
+
+/// Roundings of a time within which an instant is the end of a step.
+const ROUNDINGS: f64 = 16.0;
 
 /// A run in steps in preparation: that of [`contact_steps`](crate::WithContacts::contact_steps) of a
 /// [`Simulation`](gauss_runtime::integrate::Simulation).
@@ -174,20 +179,53 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
         let count = whole + u64::from(count > whole as f64);
         let h = (end - start) / count as f64;
         let mut stepper = self.stepper(start, q0, z0)?;
+        sampling::begin::<K, E>(&mut self.events, self.input.held().is_some(), (start, end), self.limit)?;
+        let (mut until, mut steps) = (self.sample(&stepper, end)?, 0);
         for n in 1..=count {
-            if let Some(limit) = self.limit.filter(|limit| *limit < n) {
-                return Err(stepper.error(None, ContactErrorKind::TooManySteps { limit }));
-            }
-            let (q, z) = (*stepper.configuration(), *stepper.speeds());
-            stepper.step(h, &self.input.input(stepper.time(), &q, &z))?;
             // Times are multiples of the length, not sums of it.
-            stepper.t = start + (end - start) * (n as f64 / count as f64);
-            made.samples.push(StepSample::of(&stepper));
-            if look(&mut self.events, made)? {
-                break;
+            let end_of_step = start + (end - start) * (n as f64 / count as f64);
+            let mut length = h;
+            loop {
+                steps += 1;
+                if let Some(limit) = self.limit.filter(|limit| *limit < steps) {
+                    return Err(stepper.error(None, ContactErrorKind::TooManySteps { limit }));
+                }
+                // An instant of a controller ends a step.
+                let rest = end_of_step - until;
+                let rounding = ROUNDINGS * f64::EPSILON * end_of_step.abs().max(start.abs());
+                let is_cut = E::SAMPLED && rest > rounding;
+                length = if is_cut { until - stepper.t } else { length };
+                let (q, z) = (*stepper.configuration(), *stepper.speeds());
+                stepper.step(length, &self.input.input(stepper.time(), &q, &z))?;
+                stepper.t = if E::SAMPLED && rest >= -rounding { until } else { end_of_step };
+                made.samples.push(StepSample::of(&stepper));
+                if look(&mut self.events, made)? {
+                    return Ok(());
+                }
+                if E::SAMPLED && stepper.t == until && until < end {
+                    until = self.sample(&stepper, end)?;
+                }
+                if !is_cut {
+                    break;
+                }
+                length = end_of_step - stepper.t;
             }
         }
         Ok(())
+    }
+
+    /// Lets controllers sample where the steps are; until when they hold what they give.
+    pub(super) fn sample(&mut self, stepper: &ContactStepper<'k, K>, end: f64) -> Result<f64, ContactError>
+    where
+        I: InputSource<K>,
+        E: Events<InMode<'k, K>>,
+    {
+        if !E::SAMPLED {
+            return Ok(end);
+        }
+        let (t, q, z) = (stepper.time(), *stepper.configuration(), *stepper.speeds());
+        let now = (t, q, z, self.kernel.momentum(t, &q, &z));
+        Ok(sampling::tick::<K, E>(&mut self.events, now, self.input.held(), end)?.1)
     }
 
     /// States in between are made from those at both ends of a step.

@@ -10,6 +10,7 @@ mod driven;
 mod front;
 mod lanes;
 mod relaxed;
+mod sampled;
 mod several;
 mod spinning;
 mod springs;

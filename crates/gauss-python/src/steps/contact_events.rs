@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use gauss_contact::{ContactRun, ContactTrajectory, EventKind};
+use gauss_contact::{ContactTrajectory, EventKind, WithContacts};
 use gauss_runtime::integrate::drive::each::Each;
 use gauss_runtime::integrate::{Adaptive, Summary};
 use gauss_runtime::prelude::*;
@@ -11,7 +11,7 @@ use super::causes::of_contacts;
 use super::contact_rows::{Touching, named, rows_of, unless_stopped};
 use super::outcome::{self, Happening, Outcome, Touched};
 use super::request::{Control, Request};
-use super::watching::{input, watched};
+use super::watching::{input, of_numbers, watched};
 
 /// A run from event to event.
 ///
@@ -28,17 +28,23 @@ pub(super) fn run<S: Touching>(
     let control = Adaptive::new(relative, absolute);
     let control = if largest.is_finite() { control.largest_step(largest) } else { control };
     let stop = (unless_stopped(request), Crossing::Any, [true, false]);
-    let run = ContactRun::new(system)
-        .control(control)
-        .tolerance(relative, absolute)
-        .law(law)
+    let interval = request.interval.0..request.interval.1;
+    let simulation = Simulation::new(system)
         .input(|t: f64, q: &S::Configuration, z: &S::Speeds| input::<S>(request, t, q, z))
-        .events_by(Each::of(watched::<S>(request).chain([stop])));
-    let run = match request.limit {
-        Some(limit) => run.max_steps(limit),
-        None => run,
+        .events_by(Each::of(watched::<S>(request).chain([stop])))
+        .control(control);
+    let simulation = match request.limit {
+        Some(limit) => simulation.max_steps(limit),
+        None => simulation,
     };
-    let (run, error) = run.attempt(q, z, request.interval.0..request.interval.1);
+    let (run, error) = match &request.controller {
+        None => simulation.contact_events().tolerance(relative, absolute).law(law).attempt(q, z, interval),
+        Some(held) => {
+            let sampled = |t: f64, q: &S::Configuration, z: &S::Speeds| of_numbers(held.law, t, q, z);
+            let simulation = simulation.sampled(held.period, sampled).delayed(held.delay);
+            simulation.contact_events().tolerance(relative, absolute).law(law).attempt(q, z, interval)
+        }
+    };
     let interrupted = request.stop.load(Ordering::Relaxed);
     let rows = rows_of(system, request, &run)?;
     let last =

@@ -1,10 +1,8 @@
 //! Runs with contacts in steps.
 
-use std::cell::RefCell;
-use std::collections::VecDeque;
 use std::sync::atomic::Ordering;
 
-use gauss_contact::{ContactSteps, Mode, Residual, StepLaw, StepReport, StepScheme, SteppedRun};
+use gauss_contact::{Mode, Residual, StepLaw, StepReport, StepScheme, SteppedRun, WithContacts};
 use gauss_runtime::integrate::Summary;
 use gauss_runtime::integrate::drive::each::Each;
 use gauss_runtime::prelude::*;
@@ -12,39 +10,36 @@ use gauss_runtime::prelude::*;
 use super::causes::of_contacts;
 use super::contact_rows::{Touching, named, rows_of, unless_stopped};
 use super::outcome::{self, Happening, Outcome, Touched};
-use super::request::{Held, Request};
+use super::request::Request;
 use super::watching::{input, of_numbers, watched};
 
 /// A run in steps of a length.
 ///
 /// # Errors
-/// Times of a controller that are no multiples of the step.
+/// States at times between steps that cannot be found.
 pub(super) fn run<S: Touching>(
     system: &S,
     request: &Request<'_>,
     (q, z): (S::Configuration, S::Speeds),
     (length, scheme, law): (f64, StepScheme, StepLaw),
 ) -> Result<Outcome, String> {
-    let (start, end) = request.interval;
-    let h = (end - start) / ((end - start) / length - 1e-9).ceil();
-    let sampled = request.controller.as_ref().map(|held| Sampled::new(held, start, h)).transpose()?;
-    let sampled = RefCell::new(sampled);
-    // Steps ask for their input once, at their start.
-    let held = |t: f64, q: &S::Configuration, z: &S::Speeds| {
-        let given = input::<S>(request, t, q, z);
-        match &mut *sampled.borrow_mut() {
-            Some(sampled) => given.add_scaled(1.0, &sampled.at(t, q, z)),
-            None => given,
+    let interval = request.interval.0..request.interval.1;
+    let stop = (unless_stopped(request), Crossing::Any, [true, false]);
+    let simulation = Simulation::new(system)
+        .input(|t: f64, q: &S::Configuration, z: &S::Speeds| input::<S>(request, t, q, z))
+        .events_by(Each::of(watched::<S>(request).chain([stop])));
+    let simulation = match request.limit {
+        Some(limit) => simulation.max_steps(limit),
+        None => simulation,
+    };
+    let (run, error) = match &request.controller {
+        None => simulation.contact_steps(length).scheme(scheme).law(law).attempt(q, z, interval),
+        Some(held) => {
+            let sampled = |t: f64, q: &S::Configuration, z: &S::Speeds| of_numbers(held.law, t, q, z);
+            let simulation = simulation.sampled(held.period, sampled).delayed(held.delay);
+            simulation.contact_steps(length).scheme(scheme).law(law).attempt(q, z, interval)
         }
     };
-    let stop = (unless_stopped(request), Crossing::Any, [true, false]);
-    let steps = ContactSteps::new(system, length).scheme(scheme).law(law).input(held);
-    let steps = steps.events_by(Each::of(watched::<S>(request).chain([stop])));
-    let steps = match request.limit {
-        Some(limit) => steps.max_steps(limit),
-        None => steps,
-    };
-    let (run, error) = steps.attempt(q, z, start..end);
     let interrupted = request.stop.load(Ordering::Relaxed);
     let rows = rows_of(system, request, &run)?;
     let mut summary = Summary::default();
@@ -107,47 +102,6 @@ fn change(before: &Mode, after: &Mode) -> Option<usize> {
         (Mode::Open, Mode::Open) => None,
         (_, Mode::Open) => Some(3),
         _ => None,
-    }
-}
-
-/// A controller that samples, whose instants are those of steps.
-struct Sampled<'a, U> {
-    held: &'a Held<'a>,
-    /// The time of the first instant, and the part of a step by which times may differ.
-    start: f64,
-    late: f64,
-    /// The number of the next instant.
-    next: u32,
-    /// Input that acts, and from when on others will.
-    acts: U,
-    to_come: VecDeque<(f64, U)>,
-}
-
-impl<'a, U: VectorSpace<f64>> Sampled<'a, U> {
-    fn new(held: &'a Held<'a>, start: f64, h: f64) -> Result<Self, String> {
-        let late = 1e-3 * h;
-        for (name, time) in [("period", held.period), ("delay", held.delay)] {
-            if (time - (time / h).round() * h).abs() > late {
-                return Err(format!("{name} is {time}, which is no multiple of the step, {h}"));
-            }
-        }
-        Ok(Self { held, start, late, next: 0, acts: U::zero(), to_come: VecDeque::new() })
-    }
-
-    /// The input that is held from the time of a step on.
-    fn at<Q: Configuration<Scalar = f64>, Z: VectorSpace<f64>>(&mut self, t: f64, q: &Q, z: &Z) -> U {
-        let instant = self.start + f64::from(self.next) * self.held.period;
-        if instant <= t + self.late {
-            self.to_come.push_back((instant + self.held.delay, of_numbers(self.held.law, t, q, z)));
-            self.next += 1;
-        }
-        while let Some((from, acts)) = self.to_come.front()
-            && *from <= t + self.late
-        {
-            self.acts = *acts;
-            self.to_come.pop_front();
-        }
-        self.acts
     }
 }
 

@@ -12,7 +12,7 @@ use super::{components, contact_events, contact_steps, vector};
 /// A run with contacts.
 ///
 /// # Errors
-/// Times of a controller that are no multiples of the step.
+/// A controller that cannot sample; states at times that cannot be found.
 pub fn run<S: Touching>(system: &S, q: S::Configuration, request: &Request<'_>) -> Result<Outcome, String> {
     let start = (q, vector::<S::Speeds>(request.z));
     match request.control {

@@ -18,9 +18,8 @@ pub use events::{bounded, event, schedule, search};
 pub(in crate::integrate) use events::{departure, jump, watched, zero};
 #[cfg(feature = "alloc")]
 pub use events::{each, task};
-pub(in crate::integrate) use runs::interval;
 #[cfg(feature = "alloc")]
 pub use runs::{RunRecord, boxed, trajectory};
-pub use runs::{observer, run, simulation, summary};
+pub use runs::{interval, observer, run, simulation, summary};
 pub(in crate::integrate) use step_control::cubic;
 pub use step_control::{adaptive, compensated, control, fixed, logarithms, looks, step_length};

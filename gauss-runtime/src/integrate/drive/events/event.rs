@@ -59,12 +59,11 @@ use crate::integrate::drive::departure::{Departure, RestAtZero, rounding};
 use crate::integrate::drive::jump::differs;
 pub use crate::integrate::drive::jump::{Jump, JumpFunction, NoJump};
 use crate::integrate::drive::projection::consistent;
-use crate::integrate::drive::schedule::Scheduled;
 use crate::integrate::drive::search::{Function, StepEnds, StepSearch, side, value};
 use crate::integrate::drive::watched::JumpApproach;
 pub use crate::integrate::drive::watched::{Events, Mark, NoEvents, Watched};
 use crate::integrate::problem::equations::Problem;
-use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake, SamplingMistake};
+use crate::integrate::problem::error::{IntegrationErrorKind, JumpMistake};
 use crate::integrate::problem::state::{State, TangentOf};
 use crate::real::Real;
 use crate::system::GaussSystem;
@@ -168,19 +167,9 @@ where
         Self { control, problem, events, lanes }
     }
 
-    /// Does something with every controller that samples, by its number, until it fails.
-    pub(in crate::integrate) fn schedule(
-        &mut self,
-        mut visit: impl FnMut(&mut dyn Scheduled<S>) -> Result<(), SamplingMistake>,
-    ) -> Result<(), IntegrationErrorKind> {
-        let (mut controller, mut outcome) = (0, Ok(()));
-        self.events.schedule(&mut |scheduled| {
-            if outcome.is_ok() {
-                outcome = visit(scheduled).map_err(|mistake| IntegrationErrorKind::Sampling { controller, mistake });
-            }
-            controller += 1;
-        });
-        outcome
+    /// The events, with the controllers that sample.
+    pub(in crate::integrate) fn events(&mut self) -> &mut E {
+        &mut self.events
     }
 
     /// Does something with every event, by its number, until it fails.

@@ -188,3 +188,29 @@ impl<S: GaussSystem, E: Events<S>, K: Scheduled<S>> Events<S> for Controlled<E, 
         visit(&mut self.task);
     }
 }
+
+/// Events without the controllers beside them, which a run has that is made of others.
+#[derive(Debug)]
+pub struct Unscheduled<'e, E>(pub &'e mut E);
+
+impl<E> Sealed for Unscheduled<'_, E> {}
+
+impl<S: GaussSystem, E: Events<S>> Events<S> for Unscheduled<'_, E> {
+    const ANY: bool = E::ANY;
+
+    fn count(&self) -> usize {
+        self.0.count()
+    }
+
+    fn each(&mut self, visit: &mut dyn FnMut(Function<'_, S>, &mut Mark)) {
+        self.0.each(visit);
+    }
+
+    fn each_bounded(&mut self, visit: &mut Visit<'_, S>) {
+        self.0.each_bounded(visit);
+    }
+
+    fn jump(&mut self, number: usize, state: &mut Sample<S>) -> bool {
+        self.0.jump(number, state)
+    }
+}

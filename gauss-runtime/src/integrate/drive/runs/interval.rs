@@ -1,35 +1,54 @@
 //! From one instant of sampling to the next.
 
-use crate::integrate::drive::control::Control;
-use crate::integrate::drive::event::{Events, Watch};
-use crate::integrate::drive::projection::consistent_start;
-use crate::integrate::problem::equations::Problem;
+use core::cell::Cell;
+
+use crate::integrate::drive::event::Events;
+use crate::integrate::drive::schedule::Scheduled;
 use crate::integrate::problem::error::{IntegrationErrorKind, SamplingMistake};
-use crate::integrate::problem::state::State;
+use crate::integrate::problem::state::Sample;
 use crate::real::Real;
 use crate::system::GaussSystem;
 
-/// The start of a run with controllers, on its constraints; all checks before the first sample.
+/// Does something with every controller that samples, by its number, until it fails.
+fn each<S: GaussSystem, E: Events<S>>(
+    events: &mut E,
+    mut visit: impl FnMut(&mut dyn Scheduled<S>) -> Result<(), SamplingMistake>,
+) -> Result<(), IntegrationErrorKind> {
+    let (mut controller, mut outcome) = (0, Ok(()));
+    events.schedule(&mut |scheduled| {
+        if outcome.is_ok() {
+            outcome = visit(scheduled).map_err(|mistake| IntegrationErrorKind::Sampling { controller, mistake });
+        }
+        controller += 1;
+    });
+    outcome
+}
+
+/// Checks of a run with controllers before the first sample. `holds`: whether its input has a place for what they give.
+///
+/// # Errors
+/// An interval that is none, or goes backward; an input in the place of the controllers'; periods and delays that are
+/// none, or too short for the times of the interval or the most steps.
 #[cold]
-pub(in crate::integrate) fn begin<S: GaussSystem, P: Problem<System = S>, C: Control<S>, E: Events<S>>(
-    problem: &P,
-    watch: &mut Watch<'_, P, C, E>,
-    (start, end): (State<S>, S::Scalar),
+pub fn begin<S: GaussSystem, E: Events<S>>(
+    events: &mut E,
+    holds: bool,
+    (start, end): (S::Scalar, S::Scalar),
     limit: u64,
-) -> Result<State<S>, IntegrationErrorKind> {
-    let (from, to) = (start.t.lane(0), end.lane(0));
-    if !(start.t.is_finite() && end.is_finite()) {
+) -> Result<(), IntegrationErrorKind> {
+    let (from, to) = (start.lane(0), end.lane(0));
+    if !(start.is_finite() && end.is_finite()) {
         return Err(IntegrationErrorKind::InvalidInterval);
     }
     let mut period = f64::INFINITY;
-    watch.schedule(|controller| {
+    each(events, |controller| {
         if to < from {
             return Err(SamplingMistake::Backward);
         }
-        if problem.held().is_none() {
+        if !holds {
             return Err(SamplingMistake::Replaced);
         }
-        controller.begin(start.t)?;
+        controller.begin(start)?;
         period = period.min(controller.period());
         Ok(())
     })?;
@@ -40,21 +59,24 @@ pub(in crate::integrate) fn begin<S: GaussSystem, P: Problem<System = S>, C: Con
     if (to - from) / period > limit as f64 {
         return Err(IntegrationErrorKind::TooManySteps { limit });
     }
-    consistent_start(problem, &start)
+    Ok(())
 }
 
-/// Lets controllers sample the state where the run is; gives what they hold from there on, and until when.
+/// Lets controllers sample the state where the run is, and their input act; gives what they hold from there on, and
+/// until when.
+///
+/// # Errors
+/// An input that is not finite.
 #[cold]
-pub(in crate::integrate) fn tick<S: GaussSystem, P: Problem<System = S>, C: Control<S>, E: Events<S>>(
-    problem: &P,
-    watch: &mut Watch<'_, P, C, E>,
-    state: &State<S>,
+pub fn tick<S: GaussSystem, E: Events<S>>(
+    events: &mut E,
+    now: &Sample<S>,
+    cell: Option<&Cell<S::Input>>,
     end: S::Scalar,
 ) -> Result<(Option<S::Input>, S::Scalar), IntegrationErrorKind> {
-    let now = problem.sample(state);
     let (mut held, mut next) = (None, end);
-    watch.schedule(|controller| {
-        controller.tick(&now)?;
+    each(events, |controller| {
+        controller.tick(now)?;
         held = Some(controller.added_to(held));
         let instant = controller.next();
         // What is left behind an instant that is the end but for a few roundings is none.
@@ -64,7 +86,7 @@ pub(in crate::integrate) fn tick<S: GaussSystem, P: Problem<System = S>, C: Cont
         }
         Ok(())
     })?;
-    if let (Some(cell), Some(input)) = (problem.held(), held) {
+    if let (Some(cell), Some(input)) = (cell, held) {
         cell.set(input);
     }
     Ok((held, next))

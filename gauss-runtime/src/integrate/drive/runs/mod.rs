@@ -2,7 +2,7 @@
 
 #[cfg(feature = "alloc")]
 pub mod boxed;
-pub(in crate::integrate) mod interval;
+pub mod interval;
 pub mod observer;
 #[cfg(feature = "alloc")]
 mod record;

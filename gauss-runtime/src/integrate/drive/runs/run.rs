@@ -11,6 +11,7 @@ use crate::integrate::drive::event::{Events, Outcome, Watch};
 use crate::integrate::drive::interval::{begin, tick};
 use crate::integrate::drive::observer::Observer;
 use crate::integrate::drive::pace::Pace;
+use crate::integrate::drive::projection::consistent_start;
 use crate::integrate::drive::search::StepEnds;
 use crate::integrate::drive::summary::{End, Summary};
 #[cfg(feature = "alloc")]
@@ -224,13 +225,23 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         let mut reached = RunResult::default();
         let mut passing = PassedStates::new();
         // Without controllers all of this is known when the program is compiled.
-        let begun = if E::SAMPLED { begin(self.problem, &mut watch, (start, end), self.limit) } else { Ok(start) };
+        let begun = if E::SAMPLED {
+            let holds = self.problem.held().is_some();
+            let begun = begin(watch.events(), holds, (start.t, end), self.limit);
+            begun.and_then(|()| consistent_start(self.problem, &start))
+        } else {
+            Ok(start)
+        };
         let mut from = match begun {
             Ok(start) => start,
             Err(kind) => return (reached, Err(IntegrationError::at(self.problem, &start, kind))),
         };
         loop {
-            let ticked = if E::SAMPLED { tick(self.problem, &mut watch, &from, end) } else { Ok((None, end)) };
+            let ticked = if E::SAMPLED {
+                tick(watch.events(), &self.problem.sample(&from), self.problem.held(), end)
+            } else {
+                Ok((None, end))
+            };
             let stop = match ticked {
                 Ok((held, stop)) => {
                     held.into_iter().for_each(|input| pass(RunItem::Held(from.t, input)));
