@@ -312,3 +312,10 @@ def test_stubs_are_those_of_the_module(tmp_path):
     )
     told, _, code = mypy.run(["--strict", "--cache-dir", str(tmp_path), str(file)])
     assert code == 0, told
+
+
+def test_kernels_never_change(pendulum):
+    with pytest.raises(AttributeError, match="`m` cannot be set: a kernel never changes"):
+        pendulum.m = 3
+    with pytest.raises(AttributeError):
+        pendulum.acceleration = None

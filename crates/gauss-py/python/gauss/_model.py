@@ -164,6 +164,12 @@ class Kernel(_native.Kernel):
         method.__doc__ = self._plan(name).documentation()
         return method
 
+    def __setattr__(self, name, value):
+        # Classes of the user's own may have what they like.
+        if type(self) is self.model._class:
+            raise AttributeError(f"`{name}` cannot be set: a kernel never changes, its model makes another")
+        super().__setattr__(name, value)
+
     def __dir__(self):
         return [*super().__dir__(), *self.methods]
 
