@@ -15,7 +15,7 @@
 //! - `derivatives`: what the equations are differentiated along; the regressor; rates of all numbers of a state.
 //! - `print`: the equations for people.
 //!
-//! `scene` is what is given, `system` puts everything together: every method (`formula`) of a kernel, each in several
+//! `name` is a name in both notations, `scene` is what is given, `system` puts everything together: every method (`formula`) of a kernel, each in several
 //! arrangements; `one_body` defines the body that is all the matter; `frames` has quantities of single links, `whole`
 //! those of all together, `reactions` those of joints. `tidy` is what is multiplied out where that is short.
 
@@ -29,6 +29,7 @@ mod kinematics;
 mod links;
 mod loads;
 mod matter;
+mod name;
 mod one_body;
 mod print;
 #[cfg(test)]
@@ -77,7 +78,7 @@ pub use loads::motion_symbols::MotionSymbols;
 pub use matter::body::{Body, BodyShape, ParameterSymbol, QuantityValues};
 pub use matter::modes::{Deformation, ModalIntegrals};
 pub use matter::rotor::Rotor;
-pub use print::names::Name;
+pub use name::Name;
 pub use print::readings::Readings;
 pub use reactions::{FreedScene, Reactions};
 pub use scene::{ChartedLink, Coordinate, SystemScene};

@@ -12,7 +12,7 @@ use crate::mechanics::links::link::{Matter, Placement};
 use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::Element;
 use crate::mechanics::matter::body::Body;
-use crate::mechanics::print::names::Name;
+use crate::mechanics::name::Name;
 use crate::mechanics::tidy::tidy;
 
 /// Degrees of freedom up to which everything is also tried multiplied out: of links that hang on one another, and of

@@ -4,10 +4,11 @@ use crate::algebra::{Expr, Graph, Map, Substitution, inverse_of_symmetric, solve
 
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::vector::{
-    Axes, Frame, Triple, Vector, add, apply_block, cross, cross_matrix, dot, is_zero, scale, subtract,
+    Axes, Frame, Triple, Vector, add, apply_block, cross, cross_matrix, is_zero, scale, subtract,
 };
 use crate::mechanics::loads::wrench::Wrench;
 use crate::mechanics::matter::body::{AffineField, Body, integrate_product};
+use crate::mechanics::matter::weight::Weight;
 
 /// Terms that a component of a balance may have before it is left as it is.
 const LIMIT: usize = 600;
@@ -115,16 +116,6 @@ fn multiple_of_identity<'g>(entries: &[Vec<Expr<'g>>], axes: &[usize]) -> Option
     axes.iter().all(|&i| axes.iter().all(|&j| fits(i, j))).then_some(lambda)
 }
 
-/// Weight and buoyancy, or the weight of matter alone: resultant `effective_mass ĝ` and torque about O
-/// `effective_moment × ĝ`.
-#[derive(Clone, Copy)]
-pub struct Weight<'g> {
-    pub gravity: Triple<'g>,
-    pub effective_mass: Expr<'g>,
-    /// Body axes.
-    pub effective_moment: Triple<'g>,
-}
-
 /// Weight and buoyancy, and the weight in a field that is uniform over the matter: where the translation is eliminated
 /// it leaves the balance of torques before numbers are put in.
 #[derive(Default)]
@@ -150,40 +141,6 @@ impl<'g> Weights<'g> {
 
     pub fn torque(&self, frame: &Frame<'g>, axes: Axes) -> Triple<'g> {
         self.iter().fold(frame.zero().body, |sum, weight| add(&sum, &weight.torque(frame, axes)))
-    }
-}
-
-impl<'g> Weight<'g> {
-    pub fn new(body: &Body<'g>) -> Option<Self> {
-        let gravity = body.gravity?;
-        let (mut effective_mass, mut effective_moment) = (body.mass, body.first_moment());
-        if let Some((mass, center)) = body.displaced {
-            effective_mass = effective_mass - mass;
-            effective_moment = subtract(&effective_moment, &scale(mass, &center));
-        }
-        Some(Self { gravity, effective_mass, effective_moment })
-    }
-
-    /// Weight of all matter, in a field that is uniform over it.
-    pub fn of_matter(body: &Body<'g>, field: Triple<'g>) -> Self {
-        Self { gravity: field, effective_mass: body.mass, effective_moment: body.first_moment() }
-    }
-
-    pub fn resultant(&self, frame: &Frame<'g>) -> Vector<'g> {
-        frame.space_vector(self.gravity).times(self.effective_mass)
-    }
-
-    /// M_O with components in the given axes, turned where that is least work.
-    pub fn torque(&self, frame: &Frame<'g>, axes: Axes) -> Triple<'g> {
-        let arm = frame.resolve(&frame.body_vector(self.effective_moment), axes);
-        cross(&arm, &frame.resolve(&frame.space_vector(self.gravity), axes))
-    }
-
-    /// U with R = −∂U/∂b.
-    pub fn potential(&self, frame: &Frame<'g>, position: &Triple<'g>) -> Expr<'g> {
-        let gravity = frame.space_vector(self.gravity);
-        let height = self.effective_mass * dot(&self.gravity, position);
-        -(height + frame.dot(&frame.body_vector(self.effective_moment), &gravity))
     }
 }
 

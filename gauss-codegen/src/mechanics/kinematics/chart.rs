@@ -9,7 +9,7 @@ use crate::mechanics::kinematics::rotation::{coordinate_names, rotation_of};
 use crate::mechanics::kinematics::turn::Turn;
 use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, cross_matrix};
 use crate::mechanics::links::link::{Matter, Placement};
-use crate::mechanics::print::names::Name;
+use crate::mechanics::name::Name;
 use crate::mechanics::scene::Coordinate;
 
 /// The coordinates, speeds and kinematics of one body in a chart.

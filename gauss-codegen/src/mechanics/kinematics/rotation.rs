@@ -4,7 +4,7 @@ use crate::algebra::{Expr, Graph};
 use crate::terms::RotationChart;
 
 use crate::mechanics::kinematics::vector::{Axes, Triple, cross, cross_matrix, dot};
-use crate::mechanics::print::names::Name;
+use crate::mechanics::name::Name;
 
 /// Names of a rotation chart's coordinates.
 pub fn coordinate_names(chart: RotationChart) -> Vec<Name> {

@@ -2,11 +2,11 @@
 
 use crate::algebra::Expr;
 
-use crate::mechanics::arrangements::balance::Weight;
 use crate::mechanics::kinematics::turn::outward;
 use crate::mechanics::kinematics::vector::{Triple, add, dot, scale, subtract};
 use crate::mechanics::links::link::{Link, Matter};
 use crate::mechanics::links::tree::Tree;
+use crate::mechanics::matter::weight::Weight;
 
 impl<'g> Tree<'g> {
     /// `−ĝ·Σ∫x̂ dm`. All matter counts, also what keeps still.

@@ -8,7 +8,7 @@ use crate::mechanics::kinematics::rotation::poisson;
 use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, Vector};
 use crate::mechanics::loads::forces::{Action, Element, Force};
 use crate::mechanics::loads::wrench::Wrench;
-use crate::mechanics::print::names::Name;
+use crate::mechanics::name::Name;
 
 /// Symbols for the motion of a body: its pose, and its velocities in both frames, so that what is written in the one or
 /// in the other is never turned there and back.

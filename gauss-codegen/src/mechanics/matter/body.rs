@@ -4,7 +4,7 @@ use crate::algebra::{Expr, Graph, Map};
 use crate::terms::{Role, Shape};
 
 use crate::mechanics::kinematics::vector::Triple;
-use crate::mechanics::print::names::Name;
+use crate::mechanics::name::Name;
 
 /// Quantities that the scene's body has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

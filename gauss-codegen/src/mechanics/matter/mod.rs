@@ -4,3 +4,4 @@ pub mod body;
 pub mod modes;
 pub mod moments;
 pub mod rotor;
+pub mod weight;

@@ -6,7 +6,7 @@ use crate::mechanics::tidy::LIMIT;
 
 use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::loads::account::{Account, GRAVITY};
-use crate::mechanics::print::names::Name;
+use crate::mechanics::name::Name;
 use crate::mechanics::print::readings::{PrintSymbols, Readings};
 use crate::mechanics::print::rows::{PrintedRow, Section};
 use crate::mechanics::system::System;

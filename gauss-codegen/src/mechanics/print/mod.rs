@@ -1,7 +1,6 @@
 //! The equations for people.
 
 pub mod equations;
-pub mod names;
 pub mod readings;
 pub mod rows;
 pub mod sections;

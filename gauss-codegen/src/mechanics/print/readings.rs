@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use crate::algebra::{Expr, Graph, Notation, Rational, Substitution, print};
-use crate::mechanics::print::names::Name;
+use crate::mechanics::name::Name;
 use crate::mechanics::print::rows::{PrintedRow, Section};
 use crate::mechanics::tidy;
 

@@ -1,7 +1,7 @@
 //! Lines of printed equations under their headings.
 
 use crate::algebra::{Expr, Notation, Parts, print_definition, print_with};
-use crate::mechanics::print::names::Name;
+use crate::mechanics::name::Name;
 
 /// One line.
 pub enum PrintedRow<'g> {

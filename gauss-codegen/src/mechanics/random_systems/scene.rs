@@ -9,7 +9,7 @@ use crate::mechanics::links::link::{Matter, Placement};
 use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::{Action, Element};
 use crate::mechanics::matter::body::{Body, BodyShape};
-use crate::mechanics::print::names::Name;
+use crate::mechanics::name::Name;
 use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::terms::{Role, Shape};
 

@@ -15,13 +15,13 @@ use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, dot
 use crate::mechanics::links::link::Matter;
 use crate::mechanics::loads::forces::Loads;
 use crate::mechanics::loads::wrench::Wrench;
-use crate::mechanics::print::names::Name;
+use crate::mechanics::matter::weight::Weight;
+use crate::mechanics::name::Name;
 use crate::mechanics::scene::{Coordinate, SystemScene};
 use crate::mechanics::tidy::sums;
 
 use crate::mechanics::arrangements::balance::{
-    ARRANGEMENTS, Balance, BalanceForm, FormalComponents, KineticMatrix, LinearAcceleration, Weight, Weights,
-    solve_balance,
+    ARRANGEMENTS, Balance, BalanceForm, FormalComponents, KineticMatrix, LinearAcceleration, Weights, solve_balance,
 };
 
 /// Terms that a volume of partial angular velocities may have on the way to its normal form.

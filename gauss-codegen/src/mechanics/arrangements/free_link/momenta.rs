@@ -3,7 +3,7 @@
 use crate::algebra::{Expr, Map};
 use crate::mechanics::arrangements::balance::{BalanceForm, twist_of_momentum};
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, dot};
-use crate::mechanics::print::names::Name;
+use crate::mechanics::name::Name;
 
 use super::{FreeLink, Pair, PrintedMomenta};
 
