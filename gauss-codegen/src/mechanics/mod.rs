@@ -7,17 +7,18 @@
 //! - `matter`: bodies as symbols, integrals over them by moments.
 //! - `links`: bodies, frames and particles, each relative to its parent; sums over them by recursion; what moves with
 //!   the parent as well.
-//! - `loads`: forces and potentials, their wrenches on one link, central gravity, a medium that moves, accounts of
-//!   power.
-//! - `constraints`: multipliers, and constraints solved for the speeds that depend on others.
+//! - `loads`: forces and potentials, their wrenches on one link, central gravity, a medium that moves.
+//! - `constraints`: multipliers and rows of contacts.
 //! - `arrangements`: ways to write the same equations: a free link in its body axes, multiplied out, link by link.
 //! - `check`: the definition (3.1), and every scene against it before code is written.
 //! - `derivatives`: what the equations are differentiated along; the regressor; rates of all numbers of a state.
 //! - `print`: the equations for people.
 //!
-//! `name` is a name in both notations, `scene` is what is given, `system` puts everything together: every method (`formula`) of a kernel, each in several
-//! arrangements; `one_body` defines the body that is all the matter; `frames` has quantities of single links, `whole`
-//! those of all together, `reactions` those of joints. `tidy` is what is multiplied out where that is short.
+//! `name` is a name in both notations, `scene` is what is given, `system` puts everything together: every method
+//! (`formula`) of a kernel, each in several arrangements, the account of every element, and constraints solved for the
+//! speeds that depend on others; `one_body` defines the body that is all the matter; `frames` has quantities of single
+//! links, `whole` those of all together, `reactions` those of joints. `tidy` is what is multiplied out where that is
+//! short.
 
 mod arrangements;
 mod check;
@@ -56,7 +57,6 @@ pub use check::reactions::check_reactions;
 pub use check::witness::acceleration_by_definition;
 pub use constraints::constraint::{Constraint, ConstraintKind};
 pub use constraints::contact::{Contact, ContactFrame};
-pub use constraints::elimination::{Elimination, Obstacle};
 pub use constraints::multipliers::Constraints;
 pub use derivatives::hessian::Hessian;
 pub use derivatives::inverse::InverseLinearization;
@@ -83,3 +83,4 @@ pub use print::readings::Readings;
 pub use reactions::{FreedScene, Reactions};
 pub use scene::{ChartedLink, Coordinate, SystemScene};
 pub use system::System;
+pub use system::elimination::{Elimination, Obstacle};

@@ -23,9 +23,9 @@ use crate::algebra::{Expr, Graph, Map};
 use crate::kernel::{Candidates, Derivatives, Kernel, Program};
 
 use crate::mechanics::check::faults::{Claims, check_system_against_definition};
-use crate::mechanics::constraints::elimination::Elimination;
 use crate::mechanics::formula::{Formulas, Method};
 use crate::mechanics::system::System;
+use crate::mechanics::system::elimination::Elimination;
 use crate::mechanics::tests::Random;
 
 use dense::largest;

@@ -7,10 +7,10 @@
 
 use crate::algebra::{Expr, Map, Substitution};
 
-use crate::mechanics::constraints::elimination::Elimination;
 use crate::mechanics::formula::{Arrangements, Formula, Method};
 use crate::mechanics::scene::SystemScene;
 use crate::mechanics::system::System;
+use crate::mechanics::system::elimination::Elimination;
 
 /// A scene with joints let go: six coordinates and speeds more for each, after all others.
 pub struct FreedScene<'g> {

@@ -1,7 +1,9 @@
 //! Systems of bodies and particles: the Gauss condition (3.3), (3.4) summed over all of them,
 //! and every method of their kernels.
 
+mod accounts;
 mod arranged;
+pub mod elimination;
 mod response;
 
 use std::cell::OnceCell;

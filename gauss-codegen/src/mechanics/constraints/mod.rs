@@ -3,5 +3,4 @@
 pub mod constraint;
 pub mod contact;
 pub mod contact_rows;
-pub mod elimination;
 pub mod multipliers;

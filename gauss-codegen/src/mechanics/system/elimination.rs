@@ -7,8 +7,9 @@ use crate::algebra::{Expr, Map, Solver, Substitution};
 use crate::mechanics::constraints::constraint::ConstraintKind;
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::scene::SystemScene;
-use crate::mechanics::system::System;
 use crate::mechanics::tidy::tidy;
+
+use super::System;
 
 /// Terms that a dependent speed may have on the way to its normal form, where sin² + cos² is 1.
 const LIMIT: usize = 2000;

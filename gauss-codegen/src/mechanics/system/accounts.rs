@@ -6,8 +6,9 @@ use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::loads::account::{Account, GRAVITY};
 use crate::mechanics::loads::forces::{Action, Force, Loads};
 use crate::mechanics::loads::wrench::Wrench;
-use crate::mechanics::system::System;
 use crate::mechanics::tidy::sums;
+
+use super::System;
 
 /// The name of the account of prescribed motion: coordinates and constraints that are given functions of time.
 const GUIDES: &str = "guides";
