@@ -6,9 +6,9 @@ use crate::algebra::{Expr, Graph};
 use crate::terms::{Chart, Motion, Shape};
 
 use crate::mechanics::check::definition::{gauss_condition, pairing, stationarity, velocity_field};
+use crate::mechanics::kinematics::coordinate::Coordinate;
 use crate::mechanics::kinematics::vector::{Axes, Triple, add, cross, scale};
 use crate::mechanics::matter::body::{AffineField, Body, BodyShape, integrate_product};
-use crate::mechanics::scene::Coordinate;
 use crate::mechanics::system::System;
 use crate::mechanics::tests::{ChartedSystem, scenes};
 

@@ -7,7 +7,8 @@ use crate::terms::{BodyChart, Motion};
 
 use crate::mechanics::constraints::constraint::Constraint;
 use crate::mechanics::constraints::contact::Contact;
-use crate::mechanics::kinematics::vector::{Triple, is_zero};
+use crate::mechanics::kinematics::coordinate::Coordinate;
+use crate::mechanics::kinematics::vector::is_zero;
 use crate::mechanics::links::link::{Matter, Placement};
 use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::Element;
@@ -18,50 +19,6 @@ use crate::mechanics::tidy::tidy;
 /// Degrees of freedom up to which everything is also tried multiplied out: of links that hang on one another, and of
 /// links that do not, where a free body must be among them.
 const SMALL: [usize; 2] = [3, 6];
-
-/// One coordinate of the configuration.
-#[derive(Clone)]
-pub enum Coordinate<'g> {
-    Scalar(Expr<'g>),
-    /// R, by its entries.
-    Rotation([Triple<'g>; 3]),
-    /// (R, b).
-    Pose([Triple<'g>; 3], Triple<'g>),
-    /// SE(2), in the plane k₁k₂: cos θ and sin θ, b₁ and b₂. Its rate is (u₁, u₂, ω).
-    Plane {
-        turn: [Expr<'g>; 2],
-        position: [Expr<'g>; 2],
-    },
-}
-
-impl<'g> Coordinate<'g> {
-    /// Number of components of its rate.
-    pub fn size(&self) -> usize {
-        match self {
-            Coordinate::Scalar(_) => 1,
-            Coordinate::Rotation(_) | Coordinate::Plane { .. } => 3,
-            Coordinate::Pose(..) => 6,
-        }
-    }
-
-    /// Number of the coordinate that a component of the rates of all belongs to.
-    pub fn of_component(all: &[Self], component: usize) -> usize {
-        let mut end = 0;
-        let ends = all.iter().map(|coordinate| {
-            end += coordinate.size();
-            end
-        });
-        ends.take_while(|end| *end <= component).count()
-    }
-
-    /// R, where its entries are symbols.
-    pub fn rotation(&self) -> Option<&[Triple<'g>; 3]> {
-        match self {
-            Coordinate::Scalar(_) | Coordinate::Plane { .. } => None,
-            Coordinate::Rotation(rotation) | Coordinate::Pose(rotation, _) => Some(rotation),
-        }
-    }
-}
 
 /// A body whose pose is given in a chart of its own.
 #[derive(Clone, Copy)]

@@ -17,6 +17,7 @@ use crate::mechanics::arrangements::orthogonal::Elements;
 use crate::mechanics::constraints::contact_rows::Contacts;
 use crate::mechanics::constraints::multipliers::Constraints;
 use crate::mechanics::formula::{Formula, Formulas, Method};
+use crate::mechanics::kinematics::coordinate::Coordinate;
 use crate::mechanics::kinematics::vector::{Vector, is_zero};
 use crate::mechanics::links::inertia::Inertia;
 use crate::mechanics::links::link::Link;
@@ -24,7 +25,7 @@ use crate::mechanics::links::tree::{Tree, UngatheredResidual};
 use crate::mechanics::links::working::WorkingTree;
 use crate::mechanics::loads::account::account_formulas;
 use crate::mechanics::loads::forces::{Force, Loads, forces_of, potential_of, potential_of_forces};
-use crate::mechanics::scene::{Coordinate, SystemScene};
+use crate::mechanics::scene::SystemScene;
 use crate::mechanics::tidy::{compact, sums, tidy};
 
 /// Degrees of freedom up to which a factorisation of A can cost less than an elimination link by link.

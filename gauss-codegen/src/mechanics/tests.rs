@@ -7,13 +7,14 @@ use crate::mechanics::arrangements::free_link::FreeLink;
 use crate::mechanics::check::definition::gauss_condition;
 use crate::mechanics::formula::Method;
 use crate::mechanics::kinematics::chart::ChartedBody;
+use crate::mechanics::kinematics::coordinate::Coordinate;
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::rotation::rotation_of_quaternion;
 use crate::mechanics::links::link::Matter;
 use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::Element;
 use crate::mechanics::matter::body::{Body, BodyShape};
-use crate::mechanics::scene::{ChartedLink, Coordinate, SystemScene};
+use crate::mechanics::scene::{ChartedLink, SystemScene};
 use crate::mechanics::system::System;
 
 pub fn rotation_charts() -> Vec<RotationChart> {

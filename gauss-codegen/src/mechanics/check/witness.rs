@@ -5,11 +5,11 @@ use std::cell::OnceCell;
 
 use crate::algebra::{Evaluation, Expr, FlowDerivative, Map, Number, Rational, Tangents};
 
+use crate::mechanics::kinematics::coordinate::Coordinate;
 use crate::mechanics::kinematics::rotation::rotation_of_quaternion;
 use crate::mechanics::kinematics::vector::Axes;
 use crate::mechanics::links::link::{Link, Matter};
 use crate::mechanics::loads::forces::Force;
-use crate::mechanics::scene::Coordinate;
 use crate::mechanics::system::System;
 
 /// A velocity field of a link: of O, and of the axes e as columns.

@@ -4,9 +4,9 @@
 use crate::algebra::Expr;
 
 use crate::mechanics::formula::{Arrangements, Formula, Method};
+use crate::mechanics::kinematics::coordinate::Coordinate;
 use crate::mechanics::kinematics::rotation::quaternion_rate;
 use crate::mechanics::kinematics::vector::{Axes, Triple, is_zero};
-use crate::mechanics::scene::Coordinate;
 use crate::mechanics::system::System;
 
 impl<'g> System<'g> {

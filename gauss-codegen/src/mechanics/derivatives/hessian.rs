@@ -10,7 +10,8 @@ use crate::kernel::{Direction, SecondDerivatives};
 use crate::mechanics::derivatives::linearize::{Increments, alone};
 use crate::mechanics::derivatives::rigid::Rates;
 use crate::mechanics::formula::Formulas;
-use crate::mechanics::scene::{Coordinate, SystemScene};
+use crate::mechanics::kinematics::coordinate::Coordinate;
+use crate::mechanics::scene::SystemScene;
 use crate::mechanics::system::System;
 
 /// Weighted sum of the rates, which is differentiated twice.

@@ -10,9 +10,10 @@ use crate::kernel::{Columns, DerivativeForm, Direction, DirectionalDerivatives, 
 use crate::mechanics::derivatives::implicit::AccelerationsWithDerivatives;
 use crate::mechanics::derivatives::rigid::Rates;
 use crate::mechanics::formula::Formulas;
+use crate::mechanics::kinematics::coordinate::Coordinate;
 use crate::mechanics::kinematics::rotation::poisson;
 use crate::mechanics::kinematics::vector::Triple;
-use crate::mechanics::scene::{Coordinate, SystemScene};
+use crate::mechanics::scene::SystemScene;
 use crate::mechanics::system::System;
 
 /// Derivatives of V, component by component in the order of increments, then of ż.

@@ -4,13 +4,12 @@
 use crate::algebra::{Expr, Graph, Map};
 use crate::terms::{Chart, Motion, RotationChart};
 
+use crate::mechanics::kinematics::coordinate::Coordinate;
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::rotation::{coordinate_names, rotation_of};
 use crate::mechanics::kinematics::turn::Turn;
 use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, cross_matrix};
-use crate::mechanics::links::link::{Matter, Placement};
 use crate::mechanics::name::Name;
-use crate::mechanics::scene::Coordinate;
 
 /// The coordinates, speeds and kinematics of one body in a chart.
 #[derive(Clone)]
@@ -32,8 +31,8 @@ impl<'g> ChartedBody<'g> {
         Builder { graph, motion, chart }.build()
     }
 
-    /// The body as a root. Where something hangs on it, R is made of turns about single axes, if the chart has such.
-    pub fn placement(&self, matter: Matter<'g>, alone: bool) -> Placement<'g> {
+    /// R as turns; where something hangs on the body, about single axes, if the chart has such.
+    pub fn turns(&self, alone: bool) -> Vec<Turn<'g>> {
         let kinematics = &self.kinematics;
         let frame = &kinematics.frame;
         let linear = kinematics.linear_axes().len();
@@ -41,7 +40,7 @@ impl<'g> ChartedBody<'g> {
             Coordinate::Scalar(angle) => Turn::about(frame.graph, axis, angle, &kinematics.rates),
             _ => unreachable!("coordinates of a jet chart are scalars"),
         };
-        let turns = match self.chart {
+        match self.chart {
             Chart::Jet(RotationChart::Euler(axes)) if !alone => {
                 (0..3).map(|k| about(usize::from(axes[k]), k)).collect()
             }
@@ -50,14 +49,6 @@ impl<'g> ChartedBody<'g> {
                 let omega = frame.resolve(&kinematics.angular_velocity, Axes::Body).map(Expr::group);
                 vec![Turn::given(frame.rotation, omega)]
             }
-        };
-        Placement {
-            matter,
-            parent: None,
-            position: kinematics.position,
-            velocity: Some(kinematics.velocity),
-            angular_velocity: Some(kinematics.angular_velocity),
-            turns,
         }
     }
 

@@ -3,7 +3,8 @@
 use crate::algebra::{Expr, Graph, Map};
 
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, cross_matrix, dot, is_zero, scale};
-use crate::mechanics::links::link::{Link, reaction};
+use crate::mechanics::links::link::Link;
+use crate::mechanics::matter::added_mass::reaction;
 use crate::mechanics::matter::body::Body;
 
 /// The rate of the angular momentum of a link: two ways to form it, one cheaper here, the other there.

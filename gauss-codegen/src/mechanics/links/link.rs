@@ -4,9 +4,11 @@
 
 use crate::algebra::{Expr, Graph, Map};
 
+use crate::mechanics::kinematics::chart::ChartedBody;
 use crate::mechanics::kinematics::rotation::product;
 use crate::mechanics::kinematics::turn::{Turn, angular_velocity, inward};
 use crate::mechanics::kinematics::vector::{Axes, Frame, Triple, Vector, add, cross, is_zero, subtract};
+use crate::mechanics::matter::added_mass::impulse;
 use crate::mechanics::matter::body::Body;
 use crate::mechanics::matter::moments::Moments;
 use crate::mechanics::tidy::compact;
@@ -44,6 +46,20 @@ pub struct Placement<'g> {
     pub velocity: Option<Vector<'g>>,
     pub angular_velocity: Option<Vector<'g>>,
     pub turns: Vec<Turn<'g>>,
+}
+
+impl<'g> ChartedBody<'g> {
+    /// The body as a root, on which nothing hangs if it is alone.
+    pub fn placement(&self, matter: Matter<'g>, alone: bool) -> Placement<'g> {
+        Placement {
+            matter,
+            parent: None,
+            position: self.kinematics.position,
+            velocity: Some(self.kinematics.velocity),
+            angular_velocity: Some(self.kinematics.angular_velocity),
+            turns: self.turns(alone),
+        }
+    }
 }
 
 impl<'g> Placement<'g> {
@@ -405,30 +421,6 @@ impl<'g> Link<'g> {
         }
         (q.map(Expr::group), gamma.map(Expr::group))
     }
-}
-
-/// (Q_f, Γ_f) = M_A (u, ω).
-pub fn impulse<'g>(added: &[Vec<Expr<'g>>], u: &Triple<'g>, omega: &Triple<'g>) -> (Triple<'g>, Triple<'g>) {
-    let row = |first: usize| -> Triple<'g> {
-        let (linear, angular) = (
-            crate::mechanics::kinematics::vector::apply_block(added, first, 0, u),
-            crate::mechanics::kinematics::vector::apply_block(added, first, 3, omega),
-        );
-        add(&linear, &angular).map(Expr::group)
-    };
-    (row(0), row(3))
-}
-
-/// `dQ_f/dt` and `dΓ_f/dt + v_O × Q_f` of the fluid's impulse in body axes; `u` is the velocity of O relative to the
-/// fluid far away, `rate` the observer's derivative of a vector in body axes.
-pub fn reaction<'g>(
-    added: &[Vec<Expr<'g>>],
-    u: &Triple<'g>,
-    omega: &Triple<'g>,
-    rate: impl Fn(&Triple<'g>) -> Triple<'g>,
-) -> (Triple<'g>, Triple<'g>) {
-    let (q, gamma) = impulse(added, u, omega);
-    (rate(&q), add(&rate(&gamma), &cross(u, &q)))
 }
 
 pub fn identity(graph: &Graph) -> [Triple<'_>; 3] {

@@ -7,9 +7,10 @@ use crate::mechanics::kinematics::turn::{Turn, angular_acceleration, inward, out
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, scale, subtract};
 use crate::mechanics::links::floating::Floating;
 use crate::mechanics::links::inertia::{Inertia, acceleration_gradient, apply, force_of_inertia};
-use crate::mechanics::links::link::{Link, Matter, Placement, WorkingFrame, impulse};
+use crate::mechanics::links::link::{Link, Matter, Placement, WorkingFrame};
 use crate::mechanics::links::regroup::regroup;
 use crate::mechanics::loads::forces::{Force, Loads};
+use crate::mechanics::matter::added_mass::impulse;
 use crate::mechanics::matter::modes::Deformation;
 use crate::mechanics::matter::moments::Moments;
 use crate::mechanics::matter::rotor::Rotor;

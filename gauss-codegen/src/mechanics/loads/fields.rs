@@ -3,7 +3,7 @@
 use crate::algebra::{Expr, Graph, Map};
 
 use crate::mechanics::kinematics::vector::{Triple, add, cross, is_zero, scale, subtract};
-use crate::mechanics::links::link::reaction;
+use crate::mechanics::matter::added_mass::reaction;
 use crate::mechanics::matter::body::Body;
 
 /// Terms that a component may have while what cancels is looked for.

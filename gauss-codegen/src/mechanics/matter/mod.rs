@@ -1,5 +1,6 @@
 //! Matter as symbols, and integrals over it by moments.
 
+pub mod added_mass;
 pub mod body;
 pub mod modes;
 pub mod moments;

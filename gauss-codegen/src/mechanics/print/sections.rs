@@ -3,11 +3,11 @@
 use crate::algebra::{Expr, LONG, Map};
 
 use crate::mechanics::constraints::contact::Contact;
+use crate::mechanics::kinematics::coordinate::Coordinate;
 use crate::mechanics::name::Name;
 use crate::mechanics::print::equations::{PrintedForces, by_entries, velocity_form};
 use crate::mechanics::print::readings::PrintSymbols;
 use crate::mechanics::print::rows::{PrintedRow, Section};
-use crate::mechanics::scene::Coordinate;
 use crate::mechanics::system::System;
 use crate::mechanics::tidy::READABLE;
 

@@ -2,6 +2,7 @@
 
 use crate::algebra::{Expr, Graph, Map};
 use crate::mechanics::constraints::constraint::{Constraint, ConstraintKind};
+use crate::mechanics::kinematics::coordinate::Coordinate;
 use crate::mechanics::kinematics::rotation::rotation_of_quaternion;
 use crate::mechanics::kinematics::turn::Turn;
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, dot, subtract};
@@ -10,7 +11,7 @@ use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::{Action, Element};
 use crate::mechanics::matter::body::{Body, BodyShape};
 use crate::mechanics::name::Name;
-use crate::mechanics::scene::{Coordinate, SystemScene};
+use crate::mechanics::scene::SystemScene;
 use crate::terms::{Role, Shape};
 
 use super::plan::{ConstraintPlan, JointPlace, LinkPlan, MatterPlan, Plan, PlannedKind, Solid, TurnPlan};

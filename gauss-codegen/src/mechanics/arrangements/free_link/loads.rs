@@ -1,10 +1,11 @@
 //! Loads on a free link as wrenches about its O.
 
 use crate::algebra::Expr;
+use crate::mechanics::kinematics::coordinate::Coordinate;
 use crate::mechanics::kinematics::vector::{Triple, cross, is_zero};
 use crate::mechanics::loads::forces::{Action, Element, Force, Loads};
 use crate::mechanics::loads::wrench::Wrench;
-use crate::mechanics::scene::{Coordinate, SystemScene};
+use crate::mechanics::scene::SystemScene;
 
 use super::FreeLink;
 

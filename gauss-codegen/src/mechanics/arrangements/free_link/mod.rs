@@ -10,6 +10,7 @@ mod loads;
 mod momenta;
 
 use crate::algebra::{Expr, Map, NodeView, Solver, Substitution};
+use crate::mechanics::kinematics::coordinate::Coordinate;
 use crate::mechanics::kinematics::motion::Kinematics;
 use crate::mechanics::kinematics::vector::{Axes, Triple, Vector, add, cross, dot, is_zero, subtract};
 use crate::mechanics::links::link::Matter;
@@ -17,7 +18,7 @@ use crate::mechanics::loads::forces::Loads;
 use crate::mechanics::loads::wrench::Wrench;
 use crate::mechanics::matter::weight::Weight;
 use crate::mechanics::name::Name;
-use crate::mechanics::scene::{Coordinate, SystemScene};
+use crate::mechanics::scene::SystemScene;
 use crate::mechanics::tidy::sums;
 
 use crate::mechanics::arrangements::balance::{
