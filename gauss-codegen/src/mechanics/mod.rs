@@ -5,9 +5,9 @@
 //!
 //! - `kinematics`: frames and vectors, rotations, how one body moves, ψ of each chart (3.2).
 //! - `matter`: bodies as symbols, integrals over them by moments.
+//! - `loads`: forces and potentials, their wrenches, a medium that moves.
 //! - `links`: bodies, frames and particles, each relative to its parent; sums over them by recursion; what moves with
-//!   the parent as well.
-//! - `loads`: forces and potentials, their wrenches on one link, central gravity, a medium that moves.
+//!   the parent as well; the power of forces on links, weight, central gravity.
 //! - `constraints`: multipliers and rows of contacts.
 //! - `arrangements`: ways to write the same equations: a free link in its body axes, multiplied out, link by link.
 //! - `check`: the definition (3.1), and every scene against it before code is written.
@@ -55,8 +55,6 @@ pub use check::faults::{Claims, SystemFault, check_system_against_definition, ha
 pub use check::reactions::check_reactions;
 #[cfg(test)]
 pub use check::witness::acceleration_by_definition;
-pub use constraints::constraint::{Constraint, ConstraintKind};
-pub use constraints::contact::{Contact, ContactFrame};
 pub use constraints::multipliers::Constraints;
 pub use derivatives::hessian::Hessian;
 pub use derivatives::inverse::InverseLinearization;
@@ -68,11 +66,11 @@ pub use kinematics::coordinate::Coordinate;
 pub use kinematics::rotation::{about_axis, poisson, rotation_of_quaternion};
 pub use kinematics::turn::Turn;
 pub use kinematics::vector::{Axes, Vector, add, cross, dot, subtract};
+pub use links::central::CentralField;
 pub use links::link::{Link, Matter, Placement, identity};
 pub use links::path::{common, point_seen_from, relative_angular_velocity, turned};
 pub use links::tree::Tree;
 pub use loads::account::Account;
-pub use loads::central::CentralField;
 pub use loads::fields::entrained;
 pub use loads::forces::{Action, Element, Force};
 pub use loads::motion_symbols::MotionSymbols;
@@ -82,6 +80,8 @@ pub use matter::rotor::Rotor;
 pub use name::Name;
 pub use print::readings::Readings;
 pub use reactions::{FreedScene, Reactions};
+pub use scene::constraint::{Constraint, ConstraintKind};
+pub use scene::contact::{Contact, ContactFrame};
 pub use scene::{ChartedLink, SystemScene};
 pub use system::System;
 pub use system::elimination::{Elimination, Obstacle};

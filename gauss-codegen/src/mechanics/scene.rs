@@ -1,12 +1,13 @@
 //! A system as it is given: coordinates, speeds, ψ, links, constraints, contacts and loads, in symbols.
 
+pub mod constraint;
+pub mod contact;
+
 use std::ops::Range;
 
 use crate::algebra::{Expr, Graph, Map, Substitution};
 use crate::terms::{BodyChart, Motion};
 
-use crate::mechanics::constraints::constraint::Constraint;
-use crate::mechanics::constraints::contact::Contact;
 use crate::mechanics::kinematics::coordinate::Coordinate;
 use crate::mechanics::kinematics::vector::is_zero;
 use crate::mechanics::links::link::{Matter, Placement};
@@ -14,6 +15,8 @@ use crate::mechanics::links::tree::Tree;
 use crate::mechanics::loads::forces::Element;
 use crate::mechanics::matter::body::Body;
 use crate::mechanics::name::Name;
+use crate::mechanics::scene::constraint::Constraint;
+use crate::mechanics::scene::contact::Contact;
 use crate::mechanics::tidy::tidy;
 
 /// Degrees of freedom up to which everything is also tried multiplied out: of links that hang on one another, and of

@@ -2,7 +2,7 @@
 
 use crate::algebra::{Expr, Map, Number, Precise, Rational};
 
-use crate::mechanics::constraints::constraint::ConstraintKind;
+use crate::mechanics::scene::constraint::ConstraintKind;
 use crate::mechanics::system::System;
 
 use super::witness::{Witness, largest, sample_state, sum};

@@ -2,8 +2,8 @@
 
 use crate::algebra::Expr;
 
-use crate::mechanics::constraints::contact::Contact;
 use crate::mechanics::scene::SystemScene;
+use crate::mechanics::scene::contact::Contact;
 use crate::mechanics::tidy::tidy;
 
 /// All contacts on the level of velocities. Rows: of each contact its normal, then its tangents; of dry friction

@@ -1,6 +1,4 @@
 //! Constraints that coordinates and speeds do not solve by themselves, and contacts.
 
-pub mod constraint;
-pub mod contact;
 pub mod contact_rows;
 pub mod multipliers;

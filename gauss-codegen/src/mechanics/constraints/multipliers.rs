@@ -3,8 +3,8 @@
 
 use crate::algebra::{ConstrainedSolution, Expr, Map, solve_dependent, solve_saddle};
 
-use crate::mechanics::constraints::constraint::{Constraint, ConstraintKind};
 use crate::mechanics::scene::SystemScene;
+use crate::mechanics::scene::constraint::{Constraint, ConstraintKind};
 
 /// All constraints on the level of velocities.
 pub struct Constraints<'g> {

@@ -1,7 +1,9 @@
 //! Bodies, frames and particles, each relative to its parent, and sums over them by recursion.
 
+pub mod central;
 pub mod centroidal;
 pub mod floating;
+pub mod forces;
 pub mod formal;
 pub mod frames;
 pub mod inertia;

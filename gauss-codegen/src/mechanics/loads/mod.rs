@@ -1,7 +1,6 @@
 //! Loads other than weight and buoyancy.
 
 pub mod account;
-pub mod central;
 pub mod fields;
 pub mod forces;
 pub mod motion_symbols;

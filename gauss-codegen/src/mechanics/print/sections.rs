@@ -2,12 +2,12 @@
 
 use crate::algebra::{Expr, LONG, Map};
 
-use crate::mechanics::constraints::contact::Contact;
 use crate::mechanics::kinematics::coordinate::Coordinate;
 use crate::mechanics::name::Name;
 use crate::mechanics::print::equations::{PrintedForces, by_entries, velocity_form};
 use crate::mechanics::print::readings::PrintSymbols;
 use crate::mechanics::print::rows::{PrintedRow, Section};
+use crate::mechanics::scene::contact::Contact;
 use crate::mechanics::system::System;
 use crate::mechanics::tidy::READABLE;
 

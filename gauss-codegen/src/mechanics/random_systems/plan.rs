@@ -1,6 +1,6 @@
 //! Systems as data, from which both sides are built: coordinates, speeds, links and constraints, drawn at random.
 
-use crate::mechanics::constraints::constraint::ConstraintKind;
+use crate::mechanics::scene::constraint::ConstraintKind;
 use crate::mechanics::tests::Random;
 use crate::terms::Shape;
 

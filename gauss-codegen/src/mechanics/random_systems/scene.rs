@@ -1,7 +1,6 @@
 //! From a plan to the scene of a system, as the translation of an attribute does it.
 
 use crate::algebra::{Expr, Graph, Map};
-use crate::mechanics::constraints::constraint::{Constraint, ConstraintKind};
 use crate::mechanics::kinematics::coordinate::Coordinate;
 use crate::mechanics::kinematics::rotation::rotation_of_quaternion;
 use crate::mechanics::kinematics::turn::Turn;
@@ -12,6 +11,7 @@ use crate::mechanics::loads::forces::{Action, Element};
 use crate::mechanics::matter::body::{Body, BodyShape};
 use crate::mechanics::name::Name;
 use crate::mechanics::scene::SystemScene;
+use crate::mechanics::scene::constraint::{Constraint, ConstraintKind};
 use crate::terms::{Role, Shape};
 
 use super::plan::{ConstraintPlan, JointPlace, LinkPlan, MatterPlan, Plan, PlannedKind, Solid, TurnPlan};

@@ -1,7 +1,7 @@
 //! The same system as particles alone, in double precision: every body by its points, C = ½ Σ m |a − F/m|² at its least
 //! among all ż that the constraints admit. Differentiation is by jets along the motion; nothing here is the derive's.
 
-use crate::mechanics::constraints::constraint::ConstraintKind;
+use crate::mechanics::scene::constraint::ConstraintKind;
 use crate::mechanics::tests::Random;
 
 use super::dense::{Matrix, Saddle, apply, dot, inverse, largest, norm, transposed};

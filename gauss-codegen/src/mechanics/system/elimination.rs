@@ -4,9 +4,9 @@
 
 use crate::algebra::{Expr, Map, Solver, Substitution};
 
-use crate::mechanics::constraints::constraint::ConstraintKind;
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::scene::SystemScene;
+use crate::mechanics::scene::constraint::ConstraintKind;
 use crate::mechanics::tidy::tidy;
 
 use super::System;

@@ -4,8 +4,8 @@ use crate::algebra::Expr;
 
 use crate::mechanics::arrangements::articulated::Articulated;
 use crate::mechanics::arrangements::halves::Halves;
-use crate::mechanics::constraints::contact::Contact;
 use crate::mechanics::formula::{Arrangements, Formula, Method};
+use crate::mechanics::scene::contact::Contact;
 
 use super::{EquationForm, System};
 
