@@ -5,6 +5,7 @@
 mod accuracy;
 mod algebra;
 mod derivation;
+mod derivatives;
 pub mod description;
 mod emit;
 mod error;

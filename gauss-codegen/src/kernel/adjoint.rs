@@ -2,8 +2,9 @@
 //! number cost a few times the number, however many there are; second derivatives are tangents of these.
 
 use crate::algebra::{BinaryFunction, Function, Map, Rational};
+use crate::derivatives::Direction;
 
-use super::tangent::{Direction, InstructionWriter, Rate, Tangent, TangentPass};
+use super::tangent::{InstructionWriter, Rate, Tangent, TangentPass};
 use super::write::{Operand, Operation, Program};
 
 /// The derivatives of the only output of a program along each of the directions, as a program that reads what that one

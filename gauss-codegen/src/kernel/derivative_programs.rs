@@ -1,14 +1,12 @@
 //! Derivatives that are wanted, of whatever kind, and what each is lowered to.
 
 use crate::accuracy::{Figure, Trial};
+use crate::derivatives::{DirectionalDerivatives, ParametricDerivatives, SecondDerivatives};
 use crate::methods::DerivativeKind;
 
 use super::columns::LoweredColumns;
-use super::derivatives::DirectionalDerivatives;
 use super::expected_outputs::{ExpectedOutputs, OutputSelection};
-use super::hessian::SecondDerivatives;
 use super::hoist::Hoister;
-use super::parametric::ParametricDerivatives;
 use super::write::Program;
 
 /// A derivative that is wanted.

@@ -1,34 +1,14 @@
 //! Derivatives of functions along what moves.
 
 use crate::accuracy::Trial;
-use crate::algebra::Expr;
+use crate::derivatives::DirectionalDerivatives;
 
 use super::choice::{Aim, LoweredForm, Pool, programs_of};
-use super::columns::{Columns, LoweredColumns};
+use super::columns::LoweredColumns;
 use super::expected_outputs::{ExpectedOutputs, OutputSelection};
 use super::hoist::Hoister;
-use super::tangent::{Direction, tangents_alone, with_tangents};
+use super::tangent::{tangents_alone, with_tangents};
 use super::write::Program;
-
-/// Functions and the directions along which their derivatives are wanted.
-pub struct DirectionalDerivatives<'g> {
-    /// The outputs, in equivalent arrangements.
-    pub arrangements: Vec<Vec<Expr<'g>>>,
-    /// Symbols that stand for expressions of the arguments, in the order of their definitions, and move by rates of
-    /// their own.
-    pub defined: Vec<Expr<'g>>,
-    pub directions: Vec<Direction<'g>>,
-    /// Forms of their own.
-    pub derived: Vec<DerivativeForm<'g>>,
-}
-
-/// Outputs and their derivatives in a form of their own.
-pub struct DerivativeForm<'g> {
-    /// The outputs and then their derivatives, direction by direction.
-    pub outputs: Vec<Expr<'g>>,
-    /// The same, where the last step is a linear system with a right-hand side for each direction.
-    pub columns: Option<Columns<'g>>,
-}
 
 /// The program of derivatives, with the way in which many right-hand sides are solved for together.
 pub(super) type ColumnProgram<'g> = (Program<'g>, Option<LoweredColumns<'g>>);

@@ -3,9 +3,7 @@
 use std::borrow::Cow;
 
 use crate::algebra::{Evaluation, Expr, Number, Tangents};
-
-use super::hessian::SecondDerivatives;
-use super::tangent::Direction;
+use crate::derivatives::{Direction, SecondDerivatives};
 
 /// Whether the outputs themselves are wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

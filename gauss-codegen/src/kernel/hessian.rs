@@ -2,39 +2,15 @@
 
 use crate::accuracy::Trial;
 use crate::algebra::{Dual, Evaluation, Expr, Map, Number, Rational, Tangents};
+use crate::derivatives::{Direction, SecondDerivatives};
 
 use super::adjoint::gradient;
 use super::choice::{Aim, Pool, programs_of};
 use super::hoist::Hoister;
-use super::tangent::{Direction, with_outputs, with_tangents};
+use super::tangent::{with_outputs, with_tangents};
 use super::write::{Operand, Operation, Program};
 
-/// A number and the directions along which its second derivatives are wanted: of i and j, j up to i, the mean of what
-/// differentiating along i and then j gives, and along j and then i.
-pub struct SecondDerivatives<'g> {
-    /// The number, in equivalent arrangements.
-    pub arrangements: Vec<Expr<'g>>,
-    /// Symbols that stand for expressions of the arguments, in the order of their definitions, and move by rates of
-    /// their own.
-    pub defined: Vec<Expr<'g>>,
-    pub directions: Vec<Direction<'g>>,
-    /// Directions with the same number need not commute; those without one commute with all.
-    pub groups: Vec<Option<usize>>,
-    /// The second derivatives in forms of their own, in the order of [`Self::pairs`].
-    pub derived: Vec<Vec<Expr<'g>>>,
-}
-
 impl<'g> SecondDerivatives<'g> {
-    /// (i, j) of the outputs, j up to i.
-    pub fn pairs(count: usize) -> impl Iterator<Item = (usize, usize)> {
-        (0..count).flat_map(|i| (0..=i).map(move |j| (i, j)))
-    }
-
-    /// Whether differentiating along both gives the same in both orders.
-    pub fn commute(&self, i: usize, j: usize) -> bool {
-        i == j || self.groups[i].is_none() || self.groups[i] != self.groups[j]
-    }
-
     /// The cheapest way that keeps the digits.
     pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Program<'g> {
         let definitions = Program::lower(&hoister.hoist(&self.defined));

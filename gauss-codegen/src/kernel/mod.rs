@@ -39,11 +39,7 @@ mod write;
 
 pub use crate::program::{Counts, Smoothness};
 pub use choice::{Aim, Candidates};
-pub use columns::{Columns, LoweredColumns, OutputParts, TOGETHER};
+pub use columns::{LoweredColumns, TOGETHER};
 pub use derivative_programs::{Derivative, DerivativeRequest, Differentiation};
-pub use derivatives::{DerivativeForm, DirectionalDerivatives};
-pub use hessian::SecondDerivatives;
 pub use lower::{Derivatives, Kernel, Literals, LoweredFunction};
-pub use parametric::{Equation, ParametricDerivatives};
-pub use tangent::Direction;
 pub use write::{Operand, Operation, Program};

@@ -2,33 +2,15 @@
 
 use crate::accuracy::Trial;
 use crate::algebra::{Expr, Graph, Map};
+use crate::derivatives::{Direction, ParametricDerivatives};
 use crate::methods::Methods;
 
 use super::choice::Choice;
 use super::constants::{ConstantSet, ConstantSource, Constants};
 use super::expected_outputs::ExpectedOutputs;
 use super::hoist::Hoister;
-use super::tangent::{Direction, Implicit, implicit_tangents, joined, tangents_alone, with_outputs, with_tangents};
+use super::tangent::{Implicit, implicit_tangents, joined, tangents_alone, with_outputs, with_tangents};
 use super::write::{Operand, Operation, Program};
-
-/// The derivatives of kinematics and then accelerations by parameters.
-pub struct ParametricDerivatives<'g> {
-    pub parameters: Vec<Expr<'g>>,
-    /// The outputs of the kinematics in another order.
-    pub order: Vec<usize>,
-    /// Equation that the acceleration solves, where nothing else restricts it.
-    pub equation: Option<Equation<'g>>,
-    /// Derivatives of both in forms of their own, parameter by parameter.
-    pub derived: Vec<Vec<Expr<'g>>>,
-}
-
-/// `gauss_residual = 0`, solved for the accelerations.
-pub struct Equation<'g> {
-    /// The accelerations in it.
-    pub unknowns: Vec<Expr<'g>>,
-    /// `velocity` is affine in these, with the inverse of the matrix of the residual.
-    pub loads: Vec<Expr<'g>>,
-}
 
 /// A program that computes derivatives, and the constants of the kernel with it.
 struct ParametricProgram<'g> {

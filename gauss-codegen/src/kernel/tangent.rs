@@ -5,11 +5,9 @@
 //! output needs is left out: outputs that cannot change along a direction are the number 0.
 
 use crate::algebra::{BinaryFunction, Expr, Function, MOST_VARIABLES, Map, OwnFunction, Rational};
+use crate::derivatives::Direction;
 
 use super::write::{Operand, Operation, Program};
-
-/// The rates of the symbols that move, each a number, a symbol, or the negative of one. Others stand still.
-pub type Direction<'g> = Vec<(Expr<'g>, Expr<'g>)>;
 
 /// The outputs of `program`, and then, direction by direction, the derivatives of them all. `bound` are symbols that
 /// are outputs of the other program: what reads them reads these.

@@ -5,12 +5,10 @@ use super::expected_outputs::ExpectedOutputs;
 use super::factor::Factoriser;
 use super::hoist::Hoister;
 use super::tangent::with_tangents;
-use super::{
-    Candidates, Counts, DerivativeRequest, Derivatives, Differentiation, Direction, DirectionalDerivatives, Equation,
-    Kernel, ParametricDerivatives, Program,
-};
+use super::{Candidates, Counts, DerivativeRequest, Derivatives, Differentiation, Kernel, Program};
 use crate::accuracy::Trial;
 use crate::algebra::{BinaryFunction, Evaluation, Expr, Function, Graph, Map};
+use crate::derivatives::{Direction, DirectionalDerivatives, Equation, ParametricDerivatives};
 use crate::methods::{DerivativeKind, Methods};
 
 /// A reproducible stream of small integers.

@@ -4,7 +4,8 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::algebra::Rational;
-use crate::kernel::{LoweredColumns, Operand, OutputParts, TOGETHER};
+use crate::derivatives::OutputParts;
+use crate::kernel::{LoweredColumns, Operand, TOGETHER};
 
 use crate::emit::derived::Derived;
 

@@ -5,7 +5,7 @@
 //! along one component and then the other gives, and the other way round.
 
 use crate::algebra::{Expr, Map, Rational, Substitution};
-use crate::kernel::{Direction, SecondDerivatives};
+use crate::derivatives::{Direction, SecondDerivatives};
 
 use crate::mechanics::derivatives::linearize::{Increments, alone};
 use crate::mechanics::derivatives::rigid::Rates;

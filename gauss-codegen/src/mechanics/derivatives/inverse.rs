@@ -1,7 +1,7 @@
 //! Inverse dynamics and its derivatives: ∂C/∂ż at any ż, by the configuration, z, ż, time and inputs.
 
 use crate::algebra::Expr;
-use crate::kernel::{DerivativeForm, Direction, DirectionalDerivatives};
+use crate::derivatives::{DerivativeForm, Direction, DirectionalDerivatives};
 
 use crate::mechanics::derivatives::linearize::{Increments, alone};
 use crate::mechanics::derivatives::rigid::Rates;

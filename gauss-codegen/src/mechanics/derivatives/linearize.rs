@@ -5,7 +5,7 @@
 //! σ_u, as under a velocity V = σ. So the directions of the configuration are its rates with V a unit vector.
 
 use crate::algebra::{Expr, Graph};
-use crate::kernel::{Columns, DerivativeForm, Direction, DirectionalDerivatives, Equation, ParametricDerivatives};
+use crate::derivatives::{Columns, DerivativeForm, Direction, DirectionalDerivatives, Equation, ParametricDerivatives};
 
 use crate::mechanics::derivatives::implicit::AccelerationsWithDerivatives;
 use crate::mechanics::derivatives::rigid::Rates;

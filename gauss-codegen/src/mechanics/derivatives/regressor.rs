@@ -6,7 +6,7 @@
 //! buoyancy, do not.
 
 use crate::algebra::{Expr, Graph, Map};
-use crate::kernel::DirectionalDerivatives;
+use crate::derivatives::DirectionalDerivatives;
 
 use crate::mechanics::formula::{Formula, Method};
 use crate::mechanics::links::link::Matter;

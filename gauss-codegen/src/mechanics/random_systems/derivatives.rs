@@ -2,7 +2,7 @@
 
 use crate::algebra::{Evaluation, Expr, Function, Graph, Map, Number, Precise, Rational, Scalar, Tangents};
 
-use crate::kernel::{DirectionalDerivatives, SecondDerivatives};
+use crate::derivatives::{DirectionalDerivatives, SecondDerivatives};
 use crate::mechanics::derivatives::hessian::Hessian;
 use crate::mechanics::derivatives::inverse::InverseLinearization;
 use crate::mechanics::derivatives::linearize::Linearization;
