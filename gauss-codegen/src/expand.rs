@@ -8,6 +8,7 @@ use crate::algebra::Graph;
 use crate::emit::{Derived, Equations, emit, file};
 use crate::error::Result;
 use crate::formulation::Formulation;
+use crate::kernel::Passes;
 use crate::lowering::lower;
 use crate::mistakes::{most_operations, refuse_exhausted};
 use crate::model::{self, Model};
@@ -55,7 +56,7 @@ pub fn derive<R>(input: &DeriveInput, write: impl FnOnce(&Derived<'_, '_>) -> Re
 fn derive_model<R>(graph: &Graph, model: &Model, write: impl FnOnce(&Derived<'_, '_>) -> Result<R>) -> Result<R> {
     let translated = translate(graph, model)?;
     let formulation = Formulation::of(translated)?;
-    let lowered = lower(formulation)?;
+    let lowered = lower(formulation, Passes::default())?;
     write(&Derived::new(&lowered))
 }
 

@@ -6,7 +6,7 @@ use crate::accuracy::{DecidingState, States, SymbolNumbers, Trial};
 use crate::algebra::{Expr, Rational};
 use crate::error::Result;
 use crate::formulation::Formulation;
-use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals};
+use crate::kernel::{Aim, Candidates, Derivatives, Kernel, Literals, Passes};
 use crate::mass_laws::MassLaws;
 use crate::mechanics::{Arrangements, Method};
 use crate::methods::DerivativeKind;
@@ -29,10 +29,10 @@ pub struct Lowered<'g> {
 /// # Errors
 /// More code than is wanted, masses that are something else besides, motions without a power series; mistakes of this
 /// crate.
-pub fn lower<'g>(mut formulation: Formulation<'g>) -> Result<Lowered<'g>> {
-    let mut kernel = programs(&formulation)?;
+pub fn lower<'g>(mut formulation: Formulation<'g>, passes: Passes) -> Result<Lowered<'g>> {
+    let mut kernel = programs(&formulation, passes)?;
     if !kernel.functions.acceleration.loss.is_tolerable() && formulation.with_squares()? {
-        kernel = programs(&formulation)?;
+        kernel = programs(&formulation, passes)?;
     }
     let mass_laws = MassLaws::new(&formulation.provenance, &formulation.system);
     Ok(Lowered { formulation, kernel, mass_laws })
@@ -43,7 +43,7 @@ pub fn lower<'g>(mut formulation: Formulation<'g>) -> Result<Lowered<'g>> {
 /// # Errors
 /// More code than is wanted, masses that are something else besides, motions without a power series; mistakes of this
 /// crate.
-fn programs<'g>(formulation: &Formulation<'g>) -> Result<Kernel<'g>> {
+fn programs<'g>(formulation: &Formulation<'g>, passes: Passes) -> Result<Kernel<'g>> {
     let Provenance { item, literals, .. } = &formulation.provenance;
     let graph = formulation.system.scene.graph;
     let failed = |what: &dyn Display| failed(&formulation.provenance, &formulation.system, &what);
@@ -61,7 +61,7 @@ fn programs<'g>(formulation: &Formulation<'g>) -> Result<Kernel<'g>> {
     let samples = states.samples();
     let lowered = |deciding: &[DecidingState]| {
         let mut trial = Trial::new(samples.points()).with(deciding);
-        let kernel = Kernel::lower(graph, &functions, &formulation.definitions, &wanted, known, &mut trial)
+        let kernel = Kernel::lower(graph, &functions, &formulation.definitions, &wanted, known, &mut trial, passes)
             .map_err(|error| failed(&error))?;
         if graph.is_undefined() {
             return Err(undefined());

@@ -5,8 +5,15 @@ mod structures;
 
 use std::fmt::Write;
 
+use crate::algebra::Graph;
 use crate::derivation::Derivation;
-use crate::program::{Instruction, Pass};
+use crate::emit::Derived;
+use crate::formulation::Formulation;
+use crate::kernel::{Pass, Passes};
+use crate::lowering::lower;
+use crate::model::{parse, struct_in};
+use crate::program::Instruction;
+use crate::translate::translate;
 
 /// A scene, and the methods that are counted.
 struct CountedScene {
@@ -44,10 +51,17 @@ fn robots() -> Vec<CountedScene> {
 const PASSES: [Pass; 7] =
     [Pass::Factors, Pass::Products, Pass::Sums, Pass::Fusing, Pass::Signs, Pass::ProductsInSums, Pass::Beginnings];
 
+fn derived(source: &str, name: &str, passes: Passes) -> Derivation {
+    let model = struct_in(source, name).and_then(|item| parse(&item)).unwrap_or_else(|error| panic!("{error}"));
+    let graph = Graph::new();
+    let formulation = translate(&graph, &model).and_then(Formulation::of).expect("equations");
+    let lowered = lower(formulation, passes).expect("a kernel");
+    Derivation::of(&Derived::new(&lowered), false).expect("programs")
+}
+
 /// Instructions of the methods: a multiply-add is one, sine and cosine of an angle are one.
 fn instructions(scene: &CountedScene, left_out: Option<Pass>) -> Vec<usize> {
-    let derivation = Pass::left_out(left_out, || Derivation::of_source(&scene.source, scene.name));
-    let derivation = derivation.unwrap_or_else(|error| panic!("{error}"));
+    let derivation = derived(&scene.source, scene.name, left_out.map_or_else(Passes::default, Passes::without));
     let count = |method: &&str| {
         let program = derivation.program(method).unwrap_or_else(|| panic!("{}: no {method}", scene.name));
         program.code.instructions.len()
@@ -82,10 +96,9 @@ fn every_pass_gains() {
 /// Products that only sums read are formed in each of them, and those that something else reads too are not.
 #[test]
 fn products_go_into_sums() {
-    let of = |source| Derivation::of_source(source, "P").unwrap_or_else(|error| panic!("{error}"));
-    let source = structures::top("").replace("Top", "P");
-    let all = of(&source);
-    let apart = Pass::left_out(Some(Pass::ProductsInSums), || of(&source));
+    let source = structures::top("");
+    let all = derived(&source, "Top", Passes::default());
+    let apart = derived(&source, "Top", Passes::without(Pass::ProductsInSums));
     let products = |derivation: &Derivation| {
         let program = derivation.program("acceleration").expect("of every kernel");
         program.code.instructions.iter().filter(|i| matches!(i, Instruction::Multiply(..))).count()

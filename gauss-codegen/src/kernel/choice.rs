@@ -71,9 +71,9 @@ impl<'g> Candidates<'g> {
         if self.aim == Aim::Series {
             return Choice { outputs, first, carried_out: program.clone(), program, begun: true, loss };
         }
-        let program = program.with_signs_led_back();
-        let fused = program.clone().with_products_in_sums();
-        let Some(sums_begun) = fused.sums_begun() else {
+        let program = program.signed(hoister.passes);
+        let fused = program.clone().fused(hoister.passes);
+        let Some(sums_begun) = fused.begun(hoister.passes) else {
             return Choice { outputs, first, program, carried_out: fused.ordered(), begun: true, loss };
         };
         let other_loss = trial.loss_of(&tried, &sums_begun);
@@ -116,7 +116,7 @@ impl<'g> Pool<'g> {
                 let hoisted = hoist(hoister, outputs);
                 // Those that are the same once constants are hoisted, once.
                 if lowered.iter().all(|other| other.hoisted != hoisted) {
-                    let program = Program::lower(&hoisted);
+                    let program = Program::lowered(&hoisted, hoister.passes);
                     lowered.push(LoweredForm { outputs: outputs.clone(), hoisted, program });
                 }
             }

@@ -28,7 +28,7 @@ impl<'g> Columns<'g> {
         if 2 * entries * self.shape.solved.len() < FEW {
             return None;
         }
-        let program = Program::lower(&hoister.hoist(&self.before)).with_signs_led_back().carried_out();
+        let program = hoister.program(&self.before).signed(hoister.passes).carried_out(hoister.passes);
         Some(LoweredColumns { program, shape: self.shape.clone() })
     }
 }

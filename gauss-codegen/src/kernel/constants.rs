@@ -45,7 +45,11 @@ impl<'g> ConstantSource<'_, 'g> {
                 }
             }
         }
-        ConstantSet { constants: Constants { program: Program::lower(&values), symbols }, known, folded }
+        ConstantSet {
+            constants: Constants { program: Program::lowered(&values, hoister.passes), symbols },
+            known,
+            folded,
+        }
     }
 
     /// The value of what literals alone determine. What has none is left to `kernel()`, which refuses it; nearly all

@@ -22,7 +22,7 @@ impl<'g> DirectionalDerivatives<'g> {
         kept: OutputSelection,
         trial: &mut Trial,
     ) -> (ColumnProgram<'g>, ExpectedOutputs<'_, 'g>) {
-        let definitions = Program::lower(&hoister.hoist(&self.defined));
+        let definitions = hoister.program(&self.defined);
         let differentiate = if kept == OutputSelection::ValuesToo { with_tangents } else { tangents_alone };
         let Pool { lowered, tried, .. } =
             Pool::of(&self.arrangements, Aim::Values, hoister, Hoister::hoist_undefined, trial);
@@ -50,7 +50,7 @@ impl<'g> DirectionalDerivatives<'g> {
         };
         let (program, outputs) = of_usable.swap_remove(best);
         let (program, columns) = self.cheaper(program, hoister, trial);
-        ((program.carried_out(), columns), ExpectedOutputs::along(outputs, &self.directions, kept))
+        ((program.carried_out(hoister.passes), columns), ExpectedOutputs::along(outputs, &self.directions, kept))
     }
 
     /// Forms that could be taken: programs whose constants are not computed before.
@@ -69,7 +69,7 @@ impl<'g> DirectionalDerivatives<'g> {
             return (program, None);
         }
         let derived = self.derived.iter().map(|derived| {
-            let program = Program::lower(&hoister.hoist(&derived.outputs)).with_signs_led_back();
+            let program = hoister.program(&derived.outputs).signed(hoister.passes);
             (program, derived.columns.as_ref())
         });
         let mut ways: Vec<_> = derived.filter(|(program, _)| program.cost().total() < most).collect();

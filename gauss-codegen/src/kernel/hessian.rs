@@ -13,7 +13,7 @@ use super::write::{Operand, Operation, Program};
 impl<'g> SecondDerivatives<'g> {
     /// The cheapest way that keeps the digits.
     pub(super) fn lower(&self, hoister: &mut Hoister<'_, 'g>, trial: &mut Trial) -> Program<'g> {
-        let definitions = Program::lower(&hoister.hoist(&self.defined));
+        let definitions = hoister.program(&self.defined);
         let arrangements: Vec<Vec<Expr<'g>>> = self.arrangements.iter().map(|e| vec![*e]).collect();
         let Pool { lowered, tried, .. } =
             Pool::of(&arrangements, Aim::Values, hoister, Hoister::hoist_undefined, trial);
@@ -25,12 +25,12 @@ impl<'g> SecondDerivatives<'g> {
             cheapest(&tried.usable()).into_iter().collect()
         };
         let mut ways: Vec<Program<'g>> =
-            self.derived.iter().map(|e| Program::lower(&hoister.hoist(e)).with_signs_led_back()).collect();
+            self.derived.iter().map(|e| hoister.program(e).signed(hoister.passes)).collect();
         ways.extend(those.into_iter().map(|k| self.of_program(&lowered[k].program, &definitions)));
         trial.define(hoister.constants());
         let tried = trial.tried(&ways.iter().collect::<Vec<_>>());
         let costs: Vec<u32> = ways.iter().map(|program| program.cost().total()).collect();
-        ways.swap_remove(tried.taken(&costs)).carried_out()
+        ways.swap_remove(tried.taken(&costs)).carried_out(hoister.passes)
     }
 
     /// Forms that could be taken: programs whose constants are not computed before.

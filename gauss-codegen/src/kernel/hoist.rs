@@ -2,6 +2,9 @@
 
 use crate::algebra::{Expander, Expr, Graph, Map, NodeView, Rational};
 
+use super::passes::Passes;
+use super::write::Program;
+
 /// Terms up to which two definitions are compared in normal form.
 const LIMIT: usize = 64;
 
@@ -16,10 +19,12 @@ pub struct Hoister<'a, 'g> {
     known: Map<u32, Expr<'g>>,
     /// Symbols that stand for expressions of the arguments.
     definitions: Option<&'a Map<u32, Expr<'g>>>,
+    /// Passes over all programs of the kernel.
+    pub passes: Passes,
 }
 
 impl<'a, 'g> Hoister<'a, 'g> {
-    pub fn new(graph: &'g Graph, definitions: &'a Map<u32, Expr<'g>>) -> Self {
+    pub fn new(graph: &'g Graph, definitions: &'a Map<u32, Expr<'g>>, passes: Passes) -> Self {
         Self {
             graph,
             expander: Expander::new(graph, LIMIT),
@@ -27,6 +32,7 @@ impl<'a, 'g> Hoister<'a, 'g> {
             constants: Vec::new(),
             known: Map::default(),
             definitions: Some(definitions),
+            passes,
         }
     }
 
@@ -34,7 +40,12 @@ impl<'a, 'g> Hoister<'a, 'g> {
         outputs.iter().map(|&e| self.visit_deep(e)).collect()
     }
 
-    /// The same with the symbols that stand for expressions of the arguments left as they are.
+    /// The program of expressions, in which constants are symbols.
+    pub fn program(&mut self, outputs: &[Expr<'g>]) -> Program<'g> {
+        Program::lowered(&self.hoist(outputs), self.passes)
+    }
+
+    /// Hoisted expressions with the symbols that stand for expressions of the arguments left as they are.
     pub fn hoist_undefined(&mut self, outputs: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let definitions = self.definitions.take();
         let memo = std::mem::take(&mut self.memo);

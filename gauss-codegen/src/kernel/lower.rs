@@ -10,6 +10,7 @@ use super::constants::{ConstantSet, ConstantSource, Constants};
 use super::derivative_programs::{Derivative, DerivativeProgram, DerivativeRequest};
 use super::expected_outputs::ExpectedOutputs;
 use super::hoist::Hoister;
+use super::passes::Passes;
 use super::write::Program;
 
 /// The programs of a kernel, which share their constants.
@@ -66,8 +67,9 @@ impl<'g> Kernel<'g> {
         wanted: &Derivatives<'_, 'g>,
         literals: Literals<'_, 'g>,
         trial: &mut Trial,
+        passes: Passes,
     ) -> Result<Self, Miscompilation> {
-        let mut hoister = Hoister::new(graph, definitions);
+        let mut hoister = Hoister::new(graph, definitions, passes);
         let functions = taken_of_each(functions, &mut hoister, trial);
         let (joined, of_joined) = lower_together(&mut hoister, &functions.evaluated());
         let direct = wanted.list.iter().filter_map(|wanted| wanted.lower(&mut hoister, trial));
@@ -201,7 +203,7 @@ fn taken_of_each<'g>(
 fn lower_together<'g>(hoister: &mut Hoister<'_, 'g>, functions: &[&Choice<'g>]) -> (Program<'g>, Vec<Expr<'g>>) {
     let mut lower = |parts: &[&[Expr<'g>]]| {
         let outputs = parts.concat();
-        (Program::lower(&hoister.hoist(&outputs)), outputs)
+        (hoister.program(&outputs), outputs)
     };
     let mut parts: Vec<&[Expr<'g>]> = functions.iter().map(|function| function.outputs.as_slice()).collect();
     let mut best = lower(&parts);
@@ -215,7 +217,9 @@ fn lower_together<'g>(hoister: &mut Hoister<'_, 'g>, functions: &[&Choice<'g>]) 
             parts[place] = won;
         }
     }
-    let fused = best.0.with_signs_led_back().with_products_in_sums();
+    let signed = best.0.signed(hoister.passes);
     let keep_their_digits = functions.iter().all(|function| function.begun);
-    (if keep_their_digits { fused.with_sums_begun() } else { fused }.ordered(), best.1)
+    let carried_out =
+        if keep_their_digits { signed.carried_out(hoister.passes) } else { signed.fused(hoister.passes).ordered() };
+    (carried_out, best.1)
 }

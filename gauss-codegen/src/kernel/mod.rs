@@ -6,7 +6,7 @@
 //! - `hoist`: what depends on parameters alone becomes a constant, computed once; `constants`: those that are read.
 //! - `factor`: common factors of the terms of a sum are pulled out.
 //! - `network`: sums and products of many terms; parts that occur more than once are split off.
-//! - `write`: networks as instructions.
+//! - `write`: networks as instructions. `passes`: which passes are made on the way.
 //! - `tangent`, `adjoint`: derivatives of programs, forward and backward.
 //! - `hessian`: second derivatives of one number.
 //! - `derivatives`: derivatives of functions by what moves; `parametric`: by parameters.
@@ -32,6 +32,7 @@ mod hoist;
 mod lower;
 mod network;
 mod parametric;
+mod passes;
 mod tangent;
 #[cfg(test)]
 mod tests;
@@ -42,4 +43,7 @@ pub use choice::{Aim, Candidates};
 pub use columns::{LoweredColumns, TOGETHER};
 pub use derivative_programs::{Derivative, DerivativeRequest, Differentiation};
 pub use lower::{Derivatives, Kernel, Literals, LoweredFunction};
+#[cfg(test)]
+pub use passes::Pass;
+pub use passes::Passes;
 pub use write::{Operand, Operation, Program};

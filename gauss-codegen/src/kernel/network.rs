@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use crate::algebra::{
     BinaryFunction, Expr, Function, Key, MOST_VARIABLES, Map, NodeView, OwnFunction, Rational, joined,
 };
-use crate::program::Pass;
+
+use super::passes::{Pass, Passes};
 
 /// Parts of one sum or product that are paired with one another: the number of pairs goes with its square.
 const PAIRED: usize = 200;
@@ -93,7 +94,7 @@ pub struct Network<'g> {
 }
 
 impl<'g> Network<'g> {
-    pub fn new(outputs: &[Expr<'g>]) -> Self {
+    pub fn new(outputs: &[Expr<'g>], passes: Passes) -> Self {
         let mut network = Self {
             nodes: Vec::new(),
             ranks: Vec::new(),
@@ -109,12 +110,12 @@ impl<'g> Network<'g> {
             let output = network.visit(e);
             network.outputs.push(output);
         }
-        if GroupKind::Products.pass().is_made() && network.share(GroupKind::Products) {
+        if passes.make(Pass::Products) && network.share(GroupKind::Products) {
             network.merge_duplicates();
             network.index_anew();
         }
         // Nothing is looked up afterwards.
-        if GroupKind::Sums.pass().is_made() && network.share(GroupKind::Sums) {
+        if passes.make(Pass::Sums) && network.share(GroupKind::Sums) {
             network.merge_duplicates();
         }
         network
@@ -418,13 +419,6 @@ enum GroupKind {
 type Parts = Vec<(Rational, NodeIndex)>;
 
 impl GroupKind {
-    fn pass(self) -> Pass {
-        match self {
-            GroupKind::Sums => Pass::Sums,
-            GroupKind::Products => Pass::Products,
-        }
-    }
-
     fn parts(self, node: &NetworkNode<'_>) -> Parts {
         match (self, node) {
             (GroupKind::Sums, NetworkNode::Sum(terms)) => terms.clone(),

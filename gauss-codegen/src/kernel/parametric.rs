@@ -40,7 +40,7 @@ impl<'g> ParametricDerivatives<'g> {
         let ParametricProgram { program, hoisted } = self.cheaper(way, source, hoister, trial);
         let of_velocity = self.order.iter().map(|&k| functions.configuration_rates().outputs[k]);
         let outputs: Vec<Expr<'g>> = of_velocity.chain(functions.acceleration.outputs.iter().copied()).collect();
-        (program.carried_out(), ExpectedOutputs::of_derivatives(outputs, along), hoisted)
+        (program.carried_out(hoister.passes), ExpectedOutputs::of_derivatives(outputs, along), hoisted)
     }
 
     /// Programs read constants, not parameters: the program of the constants is differentiated first, and what their
@@ -90,7 +90,7 @@ impl<'g> ParametricDerivatives<'g> {
             return way;
         }
         let programs: Vec<Program<'g>> =
-            self.derived.iter().map(|e| Program::lower(&hoister.hoist(e)).with_signs_led_back()).collect();
+            self.derived.iter().map(|e| hoister.program(e).signed(hoister.passes)).collect();
         let derived = programs.into_iter().map(|program| {
             let hoisted = source.hoisted(hoister, &program.symbols());
             ParametricProgram { program, hoisted }

@@ -4,6 +4,7 @@ use super::check::{CheckedPrograms, Sample};
 use super::expected_outputs::ExpectedOutputs;
 use super::factor::Factoriser;
 use super::hoist::Hoister;
+use super::passes::Passes;
 use super::tangent::with_tangents;
 use super::{Candidates, Counts, DerivativeRequest, Derivatives, Differentiation, Kernel, Program};
 use crate::accuracy::Trial;
@@ -69,7 +70,8 @@ fn lowered<'g>(
 ) -> Kernel<'g> {
     let functions = Methods { acceleration: Candidates::of_values(arrangements), ..nothing() };
     let wanted = Derivatives { list, units: &[] };
-    Kernel::lower(graph, &functions, definitions, &wanted, None, &mut Trial::default()).expect("a program")
+    Kernel::lower(graph, &functions, definitions, &wanted, None, &mut Trial::default(), Passes::default())
+        .expect("a program")
 }
 
 #[test]
@@ -94,7 +96,7 @@ fn every_pass_keeps_the_values_of_random_expressions() {
             }
         };
         let definitions = Map::default();
-        let mut hoister = Hoister::new(&graph, &definitions);
+        let mut hoister = Hoister::new(&graph, &definitions, Passes::default());
         let hoisted = hoister.hoist(&outputs);
         let mut with_constants = point.clone();
         for &(symbol, definition) in hoister.constants() {
@@ -312,7 +314,8 @@ fn parameters_move_constants() {
         let differentiation = Differentiation::ByParameters(by_parameters);
         let list = [DerivativeRequest { kind: DerivativeKind::ByParameters, differentiation }];
         let wanted = Derivatives { list: &list, units: &[] };
-        let kernel = Kernel::lower(&graph, &functions, &Map::default(), &wanted, None, &mut Trial::default());
+        let kernel =
+            Kernel::lower(&graph, &functions, &Map::default(), &wanted, None, &mut Trial::default(), Passes::default());
         let kernel = kernel.expect("a program");
         let mut values = point.clone();
         let constants = kernel.constants.run(&point);

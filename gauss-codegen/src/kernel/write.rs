@@ -1,10 +1,11 @@
 //! From a network to straight-line code.
 
 use crate::algebra::{Expr, Function, Map, Number, Rational, Set};
-use crate::program::{Code, Instruction, Pass};
+use crate::program::{Code, Instruction};
 
 use super::factor::Factoriser;
 use super::network::{Network, NetworkNode, NodeIndex};
+use super::passes::{Pass, Passes};
 
 /// Straight-line code whose inputs are symbols.
 pub type Program<'g> = Code<Expr<'g>>;
@@ -16,15 +17,35 @@ pub type Operation<'g> = Instruction<Expr<'g>>;
 impl<'g> Program<'g> {
     /// Factors, shares, and writes out.
     pub fn lower(outputs: &[Expr<'g>]) -> Self {
-        let mut factoring = Factoriser::default();
-        let outputs: Vec<_> = outputs.iter().map(|&e| factoring.rewrite(e)).collect();
-        NetworkWriter::new(Network::new(&outputs)).write().verified()
+        Self::lowered(outputs, Passes::default())
     }
 
-    /// The same computation as it is carried out: products within the sums that read them, no product at the beginning
-    /// of a sum that something is added to, chains that overlap.
-    pub(super) fn carried_out(self) -> Self {
-        self.with_products_in_sums().with_sums_begun().ordered()
+    pub(super) fn lowered(outputs: &[Expr<'g>], passes: Passes) -> Self {
+        let mut factoring = Factoriser::default();
+        let factored = |&e: &Expr<'g>| if passes.make(Pass::Factors) { factoring.rewrite(e) } else { e };
+        let outputs: Vec<_> = outputs.iter().map(factored).collect();
+        NetworkWriter::new(Network::new(&outputs, passes), passes).write().verified()
+    }
+
+    /// The same with signs where they cost nothing.
+    pub(super) fn signed(self, passes: Passes) -> Self {
+        if passes.make(Pass::Signs) { self.with_signs_led_back() } else { self }
+    }
+
+    /// The same with products within the sums that read them.
+    pub(super) fn fused(self, passes: Passes) -> Self {
+        if passes.make(Pass::ProductsInSums) { self.with_products_in_sums() } else { self }
+    }
+
+    /// The same without a product at the beginning of a sum that something is added to, if there is one.
+    pub(super) fn begun(&self, passes: Passes) -> Option<Self> {
+        self.sums_begun().filter(|_| passes.make(Pass::Beginnings))
+    }
+
+    /// The same computation as it is carried out: products and sums joined, chains that overlap.
+    pub(super) fn carried_out(self, passes: Passes) -> Self {
+        let fused = self.fused(passes);
+        fused.begun(passes).unwrap_or(fused).ordered()
     }
 
     /// The symbols that the program reads.
@@ -54,10 +75,11 @@ struct NetworkWriter<'g> {
     /// Instructions in which sines and cosines are computed.
     pairs: Vec<usize>,
     instructions: Vec<Operation<'g>>,
+    passes: Passes,
 }
 
 impl<'g> NetworkWriter<'g> {
-    fn new(network: Network<'g>) -> Self {
+    fn new(network: Network<'g>, passes: Passes) -> Self {
         let mut uses = vec![0; network.nodes.len()];
         let mut reached = vec![false; network.nodes.len()];
         let mut open: Vec<NodeIndex> = network.outputs.iter().map(|&(_, place)| place).collect();
@@ -75,6 +97,7 @@ impl<'g> NetworkWriter<'g> {
             negated: Map::default(),
             pairs: Vec::new(),
             instructions: Vec::new(),
+            passes,
         }
     }
 
@@ -197,7 +220,7 @@ impl<'g> NetworkWriter<'g> {
 
     /// The two sides of a product that nobody else needs, so that it can be fused with an addition.
     fn fusible(&mut self, place: NodeIndex) -> Option<(Operand<'g>, Operand<'g>)> {
-        if self.uses[place] != 1 || self.written.contains_key(&place) || !Pass::Fusing.is_made() {
+        if self.uses[place] != 1 || self.written.contains_key(&place) || !self.passes.make(Pass::Fusing) {
             return None;
         }
         let NetworkNode::Product(factors) = self.network.nodes[place].clone() else { return None };

@@ -20,7 +20,7 @@ mod witness;
 
 use crate::accuracy::Trial;
 use crate::algebra::{Expr, Graph, Map};
-use crate::kernel::{Candidates, Derivatives, Kernel, Program};
+use crate::kernel::{Candidates, Derivatives, Kernel, Passes, Program};
 
 use crate::mechanics::check::faults::{Claims, check_system_against_definition};
 use crate::mechanics::formula::{Formulas, Method};
@@ -54,7 +54,8 @@ impl<'g> FormulaPrograms<'g> {
         });
         functions.others.extend(further);
         let (wanted, definitions) = (Derivatives::default(), &symbols.definitions);
-        let kernel = Kernel::lower(graph, &functions, definitions, &wanted, None, &mut Trial::default());
+        let kernel =
+            Kernel::lower(graph, &functions, definitions, &wanted, None, &mut Trial::default(), Passes::default());
         let kernel = kernel.unwrap_or_else(|error| panic!("{what}: {error}"));
         assert!(!graph.is_undefined(), "{what}: a division by zero");
         let values = kernel.constants.run(&symbols.parameters);

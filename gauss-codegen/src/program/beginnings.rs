@@ -7,21 +7,16 @@
 
 use super::code::Code;
 use super::instruction::{Instruction, Operand};
-use super::passes::Pass;
 
 /// Partial sums that are looked through for a product that begins them.
 const LEVELS: usize = 64;
 
 impl<S: Copy> Code<S> {
-    /// The same with sums begun by what is added to them, one instruction less for each where products are fused.
-    pub(crate) fn with_sums_begun(self) -> Self {
-        self.sums_begun().unwrap_or(self)
-    }
-
-    /// The same, if there is a sum to which that can be done.
+    /// The same with sums begun by what is added to them, one instruction less for each where products are fused;
+    /// nothing where there is no such sum.
     pub(crate) fn sums_begun(&self) -> Option<Self> {
         let uses = self.uses();
-        if !Pass::Beginnings.is_made() || !self.adds_to_products(&uses) {
+        if !self.adds_to_products(&uses) {
             return None;
         }
         let latest = self.latest();
@@ -220,7 +215,7 @@ mod tests {
 
     fn begun(instructions: Vec<Instruction>) -> Code {
         let code = Code { outputs: vec![value(instructions.len() - 1)], instructions };
-        let begun = code.clone().with_sums_begun();
+        let begun = code.sums_begun().unwrap_or_else(|| code.clone());
         assert_eq!(results(&begun), results(&code));
         begun
     }

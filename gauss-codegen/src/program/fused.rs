@@ -2,15 +2,11 @@
 
 use super::code::Code;
 use super::instruction::{Instruction, Operand};
-use super::passes::Pass;
 
 impl<S: Copy> Code<S> {
     /// The same with products that nothing but additions and subtractions read formed in these: one instruction less
     /// for each where products are fused, and the same where they are not, since compilers form what is the same once.
     pub(crate) fn with_products_in_sums(self) -> Self {
-        if !Pass::ProductsInSums.is_made() {
-            return self;
-        }
         let readers = self.readers();
         // What an addition takes in.
         let mut taken: Vec<Option<usize>> = vec![None; self.instructions.len()];

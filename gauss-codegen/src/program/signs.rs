@@ -6,7 +6,6 @@
 
 use super::code::Code;
 use super::instruction::{Instruction, Operand};
-use super::passes::Pass;
 
 /// Instructions, each the operand of the next, that a sign is led back through.
 const LEVELS: usize = 500;
@@ -24,9 +23,6 @@ struct Signs<S> {
 impl<S: Copy> Code<S> {
     /// The same with as few negations of results as can be.
     pub fn with_signs_led_back(self) -> Self {
-        if !Pass::Signs.is_made() {
-            return self;
-        }
         let count = self.instructions.len();
         let uses = self.uses();
         let mut signs = Signs {

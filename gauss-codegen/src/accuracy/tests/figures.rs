@@ -6,6 +6,7 @@ use crate::accuracy::loss_search::Search;
 use crate::accuracy::moves::Draft;
 use crate::algebra::{Doubled, Graph, Notation, Number, Scalar, print};
 use crate::formulation::Formulation;
+use crate::kernel::Passes;
 use crate::lowering::{Lowered, lower, states};
 use crate::model;
 use crate::translate::translate;
@@ -75,7 +76,7 @@ fn seen(clauses: &str, fields: &str, given: &[(&str, f64)]) -> Vec<MethodFigures
     let graph = Graph::new();
     let translated = translate(&graph, &model).expect("a scene");
     let formulation = Formulation::of(translated).expect("equations");
-    let Lowered { formulation, kernel, .. } = lower(formulation).expect("a kernel");
+    let Lowered { formulation, kernel, .. } = lower(formulation, Passes::default()).expect("a kernel");
     let states = states(&formulation);
     let samples = states.samples();
     let sought = kernel.sought();

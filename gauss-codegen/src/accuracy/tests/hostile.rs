@@ -6,7 +6,7 @@ use crate::accuracy::trial::Point;
 use crate::algebra::{Evaluation, Expr, Map, Precise};
 use crate::emit::Derived;
 use crate::expand::derive;
-use crate::kernel::{Candidates, Derivatives, Kernel};
+use crate::kernel::{Candidates, Derivatives, Kernel, Passes};
 use crate::mechanics::{Method, rotation_of_quaternion};
 
 use super::{computed, loss_beside, values_of};
@@ -84,7 +84,7 @@ fn lowered_for<'g>(derived: &Derived<'_, 'g>, values: &[(u32, f64)]) -> Kernel<'
     let functions = derived.subject.system.formulas().map(|_, arrangements| Candidates::of_values(arrangements));
     let wanted = Derivatives { units: &units, ..Derivatives::default() };
     let literals = Some(&derived.subject.provenance.literals[..]);
-    Kernel::lower(scene.graph, &functions, &definitions, &wanted, literals, &mut trial)
+    Kernel::lower(scene.graph, &functions, &definitions, &wanted, literals, &mut trial, Passes::default())
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
