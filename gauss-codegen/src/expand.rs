@@ -9,7 +9,7 @@ use crate::emit::{Derived, Equations, emit, file};
 use crate::error::Result;
 use crate::formulation::Formulation;
 use crate::kernel::Passes;
-use crate::lowering::lower;
+use crate::lowering::{Lowered, lower};
 use crate::mistakes::{most_operations, refuse_exhausted};
 use crate::model::{self, Model};
 use crate::translate::translate;
@@ -19,10 +19,7 @@ use crate::translate::translate;
 /// # Errors
 /// Every mistake of the struct, each at the token that is wrong.
 pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
-    derive(input, |derived| {
-        derived.pack();
-        Ok(written(derived))
-    })
+    lowered(input, |lowered| Ok(written(&Derived::new(lowered).with_vectors())))
 }
 
 /// Expands one struct whose code is compiled for processors without vectors of products that are rounded once: methods
@@ -41,23 +38,27 @@ fn written(derived: &Derived<'_, '_>) -> TokenStream {
 
 /// Derives one struct, and hands everything that is known of it to whoever writes it down.
 pub fn derive<R>(input: &DeriveInput, write: impl FnOnce(&Derived<'_, '_>) -> Result<R>) -> syn::Result<R> {
+    lowered(input, |lowered| write(&Derived::new(lowered)))
+}
+
+/// Derives one struct up to its programs.
+fn lowered<R>(input: &DeriveInput, of: impl FnOnce(&Lowered<'_>) -> Result<R>) -> syn::Result<R> {
     let model = model::parse(input)?;
     let graph = Graph::new();
     graph.allow(most_operations(&model.item));
     // Every body and particle has partial velocities, a row for each speed.
     graph.spend((model.bodies.len() + model.particles.len()).saturating_mul(model.coordinates.len()));
     refuse_exhausted(&model.item, &graph)?;
-    let derived = derive_model(&graph, &model, write);
+    let derived = lower_model(&graph, &model).and_then(|lowered| of(&lowered));
     // Whatever else was found then means nothing.
     refuse_exhausted(&model.item, &graph)?;
     Ok(derived?)
 }
 
-fn derive_model<R>(graph: &Graph, model: &Model, write: impl FnOnce(&Derived<'_, '_>) -> Result<R>) -> Result<R> {
+fn lower_model<'g>(graph: &'g Graph, model: &Model) -> Result<Lowered<'g>> {
     let translated = translate(graph, model)?;
     let formulation = Formulation::of(translated)?;
-    let lowered = lower(formulation, Passes::default())?;
-    write(&Derived::new(&lowered))
+    lower(formulation, Passes::default())
 }
 
 #[cfg(test)]
@@ -213,7 +214,7 @@ mod tests {
             for size in (2..14).map(|power| 1 << power).chain([700, 1400, 3000, 6000, 12_000]) {
                 let graph = Graph::new();
                 graph.restrict(size);
-                let derived = derive_model(&graph, &model, |derived| Ok(emit(derived, &Equations::of(derived))));
+                let derived = lower_model(&graph, &model).map(|lowered| written(&Derived::new(&lowered)));
                 assert!(refuse_exhausted(&model.item, &graph).is_err() || derived.is_ok(), "{size}: {source}");
             }
         }

@@ -1,7 +1,5 @@
 //! Everything known about one derive when code is written, and what all implementations of traits are made with.
 
-use std::cell::OnceCell;
-
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
@@ -17,7 +15,7 @@ use crate::words::Unraw;
 
 use crate::emit::dialect::arguments::{ArrayArgument, arguments_of, declare, declared, variable};
 use crate::emit::dialect::limbs::LimbSymbols;
-use crate::emit::dialect::packs::{Packs, Sources, are_wanted};
+use crate::emit::dialect::packs::{PACKED, Packs, Sources};
 use crate::emit::dialect::program::{ScalarTokens, statements};
 use crate::emit::subject::Subject;
 
@@ -42,13 +40,18 @@ pub struct Derived<'a, 'g> {
     pub printed: &'a [PrintedEquations; 2],
     /// The parameters in which the forces of inertia are linear, where the regressor is wanted.
     pub inertial_parameters: &'a [InertialParameter<'g>],
-    /// Methods that are written with vectors, once these have been looked for.
-    packs: OnceCell<Packs<'g>>,
-    /// Relation of symbols to limbs that are alike.
-    limbs: OnceCell<LimbSymbols>,
+    /// Forms with vectors, where these are wanted and the scalar has some.
+    vectors: Option<VectorForms<'g>>,
     /// Asked for by every method: see `private`, `arguments`.
     private: TokenStream,
-    arguments: OnceCell<Vec<ArrayArgument<'g>>>,
+    arguments: Vec<ArrayArgument<'g>>,
+}
+
+/// Methods that are written with vectors.
+struct VectorForms<'g> {
+    packs: Packs<'g>,
+    /// Relation of symbols to limbs that are alike.
+    limbs: LimbSymbols,
 }
 
 /// Type parameters of the kernel; nothing where the scalar is a type.
@@ -84,21 +87,29 @@ impl<'a, 'g> Derived<'a, 'g> {
             can_drift: formulation.can_drift(),
             quaternions: &formulation.quaternions,
         };
-        Self {
+        let (runtime, module) = (&provenance.item.runtime, Ident::new(PRIVATE, Span::call_site()));
+        let mut derived = Self {
             subject,
             kernel,
             mass_laws,
             weights: &formulation.weights,
             printed: &formulation.printed,
             inertial_parameters: &formulation.inertial_parameters,
-            packs: OnceCell::new(),
-            limbs: OnceCell::new(),
-            private: {
-                let (runtime, module) = (&provenance.item.runtime, Ident::new(PRIVATE, Span::call_site()));
-                quote!(#runtime::#module)
-            },
-            arguments: OnceCell::new(),
+            vectors: None,
+            private: quote!(#runtime::#module),
+            arguments: Vec::new(),
+        };
+        derived.arguments = derived.all_arguments();
+        derived
+    }
+
+    /// The same with vectors in the methods in which they win.
+    pub fn with_vectors(mut self) -> Self {
+        if matches!(self.item().scalar, Scalar::F64) {
+            let limbs = LimbSymbols::of(&self.subject.provenance.twins, self.kernel);
+            self.vectors = Some(VectorForms { packs: self.packed(), limbs });
         }
+        self
     }
 
     pub fn item(&self) -> &'a Item {
@@ -226,7 +237,7 @@ impl<'a, 'g> Derived<'a, 'g> {
 
     /// The arguments of methods other than constants and time.
     pub fn arguments(&self) -> &[ArrayArgument<'g>] {
-        self.arguments.get_or_init(|| self.all_arguments())
+        &self.arguments
     }
 
     fn all_arguments(&self) -> Vec<ArrayArgument<'g>> {
@@ -252,19 +263,14 @@ impl<'a, 'g> Derived<'a, 'g> {
         arguments
     }
 
-    /// Looks for packs: methods in which they win are written with vectors, too.
-    pub fn pack(&self) {
-        self.packs.get_or_init(|| self.packed());
-    }
-
-    /// The packs that were looked for.
+    /// Methods with packs.
     pub fn packs(&self) -> Option<&Packs<'g>> {
-        self.packs.get()
+        self.vectors.as_ref().map(|vectors| &vectors.packs)
     }
 
     fn packed(&self) -> Packs<'g> {
         let (mut packs, arguments, scalar) = (Packs::default(), self.arguments(), self.scalar());
-        let methods = self.kernel.functions.iter().filter(|(method, _)| are_wanted(*method, scalar.scalar));
+        let methods = self.kernel.functions.iter().filter(|(method, _)| PACKED.contains(method));
         for (method, LoweredFunction { program, .. }) in methods {
             let (_, names) = self.named(program, arguments);
             let sources = Sources { kernel: self.kernel, arguments, names: &names };
@@ -315,9 +321,7 @@ impl<'a, 'g> Derived<'a, 'g> {
         program: &Program<'g>,
         names: &Map<u32, TokenStream>,
     ) -> Option<(TokenStream, Vec<TokenStream>)> {
-        self.packs().filter(|_| matches!(self.scalar().scalar, Scalar::F64))?;
-        let limbs = self.limbs.get_or_init(|| LimbSymbols::of(&self.subject.provenance.twins, self.kernel));
-        limbs.statements(program, names, (&self.private(), &self.scalar()))
+        self.vectors.as_ref()?.limbs.statements(program, names, (&self.private(), &self.scalar()))
     }
 
     /// Arguments taken apart as far as a program reads them, and how its symbols are then written.

@@ -13,13 +13,12 @@ use crate::mechanics::Method;
 use crate::program::{InputPlace, LANES, Operand, PackedCode};
 use crate::targets::rust::operand;
 use crate::targets::rust::packed::{self, Vectors};
-use crate::terms::Scalar;
 
 use crate::emit::dialect::arguments::ArrayArgument;
 use crate::emit::dialect::program::{KernelDialect, ScalarTokens};
 
 /// Methods that runs call in every step.
-const PACKED: [Method; 5] =
+pub const PACKED: [Method; 5] =
     [Method::Acceleration, Method::Momentum, Method::Velocity, Method::MomentumRate, Method::GaussResidual];
 
 /// Programs with packs, and their constants in rows.
@@ -27,11 +26,6 @@ const PACKED: [Method; 5] =
 pub struct Packs<'g> {
     programs: Vec<(Method, Program<'g>, PackedCode<Expr<'g>>)>,
     rows: Vec<Vec<Operand<Expr<'g>>>>,
-}
-
-/// Whether packs are looked for.
-pub fn are_wanted(method: Method, scalar: &Scalar) -> bool {
-    matches!(scalar, Scalar::F64) && PACKED.contains(&method)
 }
 
 /// Sources of the symbols of a program, and the tokens that read them.
