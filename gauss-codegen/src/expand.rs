@@ -32,7 +32,7 @@ pub fn expand_without_vectors(input: &DeriveInput) -> syn::Result<TokenStream> {
 }
 
 fn written(derived: &Derived<'_, '_>) -> TokenStream {
-    let (code, file) = (emit(derived, &Equations::of(derived)), file(derived));
+    let (code, file) = (emit(derived, &Equations::of(derived)), file(derived.item()));
     quote!(#code #file)
 }
 

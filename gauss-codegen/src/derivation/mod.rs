@@ -88,7 +88,7 @@ impl Derivation {
         let ident = &derived.item().ident;
         let signature = Signature::new(derived);
         let refused = |malformed: &dyn fmt::Display| bug(ident, &malformed);
-        let constants = signature.constants(derived).map_err(|malformed| refused(&malformed))?;
+        let constants = signature.constants(derived.kernel).map_err(|malformed| refused(&malformed))?;
         let programs = programs(derived, &signature).map_err(|malformed| refused(&malformed))?;
         let parameters = parameters::parameters(derived, &signature).map_err(|malformed| refused(&malformed))?;
         let unit_components = parameters::unit_components(derived);

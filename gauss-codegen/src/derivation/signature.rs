@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::algebra::{Expr, Map, Notation, Rational, print};
 use crate::emit::Derived;
-use crate::kernel;
+use crate::kernel::{self, Kernel};
 use crate::program::{Argument, ArgumentKind, Input, Malformed, Operand, Program, Results};
 use crate::words::Unraw;
 
@@ -103,8 +103,8 @@ impl<'g> Signature<'g> {
     }
 
     /// Program that computes the constants from the parameters.
-    pub fn constants(&self, derived: &Derived<'_, 'g>) -> Result<Program, SignatureError> {
-        let code = &derived.kernel.constants;
+    pub fn constants(&self, kernel: &Kernel<'_>) -> Result<Program, SignatureError> {
+        let code = &kernel.constants;
         self.program("kernel", &[ArgumentKind::Parameters], code, vec![Results::new("k", code.outputs.len(), 1)])
     }
 }

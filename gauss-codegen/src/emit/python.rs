@@ -16,7 +16,7 @@ pub fn scene(derived: &Derived<'_, '_>) -> TokenStream {
     let item = derived.item();
     let Some(clause) = &item.wanted.python else { return TokenStream::new() };
     let (name, documentation, kernel) = (&item.ident, &item.documentation, derived.kernel_name());
-    let state = state::state_name(derived);
+    let state = state::state_name(derived.item());
     let scalar = match &item.scalar {
         Scalar::Parameter(ident) => quote!(#ident),
         Scalar::F64 | Scalar::F32 => TokenStream::new(),
@@ -49,7 +49,7 @@ pub fn scene(derived: &Derived<'_, '_>) -> TokenStream {
 /// Coordinates, speeds and inputs by name.
 pub fn parts(derived: &Derived<'_, '_>) -> [Vec<Part>; 3] {
     let [coordinates, speeds] = state::parts(derived);
-    [coordinates, speeds, input::parts(derived)]
+    [coordinates, speeds, input::parts(derived.item())]
 }
 
 /// Names of the numbers of each of these, which are those of a state, of coordinates that are scalars last, or inputs.

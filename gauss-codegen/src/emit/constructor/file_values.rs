@@ -9,6 +9,7 @@ use crate::words::Unraw;
 
 use crate::emit::constructor::kernel::bound;
 use crate::emit::derived::{Derived, KernelGenerics};
+use crate::emit::dialect::program::ScalarTokens;
 use crate::emit::records::input::input_name;
 use crate::emit::records::state::{parts, state_name};
 
@@ -49,8 +50,7 @@ fn constructor(derived: &Derived<'_, '_>, bodies: &[BodyOfFile]) -> TokenStream 
     }
 }
 
-fn number(derived: &Derived<'_, '_>, value: f64) -> TokenStream {
-    let scalar = derived.scalar();
+fn number(scalar: &ScalarTokens<'_>, value: f64) -> TokenStream {
     match scalar.scalar {
         Scalar::Parameter(_) => scalar.number(&shortest(value)),
         _ => scalar.literal(value),
@@ -59,7 +59,7 @@ fn number(derived: &Derived<'_, '_>, value: f64) -> TokenStream {
 
 fn body_value(derived: &Derived<'_, '_>, body: &BodyOfFile, shape: Shape) -> TokenStream {
     let (private, runtime) = (derived.private(), &derived.item().runtime);
-    let number = |value: f64| number(derived, value);
+    let number = |value: f64| number(&derived.scalar(), value);
     let c = body.center;
     let square: f64 = c.iter().map(|c| c * c).sum();
     let central = shape == Shape::CentralBody;
@@ -86,7 +86,7 @@ fn body_value(derived: &Derived<'_, '_>, body: &BodyOfFile, shape: Shape) -> Tok
 
 /// Functions of the state, as its coordinates and speeds are called there.
 fn states(derived: &Derived<'_, '_>, states: &[StateOfFile]) -> TokenStream {
-    let (name, visibility) = (state_name(derived), &derived.item().visibility);
+    let (name, visibility) = (state_name(derived.item()), &derived.item().visibility);
     let KernelGenerics { bounded, used, .. } = derived.kernel_generics();
     let known: Vec<Ident> = parts(derived).iter().flatten().map(|part| part.ident.clone()).collect();
     let functions = states.iter().map(|state| {
@@ -114,11 +114,11 @@ fn states(derived: &Derived<'_, '_>, states: &[StateOfFile]) -> TokenStream {
 
 /// Functions of the inputs, of the states of the file that have some.
 fn inputs(derived: &Derived<'_, '_>, states: &[StateOfFile]) -> Option<TokenStream> {
-    let (name, visibility) = (input_name(derived), &derived.item().visibility);
+    let (name, visibility) = (input_name(derived.item()), &derived.item().visibility);
     let KernelGenerics { bounded, used, .. } = derived.kernel_generics();
     let functions = states.iter().filter(|state| !state.inputs.is_empty()).map(|state| {
         let values = state.inputs.iter().map(|(field, value)| {
-            let value = number(derived, *value);
+            let value = number(&derived.scalar(), *value);
             quote!(#field: #value)
         });
         let (function, documentation) = (&state.name, format!("The controls of `{}` of the file.", state.written));
@@ -142,7 +142,7 @@ fn inputs(derived: &Derived<'_, '_>, states: &[StateOfFile]) -> Option<TokenStre
 
 fn state_value(derived: &Derived<'_, '_>, value: ValueOfState) -> TokenStream {
     let private = derived.private();
-    let number = |value: f64| number(derived, value);
+    let number = |value: f64| number(&derived.scalar(), value);
     // (x, y, z, w), of length one.
     let unit = |[w, x, y, z]: [f64; 4]| {
         let length = [w, x, y, z].iter().map(|c| c * c).sum::<f64>().sqrt();

@@ -6,12 +6,13 @@ use quote::quote;
 
 use crate::algebra::{Expr, Map, Rational};
 use crate::kernel::Program;
+use crate::mass_laws::MassLaws;
 use crate::terms::LawKind;
 use crate::translate::{DragMatrix, Law};
 
 use crate::emit::constructor::locals::{local_of_datum, parameters_read, symbols_of_parameters};
 use crate::emit::derived::Derived;
-use crate::emit::dialect::program::statements;
+use crate::emit::dialect::program::{ScalarTokens, statements};
 
 /// States at which a dissipation function is looked at.
 const STATES: usize = 4;
@@ -50,7 +51,7 @@ fn written(
             LawKind::Dissipation => return None,
         };
         // Of a state nothing is known when the kernel is made.
-        let (compute, values) = of_parameters(derived, symbols, &law.values)?;
+        let (compute, values) = of_parameters(&derived.scalar(), symbols, &law.values)?;
         Some(match law.kind {
             LawKind::Stiffness
             | LawKind::Width
@@ -87,7 +88,7 @@ pub fn warnings(derived: &Derived<'_, '_>) -> TokenStream {
     let symbols = symbols_of_parameters(derived);
     let read = parameters_read(derived, &symbols);
     let of_elements = [drags(derived, &symbols), laws(derived, &symbols)];
-    let of_mass_data = [gravity(derived).unwrap_or_default(), added_masses(derived, &symbols)];
+    let of_mass_data = [gravity(derived.mass_laws).unwrap_or_default(), added_masses(derived, &symbols)];
     quote! {
         /// What is likely not meant, although a kernel can be made of it: drag and damping that feed energy, gravity
         /// that points upward, added mass with the sign of hydrodynamic derivatives.
@@ -106,7 +107,7 @@ pub fn warnings(derived: &Derived<'_, '_>) -> TokenStream {
 fn drags(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     let private = derived.private();
     let check = |drag: &DragMatrix<'_>| {
-        let (compute, outputs) = of_parameters(derived, symbols, &drag.entries.concat())?;
+        let (compute, outputs) = of_parameters(&derived.scalar(), symbols, &drag.entries.concat())?;
         let rows = rows_of(&outputs);
         let (label, kind) = (&drag.label, if drag.quadratic { quote!(Quadratic) } else { quote!(Linear) });
         Some(quote!({
@@ -141,7 +142,7 @@ fn laws(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStre
                 return None;
             }
         };
-        let (compute, values) = of_parameters(derived, symbols, &values)?;
+        let (compute, values) = of_parameters(&derived.scalar(), symbols, &values)?;
         Some(match law.kind {
             LawKind::Dissipation => quote!({ #compute __warnings.#check(#label, &[#(#values),*]); }),
             LawKind::DampingMatrix => {
@@ -171,8 +172,8 @@ pub fn in_states<'g>(function: Expr<'g>, is_known: &dyn Fn(u32) -> bool) -> Vec<
 }
 
 /// A gravity of one number.
-fn gravity(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    let (label, gravity) = derived.mass_laws.gravity.as_ref()?;
+fn gravity(mass_laws: &MassLaws<'_>) -> Option<TokenStream> {
+    let (label, gravity) = mass_laws.gravity.as_ref()?;
     let name = local_of_datum(*gravity);
     Some(quote!(__warnings.gravity(#label, #name);))
 }
@@ -180,7 +181,7 @@ fn gravity(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 /// Diagonals of added masses.
 fn added_masses(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     let find = |(label, diagonal): &(String, Vec<Expr<'_>>)| {
-        let (compute, values) = of_parameters(derived, symbols, diagonal)?;
+        let (compute, values) = of_parameters(&derived.scalar(), symbols, diagonal)?;
         Some(quote!({ #compute __warnings.added_mass(#label, &[#(#values),*]); }))
     };
     derived.mass_laws.added_masses.iter().filter_map(find).collect()
@@ -188,11 +189,11 @@ fn added_masses(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> T
 
 /// The values of expressions of parameters; `None` where the state enters.
 fn of_parameters(
-    derived: &Derived<'_, '_>,
+    scalar: &ScalarTokens<'_>,
     symbols: &Map<u32, TokenStream>,
     expressions: &[Expr<'_>],
 ) -> Option<(TokenStream, Vec<TokenStream>)> {
     let program = Program::lower(expressions);
     let known = program.symbols().iter().all(|symbol| symbols.contains_key(&symbol.key()));
-    known.then(|| statements(&program, symbols, &derived.scalar()))
+    known.then(|| statements(&program, symbols, scalar))
 }

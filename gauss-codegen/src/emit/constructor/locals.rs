@@ -11,7 +11,7 @@ use crate::terms::{Field, Role, Shape};
 use crate::translate::{ClauseValue, FieldPart, ParameterSource};
 
 use crate::emit::derived::Derived;
-use crate::emit::dialect::program::statements;
+use crate::emit::dialect::program::{ScalarTokens, statements};
 
 /// The local that holds a field, or one part of a rigid body.
 pub fn local(field: usize, part: &str) -> Ident {
@@ -57,10 +57,11 @@ pub fn symbols_of_parameters(derived: &Derived<'_, '_>) -> Map<u32, TokenStream>
 pub fn parameters_read(derived: &Derived<'_, '_>, symbols: &Map<u32, TokenStream>) -> TokenStream {
     let given = derived.subject.provenance;
     let fields = given.item.fields.iter().enumerate().filter(|(k, _)| given.is_read(*k));
-    let mut read: TokenStream = fields.map(|(k, field)| read_field(derived, k, field)).collect();
+    let mut read: TokenStream = fields.map(|(k, field)| read_field(&derived.private(), k, field)).collect();
+    let scalar = derived.scalar();
     let clauses = given.mass_data.unnamed.iter();
     read.extend(
-        clauses.map(|ClauseValue { own, .. }| clause_local(derived, &local_of_clause(own.quantity), own, symbols)),
+        clauses.map(|ClauseValue { own, .. }| clause_local(&scalar, &local_of_clause(own.quantity), own, symbols)),
     );
     read
 }
@@ -71,8 +72,8 @@ pub fn local_of_clause(role: Role) -> Ident {
 }
 
 /// The local of a field.
-fn read_field(derived: &Derived<'_, '_>, k: usize, field: &Field) -> TokenStream {
-    let (private, ident, name) = (derived.private(), &field.ident, local(k, ""));
+fn read_field(private: &TokenStream, k: usize, field: &Field) -> TokenStream {
+    let (ident, name) = (&field.ident, local(k, ""));
     match field.shape {
         Shape::Scalar => quote!(let #name = self.#ident;),
         Shape::Vector3 | Shape::Vector6 => quote!(let #name = #private::components(&self.#ident);),
@@ -102,12 +103,12 @@ pub fn local_of_datum(datum: Datum) -> Ident {
 
 /// `let name = …;`: the value, or the array of components.
 pub fn clause_local(
-    derived: &Derived<'_, '_>,
+    scalar: &ScalarTokens<'_>,
     name: &Ident,
     own: &QuantityValues<'_>,
     symbols: &Map<u32, TokenStream>,
 ) -> TokenStream {
-    let (compute, values) = statements(&Program::lower(&own.values), symbols, &derived.scalar());
+    let (compute, values) = statements(&Program::lower(&own.values), symbols, scalar);
     match values.as_slice() {
         [value] => quote!(let #name = { #compute #value };),
         // Half of a symmetric matrix, column by column.

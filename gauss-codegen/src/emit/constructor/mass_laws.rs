@@ -15,8 +15,9 @@ use crate::emit::dialect::program::statements;
 /// Checks, group by group; a group with values of its own has them as locals of a block.
 pub fn checked<'g>(derived: &Derived<'_, 'g>, groups: &[Group<'g>], symbols: &Map<u32, TokenStream>) -> TokenStream {
     let group = |Group { values, laws }: &Group<'g>| {
-        let read =
-            values.iter().map(|own| clause_local(derived, &local_of_datum(Datum::Own(own.quantity)), own, symbols));
+        let read = values
+            .iter()
+            .map(|own| clause_local(&derived.scalar(), &local_of_datum(Datum::Own(own.quantity)), own, symbols));
         let checks: TokenStream = laws.iter().map(|law| check(derived, law, symbols)).collect();
         match values.is_empty() {
             true => checks,

@@ -7,12 +7,12 @@ use crate::emit::derived::Derived;
 use crate::emit::subject::Subject;
 
 /// The system, where there are constraints.
-fn constrained<'a, 'g>(derived: &'a Derived<'_, 'g>) -> Option<&'a Subject<'a, 'g>> {
-    Some(&derived.subject).filter(|subject| !subject.constraints.is_empty())
+fn constrained<'a, 'g>(subject: &'a Subject<'a, 'g>) -> Option<&'a Subject<'a, 'g>> {
+    Some(subject).filter(|subject| !subject.constraints.is_empty())
 }
 
 pub fn constrained_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    let subject = constrained(derived)?;
+    let subject = constrained(&derived.subject)?;
     let (private, ty, count) = (derived.private(), derived.scalar().ty(), subject.constraints.count());
     let methods = subject.constraint_methods(&derived.private()).into_iter();
     let methods = methods.filter_map(|(method, result)| derived.function(method, result));
@@ -25,5 +25,5 @@ pub fn constrained_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 
 /// `project` of `GaussSystem`, where a run can drift away from constraints.
 pub fn projection(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    constrained(derived).map(|subject| subject.projection(&derived.private()))
+    constrained(&derived.subject).map(|subject| subject.projection(&derived.private()))
 }

@@ -9,11 +9,12 @@ use crate::mechanics::Method;
 use crate::emit::derived::Derived;
 use crate::emit::dialect::arguments::OF_EQUATIONS;
 use crate::emit::equations::constrained::projection;
+use crate::emit::subject::Subject;
 
 pub fn gauss_system(derived: &Derived<'_, '_>) -> TokenStream {
     let (types, smoothness) = (types(derived), smoothness(derived));
     let (methods, evaluate, projection) = (methods(derived), evaluate(derived), projection(derived));
-    let (contacts, states) = (contacts(derived), states(derived));
+    let (contacts, states) = (contacts(derived), states(&derived.subject));
     let items = quote! {
         #types
         #smoothness
@@ -47,8 +48,8 @@ fn types(derived: &Derived<'_, '_>) -> TokenStream {
 }
 
 /// Number of the states of elements, as a constant.
-fn states(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    let states = derived.subject.system.scene.states.len();
+fn states(subject: &Subject<'_, '_>) -> Option<TokenStream> {
+    let states = subject.system.scene.states.len();
     (states > 0).then(|| {
         quote!(
             const STATES: ::core::primitive::usize = #states;

@@ -5,6 +5,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::mechanics::{FrameQuantity, Method};
+use crate::terms::Item;
 use crate::words::Unraw;
 
 use crate::emit::derived::Derived;
@@ -29,8 +30,8 @@ pub fn frame_operations(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 }
 
 /// The name of the enum.
-pub fn name_of_frames(derived: &Derived<'_, '_>) -> Ident {
-    format_ident!("{}Frame", derived.item().ident)
+pub fn name_of_frames(item: &Item) -> Ident {
+    format_ident!("{}Frame", item.ident)
 }
 
 /// The enum of names; the implementations.
@@ -48,10 +49,10 @@ fn jacobian_rates(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 
 fn names(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
     let frames = derived.frames();
-    let words: Vec<String> = frames.iter().map(|frame| word(derived, frame)).collect();
+    let words: Vec<String> = frames.iter().map(|frame| word(derived.item(), frame)).collect();
     let documentation = format!("Frames of [`{}`] whose motion its kernel computes.", derived.item().ident);
     let labels = words.iter().map(|word| format!("The body or frame `{word}`.")).collect();
-    enumerated(derived, (&name_of_frames(derived), documentation), (frames, &words, labels))
+    enumerated(derived, (&name_of_frames(derived.item()), documentation), (frames, &words, labels))
 }
 
 /// An enum of names; its implementation of `FrameName`.
@@ -86,8 +87,8 @@ pub fn enumerated(
 }
 
 /// Name of a frame in the file that it comes from, or in the scene.
-fn word(derived: &Derived<'_, '_>, frame: &Ident) -> String {
-    let mut called = derived.item().described.iter().flat_map(|file| &file.called);
+fn word(item: &Item, frame: &Ident) -> String {
+    let mut called = item.described.iter().flat_map(|file| &file.called);
     let own = called.find(|(ident, _)| ident.unraw() == frame.unraw());
     own.map_or_else(|| frame.unraw().to_string(), |(_, word)| word.clone())
 }
@@ -95,7 +96,7 @@ fn word(derived: &Derived<'_, '_>, frame: &Ident) -> String {
 fn system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
     let of_all = derived.program(Method::Frames)?;
     let (private, ty, n) = (derived.private(), derived.scalar().ty(), derived.degrees_of_freedom());
-    let (name, count) = (name_of_frames(derived), derived.frames().len());
+    let (name, count) = (name_of_frames(derived.item()), derived.frames().len());
     let jacobian = quote!(#private::SMatrix<#ty, 6, #n>);
     let six = quote!(#private::SVector<#ty, 6>);
     let methods = [
@@ -112,7 +113,7 @@ fn system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         let parts = FrameQuantity::ALL.map(|quantity| {
             let (own, after) = rest.split_at(size_of(quantity, n));
             rest = after;
-            made(derived, quantity, own)
+            made(&derived.private(), quantity, own)
         });
         quote!(#private::FrameMotion::new(#(#parts),*))
     });
@@ -131,10 +132,10 @@ fn system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
 
 /// One quantity of any frame.
 fn method(derived: &Derived<'_, '_>, quantity: FrameQuantity, result: &TokenStream) -> TokenStream {
-    let enumeration = name_of_frames(derived);
+    let enumeration = name_of_frames(derived.item());
     let arms = derived.frames().iter().enumerate().filter_map(|(number, frame)| {
         let (instructions, outputs) = derived.computed(derived.program(Method::OfFrame(quantity, number))?);
-        let value = made(derived, quantity, &outputs);
+        let value = made(&derived.private(), quantity, &outputs);
         Some(quote!(#enumeration::#frame => { #instructions #value }))
     });
     let of_first = Method::OfFrame(quantity, 0);
@@ -164,8 +165,7 @@ fn size_of(quantity: FrameQuantity, n: usize) -> usize {
 }
 
 /// Outputs as a value of the runtime.
-fn made(derived: &Derived<'_, '_>, quantity: FrameQuantity, outputs: &[TokenStream]) -> TokenStream {
-    let private = derived.private();
+fn made(private: &TokenStream, quantity: FrameQuantity, outputs: &[TokenStream]) -> TokenStream {
     match quantity {
         FrameQuantity::Pose => {
             let (position, rows) = (&outputs[..3], outputs[3..].chunks(3));

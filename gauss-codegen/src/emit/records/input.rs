@@ -5,16 +5,16 @@ use quote::{format_ident, quote};
 
 use crate::emit::derived::{Derived, KernelGenerics};
 use crate::emit::records::record::{Part, PartKind, from_numbers, record, to_numbers};
-use crate::terms::{InputKind, InputName};
+use crate::terms::{InputKind, InputName, Item};
 use crate::words::Unraw;
 
 /// The name of the type.
-pub fn input_name(derived: &Derived<'_, '_>) -> Ident {
-    format_ident!("{}Input", derived.item().ident)
+pub fn input_name(item: &Item) -> Ident {
+    format_ident!("{}Input", item.ident)
 }
 
 /// In their order: one number, a vector, or of a wrench two.
-pub fn parts(derived: &Derived<'_, '_>) -> Vec<Part> {
+pub fn parts(item: &Item) -> Vec<Part> {
     let part = |input: &InputName| {
         let ident = input.called.clone();
         let unit = input.unit.as_deref().map(|unit| format!(", in {unit}")).unwrap_or_default();
@@ -26,16 +26,16 @@ pub fn parts(derived: &Derived<'_, '_>) -> Vec<Part> {
             InputKind::Wrench => vec![of_wrench("force", "input, in N"), of_wrench("torque", "input, in N m")],
         }
     };
-    derived.item().inputs.iter().flat_map(part).collect()
+    item.inputs.iter().flat_map(part).collect()
 }
 
 /// The type, and what it implements; nothing without inputs.
 pub fn input(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
-    let parts = parts(derived);
+    let parts = parts(derived.item());
     if parts.is_empty() {
         return [TokenStream::new(), TokenStream::new()];
     }
-    let (private, name, kernel) = (derived.private(), input_name(derived), derived.kernel_name());
+    let (private, name, kernel) = (derived.private(), input_name(derived.item()), derived.kernel_name());
     let documentation = format!(
         "Inputs of [`{kernel}`] by name.\n\n`{name} {{ … }}` has them in any order, `..Default::default()` those that are \
          zero; `input()` is what kernels take, `{name}::of(&input)` is the way back."

@@ -3,14 +3,15 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use crate::terms::Item;
 use crate::words::Unraw;
 
 use crate::emit::derived::{Derived, KernelGenerics};
 use crate::emit::records::record::{Part, PartKind, from_numbers, number_names, record, to_numbers};
 
 /// The name of the type.
-pub fn state_name(derived: &Derived<'_, '_>) -> Ident {
-    format_ident!("{}State", derived.item().ident)
+pub fn state_name(item: &Item) -> Ident {
+    format_ident!("{}State", item.ident)
 }
 
 /// Coordinates, then speeds, each in their order, with different names.
@@ -48,7 +49,7 @@ pub fn component_names(derived: &Derived<'_, '_>) -> [Vec<String>; 2] {
 /// The type, and what it implements.
 pub fn state(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
     let all = parts(derived);
-    let (name, kernel) = (state_name(derived), derived.kernel_name());
+    let (name, kernel) = (state_name(derived.item()), derived.kernel_name());
     let documentation = format!(
         "Coordinates and speeds of [`{kernel}`] by name.\n\n`{name} {{ … }}` has them in any order, `..Default::default()` \
          those that are zero; `q()` and `z()` are what kernels and runs take, `{name}::of(&q, &z)` is the way back."
@@ -62,12 +63,12 @@ pub fn state(derived: &Derived<'_, '_>) -> [TokenStream; 2] {
 
 /// To and from configurations and speeds.
 fn conversions(derived: &Derived<'_, '_>, all: &[Vec<Part>; 2]) -> TokenStream {
-    let (private, name, kernel) = (derived.private(), state_name(derived), derived.kernel_name());
+    let (private, name, kernel) = (derived.private(), state_name(derived.item()), derived.kernel_name());
     let KernelGenerics { bounded, used, .. } = derived.kernel_generics();
     let visibility = &derived.item().visibility;
     let system = quote!(<#kernel #used as #private::GaussSystem>);
     let of = conversion_from(derived, all);
-    let (q, z) = (configuration_of(derived, &all[0]), speeds_of(derived, &all[1]));
+    let (q, z) = (configuration_of(derived, &all[0]), speeds_of(&derived.private(), &all[1]));
     quote! {
         #[allow(clippy::all, clippy::pedantic)]
         #[allow(dead_code)]
@@ -104,8 +105,7 @@ fn configuration_of(derived: &Derived<'_, '_>, coordinates: &[Part]) -> TokenStr
     derived.subject.configuration_of(&derived.private(), &values)
 }
 
-fn speeds_of(derived: &Derived<'_, '_>, speeds: &[Part]) -> TokenStream {
-    let private = derived.private();
-    let components = to_numbers(&private, speeds);
+fn speeds_of(private: &TokenStream, speeds: &[Part]) -> TokenStream {
+    let components = to_numbers(private, speeds);
     quote!(#private::vector([#(#components),*]))
 }

@@ -3,10 +3,10 @@
 use crate::accuracy::Figure;
 use crate::algebra::Notation;
 use crate::formulation::PrintedEquations;
-use crate::kernel::{Counts, LoweredFunction};
+use crate::kernel::{Counts, Kernel, LoweredFunction};
 use crate::mathml;
 use crate::mechanics::Method;
-use crate::terms::{BodyChart, InputKind, Role};
+use crate::terms::{BodyChart, InputKind, Item, Role};
 use crate::tex;
 use crate::words::Unraw;
 
@@ -15,6 +15,7 @@ use crate::emit::derived::Derived;
 use crate::emit::records::input::input_name;
 use crate::emit::records::record::{Part, PartKind};
 use crate::emit::records::state::{parts, state_name};
+use crate::emit::subject::Subject;
 
 /// The equations as plain text and as LaTeX for a page.
 #[derive(Clone, Debug)]
@@ -38,7 +39,7 @@ fn text(derived: &Derived<'_, '_>, printed: &PrintedEquations) -> String {
         description(derived)
     );
     // A letter that is the name of its field says nothing.
-    let letters = legend(derived).into_iter().filter(|(letter, field, _)| letter != field);
+    let letters = legend(derived.item()).into_iter().filter(|(letter, field, _)| letter != field);
     let letters: Vec<String> = letters.map(|(letter, field, _)| format!("{letter} = {field}")).collect();
     if !letters.is_empty() {
         out.push_str(&format!(
@@ -56,8 +57,8 @@ fn text(derived: &Derived<'_, '_>, printed: &PrintedEquations) -> String {
 }
 
 /// Legend of the letters of the equations: (letter, field, what its author says of it).
-fn legend(derived: &Derived<'_, '_>) -> Vec<(&'static str, String, String)> {
-    let fields = derived.item().fields.iter().map(|f| (f.role, &f.ident, &f.documentation, &f.unit));
+fn legend(item: &Item) -> Vec<(&'static str, String, String)> {
+    let fields = item.fields.iter().map(|f| (f.role, &f.ident, &f.documentation, &f.unit));
     fields
         .filter_map(|(role, ident, documentation, unit)| role.map(|role| (role, ident, documentation, unit)))
         .filter(|(role, ..)| *role != Role::Body)
@@ -119,7 +120,8 @@ pub struct Documentation {
 
 /// Everything that is known of a kernel, for its page.
 pub fn rustdoc(derived: &Derived<'_, '_>, equations: &Equations) -> Documentation {
-    let legend = legend(derived).into_iter().map(|(letter, field, text)| vec![letter.into(), code(&field), text]);
+    let legend =
+        legend(derived.item()).into_iter().map(|(letter, field, text)| vec![letter.into(), code(&field), text]);
     let before = format!(
         "Equations of motion of [`{name}`], derived from the Gauss condition (Massa & Vignolo, eq. 3.4).\n\n\
          {description}.\n{states}{input}\n# Equations\n\n{letters}\n",
@@ -127,12 +129,12 @@ pub fn rustdoc(derived: &Derived<'_, '_>, equations: &Equations) -> Documentatio
         description = description(derived),
         states = states(derived),
         input = input(derived),
-        letters = letters(derived, &equations.text),
+        letters = letters(&derived.subject, &equations.text),
     );
     let mut after = table(["letter", "field", ""], legend.collect());
     after.push_str(&acting(derived));
     after.push_str(&frames(derived));
-    after.push_str(&crate::emit::text::file::documentation(derived));
+    after.push_str(&crate::emit::text::file::documentation(derived.item()));
     after.push_str(&costs(derived));
     let formulas = (equations.latex.len() <= TOO_LONG).then(|| formulas(&derived.printed[1]));
     Documentation { before, text: format!("```text\n{}```\n", equations.text), formulas, after }
@@ -174,7 +176,7 @@ fn code(text: &str) -> String {
 }
 
 /// Explanations of letters and marks of the equations, of those that occur.
-fn letters(derived: &Derived<'_, '_>, equations: &str) -> String {
+fn letters(subject: &Subject<'_, '_>, equations: &str) -> String {
     const HAT: char = '\u{302}';
     let has = |text: &str| equations.contains(text);
     let mut sentences = Vec::new();
@@ -182,7 +184,7 @@ fn letters(derived: &Derived<'_, '_>, equations: &str) -> String {
     if equations.replace(&format!("x{HAT} = R x + b"), "").contains(HAT) {
         sentences.push("Components with a hat are in the observer's axes k, those without in body axes e.".to_owned());
     }
-    if derived.subject.system.scene.chart().is_some() {
+    if subject.system.scene.chart().is_some() {
         let hats = ["Q", "Γ"].map(|letter| if has(&format!("{letter}{HAT}")) { "\u{302}" } else { "" });
         let [linear, angular] = hats;
         let both = if angular.is_empty() { "O" } else { "Ω" };
@@ -202,8 +204,7 @@ fn letters(derived: &Derived<'_, '_>, equations: &str) -> String {
 }
 
 /// Names of the programs besides the formulas, with their costs and losses.
-fn besides<'d, 'g>(derived: &'d Derived<'_, 'g>) -> impl Iterator<Item = (&'static str, Counts, Option<&'d Figure>)> {
-    let kernel = derived.kernel;
+fn besides<'d>(kernel: &'d Kernel<'_>) -> impl Iterator<Item = (&'static str, Counts, Option<&'d Figure>)> {
     let derivatives = kernel.derivatives.iter();
     let derivatives =
         derivatives.map(|derivative| (derivative.kind.name(), derivative.program.counts(), derivative.figure.as_ref()));
@@ -215,7 +216,7 @@ pub fn figures<'d>(derived: &'d Derived<'_, '_>) -> impl Iterator<Item = (Option
     let functions = derived.kernel.functions.iter();
     let functions =
         functions.filter_map(|(method, function)| Some((Some(method), method.name(), function.figure.as_ref()?)));
-    functions.chain(besides(derived).filter_map(|(name, _, figure)| Some((None, name, figure?))))
+    functions.chain(besides(derived.kernel).filter_map(|(name, _, figure)| Some((None, name, figure?))))
 }
 
 /// Table of the cost and the loss of each method.
@@ -223,7 +224,7 @@ fn costs(derived: &Derived<'_, '_>) -> String {
     let functions = derived.kernel.functions.iter().map(|(method, LoweredFunction { program, figure, .. })| {
         (call_of(derived, method), program.counts(), figure.as_ref())
     });
-    let besides = besides(derived).map(|(name, counts, figure)| (name.to_owned(), counts, figure));
+    let besides = besides(derived.kernel).map(|(name, counts, figure)| (name.to_owned(), counts, figure));
     let row = |(name, counts, figure): (String, Counts, Option<&Figure>)| {
         vec![code(&name), counts.to_string(), figure.map_or_else(|| "none".to_owned(), loss)]
     };
@@ -256,7 +257,7 @@ fn call_of(derived: &Derived<'_, '_>, method: Method) -> String {
 
 /// Components of a configuration and of speeds, in words and in a call.
 fn states(derived: &Derived<'_, '_>) -> String {
-    let (name, [coordinates, speeds]) = (state_name(derived), parts(derived));
+    let (name, [coordinates, speeds]) = (state_name(derived.item()), parts(derived));
     let row = |of: &str, part: &Part| vec![of.to_owned(), code(&part.shown()), part.label.clone()];
     let rows = coordinates.iter().map(|part| row("q", part)).chain(speeds.iter().map(|part| row("z", part)));
     let (groups, scalars): (Vec<&Part>, Vec<&Part>) =
@@ -296,7 +297,7 @@ fn input(derived: &Derived<'_, '_>) -> String {
     }
     let heading = match rows.is_empty() {
         true => String::new(),
-        false => format!("\n# Input\n\nBy name [`{}`].\n", input_name(derived)),
+        false => format!("\n# Input\n\nBy name [`{}`].\n", input_name(derived.item())),
     };
     format!("{heading}{}", table(["components", "input", "unit"], rows))
 }

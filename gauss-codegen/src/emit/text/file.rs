@@ -5,13 +5,11 @@ use quote::{quote, quote_spanned};
 
 use crate::terms::{FileRemark, Generics, Item, RobotFile};
 
-use crate::emit::derived::Derived;
-
 /// Beside what is derived, where it is compiled: the file as a constant that nobody reads, and a warning for
 /// everything that acts in it and not in the equations.
-pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
-    let tracked = &derived.item().tracked;
-    let Some(RobotFile { paths, span, remarks, .. }) = &derived.item().described else {
+pub fn file(item: &Item) -> TokenStream {
+    let tracked = &item.tracked;
+    let Some(RobotFile { paths, span, remarks, .. }) = &item.described else {
         return quote!(#(const _: &[::core::primitive::u8] = ::core::include_bytes!(#tracked);)*);
     };
     let ignored: Vec<&FileRemark> = remarks.iter().filter(|remark| remark.ignored).collect();
@@ -27,7 +25,7 @@ pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
         }
     };
     let warnings = ignored.iter().enumerate().map(warning);
-    let Item { ident, generics: Generics { declared, used, predicates }, .. } = derived.item();
+    let Item { ident, generics: Generics { declared, used, predicates }, .. } = item;
     let told = (!ignored.is_empty()).then(|| {
         quote! {
             #[allow(dead_code)]
@@ -44,8 +42,8 @@ pub fn file(derived: &Derived<'_, '_>) -> TokenStream {
 }
 
 /// Remarks on the file, for the page of the kernel.
-pub fn documentation(derived: &Derived<'_, '_>) -> String {
-    let Some(RobotFile { file, remarks, .. }) = &derived.item().described else { return String::new() };
+pub fn documentation(item: &Item) -> String {
+    let Some(RobotFile { file, remarks, .. }) = &item.described else { return String::new() };
     let mut out = format!("\n# The file\n\nBodies, joints and inputs are those of `{file}`.\n\n");
     remarks.iter().for_each(|remark| out.push_str(&format!("- {}\n", remark.text)));
     out
