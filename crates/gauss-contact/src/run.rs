@@ -194,8 +194,7 @@ impl<'k, K: ContactSystem, C, I, E> ContactRun<'k, K, C, I, E> {
         E: Events<InMode<'k, K>>,
     {
         let (run, input) = self.parted();
-        let (input, holds) = with_holds(input);
-        run.attempt_with((input, holds), None, (q0, z0), interval)
+        run.attempt_with(with_holds(input), None, (q0, z0), interval)
     }
 }
 
@@ -307,7 +306,9 @@ where
         let mut instant = Instant { kernel: self.kernel, t, q, z, modes, fired: None, first: true, jams };
         loop {
             let before = instant.z;
-            let until = self.sample(&instant)?;
+            let now = (instant.t, &instant.q, &instant.z);
+            let (until, held) = sampling::tick(&mut self.events, self.kernel, now, (None, self.end))?;
+            held.iter().zip(&self.holds).for_each(|(held, holds)| holds.borrow_mut().push((value(now.0), *held)));
             instant.decide(&mut self.scales, &mut self.made)?;
             if !instant.first {
                 self.led_over(&before, &instant);
@@ -323,27 +324,12 @@ where
                 return Ok(());
             }
             instant.fired = fired.or_else(|| self.touches(&instant));
-            let Some(fired) = instant.fired else {
-                if goes_on {
-                    continue;
-                }
-                return Ok(());
-            };
-            self.count(value(last.t), fired)?;
+            match instant.fired {
+                Some(fired) => self.count(value(last.t), fired)?,
+                None if goes_on => {}
+                None => return Ok(()),
+            }
         }
-    }
-
-    /// Lets controllers sample where the run is; until when they hold what they give.
-    fn sample(&mut self, Instant { t, q, z, .. }: &Instant<'k, K>) -> Result<K::Scalar, ContactError> {
-        if !E::SAMPLED {
-            return Ok(self.end);
-        }
-        let now = (*t, *q, *z, self.kernel.momentum(*t, q, z));
-        let (held, until) = sampling::tick::<K, E>(&mut self.events, now, None, self.end)?;
-        if let (Some(holds), Some(held)) = (&self.holds, held) {
-            holds.borrow_mut().push((value(*t), held));
-        }
-        Ok(until)
     }
 
     /// Events of the user over whose zeros an impact has led.

@@ -65,17 +65,22 @@ pub(crate) fn begin<'k, K: ContactSystem + 'k, E: Events<InMode<'k, K>>>(
     interval::begin(events, holds, (start, end), most).map_err(|kind| error(start, kind))
 }
 
-/// Lets controllers sample a state; until when what they hold acts.
+/// Lets controllers sample a state; until when they hold what they give, and what that is.
 ///
 /// # Errors
 /// An input that is not finite.
 pub(crate) fn tick<'k, K: ContactSystem + 'k, E: Events<InMode<'k, K>>>(
     events: &mut E,
-    (t, q, z, p): (K::Scalar, K::Configuration, K::Speeds, K::Speeds),
-    cell: Option<&Cell<K::Input>>,
-    end: K::Scalar,
-) -> Result<(Option<K::Input>, K::Scalar), ContactError> {
-    interval::tick(events, &Sample { t, q, z, p }, cell, end).map_err(|kind| error(t, kind))
+    kernel: &K,
+    (t, q, z): (K::Scalar, &K::Configuration, &K::Speeds),
+    (cell, end): (Option<&Cell<K::Input>>, K::Scalar),
+) -> Result<(K::Scalar, Option<K::Input>), ContactError> {
+    if !E::SAMPLED {
+        return Ok((end, None));
+    }
+    let now = Sample { t, q: *q, z: *z, p: kernel.momentum(t, q, z) };
+    let (held, until) = interval::tick(events, &now, cell, end).map_err(|kind| error(t, kind))?;
+    Ok((until, held))
 }
 
 /// Inputs that controllers have held, each from a time on: a run asks for those of times that it has left.

@@ -1,7 +1,7 @@
-//! Kernels with contacts as systems that runs and steps with contacts integrate: rooms as of [`System`], and one for the
-//! rows of contacts.
+//! Kernels with contacts as systems that runs and steps with contacts integrate: rooms as of [`System`], and one for
+//! the rows of contacts.
 
-use gauss_codegen::description::{ContactDescription, Description};
+use gauss_codegen::description::ContactDescription;
 use gauss_runtime::contact::{
     Contact, ContactFrame, ContactSystem, ImpulseDynamics, ImpulseResponse, impulse_terms, impulse_velocities,
 };
@@ -10,28 +10,10 @@ use gauss_runtime::prelude::{GaussSystem, SMatrix, SVector};
 
 use crate::configuration::MixedConfiguration;
 use crate::kernel::Kernel;
-use crate::names::{kept, kept_contacts};
 use crate::system::{Inputs, NoSystem, System, place_of, results};
 
 /// The gap of a contact that the model does not have: it never closes.
 const OPEN: f64 = 1.0;
-
-/// The contacts of a model as the runtime has them.
-pub(crate) fn contacts(description: &Description) -> &'static [Contact] {
-    let mut first = 0;
-    let contact = |own: &ContactDescription| {
-        let (name, row, tangents) = (kept(&own.name), first, own.tangents);
-        first += own.rows();
-        let contact = match own.rolls_on {
-            _ if own.has_gap => Contact::new(name, row, tangents),
-            Some(on) => Contact::rolling(name, row, tangents, on),
-            None => Contact::dry_friction(name, row, tangents),
-        };
-        let body = |k: usize| own.bodies[k].as_deref().map(kept);
-        (if own.drills { contact.with_drilling() } else { contact }).between([body(0), body(1)])
-    };
-    kept_contacts(&description.contacts.iter().map(contact).collect::<Vec<_>>())
-}
 
 /// A kernel with contacts as a [`ContactSystem`]: a [`System`] with room for R rows of contacts besides.
 ///

@@ -12,8 +12,8 @@ use gauss_codegen::{Derivation, Notation, Scene};
 use gauss_runtime::contact::Contact;
 
 use crate::backends::{Backend, Compiled, interpreted};
-use crate::contacts::contacts;
 use crate::error::{CallError, Mistake, Mistakes, Place};
+use crate::names::contacts;
 
 /// A scene with its equations of motion, and the programs that compute them.
 ///

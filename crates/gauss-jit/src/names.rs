@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::hash::Hash;
 use std::sync::{Mutex, PoisonError};
 
+use gauss_codegen::description::{ContactDescription, Description};
 use gauss_runtime::contact::Contact;
 
 /// Values of which each is stored once as long as the process runs: those in messages of the runtime, and of classes of
@@ -35,8 +36,21 @@ pub fn kept_axes(axes: &[usize]) -> &'static [usize] {
     AXES.of(axes, || axes.into())
 }
 
-/// A list of contacts for as long as the process runs.
-pub fn kept_contacts(list: &[Contact]) -> &'static [Contact] {
+/// The contacts of a model as the runtime has them, for as long as the process runs.
+pub(crate) fn contacts(description: &Description) -> &'static [Contact] {
+    let mut first = 0;
+    let contact = |own: &ContactDescription| {
+        let (name, row, tangents) = (kept(&own.name), first, own.tangents);
+        first += own.rows();
+        let contact = match own.rolls_on {
+            _ if own.has_gap => Contact::new(name, row, tangents),
+            Some(on) => Contact::rolling(name, row, tangents, on),
+            None => Contact::dry_friction(name, row, tangents),
+        };
+        let body = |k: usize| own.bodies[k].as_deref().map(kept);
+        (if own.drills { contact.with_drilling() } else { contact }).between([body(0), body(1)])
+    };
     static LISTS: Pool<[Contact]> = Pool(Mutex::new(None));
-    LISTS.of(list, || list.into())
+    let list: Vec<Contact> = description.contacts.iter().map(contact).collect();
+    LISTS.of(&list, || list.clone().into())
 }

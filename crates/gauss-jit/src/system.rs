@@ -55,8 +55,8 @@ pub enum NoSystem {
         /// The room that was asked for.
         found: usize,
     },
-    /// The model has no equations of motion, more rotations than a system has, or constraints or contacts where the type
-    /// says that it has none, or none where it says that it has some.
+    /// The model has no equations of motion, more rotations than a system has, or constraints or contacts where the
+    /// type says that it has none, or none where it says that it has some.
     Has(&'static str),
 }
 
@@ -112,7 +112,7 @@ struct Sizes {
 enum Of {
     All,
     Some,
-    /// Those with contacts, of whose systems they are.
+    /// Systems with contacts alone have it.
     Contacts,
 }
 

@@ -274,7 +274,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
         let mut projection = Projection::new(kernel, &mut memory);
         let before = kernel.gaps(t, &q);
         let touched = Touched { closed: &taken.closed, impulses, rates, h: self.h };
-        let closed = projection.close(kernel, (t, q, before), (&dynamics.response, motion::magnitude(&q)), &touched);
+        let closed = projection.close((t, q, before), (&dynamics.response, motion::magnitude(&q)), &touched);
         let Closed { mut q, gaps, .. } = closed.map_err(|not_closed| not_closed.kind)?;
         if same.looks && same.at_change.is_none() {
             let nothing = same.tolerance * self.h * (1.0 + z.max_norm());
@@ -296,8 +296,7 @@ impl<const N: usize, L: ContactSystem<Scalar = Dual<N>>> Attempt<'_, L> {
 
         let mode = |i: usize| if taken.rests[i] { modes[i] } else { Mode::Open };
         let rates = kernel.contact_rates(t, &q, &z);
-        let (mut z, rates) =
-            projection.stop(kernel, (t, &q, z, rates), &dynamics.response, (mode, Dual::constant(0.0)));
+        let (mut z, rates) = projection.stop((t, &q, z, rates), &dynamics.response, (mode, Dual::constant(0.0)));
         let stopped: Vec<usize> =
             self.kernel.contacts().iter().enumerate().flat_map(|(i, contact)| stopped(contact, &mode(i))).collect();
         let passed = |row: usize| gap_of(row).and_then(|i| passes[i]).unwrap_or(Dual::constant(0.0));

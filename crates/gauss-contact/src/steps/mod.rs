@@ -23,6 +23,7 @@ mod derivatives;
 mod edges;
 mod ensemble;
 mod equations;
+mod flight;
 mod followed;
 mod gain;
 mod held;

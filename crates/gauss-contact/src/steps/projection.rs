@@ -116,12 +116,11 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     /// gap does alone, has not closed and is left open.
     pub(crate) fn close(
         &mut self,
-        kernel: &K,
         (t, mut q, mut gaps): (T, K::Configuration, K::Gaps),
         (response, magnitude): (&ImpulseResponse<K>, T),
         touched: &Touched<'_, K>,
     ) -> Result<Closed<K>, NotClosed> {
-        let (zero, infinite) = (T::zero(), T::from_f64(f64::INFINITY));
+        let (kernel, zero, infinite) = (self.kernel, T::zero(), T::from_f64(f64::INFINITY));
         let lowest = |gaps: &K::Gaps| lowest_of(kernel, gaps);
         let (lowest_before, bounds) = (lowest(&gaps), Bounds::new(self.kernel, touched, &response.delassus, magnitude));
         self.held = Each::from_fn(|_| false);
@@ -249,13 +248,13 @@ impl<'m, T: Real, K: ContactSystem<Scalar = T>> Projection<'m, K> {
     /// rates there.
     pub(crate) fn stop(
         &mut self,
-        kernel: &K,
         (t, q, mut z, mut rates): (T, &K::Configuration, K::Speeds, K::ContactRows),
         response: &ImpulseResponse<K>,
         (mode, rounding): (impl Fn(usize) -> Mode, T),
     ) -> (K::Speeds, K::ContactRows) {
+        let kernel = self.kernel;
         let rows = || {
-            self.kernel.contacts().iter().enumerate().flat_map(|(i, contact)| match mode(i) {
+            kernel.contacts().iter().enumerate().flat_map(|(i, contact)| match mode(i) {
                 Mode::Open => 0..0,
                 Mode::Sticks => contact.rows(),
                 Mode::Closed | Mode::Slides(_) => contact.normal..contact.tangent_rows().start,

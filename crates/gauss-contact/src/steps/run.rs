@@ -220,12 +220,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
         I: InputSource<K>,
         E: Events<InMode<'k, K>>,
     {
-        if !E::SAMPLED {
-            return Ok(end);
-        }
-        let (t, q, z) = (stepper.time(), *stepper.configuration(), *stepper.speeds());
-        let now = (t, q, z, self.kernel.momentum(t, &q, &z));
-        Ok(sampling::tick::<K, E>(&mut self.events, now, self.input.held(), end)?.1)
+        let now = (stepper.time(), stepper.configuration(), stepper.speeds());
+        Ok(sampling::tick(&mut self.events, self.kernel, now, (self.input.held(), end))?.0)
     }
 
     /// States in between are made from those at both ends of a step.

@@ -5,18 +5,17 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use gauss_runtime::configuration::{Configuration, VectorSpace};
-use gauss_runtime::contact::{Contact, ContactSystem, Each, ImpulseDynamics, ImpulseResponse};
+use gauss_runtime::contact::{ContactSystem, Each, ImpulseDynamics, ImpulseResponse};
 use gauss_runtime::integrate::problem::state::TangentOf;
 use gauss_runtime::real::Real;
 
 use crate::error::{ContactError, ContactErrorKind};
-use crate::law::carrier;
 use crate::lockstep::Lockstep;
 use crate::mode::{Mode, after_impulses};
 use crate::sensors::ContactForces;
 
 use super::account::Account;
-use super::bounds::{NotClosed, Touched, gaps_of};
+use super::bounds::{NotClosed, Touched};
 use super::cones::Laws;
 use super::impulses::{Impulses, memory};
 use super::kept::Kept;
@@ -351,22 +350,6 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         end.map_err(|cause| self.error(None, ContactErrorKind::Projection(cause)))
     }
 
-    /// Whether a contact is open and passes on a part of an approach. What has no restitution may come to lie on zero
-    /// and leave it by a rounding from step to step: its rates are those of what rests, so that this is no jump.
-    pub(super) fn may_bounce(&self, i: usize) -> bool {
-        self.kernel.contacts().get(i).is_some_and(Contact::has_gap)
-            && !self.modes[i].is_closed()
-            && self.kernel.restitution().component(i) > 0.0
-    }
-
-    /// Whether all contacts are open.
-    pub(super) fn flies(&self) -> bool {
-        let is_open = |i: usize| {
-            self.kernel.contacts()[carrier(self.kernel.contacts(), i)].has_gap() && !self.modes[i].is_closed()
-        };
-        (0..self.kernel.contacts().len()).all(is_open)
-    }
-
     /// A step in which no gap closes: the motion without contacts is all that it needs.
     fn flight(&self, h: f64, middle: &Middle<K>, input: &K::Input) -> Result<Option<Attempt<K>>, ContactError> {
         if !self.flies() {
@@ -387,21 +370,6 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         }
         let rates = kernel.contact_rates(self.t + h, &q, &z);
         Ok(Some(Attempt { end: Self::flown((q, z), gaps, rates), acceleration }))
-    }
-
-    /// The mean speeds of a flight to others.
-    pub(super) fn mean_of_flight(&self, z: &K::Speeds) -> K::Speeds {
-        motion::mean(&self.z, z)
-    }
-
-    /// Whether a gap would not be open at the end of a step, given its mean rates.
-    pub(super) fn comes_to_zero(&self, h: f64, mean: &K::ContactRows) -> bool {
-        !gaps_of(self.kernel)
-            .all(|(i, _)| self.gaps.component(i) + h * mean.component(self.kernel.contacts()[i].normal) > 0.0)
-    }
-
-    pub(super) fn is_below_zero(kernel: &K, gaps: &K::Gaps) -> bool {
-        !gaps_of(kernel).all(|(i, _)| gaps.component(i) >= 0.0)
     }
 
     /// The end of a step in flight.
@@ -474,12 +442,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let of_projection = &mut self.memory.as_mut()[memory(K::ContactRows::DIM)..];
         let (closed, impulses, rates) = (pushed.solved.rests.as_ref(), &pushed.impulses, &self.rates);
         let touched = Touched { closed, impulses, rates, h };
-        let closed = Projection::new(self.kernel, of_projection).close(
-            self.kernel,
-            at_end,
-            (response, motion::magnitude(&q)),
-            &touched,
-        );
+        let projection = Projection::new(self.kernel, of_projection);
+        let closed = { projection }.close(at_end, (response, motion::magnitude(&q)), &touched);
         let closed = closed.map_err(|NotClosed { contact, kind }| self.error(contact, kind))?;
         (0..self.kernel.contacts().len()).filter(|i| closed.left[*i]).for_each(|i| pushed.solved.rests[i] = false);
         Ok(closed)
@@ -511,10 +475,10 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     ) -> (K::Speeds, K::ContactRows) {
         let (modes, rounding) =
             (Each::from_fn(|i| self.mode_at_end(pushed, i)), self.rounding_at_end(self.next.as_ref(), &pushed.solved));
-        let (kernel, modes): (_, K::EachContact<Mode>) = (self.kernel, modes);
+        let modes: K::EachContact<Mode> = modes;
         let of_projection = &mut self.memory.as_mut()[memory(Self::ROWS)..];
         let at_end = (self.t + h, &closed.q, z, rates);
-        Projection::new(self.kernel, of_projection).stop(kernel, at_end, response, (|i| modes[i], rounding))
+        Projection::new(self.kernel, of_projection).stop(at_end, response, (|i| modes[i], rounding))
     }
 
     /// The end of a step.
@@ -568,11 +532,11 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         rates: [K::ContactRows; 2],
     ) -> Result<(Solved<K>, K::ContactRows), ContactErrorKind> {
         let mut unknowns = Unknowns::<K>::new();
-        let Self { law, tolerance, gaps, impulses, dependent, .. } = *self;
+        let Self { kernel, law, tolerance, gaps, impulses, dependent, .. } = *self;
         let (restitution, delassus, modes) = (self.kernel.restitution(), &response.delassus, self.modes.as_ref());
         let fastest = motion::fastest::<K>(&rates);
         let posed = Posed {
-            kernel: self.kernel,
+            kernel,
             h,
             law,
             tolerance,

@@ -190,10 +190,10 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         let (gaps, magnitude) = (self.wide.gaps(t, &q), motion::magnitude(&q));
         let (closed, impulses, rates) = (rests.as_ref(), &pushed.impulses, &state.rates);
         let touched = Touched { closed, impulses, rates, h };
-        let closed = projection.close(self.wide, (t, q, gaps), (response, magnitude), &touched).ok()?;
+        let closed = projection.close((t, q, gaps), (response, magnitude), &touched).ok()?;
         let rates = self.wide.contact_rates(t, &closed.q, &z);
         let at_end = (t, &closed.q, z, rates);
-        let (z, rates) = projection.stop(self.wide, at_end, response, (|i| modes[i], rounding));
+        let (z, rates) = projection.stop(at_end, response, (|i| modes[i], rounding));
         (!projection.lockstep.has_parted()).then_some((closed, z, rates))
     }
 

@@ -10,7 +10,6 @@ use crate::emit::dialect::arguments::{arguments_of, declared};
 use crate::program::ArgumentKind;
 
 pub fn contact_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
-    let dynamics = derived.program(Method::ImpulseDynamics)?;
     let (private, ty, n) = (derived.private(), derived.scalar().ty(), derived.degrees_of_freedom());
     let (count, rows) = (derived.subject.system.scene.contacts.len(), derived.subject.system.contacts.rates.len());
     let listed = listed(derived);
@@ -22,28 +21,7 @@ pub fn contact_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
         (Method::Friction, quote!(Self::ContactRows)),
     ];
     let methods = methods.into_iter().filter_map(|(method, result)| derived.function(method, result));
-    let of_impulses = {
-        let (mut body, outputs) = derived.computed(derived.program(Method::ImpulseResponse)?);
-        let (effect, delassus) = effect(derived, &outputs);
-        body.extend(quote!(#private::ImpulseResponse::new(#effect, #delassus)));
-        let arguments = arguments_of(Method::ImpulseResponse);
-        derived.function_of("impulse_response", arguments, quote!(#private::ImpulseResponse<Self>), body)
-    };
-    let of_motion = {
-        let (mut body, outputs) = derived.computed(dynamics);
-        let (acceleration, rest) = outputs.split_at(n);
-        let (bias, rest) = rest.split_at(rows);
-        let (effect, delassus) = effect(derived, rest);
-        body.extend(quote! {
-            #private::ImpulseDynamics::new(
-                #private::vector([#(#acceleration),*]),
-                #private::vector([#(#bias),*]),
-                #private::ImpulseResponse::new(#effect, #delassus)
-            )
-        });
-        let arguments = arguments_of(Method::ImpulseDynamics);
-        derived.function_of("impulse_dynamics", arguments, quote!(#private::ImpulseDynamics<Self>), body)
-    };
+    let (of_impulses, of_motion) = (of_impulses(derived)?, of_motion(derived)?);
     let (factors, velocities) = velocities(derived)?;
     let frames = frames(derived);
     let items = quote! {
@@ -78,6 +56,35 @@ pub fn contact_system(derived: &Derived<'_, '_>) -> Option<TokenStream> {
             pub const CONTACTS: &'static [#private::Contact] = &[#(#listed),*];
         }
     })
+}
+
+/// `impulse_response`.
+fn of_impulses(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let private = derived.private();
+    let (mut body, outputs) = derived.computed(derived.program(Method::ImpulseResponse)?);
+    let (effect, delassus) = effect(derived, &outputs);
+    body.extend(quote!(#private::ImpulseResponse::new(#effect, #delassus)));
+    let arguments = arguments_of(Method::ImpulseResponse);
+    Some(derived.function_of("impulse_response", arguments, quote!(#private::ImpulseResponse<Self>), body))
+}
+
+/// `impulse_dynamics`.
+fn of_motion(derived: &Derived<'_, '_>) -> Option<TokenStream> {
+    let (private, n, rows) =
+        (derived.private(), derived.degrees_of_freedom(), derived.subject.system.contacts.rates.len());
+    let (mut body, outputs) = derived.computed(derived.program(Method::ImpulseDynamics)?);
+    let (acceleration, rest) = outputs.split_at(n);
+    let (bias, rest) = rest.split_at(rows);
+    let (effect, delassus) = effect(derived, rest);
+    body.extend(quote! {
+        #private::ImpulseDynamics::new(
+            #private::vector([#(#acceleration),*]),
+            #private::vector([#(#bias),*]),
+            #private::ImpulseResponse::new(#effect, #delassus)
+        )
+    });
+    let arguments = arguments_of(Method::ImpulseDynamics);
+    Some(derived.function_of("impulse_dynamics", arguments, quote!(#private::ImpulseDynamics<Self>), body))
 }
 
 /// The frame of one contact: all of them are computed, since only one of them is rarely wanted.

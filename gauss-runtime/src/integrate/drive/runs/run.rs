@@ -224,25 +224,12 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
         let mut pace = Pace::new(start.t.lane(0), self.limit);
         let mut reached = RunResult::default();
         let mut passing = PassedStates::new();
-        // Without controllers all of this is known when the program is compiled.
-        let begun = if E::SAMPLED {
-            let holds = self.problem.held().is_some();
-            let begun = begin(watch.events(), holds, (start.t, end), self.limit);
-            begun.and_then(|()| consistent_start(self.problem, &start))
-        } else {
-            Ok(start)
-        };
-        let mut from = match begun {
+        let mut from = match self.begun(watch.events(), start, end) {
             Ok(start) => start,
             Err(kind) => return (reached, Err(IntegrationError::at(self.problem, &start, kind))),
         };
         loop {
-            let ticked = if E::SAMPLED {
-                tick(watch.events(), &self.problem.sample(&from), self.problem.held(), end)
-            } else {
-                Ok((None, end))
-            };
-            let stop = match ticked {
+            let stop = match self.ticked(watch.events(), &from, end) {
                 Ok((held, stop)) => {
                     held.into_iter().for_each(|input| pass(RunItem::Held(from.t, input)));
                     stop
@@ -287,6 +274,34 @@ impl<S: GaussSystem, P: Problem<System = S>, C: Control<S>> Run<'_, P, C> {
                 }
             }
         }
+    }
+
+    /// The start of a run, of one with controllers on its constraints, after all checks before the first sample.
+    /// Without controllers it is known when the program is compiled.
+    fn begun<E: Events<S>>(
+        &self,
+        events: &mut E,
+        start: State<S>,
+        end: S::Scalar,
+    ) -> Result<State<S>, IntegrationErrorKind> {
+        if !E::SAMPLED {
+            return Ok(start);
+        }
+        begin(events, self.problem.held().is_some(), (start.t, end), self.limit)?;
+        consistent_start(self.problem, &start)
+    }
+
+    /// The input that controllers hold from a state on, and until when.
+    fn ticked<E: Events<S>>(
+        &self,
+        events: &mut E,
+        from: &State<S>,
+        end: S::Scalar,
+    ) -> Result<(Option<S::Input>, S::Scalar), IntegrationErrorKind> {
+        if !E::SAMPLED {
+            return Ok((None, end));
+        }
+        tick(events, &self.problem.sample(from), self.problem.held(), end)
     }
 
     /// From one jump or instant to the next, with the last state that was reached.
