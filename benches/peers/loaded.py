@@ -1,9 +1,14 @@
 """Models at run time from Python: from a file to the first number, calls, rows of batches, runs.
 
 `pip install ./crates/gauss-py` first (a release wheel); then `python benches/peers/loaded.py`. With SciPy the same
-pendulum is integrated by `solve_ivp`, over `rates`, at the same tolerances. Medians, in one process.
+pendulum is integrated by `solve_ivp`, over `rates`, at the same tolerances. Medians, in one process; what comes from the
+cache in processes of their own.
 """
 
+import os
+import subprocess
+import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -40,6 +45,49 @@ def robot(file, clauses):
     print(f"  a call {call:.2f} µs, a row of 10,000 {1e3 * row:.0f} ns, a run of 1 s {second:.0f} µs ({run.steps} steps)")
 
 
+#: From a file to its first acceleration in a process of its own, without its start.
+FIRST = """
+import sys, time, gauss
+start = time.perf_counter()
+kernel = gauss.load(sys.argv[1], sys.argv[2:], gravity=9.81)
+kernel.acceleration(*kernel.state(), [0.0] * len(kernel.input_names))
+print(1e3 * (time.perf_counter() - start))
+"""
+
+
+def cached(file, clauses):
+    """By turns without a cache and from one that has the model."""
+    with tempfile.TemporaryDirectory() as folder:
+        def first(cache):
+            command = [sys.executable, "-c", FIRST, str(ROBOTS / file), *clauses]
+            run = subprocess.run(command, env=os.environ | {"GAUSS_CACHE": cache}, capture_output=True, check=True)
+            return float(run.stdout)
+
+        first(folder)
+        derived, known = zip(*((first(""), first(folder)) for _ in range(7)))
+    print(f"{file}: first acceleration {np.median(derived):.0f} ms, from the cache {np.median(known):.1f} ms")
+
+
+def touching():
+    """A puck on a floor and a robot on four feet: a step with contacts."""
+    puck = gauss.scene(
+        "coordinates(x, y), particle(mass = 1, position = [x, 0, y]), gravity = 9.81, "
+        "contact(floor, gap = y, slip = rate(x), friction = 0.4)"
+    )()
+    feet = [f"contact({leg}, point = p{leg}, radius = 0.031, friction = 0.8)" for leg in ("LF", "LH", "RF", "RH")]
+    places = {"LF": (1, 1), "LH": (-1, 1), "RF": (1, -1), "RH": (-1, -1)}
+    points = [
+        f"point(p{leg}, body = {leg}_KFE_link, at = [{0.033 * x}, {0.01305 * y}, -0.33797])" for leg, (x, y) in places.items()
+    ]
+    legs = np.ravel([[0, 0.4 * x, -0.8 * x] for x, _ in places.values()])
+    robot = gauss.load(ROBOTS / "anymal.urdf", ["base = floating", *points, *feet], gravity=9.81)
+    q = np.concatenate([[0, 0, 0, 1, 0, 0, 0.6], legs])
+    q[6] -= robot.gaps(q).min()
+    for name, kernel, start, input in (("puck", puck, ([0, 0], [1, 0]), []), ("ANYmal", robot, (q, np.zeros(18)), np.zeros(12))):
+        run = lambda: kernel.simulate(*start, (0, 0.2), contacts="steps", step=1e-3, input=input, times=[])
+        print(f"{name}: {timed(run, 20) / 200:.2f} µs a step with contacts")
+
+
 def pendulum():
     model = gauss.scene(PENDULUM, m="kg", l="m", g=gauss.Field("m/s^2", role="gravity"))
     kernel = model(m=1, l=0.5, g=9.81)
@@ -59,4 +107,8 @@ def pendulum():
 if __name__ == "__main__":
     robot("panda.urdf", [])
     robot("anymal.urdf", ["base = floating"])
+    cached("panda.urdf", [])
+    cached("anymal.urdf", ["base = floating"])
+    cached("talos.urdf", ["base = floating"])
+    touching()
     pendulum()

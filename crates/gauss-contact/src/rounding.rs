@@ -19,6 +19,11 @@ impl Rounding {
         Self { size, epsilon: epsilon::<K::Scalar>() }
     }
 
+    /// 64 ε of it, and of numbers of order 1 that cancel: sums of some ten numbers are known to that.
+    pub(crate) fn some_digits(&self) -> f64 {
+        64.0 * self.epsilon * self.size.max(1.0)
+    }
+
     /// √ε of it, and 64 ε for numbers of order 1 that cancel: what agrees in half of the digits was meant to.
     pub(crate) fn half_of_the_digits(&self) -> f64 {
         Real::sqrt(self.epsilon) * self.size + 64.0 * self.epsilon

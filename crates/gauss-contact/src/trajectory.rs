@@ -3,7 +3,6 @@
 use alloc::rc::Rc;
 use alloc::vec::Vec;
 
-use gauss_runtime::configuration::VectorSpace;
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::integrate::{IntegrationErrorKind, Sample, Trajectory};
 use gauss_runtime::real::Real;
@@ -155,17 +154,7 @@ impl<'k, K: ContactSystem> ContactTrajectory<'k, K> {
         let segment = self.segment_at(t)?;
         let state = segment.trajectory.at(t).map_err(|error| integration(value(t), error))?;
         let input = (self.input)(t, &state.q, &state.z);
-        let system = &segment.system;
-        let least = system.loads(t, &state.q, &state.z, &input);
-        let keeps = system.keeps_laws(&least, &system.kernel.friction(t, &state.q, &state.z, &input));
-        let shared = if keeps { None } else { system.reserve((t, &state.q, &state.z), &input) };
-        let mut forces = K::ContactRows::zero();
-        shared
-            .map_or(least.forces, |shared| shared.forces)
-            .iter()
-            .enumerate()
-            .for_each(|(row, force)| forces.set_component(row, *force));
-        Ok(ContactForces::new(system.kernel, t, state.q, forces))
+        Ok(segment.system.contact_forces(t, &state.q, &state.z, &input))
     }
 
     /// The modes of the contacts at a time; at an event, those after it.

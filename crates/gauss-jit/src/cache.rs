@@ -7,6 +7,8 @@
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+#[cfg(unix)]
+use std::time::Duration;
 use std::time::SystemTime;
 
 use gauss_codegen::program::Program;
@@ -107,8 +109,7 @@ impl Cache {
     fn write(&self, (path, name): (&Path, String), data: &Data, start: SystemTime) -> Option<()> {
         let digest = |file: &String| {
             let digest = digest(&fs::read(file).ok()?);
-            let changed = fs::metadata(file).and_then(|about| about.modified()).ok()?;
-            (changed < start).then(|| (file.clone(), digest))
+            (changed(file)? < start).then(|| (file.clone(), digest))
         };
         let entry = Entry { name, files: data.files.iter().map(digest).collect::<Option<_>>()?, data: data.clone() };
         let bytes = postcard::to_stdvec(&entry).ok()?;
@@ -148,6 +149,20 @@ impl Cache {
     }
 }
 
+/// The last time at which a file, or what stands in its place, changed: what is moved there keeps the time at which it was
+/// written, and has another of its own where the system tells that.
+fn changed(file: &str) -> Option<SystemTime> {
+    let about = fs::metadata(file).ok()?;
+    let written = about.modified().ok()?;
+    #[cfg(unix)]
+    let written = {
+        use std::os::unix::fs::MetadataExt;
+        let since = Duration::new(about.ctime().try_into().ok()?, about.ctime_nsec().try_into().ok()?);
+        written.max(SystemTime::UNIX_EPOCH + since)
+    };
+    Some(written)
+}
+
 fn digest(bytes: &[u8]) -> Digested {
     Sha256::digest(bytes).into()
 }
@@ -166,7 +181,8 @@ fn name_of(source: &str) -> String {
 
 /// The derivation of an entry, if it is whole and its files are as they were.
 fn read(path: &Path, name: &str) -> Option<Data> {
-    let bytes = fs::read(path).ok()?;
+    // What is no file may never end.
+    let bytes = fs::metadata(path).is_ok_and(|about| about.is_file()).then(|| fs::read(path).ok())??;
     let (digested, contents) = bytes.strip_prefix(BEGINNING)?.split_at_checked(size_of::<Digested>())?;
     if digested != digest(contents) {
         return None;

@@ -78,7 +78,8 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         let [before, after] = [(self.t, &self.q, &self.z), (t, &made.end.q, &made.end.z)];
         let [of_before, of_after] = [before, after].map(|(t, q, z)| kernel.energy(t, q, z));
         let supplied: f64 = [before, after].iter().map(|at| 0.5 * h * self.power(h, *at, input)).sum();
-        let [taken, given] = self.work(h, &made.end);
+        let [taken, _] = self.work(h, &made.end);
+        let given = taken - self.work_on_speeds(h, &made.end);
         let gained = of_after - of_before - supplied - (taken.min(0.0) - given);
         let [first, last] = [before, after].map(|(t, q, z)| kernel.kinetic_energy(t, q, z));
         // What comes to rest has hardly any, and weight works in the step.
@@ -103,6 +104,17 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         })
     }
 
+    /// The work that the impulses of a step do on its mean speeds, with that of what drives the system: where its
+    /// constraints move with time, or its surfaces, it is another one than that of impulses on rates of contacts.
+    fn work_on_speeds(&self, h: f64, end: &End<K>) -> f64 {
+        let (kernel, t) = (self.kernel, self.t + 0.5 * h);
+        let q = motion::half_way::<K>(h, &self.q, &kernel.kinematics(self.t, &self.q, &self.z));
+        let added = kernel.impulse_velocities(&kernel.impulse_response(t, &q).factors, &end.impulses);
+        let mean = self.z.add_scaled(1.0, &end.z).scale(0.5);
+        let [less, more] = [-0.5, 0.5].map(|part| kernel.kinetic_energy(t, &q, &mean.add_scaled(part, &added)));
+        more - less
+    }
+
     /// The rate of the energy of the motion without contacts.
     fn power(&self, h: f64, (t, q, z): (f64, &K::Configuration, &K::Speeds), input: &K::Input) -> f64 {
         let kernel = self.kernel;
@@ -119,7 +131,7 @@ impl<K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'_, K, M> {
         let [taken, given] = if end.touches { self.work(h, end) } else { [0.0; 2] };
         let of_law = if Self::rubs(self.kernel, &end.impulses) { taken.max(0.0) } else { 0.0 };
         let energy = potential + kinetic;
-        let low = (low + of_law + given.max(0.0)).min(energy);
+        let low = (low + of_law + (-given).max(0.0)).min(energy);
         let most = most.max(low - potential);
         // What weight makes of rest in a step, and rounding.
         let of_weight = || kernel.kinetic_energy(t, &end.q, &made.acceleration.scale(h));

@@ -121,7 +121,8 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
     pub(super) fn impulses(&self, problem: &Impulses<T>) -> K::ContactRows {
         let mut impulses = K::ContactRows::zero();
         let scales = self.laws.scales.as_ref();
-        (0..scales.len()).for_each(|row| impulses.set_component(row, scales[row] * problem.impulses[row]));
+        let each = scales.iter().zip(problem.impulses.iter()).enumerate();
+        each.for_each(|(row, (scale, impulse))| impulses.set_component(row, *scale * *impulse));
         impulses
     }
 
@@ -131,7 +132,7 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
         let from_coulomb = if problem.relaxed { problem.residual_of_coulomb(cones) } else { found.residual };
         let work = problem.work(|row| scales[row] * self.rates[1].component(row));
         let state = |cone: &Cone<T>| problem.slides_driven(cone).unwrap_or_else(|| problem.state(cones, cone));
-        let states = Each::from_fn(|i| state(&cones[i]));
+        let states = Each::from_fn(|i| cones.get(i).map_or(State::Leaves, state));
         Answer { found, from_coulomb, work, states }
     }
 
@@ -144,8 +145,8 @@ impl<T: Real, K: ContactSystem<Scalar = T>> Posed<'_, K> {
         lane: usize,
     ) -> Solved<S> {
         let scales = self.laws.scales.as_ref();
-        for (i, mode) in after.iter_mut().enumerate() {
-            *mode = problem.mode((&cones[i], &answer.states[i]), scales, self.tolerance, lane);
+        for ((mode, cone), state) in after.iter_mut().zip(cones).zip(answer.states.as_ref()) {
+            *mode = problem.mode((cone, state), scales, self.tolerance, lane);
         }
         let (found, from_coulomb, work) =
             (answer.found.lane(lane), answer.from_coulomb.lane(lane), answer.work.lane(lane));

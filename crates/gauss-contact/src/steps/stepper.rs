@@ -15,7 +15,7 @@ use crate::mode::{Mode, after_impulses};
 use crate::sensors::ContactForces;
 
 use super::account::Account;
-use super::bounds::{NotClosed, Touched};
+use super::bounds::{NotClosed, Touched, gaps_of};
 use super::cones::Laws;
 use super::impulses::{Impulses, memory};
 use super::kept::Kept;
@@ -313,6 +313,10 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         if !(made.end.q.is_finite() && made.end.z.is_finite()) {
             return Err(self.error(None, ContactErrorKind::NonFinite));
         }
+        // A gap that is no number is neither open nor closed.
+        if let Some((i, _)) = gaps_of(self.kernel).find(|(i, _)| !made.end.gaps.component(*i).is_finite()) {
+            return Err(self.error(Some(i), ContactErrorKind::NonFinite));
+        }
         self.account = self.accounted(h, &made)?;
         let Attempt { end, acceleration } = made;
         let changed = || end.z.add_scaled(-1.0, &self.z).scale(1.0 / h);
@@ -533,7 +537,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
     ) -> Result<(Solved<K>, K::ContactRows), ContactErrorKind> {
         let mut unknowns = Unknowns::<K>::new();
         let Self { kernel, law, tolerance, gaps, impulses, dependent, .. } = *self;
-        let (restitution, delassus, modes) = (self.kernel.restitution(), &response.delassus, self.modes.as_ref());
+        let (restitution, delassus, modes) = (kernel.restitution(), &response.delassus, self.modes.as_ref());
         let fastest = motion::fastest::<K>(&rates);
         let posed = Posed {
             kernel,
@@ -551,21 +555,22 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
             dependent,
         };
         let memory = &mut self.memory.as_mut()[..memory(Self::ROWS)];
-        let mut problem = Impulses::new(memory, unknowns.slices());
+        let mut problem = Impulses::new(memory, unknowns.slices(kernel));
         let mut cones = posed.pose(&mut problem);
+        let cones = &mut cones.as_mut()[..kernel.contacts().len()];
         // A contact that others press closed takes part as well.
         let closes = |i: usize, rate: f64| posed.gap_left_open(i, rate) < 0.0;
         let before = |row: usize| impulses.component(row) / laws.scales[row];
-        let found = problem.solve_with_more(cones.as_mut(), tolerance, (closes, before));
+        let found = problem.solve_with_more(cones, tolerance, (closes, before));
         self.dependent = problem.dependent;
         if !found.holds {
             let finite = found.residual.worst().is_finite();
             let unsolved = ContactErrorKind::Unsolved { residual: found.residual };
             return Err(if finite { unsolved } else { ContactErrorKind::NonFinite });
         }
-        posed.drive(&mut problem, cones.as_ref());
-        let answer = posed.answer(&problem, found, cones.as_ref());
-        let solved = posed.solved(&problem, (&answer, cones.as_ref()), (self.rests.as_ref(), self.next.as_mut()), 0);
+        posed.drive(&mut problem, cones);
+        let answer = posed.answer(&problem, found, cones);
+        let solved = posed.solved(&problem, (&answer, cones), (self.rests.as_ref(), self.next.as_mut()), 0);
         Ok((solved, posed.impulses(&problem)))
     }
 }

@@ -116,9 +116,9 @@ impl<W: LanesOf<K>, K: ContactSystem<Scalar = f64>> ContactLanes<'_, W, K> {
         };
         let mut unknowns = Unknowns::<W>::new();
         let memory = &mut self.memory[..impulses::memory(W::ContactRows::DIM)];
-        let mut problem = Impulses::new(memory, unknowns.slices());
+        let mut problem = Impulses::new(memory, unknowns.slices(self.wide));
         let cones = posed.pose(&mut problem);
-        let cones = cones.as_ref();
+        let cones = &cones.as_ref()[..self.wide.contacts().len()];
         let found = problem.solve_in_lockstep(cones, posed.tolerance)?;
         posed.drive(&mut problem, cones);
         let joins = |i: usize| {

@@ -50,8 +50,15 @@ impl<K: ContactSystem> Unknowns<K> {
         }
     }
 
-    pub(crate) fn slices(&mut self) -> UnknownsIn<'_, K::Scalar> {
-        let Self { rows, order, extents, states } = self;
-        UnknownsIn { rows: rows.as_mut(), order: order.as_mut(), extents: extents.as_mut(), states: states.as_mut() }
+    /// As many as a kernel has: lists may have room for more.
+    pub(crate) fn slices(&mut self, kernel: &K) -> UnknownsIn<'_, K::Scalar> {
+        let contacts = kernel.contacts();
+        let (count, used) = (contacts.len(), contacts.last().map_or(0, |last| last.rows().end));
+        UnknownsIn {
+            rows: &mut self.rows.as_mut()[..used],
+            order: &mut self.order.as_mut()[..used],
+            extents: &mut self.extents.as_mut()[..used],
+            states: &mut self.states.as_mut()[..count],
+        }
     }
 }

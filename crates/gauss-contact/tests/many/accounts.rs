@@ -1,6 +1,6 @@
 //! The energy of steps with impacts: none comes from nowhere, and what a step errs by is in its report.
 
-use gauss_contact::{ContactStepper, StepScheme};
+use gauss_contact::{ContactErrorKind, ContactStepper, ContactSteps, InMode, Mode, StepScheme};
 use gauss_runtime::contact::ContactSystem;
 use gauss_runtime::prelude::*;
 
@@ -102,4 +102,107 @@ fn impacts_gain_little_and_tell_it() {
             assert!(of_rods < bound, "{name}: {of_rods}");
         }
     }
+}
+
+/// A body before a wall that comes, or on a belt that goes.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x), particle(mass = 1, position = [x, 0, 0]),
+    contact(wall, gap = x - v * t, restitution = 0.5),
+)]
+struct Pushed {
+    v: f64,
+}
+
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, y), particle(mass = 1, position = [x, 0, y]), gravity = 10,
+    contact(belt, gap = y, slip = rate(x) - v, friction = 0.3, restitution = 0.2),
+)]
+struct OnABelt {
+    v: f64,
+}
+
+/// A paddle that a constraint drives, by its place or by its speed.
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, h), particle(mass = 1, position = [x, 0, 0]), particle(mass = m, position = [h, 0, 0]),
+    constraint(position = h - 3 * t), contact(paddle, gap = x - h, restitution = 0.5),
+)]
+struct ByPlace {
+    m: f64,
+}
+
+#[derive(GaussDynamics)]
+#[gauss(
+    coordinates(x, h), particle(mass = 1, position = [x, 0, 0]), particle(mass = m, position = [h, 0, 0]),
+    constraint(velocity = rate(h) - 3), contact(paddle, gap = x - h, restitution = 0.5),
+)]
+struct BySpeed {
+    m: f64,
+}
+
+/// A drive gives the energy that bodies get from surfaces which it moves: no step is refused for it.
+#[test]
+fn walls_belts_and_paddles_that_are_driven_give_energy() {
+    for h in [1e-2, 1e-3, 1e-4] {
+        for scheme in [StepScheme::Midpoint, StepScheme::MoreauJean] {
+            // It is struck when the wall is there, at 0.1, and leaves at v(1 + e): off by where in a step that is.
+            let kernel = Pushed { v: 3.0 }.kernel().unwrap();
+            let run = ContactSteps::new(&kernel, h).scheme(scheme);
+            let run = run.run([0.1].into(), [0.0].into(), 0.0..0.5).unwrap();
+            let (q, z) = { run.samples.last().map(|step| (step.state.q, step.state.z)).unwrap() };
+            assert!((z[0] - 4.5).abs() < 1e-9 && (q[0] - 2.2).abs() < 5.0 * h, "{h} {scheme:?}: {q} {z}");
+            let kernel = OnABelt { v: 5.0 }.kernel().unwrap();
+            let run = ContactSteps::new(&kernel, h).scheme(scheme);
+            let run = run.run([0.0, 0.05].into(), [0.0, 0.0].into(), 0.0..2.5).unwrap();
+            let z = run.samples.last().unwrap().state.z;
+            assert!((z[0] - 5.0).abs() < 1e-9 && z[1].abs() < 1e-9, "{h} {scheme:?}: {z}");
+            for m in [1e-3, 1.0] {
+                let kernel = ByPlace { m }.kernel().unwrap();
+                let run = ContactSteps::new(&kernel, h).scheme(scheme);
+                let run = run.run([0.1, 0.0].into(), [0.0, 3.0].into(), 0.0..0.5).unwrap();
+                assert!((run.samples.last().unwrap().state.z[0] - 4.5).abs() < 1e-9, "{h} {scheme:?} {m}");
+                let kernel = BySpeed { m }.kernel().unwrap();
+                let run = ContactSteps::new(&kernel, h).scheme(scheme);
+                let run = run.run([0.1, 0.0].into(), [0.0, 3.0].into(), 0.0..0.5).unwrap();
+                assert!((run.samples.last().unwrap().state.z[0] - 4.5).abs() < 1e-9, "{h} {scheme:?} {m}");
+            }
+        }
+    }
+}
+
+/// A gap that has no value beyond a place.
+#[derive(GaussDynamics)]
+#[gauss(coordinates(x), particle(mass = 1, position = [x, 0, 0]), contact(wall, gap = sqrt(x) + 0.1))]
+struct Undefined {}
+
+#[test]
+fn gaps_that_are_no_numbers_end_steps() {
+    let kernel = Undefined {}.kernel().unwrap();
+    let (run, error) = ContactSteps::new(&kernel, 1e-3).attempt([0.5].into(), [-1.0].into(), 0.0..2.0);
+    let error = error.unwrap();
+    assert_eq!((error.contact, error.kind), (Some("wall"), ContactErrorKind::NonFinite));
+    assert!((error.time - 0.5).abs() < 2e-3 && run.samples.last().unwrap().state.q[0] >= 0.0);
+}
+
+/// States of rounding: what lies, by what a step has left of it, is at rest.
+#[test]
+fn what_rests_to_rounding_has_the_forces_of_rest() {
+    let kernel = OnABelt { v: 0.0 }.kernel().unwrap();
+    for rate in [0.0, 1e-17, 1e-300, -1e-17, 8e-14, -8e-14] {
+        for gap in [0.0, 1e-17, -1e-17, 1e-15] {
+            let (q, z): (SVector<f64, 2>, SVector<f64, 2>) = ([0.3, gap].into(), [0.5 * rate, rate].into());
+            let rests = InMode::at(&kernel, 0.0, &q, &z, &()).unwrap();
+            let forces = rests.contact_forces(0.0, &q, &z, &());
+            assert_eq!(rests.modes(), [Mode::Sticks], "{rate} {gap}");
+            assert!((forces[0] - 10.0).abs() < 1e-12 && forces[1].abs() < 1e-12, "{rate} {gap}: {forces:?}");
+        }
+    }
+    // What moves by more than that is not at rest: it slides, flies, or strikes.
+    let at = |y: f64, z: [f64; 2]| InMode::at(&kernel, 0.0, &[0.3, y].into(), &z.into(), &());
+    assert!(matches!(at(0.0, [1e-5, 0.0]).unwrap().modes(), [Mode::Slides(_)]));
+    assert_eq!(at(0.0, [0.0, 1e-5]).unwrap().modes(), [Mode::Open]);
+    assert_eq!(at(1e-9, [0.0, 0.0]).unwrap().modes(), [Mode::Open]);
+    assert!(matches!(at(0.0, [0.0, -1e-5]).unwrap_err().kind, ContactErrorKind::Strikes { .. }));
 }

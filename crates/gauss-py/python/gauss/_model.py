@@ -142,16 +142,17 @@ class Kernel(_native.Kernel):
             if method not in self.methods:
                 raise AttributeError(f"{self.name} has no method `{method}`; it has {', '.join(self.methods)}")
             plan = self._plans[method] = Plan(method, self.model._native_model.signature(method))
+        return plan
+
+    def call(self, method, *arguments, t=0.0, threads=1, **named):
+        """Calls a program by its name; `threads` share the rows of a batch."""
+        plan = self._plan(method)
         if "input" in plan.sizes and method not in OF_CONTACTS and self._touches:
             raise ContactError(
                 f"{method} has no forces of contacts, and the scene has {', '.join(self.contact_names)}; with "
                 f"`kernel.without_contacts().{method}` all gaps are open, and nothing rubs"
             )
-        return plan
-
-    def call(self, method, *arguments, t=0.0, threads=1, **named):
-        """Calls a program by its name; `threads` share the rows of a batch."""
-        return self._plan(method).call(self._programs, arguments, named, t, threads)
+        return plan.call(self._programs, arguments, named, t, threads)
 
     def __getattr__(self, name):
         if name.startswith("_") or self.model is None or name not in self.methods:

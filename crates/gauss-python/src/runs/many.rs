@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use gauss_batch::{Batch, BatchSystem, Ensemble, Kernels, RunOutcome, SingleConfiguration, SingleSpeeds, States};
-use gauss_runtime::integrate::VelocityForm;
+use gauss_runtime::integrate::{Adaptive, VelocityForm};
 use gauss_runtime::prelude::*;
 use gauss_runtime::simd::Packed;
 
 use crate::description::Description;
 use crate::scene::{ScalarOf, Scene};
-use crate::steps::{self, Control, Input, Stoppable, Until, Watched, components, numbers_of, vector};
+use crate::steps::{self, Control, Input, Stoppable, Until, Watched, components, looking, numbers_of, vector};
 use crate::threads;
 
 /// Many runs over one interval.
@@ -193,7 +193,8 @@ where
         Control::Adaptive(relative, absolute, _) => (relative, absolute),
         other => return Err(format!("an ensemble has steps as long as tolerances allow, and not {other:?}")),
     };
-    let ensemble: Ensemble<'_, K, VelocityForm, _, _> = kernels.batch().input(source).adaptive(relative, absolute);
+    let control = looking(Adaptive::new(relative, absolute), &many.input);
+    let ensemble: Ensemble<'_, K, VelocityForm, _, _> = kernels.batch().input(source).control(control);
     let ensemble = ensemble.until(crossing, watched).progress(&count);
     let ensemble = match many.limit {
         Some(limit) => ensemble.max_steps(limit),

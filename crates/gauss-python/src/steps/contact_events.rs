@@ -9,6 +9,7 @@ use gauss_runtime::prelude::*;
 
 use super::causes::of_contacts;
 use super::contact_rows::{Touching, named, rows_of, unless_stopped};
+use super::one::looking;
 use super::outcome::{self, Happening, Outcome, Touched};
 use super::request::{Control, Request};
 use super::watching::{input, of_numbers, watched};
@@ -25,7 +26,7 @@ pub(super) fn run<S: Touching>(
     let Control::ContactEvents(relative, absolute, largest, law) = request.control else {
         return Err("runs with contacts go from event to event, or in steps".to_owned());
     };
-    let control = Adaptive::new(relative, absolute);
+    let control = looking(Adaptive::new(relative, absolute), request.input);
     let control = if largest.is_finite() { control.largest_step(largest) } else { control };
     let stop = (unless_stopped(request), Crossing::Any, [true, false]);
     let interval = request.interval.0..request.interval.1;

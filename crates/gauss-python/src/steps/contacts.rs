@@ -1,6 +1,6 @@
 //! Runs with contacts, and what these do at a state.
 
-use gauss_contact::{ContactRun, EventKind, Mode};
+use gauss_contact::{ContactErrorKind, InMode, Mode};
 use gauss_runtime::prelude::*;
 
 use super::causes::of_contacts;
@@ -21,7 +21,7 @@ pub fn run<S: Touching>(system: &S, q: S::Configuration, request: &Request<'_>) 
     }
 }
 
-/// Acceleration at a state, with modes and forces of the contacts: a run of no length decides it.
+/// Acceleration at a state, with modes and forces of the contacts: the state decides it.
 ///
 /// # Errors
 /// A state at which velocities jump.
@@ -32,13 +32,13 @@ pub fn at<S: Touching>(
     input: &[f64],
 ) -> Result<InContact, String> {
     let (z, u) = (vector::<S::Speeds>(z), vector::<S::Input>(input));
-    let run = ContactRun::new(system).adaptive(1e-9, 1e-9).input(move |_: f64, _: &S::Configuration, _: &S::Speeds| u);
-    let run = run.run(q, z, t..t).map_err(|error| of_contacts(&error))?;
-    if let Some(struck) = run.events().iter().find(|event| matches!(event.kind, EventKind::Impact(_))) {
-        return Err(format!("contact {} is closing: velocities jump there, and forces are not finite", struck.name));
-    }
-    let (forces, modes) = (run.forces(t), run.modes(t));
-    let (forces, modes) = (forces.map_err(|error| of_contacts(&error))?, modes.map_err(|error| of_contacts(&error))?);
+    let in_mode = InMode::at(system, t, &q, &z, &u).map_err(|error| match (&error.kind, error.contact) {
+        (ContactErrorKind::Strikes { .. }, Some(name)) => {
+            format!("contact {name} is closing: velocities jump there, and forces are not finite")
+        }
+        _ => of_contacts(&error),
+    })?;
+    let (forces, modes) = (in_mode.contact_forces(t, &q, &z, &u), in_mode.modes());
     let free = system.impulse_dynamics(t, &q, &z, &u);
     let pushed = system.impulse_velocities(&free.response.factors, &forces);
     let word = |mode: &Mode| match mode {

@@ -15,7 +15,7 @@ pub use causes::words;
 #[cfg(feature = "loaded")]
 #[cfg(feature = "loaded")]
 pub use contacts::{at as in_contact, run as touching};
-pub use one::Methods;
+pub use one::{Methods, looking};
 #[cfg(feature = "loaded")]
 pub use one::{lacks, no_contacts, smooth, stiff};
 pub use outcome::{Event, Happening, InContact, KINDS, Outcome, Touched, column_names};

@@ -42,6 +42,14 @@ impl Table {
         Self { times: self.times.clone(), values: values.collect() }
     }
 
+    /// A time within which the input changes: half of the shortest span of three knots, but no less than a millionth of
+    /// all. What a table does in less is a step for it.
+    pub fn changes_within(&self) -> f64 {
+        let (Some(first), Some(last)) = (self.times.first(), self.times.last()) else { return f64::INFINITY };
+        let spans = self.times.windows(3).map(|knots| 0.5 * (knots[2] - knots[0]));
+        spans.fold(f64::INFINITY, f64::min).max(1e-6 * (last - first))
+    }
+
     /// Number `i` of the input, of rows of `size`.
     fn number(&self, t: f64, i: usize, size: usize) -> f64 {
         let value = |row: usize| self.values[row * size + i];
@@ -72,6 +80,11 @@ pub enum Input<'a> {
 }
 
 impl Input<'_> {
+    /// A time within which it changes, where that is known.
+    pub fn changes_within(&self) -> f64 {
+        if let Self::Table(table) = self { table.changes_within() } else { f64::INFINITY }
+    }
+
     /// The input at a time, in any number of lanes; a function has no value here.
     pub fn at<T: Real, U: VectorSpace<T>>(&self, t: T, in_lanes: impl Fn(&dyn Fn(usize) -> f64) -> T) -> U {
         let mut input = U::zero();
