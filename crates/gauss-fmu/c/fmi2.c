@@ -111,6 +111,7 @@ EXPORTED fmi2Component NAMED(fmi2Instantiate)(fmi2String name, fmi2Type type, fm
         }
         return NULL;
     }
+    if (MODEL_CONTACTS > 0 && type == fmi2CoSimulation) return NULL;
     i = callbacks->allocateMemory(1, sizeof *i);
     if (!i) return NULL;
     memset(i, 0, sizeof *i);

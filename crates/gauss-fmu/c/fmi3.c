@@ -76,6 +76,7 @@ static fmi3Instance instantiate(fmi3String name, fmi3String token, int is_steppe
         if (log) log(environment, fmi3Error, "logStatusError", "the instantiation token is not that of this binary");
         return NULL;
     }
+    if (MODEL_CONTACTS > 0 && is_stepped) return NULL;
     i = calloc(1, sizeof *i);
     if (i) prepare(i, name, is_stepped, environment, (function)log);
     return i;

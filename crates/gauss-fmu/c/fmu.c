@@ -18,12 +18,13 @@
 static void tell(instance *i, const char *message);
 static double say(instance *i, const char *format, ...);
 static void normalise(double *q);
+static void forget(memory *now);
 
 #include "checks.c"
+#include "contacts.c"
 #include "motion.c"
 #include "variables.c"
 #include "steps.c"
-#include "events.c"
 #if MODEL_FMI == 2
 #include "fmi2.c"
 #else

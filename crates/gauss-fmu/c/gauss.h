@@ -23,7 +23,9 @@
 #define FIRST_STATE (FIRST_INPUT + MODEL_U)
 #define FIRST_RATE (FIRST_STATE + STATES)
 #define FIRST_OUTPUT (FIRST_RATE + STATES)
-#define VARIABLES (FIRST_OUTPUT + MODEL_OUTPUTS)
+/* Of a contact its force and its event indicator are outputs that no program of the scene gives. */
+#define OUTPUTS (MODEL_OUTPUTS + 2 * MODEL_CONTACTS)
+#define VARIABLES (FIRST_OUTPUT + OUTPUTS)
 
 /* Smaller relative tolerances than this are below what rounding leaves. */
 #define LEAST_TOLERANCE 1e-13
@@ -70,7 +72,9 @@ typedef struct {
     int has_constants, has_rates, has_outputs; /* whether what follows is up to date */
     double constants[ROOM(MODEL_CONSTANTS)];
     double rates[ROOM(STATES)];
-    double outputs[ROOM(MODEL_OUTPUTS)];
+    double forces[ROOM(MODEL_CONTACTS)]; /* of closed contacts, as of the rates; 0 of open ones */
+    int closed[ROOM(MODEL_CONTACTS)];
+    double outputs[ROOM(OUTPUTS)];
 } memory;
 
 /* Numbers that are kept between calls of one instance for nothing but room. */

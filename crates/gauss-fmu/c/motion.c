@@ -129,13 +129,14 @@ static void component_rates_tangent(const double *raw, const double *draw, const
 }
 
 /* Rates of all states. 0 where the equations have no value; nothing is said of it. */
-static int rates_at(const memory *now, double t, const double *states, double *rates)
+static int rates_at(memory *now, double t, const double *states, double *rates)
 {
     double q[ROOM(MODEL_Q)], velocity[ROOM(MODEL_V)];
     memcpy(q, states, MODEL_Q * sizeof *q);
     normalise(q);
     if (MODEL_HAS_REGULARITY && !(fabs(model_regularity(now->constants, t, q)) >= NEAR_SINGULARITY)) return 0;
     model_rates(now->constants, t, q, states + MODEL_Q, now->inputs, velocity, rates + MODEL_Q);
+    if (!add_contact_force(now, t, q, states + MODEL_Q, rates + MODEL_Q)) return 0;
     component_rates(states, q, velocity, rates);
     return all_finite(rates, STATES);
 }
@@ -188,7 +189,9 @@ static int make_outputs(instance *i)
     normalise(q);
     model_outputs(now->constants, now->time, q, now->states + MODEL_Q, now->inputs,
                   now->rates + MODEL_Q, now->outputs);
-    for (int k = 0; k < MODEL_OUTPUTS; k++) {
+    for (int c = 0; c < MODEL_CONTACTS; c++) now->outputs[MODEL_OUTPUTS + c] = now->forces[c];
+    if (!make_indicators(i, now->outputs + MODEL_OUTPUTS + MODEL_CONTACTS)) return 0;
+    for (int k = 0; k < OUTPUTS; k++) {
         if (!isfinite(now->outputs[k])) {
             say(i, "output `%s` is not finite at t = %.17g s", names[FIRST_OUTPUT + k], now->time);
             return 0;
@@ -208,6 +211,10 @@ static int make_tangents(instance *i, const double *seeds, double *results)
     double read[ROOM(MODEL_READ)], dread[ROOM(MODEL_READ)], dk[ROOM(MODEL_CONSTANTS)];
     int by_parameters = 0;
     if (!make_constants(i)) return 0;
+    if (closed_contact(now) >= 0) {
+        say(i, "there are no derivatives while `%s` is closed", contact_names[closed_contact(now)]);
+        return 0;
+    }
     memcpy(q, states, MODEL_Q * sizeof *q);
     memcpy(dq, dstates, MODEL_Q * sizeof *dq);
     normalise(q);
@@ -235,6 +242,10 @@ static int make_tangents(instance *i, const double *seeds, double *results)
         for (int k = 0; k < MODEL_OUTPUTS; k++) results[FIRST_OUTPUT + k] += more[k];
     }
     component_rates_tangent(states, dstates, q, dq, v, dv, results + FIRST_RATE);
+    /* Open contacts have no force, and their gaps, which the scene gives, as indicators. */
+    for (int c = 0; c < MODEL_CONTACTS; c++) {
+        results[FIRST_OUTPUT + MODEL_OUTPUTS + MODEL_CONTACTS + c] = results[FIRST_OUTPUT + FIRST_GAP + c];
+    }
     for (int k = 0; k < STATES; k++) results[FIRST_STATE + k] = seeds[FIRST_STATE + k];
     return 1;
 }

@@ -1,5 +1,6 @@
 /* Variables by value reference, and the life of an instance: what both versions of FMI ask in the same way. */
 
+/* The state, an input or a parameter has changed. */
 static void forget(memory *now)
 {
     now->has_rates = now->has_outputs = 0;
@@ -115,7 +116,7 @@ static int start(instance *i)
     if (!have_directions(i, i->now.states) || !make_constants(i)) return 0;
     normalise(i->now.states);
     forget(&i->now);
-    return make_rates(i) && make_outputs(i);
+    return start_contacts(i) && make_rates(i) && make_outputs(i);
 }
 
 /* Continuous states of a solver. */

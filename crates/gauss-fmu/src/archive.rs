@@ -16,7 +16,7 @@ pub const FIXED: [(&str, &str); 7] = [
     ("motion.c", include_str!("../c/motion.c")),
     ("variables.c", include_str!("../c/variables.c")),
     ("steps.c", include_str!("../c/steps.c")),
-    ("events.c", include_str!("../c/events.c")),
+    ("contacts.c", include_str!("../c/contacts.c")),
 ];
 
 /// The functions of FMI 2.0.

@@ -61,14 +61,18 @@ impl Scene<'_> {
             ("U", count(own, ArgumentKind::Inputs)),
             ("OUTPUTS", outputs(own).iter().map(|group| group.numbers.len()).sum()),
             ("HAS_REGULARITY", usize::from(own.program("regularity").is_some())),
-            ("INDICATORS", 0),
+            ("CONTACTS", own.description().contacts.len()),
         ];
         let most = parameters.checks.iter().map(|check| check.values.len()).max().unwrap_or(0).max(1);
+        let gaps = outputs(own).into_iter().take_while(|group| group.program.name != "gaps");
+        let first_gap: usize = gaps.map(|group| group.numbers.len()).sum();
         let mut out = String::from("/* Sizes and marks of one scene. */\n");
         for (name, size) in sizes {
             writeln!(out, "#define MODEL_{name} {size}").ok();
         }
         writeln!(out, "#define MOST_GIVEN {most}").ok();
+        writeln!(out, "#define FIRST_GAP {first_gap}").ok();
+        writeln!(out, "#define MODEL_INDICATORS MODEL_CONTACTS").ok();
         writeln!(out, "#define MODEL_NAME {}", quoted(own.name())).ok();
         writeln!(out, "#define MODEL_TOKEN {}", quoted(self.token)).ok();
         writeln!(out, "#define MODEL_LABEL {}", quoted(&parameters.label)).ok();
@@ -122,6 +126,8 @@ impl Scene<'_> {
             let own = self.variables.iter().filter(|variable| variable.role == role);
             table(out, &format!("const double {name}"), own.map(|own| format!("{:?}", own.start.unwrap_or(0.0))));
         }
+        let contacts = self.derivation.description().contacts.iter().map(|name| quoted(name));
+        table(out, "const char *const contact_names", contacts.chain(std::iter::once(quoted("?"))));
         let groups = self
             .groups()
             .into_iter()
@@ -177,7 +183,33 @@ impl Scene<'_> {
         let results = "double *v, double *dacceleration, double *out";
         self.tangents(out, "tangent", &MOVING, &format!("{moving}, {along}, {results}"))?;
         let arguments = format!("{moving}, const double *dk, {results}");
-        self.tangents(out, "tangent_by_constants", &BY_CONSTANTS, &arguments)
+        self.tangents(out, "tangent_by_constants", &BY_CONSTANTS, &arguments)?;
+        self.contacts(out, state);
+        Ok(())
+    }
+
+    /// Functions of contacts, where there are some; `model_gaps` calls the function that outputs have called before.
+    fn contacts(&self, out: &mut String, state: &str) {
+        let own = self.derivation;
+        let moving = format!("{state}, const double *z");
+        let response = "double *acceleration, double *bias, double *columns, double *delassus";
+        let methods = [
+            ("gaps", format!("{state}, double *out"), "out"),
+            ("contact_rates", format!("{moving}, double *out"), "out"),
+            ("restitution", format!("{state}, double *out"), "out"),
+            (
+                "impulse_dynamics",
+                format!("{moving}, const double *input, {response}"),
+                &response.replace("double *", ""),
+            ),
+        ];
+        for (method, arguments, to) in methods {
+            let Some(program) = own.program(method) else { continue };
+            if method != "gaps" {
+                out.push_str(&self.function(program));
+            }
+            self.calling(out, &format!("model_{method}"), &arguments, &[(program, to)]);
+        }
     }
 
     /// Where the outputs of each method go.
@@ -221,9 +253,16 @@ impl Scene<'_> {
         arguments: &str,
         programs: impl IntoIterator<Item = Option<(&'p Program, &'p str)>>,
     ) {
+        let of_all = programs.into_iter().flatten().filter(|(program, _)| !program.code.outputs.is_empty());
+        let all: Vec<_> = of_all.collect();
+        all.iter().for_each(|(program, _)| out.push_str(&self.function(program)));
+        self.calling(out, name, arguments, &all);
+    }
+
+    /// A function that calls those of programs.
+    fn calling(&self, out: &mut String, name: &str, arguments: &str, programs: &[(&Program, &str)]) {
         let mut body = unused(arguments);
-        for (program, to) in programs.into_iter().flatten().filter(|(program, _)| !program.code.outputs.is_empty()) {
-            out.push_str(&self.function(program));
+        for (program, to) in programs {
             if is_number(program) {
                 let target = if to.contains('+') { format!("*({to})") } else { format!("*{to}") };
                 writeln!(body, "    {target} = {};", self.call(program, "")).ok();

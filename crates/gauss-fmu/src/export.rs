@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use gauss_codegen::Derivation;
-use gauss_codegen::program::{Instruction, Malformed, Program};
+use gauss_codegen::program::{Instruction, Malformed, Operand, Program};
 use gauss_jit::Model;
 
 use crate::archive::{self, Entry};
@@ -34,7 +34,7 @@ impl Fmu {
     /// matrices row after row. They are the start values of an instance, which checks what it is given itself.
     ///
     /// # Errors
-    /// Mistakes of the scene and of its parameters; clauses without a counterpart: contacts, ranges, dry friction,
+    /// Mistakes of the scene and of its parameters; clauses without a counterpart: dry friction, contacts with it,
     /// constraints whose runs are projected, functions of Rust, tables.
     pub fn new(source: &str, parameters: &[(&str, &[f64])]) -> Result<Self, FmuError> {
         let model = Model::from_source(source).map_err(FmuError::Scene)?;
@@ -147,7 +147,8 @@ impl Fmu {
     fn described<'a>(&'a self, identifier: &'a str, token: &'a str) -> Described<'a> {
         let documentation = &self.derivation.description().documentation;
         let name = self.derivation.name();
-        Described { version: self.version, name, identifier, documentation, token, variables: &self.variables }
+        let (variables, contacts) = (&self.variables, &self.derivation.description().contacts);
+        Described { version: self.version, name, identifier, documentation, token, variables, contacts }
     }
 
     /// A mark of all that the binary depends on: the same scene has the same one.
@@ -181,12 +182,9 @@ fn refuse(derivation: &Derivation) -> Result<(), FmuError> {
         return refused(format!("the equations call `{name}`, a function of Rust or a table: no FMU has it"));
     }
     let description = derivation.description();
-    if let [first, rest @ ..] = description.contacts.as_slice() {
-        let rest: String = rest.iter().map(|name| format!(", `{name}`")).collect();
-        return refused(format!(
-            "contacts, ranges and dry friction have no counterpart in an FMU: `{first}`{rest}; stops and friction that \
-             give way are forces, which it has"
-        ));
+    if let Some(why) = not_bouncing(derivation) {
+        let names: Vec<String> = description.contacts.iter().map(|name| format!("`{name}`")).collect();
+        return refused(format!("{} cannot be in an FMU: {why}", names.join(", ")));
     }
     if description.is_constrained {
         return refused(
@@ -196,6 +194,30 @@ fn refuse(derivation: &Derivation) -> Result<(), FmuError> {
         );
     }
     Ok(())
+}
+
+/// Why contacts are none that bounce one at a time: an FMU knows signs of gaps, and has no solver of laws of friction.
+fn not_bouncing(derivation: &Derivation) -> Option<&'static str> {
+    let contacts = derivation.description().contacts.len();
+    if contacts == 0 {
+        return None;
+    }
+    let outputs =
+        |method: &str| derivation.program(method).map(|program| &program.code.outputs[..]).unwrap_or_default();
+    let is_zero = |operand: &Operand| matches!(operand, Operand::Number(value) if value.is_zero());
+    let response = derivation.program("impulse_dynamics");
+    let by_columns = response.is_some_and(|program| program.results.iter().any(|result| result.name == "columns"));
+    if outputs("friction").iter().any(|bound| !is_zero(bound)) || outputs("contact_rates").len() != contacts {
+        Some("dry friction is decided by laws of a solver; friction that gives way is a force, which an FMU has")
+    } else if outputs("gaps").len() != contacts || outputs("gaps").iter().any(is_zero) {
+        Some("they have no gaps")
+    } else if !derivation.description().joints.is_empty() {
+        Some("`reactions(…)` does not know the forces of contacts")
+    } else if !by_columns {
+        Some("the equations of a tree as long as this are formed link by link, which the events of an FMU do not use")
+    } else {
+        None
+    }
 }
 
 fn is_identifier(name: &str) -> Result<(), FmuError> {

@@ -79,6 +79,8 @@ pub fn outputs(derivation: &Derivation) -> Vec<OutputGroup<'_>> {
         own.chain(triple(joint, "torque", "N m", &torque)).collect::<Vec<_>>()
     });
     add("reactions_at", reactions.collect());
+    let gaps = derivation.description().contacts.iter();
+    add("gaps", gaps.map(|name| (format!("{name}.gap"), "1", format!("Gap of `{name}`"))).collect());
     groups
 }
 
@@ -122,6 +124,14 @@ pub fn variables(derivation: &Derivation, parameters: &[f64]) -> Vec<Variable> {
     }
     for (name, unit, label) in outputs(derivation).into_iter().flat_map(|group| group.numbers) {
         all.push(new(name, Role::Output, Some(unit).filter(|unit| *unit != "1"), &label, None));
+    }
+    let contacts = &derivation.description().contacts;
+    for (end, of) in
+        [("force", "Normal force"), ("indicator", "Event indicator: the gap, the force where it is closed,")]
+    {
+        for contact in contacts {
+            all.push(new(format!("{contact}.{end}"), Role::Output, None, &format!("{of} of `{contact}`"), None));
+        }
     }
     unique(&mut all);
     all

@@ -17,6 +17,8 @@ pub struct Described<'a> {
     pub documentation: &'a str,
     pub token: &'a str,
     pub variables: &'a [Variable],
+    /// Contacts: the scene has events, and no co-simulation, which would not see them.
+    pub contacts: &'a [String],
 }
 
 impl Described<'_> {
@@ -24,8 +26,8 @@ impl Described<'_> {
     pub fn xml(&self) -> String {
         let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
         let (token, counted) = match self.version {
-            Version::Two => ("guid", " numberOfEventIndicators=\"0\""),
-            Version::Three => ("instantiationToken", ""),
+            Version::Two => ("guid", format!(" numberOfEventIndicators=\"{}\"", self.contacts.len())),
+            Version::Three => ("instantiationToken", String::new()),
         };
         let name = escaped(self.name);
         let documentation = escaped(&self.documentation.split_whitespace().collect::<Vec<_>>().join(" "));
@@ -47,6 +49,9 @@ impl Described<'_> {
         self.variables.iter().enumerate().for_each(|(place, own)| self.variable(&mut out, place, own));
         out.push_str("  </ModelVariables>\n  <ModelStructure>\n");
         self.structure(&mut out);
+        if self.version == Version::Three {
+            self.indicators(&mut out);
+        }
         out.push_str("  </ModelStructure>\n</fmiModelDescription>\n");
         out
     }
@@ -60,7 +65,8 @@ impl Described<'_> {
                 let files = "    <SourceFiles>\n      <File name=\"fmu.c\"/>\n    </SourceFiles>";
                 let exchange = "completedIntegratorStepNotNeeded=\"true\"";
                 let steps = "canHandleVariableCommunicationStepSize=\"true\"";
-                for (kind, own) in [("ModelExchange", exchange), ("CoSimulation", steps)] {
+                let both = [("ModelExchange", exchange), ("CoSimulation", steps)];
+                for (kind, own) in both.into_iter().take(self.interface_count()) {
                     writeln!(out, "  <{kind} {identifier} {own} {common}>\n{files}\n  </{kind}>").ok();
                 }
             }
@@ -69,9 +75,15 @@ impl Described<'_> {
                               providesDirectionalDerivatives=\"true\"";
                 let steps = "canHandleVariableCommunicationStepSize=\"true\"";
                 writeln!(out, "  <ModelExchange {identifier} {common} needsCompletedIntegratorStep=\"false\"/>").ok();
-                writeln!(out, "  <CoSimulation {identifier} {common} {steps}/>").ok();
+                if self.interface_count() > 1 {
+                    writeln!(out, "  <CoSimulation {identifier} {common} {steps}/>").ok();
+                }
             }
         }
+    }
+
+    fn interface_count(&self) -> usize {
+        if self.contacts.is_empty() { 2 } else { 1 }
     }
 
     fn units(&self, out: &mut String) {
@@ -110,6 +122,9 @@ impl Described<'_> {
             let first = self.variables.iter().position(|own| own.role == Role::State).unwrap_or(0);
             let place = first + state + usize::from(self.version == Version::Two);
             write!(typed, " derivative=\"{place}\"").ok();
+        }
+        if own.role == Role::State && !self.contacts.is_empty() {
+            typed.push_str(" reinit=\"true\"");
         }
         if let Some(start) = own.start {
             write!(typed, " start=\"{start:?}\"").ok();
@@ -152,6 +167,14 @@ impl Described<'_> {
                 }
             }
         }
+    }
+
+    /// Event indicators of FMI 3.0, which are the last variables.
+    fn indicators(&self, out: &mut String) {
+        let first = self.variables.len() - self.contacts.len();
+        (first..self.variables.len()).for_each(|place| {
+            writeln!(out, "    <EventIndicator valueReference=\"{place}\"/>").ok();
+        });
     }
 
     /// `sources/buildDescription.xml` of FMI 3.0.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 
 /// As Cargo calls it: `cargo-gauss gauss …`.
 #[derive(Parser)]
@@ -20,7 +20,7 @@ pub enum Cargo {
 pub enum Command {
     /// Prints the equations, what they cost, and how many digits they keep.
     Show(Show),
-    /// Makes a package that runs: a body, its equations, a run, a table for plots; or one for Python.
+    /// Makes a package that runs: a body, its equations, a run, a table for plots; or one for Python; or an FMU.
     #[command(visible_alias = "create")]
     New(New),
 }
@@ -65,10 +65,11 @@ pub enum Form {
     Functions,
 }
 
-/// Where the package goes.
+/// Where the package goes, or the FMU.
 #[derive(Args)]
+#[command(group(ArgGroup::new("kind").args(["python", "fmu"])))]
 pub struct New {
-    /// A folder that is made; its last part is the name of the package.
+    /// A folder that is made; its last part is the name of the package. Of an FMU a file, `.fmu` or without that.
     pub folder: PathBuf,
     /// A clone of Gauss, whose crates the package uses. Without it they are those of the clone that this command was
     /// built from, or the published ones.
@@ -77,7 +78,37 @@ pub struct New {
     /// A package for Python, which `pip install .` builds.
     #[arg(long)]
     pub python: bool,
-    /// With `--python`: the robot of this file, URDF or MJCF. It is derived, and copied with all files that it reads.
-    #[arg(long, requires = "python")]
+    /// An FMU of the robot or of the scene, with source code, and a binary where there is a C compiler.
+    #[arg(long)]
+    pub fmu: bool,
+    /// With `--python` or `--fmu`: the robot of this file, URDF or MJCF. It is derived, and copied with all files that
+    /// it reads.
+    #[arg(long, requires = "kind")]
     pub robot: Option<PathBuf>,
+    #[command(flatten)]
+    pub of_fmu: OfFmu,
+}
+
+/// What an FMU is made of.
+#[derive(Args)]
+pub struct OfFmu {
+    /// With `--fmu`: a Rust file with the struct of the scene.
+    #[arg(long, requires = "fmu", conflicts_with = "robot")]
+    pub scene: Option<PathBuf>,
+    /// The name of the struct in that file, where several derive their dynamics.
+    #[arg(long, requires = "scene")]
+    pub of: Option<String>,
+    /// With `--robot`: a further clause, such as `frames(hand)` or `base = floating`; several times.
+    #[arg(long, requires = "fmu", requires = "robot")]
+    pub clause: Vec<String>,
+    /// A parameter in its unit, `m=1.5`; of vectors and matrices all numbers, `arm.center_of_mass=0,0,0.1`; several
+    /// times.
+    #[arg(long, requires = "fmu")]
+    pub set: Vec<String>,
+    /// The start value of a state, `elbow=0.3`; several times.
+    #[arg(long, requires = "fmu")]
+    pub start: Vec<String>,
+    /// The version of FMI, 2 or 3.
+    #[arg(long, requires = "fmu", default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=3))]
+    pub fmi: u8,
 }

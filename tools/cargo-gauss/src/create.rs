@@ -1,8 +1,9 @@
-//! `cargo gauss new`: a package that runs, or one for Python.
+//! `cargo gauss new`: a package that runs, one for Python, or an FMU.
 
 use std::fs;
 
 use crate::arguments::New;
+use crate::fmu;
 use crate::package::{Files, clone, from};
 use crate::python;
 
@@ -38,11 +39,15 @@ fn impossible(name: &str) -> Option<&'static str> {
     }
 }
 
-/// Makes the folder with its manifest and its program.
+/// Makes the folder with its manifest and its program, or the FMU.
 ///
 /// # Errors
-/// A name that no package can have, a folder that exists, mistakes in a robot's file, an error of the operating system.
+/// A name that no package can have, a folder that exists, mistakes in a robot's file, an error of the operating system;
+/// of an FMU also mistakes of the scene and its numbers, and clauses without a counterpart.
 pub fn create(wanted: &New) -> Result<(), String> {
+    if wanted.fmu {
+        return fmu::create(wanted);
+    }
     let folder = &wanted.folder;
     let name = folder.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let why = impossible(name).or_else(|| if wanted.python { python::impossible(name) } else { None });

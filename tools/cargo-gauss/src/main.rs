@@ -3,6 +3,7 @@
 mod arguments;
 mod charts;
 mod create;
+mod fmu;
 mod package;
 mod page;
 mod python;

@@ -87,7 +87,7 @@ pub fn files(wanted: &New, name: &str) -> Result<Files, String> {
 }
 
 /// The format of a robot's file.
-fn format_of(file: &Path) -> Result<&'static str, String> {
+pub fn format_of(file: &Path) -> Result<&'static str, String> {
     let text = fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
     match file.extension().and_then(|end| end.to_str()) {
         Some("urdf") => Ok("urdf"),

@@ -63,7 +63,7 @@ fn derive(wanted: &Show, items: &[DeriveInput]) -> Result<Vec<Shown>, String> {
 }
 
 /// Every mistake with its place.
-fn located(file: &Path, mistakes: &syn::Error) -> String {
+pub fn located(file: &Path, mistakes: &syn::Error) -> String {
     let lines = mistakes.into_iter().map(|mistake| {
         let start = mistake.span().start();
         format!("{}:{}:{}: {mistake}", file.display(), start.line, start.column + 1)

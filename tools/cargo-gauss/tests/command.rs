@@ -264,3 +264,31 @@ fn what_is_nested_deeply_is_no_overflow() {
         assert!(printed(&["show", path.to_str().expect("UTF-8"), "Swing"]).contains("Swing\n====="));
     }
 }
+
+/// An FMU is made of a robot, of a scene with numbers for its parameters; what is wrong leaves no file.
+#[test]
+fn fmus_of_robots_and_scenes() {
+    let (arm, scene) = (file("fmu_arm.urdf", ARM), file("fmu_bodies.rs", BODIES));
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let path = |name: &str| folder.join(name).to_str().expect("UTF-8").to_owned();
+    let [arm, scene] = [&arm, &scene].map(|path| path.to_str().expect("UTF-8"));
+    for name in ["fmu_arm.fmu", "fmu_swing.fmu", "fmu_bad.fmu"] {
+        let _ = fs::remove_file(folder.join(name));
+    }
+    let said = printed(&["create", "--fmu", &path("fmu_arm"), "--robot", arm, "--clause", "frames(upper)"]);
+    assert!(said.contains("fmu_arm.fmu: source code"), "{said}");
+    assert!(folder.join("fmu_arm.fmu").is_file());
+    let swing = ["create", "--fmu", &path("fmu_swing.fmu"), "--scene", scene, "--of", "Swing", "--fmi", "3"];
+    printed(&[&swing[..], &["--set", "m=2", "--set", "k=3.5", "--start", "x=-0.5"]].concat());
+    assert!(folder.join("fmu_swing.fmu").is_file());
+    let bad = ["create", "--fmu", &path("fmu_bad"), "--scene", scene];
+    assert!(refused(&bad).contains("--of NAME"), "{}", refused(&bad));
+    let bad = [&bad[..], &["--of", "Swing"]].concat();
+    let with = |more: &[&str]| refused(&[&bad[..], more].concat());
+    assert!(with(&["--set", "m=2"]).contains('k'));
+    assert!(with(&["--set", "m=-2", "--set", "k=1"]).contains("m"));
+    assert!(with(&["--set", "m=2", "--set", "k=1", "--start", "y=1"]).contains("no state `y`"));
+    assert!(with(&["--set", "m"]).contains("name=number"));
+    assert!(refused(&["create", "--fmu", &path("fmu_bad")]).contains("--robot FILE"));
+    assert!(!folder.join("fmu_bad.fmu").exists());
+}

@@ -101,7 +101,7 @@ pub const GYROSCOPE: Scene = Scene {
     start: &[],
 };
 
-pub const SCENES: [&Scene; 6] = [&ARMS, &TORPEDO, &CARRIER, &CAR, &FILTER, &GYROSCOPE];
+pub const SCENES: [&Scene; 7] = [&BALL, &ARMS, &TORPEDO, &CARRIER, &CAR, &FILTER, &GYROSCOPE];
 
 impl Scene {
     pub fn fmu(&self, version: Version) -> Fmu {
@@ -188,3 +188,12 @@ static inline void print_all(fmi2Component c)
     }
 }
 "#;
+
+/// A ball that bounces.
+pub const BALL: Scene = Scene {
+    name: "ball",
+    source: "#[gauss(coordinates(x, height), particle(mass = m, position = [x, 0, height]),
+            contact(floor, gap = height, restitution = e), gravity = g)] struct Ball { m: f64, e: f64, g: f64 }",
+    parameters: &[("m", &[2.0]), ("e", &[0.8]), ("g", &[9.81])],
+    start: &[("height", 1.0), ("x_dot", 0.5)],
+};
