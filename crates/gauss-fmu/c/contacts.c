@@ -44,6 +44,12 @@ static int start_contacts(instance *i)
     return 1;
 }
 
+static int has_missed(const memory *now)
+{
+    (void)now;
+    return 0;
+}
+
 #else
 
 typedef struct {
@@ -117,6 +123,18 @@ static int start_contacts(instance *i)
         }
     }
     return 1;
+}
+
+/* Whether a step ended with a gap that is closed and closing: the solver has seen no event where two are in one step. */
+static int has_missed(const memory *now)
+{
+    double q[ROOM(MODEL_Q)], gaps[MODEL_CONTACTS], rates[MODEL_CONTACTS];
+    gaps_at(now, q, gaps);
+    model_contact_rates(now->constants, now->time, q, now->states + MODEL_Q, rates);
+    for (int c = 0; c < MODEL_CONTACTS; c++) {
+        if (!now->closed[c] && gaps[c] < 0.0 && rates[c] < 0.0) return 1;
+    }
+    return 0;
 }
 
 /* Impulse of the contact on the speeds, after which its rate is what it is meant to be. */

@@ -293,9 +293,11 @@ API(fmi2EnterContinuousTimeMode)(fmi2Component c)
 
 API(fmi2CompletedIntegratorStep)(fmi2Component c, fmi2Boolean keeps, fmi2Boolean *event, fmi2Boolean *terminate)
 {
+    instance *i = c;
     (void)keeps;
-    if (!is_in(c, IN(CONTINUOUS), "fmi2CompletedIntegratorStep")) return fmi2Error;
-    *event = *terminate = 0;
+    if (!is_in(i, IN(CONTINUOUS), "fmi2CompletedIntegratorStep") || !make_constants(i)) return fmi2Error;
+    *event = has_missed(&i->now);
+    *terminate = 0;
     return fmi2OK;
 }
 

@@ -462,9 +462,11 @@ API(fmi3EnterContinuousTimeMode)(fmi3Instance c)
 
 API(fmi3CompletedIntegratorStep)(fmi3Instance c, fmi3Boolean keeps, fmi3Boolean *event, fmi3Boolean *terminate)
 {
+    instance *i = c;
     (void)keeps;
-    if (!is_in(c, IN(CONTINUOUS), "fmi3CompletedIntegratorStep")) return fmi3Error;
-    *event = *terminate = false;
+    if (!is_in(i, IN(CONTINUOUS), "fmi3CompletedIntegratorStep") || !make_constants(i)) return fmi3Error;
+    *event = has_missed(&i->now);
+    *terminate = false;
     return fmi3OK;
 }
 

@@ -63,9 +63,9 @@ impl Described<'_> {
                 let common = "canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\" \
                               providesDirectionalDerivative=\"true\"";
                 let files = "    <SourceFiles>\n      <File name=\"fmu.c\"/>\n    </SourceFiles>";
-                let exchange = "completedIntegratorStepNotNeeded=\"true\"";
+                let exchange = format!("completedIntegratorStepNotNeeded=\"{}\"", self.contacts.is_empty());
                 let steps = "canHandleVariableCommunicationStepSize=\"true\"";
-                let both = [("ModelExchange", exchange), ("CoSimulation", steps)];
+                let both = [("ModelExchange", &exchange[..]), ("CoSimulation", steps)];
                 for (kind, own) in both.into_iter().take(self.interface_count()) {
                     writeln!(out, "  <{kind} {identifier} {own} {common}>\n{files}\n  </{kind}>").ok();
                 }
@@ -74,7 +74,8 @@ impl Described<'_> {
                 let common = "canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" \
                               providesDirectionalDerivatives=\"true\"";
                 let steps = "canHandleVariableCommunicationStepSize=\"true\"";
-                writeln!(out, "  <ModelExchange {identifier} {common} needsCompletedIntegratorStep=\"false\"/>").ok();
+                let needs = !self.contacts.is_empty();
+                writeln!(out, "  <ModelExchange {identifier} {common} needsCompletedIntegratorStep=\"{needs}\"/>").ok();
                 if self.interface_count() > 1 {
                     writeln!(out, "  <CoSimulation {identifier} {common} {steps}/>").ok();
                 }

@@ -10,8 +10,12 @@ fn said(source: &str, parameters: &[(&str, &[f64])]) -> String {
 
 #[test]
 fn clauses_without_a_counterpart() {
-    let range = "#[gauss(coordinates(x), particle(mass = 1, position = [x, 0, 0]), range(x = -1..1))] struct A {}";
-    assert!(said(range, &[]).contains("`x`"), "{}", said(range, &[]));
+    let rough = "#[gauss(coordinates(x, y), particle(mass = 1, position = [x, 0, y]),
+        contact(floor, gap = y, slip = rate(x), friction = 0.5))] struct A {}";
+    assert!(said(rough, &[]).contains("`floor`"), "{}", said(rough, &[]));
+    let bears = "#[gauss(coordinates(a), body(arm, rotation = rotation_y(a), mass = 1, inertia = 0.1), reactions(arm),
+        contact(stop, gap = a))] struct A {}";
+    assert!(said(bears, &[]).contains("`stop`"), "{}", said(bears, &[]));
     let dry = "#[gauss(coordinates(x), particle(mass = 1, position = [x, 0, 0]),
         dry_friction(brake, slip = rate(x), bound = 2))] struct A {}";
     assert!(said(dry, &[]).contains("`brake`"), "{}", said(dry, &[]));

@@ -1,6 +1,6 @@
 //! FMUs that run, in programs of C, beside `Simulation` of the same scene.
 
-use crate::scenes::{ARMS, CAR, CARRIER, FILTER, PRELUDE, SCENES, Scene, TORPEDO, run};
+use crate::scenes::{ARMS, BALL, CAR, CARRIER, FILTER, PRELUDE, SCENES, Scene, TORPEDO, run};
 use gauss_fmu::Version;
 use gauss_jit::Model;
 use gauss_runtime::prelude::*;
@@ -212,3 +212,45 @@ int main(void)
     return 0;
 }
 "#;
+
+/// A contact in model exchange: a first bounce with restitution, one that is too short to be another, rest with the
+/// force that bears the ball, and where it would pull it opens; below the floor no run starts.
+#[test]
+fn a_contact_bounces_rests_and_opens() {
+    let main = format!(
+        "{PRELUDE}static void put(fmi2Component a, double height, double rate)\n{{\n\
+             const double states[] = {{0.0, height, 0.5, rate}};\n\
+             if (fmi2EnterContinuousTimeMode(a) + fmi2SetContinuousStates(a, states, 4)) printf(\"no\\n\");\n\
+             fmi2EnterEventMode(a);\n}}\n\
+         static void event(fmi2Component a)\n{{\n    fmi2EventInfo info;\n    double indicator = NAN;\n\
+             if (fmi2NewDiscreteStates(a, &info)) printf(\"refused\\n\");\n    fmi2GetEventIndicators(a, &indicator, 1);\n\
+             printf(\"%d %.12g %.12g %.12g\\n\", info.valuesOfContinuousStatesChanged, get(a, \"height_dot\"),\n\
+                 get(a, \"der(height_dot)\"), indicator);\n}}\n\
+         int main(void)\n{{\n    fmi2Component a = make(fmi2ModelExchange);\n    if (begin(a, 1e-6)) return 1;\n\
+             event(a);\n    put(a, 0.0, -2.0);\n    event(a);\n    put(a, -1e-9, -1e-5);\n    event(a);\n\
+             set(a, \"g\", -3.0);\n    event(a);\n\
+             printf(\"%d\\n\", make(fmi2CoSimulation) == NULL);\n    fmi2Reset(a);\n    set(a, \"height\", -0.1);\n\
+             printf(\"%d\\n\", begin(a, 1e-6) != 0);\n    return 0;\n}}\n"
+    );
+    let Some(lines) = run(&BALL.fmu(Version::Two), "contact", &main) else { return };
+    // Whether values changed, rate, its rate, indicator.
+    let expected = ["0 0 -9.81 1", "1 1.6 -9.81 0", "1 0 0 19.62", "0 0 3 -1e-09", "1"];
+    assert_eq!(lines[..5], expected, "{lines:?}");
+    assert_eq!(lines[5], "log the gap of `floor` is -0.1 at the start: it must be zero or greater");
+    assert_eq!(lines[6], "1");
+}
+
+/// The code of FMI 3.0 compiles, and an instance of it runs.
+#[test]
+fn the_code_of_version_3_has_no_warnings() {
+    for scene in [&ARMS, &BALL, &CARRIER] {
+        let main = "int main(void)\n{\n    bool n, t, v, w, x;\n    double next;\n\
+            fmi3Instance a = fmi3InstantiateModelExchange(\"it\", MODEL_TOKEN, \"\", 0, 0, NULL, NULL);\n\
+            if (!a || fmi3EnterInitializationMode(a, 0, 0, 0, 0, 0) || fmi3ExitInitializationMode(a)) return 1;\n\
+            if (fmi3UpdateDiscreteStates(a, &n, &t, &v, &w, &x, &next) || fmi3EnterContinuousTimeMode(a)) return 2;\n\
+            double rates[STATES];\n    if (fmi3GetContinuousStateDerivatives(a, rates, STATES)) return 3;\n\
+            printf(\"%d\\n\", fmi3SetTime(a, NAN) == fmi3Error);\n    fmi3FreeInstance(a);\n    return 0;\n}\n";
+        let Some(lines) = run(&scene.fmu(Version::Three), &format!("three_{}", scene.name), main) else { return };
+        assert_eq!(lines, ["1"]);
+    }
+}
