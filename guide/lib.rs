@@ -32,6 +32,7 @@ chapters! {
     Robots: "src/robots.md",
     RobotsTouching: "src/robots_touching.md",
     RunTime: "src/run_time.md",
+    Fmu: "src/fmu.md",
     Equations: "src/equations.md",
     Seeing: "src/seeing.md",
     Results: "src/results.md",

@@ -24,6 +24,7 @@ const FOLDERS: &[&str] = &[
     "crates/gauss-contact",
     "crates/gauss-exact",
     "crates/gauss-files",
+    "crates/gauss-fmu",
     "crates/gauss-jit",
     "crates/gauss-playback",
     "crates/gauss-py",

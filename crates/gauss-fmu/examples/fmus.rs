@@ -1,4 +1,4 @@
-//! Writes FMUs for other tools: a ball that bounces, a cart with a motor, and two of these on a spring.
+//! Writes FMUs for other tools: a ball that bounces, of FMI 2.0, and a cart with a pendulum, of FMI 3.0.
 //!
 //! `cargo run -p gauss-fmu --example fmus`, then `fmpy simulate target/gauss/ball.fmu --show-plot`.
 
@@ -10,10 +10,10 @@ const BALL: &str = "/// A ball that bounces on a floor.
     struct Ball { #[gauss(unit = \"kg\")] m: f64, e: f64, #[gauss(unit = \"m/s^2\")] g: f64 }";
 
 const CART: &str = "/// A cart on a rail, with a pendulum.
-    #[gauss(coordinates(x, angle), input(push = \"N\"), frames(bob),
-        body(cart, position = [x, 0, 0], mass = m),
-        body(bob, parent = cart, rotation = rotation_y(angle), center_of_mass = [0, 0, -l], mass = 0.2),
-        force(motor, body = cart, value = [push, 0, 0]), gravity = 9.81)]
+    #[gauss(coordinates(x, angle), input(push = \"N\"), drive(x = push), frames(bob), gravity = 9.81,
+        particle(mass = m, position = [x, 0, 0]),
+        body(bob, position = [x - l * sin(angle), 0, -l * cos(angle)], rotation = rotation_y(angle),
+            mass = 0.2, inertia = 1e-4))]
     struct Cart { #[gauss(unit = \"kg\")] m: f64, #[gauss(unit = \"m\")] l: f64 }";
 
 fn main() -> Result<(), FmuError> {
