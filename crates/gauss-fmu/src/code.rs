@@ -11,7 +11,7 @@ use gauss_codegen::targets::c;
 use crate::tangent::tangent;
 use crate::variables::{Role, Variable, count, ordered, outputs};
 
-/// What changes along a direction of states, inputs and time: accelerations among it, of which outputs are made.
+/// Arguments that change along a direction of states, inputs and time: accelerations too, of which outputs are made.
 const MOVING: [ArgumentKind; 5] = [
     ArgumentKind::Time,
     ArgumentKind::Configuration,
@@ -20,7 +20,7 @@ const MOVING: [ArgumentKind; 5] = [
     ArgumentKind::Inputs,
 ];
 
-/// What changes with parameters.
+/// Arguments that change with parameters.
 const BY_CONSTANTS: [ArgumentKind; 2] = [ArgumentKind::Constants, ArgumentKind::Accelerations];
 
 /// Beginning of the names of functions of programs, which no other file sees.
@@ -212,7 +212,7 @@ impl Scene<'_> {
         }
     }
 
-    /// Where the outputs of each method go.
+    /// Places of the outputs of each method.
     fn output_places(&self) -> Vec<String> {
         let mut next = 0;
         let place = |count: usize| {

@@ -1,4 +1,4 @@
-//! What stands in the way of an FMU.
+//! Errors that stand in the way of an FMU.
 
 use std::fmt;
 use std::io;

@@ -9,7 +9,7 @@ use gauss_jit::Model;
 use crate::archive::{self, Entry};
 use crate::code::Scene;
 use crate::variables::{Role, Variable, variables};
-use crate::xml::Described;
+use crate::xml::ModelDescription;
 use crate::{FmuError, Version, binary};
 
 /// A scene that becomes an FMU, with numbers for its parameters and start values of its states.
@@ -21,10 +21,10 @@ pub struct Fmu {
     variables: Vec<Variable>,
 }
 
-/// What an FMU holds beside its source code.
+/// The contents of an FMU beside its source code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Written {
+pub struct Report {
     /// The platform that there is a binary for; `None` where there is no C compiler.
     pub platform: Option<&'static str>,
 }
@@ -110,7 +110,7 @@ impl Fmu {
     /// # Errors
     /// A name that is no identifier of C, or does not end in `.fmu`; errors of the operating system. What was there
     /// before is then unchanged.
-    pub fn write(&self, file: impl AsRef<Path>) -> Result<Written, FmuError> {
+    pub fn write(&self, file: impl AsRef<Path>) -> Result<Report, FmuError> {
         let file = file.as_ref();
         let identifier = file.file_stem().and_then(|name| name.to_str()).unwrap_or_default();
         is_identifier(identifier)?;
@@ -131,7 +131,7 @@ impl Fmu {
         if self.version == Version::Three {
             entries.push(Entry::new("sources/buildDescription.xml", described.build()));
         }
-        let mut written = Written { platform: None };
+        let mut written = Report { platform: None };
         if let (Some(library), Some((folder, end))) = (library, platform) {
             entries.push(Entry::new(&format!("binaries/{folder}/{identifier}.{end}"), library));
             written.platform = Some(folder);
@@ -144,11 +144,11 @@ impl Fmu {
         Scene { derivation: &self.derivation, variables: &self.variables, token, version: self.version.number() }
     }
 
-    fn described<'a>(&'a self, identifier: &'a str, token: &'a str) -> Described<'a> {
+    fn described<'a>(&'a self, identifier: &'a str, token: &'a str) -> ModelDescription<'a> {
         let documentation = &self.derivation.description().documentation;
         let name = self.derivation.name();
         let (variables, contacts) = (&self.variables, &self.derivation.description().contacts);
-        Described { version: self.version, name, identifier, documentation, token, variables, contacts }
+        ModelDescription { version: self.version, name, identifier, documentation, token, variables, contacts }
     }
 
     /// A mark of all that the binary depends on: the same scene has the same one.

@@ -12,7 +12,7 @@ mod variables;
 mod xml;
 
 pub use error::FmuError;
-pub use export::{Fmu, Written};
+pub use export::{Fmu, Report};
 
 /// Relative tolerance of co-simulation where an experiment gives none.
 pub const TOLERANCE: f64 = 1e-8;

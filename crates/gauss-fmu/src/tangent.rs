@@ -37,7 +37,7 @@ struct Tangents {
     /// The argument of the changes of each argument, if there is one.
     seeds: Vec<Option<usize>>,
     instructions: Vec<Instruction>,
-    /// Where each instruction of the program is now.
+    /// The place of each instruction of the program among the new ones.
     places: Vec<usize>,
     /// The change of its result; of a pair that of the sine, then that of the cosine.
     of: Vec<[Option<Operand>; 2]>,

@@ -166,7 +166,7 @@ fn places(axes: &[usize]) -> Vec<String> {
     }
 }
 
-/// Of variables of one name the later ones are followed by a number.
+/// Numbers behind the names of variables that have a name which is there before.
 fn unique(all: &mut [Variable]) {
     for k in 1..all.len() {
         let is_free = |name: &str| all[..k].iter().all(|before| before.name != name);

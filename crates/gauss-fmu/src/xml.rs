@@ -7,8 +7,8 @@ use crate::Version;
 use crate::units::{BASE, exponents};
 use crate::variables::{Role, Variable};
 
-/// What a description is written of.
-pub struct Described<'a> {
+/// Data of a model that its description is written of.
+pub struct ModelDescription<'a> {
     pub version: Version,
     /// Name of the model, for people.
     pub name: &'a str,
@@ -21,7 +21,7 @@ pub struct Described<'a> {
     pub contacts: &'a [String],
 }
 
-impl Described<'_> {
+impl ModelDescription<'_> {
     /// `modelDescription.xml`.
     pub fn xml(&self) -> String {
         let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
