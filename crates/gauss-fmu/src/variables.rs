@@ -1,5 +1,7 @@
 //! The variables of an FMU: names, units, and what they are.
 
+use std::collections::HashSet;
+
 use gauss_codegen::Derivation;
 use gauss_codegen::description::{Quantity, QuantityKind};
 use gauss_codegen::program::{ArgumentKind, Program};
@@ -25,6 +27,19 @@ pub enum Role {
     /// The rate of a state, by its place among the states.
     Rate(usize),
     Output,
+}
+
+impl Role {
+    fn word(self) -> &'static str {
+        match self {
+            Role::Time => "independent",
+            Role::Parameter => "parameter",
+            Role::Input => "input",
+            Role::State => "state",
+            Role::Rate(_) => "rate",
+            Role::Output => "output",
+        }
+    }
 }
 
 /// Numbers that one method gives.
@@ -166,14 +181,19 @@ fn places(axes: &[usize]) -> Vec<String> {
     }
 }
 
-/// Numbers behind the names of variables that have a name which is there before.
+/// Names that are those of one variable each: states have theirs, and what has the name of another is called by its
+/// role, as the input of a joint, `input.elbow`.
 fn unique(all: &mut [Variable]) {
-    for k in 1..all.len() {
-        let is_free = |name: &str| all[..k].iter().all(|before| before.name != name);
-        let name = all[k].name.clone();
-        let mut names = std::iter::once(name.clone()).chain((2..).map(|n| format!("{name}_{n}")));
-        if let Some(free) = names.find(|name| is_free(name)) {
-            all[k].name = free;
+    let is_state = |own: &Variable| own.role == Role::State;
+    let (states, others): (Vec<usize>, Vec<usize>) = (0..all.len()).partition(|k| is_state(&all[*k]));
+    let mut taken = HashSet::new();
+    for k in states.into_iter().chain(others) {
+        let (name, word) = (all[k].name.clone(), all[k].role.word());
+        let numbered = (2..).map(|n| format!("{name}_{n}"));
+        let mut names = [name.clone(), format!("{word}.{name}")].into_iter().chain(numbered);
+        if let Some(free) = names.find(|name| !taken.contains(name)) {
+            all[k].name.clone_from(&free);
+            taken.insert(free);
         }
     }
 }

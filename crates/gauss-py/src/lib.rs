@@ -3,6 +3,7 @@
 //! The other half (`python/gauss`) has files, scenes in words and pickles.
 
 mod errors;
+mod fmu;
 mod model;
 mod programs;
 
@@ -18,6 +19,7 @@ fn stubs() -> String {
 fn native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     gauss_python::loaded::begin(module)?;
     module.add_function(wrap_pyfunction!(stubs, module)?)?;
+    module.add_function(wrap_pyfunction!(fmu::write_fmu, module)?)?;
     module.add_class::<model::Model>()?;
     module.add_class::<programs::Programs>()
 }

@@ -68,3 +68,19 @@ fn archives() {
         assert_eq!(std::fs::read(&file).expect("the file"), bytes, "the same bytes each time");
     }
 }
+
+/// A robot's inputs have the names of its joints, as its coordinates have: these keep them.
+#[test]
+fn states_keep_their_names() {
+    let arm = "#[gauss(urdf = \"../../examples/python/arm.urdf\", gravity = 9.81)] struct Robot {}";
+    let text = gauss_fmu::Fmu::new(arm, &[]).expect("a robot").start(&[("elbow", 0.2)]).expect("a state");
+    let text = text.description("arm").expect("a description");
+    let document = roxmltree::Document::parse(&text).expect("well-formed");
+    let causality = |name: &str| {
+        let found = document.descendants().find(|node| node.attribute("name") == Some(name));
+        found.and_then(|node| node.attribute("causality").map(str::to_owned))
+    };
+    assert_eq!(causality("elbow").as_deref(), Some("output"));
+    assert_eq!(causality("input.elbow").as_deref(), Some("input"));
+    assert_eq!(causality("der(elbow)").as_deref(), Some("local"));
+}

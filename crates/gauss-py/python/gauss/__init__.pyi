@@ -73,6 +73,10 @@ class Kernel(_native.Kernel):
         self, method: str, *arguments: ArrayLike, t: ArrayLike = 0.0, threads: int = 1, **named: ArrayLike
     ) -> Any:
         """Calls a program by its name; `threads` share the rows of a batch."""
+    def fmu(
+        self, path: str | PathLike[str], *, start: Mapping[str, float] | None = None, fmi: int = 2
+    ) -> str | None:
+        """Writes the kernel as an FMU, of FMI 2.0 or 3.0: source code, and a binary where there is a C compiler."""
     def __getattr__(self, name: str) -> Any:
         """Programs that are no methods of all classes: `regressor`, `powers`, those of contacts."""
 

@@ -154,6 +154,17 @@ class Kernel(_native.Kernel):
             )
         return plan.call(self._programs, arguments, named, t, threads)
 
+    def fmu(self, path, *, start=None, fmi=2):
+        """Writes the kernel as an FMU, of FMI 2.0 or 3.0: source code, and a binary where there is a C compiler.
+
+        Its parameters are the start values; `start` has those of states by name, {"elbow": 0.3}. The name of the file,
+        `arm.fmu`, is that of the binary. Gives the platform of the binary, None without one. Raises ValueError for what
+        FMI has no counterpart for, with the clause, and OSError where nothing can be written.
+        """
+        parameters = list(_flat(self.parameters).items())
+        start = [(name, float(value)) for name, value in (start or {}).items()]
+        return _native.write_fmu(_text(self.model._recipe), parameters, start, fmi, os.fspath(path))
+
     def __getattr__(self, name):
         if name.startswith("_") or self.model is None or name not in self.methods:
             raise AttributeError(f"{type(self).__name__} has no `{name}`")
@@ -291,6 +302,19 @@ def _restored(recipe):
             place.write_bytes(content)
         native = _native.Model.of_file(format, str(Path(folder, os.path.relpath(first, common))), list(clauses), False)
     return _model(native, recipe)
+
+
+def _text(recipe):
+    """The struct of a recipe, whose files are as they were."""
+    files = recipe[-1]
+    changed = [own for own, content in files if not _is(own, content)]
+    if changed:
+        raise OSError(f"the scene reads {', '.join(changed)}, which is not as it was")
+    if recipe[0] == "text":
+        return recipe[1]
+    _, format, clauses, _ = recipe
+    path = files[0][0].replace("\\", "\\\\").replace('"', '\\"')
+    return "\n".join([f'#[gauss({format} = "{path}",', *(f"{clause}," for clause in clauses), ")]", "struct Robot;", ""])
 
 
 def _is(path, content):
