@@ -125,7 +125,7 @@ static int start_contacts(instance *i)
     return 1;
 }
 
-/* Whether a step ended with a gap that is closed and closing: the solver has seen no event where two are in one step. */
+/* Whether a step ended with a gap that is closed and closing: a solver sees no event where two are in one step. */
 static int has_missed(const memory *now)
 {
     double q[ROOM(MODEL_Q)], gaps[MODEL_CONTACTS], rates[MODEL_CONTACTS];

@@ -1,4 +1,4 @@
-"""FMUs in FMPy: valid, the same motion by its solver and by the steps of the FMU, events at their times, two coupled."""
+"""FMUs in FMPy: valid, one motion by its solver and by the steps of the FMU, events at their times, two coupled."""
 
 import os
 import subprocess

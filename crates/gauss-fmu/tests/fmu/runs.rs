@@ -223,7 +223,8 @@ fn a_contact_bounces_rests_and_opens() {
              if (fmi2EnterContinuousTimeMode(a) + fmi2SetContinuousStates(a, states, 4)) printf(\"no\\n\");\n\
              fmi2EnterEventMode(a);\n}}\n\
          static void event(fmi2Component a)\n{{\n    fmi2EventInfo info;\n    double indicator = NAN;\n\
-             if (fmi2NewDiscreteStates(a, &info)) printf(\"refused\\n\");\n    fmi2GetEventIndicators(a, &indicator, 1);\n\
+             if (fmi2NewDiscreteStates(a, &info)) printf(\"refused\\n\");\n\
+             fmi2GetEventIndicators(a, &indicator, 1);\n\
              printf(\"%d %.12g %.12g %.12g\\n\", info.valuesOfContinuousStatesChanged, get(a, \"height_dot\"),\n\
                  get(a, \"der(height_dot)\"), indicator);\n}}\n\
          int main(void)\n{{\n    fmi2Component a = make(fmi2ModelExchange);\n    if (begin(a, 1e-6)) return 1;\n\

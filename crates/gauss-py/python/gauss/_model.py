@@ -314,7 +314,8 @@ def _text(recipe):
         return recipe[1]
     _, format, clauses, _ = recipe
     path = files[0][0].replace("\\", "\\\\").replace('"', '\\"')
-    return "\n".join([f'#[gauss({format} = "{path}",', *(f"{clause}," for clause in clauses), ")]", "struct Robot;", ""])
+    lines = [f'#[gauss({format} = "{path}",', *(f"{clause}," for clause in clauses), ")]", "struct Robot;", ""]
+    return "\n".join(lines)
 
 
 def _is(path, content):
