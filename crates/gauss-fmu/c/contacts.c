@@ -2,7 +2,7 @@
  *
  * An open contact has its gap as event indicator. Where that closes the speeds change by the impulse of restitution,
  * A^-1 W^T P with P = -(1 + e) g' / D. A bounce that would last less than SHORTEST, or rise no higher than how deep the
- * solver found the gap, is the last one: the contact is closed, with the force that keeps the gap's acceleration at
+ * solver found the gap, is the last one: the contact is closed at a gap of zero, with the force that keeps its rate
  * zero, which is then its event indicator; it opens where the force would pull.
  */
 
@@ -95,6 +95,7 @@ static void gaps_at(const memory *now, double *q, double *gaps)
 }
 
 static int make_rates(instance *i);
+static void component_rates(const double *raw, const double *q, const double *velocity, double *rates);
 
 static int make_indicators(instance *i, double *indicators)
 {
@@ -145,6 +146,27 @@ static void strike(memory *now, const response *of, int contact, double change)
     }
 }
 
+/* Moves the configuration along A^-1 W^T of the contact until its gap is zero: Newton's method, whose error is squared
+ * with each of a few turns. */
+static void lift(memory *now, const response *of, int contact)
+{
+    double q[ROOM(MODEL_Q)], gaps[MODEL_CONTACTS], z[ROOM(MODEL_Z)];
+    double still[ROOM(MODEL_V)], moving[ROOM(MODEL_V)], change[ROOM(MODEL_Q)];
+    for (int turn = 0; turn < 4; turn++) {
+        gaps_at(now, q, gaps);
+        for (int k = 0; k < MODEL_Z; k++) {
+            z[k] = -of->columns[MODEL_CONTACTS * k + contact] * gaps[contact] / mobility(of, contact);
+        }
+        model_kinematics(now->constants, now->time, q, z, moving);
+        memset(z, 0, sizeof z);
+        model_kinematics(now->constants, now->time, q, z, still);
+        for (int k = 0; k < MODEL_V; k++) moving[k] -= still[k];
+        component_rates(q, q, moving, change);
+        for (int k = 0; k < MODEL_Q; k++) now->states[k] = q[k] + change[k];
+        normalise(now->states);
+    }
+}
+
 /* What becomes of a contact whose gap is closed and whose rate is not positive. */
 static void bounce(memory *now, const response *of, int contact, double gap, double rate)
 {
@@ -158,6 +180,17 @@ static void bounce(memory *now, const response *of, int contact, double gap, dou
     const int is_last = pull > 0.0 && (2.0 * after <= SHORTEST * pull || after * after <= 20.0 * pull * depth);
     strike(now, of, contact, (is_last ? 0.0 : after) - rate);
     now->closed[contact] = is_last;
+    if (is_last) {
+        /* The rate is zero where the contact stays. */
+        response here;
+        double rates[MODEL_CONTACTS];
+        lift(now, of, contact);
+        gaps_at(now, q, gaps);
+        model_contact_rates(now->constants, now->time, q, now->states + MODEL_Q, rates);
+        model_impulse_dynamics(now->constants, now->time, q, now->states + MODEL_Q, now->inputs, here.acceleration,
+                               here.bias, here.columns, here.delassus);
+        strike(now, &here, contact, -rates[contact]);
+    }
 }
 
 /* Discrete changes at an event: opens a contact that would pull, and lets a closing gap bounce. */

@@ -191,12 +191,16 @@ impl Scene<'_> {
     /// Functions of contacts, where there are some; `model_gaps` calls the function that outputs have called before.
     fn contacts(&self, out: &mut String, state: &str) {
         let own = self.derivation;
+        if own.description().contacts.is_empty() {
+            return;
+        }
         let moving = format!("{state}, const double *z");
         let response = "double *acceleration, double *bias, double *columns, double *delassus";
         let methods = [
             ("gaps", format!("{state}, double *out"), "out"),
             ("contact_rates", format!("{moving}, double *out"), "out"),
             ("restitution", format!("{state}, double *out"), "out"),
+            ("kinematics", format!("{moving}, double *out"), "out"),
             (
                 "impulse_dynamics",
                 format!("{moving}, const double *input, {response}"),
@@ -205,7 +209,9 @@ impl Scene<'_> {
         ];
         for (method, arguments, to) in methods {
             let Some(program) = own.program(method) else { continue };
-            if method != "gaps" {
+            // Outputs and rates have called these before.
+            let is_there = method == "gaps" || method == "kinematics" && own.program("configuration_rates").is_none();
+            if !is_there {
                 out.push_str(&self.function(program));
             }
             self.calling(out, &format!("model_{method}"), &arguments, &[(program, to)]);
