@@ -167,30 +167,25 @@ static void lift(memory *now, const response *of, int contact)
     }
 }
 
-/* What becomes of a contact whose gap is closed and whose rate is not positive. */
-static void bounce(memory *now, const response *of, int contact, double gap, double rate)
+/* What becomes of a contact whose gap is closed and closing: the gap is brought to zero, so that the next event is seen
+ * as a change of its sign, and the rate changes by restitution. */
+static void bounce(memory *now, const response *found, int contact, double gap)
 {
-    double restitution[MODEL_CONTACTS];
-    double q[ROOM(MODEL_Q)], gaps[MODEL_CONTACTS];
+    double q[ROOM(MODEL_Q)], gaps[MODEL_CONTACTS], rates[MODEL_CONTACTS], restitution[MODEL_CONTACTS];
+    const double *z = now->states + MODEL_Q;
+    response of;
+    lift(now, found, contact);
     gaps_at(now, q, gaps);
     model_restitution(now->constants, now->time, q, restitution);
-    const double after = -restitution[contact] * rate, pull = -of->bias[contact];
+    model_contact_rates(now->constants, now->time, q, z, rates);
+    model_impulse_dynamics(now->constants, now->time, q, z, now->inputs, of.acceleration, of.bias, of.columns,
+                           of.delassus);
+    const double after = -restitution[contact] * rates[contact], pull = -of.bias[contact];
     const double depth = fmax(-gap, 0.0);
     /* Of a flight under the acceleration -pull: how long it is, and how high. */
     const int is_last = pull > 0.0 && (2.0 * after <= SHORTEST * pull || after * after <= 20.0 * pull * depth);
-    strike(now, of, contact, (is_last ? 0.0 : after) - rate);
+    strike(now, &of, contact, (is_last ? 0.0 : after) - rates[contact]);
     now->closed[contact] = is_last;
-    if (is_last) {
-        /* The rate is zero where the contact stays. */
-        response here;
-        double rates[MODEL_CONTACTS];
-        lift(now, of, contact);
-        gaps_at(now, q, gaps);
-        model_contact_rates(now->constants, now->time, q, now->states + MODEL_Q, rates);
-        model_impulse_dynamics(now->constants, now->time, q, now->states + MODEL_Q, now->inputs, here.acceleration,
-                               here.bias, here.columns, here.delassus);
-        strike(now, &here, contact, -rates[contact]);
-    }
 }
 
 /* Discrete changes at an event: opens a contact that would pull, and lets a closing gap bounce. */
@@ -222,7 +217,7 @@ static int settle(instance *i, int *changed)
         closing = c;
     }
     if (closing >= 0) {
-        bounce(now, &of, closing, gaps[closing], rates[closing]);
+        bounce(now, &of, closing, gaps[closing]);
         *changed = 1;
     }
     forget(now);
