@@ -126,7 +126,7 @@ impl Scene<'_> {
             let own = self.variables.iter().filter(|variable| variable.role == role);
             table(out, &format!("const double {name}"), own.map(|own| format!("{:?}", own.start.unwrap_or(0.0))));
         }
-        let contacts = self.derivation.description().contacts.iter().map(|name| quoted(name));
+        let contacts = self.derivation.description().contacts.iter().map(|contact| quoted(&contact.name));
         table(out, "const char *const contact_names", contacts.chain(std::iter::once(quoted("?"))));
         let groups = self
             .groups()

@@ -147,7 +147,7 @@ impl Fmu {
     fn described<'a>(&'a self, identifier: &'a str, token: &'a str) -> ModelDescription<'a> {
         let documentation = &self.derivation.description().documentation;
         let name = self.derivation.name();
-        let (variables, contacts) = (&self.variables, &self.derivation.description().contacts);
+        let (variables, contacts) = (&self.variables, self.derivation.description().contacts.len());
         ModelDescription { version: self.version, name, identifier, documentation, token, variables, contacts }
     }
 
@@ -183,7 +183,7 @@ fn refuse(derivation: &Derivation) -> Result<(), FmuError> {
     }
     let description = derivation.description();
     if let Some(why) = not_bouncing(derivation) {
-        let names: Vec<String> = description.contacts.iter().map(|name| format!("`{name}`")).collect();
+        let names: Vec<String> = description.contacts.iter().map(|own| format!("`{}`", own.name)).collect();
         return refused(format!("{} cannot be in an FMU: {why}", names.join(", ")));
     }
     if description.is_constrained {

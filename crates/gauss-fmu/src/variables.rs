@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use gauss_codegen::Derivation;
-use gauss_codegen::description::{Quantity, QuantityKind};
+use gauss_codegen::description::{ContactDescription, Quantity, QuantityKind};
 use gauss_codegen::program::{ArgumentKind, Program};
 
 /// A variable, whose value reference is its place among all.
@@ -95,7 +95,8 @@ pub fn outputs(derivation: &Derivation) -> Vec<OutputGroup<'_>> {
     });
     add("reactions_at", reactions.collect());
     let gaps = derivation.description().contacts.iter();
-    add("gaps", gaps.map(|name| (format!("{name}.gap"), "1", format!("Gap of `{name}`"))).collect());
+    let gap = |name: &str| (format!("{name}.gap"), "1", format!("Gap of `{name}`"));
+    add("gaps", gaps.map(|contact| gap(&contact.name)).collect());
     groups
 }
 
@@ -118,7 +119,7 @@ pub fn variables(derivation: &Derivation, parameters: &[f64]) -> Vec<Variable> {
     let mut all = vec![new("time".to_owned(), Role::Time, Some("s"), "Time", None)];
     let mut numbers = parameters.iter().copied();
     for own in &derivation.parameters().list {
-        for place in places(own.axes) {
+        for place in places(&own.axes) {
             let name = format!("{}{place}", own.name);
             all.push(new(name, Role::Parameter, own.unit.as_deref(), &own.documentation, numbers.next()));
         }
@@ -144,7 +145,7 @@ pub fn variables(derivation: &Derivation, parameters: &[f64]) -> Vec<Variable> {
     for (end, of) in
         [("force", "Normal force"), ("indicator", "Event indicator: the gap, the force where it is closed,")]
     {
-        for contact in contacts {
+        for ContactDescription { name: contact, .. } in contacts {
             all.push(new(format!("{contact}.{end}"), Role::Output, None, &format!("{of} of `{contact}`"), None));
         }
     }

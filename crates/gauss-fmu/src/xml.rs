@@ -18,7 +18,7 @@ pub struct ModelDescription<'a> {
     pub token: &'a str,
     pub variables: &'a [Variable],
     /// Contacts: the scene has events, and no co-simulation, which would not see them.
-    pub contacts: &'a [String],
+    pub contacts: usize,
 }
 
 impl ModelDescription<'_> {
@@ -26,7 +26,7 @@ impl ModelDescription<'_> {
     pub fn xml(&self) -> String {
         let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
         let (token, counted) = match self.version {
-            Version::Two => ("guid", format!(" numberOfEventIndicators=\"{}\"", self.contacts.len())),
+            Version::Two => ("guid", format!(" numberOfEventIndicators=\"{}\"", self.contacts)),
             Version::Three => ("instantiationToken", String::new()),
         };
         let name = escaped(self.name);
@@ -63,7 +63,7 @@ impl ModelDescription<'_> {
                 let common = "canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\" \
                               providesDirectionalDerivative=\"true\"";
                 let files = "    <SourceFiles>\n      <File name=\"fmu.c\"/>\n    </SourceFiles>";
-                let exchange = format!("completedIntegratorStepNotNeeded=\"{}\"", self.contacts.is_empty());
+                let exchange = format!("completedIntegratorStepNotNeeded=\"{}\"", self.contacts == 0);
                 let steps = "canHandleVariableCommunicationStepSize=\"true\"";
                 let both = [("ModelExchange", &exchange[..]), ("CoSimulation", steps)];
                 for (kind, own) in both.into_iter().take(self.interface_count()) {
@@ -74,7 +74,7 @@ impl ModelDescription<'_> {
                 let common = "canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" \
                               providesDirectionalDerivatives=\"true\"";
                 let steps = "canHandleVariableCommunicationStepSize=\"true\"";
-                let needs = !self.contacts.is_empty();
+                let needs = self.contacts > 0;
                 writeln!(out, "  <ModelExchange {identifier} {common} needsCompletedIntegratorStep=\"{needs}\"/>").ok();
                 if self.interface_count() > 1 {
                     writeln!(out, "  <CoSimulation {identifier} {common} {steps}/>").ok();
@@ -84,7 +84,7 @@ impl ModelDescription<'_> {
     }
 
     fn interface_count(&self) -> usize {
-        if self.contacts.is_empty() { 2 } else { 1 }
+        if self.contacts == 0 { 2 } else { 1 }
     }
 
     fn units(&self, out: &mut String) {
@@ -124,7 +124,7 @@ impl ModelDescription<'_> {
             let place = first + state + usize::from(self.version == Version::Two);
             write!(typed, " derivative=\"{place}\"").ok();
         }
-        if own.role == Role::State && !self.contacts.is_empty() {
+        if own.role == Role::State && self.contacts > 0 {
             typed.push_str(" reinit=\"true\"");
         }
         if let Some(start) = own.start {
@@ -172,7 +172,7 @@ impl ModelDescription<'_> {
 
     /// Event indicators of FMI 3.0, which are the last variables.
     fn indicators(&self, out: &mut String) {
-        let first = self.variables.len() - self.contacts.len();
+        let first = self.variables.len() - self.contacts;
         (first..self.variables.len()).for_each(|place| {
             writeln!(out, "    <EventIndicator valueReference=\"{place}\"/>").ok();
         });

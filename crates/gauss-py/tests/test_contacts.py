@@ -85,3 +85,62 @@ def test_rooms_say_what_they_are_too_small_for():
     free = gauss.scene("coordinates(x), particle(mass = 1, position = [x, 0, 0])")()
     with pytest.raises((ValueError, TypeError), match="contact"):
         free.simulate([0.0], [0.0], (0, 1), contacts="steps", step=1e-3)
+
+
+def test_what_steps_leave_is_at_rest():
+    """States of a run in steps, whose gaps and rates are rounding, have the forces of rest."""
+    robot = gauss.load(
+        ROOT / "tests/robots/quadruped.urdf", gravity=G,
+        clauses=["base = floating", "ground(links = [lf_foot, rf_foot, lh_foot, rh_foot], friction = 0.7)"],
+    )
+    legs = np.array([0.5, -1.0] * 4)
+    q, z = robot.state()
+    q[7:] = legs
+    q[6] -= robot.gaps(q).min()
+    law = lambda t, q, z: (legs - q[7:]) * 400 - z[6:] * 12
+    run = robot.simulate(q, z, (0, 1.0), input=law, contacts="steps", step=1e-3, times=np.linspace(0.7, 1, 16))
+    weight = robot.mass_matrix(q)[0, 0] * G
+    for q, z in zip(run.q, run.z):
+        found = robot.in_contact(q, z, law(0, q, z))
+        assert set(found.modes.values()) <= {"sticks", "slides"}
+        # It moves by less than a millimetre a second.
+        np.testing.assert_allclose(sum(force[0] for force in found.forces.values()), weight, rtol=1e-2)
+
+
+def test_pushes_by_tables_are_seen_at_rest():
+    """Half a kilogram, pushed with 100 N for 10 ms at 7 s, slides on until friction stops it."""
+    block = gauss.scene(
+        "coordinates(x, z), particle(mass = 0.5, position = [x, 0, z]), gravity = 9.81, input(u), drive(x = u), "
+        "contact(floor, gap = z, slip = rate(x), friction = 0.3)"
+    )()
+    times, values = [0, 7, 7.0001, 7.0099, 7.01, 10], [0, 0, 100, 100, 0, 0]
+    push = (times, [[u] for u in values])
+    # The impulse of 0.99 N s, less what friction takes meanwhile.
+    friction = 0.3 * G
+    speed = 0.99 / 0.5 - friction * 0.01
+    run = block.simulate([0, 0], [0, 0], (0, 10), input=push)
+    np.testing.assert_allclose(run.q[-1, 0], 0.5 * speed * 0.01 + speed**2 / (2 * friction), rtol=1e-3)
+    ends = block.ensemble([[0, 0]] * 2, [0, 0], (0, 10), input=push)
+    np.testing.assert_allclose(ends.q[:, 0], run.q[-1, 0], rtol=1e-6)
+    free = block.without_contacts().ensemble([[0, 0]] * 2, [0, 0], (0, 10), input=push)
+    np.testing.assert_allclose(free.z[:, 0], 1.98, rtol=1e-6)
+
+
+def test_drives_give_energy_in_steps():
+    wall = gauss.scene("coordinates(x), particle(mass = 1, position = [x, 0, 0]), contact(wall, gap = x - 3*t, restitution = 0.5)")()
+    for step in (1e-2, 1e-3, 1e-4):
+        run = wall.simulate([0.1], [0], (0, 0.5), contacts="steps", step=step)
+        np.testing.assert_allclose(run.z[-1], 4.5, rtol=1e-9)
+
+
+def test_gaps_that_are_no_numbers_end_a_run():
+    root = gauss.scene("coordinates(x), particle(mass = 1, position = [x, 0, 0]), contact(w, gap = sqrt(x))")()
+    with pytest.raises(gauss.IntegrationError, match="w"):
+        root.simulate([0.5], [-1.0], (0, 2), contacts="steps", step=1e-3)
+
+
+def test_kernels_with_contacts_can_be_looked_at():
+    ball = gauss.scene(BALL)()
+    assert "gaps" in dir(ball) and hasattr(ball, "constraint_function") and ball.evaluate.__doc__
+    with pytest.raises(gauss.ContactError):
+        ball.constraint_function([0, 1], [0, 0], [0, 0])

@@ -229,4 +229,6 @@ def test_plots_have_a_line_for_each_column(pendulum):
     np.testing.assert_array_equal(axes[0].get_lines()[0].get_ydata(), run["angle_dot"])
     with pytest.raises(KeyError, match="no column speed; it has t, angle, angle_dot"):
         run.plot("speed")
+    with pytest.raises(ValueError, match="a panel has no columns"):
+        run.plot("angle", [])
     matplotlib.pyplot.close("all")

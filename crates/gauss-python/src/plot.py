@@ -1,6 +1,10 @@
 """Pictures of runs by matplotlib, which nothing else needs."""
 
 
+#: Lines that a legend names.
+MOST = 8
+
+
 def plot(run, names, panels):
     """Panels above one another, each with a line for each of its columns; returns their axes."""
     try:
@@ -11,6 +15,8 @@ def plot(run, names, panels):
     for name in (name for panel in panels for name in panel):
         if name not in run:
             raise KeyError(f"the run has no column {name}; it has {', '.join(run.columns)}")
+    if not all(panels):
+        raise ValueError("a panel has no columns")
     _, axes = pyplot.subplots(
         len(panels), 1, sharex=True, squeeze=False, figsize=(8, 1 + 1.8 * len(panels)), layout="constrained"
     )
@@ -18,8 +24,10 @@ def plot(run, names, panels):
     # Between samples nothing is drawn but straight lines: where these are few, the samples are seen.
     mark = "." if len(run) < 200 else None
     for own, panel in zip(axes, panels):
-        for name in panel:
-            own.plot(run.t, run[name], marker=mark, markersize=3, linewidth=1, label=name)
+        for place, name in enumerate(panel):
+            # A legend that is longer than its panel would push the others aside.
+            shown = name if place < MOST else f"and {len(panel) - MOST} more" if place == MOST else None
+            own.plot(run.t, run[name], marker=mark, markersize=3, linewidth=1, label=shown)
         for event in run.contact_events:
             own.axvline(event.t, color="0.8", linewidth=0.6, zorder=0)
         own.grid(True, color="0.92")
