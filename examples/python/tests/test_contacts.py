@@ -255,7 +255,6 @@ def test_words_that_do_not_go_together(puck, pendulum):
         (dict(friction="relaxed"), ValueError, 'friction and scheme are those of contacts="steps"'),
         (dict(method="taylor"), ValueError, "with contacts the method is dormand_prince"),
         (dict(contacts="steps", step=1e-3, impact="moreau"), ValueError, "impacts in steps go by Newton's law"),
-        (dict(controller=lambda t, q, z: [0.0], period=0.1), TypeError, 'go with contacts="steps"'),
         (dict(jumps=(("x", 1.0), lambda t, q, z: (q, -z))), TypeError, "end the run by `until` and begin another"),
     ]
     for words, error, told in wrong:
