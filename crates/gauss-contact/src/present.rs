@@ -25,8 +25,8 @@ impl<'k, K: ContactSystem> InMode<'k, K> {
     /// its [`acceleration`](gauss_runtime::system::GaussSystem::acceleration) is that with contact forces, where the
     /// kernel's own has all gaps open.
     ///
-    /// A contact whose gap and rates are rounding counts as closed, and as still: what it would do by these rates is less
-    /// than places are known to.
+    /// A contact whose gap and rates are rounding counts as closed, and as still: what it would do by these rates is
+    /// less than places are known to.
     ///
     /// # Errors
     /// Where a run could not start, and [`ContactErrorKind::Strikes`] where a closed gap is closing: an impact comes

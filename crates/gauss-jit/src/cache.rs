@@ -149,8 +149,8 @@ impl Cache {
     }
 }
 
-/// The last time at which a file, or what stands in its place, changed: what is moved there keeps the time at which it was
-/// written, and has another of its own where the system tells that.
+/// The last time at which a file, or what stands in its place, changed: what is moved there keeps the time at which it
+/// was written, and has another of its own where the system tells that.
 fn changed(file: &str) -> Option<SystemTime> {
     let about = fs::metadata(file).ok()?;
     let written = about.modified().ok()?;

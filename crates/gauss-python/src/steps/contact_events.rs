@@ -9,9 +9,8 @@ use gauss_runtime::prelude::*;
 
 use super::causes::of_contacts;
 use super::contact_rows::{Touching, named, rows_of, unless_stopped};
-use super::one::looking;
 use super::outcome::{self, Happening, Outcome, Touched};
-use super::request::{Control, Request};
+use super::request::{Control, Request, looking};
 use super::watching::{input, of_numbers, watched};
 
 /// A run from event to event.

@@ -15,11 +15,11 @@ pub use causes::words;
 #[cfg(feature = "loaded")]
 #[cfg(feature = "loaded")]
 pub use contacts::{at as in_contact, run as touching};
-pub use one::{Methods, looking};
+pub use one::Methods;
 #[cfg(feature = "loaded")]
 pub use one::{lacks, no_contacts, smooth, stiff};
 pub use outcome::{Event, Happening, InContact, KINDS, Outcome, Touched, column_names};
-pub use request::{Control, Effect, Function, Held, Input, Jumped, Request, Table, Until, Watched};
+pub use request::{Control, Effect, Function, Held, Input, Jumped, Request, Table, Until, Watched, looking};
 pub use stoppable::Stoppable;
 
 use gauss_runtime::prelude::{Configuration, VectorSpace};

@@ -6,7 +6,7 @@ use gauss_runtime::integrate::{Adaptive, Collocation, Control as Steps, Fixed, I
 use gauss_runtime::prelude::*;
 
 use super::outcome::{InContact, Outcome, columns, energies, happened, number_of_end, row};
-use super::request::{Control, Input, Request};
+use super::request::{Control, Request, looking};
 use super::stoppable::Stoppable;
 use super::watching::{Moving, input, jump, of_numbers, watched};
 use super::{configuration, contacts, vector, words};
@@ -162,12 +162,6 @@ pub fn no_contacts() -> String {
 /// Message that a method needs a clause, which its struct does not say.
 pub fn lacks(method: &str, clause: &str) -> String {
     format!("the method {method} needs `#[gauss({clause})]` at the struct, which does not say it")
-}
-
-/// The control that looks at inputs as often as these are known to change.
-pub fn looking<M>(control: Adaptive<M>, input: &Input<'_>) -> Adaptive<M> {
-    let within = input.changes_within();
-    if within.is_finite() { control.input_changes_within(within) } else { control }
 }
 
 fn stoppable<'a, S>(system: &'a S, request: &Request<'a>) -> Stoppable<'a, S> {

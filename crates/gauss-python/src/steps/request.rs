@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use gauss_contact::{Impact, StepLaw, StepScheme};
+use gauss_runtime::integrate::Adaptive;
 use gauss_runtime::prelude::{Crossing, Real, VectorSpace};
 
 /// The method and its choice of steps. Three numbers are the relative and the absolute tolerance, and the longest step.
@@ -98,6 +99,12 @@ impl Input<'_> {
         }
         input
     }
+}
+
+/// The control that looks at inputs as often as these are known to change.
+pub fn looking<M>(control: Adaptive<M>, input: &Input<'_>) -> Adaptive<M> {
+    let within = input.changes_within();
+    if within.is_finite() { control.input_changes_within(within) } else { control }
 }
 
 /// Value that passes through zero at an event.
