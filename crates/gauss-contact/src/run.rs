@@ -313,10 +313,10 @@ where
             if !instant.first {
                 self.led_over(&before, &instant);
             }
-            let fired = match self.segment(&instant, until)? {
-                Stop::Contact(fired) => Some(fired),
-                Stop::End => None,
-            };
+            // An event over which an impact has led may have ended the run.
+            let until = if value(self.end) < value(until) { self.end } else { until };
+            let stop = self.segment(&instant, until)?;
+            let fired = if let Stop::Contact(fired) = stop { Some(fired) } else { None };
             let Some(last) = self.made.last() else { return Ok(()) };
             let goes_on = value(last.t) < value(self.end) && value(last.t) == value(until);
             instant = Instant { t: last.t, q: last.q, z: last.z, fired, first: false, ..instant };
