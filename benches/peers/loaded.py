@@ -56,7 +56,7 @@ print(1e3 * (time.perf_counter() - start))
 
 
 def cached(file, clauses):
-    """By turns without a cache and from one that has the model."""
+    """The time to the first acceleration without a cache and from one that has the model, by turns."""
     with tempfile.TemporaryDirectory() as folder:
         def first(cache):
             command = [sys.executable, "-c", FIRST, str(ROBOTS / file), *clauses]

@@ -51,7 +51,7 @@ fn error<T: Real>(t: T, kind: IntegrationErrorKind) -> ContactError {
 /// Checks controllers before a run.
 ///
 /// # Errors
-/// Those of [`interval::begin`].
+/// The errors of [`interval::begin`].
 pub(crate) fn begin<'k, K: ContactSystem + 'k, E: Events<InMode<'k, K>>>(
     events: &mut E,
     holds: bool,

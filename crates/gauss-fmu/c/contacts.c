@@ -8,7 +8,7 @@
 
 /* In s. */
 #define SHORTEST 1e-6
-/* How far below zero gaps may start, in their unit: rounding of start values. */
+/* The depth below zero at which gaps may start, in their unit: rounding of start values. */
 #define DEEPEST 1e-9
 
 #if MODEL_CONTACTS == 0
@@ -167,7 +167,7 @@ static void lift(memory *now, const response *of, int contact)
     }
 }
 
-/* What becomes of a contact whose gap is closed and closing: the gap is brought to zero, so that the next event is seen
+/* Bounces or rests a contact whose gap is closed and closing: the gap is brought to zero, so that the next event is seen
  * as a change of its sign, and the rate changes by restitution. */
 static void bounce(memory *now, const response *found, int contact, double gap)
 {
@@ -182,7 +182,7 @@ static void bounce(memory *now, const response *found, int contact, double gap)
                            of.delassus);
     const double after = -restitution[contact] * rates[contact], pull = -of.bias[contact];
     const double depth = fmax(-gap, 0.0);
-    /* Of a flight under the acceleration -pull: how long it is, and how high. */
+    /* The length and the height of a flight under the acceleration -pull. */
     const int is_last = pull > 0.0 && (2.0 * after <= SHORTEST * pull || after * after <= 20.0 * pull * depth);
     strike(now, &of, contact, (is_last ? 0.0 : after) - rates[contact]);
     now->closed[contact] = is_last;

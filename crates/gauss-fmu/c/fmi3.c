@@ -289,7 +289,7 @@ API(fmi3SetBinary)(fmi3Instance c, const fmi3ValueReference vr[], size_t count, 
     return none(c, count);
 }
 
-/* What is not offered, as modelDescription.xml says. */
+/* Functions that are not offered, as modelDescription.xml says. */
 static fmi3Status not_offered(instance *i, const char *what)
 {
     if (i) say(i, "%s are not offered", what);

@@ -14,7 +14,7 @@
 #include "gauss.h"
 #include "model.c"
 
-/* What files tell one another. Every version of FMI has its own way to hand a message over. */
+/* Declarations that files share. Every version of FMI has its own way to hand a message over. */
 static void tell(instance *i, const char *message);
 static double say(instance *i, const char *format, ...);
 static void normalise(double *q);

@@ -23,7 +23,7 @@
 #define FIRST_STATE (FIRST_INPUT + MODEL_U)
 #define FIRST_RATE (FIRST_STATE + STATES)
 #define FIRST_OUTPUT (FIRST_RATE + STATES)
-/* Of a contact its force and its event indicator are outputs that no program of the scene gives. */
+/* The force and the event indicator of a contact are outputs that no program of the scene gives. */
 #define OUTPUTS (MODEL_OUTPUTS + 2 * MODEL_CONTACTS)
 #define VARIABLES (FIRST_OUTPUT + OUTPUTS)
 

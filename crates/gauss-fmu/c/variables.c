@@ -143,7 +143,7 @@ static int set_time(instance *i, double time)
     return 1;
 }
 
-/* What an experiment says: the tolerance of co-simulation, and when it begins. */
+/* Sets up an experiment: the tolerance of co-simulation, and when it begins. */
 static int set_experiment(instance *i, int has_tolerance, double tolerance, double begin)
 {
     if (has_tolerance && !(tolerance > 0.0 && tolerance < 1.0)) {

@@ -40,7 +40,7 @@ impl Entry {
 /// Writes all files. Entries have no date: the same scene gives the same bytes.
 ///
 /// # Errors
-/// Those of the operating system.
+/// Errors of the operating system.
 pub fn write(file: &Path, entries: &[Entry]) -> Result<(), FmuError> {
     let bytes = packed(entries).map_err(|error| FmuError::Io(error.into()))?;
     gauss_files::write(file, bytes).map_err(FmuError::Io)

@@ -89,7 +89,7 @@ pub struct New {
     pub of_fmu: OfFmu,
 }
 
-/// What an FMU is made of.
+/// The scene of an FMU.
 #[derive(Args)]
 pub struct OfFmu {
     /// With `--fmu`: a Rust file with the struct of the scene.

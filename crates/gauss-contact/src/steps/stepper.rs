@@ -446,8 +446,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         let of_projection = &mut self.memory.as_mut()[memory(K::ContactRows::DIM)..];
         let (closed, impulses, rates) = (pushed.solved.rests.as_ref(), &pushed.impulses, &self.rates);
         let touched = Touched { closed, impulses, rates, h };
-        let projection = Projection::new(self.kernel, of_projection);
-        let closed = { projection }.close(at_end, (response, motion::magnitude(&q)), &touched);
+        let mut projection = Projection::new(self.kernel, of_projection);
+        let closed = projection.close(at_end, (response, motion::magnitude(&q)), &touched);
         let closed = closed.map_err(|NotClosed { contact, kind }| self.error(contact, kind))?;
         (0..self.kernel.contacts().len()).filter(|i| closed.left[*i]).for_each(|i| pushed.solved.rests[i] = false);
         Ok(closed)
@@ -477,9 +477,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, M: AsMut<[f64]>> ContactStepper<'k, K, 
         closed: &Closed<K>,
         (z, rates): (K::Speeds, K::ContactRows),
     ) -> (K::Speeds, K::ContactRows) {
-        let (modes, rounding) =
-            (Each::from_fn(|i| self.mode_at_end(pushed, i)), self.rounding_at_end(self.next.as_ref(), &pushed.solved));
-        let modes: K::EachContact<Mode> = modes;
+        let modes: K::EachContact<Mode> = Each::from_fn(|i| self.mode_at_end(pushed, i));
+        let rounding = self.rounding_at_end(self.next.as_ref(), &pushed.solved);
         let of_projection = &mut self.memory.as_mut()[memory(Self::ROWS)..];
         let at_end = (self.t + h, &closed.q, z, rates);
         Projection::new(self.kernel, of_projection).stop(at_end, response, (|i| modes[i], rounding))

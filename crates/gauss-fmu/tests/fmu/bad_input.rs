@@ -54,7 +54,7 @@ fn files_that_cannot_be_written_leave_nothing() {
     assert_eq!(left.len(), 1, "{left:?}");
 }
 
-/// What is logged when a variable is set to a number, and the status of the call that says so.
+/// The message that is logged when a variable is set to a number, and the status of the call that says so.
 fn refused(scene: &Scene, name: &str, sets: &[(&str, f64)]) -> Option<Vec<String>> {
     let sets: String = sets
         .iter()

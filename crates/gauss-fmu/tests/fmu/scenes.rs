@@ -142,7 +142,7 @@ pub fn run(fmu: &Fmu, name: &str, main: &str) -> Option<Vec<String>> {
     Some(text.lines().map(str::to_owned).collect())
 }
 
-/// What programs have in common: a logger that prints, an instance, values of variables by name.
+/// The beginning of every program: a logger that prints, an instance, values of variables by name.
 pub const PRELUDE: &str = r#"
 static void print_log(void *e, fmi2String name, fmi2Status s, fmi2String category, fmi2String text, ...)
 {
