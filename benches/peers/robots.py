@@ -414,7 +414,7 @@ def markdown(rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--csv", type=pathlib.Path, help="all figures")
-    parser.add_argument("--markdown", type=pathlib.Path, help="the table of BENCHMARKS.md")
+    parser.add_argument("--markdown", type=pathlib.Path, help="the table of docs/benchmarks/robots.md")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("words", nargs="*")
     arguments = parser.parse_args()

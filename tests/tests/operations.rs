@@ -1,5 +1,5 @@
 //! A scene pays for nothing that it lacks: the operation counts of the generated code, feature by feature, and the
-//! table of them in BENCHMARKS.md.
+//! table of them in docs/benchmarks/operations.md.
 
 #[macro_use]
 mod common;
@@ -176,7 +176,7 @@ fn what_is_absent_costs_nothing() {
     assert_eq!((hybrid.acceleration.additions, hybrid.acceleration.multiplications), (0, 6));
 }
 
-/// The section of BENCHMARKS.md between the markers: additions + multiplications of each method, and what two of them
+/// The section of that page between the markers: additions + multiplications of each method, and what two of them
 /// lose.
 fn table() -> String {
     let mut out = String::from(
@@ -202,7 +202,7 @@ fn table() -> String {
 
 #[test]
 fn benchmarks_shows_the_counts() {
-    keep("BENCHMARKS.md", "operations", &table());
+    keep("docs/benchmarks/operations.md", "operations", &table());
 }
 
 /// The section of the README: what the same body costs in each chart, and what else there is to it.

@@ -1,5 +1,5 @@
 //! The pages that people read: links lead somewhere, lines are as wide as a person reads, every chapter of the guide is
-//! in its list and is compiled, and the README's table of times is that of BENCHMARKS.md.
+//! in its list and is compiled, and the README's table of times is that of docs/benchmarks.
 
 use std::collections::HashSet;
 use std::fmt::Write as _;
@@ -12,6 +12,7 @@ use gauss_tests::pages::{keep, repository};
 const FOLDERS: &[&str] = &[
     "",
     "docs",
+    "docs/benchmarks",
     "guide/src",
     "tests",
     "tests/references",
@@ -220,9 +221,11 @@ fn the_first_command_is_the_first_program() {
 }
 
 #[test]
-fn the_readme_is_short() {
-    let lines = fs::read_to_string(repository().join("README.md")).expect("README.md is there").lines().count();
-    assert!(lines <= 150, "README.md has {lines} lines; what is over 150 belongs into the guide or BENCHMARKS.md");
+fn pages_for_those_in_a_hurry_are_short() {
+    for (name, most) in [("README.md", 150), ("BENCHMARKS.md", 150), ("CHANGELOG.md", 150)] {
+        let lines = fs::read_to_string(repository().join(name)).expect("the page is there").lines().count();
+        assert!(lines <= most, "{name} has {lines} lines; what is over {most} belongs into the guide or docs/");
+    }
 }
 
 /// The table whose heading begins so, as cells; the heading is the first row.
@@ -237,7 +240,7 @@ fn numbers(cell: &str) -> Vec<f64> {
     cell.split([' ', '(', ')', '–']).filter_map(|word| word.parse().ok()).collect()
 }
 
-/// The times of the README: what BENCHMARKS.md has, of five scenes and of two robots.
+/// The times of the README: what the pages of benchmarks have, of five scenes and of two robots.
 #[test]
 fn readme_shows_the_times_of_benchmarks() {
     const SCENES: [(&str, &str); 7] = [
@@ -257,11 +260,15 @@ fn readme_shows_the_times_of_benchmarks() {
         ("Pinocchio, ABA", "pinocchio", "Pinocchio, ABA and RNEA"),
         ("MuJoCo, forward", "mujoco", "MuJoCo, `mj_forward`"),
     ];
-    let page = fs::read_to_string(repository().join("BENCHMARKS.md")).expect("BENCHMARKS.md is there");
-    let mut by_hand = table(&page, "| scene | operations | generated, ns |");
+    let [accelerations, robots] = ["accelerations", "robots"].map(|name| {
+        let page = repository().join("docs/benchmarks").join(name).with_extension("md");
+        fs::read_to_string(&page).unwrap_or_else(|error| panic!("{}: {error}", page.display()))
+    });
+    let mut by_hand = table(&accelerations, "| scene | operations | generated, ns |");
     // `S1 free body, …`.
     by_hand.iter_mut().for_each(|row| row[0] = row[0].split(' ').next().unwrap_or_default());
-    let [peers, robots] = ["| ns (generated / peer)", "| ns | S7′ forward |"].map(|heading| table(&page, heading));
+    let peers = table(&accelerations, "| ns (generated / peer)");
+    let robots = table(&robots, "| ns | S7′ forward |");
     let of = |table: &[Vec<&str>], row: &str, column: &str| {
         let column = table[0].iter().position(|cell| *cell == column);
         let row = table.iter().find(|cells| cells[0] == row);

@@ -1,5 +1,5 @@
 //! What each element that acts costs: the operation counts of one body as elements are switched on, one at a time, and
-//! the table of them in BENCHMARKS.md. That a clause leaves nothing behind when it is taken out again is tested where
+//! the table of them in docs/benchmarks/operations.md. That a clause leaves nothing behind when it is taken out again is tested where
 //! the code is made, in `gauss-codegen/src/emit/specialisation_tests.rs`.
 
 use std::fmt::Write as _;
@@ -153,7 +153,7 @@ fn a_component_in_its_own_axes_is_one_sum_and_one_product() {
     assert_eq!(n - m, 6);
 }
 
-/// The section of BENCHMARKS.md between the markers: additions + multiplications of `acceleration`, and what else there
+/// The section of that page between the markers: additions + multiplications of `acceleration`, and what else there
 /// is.
 fn table() -> String {
     let mut out = String::from("| what acts |");
@@ -176,7 +176,7 @@ fn table() -> String {
 
 #[test]
 fn benchmarks_shows_what_elements_cost() {
-    keep("BENCHMARKS.md", "specialisation", &table());
+    keep("docs/benchmarks/operations.md", "specialisation", &table());
 }
 
 /// The section of the guide: what some of them add, in body axes and in Euler angles.

@@ -69,7 +69,7 @@ fn instructions(scene: &CountedScene, left_out: Option<Pass>) -> Vec<usize> {
     scene.methods.iter().map(count).collect()
 }
 
-/// Every pass saves more than it costs, over these scenes; the table is printed for BENCHMARKS.
+/// Every pass saves more than it costs, over these scenes; the table is printed for docs/benchmarks/expansion.md.
 #[test]
 fn every_pass_gains() {
     let names: Vec<String> = PASSES.iter().map(|pass| format!("{pass:?}")).collect();

@@ -96,7 +96,7 @@ fn lost(derived: &Derived<'_, '_>, case: &Case) -> (f64, f64) {
     (loss, figure.rounded()[0])
 }
 
-/// A case that loses little is one to strike from here and from BENCHMARKS.md.
+/// A case that loses little is one to strike from here and from docs/benchmarks/digits.md.
 #[test]
 fn what_is_still_lost_is_said() {
     let of = |case: &Case| {
