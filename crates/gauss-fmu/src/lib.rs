@@ -1,6 +1,11 @@
 #![doc = include_str!("../README.md")]
 #![deny(missing_docs)]
 
+// `export` (what is refused, what is written where), `variables` (names, units, roles), `xml`, `code` (sizes, tables
+// and functions in C of one scene), `tangent` (a program → that of its derivative along a direction), `units`, `binary`
+// (the C compiler), `archive`. In `c`, C that every FMU has: `fmu` includes all others, `checks` (what `kernel()`
+// checks), `contacts`, `motion` (rates, outputs, derivatives), `variables` (values by reference, and the life of an
+// instance), `steps` (co-simulation), `fmi2` and `fmi3` (the functions of each version).
 mod archive;
 mod binary;
 mod code;
