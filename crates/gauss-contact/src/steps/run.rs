@@ -50,7 +50,8 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
         Self { kernel, h, input, events, scheme, law, tolerance, every, limit }
     }
 
-    /// The input as a function of time and state; it is taken at the start of each step and held.
+    /// The input as a function of time and state; it is taken in the state before each step, at the time in its middle,
+    /// and held. Of what changes with time alone that is the mean over the step, up to the square of its length.
     pub fn input<G>(self, input: G) -> ContactSteps<'k, K, Feedback<G>, E>
     where
         G: Fn(f64, &K::Configuration, &K::Speeds) -> K::Input,
@@ -195,8 +196,7 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
                 let rounding = ROUNDINGS * f64::EPSILON * end_of_step.abs().max(start.abs());
                 let is_cut = E::SAMPLED && rest > rounding;
                 length = if is_cut { until - stepper.t } else { length };
-                let (q, z) = (*stepper.configuration(), *stepper.speeds());
-                stepper.step(length, &self.input.input(stepper.time(), &q, &z))?;
+                stepper.step(length, &self.held(&stepper, length))?;
                 stepper.t = if E::SAMPLED && rest >= -rounding { until } else { end_of_step };
                 made.samples.push(StepSample::of(&stepper));
                 if look(&mut self.events, made)? {
@@ -212,6 +212,14 @@ impl<'k, K: ContactSystem<Scalar = f64>, I, E> ContactSteps<'k, K, I, E> {
             }
         }
         Ok(())
+    }
+
+    /// The input that a step of this length holds.
+    pub(super) fn held(&self, stepper: &ContactStepper<'k, K>, length: f64) -> K::Input
+    where
+        I: InputSource<K>,
+    {
+        self.input.input(stepper.t + 0.5 * length, &stepper.q, &stepper.z)
     }
 
     /// Lets controllers sample where the steps are; until when they hold what they give.

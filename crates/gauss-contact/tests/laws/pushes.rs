@@ -1,6 +1,6 @@
 //! Pushes that come and go while nothing moves: what rests notices them, without any help.
 
-use gauss_contact::{ContactErrorKind, ContactRun, EventKind};
+use gauss_contact::{ContactErrorKind, ContactRun, ContactSteps, EventKind, StepScheme};
 use gauss_runtime::integrate::IntegrationErrorKind;
 use gauss_runtime::prelude::*;
 
@@ -106,6 +106,51 @@ fn short_pushes_are_seen_where_the_run_is_told_how_short() {
     let error = run.run([0.0, 0.0].into(), [0.0, 0.0].into(), 0.0..10.0).err().expect("no time");
     let ContactErrorKind::Integration(error) = error.kind else { panic!("{error}") };
     assert!(matches!(error.kind, IntegrationErrorKind::InvalidStep { .. }));
+}
+
+#[test]
+fn steps_take_the_mean_of_a_push() {
+    let kernel = Block { m: M, mu: MU, g: G }.kernel().expect("a scene");
+    // As many steps as it lasts, whether its edges are ends of steps, up to rounding, or halfway between them.
+    let (w, h) = (0.01, 1e-3);
+    for from in [0.1, 0.3, 0.7, 0.3004, 0.3006] {
+        let push = move |t: f64, _: &_, _: &_| {
+            SVector::from([if (from..from + w).contains(&t) { 3.0 * MU * M * G } else { 0.0 }])
+        };
+        let steps = ContactSteps::new(&kernel, h).input(push);
+        let run = steps.run([0.0, 0.0].into(), [0.0, 0.0].into(), 0.0..1.0).expect("runs");
+        // v = 2 μ g w at the end of the push; the step in which the block comes to rest has half of its last speed.
+        let (wanted, fastest) = (3.0 * MU * G * w * w, 2.0 * MU * G * w);
+        let most = run.iter().map(|step| step.state.z[0]).fold(0.0, f64::max);
+        assert!((most - fastest).abs() < 1e-9 * fastest, "{from}: {most} {fastest}");
+        let x = run.last().expect("a step").state.q[0];
+        assert!((x - wanted).abs() < 0.5 * MU * G * h * h, "{from}: {x} {wanted}");
+    }
+}
+
+#[test]
+fn inputs_of_time_leave_steps_of_second_order() {
+    let kernel = Block { m: M, mu: MU, g: G }.kernel().expect("a scene");
+    // A block that slides all the time: ẍ = a sin(ω t) − μ g.
+    let (a, omega, v, end) = (20.0, 7.0_f64, 9.0, 1.0_f64);
+    let push = move |t: f64, _: &_, _: &_| SVector::from([M * a * (omega * t).sin()]);
+    let wanted = (v + a / omega) * end - a / (omega * omega) * (omega * end).sin() - 0.5 * MU * G * end * end;
+    for scheme in [StepScheme::Midpoint, StepScheme::MoreauJean] {
+        let off = |h: f64| {
+            let steps = ContactSteps::new(&kernel, h).scheme(scheme).input(push);
+            let run = steps.run([0.0, 0.0].into(), [v, 0.0].into(), 0.0..end).expect("runs");
+            (run.last().expect("a step").state.q[0] - wanted).abs()
+        };
+        let order = (off(1e-2) / off(5e-3)).log2();
+        // Off by terms of fourth order, (ω h)²/12 of the second.
+        assert!((order - 2.0).abs() < 1e-2, "{scheme:?}: {order}");
+        // (ω h)²/24 of each step's momentum.
+        assert!(off(1e-2) < a / omega * (omega * 1e-2).powi(2) / 12.0);
+        let adaptive = ContactSteps::new(&kernel, 0.1).scheme(scheme).input(push).adaptive(1e-6, 1e-6);
+        let run = adaptive.run([0.0, 0.0].into(), [v, 0.0].into(), 0.0..end).expect("runs");
+        let x = run.last().expect("a step").state.q[0];
+        assert!((x - wanted).abs() < 1e-6 * 10.0 * run.len() as f64, "{scheme:?}: {x} {wanted} {}", run.len());
+    }
 }
 
 #[test]
