@@ -169,7 +169,7 @@ pub struct Words<'a> {
     /// The one length of steps.
     pub step: Option<f64>,
     /// Relative and absolute tolerance, the longest step.
-    pub tolerances: (f64, f64, Option<f64>),
+    pub tolerances: (Option<f64>, Option<f64>, Option<f64>),
     /// Way in which contacts are followed.
     pub contacts: Option<&'a str>,
     /// The law of impacts.
@@ -183,6 +183,9 @@ pub struct Words<'a> {
 fn wrong<R>(why: &str) -> PyResult<R> {
     Err(PyValueError::new_err(why.to_owned()))
 }
+
+/// Relative and absolute tolerance where nothing is said.
+const TOLERANCE: f64 = 1e-9;
 
 /// One of some words.
 fn word<T: Copy>(name: &str, given: &str, known: &[(&str, T)]) -> PyResult<T> {
@@ -201,9 +204,11 @@ pub fn control(name: &str, touches: bool, words: Words<'_>) -> PyResult<Control>
     if step.is_some() && largest.is_some() {
         return wrong("steps are of the length step, or at most of largest_step: give one of them");
     }
+    let tolerates = rtol.is_some() || atol.is_some();
+    let (rtol, atol) = (rtol.unwrap_or(TOLERANCE), atol.unwrap_or(TOLERANCE));
     let largest = largest.unwrap_or(f64::INFINITY);
     if touches {
-        return touching(words, (rtol, atol, largest));
+        return touching(words, (rtol, atol, largest), tolerates);
     }
     let of_contacts =
         [("contacts", contacts), ("impact", impact), ("friction", friction), ("scheme", scheme)].into_iter();
@@ -211,6 +216,9 @@ pub fn control(name: &str, touches: bool, words: Words<'_>) -> PyResult<Control>
         return Err(PyTypeError::new_err(format!("{word} is of contacts, and none act in this {name}")));
     }
     match (method.unwrap_or("dormand_prince"), step) {
+        ("dormand_prince" | "collocation", Some(_)) if tolerates => {
+            wrong("steps of one length, step, keep no rtol and atol: give one or the other")
+        }
         ("dormand_prince", None) => Ok(Control::Adaptive(rtol, atol, largest)),
         ("dormand_prince", Some(step)) => Ok(Control::Fixed(step)),
         ("collocation", Some(step)) => Ok(Control::Implicit(step)),
@@ -237,7 +245,7 @@ const FRICTIONS: [(&str, StepLaw); 2] = [("coulomb", StepLaw::Coulomb), ("relaxe
 const SCHEMES: [(&str, StepScheme); 2] = [("midpoint", StepScheme::Midpoint), ("moreau_jean", StepScheme::MoreauJean)];
 
 /// Contacts from event to event, or in steps.
-fn touching(words: Words<'_>, (rtol, atol, largest): (f64, f64, f64)) -> PyResult<Control> {
+fn touching(words: Words<'_>, (rtol, atol, largest): (f64, f64, f64), tolerates: bool) -> PyResult<Control> {
     let Words { method, step, contacts, impact, friction, scheme, .. } = words;
     if word("contacts", contacts.unwrap_or("events"), &[("events", true), ("steps", false)])? {
         return match (step, friction.or(scheme), method.unwrap_or("dormand_prince")) {
@@ -256,6 +264,7 @@ fn touching(words: Words<'_>, (rtol, atol, largest): (f64, f64, f64)) -> PyResul
         (.., Some(_)) => wrong("impacts in steps go by Newton's law: leave out impact, or take contacts=\"events\""),
         (Some(step), None, None) => Ok(Control::ContactSteps(
             step,
+            tolerates.then_some((rtol, atol)),
             word("scheme", scheme.unwrap_or("midpoint"), &SCHEMES)?,
             word("friction", friction.unwrap_or("coulomb"), &FRICTIONS)?,
         )),

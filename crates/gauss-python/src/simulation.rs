@@ -101,12 +101,13 @@ impl Kernel {
     /// instead of the ends of steps.
     ///
     /// Scenes with contacts, ranges or dry friction run from event to event, with `impact`, the law of impacts
-    /// ("newton", "moreau", "poisson", "sequential"); or with `contacts="steps"` in steps of the length `step`, with
-    /// `friction` ("coulomb", "relaxed") and `scheme` ("midpoint", "moreau_jean").
+    /// ("newton", "moreau", "poisson", "sequential"); or with `contacts="steps"` in steps of the length `step`, at most
+    /// where `rtol` or `atol` are given, with `friction` ("coulomb", "relaxed") and `scheme` ("midpoint",
+    /// "moreau_jean").
     ///
     /// `progress` is a function of the time, or True for a bar of tqdm. Ctrl-C, and an exception in a function, end the
     /// run and are raised with what there is of it, as `run`.
-    #[pyo3(signature = (q, z, interval, *, rtol=1e-9, atol=1e-9, step=None, largest_step=None, method=None, input=None,
+    #[pyo3(signature = (q, z, interval, *, rtol=None, atol=None, step=None, largest_step=None, method=None, input=None,
         controller=None, period=None, delay=0.0, until=None, events=None, jumps=None, times=None, max_steps=None,
         contacts=None, impact=None, friction=None, scheme=None, progress=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords")]
@@ -116,8 +117,8 @@ impl Kernel {
         q: &Bound<'py, PyAny>,
         z: &Bound<'py, PyAny>,
         interval: (f64, f64),
-        rtol: f64,
-        atol: f64,
+        rtol: Option<f64>,
+        atol: Option<f64>,
         step: Option<f64>,
         largest_step: Option<f64>,
         method: Option<&str>,
@@ -138,7 +139,7 @@ impl Kernel {
     ) -> PyResult<Bound<'py, Run>> {
         let (scene, sizes) = (self.scene(), self.scene().sizes());
         let lengths = [("step", step.unwrap_or(1.0)), ("largest_step", largest_step.unwrap_or(1.0))];
-        let positive = [("rtol", rtol), ("atol", atol), lengths[0], lengths[1]];
+        let positive = [("rtol", rtol.unwrap_or(1.0)), ("atol", atol.unwrap_or(1.0)), lengths[0], lengths[1]];
         given::checked(interval, &positive)?;
         let tolerances = (rtol, atol, largest_step);
         let words = Words { method, step, tolerances, contacts, impact, friction, scheme };
@@ -173,7 +174,7 @@ impl Kernel {
     /// `step`, `largest_step`, `impact`, `friction`, `scheme` are those of it. Runs that fail, or cannot begin, are
     /// told of in `errors`, each with all that is wrong. `progress` is a function of the number of runs that have
     /// ended, or True for a bar of tqdm. Ctrl-C ends all runs and is raised with what there is, as `ends`.
-    #[pyo3(signature = (q, z, interval, *, rtol=1e-9, atol=1e-9, step=None, largest_step=None, input=None, until=None,
+    #[pyo3(signature = (q, z, interval, *, rtol=None, atol=None, step=None, largest_step=None, input=None, until=None,
         parameters=None, max_steps=None, contacts=None, impact=None, friction=None, scheme=None, progress=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords")]
     fn ensemble<'py>(
@@ -182,8 +183,8 @@ impl Kernel {
         q: &Bound<'py, PyAny>,
         z: &Bound<'py, PyAny>,
         interval: (f64, f64),
-        rtol: f64,
-        atol: f64,
+        rtol: Option<f64>,
+        atol: Option<f64>,
         step: Option<f64>,
         largest_step: Option<f64>,
         input: Option<&Bound<'py, PyAny>>,
@@ -199,7 +200,8 @@ impl Kernel {
         let (kernel, scene) = (self.kernel(), self.kernel().scene());
         let sizes = scene.sizes();
         let lengths = [("step", step.unwrap_or(1.0)), ("largest_step", largest_step.unwrap_or(1.0))];
-        given::checked(interval, &[("rtol", rtol), ("atol", atol), lengths[0], lengths[1]])?;
+        let positive = [("rtol", rtol.unwrap_or(1.0)), ("atol", atol.unwrap_or(1.0)), lengths[0], lengths[1]];
+        given::checked(interval, &positive)?;
         let own = [("step", step), ("largest_step", largest_step)].into_iter().find(|(_, given)| given.is_some());
         if let (false, Some((word, _))) = (self.touches(), own) {
             return Err(PyTypeError::new_err(format!("{word} is of contacts, and none act in this ensemble")));

@@ -163,6 +163,19 @@ def test_in_steps(puck):
     assert np.allclose(*twice, atol=1e-2)
 
 
+def test_in_steps_that_keep_a_tolerance(puck):
+    stop = bounced(1.0, 9.0)[1]
+    start, how = puck.state(z=1.0, x_dot=9.0), {"contacts": "steps", "input": [0.0], "step": 0.05}
+    runs = [puck.simulate(*start, (0, 4), rtol=tol, atol=tol, **how) for tol in (1e-4, 1e-6)]
+    # Impacts are found to a thousandth of the longest step, in a motion of 9 m/s; a tolerance takes shorter steps.
+    assert all(abs(run.q[-1, 0] - stop) < 9.0 * 0.05e-3 * 8 for run in runs)
+    assert runs[0].steps < runs[1].steps and all(0.05 + 1e-12 > np.diff(run.t).max() for run in runs)
+    assert all("largest_beyond" in run.contact_report for run in runs)
+    assert "beyond" not in puck.simulate(*start, (0, 4), **how).contact_report
+    ends = puck.ensemble(*puck.state(x_dot=2.0), (0, 4), rtol=1e-6, parameters={"friction": [0.2, 0.4]}, **how)
+    assert np.allclose(ends.q[:, 0], 4.0 / (2 * G * np.array([0.2, 0.4])), atol=1e-4)
+
+
 def test_inputs_of_contact_runs(puck):
     calls = []
 
@@ -250,6 +263,7 @@ def test_words_that_do_not_go_together(puck, pendulum):
     wrong = [
         (dict(step=1e-3), ValueError, 'step is that of contacts="steps"'),
         (dict(contacts="steps"), ValueError, "needs step"),
+        (dict(contacts="steps", step=1e-3, rtol=0.0), ValueError, "rtol must be positive"),
         (dict(contacts="exact"), ValueError, "contacts is 'exact'|\"exact\"; there are events, steps"),
         (dict(impact="hertz"), ValueError, "there are newton, moreau, poisson, sequential"),
         (dict(friction="relaxed"), ValueError, 'friction and scheme are those of contacts="steps"'),

@@ -143,6 +143,9 @@ def test_mistakes_with_methods(pendulum, arm):
         run(method="taylor", step=0.1)
     with pytest.raises(ValueError, match="give one of them"):
         run(step=0.1, largest_step=0.2)
+    for words in (dict(rtol=1e-6), dict(atol=1e-6), dict(rtol=1e-6, method="collocation")):
+        with pytest.raises(ValueError, match="steps of one length, step, keep no rtol and atol"):
+            run(step=0.1, **words)
     with pytest.raises(ValueError, match="largest_step must be positive, found 0"):
         run(largest_step=0.0)
     with pytest.raises(ValueError, match=r"taylor needs `#\[gauss\(taylor\)\]` at the struct"):

@@ -198,6 +198,10 @@ fn in_its_room<const N: usize, const CONSTRAINED: bool>(
         Control::ContactEvents(relative, absolute, largest, law) => {
             Control::ContactEvents(tolerance(relative, share), absolute * share, largest, law)
         }
+        Control::ContactSteps(length, Some((relative, absolute)), scheme, law) => {
+            let tolerances = (tolerance(relative, share), absolute * share);
+            Control::ContactSteps(length, Some(tolerances), scheme, law)
+        }
         other => other,
     };
     let controller = request.controller.as_ref();

@@ -1,10 +1,14 @@
 //! Runs with contacts in steps.
 
+use std::ops::Range;
 use std::sync::atomic::Ordering;
 
-use gauss_contact::{Mode, Residual, StepLaw, StepReport, StepScheme, SteppedRun, WithContacts};
-use gauss_runtime::integrate::Summary;
+use gauss_contact::{
+    ContactError, ContactSteps, InMode, Mode, Residual, StepLaw, StepReport, StepScheme, SteppedRun, WithContacts,
+};
 use gauss_runtime::integrate::drive::each::Each;
+use gauss_runtime::integrate::drive::event::Events;
+use gauss_runtime::integrate::{InputSource, Summary};
 use gauss_runtime::prelude::*;
 
 use super::causes::of_contacts;
@@ -13,7 +17,7 @@ use super::outcome::{self, Happening, Outcome, Touched};
 use super::request::Request;
 use super::watching::{input, of_numbers, watched};
 
-/// A run in steps of a length.
+/// A run in steps of a length, or at most as long where there are tolerances.
 ///
 /// # Errors
 /// States at times between steps that cannot be found.
@@ -21,7 +25,7 @@ pub(super) fn run<S: Touching>(
     system: &S,
     request: &Request<'_>,
     (q, z): (S::Configuration, S::Speeds),
-    (length, scheme, law): (f64, StepScheme, StepLaw),
+    (length, tolerances, scheme, law): (f64, Option<(f64, f64)>, StepScheme, StepLaw),
 ) -> Result<Outcome, String> {
     let interval = request.interval.0..request.interval.1;
     let stop = (unless_stopped(request), Crossing::Any, [true, false]);
@@ -32,18 +36,19 @@ pub(super) fn run<S: Touching>(
         Some(limit) => simulation.max_steps(limit),
         None => simulation,
     };
+    let (start, how) = ((q, z), (tolerances, scheme, law));
     let (run, error) = match &request.controller {
-        None => simulation.contact_steps(length).scheme(scheme).law(law).attempt(q, z, interval),
+        None => made(simulation.contact_steps(length), how, start, interval),
         Some(held) => {
             let sampled = |t: f64, q: &S::Configuration, z: &S::Speeds| of_numbers(held.law, t, q, z);
             let simulation = simulation.sampled(held.period, sampled).delayed(held.delay);
-            simulation.contact_steps(length).scheme(scheme).law(law).attempt(q, z, interval)
+            made(simulation.contact_steps(length), how, start, interval)
         }
     };
     let interrupted = request.stop.load(Ordering::Relaxed);
     let rows = rows_of(system, request, &run)?;
     let mut summary = Summary::default();
-    summary.steps = run.samples.len() as u64;
+    (summary.steps, summary.rejected) = (run.samples.len() as u64, run.statistics.rejected);
     let last = run.samples.last().map_or(&run.start, |step| &step.state);
     Ok(Outcome {
         rows: rows.len(),
@@ -52,14 +57,33 @@ pub(super) fn run<S: Touching>(
         events: outcome::happened(request, run.passages.iter().map(|passage| (passage.number, &passage.sample))),
         stopped_by: run.stopped_by.map(|number| outcome::number_of_end(request, number)),
         summary,
-        touched: Some(touched(&run)),
+        touched: Some(touched(&run, tolerances.is_some())),
         error: error.filter(|_| !interrupted).map(|error| of_contacts(&error)),
         interrupted,
     })
 }
 
-/// Account of the contacts, step by step, and of how well the laws were kept.
-fn touched<S: Touching>(run: &SteppedRun<'_, S>) -> Touched {
+/// The steps as far as they go, with the reason where that is not the end.
+fn made<'k, S, I, E>(
+    steps: ContactSteps<'k, S, I, E>,
+    (tolerances, scheme, law): (Option<(f64, f64)>, StepScheme, StepLaw),
+    (q, z): (S::Configuration, S::Speeds),
+    interval: Range<f64>,
+) -> (SteppedRun<'k, S>, Option<ContactError>)
+where
+    S: Touching,
+    I: InputSource<S>,
+    E: Events<InMode<'k, S>>,
+{
+    let steps = steps.scheme(scheme).law(law);
+    match tolerances {
+        None => steps.attempt(q, z, interval),
+        Some((relative, absolute)) => steps.adaptive(relative, absolute).attempt(q, z, interval),
+    }
+}
+
+/// Account of the contacts, step by step, and of how well the laws and, where there are some, tolerances were kept.
+fn touched<S: Touching>(run: &SteppedRun<'_, S>, tolerates: bool) -> Touched {
     let (mut worst, mut work, mut impacts) = (StepReport::default(), 0.0, 0);
     let (mut happened, mut modes) = (Vec::new(), run.modes(run.start.t).map_or_else(|_| Vec::new(), <[Mode]>::to_vec));
     for step in &run.samples {
@@ -77,6 +101,8 @@ fn touched<S: Touching>(run: &SteppedRun<'_, S>) -> Touched {
         }));
         modes.clone_from(&step.modes);
     }
+    let beyond = [("beyond", run.statistics.beyond as f64), ("largest_beyond", run.statistics.largest_beyond)];
+    let beyond = named(if tolerates { &beyond } else { &[] });
     Touched {
         happened,
         report: named(&[
@@ -88,7 +114,10 @@ fn touched<S: Touching>(run: &SteppedRun<'_, S>) -> Touched {
             ("closure", worst.closure),
             ("parts", f64::from(worst.parts)),
             ("work", work),
-        ]),
+        ])
+        .into_iter()
+        .chain(beyond)
+        .collect(),
         sampled: Vec::new(),
     }
 }

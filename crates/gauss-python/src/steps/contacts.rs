@@ -16,7 +16,9 @@ use super::{components, contact_events, contact_steps, vector};
 pub fn run<S: Touching>(system: &S, q: S::Configuration, request: &Request<'_>) -> Result<Outcome, String> {
     let start = (q, vector::<S::Speeds>(request.z));
     match request.control {
-        Control::ContactSteps(length, scheme, law) => contact_steps::run(system, request, start, (length, scheme, law)),
+        Control::ContactSteps(length, tolerances, scheme, law) => {
+            contact_steps::run(system, request, start, (length, tolerances, scheme, law))
+        }
         _ => contact_events::run(system, request, start),
     }
 }

@@ -21,8 +21,8 @@ pub enum Control {
     Taylor(f64, f64, f64),
     /// Contacts from event to event, by the first method between them and this law of impacts.
     ContactEvents(f64, f64, f64, Impact),
-    /// Contacts in steps of one length.
-    ContactSteps(f64, StepScheme, StepLaw),
+    /// Contacts in steps of one length, or at most as long with a relative and an absolute tolerance.
+    ContactSteps(f64, Option<(f64, f64)>, StepScheme, StepLaw),
 }
 
 /// Points of the input over time, straight between them and constant beyond.
